@@ -1,0 +1,59 @@
+// What every program shares: one try/catch, one line per error, one exit status per kind of failure.
+//
+//   void body(int argc, char** argv) {
+//     CLI::App app{"What the program does", "gear-x"};
+//     app.add_option(...);
+//     whine::parse(app, argc, argv);  // --help and --version end here; wrong options are Failure::usage
+//     ...
+//   }
+//   int main(int argc, char** argv) { return whine::run_tool(argc, argv, body); }
+#pragma once
+#include <functional>
+#include <string>
+#include <type_traits>
+
+namespace CLI {
+class App;
+}
+
+namespace whine {
+
+inline constexpr const char* kVersion = "0.1.0";
+
+// Parses the options (adds --version). Prints help or version on standard output and ends the tool with
+// status 0 if asked to; CLI11's errors leave through run_tool with status 2.
+void parse(CLI::App& app, int argc, char** argv);
+
+// Name of the program without folders: "build/bin/gear-mesh" -> "gear-mesh".
+std::string program_name(const char* argv0);
+
+// A path as artifacts record it: relative to the working folder if it lies below it, as typed if it was typed
+// relative, otherwise ".../<file name>", so that no file holds a path of the machine that made it.
+std::string recorded_path(const std::string& path);
+
+// The command for provenance: program name and arguments, paths (also in --option=path) as recorded_path
+// says, arguments with blanks or shell characters quoted.
+std::string command_line(int argc, char** argv);
+
+// The BLAS that this program has loaded, for provenance: bits may differ between libraries and processor
+// types.
+std::string blas_name();
+
+// Runs body, which returns void or the exit status. An Error prints "<program>: error: <message>" as one line
+// on standard error and returns its Failure code; CLI11's errors return 2; anything else thrown returns 1.
+// BLAS is set to one thread first, because results are to be the same on any number of cores.
+int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>& body);
+
+template <class Body>
+int run_tool(int argc, char** argv, Body body) {
+  if constexpr (std::is_void_v<std::invoke_result_t<Body, int, char**>>) {
+    return run_tool_status(argc, argv, [&](int count, char** words) {
+      body(count, words);
+      return 0;
+    });
+  } else {
+    return run_tool_status(argc, argv, body);
+  }
+}
+
+}  // namespace whine

@@ -1,0 +1,249 @@
+#include "files/artifact.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/provenance.h"
+#include "files/publish.h"
+
+namespace whine {
+namespace {
+
+const std::string kFamily = "whine/";
+
+h5::Label record(const std::string& long_name, const std::string& axes = "") {
+  return {"1", long_name, axes, ""};
+}
+
+bool is_hdf5(const std::string& bytes) {
+  return bytes.compare(0, 4, "\x89HDF") == 0;
+}
+
+Origin origin_of(const h5::Reader& file) {
+  Origin out;
+  out.schema = file.string_attribute("/", "schema");
+  if (out.schema.compare(0, kFamily.size(), kFamily) != 0) {
+    file.refuse("is a file of '" + out.schema + "', not of this program");
+  }
+  out.schema_version = file.int_attribute("/", "schema_version");
+  out.title = file.string_attribute("/", "title");
+  const auto word = [&](const std::string& name) {
+    const auto words = file.strings("/provenance/" + name);
+    return words.empty() ? std::string() : words.front();
+  };
+  out.tool = word("tool");
+  out.version = word("version");
+  out.command = word("command");
+  const auto roles = file.strings("/provenance/input_role");
+  const auto paths = file.strings("/provenance/input_path");
+  const auto hashes = file.strings("/provenance/input_sha256");
+  if (paths.size() != roles.size() || hashes.size() != roles.size()) {
+    file.refuse("/provenance names inputs of different number");
+  }
+  for (std::size_t i = 0; i < roles.size(); ++i) out.inputs.push_back({roles[i], paths[i], hashes[i]});
+  out.history = file.strings("/provenance/history");
+  return out;
+}
+
+Eigen::Index as_index(std::size_t value) {
+  return static_cast<Eigen::Index>(value);
+}
+
+// Checks a shape against what is wanted (-1: any) and names both if they differ.
+void want_shape(const h5::Reader& file, const std::string& name, const std::vector<Eigen::Index>& wanted) {
+  const h5::Shape shape = file.shape(name);
+  bool same = shape.size() == wanted.size();
+  for (std::size_t i = 0; same && i < shape.size(); ++i) {
+    same = wanted[i] < 0 || as_index(shape[i]) == wanted[i];
+  }
+  if (same) return;
+  const auto shown = [](const auto& extents) {
+    std::string out;
+    for (auto extent : extents) {
+      const auto number = static_cast<long long>(extent);
+      out += (out.empty() ? "" : " x ") + (number < 0 ? std::string("any") : std::to_string(number));
+    }
+    return out.empty() ? std::string("scalar") : out;
+  };
+  file.refuse("dataset " + name + " has shape " + shown(shape) + ", expected " + shown(wanted));
+}
+
+class SectionSource : public ParameterSource {
+ public:
+  SectionSource(const ArtifactReader& reader, const std::string& section)
+      : reader_(reader), prefix_("/parameters/" + section + "/") {}
+  bool has(const std::string& name) const override { return reader_.file().has(prefix_ + name); }
+  double number(const std::string& name) const override { return reader_.number(prefix_ + name); }
+  int whole(const std::string& name) const override { return reader_.whole(prefix_ + name); }
+  std::string word(const std::string& name) const override { return reader_.word(prefix_ + name); }
+
+ private:
+  const ArtifactReader& reader_;
+  std::string prefix_;
+};
+
+}  // namespace
+
+std::string rebuild_advice(const std::string& path) {
+  return "rebuild it with: make " + recorded_path(path);
+}
+
+Origin read_origin(const std::string& path) {
+  return origin_of(h5::Reader(read_bytes(path, rebuild_advice(path)), path, rebuild_advice(path)));
+}
+
+std::string recorded_input(const std::string& artifact, const std::string& role) {
+  for (const auto& input : read_origin(artifact).inputs) {
+    if (input.role == role) return input.sha256;
+  }
+  fail(Failure::input, artifact, ": records no input '", role, "'; ", rebuild_advice(artifact));
+}
+
+void require_made_from(const std::string& artifact, const std::string& role, const std::string& input) {
+  if (recorded_input(artifact, role) == sha256_of_file(input)) return;
+  fail(Failure::input, artifact, ": is stale: its input '", role, "' was not what ", input, " is now; ",
+       rebuild_advice(artifact));
+}
+
+ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int version,
+                               const std::string& title, const Provenance& provenance)
+    : path_(std::move(path)) {
+  file_.attribute("/", "schema", kFamily + kind);
+  file_.attribute("/", "schema_version", version);
+  file_.attribute("/", "title", title);
+  file_.group("/parameters");
+
+  std::vector<std::string> roles, paths, hashes, history;
+  for (const std::string& input : provenance.inputs) {
+    const auto equals = input.find('=');
+    if (equals == std::string::npos) fail(Failure::numerical, "input '", input, "' is not role=path");
+    const std::string place = input.substr(equals + 1);
+    const std::string bytes = read_bytes(place);
+    roles.push_back(input.substr(0, equals));
+    paths.push_back(recorded_path(place));
+    hashes.push_back(sha256(bytes));
+    if (!is_hdf5(bytes)) continue;
+    const Origin origin = origin_of(h5::Reader(bytes, place, rebuild_advice(place)));
+    std::vector<std::string> lines = origin.history;
+    lines.push_back(origin.tool + " " + origin.version + ": " + origin.command);
+    for (const std::string& line : lines) {
+      if (std::find(history.begin(), history.end(), line) == history.end()) history.push_back(line);
+    }
+  }
+  const std::string folder = "/provenance/";
+  file_.put(folder + "tool", provenance.tool, record("program that made this file"));
+  file_.put(folder + "version", std::string(kVersion), record("version of the program"));
+  file_.put(folder + "command", provenance.command, record("command, paths relative to its working folder"));
+  file_.put(folder + "blas", blas_name(), record("linear algebra library"));
+  file_.put(folder + "input_role", roles, record("role of each input", "input"));
+  file_.put(folder + "input_path", paths,
+            record("path of each input, relative to the working folder", "input"));
+  file_.put(folder + "input_sha256", hashes, record("SHA-256 of each input file", "input"));
+  file_.put(folder + "history", history, record("earlier stages, oldest first", "stage"));
+}
+
+void ArtifactWriter::put(const std::string& name, double value, const h5::Label& label) {
+  file_.put(name, &value, {}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, int value, const h5::Label& label) {
+  file_.put(name, &value, {}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const std::string& value, const h5::Label& label) {
+  file_.put(name, value, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const Eigen::VectorXd& values, const h5::Label& label) {
+  file_.put(name, values.data(), {static_cast<std::size_t>(values.size())}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const Eigen::VectorXi& values, const h5::Label& label) {
+  file_.put(name, values.data(), {static_cast<std::size_t>(values.size())}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const MatrixRM& values, const h5::Label& label) {
+  file_.put(name, values.data(),
+            {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const MatrixRMi& values, const h5::Label& label) {
+  file_.put(name, values.data(),
+            {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
+}
+
+void ArtifactWriter::parameters(const std::string& section, const KeyValues& values, Part part) {
+  for (const Parameter& parameter : parameters_of(values, part)) {
+    std::visit(
+        [&](const auto& value) {
+          put("/parameters/" + section + "/" + parameter.name, value,
+              {parameter.units, parameter.meaning, "", ""});
+        },
+        parameter.value);
+  }
+}
+
+void ArtifactWriter::publish() {
+  whine::publish(path_, file_.finish());
+}
+
+ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind, int version)
+    : file_(read_bytes(path, rebuild_advice(path)), path, rebuild_advice(path)) {
+  const std::string schema = file_.string_attribute("/", "schema");
+  if (schema != kFamily + kind) {
+    file_.refuse(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));
+  }
+  const int found = file_.int_attribute("/", "schema_version");
+  if (found != version) {
+    file_.refuse(text("is schema version ", found, ", this program reads ", version));
+  }
+}
+
+double ArtifactReader::number(const std::string& name) const {
+  want_shape(file_, name, {});
+  return file_.doubles(name).at(0);
+}
+
+int ArtifactReader::whole(const std::string& name) const {
+  want_shape(file_, name, {});
+  return file_.ints(name).at(0);
+}
+
+std::string ArtifactReader::word(const std::string& name) const {
+  want_shape(file_, name, {});
+  return file_.strings(name).at(0);
+}
+
+Eigen::VectorXd ArtifactReader::vector(const std::string& name, Eigen::Index size) const {
+  want_shape(file_, name, {size});
+  const auto values = file_.doubles(name);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), as_index(values.size()));
+}
+
+Eigen::VectorXi ArtifactReader::whole_vector(const std::string& name, Eigen::Index size) const {
+  want_shape(file_, name, {size});
+  const auto values = file_.ints(name);
+  return Eigen::Map<const Eigen::VectorXi>(values.data(), as_index(values.size()));
+}
+
+MatrixRM ArtifactReader::matrix(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
+  want_shape(file_, name, {rows, columns});
+  const auto shape = file_.shape(name);
+  const auto values = file_.doubles(name);
+  return Eigen::Map<const MatrixRM>(values.data(), as_index(shape[0]), as_index(shape[1]));
+}
+
+MatrixRMi ArtifactReader::whole_matrix(const std::string& name, Eigen::Index rows,
+                                       Eigen::Index columns) const {
+  want_shape(file_, name, {rows, columns});
+  const auto shape = file_.shape(name);
+  const auto values = file_.ints(name);
+  return Eigen::Map<const MatrixRMi>(values.data(), as_index(shape[0]), as_index(shape[1]));
+}
+
+void ArtifactReader::parameters(const std::string& section, KeyValues& values, Part part) const {
+  set_parameters(values, part, SectionSource(*this, section));
+}
+
+}  // namespace whine

@@ -1,0 +1,65 @@
+// What all artifacts share: root attributes, /provenance, /parameters, publication; and the checks on
+// reading.
+//
+// Private to the room files/; schemas.cpp says what stands in each artifact.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "files/h5.h"
+#include "files/keys.h"
+#include "files/schemas.h"
+
+namespace whine {
+
+class ArtifactWriter {
+ public:
+  // kind: "static" for the schema "whine/static".
+  ArtifactWriter(std::string path, const std::string& kind, int version, const std::string& title,
+                 const Provenance& provenance);
+
+  h5::Writer& file() { return file_; }
+
+  void put(const std::string& name, double value, const h5::Label& label);
+  void put(const std::string& name, int value, const h5::Label& label);
+  void put(const std::string& name, const std::string& value, const h5::Label& label);
+  void put(const std::string& name, const Eigen::VectorXd& values, const h5::Label& label);
+  void put(const std::string& name, const Eigen::VectorXi& values, const h5::Label& label);
+  void put(const std::string& name, const MatrixRM& values, const h5::Label& label);
+  void put(const std::string& name, const MatrixRMi& values, const h5::Label& label);
+
+  // /parameters/<section>/<key> for all keys of a part.
+  void parameters(const std::string& section, const KeyValues& values, Part part);
+
+  // Writes the file whole or not at all.
+  void publish();
+
+ private:
+  std::string path_;
+  h5::Writer file_;
+};
+
+class ArtifactReader {
+ public:
+  // Refuses everything that is not the given schema in the given version.
+  ArtifactReader(const std::string& path, const std::string& kind, int version);
+
+  const h5::Reader& file() const { return file_; }
+
+  double number(const std::string& name) const;
+  int whole(const std::string& name) const;
+  std::string word(const std::string& name) const;
+  // -1: any length. Error(input) if the shape is another.
+  Eigen::VectorXd vector(const std::string& name, Eigen::Index size = -1) const;
+  Eigen::VectorXi whole_vector(const std::string& name, Eigen::Index size = -1) const;
+  MatrixRM matrix(const std::string& name, Eigen::Index rows = -1, Eigen::Index columns = -1) const;
+  MatrixRMi whole_matrix(const std::string& name, Eigen::Index rows = -1, Eigen::Index columns = -1) const;
+
+  void parameters(const std::string& section, KeyValues& values, Part part) const;
+
+ private:
+  h5::Reader file_;
+};
+
+}  // namespace whine

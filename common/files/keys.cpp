@@ -1,0 +1,302 @@
+#include "files/keys.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+constexpr Unit kNone{"", "1"};
+constexpr Unit kMillimetre{"_mm", "m", 1, 1000};
+constexpr Unit kDegree{"_deg", "rad", std::numbers::pi, 180};
+constexpr Unit kCornerDegree{"", "rad", std::numbers::pi, 180};
+constexpr Unit kInertia{"_kgm2", "kg m2"};
+constexpr Unit kGigapascal{"_GPa", "Pa", 1e9};
+constexpr Unit kDensity{"_kgm3", "kg m-3"};
+constexpr Unit kPerSecond{"_per_s", "s-1"};
+constexpr Unit kSecond{"_s", "s"};
+constexpr Unit kNewtonMetre{"_Nm", "N m"};
+constexpr Unit kHertz{"_Hz", "Hz"};
+constexpr Unit kKilohertz{"_kHz", "Hz", 1000};
+
+std::vector<Key> make_keys() {
+  using V = KeyValues;
+  // clang-format off
+  return {
+    {Part::title, "", "title", kNone, "", 0, 0, false, "",
+     "what the scene is; stands on figures",
+     [](V& v) -> Slot { return &v.title; }},
+
+    {Part::reference, "gear", "like", kNone, "", 0, 0, false, "",
+     "another gear whose keys this one takes over; keys given here besides override",
+     [](V& v) -> Slot { return &v.like; }},
+    {Part::design, "gear", "teeth", kNone, nullptr, 5, 2000, false, "",
+     "number of teeth",
+     [](V& v) -> Slot { return &v.design.teeth; }},
+    {Part::design, "gear", "module_mm", kMillimetre, nullptr, 0, 200, true, "",
+     "module of the generating rack",
+     [](V& v) -> Slot { return &v.design.module; }},
+    {Part::design, "gear", "pressure_angle_deg", kDegree, nullptr, 5, 45, false, "",
+     "pressure angle of the generating rack",
+     [](V& v) -> Slot { return &v.design.pressure_angle; }},
+    {Part::design, "gear", "profile_shift", kNone, "0.0", -3, 3, false, "",
+     "profile shift, in modules",
+     [](V& v) -> Slot { return &v.design.profile_shift; }},
+    {Part::design, "gear", "addendum", kNone, "1.0", 0, 3, true, "",
+     "addendum, in modules",
+     [](V& v) -> Slot { return &v.design.addendum; }},
+    {Part::design, "gear", "dedendum", kNone, "1.25", 0, 3, true, "",
+     "dedendum, in modules",
+     [](V& v) -> Slot { return &v.design.dedendum; }},
+    {Part::design, "gear", "rack_tip_radius", kNone, "0.38", 0, 1, false, "",
+     "tip radius of the rack, in modules; the root is the trochoid that this rack cuts",
+     [](V& v) -> Slot { return &v.design.rack_tip_radius; }},
+    {Part::design, "gear", "tooth_thinning_mm", kMillimetre, "0.0", 0, 50, false, "",
+     "arc taken off the tooth at the pitch circle, for backlash",
+     [](V& v) -> Slot { return &v.design.tooth_thinning; }},
+    {Part::design, "gear", "face_width_mm", kMillimetre, nullptr, 0, 5000, true, "",
+     "face width",
+     [](V& v) -> Slot { return &v.design.face_width; }},
+    {Part::design, "gear", "bore_radius_mm", kMillimetre, nullptr, 0, 1e5, true, "",
+     "radius of the rigid hub",
+     [](V& v) -> Slot { return &v.design.bore_radius; }},
+    {Part::inertia, "gear", "total_inertia_kgm2", kInertia, nullptr, 0, 1e9, true, "",
+     "inertia of the whole gear about its axis; what the body lacks is lumped on the hub",
+     [](V& v) -> Slot { return &v.total_inertia; }},
+    {Part::reference, "gear", "material", kNone, nullptr, 0, 0, false, "",
+     "name of a [material.<name>] section",
+     [](V& v) -> Slot { return &v.material_name; }},
+
+    {Part::material, "material", "youngs_modulus_GPa", kGigapascal, nullptr, 0, 2000, true, "",
+     "Young's modulus",
+     [](V& v) -> Slot { return &v.material.youngs_modulus; }},
+    {Part::material, "material", "poisson_ratio", kNone, nullptr, 0, 0.495, false, "",
+     "Poisson's ratio",
+     [](V& v) -> Slot { return &v.material.poisson_ratio; }},
+    {Part::material, "material", "density_kgm3", kDensity, nullptr, 0, 30000, true, "",
+     "density",
+     [](V& v) -> Slot { return &v.material.density; }},
+    {Part::material, "material", "plane", kNone, nullptr, 0, 0, false, "stress strain",
+     "plane stress or plane strain",
+     [](V& v) -> Slot { return PlaneSlot{&v.material.plane_stress}; }},
+
+    {Part::mesh, "mesh", "driver", kNone, nullptr, 0, 0, false, "",
+     "name of the driving gear",
+     [](V& v) -> Slot { return &v.mesh.driver; }},
+    {Part::mesh, "mesh", "driven", kNone, nullptr, 0, 0, false, "",
+     "name of the driven gear",
+     [](V& v) -> Slot { return &v.mesh.driven; }},
+    {Part::mesh, "mesh", "centre_distance_mm", kMillimetre, nullptr, 0, 1e5, true, "",
+     "distance of the two axes",
+     [](V& v) -> Slot { return &v.mesh.centre_distance; }},
+    {Part::mesh, "mesh", "corner_contact", kCornerDegree, "true", 0, 90, false, "",
+     "tip edge on a flank, off the line of action: true, false, or the largest angle between the normals in degrees",
+     [](V& v) -> Slot { return &v.mesh.corner; }},
+
+    {Part::damping, "damping", "rayleigh_mass_per_s", kPerSecond, "0.0", 0, 1e6, false, "",
+     "mu of Eq. 21: multiplies the mass matrix",
+     [](V& v) -> Slot { return &v.damping.rayleigh_mass; }},
+    {Part::damping, "damping", "rayleigh_stiffness_s", kSecond, "7.7e-6", 0, 1, false, "",
+     "eta of Eq. 21: multiplies the stiffness matrix",
+     [](V& v) -> Slot { return &v.damping.rayleigh_stiffness; }},
+    {Part::damping, "damping", "undamped_depth_mm", kMillimetre, "0.5", 0, 1000, true, "",
+     "half-plane compliance relative to this depth is instantaneous",
+     [](V& v) -> Slot { return &v.damping.undamped_depth; }},
+    {Part::damping, "damping", "bearing_ratio", kNone, "0.005", 0, 1, false, "",
+     "damping ratio of the torque damper at each axis",
+     [](V& v) -> Slot { return &v.damping.bearing_ratio; }},
+
+    {Part::operation, "operation", "torque_Nm", kNewtonMetre, nullptr, 0, 999999, true, "",
+     "torque on the driver: a number or a list; the first sets the bearing dampers",
+     [](V& v) -> Slot { return &v.operation.torques; }},
+    {Part::operation, "operation", "mesh_frequency_Hz", kHertz, nullptr, 0, 1e6, true, "",
+     "speeds of a sweep: { from = , to = , step = }",
+     [](V& v) -> Slot {
+       return RangeSlot{&v.operation.frequency_from, &v.operation.frequency_to, &v.operation.frequency_step};
+     }},
+
+    {Part::rung, "fidelity", "body", kNone, "modal", 0, 0, false, "rigid quasi-static lagged modal",
+     "what of the elastic body moves by itself",
+     [](V& v) -> Slot { return &v.fidelity.body; }},
+    {Part::contact_rung, "fidelity", "contact", kNone, "strips", 0, 0, false, "strips",
+     "how the pressure of a tooth pair is resolved",
+     [](V& v) -> Slot { return &v.fidelity.contact; }},
+    {Part::rung, "fidelity", "integrator", kNone, "exact", 0, 0, false, "newmark exact",
+     "time integration: Newmark (Eq. 8), or modal propagators",
+     [](V& v) -> Slot { return &v.fidelity.integrator; }},
+    {Part::body, "fidelity", "modes", kNone, "5", 1, 100000, false, "",
+     "elastic modes of the whole gear; a doublet is never cut (rounded up)",
+     [](V& v) -> Slot { return &v.body.modes; }},
+
+    {Part::body, "discretisation", "element_mm", kMillimetre, "0.4", 0, 100, true, "",
+     "element size on the flank",
+     [](V& v) -> Slot { return &v.body.element_size; }},
+    {Part::body, "discretisation", "element_order", kNone, "2", 1, 2, false, "",
+     "order of the elements: 1 (4 nodes) or 2 (9 nodes)",
+     [](V& v) -> Slot { return &v.body.element_order; }},
+    {Part::contact, "discretisation", "strips", kNone, "15", 3, 1001, false, "",
+     "pressure strips across the contact width at the mean load",
+     [](V& v) -> Slot { return &v.contact.strips; }},
+    {Part::contact, "discretisation", "positions", kNone, "0", 0, 65536, false, "",
+     "mesh positions of the static stage; 0: as steps_per_period, 128 at least",
+     [](V& v) -> Slot { return &v.contact.positions; }},
+    {Part::time, "discretisation", "steps_per_period", kNone, "128", 8, 65536, false, "",
+     "stored samples per mesh period; steps are doubled until min_sample_rate_kHz is reached",
+     [](V& v) -> Slot { return &v.time.steps_per_period; }},
+    {Part::time, "discretisation", "min_sample_rate_kHz", kKilohertz, "250", 0, 1e6, false, "",
+     "least rate of time steps",
+     [](V& v) -> Slot { return &v.time.min_sample_rate; }},
+    {Part::time, "discretisation", "periodicity", kNone, "1e-6", 0, 1, true, "",
+     "relative change of the state over a mesh period at which a speed counts as steady",
+     [](V& v) -> Slot { return &v.time.periodicity; }},
+  };
+  // clang-format on
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      const bool same = std::tolower(a[i - 1]) == std::tolower(b[j - 1]);
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (same ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+constexpr const char* kAngle = "_largest_angle";
+
+}  // namespace
+
+std::string Key::si_name() const {
+  const std::string whole(name), suffix(unit.suffix);
+  return whole.substr(0, whole.size() - suffix.size());
+}
+
+const std::vector<Key>& scene_keys() {
+  static const std::vector<Key> keys = make_keys();
+  return keys;
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+  std::string best;
+  std::size_t least = word.size() / 2 + 2;
+  for (const auto& candidate : known) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string exact_text(double value) {
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  std::string out(buffer, end);
+  if (out.find_first_of(".en") == std::string::npos) out += ".0";
+  return out;
+}
+
+std::vector<Parameter> parameters_of(const KeyValues& values, Part part) {
+  KeyValues copy = values;  // slots point at what may be changed
+  std::vector<Parameter> out;
+  for (const Key& key : scene_keys()) {
+    if (key.part != part) continue;
+    const std::string name = key.si_name();
+    const auto add = [&](const std::string& label, const auto& value) {
+      out.push_back({label, key.unit.si, key.meaning, value});
+    };
+    const Slot slot = key.slot(copy);
+    if (const auto* number = std::get_if<double*>(&slot)) {
+      add(name, **number);
+    } else if (const auto* whole = std::get_if<int*>(&slot)) {
+      add(name, **whole);
+    } else if (const auto* word = std::get_if<std::string*>(&slot)) {
+      add(name, **word);
+    } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
+      add(name, std::string(*plane->stress ? "stress" : "strain"));
+    } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
+      out.push_back(
+          {name, "1", "1: a tip edge may touch a flank off the line of action", (*corner)->enabled ? 1 : 0});
+      if (std::isfinite((*corner)->largest_angle)) {
+        out.push_back(
+            {name + kAngle, "rad", "largest angle between the two normals", (*corner)->largest_angle});
+      }
+    } else if (const auto* range = std::get_if<RangeSlot>(&slot)) {
+      add(name + "_from", *range->from);
+      add(name + "_to", *range->to);
+      add(name + "_step", *range->step);
+    } else {
+      fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
+    }
+  }
+  return out;
+}
+
+void set_parameters(KeyValues& values, Part part, const ParameterSource& source) {
+  for (const Key& key : scene_keys()) {
+    if (key.part != part) continue;
+    const std::string name = key.si_name();
+    const Slot slot = key.slot(values);
+    if (const auto* number = std::get_if<double*>(&slot)) {
+      **number = source.number(name);
+    } else if (const auto* whole = std::get_if<int*>(&slot)) {
+      **whole = source.whole(name);
+    } else if (const auto* word = std::get_if<std::string*>(&slot)) {
+      **word = source.word(name);
+    } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
+      *plane->stress = source.word(name) == "stress";
+    } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
+      (*corner)->enabled = source.whole(name) != 0;
+      (*corner)->largest_angle =
+          source.has(name + kAngle) ? source.number(name + kAngle) : std::numeric_limits<double>::infinity();
+    } else if (const auto* range = std::get_if<RangeSlot>(&slot)) {
+      *range->from = source.number(name + "_from");
+      *range->to = source.number(name + "_to");
+      *range->step = source.number(name + "_step");
+    } else {
+      fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
+    }
+  }
+}
+
+std::string scene_key_table() {
+  const auto shown = [](double value) { return text(value); };
+  std::ostringstream out;
+  out << "| section | key | default | range | meaning |\n|---|---|---|---|---|\n";
+  for (const Key& key : scene_keys()) {
+    const std::string section(key.section);
+    std::string label = "[" + section + "]";
+    if (section.empty()) label = "(top)";
+    if (section == "gear" || section == "material") label = "[" + section + ".<name>]";
+    if (section == "mesh") label = "[[mesh]]";
+    std::string range = "text";
+    if (*key.choices) {
+      range = key.choices;
+      std::replace(range.begin(), range.end(), ' ', '/');
+    } else if (key.most > key.least) {
+      range = key.open ? "> " + shown(key.least) + ", <= " + shown(key.most)
+                       : shown(key.least) + " to " + shown(key.most);
+    }
+    const std::string fallback = !key.fallback ? "required" : *key.fallback ? key.fallback : "none";
+    out << "| `" << label << "` | `" << key.name << "` | " << fallback << " | " << range << " | "
+        << key.meaning << " |\n";
+  }
+  return out.str();
+}
+
+}  // namespace whine

@@ -1,0 +1,108 @@
+// The one table of all scene keys. The scene reader, the slices, /parameters in the artifacts and the printed
+// key table all walk it, so that a key's name, unit, range, default and meaning stand in one place.
+//
+// Private to the room files/.
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "files/scene.h"
+
+namespace whine {
+
+// Everything that keys fill, once each; a scene has several gears and reads them one after the other.
+struct KeyValues {
+  std::string title;
+  std::string like, material_name;  // of a gear
+  double total_inertia = 0;         // kg m2, of a gear
+  GearDesign design;
+  Material material;
+  GearMeshSpec mesh;
+  Damping damping;
+  Operation operation;
+  Fidelity fidelity;
+  BodyDiscretisation body;
+  ContactDiscretisation contact;
+  TimeDiscretisation time;
+};
+
+// Keys that travel together: a slice or an artifact holds whole parts.
+enum class Part {
+  title,
+  reference,  // like, material: names of other sections
+  design,
+  inertia,
+  material,
+  mesh,
+  damping,
+  operation,
+  rung,          // body and integrator
+  contact_rung,  // contact
+  body,
+  contact,
+  time
+};
+
+struct PlaneSlot {
+  bool* stress;
+};
+struct RangeSlot {
+  double *from, *to, *step;
+};
+// Where a key's value lives, and thereby its type.
+using Slot =
+    std::variant<double*, int*, std::string*, CornerRule*, PlaneSlot, std::vector<double>*, RangeSlot>;
+
+// SI = value * multiply / divide; two factors because 3.0 / 1000 is the double nearest to 0.003 and 3.0 *
+// 0.001 is not always.
+struct Unit {
+  const char* suffix;  // of the key's name in a scene: "_mm"
+  const char* si;      // UDUNITS form
+  double multiply = 1, divide = 1;
+};
+
+struct Key {
+  Part part;
+  const char* section;  // as in the scene: "gear", "material", "mesh", ...
+  const char* name;     // in a scene, with the unit's suffix
+  Unit unit;
+  const char* fallback;  // default in the scene's unit; nullptr: the key is required
+  double least, most;    // range in the scene's unit
+  bool open;             // least itself is not allowed
+  const char* choices;   // of a word, blank between; "" for numbers
+  const char* meaning;   // one line
+  Slot (*slot)(KeyValues&);
+
+  std::string si_name() const;  // name without the unit's suffix
+  double to_si(double value) const { return value * unit.multiply / unit.divide; }
+};
+
+const std::vector<Key>& scene_keys();
+
+// The known word nearest to `word` by edit distance, "" if none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+// Shortest text that reads back as the same double; always a TOML float.
+std::string exact_text(double value);
+
+// One value for /parameters/<section>/<name>.
+struct Parameter {
+  std::string name, units, meaning;
+  std::variant<double, int, std::string> value;
+};
+
+// The values of a part, and back. A limit that is infinite is left out and read back as infinite.
+std::vector<Parameter> parameters_of(const KeyValues& values, Part part);
+
+class ParameterSource {
+ public:
+  virtual ~ParameterSource() = default;
+  virtual bool has(const std::string& name) const = 0;
+  virtual double number(const std::string& name) const = 0;
+  virtual int whole(const std::string& name) const = 0;
+  virtual std::string word(const std::string& name) const = 0;
+};
+void set_parameters(KeyValues& values, Part part, const ParameterSource& source);
+
+}  // namespace whine

@@ -1,0 +1,178 @@
+#include "files/publish.h"
+
+#include <fcntl.h>
+#include <openssl/evp.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string system_says(int code) {
+  return std::strerror(code);
+}
+
+fs::path folder_of(const std::string& path) {
+  const fs::path parent = fs::path(path).parent_path();
+  return parent.empty() ? fs::path(".") : parent;
+}
+
+void make_folder_of(const std::string& path) {
+  std::error_code code;
+  fs::create_directories(folder_of(path), code);
+  if (code) {
+    fail(Failure::io, path, ": cannot make the folder '", folder_of(path).string(), "': ", code.message(),
+         "; check the path and its permissions");
+  }
+}
+
+std::string temporary_name(const std::string& path) {
+  return text(path, ".tmp.", ::getpid());
+}
+
+// Removes the temporary file unless the rename has happened.
+class Temporary {
+ public:
+  explicit Temporary(std::string path) : path_(std::move(path)) {}
+  ~Temporary() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+  void keep() { path_.clear(); }
+
+ private:
+  std::string path_;
+};
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  int close() {
+    const int status = number_ >= 0 ? ::close(number_) : 0;
+    number_ = -1;
+    return status;
+  }
+
+ private:
+  int number_;
+};
+
+// A folder that cannot be opened or synced (some network file systems) does not undo the rename: what is lost
+// is durability over a power failure only.
+void sync_folder(const std::string& path) {
+  const Descriptor folder(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.number() >= 0) ::fsync(folder.number());
+}
+
+}  // namespace
+
+void publish(const std::string& path, const std::string& bytes) {
+  make_folder_of(path);
+  const auto refuse = [&](const char* deed, int code) {
+    fail(Failure::io, path, ": cannot ", deed, " (", bytes.size(), " bytes): ", system_says(code),
+         "; nothing was changed, an earlier file is whole");
+  };
+  const std::string temporary = temporary_name(path);
+  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.number() < 0) refuse("create a file beside it", errno);
+  Temporary guard(temporary);
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::write(file.number(), bytes.data() + done, bytes.size() - done);
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      refuse("write", errno);
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  if (::fsync(file.number()) != 0) refuse("sync", errno);
+  if (file.close() != 0) refuse("close", errno);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) refuse("put the new file in place", errno);
+  guard.keep();
+  sync_folder(path);
+}
+
+bool publish_if_changed(const std::string& path, const std::string& bytes) {
+  std::error_code code;
+  if (fs::is_regular_file(path, code) && read_bytes(path) == bytes) return false;
+  publish(path, bytes);
+  return true;
+}
+
+bool publish_link(const std::string& link, const std::string& target) {
+  make_folder_of(link);
+  std::error_code code;
+  const auto status = fs::symlink_status(link, code);
+  if (fs::is_symlink(status)) {
+    if (fs::read_symlink(link, code) == fs::path(target) && !code) return false;
+  } else if (fs::exists(status)) {
+    fail(Failure::io, link, ": a file or folder stands where a link to '", target,
+         "' belongs; move it away and run again");
+  }
+  const std::string temporary = temporary_name(link);
+  ::unlink(temporary.c_str());
+  if (::symlink(target.c_str(), temporary.c_str()) != 0) {
+    fail(Failure::io, link, ": cannot make the link to '", target, "': ", system_says(errno));
+  }
+  Temporary guard(temporary);
+  if (::rename(temporary.c_str(), link.c_str()) != 0) {
+    fail(Failure::io, link, ": cannot put the link in place: ", system_says(errno));
+  }
+  guard.keep();
+  return true;
+}
+
+std::string read_bytes(const std::string& path, const std::string& hint) {
+  const auto refuse = [&](const std::string& reason) {
+    fail(Failure::io, path, ": cannot be read: ", reason, hint.empty() ? "" : "; ", hint);
+  };
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0) refuse(system_says(errno));
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0) refuse(system_says(errno));
+  if (S_ISDIR(status.st_mode)) refuse("it is a folder");
+  std::string bytes;
+  if (status.st_size > 0) bytes.reserve(static_cast<std::size_t>(status.st_size));
+  std::string block(1 << 16, '\0');
+  for (;;) {
+    const ssize_t count = ::read(file.number(), block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse(system_says(errno));
+    if (count == 0) return bytes;
+    bytes.append(block.data(), static_cast<std::size_t>(count));
+  }
+}
+
+std::string sha256(const std::string& bytes) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) != 1) {
+    fail(Failure::numerical, "SHA-256 is not available from the OpenSSL library of this machine");
+  }
+  static const char* hex = "0123456789abcdef";
+  std::string out;
+  for (unsigned int i = 0; i < length; ++i) {
+    out += hex[digest[i] >> 4];
+    out += hex[digest[i] & 15];
+  }
+  return out;
+}
+
+std::string sha256_of_file(const std::string& path) {
+  return sha256(read_bytes(path));
+}
+
+}  // namespace whine

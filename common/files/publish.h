@@ -1,0 +1,27 @@
+// Files that are either the old one or the whole new one, never a part: temporary name `<path>.tmp.<pid>` in
+// the same folder, every write checked, fsync, rename, fsync of the folder. On any failure the temporary file
+// is removed, the earlier file stays, and Error(io) says what the system said.
+#pragma once
+#include <string>
+
+namespace whine {
+
+// Writes bytes to path; makes the parent folders.
+void publish(const std::string& path, const std::string& bytes);
+
+// As publish, but leaves a file with the same content alone (make then sees no change). True if it was
+// replaced.
+bool publish_if_changed(const std::string& path, const std::string& bytes);
+
+// Makes `link` a symbolic link to `target` (relative to the link's folder), atomically; leaves a right one
+// alone. True if it was made or replaced. Error(io) if a file or folder that is no link stands there.
+bool publish_link(const std::string& link, const std::string& target);
+
+// The whole content of a file. Error(io) if it cannot be read; `hint` is appended to the message.
+std::string read_bytes(const std::string& path, const std::string& hint = "");
+
+// SHA-256 in lower-case hexadecimal: of bytes, of a file's content.
+std::string sha256(const std::string& bytes);
+std::string sha256_of_file(const std::string& path);
+
+}  // namespace whine

@@ -1,0 +1,625 @@
+#include "files/scene.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "base/error.h"
+#include "files/keys.h"
+#include "files/publish.h"
+
+namespace whine {
+namespace {
+
+const char* const kExample = "data/scenes/parker2000.toml shows a whole scene";
+
+std::string joined(const std::vector<std::string>& words, const std::string& between = ", ") {
+  std::string out;
+  for (std::size_t i = 0; i < words.size(); ++i) out += (i ? between : "") + words[i];
+  return out;
+}
+
+// One line, short: what stands in the file as the value of a key.
+std::string as_written(const toml::node& node) {
+  std::ostringstream out;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_floating_point<decltype(value)> || toml::is_integer<decltype(value)>) {
+      out.precision(10);
+      out << value.get();
+    } else {
+      out << value;
+    }
+  });
+  std::string word = out.str();
+  std::replace(word.begin(), word.end(), '\n', ' ');
+  return word.size() > 60 ? word.substr(0, 57) + "..." : word;
+}
+
+// The file under reading: turns nodes into values and faults into errors with file:line.
+class Source {
+ public:
+  explicit Source(std::string path) : path_(std::move(path)) {
+    const std::string bytes = read_bytes(path_, "check the path of the scene");
+    try {
+      root_ = toml::parse(std::string_view(bytes));
+    } catch (const toml::parse_error& error) {
+      refuse_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
+    }
+  }
+
+  const toml::table& root() const { return root_; }
+
+  [[noreturn]] void refuse(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
+  [[noreturn]] void refuse_line(toml::source_index line, const std::string& what) const {
+    fail(Failure::input, path_, ":", line, ": ", what);
+  }
+  [[noreturn]] void refuse(const toml::node& at, const std::string& what) const {
+    refuse_line(at.source().begin.line, what);
+  }
+
+  // A section [name] as a table, nullptr if it is not there.
+  const toml::table* section(const std::string& name) const {
+    const toml::node* node = root_.get(name);
+    if (!node) return nullptr;
+    if (const auto* table = node->as_table()) return table;
+    refuse(*node, text("'", name, "' must be a section: write [", name, "]"));
+  }
+
+ private:
+  std::string path_;
+  toml::table root_;
+};
+
+// In a scene keys carry unit suffixes and ranges hold; slices are in SI, written by this program.
+enum class Dialect { scene, slice };
+
+std::string name_in(const Key& key, Dialect dialect) {
+  return dialect == Dialect::scene ? std::string(key.name) : key.si_name();
+}
+
+std::string unit_of(const Key& key) {
+  const std::string suffix(key.unit.suffix);
+  return suffix.empty() ? "" : " " + suffix.substr(1);
+}
+
+// Reads the keys of one section, e.g. label "gear.pinion" for the keys of section "gear".
+class SectionReader {
+ public:
+  SectionReader(const Source& source, Dialect dialect, const toml::table& table, std::string section,
+                std::string label)
+      : source_(source),
+        dialect_(dialect),
+        table_(table),
+        section_(std::move(section)),
+        label_(std::move(label)) {}
+
+  // Refuses keys that no key of this section is called; `others` are section names allowed besides.
+  void refuse_unknown(const std::vector<std::string>& others = {}) const {
+    std::vector<std::string> known = others;
+    for (const Key& key : scene_keys()) {
+      if (key.section == section_) known.push_back(name_in(key, dialect_));
+    }
+    for (const auto& [name, node] : table_) {
+      const std::string word(name.str());
+      if (std::find(known.begin(), known.end(), word) != known.end()) continue;
+      std::string advice;
+      for (const Key& key : scene_keys()) {
+        if (name_in(key, dialect_) == word) advice = text("; it belongs into [", key.section, "]");
+      }
+      const std::string near = nearest(word, known);
+      if (advice.empty() && !near.empty()) advice = text("; did you mean '", near, "'?");
+      if (advice.empty()) advice = text("; known are: ", joined(known));
+      const bool is_section = node.is_table() || node.is_array_of_tables();
+      const bool top = label_.empty();
+      source_.refuse_line(name.source().begin.line,
+                          text("unknown ", top && is_section ? "section" : "key", " '", word, "'",
+                               top ? "" : text(" in [", label_, "]"), advice));
+    }
+  }
+
+  // Fills the keys of this section that belong to one of `parts`. Keys left out keep what stands in `values`
+  // if `inherit`, else take their default; required ones are refused together.
+  void read(KeyValues& values, const std::set<Part>& parts, bool inherit) const {
+    std::vector<std::string> missing;
+    for (const Key& key : scene_keys()) {
+      if (key.section != section_ || !parts.count(key.part)) continue;
+      const std::string name = name_in(key, dialect_);
+      const toml::node* node = table_.get(name);
+      if (node) {
+        assign(key, *node, key.slot(values));
+      } else if (inherit && key.name != std::string("like")) {
+        continue;
+      } else if (key.fallback && dialect_ == Dialect::scene) {
+        assign_fallback(key, key.slot(values));
+      } else {
+        missing.push_back("'" + name + "'");
+      }
+    }
+    if (!missing.empty()) {
+      const std::string what = text("[", label_, "] lacks ", joined(missing), " (no default)");
+      if (table_.source().begin) source_.refuse(table_, what);
+      source_.refuse(what);
+    }
+  }
+
+ private:
+  [[noreturn]] void refuse(const Key& key, const toml::node& node, const std::string& what) const {
+    source_.refuse(
+        node, text("'", name_in(key, dialect_), "'", label_.empty() ? "" : text(" in [", label_, "]"), " = ",
+                   as_written(node), ": ", what));
+  }
+
+  double checked_number(const Key& key, const toml::node& node) const {
+    if (!node.is_number())
+      refuse(key, node, "must be a number" + (unit_of(key).empty() ? "" : " (in" + unit_of(key) + ")"));
+    const double value = node.value<double>().value_or(0.0);
+    if (!std::isfinite(value)) refuse(key, node, "must be a finite number");
+    if (dialect_ == Dialect::slice) return value;
+    if (value < key.least || (key.open && value == key.least)) {
+      refuse(key, node, text("must be ", key.open ? "greater than " : "at least ", key.least, unit_of(key)));
+    }
+    if (value > key.most) refuse(key, node, text("must be at most ", key.most, unit_of(key)));
+    return key.to_si(value);
+  }
+
+  std::string checked_word(const Key& key, const toml::node& node) const {
+    if (!node.is_string()) refuse(key, node, "must be text in quotes");
+    std::string word = node.value<std::string>().value_or("");
+    if (*key.choices) {
+      std::istringstream list(key.choices);
+      std::vector<std::string> choices;
+      for (std::string choice; list >> choice;) choices.push_back(choice);
+      if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
+        refuse(key, node, "must be one of: " + joined(choices));
+      }
+    } else if (std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 32 || c == 127; })) {
+      refuse(key, node, "must be one line of text");
+    }
+    return word;
+  }
+
+  void assign(const Key& key, const toml::node& node, const Slot& slot) const {
+    if (const auto* number = std::get_if<double*>(&slot)) {
+      **number = checked_number(key, node);
+    } else if (const auto* whole = std::get_if<int*>(&slot)) {
+      if (!node.is_integer()) refuse(key, node, "must be a whole number");
+      **whole = static_cast<int>(checked_number(key, node));
+    } else if (const auto* word = std::get_if<std::string*>(&slot)) {
+      **word = checked_word(key, node);
+    } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
+      *plane->stress = checked_word(key, node) == "stress";
+    } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
+      **corner = CornerRule{};
+      if (node.is_boolean()) {
+        (*corner)->enabled = node.value<bool>().value_or(true);
+      } else if (node.is_number()) {
+        (*corner)->largest_angle = checked_number(key, node);
+      } else {
+        refuse(key, node, "must be true, false or a number of degrees");
+      }
+    } else if (const auto* list = std::get_if<std::vector<double>*>(&slot)) {
+      assign_list(key, node, **list);
+    } else {
+      assign_range(key, node, std::get<RangeSlot>(slot));
+    }
+  }
+
+  void assign_list(const Key& key, const toml::node& node, std::vector<double>& list) const {
+    list.clear();
+    const toml::array* array = node.as_array();
+    if (!array) {
+      list.push_back(checked_number(key, node));
+    } else {
+      if (array->empty()) refuse(key, node, "must hold at least one number");
+      for (const toml::node& item : *array) list.push_back(checked_number(key, item));
+    }
+    if (dialect_ == Dialect::slice) return;
+    // Folders are called by the value with six digits; two values must not meet there, nor a name mean
+    // another value.
+    std::set<double> seen;
+    for (double value : list) {
+      char name[32];
+      std::snprintf(name, sizeof name, "%g", value);
+      if (std::strtod(name, nullptr) != value) {
+        refuse(key, node, text("has more than 6 significant digits; its folder would be called T", name));
+      }
+      if (!seen.insert(value).second) refuse(key, node, text("holds ", value, " twice"));
+    }
+  }
+
+  void assign_range(const Key& key, const toml::node& node, const RangeSlot& slot) const {
+    const toml::table* table = node.as_table();
+    if (!table) refuse(key, node, "must be a table: { from = 600, to = 4000, step = 20 }");
+    const std::vector<std::pair<std::string, double*>> names = {
+        {"from", slot.from}, {"to", slot.to}, {"step", slot.step}};
+    for (const auto& [name, value] : *table) {
+      const std::string word(name.str());
+      if (std::none_of(names.begin(), names.end(), [&](const auto& known) { return known.first == word; })) {
+        refuse(key, value, text("unknown key '", word, "'; known are: from, to, step"));
+      }
+    }
+    for (const auto& [name, target] : names) {
+      const toml::node* item = table->get(name);
+      if (!item) refuse(key, node, text("lacks '", name, "'"));
+      *target = checked_number(key, *item);
+    }
+    if (*slot.to < *slot.from) refuse(key, node, text("'to' must be at least 'from', which is ", *slot.from));
+    if ((*slot.to - *slot.from) / *slot.step > 1e5)
+      refuse(key, node, "is more than 100000 speeds; a larger 'step' makes fewer");
+  }
+
+  void assign_fallback(const Key& key, const Slot& slot) const {
+    const std::string word(key.fallback);
+    if (const auto* number = std::get_if<double*>(&slot)) {
+      **number = key.to_si(std::strtod(key.fallback, nullptr));
+    } else if (const auto* whole = std::get_if<int*>(&slot)) {
+      **whole = static_cast<int>(std::strtol(key.fallback, nullptr, 10));
+    } else if (const auto* target = std::get_if<std::string*>(&slot)) {
+      **target = word;
+    } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
+      **corner = CornerRule{word == "true", std::numeric_limits<double>::infinity()};
+    } else {
+      fail(Failure::numerical, "the key table gives '", key.name, "' a default that its type cannot take");
+    }
+  }
+
+  const Source& source_;
+  Dialect dialect_;
+  const toml::table& table_;
+  std::string section_, label_;
+};
+
+bool plain_name(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-';
+  });
+}
+
+// Named sections below [group]: [gear.pinion], [material.steel].
+std::vector<std::pair<std::string, const toml::table*>> named_sections(const Source& source,
+                                                                       const std::string& group) {
+  std::vector<std::pair<std::string, const toml::table*>> out;
+  const toml::table* table = source.section(group);
+  if (!table) return out;
+  for (const auto& [key, node] : *table) {
+    const std::string name(key.str());
+    const auto* section = node.as_table();
+    if (!section) {
+      source.refuse_line(key.source().begin.line, text("'", name, "' stands in [", group,
+                                                       "] itself; keys belong into [", group, ".<name>]"));
+    }
+    if (!plain_name(name)) {
+      source.refuse_line(key.source().begin.line,
+                         text("[", group, ".", name, "]: a name holds letters, digits, '_' and '-' only"));
+    }
+    out.emplace_back(name, section);
+  }
+  // toml++ keeps keys in alphabetical order; scenes are read in the order in which they are written.
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+    return a.second->source().begin.line < b.second->source().begin.line;
+  });
+  return out;
+}
+
+std::vector<std::string> names_of(const std::vector<std::pair<std::string, const toml::table*>>& sections) {
+  std::vector<std::string> names;
+  for (const auto& section : sections) names.push_back(section.first);
+  return names;
+}
+
+std::string advice_for(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest(word, known);
+  return near.empty() ? text("; known are: ", joined(known)) : text("; did you mean '", near, "'?");
+}
+
+const std::set<Part> kGearParts = {Part::reference, Part::design, Part::inertia};
+
+void read_gears(const Source& source, Scene& scene) {
+  const auto materials = named_sections(source, "material");
+  std::map<std::string, Material> material;
+  for (const auto& [name, table] : materials) {
+    KeyValues values;
+    const SectionReader reader(source, Dialect::scene, *table, "material", "material." + name);
+    reader.refuse_unknown();
+    reader.read(values, {Part::material}, false);
+    material[name] = values.material;
+  }
+
+  const auto gears = named_sections(source, "gear");
+  const auto table_of = [&](const std::string& name) -> const toml::table* {
+    for (const auto& gear : gears) {
+      if (gear.first == name) return gear.second;
+    }
+    return nullptr;
+  };
+  const auto names = names_of(gears);
+  for (const auto& [name, table] : gears) {
+    // These would be mixed up with the folders of parameters, reports and torques beside the gear's own.
+    const bool torque_like =
+        name.size() > 1 && name[0] == 'T' && std::isdigit(static_cast<unsigned char>(name[1]));
+    if (name == "params" || name == "report" || torque_like) {
+      source.refuse(*table, text("[gear.", name, "]: a gear cannot be called '", name,
+                                 "', a folder of results is; choose another name"));
+    }
+    const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
+    reader.refuse_unknown();
+    KeyValues values;
+    const toml::node* like = table->get("like");
+    if (like && like->is_string()) {
+      const std::string base = like->value<std::string>().value_or("");
+      const toml::table* model = table_of(base);
+      if (base == name) source.refuse(*like, text("[gear.", name, "] is like itself"));
+      if (!model)
+        source.refuse(
+            *like, text("'like' in [gear.", name, "] names no gear: '", base, "'", advice_for(base, names)));
+      if (const toml::node* chain = model->get("like")) {
+        source.refuse(*like, text("[gear.", name, "] is like [gear.", base, "], which is like ",
+                                  as_written(*chain), " itself; name the first gear"));
+      }
+      SectionReader(source, Dialect::scene, *model, "gear", "gear." + base).read(values, kGearParts, false);
+    }
+    reader.read(values, kGearParts, like != nullptr);
+    if (!material.count(values.material_name)) {
+      const toml::node* key = table->get("material");
+      source.refuse(key ? *key : static_cast<const toml::node&>(*table),
+                    text("'material' in [gear.", name, "] = '", values.material_name,
+                         "' names no [material.<name>] section",
+                         advice_for(values.material_name, names_of(materials))));
+    }
+    scene.gears.push_back({name, values.design, material.at(values.material_name), values.total_inertia});
+  }
+}
+
+void read_mesh_section(const Source& source, Scene& scene) {
+  const toml::node* node = source.root().get("mesh");
+  const toml::array* list = node->as_array();
+  if (!list || !list->is_array_of_tables())
+    source.refuse(*node, "'mesh' must be a list of sections: write [[mesh]]");
+  if (list->size() != 1) {
+    source.refuse(*list->get(1),
+                  text("there are ", list->size(), " [[mesh]] sections; this version solves exactly one"));
+  }
+  const toml::table& table = *list->get(0)->as_table();
+  KeyValues values;
+  const SectionReader reader(source, Dialect::scene, table, "mesh", "mesh");
+  reader.refuse_unknown();
+  reader.read(values, {Part::mesh}, false);
+  std::vector<std::string> names;
+  for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
+  for (const char* role : {"driver", "driven"}) {
+    const std::string name = role == std::string("driver") ? values.mesh.driver : values.mesh.driven;
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      source.refuse(*table.get(role), text("'", role, "' in [mesh] = '", name,
+                                           "' names no [gear.<name>] section", advice_for(name, names)));
+    }
+  }
+  if (values.mesh.driver == values.mesh.driven) {
+    source.refuse(*table.get("driven"), text("'driven' in [mesh] = '", values.mesh.driven,
+                                             "' is the driver, too; a gear cannot mesh with itself"));
+  }
+  scene.mesh = values.mesh;
+}
+
+// Slices are written in the order of the table, one section after the other.
+class SliceText {
+ public:
+  explicit SliceText(const std::string& stage) {
+    out_ << "# What " << stage << " depends on, in SI units; made from a scene by gear-scene.\n";
+  }
+
+  void add(const std::string& section, const std::string& label, const KeyValues& values,
+           const std::set<Part>& parts) {
+    KeyValues copy = values;
+    for (const Key& key : scene_keys()) {
+      if (key.section != section || !parts.count(key.part)) continue;
+      if (label != last_) out_ << "\n[" << label << "]\n";
+      last_ = label;
+      out_ << key.si_name() << " = " << value_of(key.slot(copy));
+      if (std::string(key.unit.si) != "1") out_ << "  # " << key.unit.si;
+      out_ << "\n";
+    }
+  }
+
+  void add_line(const std::string& label, const std::string& name, const std::string& word) {
+    if (label != last_) out_ << "\n[" << label << "]\n";
+    last_ = label;
+    out_ << name << " = " << quoted_text(word) << "\n";
+  }
+
+  std::string text() const { return out_.str(); }
+
+ private:
+  static std::string value_of(const Slot& slot) {
+    if (const auto* number = std::get_if<double*>(&slot)) return exact_text(**number);
+    if (const auto* whole = std::get_if<int*>(&slot)) return std::to_string(**whole);
+    if (const auto* word = std::get_if<std::string*>(&slot)) return quoted_text(**word);
+    if (const auto* plane = std::get_if<PlaneSlot>(&slot))
+      return *plane->stress ? "\"stress\"" : "\"strain\"";
+    if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
+      if (!(*corner)->enabled) return "false";
+      return std::isfinite((*corner)->largest_angle) ? exact_text((*corner)->largest_angle) : "true";
+    }
+    if (const auto* list = std::get_if<std::vector<double>*>(&slot)) {
+      std::vector<std::string> items;
+      for (double value : **list) items.push_back(exact_text(value));
+      return "[" + joined(items) + "]";
+    }
+    const auto& range = std::get<RangeSlot>(slot);
+    return "{ from = " + exact_text(*range.from) + ", to = " + exact_text(*range.to) +
+           ", step = " + exact_text(*range.step) + " }";
+  }
+
+  static std::string quoted_text(const std::string& word) {
+    std::string out = "\"";
+    for (char c : word) {
+      if (c == '"' || c == '\\') out += '\\';
+      out += c;
+    }
+    return out + "\"";
+  }
+
+  std::ostringstream out_;
+  std::string last_;
+};
+
+// Reads one section of a slice; all its keys must be there.
+void read_slice_section(const Source& source, const std::string& section, const std::string& label,
+                        const std::set<Part>& parts, KeyValues& values) {
+  const toml::table* table = source.section(label);
+  if (!table)
+    source.refuse(text("lacks the section [", label, "]; rebuild it from its scene with gear-scene"));
+  SectionReader(source, Dialect::slice, *table, section, label).read(values, parts, false);
+}
+
+}  // namespace
+
+const SceneGear& Scene::gear(const std::string& name) const {
+  for (const SceneGear& candidate : gears) {
+    if (candidate.name == name) return candidate;
+  }
+  fail(Failure::input, "the scene has no gear '", name, "'");
+}
+
+Scene read_scene(const std::string& path) {
+  const Source source(path);
+  const SectionReader top(source, Dialect::scene, source.root(), "", "");
+  top.refuse_unknown({"gear", "material", "mesh", "damping", "operation", "fidelity", "discretisation"});
+  std::vector<std::string> missing;
+  for (const char* name : {"gear", "material", "mesh", "operation"}) {
+    if (source.root().get(name)) continue;
+    const std::string word(name);
+    missing.push_back(word == "mesh"        ? "[[mesh]]"
+                      : word == "operation" ? "[operation]"
+                                            : "[" + word + ".<name>]");
+  }
+  if (!missing.empty()) source.refuse(text("the scene lacks ", joined(missing), "; ", kExample));
+
+  Scene scene;
+  KeyValues values;
+  top.read(values, {Part::title}, false);
+  scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
+  read_gears(source, scene);
+  read_mesh_section(source, scene);
+  const std::set<Part> rest = {Part::damping, Part::operation, Part::rung, Part::contact_rung,
+                               Part::body,    Part::contact,   Part::time};
+  static const toml::table kNothing;
+  for (const char* name : {"damping", "operation", "fidelity", "discretisation"}) {
+    const toml::table* table = source.section(name);
+    const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
+    reader.refuse_unknown();
+    reader.read(values, rest, false);
+  }
+  scene.damping = values.damping;
+  scene.operation = values.operation;
+  scene.fidelity = values.fidelity;
+  scene.body = values.body;
+  scene.contact = values.contact;
+  scene.time = values.time;
+  return scene;
+}
+
+std::string body_slice(const Scene& scene, const std::string& gear) {
+  const SceneGear& chosen = scene.gear(gear);
+  KeyValues values;
+  values.design = chosen.design;
+  values.material = chosen.material;
+  values.body = scene.body;
+  SliceText out("the body of a gear");
+  out.add("gear", "gear", values, {Part::design});
+  out.add("material", "material", values, {Part::material});
+  out.add("fidelity", "fidelity", values, {Part::body});
+  out.add("discretisation", "discretisation", values, {Part::body});
+  return out.text();
+}
+
+std::string static_slice(const Scene& scene) {
+  KeyValues values;
+  values.mesh = scene.mesh;
+  values.fidelity = scene.fidelity;
+  values.contact = scene.contact;
+  if (values.contact.positions == 0) values.contact.positions = std::max(128, scene.time.steps_per_period);
+  SliceText out("the static stage");
+  out.add("mesh", "mesh", values, {Part::mesh});
+  out.add("fidelity", "fidelity", values, {Part::contact_rung});
+  out.add("discretisation", "discretisation", values, {Part::contact});
+  // Going back to an earlier design finds its old body.h5, older than the static result of the design
+  // between: only this text can tell make that the result is stale.
+  out.add_line("body", "driver", body_hash(body_slice(scene, scene.mesh.driver)));
+  out.add_line("body", "driven", body_hash(body_slice(scene, scene.mesh.driven)));
+  return out.text();
+}
+
+std::string sweep_slice(const Scene& scene) {
+  KeyValues values;
+  values.damping = scene.damping;
+  values.operation = scene.operation;
+  if (scene.operation.torques.empty()) fail(Failure::input, "the scene lists no torque");
+  values.operation.torques = {scene.operation.torques.front()};
+  values.fidelity = scene.fidelity;
+  values.time = scene.time;
+  SliceText out("a sweep");
+  for (const auto& [label, name] :
+       {std::pair{"driver", scene.mesh.driver}, std::pair{"driven", scene.mesh.driven}}) {
+    values.total_inertia = scene.gear(name).total_inertia;
+    out.add("gear", label, values, {Part::inertia});
+  }
+  out.add("damping", "damping", values, {Part::damping});
+  out.add("operation", "operation", values, {Part::operation});
+  out.add("fidelity", "fidelity", values, {Part::rung, Part::contact_rung});
+  out.add("discretisation", "discretisation", values, {Part::time});
+  return out.text();
+}
+
+std::string body_hash(const std::string& slice) {
+  return sha256(slice).substr(0, 16);
+}
+
+BodySlice read_body_slice(const std::string& path) {
+  const Source source(path);
+  KeyValues values;
+  read_slice_section(source, "gear", "gear", {Part::design}, values);
+  read_slice_section(source, "material", "material", {Part::material}, values);
+  read_slice_section(source, "fidelity", "fidelity", {Part::body}, values);
+  read_slice_section(source, "discretisation", "discretisation", {Part::body}, values);
+  return {values.design, values.material, values.body};
+}
+
+StaticSlice read_static_slice(const std::string& path) {
+  const Source source(path);
+  KeyValues values;
+  read_slice_section(source, "mesh", "mesh", {Part::mesh}, values);
+  read_slice_section(source, "fidelity", "fidelity", {Part::contact_rung}, values);
+  read_slice_section(source, "discretisation", "discretisation", {Part::contact}, values);
+  return {values.mesh, values.fidelity, values.contact};
+}
+
+SweepSlice read_sweep_slice(const std::string& path) {
+  const Source source(path);
+  KeyValues values;
+  SweepSlice out;
+  read_slice_section(source, "gear", "driver", {Part::inertia}, values);
+  out.driver_inertia = values.total_inertia;
+  read_slice_section(source, "gear", "driven", {Part::inertia}, values);
+  out.driven_inertia = values.total_inertia;
+  read_slice_section(source, "damping", "damping", {Part::damping}, values);
+  read_slice_section(source, "operation", "operation", {Part::operation}, values);
+  read_slice_section(source, "fidelity", "fidelity", {Part::rung, Part::contact_rung}, values);
+  read_slice_section(source, "discretisation", "discretisation", {Part::time}, values);
+  out.damping = values.damping;
+  out.reference_torque = values.operation.torques.front();
+  out.frequency_from = values.operation.frequency_from;
+  out.frequency_to = values.operation.frequency_to;
+  out.frequency_step = values.operation.frequency_step;
+  out.fidelity = values.fidelity;
+  out.time = values.time;
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,152 @@
+// A scene: every number that a user may change, read from TOML with checked keys and turned into SI.
+//
+// Each key is declared once, in scene.cpp, with name, unit, range, default and one line of documentation;
+// the reader, the canonical slices that make compares, /parameters in the artifacts and `--help` all come
+// from that declaration.
+#pragma once
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace whine {
+
+// One gear's geometry; what is true of the tooth and the blank, nothing of load or motion.
+struct GearDesign {
+  int teeth = 0;
+  double module = 0;              // m
+  double pressure_angle = 0;      // rad
+  double profile_shift = 0;       // in modules
+  double addendum = 1.0;          // in modules
+  double dedendum = 1.25;         // in modules
+  double rack_tip_radius = 0.38;  // in modules; the root is the trochoid that this rack cuts
+  double tooth_thinning = 0;      // m at the pitch circle
+  double face_width = 0;          // m
+  double bore_radius = 0;         // m; rigid hub
+};
+
+struct Material {
+  double youngs_modulus = 0;  // Pa
+  double poisson_ratio = 0;   // 1
+  double density = 0;         // kg m-3
+  bool plane_stress = true;   // false: plane strain
+};
+
+// Discretisation of a body: what gear-mesh and gear-reduce need beside the gear itself.
+struct BodyDiscretisation {
+  double element_size = 0;  // m on the flank
+  int element_order = 2;    // 1 or 2
+  int modes = 5;            // elastic modes of the whole gear; doublets are never cut
+};
+
+struct SceneGear {
+  std::string name;
+  GearDesign design;
+  Material material;
+  double total_inertia = 0;  // kg m2 about the axis, body included
+};
+
+// Off the line of action a tip edge may touch a flank.
+struct CornerRule {
+  bool enabled = true;
+  double largest_angle = std::numeric_limits<double>::infinity();  // rad between the two normals
+};
+
+struct GearMeshSpec {
+  std::string driver, driven;  // names of gears
+  double centre_distance = 0;  // m
+  CornerRule corner;
+};
+
+struct Damping {
+  double rayleigh_mass = 0;        // mu of eq. 21, s-1
+  double rayleigh_stiffness = 0;   // eta of eq. 21, s
+  double undamped_depth = 0.5e-3;  // m
+  double bearing_ratio = 0.005;    // 1
+};
+
+struct Operation {
+  std::vector<double> torques;                                      // N m on the driver
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
+};
+
+struct Fidelity {
+  std::string body = "modal";        // rigid, quasi-static, lagged, modal
+  std::string contact = "strips";    // strips
+  std::string integrator = "exact";  // newmark, exact
+};
+
+struct ContactDiscretisation {
+  int strips = 15;    // across the contact width at the mean load
+  int positions = 0;  // mesh positions of the static stage; 0: as steps_per_period, 128 at least
+};
+
+struct TimeDiscretisation {
+  int steps_per_period = 128;      // stored samples per mesh period
+  double min_sample_rate = 250e3;  // Hz; steps per period are doubled until it is reached
+  double periodicity = 1e-6;       // relative change of the state at which a speed counts as steady
+};
+
+struct Scene {
+  std::string title;
+  std::vector<SceneGear> gears;  // `like` resolved
+  GearMeshSpec mesh;
+  Damping damping;
+  Operation operation;
+  Fidelity fidelity;
+  BodyDiscretisation body;
+  ContactDiscretisation contact;
+  TimeDiscretisation time;
+
+  const SceneGear& gear(const std::string& name) const;  // throws Error(input) if there is none
+};
+
+// Reads and checks a whole scene. Error(input) names file:line, key, value and limit, and for an unknown key
+// or section the nearest known one; Error(io) if the file cannot be read.
+Scene read_scene(const std::string& path);
+
+// The parts of a scene that a stage depends on, and nothing else, so that make redoes a stage only if one of
+// its own numbers changed. SI units throughout.
+
+// For gear-mesh and gear-reduce: the gear without name, inertia, torque or motion.
+struct BodySlice {
+  GearDesign design;
+  Material material;
+  BodyDiscretisation discretisation;
+};
+
+// For gear-static; `contact.positions` is resolved (never 0), `fidelity` holds the contact rung only.
+struct StaticSlice {
+  GearMeshSpec mesh;
+  Fidelity fidelity;
+  ContactDiscretisation contact;
+};
+
+// For gear-sweep.
+struct SweepSlice {
+  double driver_inertia = 0, driven_inertia = 0;  // kg m2, total
+  Damping damping;
+  double reference_torque = 0;  // N m: first torque listed, whose mean stiffness sets the bearing dampers
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
+  Fidelity fidelity;
+  TimeDiscretisation time;
+};
+
+// Canonical text of a slice: TOML in SI, keys in a fixed order, numbers with all digits. Depends on values
+// only, not on comments, order or defaults left out. Errors: Error(input) for a gear that does not exist.
+std::string body_slice(const Scene& scene, const std::string& gear);
+std::string static_slice(const Scene& scene);
+std::string sweep_slice(const Scene& scene);
+
+// First 16 hexadecimal digits of the SHA-256 of a body slice: the folder out/bodies/<hash>/.
+std::string body_hash(const std::string& slice);
+
+// Read what the functions above wrote; errors as read_scene.
+BodySlice read_body_slice(const std::string& path);
+StaticSlice read_static_slice(const std::string& path);
+SweepSlice read_sweep_slice(const std::string& path);
+
+// The table of keys as Markdown: section, key, range, default, meaning.
+std::string scene_key_table();
+
+}  // namespace whine

@@ -1,0 +1,502 @@
+#include "files/schemas.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "files/artifact.h"
+#include "files/vtk.h"
+
+namespace whine {
+namespace {
+
+// Raise a number whenever a dataset of that schema changes its name, shape or meaning.
+constexpr int kMeshVersion = 1, kBodyVersion = 1, kStaticVersion = 1, kSweepVersion = 1, kResponseVersion = 1;
+
+const char* const kPhase = "mesh_phase";
+const char* const kSpeed = "mesh_frequency";
+const char* const kSample = "mesh_frequency sample";
+
+KeyValues with(const GearDesign& design) {
+  KeyValues values;
+  values.design = design;
+  return values;
+}
+
+void put_design(ArtifactWriter& out, const std::string& section, const GearDesign& design) {
+  out.parameters(section, with(design), Part::design);
+}
+
+GearDesign take_design(const ArtifactReader& in, const std::string& section) {
+  KeyValues values;
+  in.parameters(section, values, Part::design);
+  return values.design;
+}
+
+void put_body_discretisation(ArtifactWriter& out, const BodyDiscretisation& body) {
+  KeyValues values;
+  values.body = body;
+  out.parameters("discretisation", values, Part::body);
+}
+
+BodyDiscretisation take_body_discretisation(const ArtifactReader& in) {
+  KeyValues values;
+  in.parameters("discretisation", values, Part::body);
+  return values.body;
+}
+
+std::string gear_title(const GearDesign& design) {
+  return text(design.teeth, " teeth, module ", design.module * 1e3, " mm");
+}
+
+std::string pair_title(const GearMeshSpec& mesh, double torque) {
+  return text(mesh.driver, " drives ", mesh.driven, " with ", torque, " N m");
+}
+
+void want_rows(const char* name, Eigen::Index rows, Eigen::Index wanted) {
+  if (rows != wanted) fail(Failure::numerical, "result ", name, " has ", rows, " rows, expected ", wanted);
+}
+
+// Node and mode numbers come from a file here, and index arrays later: they are checked once, on reading.
+void want_indices(const ArtifactReader& in, const std::string& name, const Eigen::Ref<const MatrixRMi>& index,
+                  Eigen::Index count) {
+  if (index.size() == 0) return;
+  if (index.minCoeff() < 0 || index.maxCoeff() >= count) {
+    in.file().refuse(text("dataset ", name, " holds the number ",
+                          index.minCoeff() < 0 ? index.minCoeff() : index.maxCoeff(), ", allowed are 0 to ",
+                          count - 1));
+  }
+}
+
+}  // namespace
+
+void write(const std::string& path, const MeshArtifact& a, const Provenance& provenance) {
+  ArtifactWriter out(path, "mesh", kMeshVersion,
+                     "Finite-element mesh of one tooth sector: " + gear_title(a.design), provenance);
+  put_design(out, "gear", a.design);
+  put_body_discretisation(out, a.discretisation);
+  out.put("/sector/node_position", a.node_position,
+          {"m", "position of the nodes; gear centre at 0, tooth along +y", "node xy", ""});
+  out.put("/sector/element_node", a.element_node,
+          {"1", "nodes of the elements: corners counter-clockwise, mid-sides, centre", "element corner", ""});
+  out.put("/sector/element_region", a.element_region,
+          {"1", "0: rim, 1: tooth, where the half-plane field is subtracted", "element", ""});
+  out.put("/sector/bore_node", a.bore_node, {"1", "nodes on the rigid hub", "bore_node", ""});
+  out.put(
+      "/sector/side_node", a.side_node,
+      {"1", "node on the clockwise edge and its image on the counter-clockwise edge", "side_node edge", ""});
+  out.put("/sector/flank_node", a.flank_node,
+          {"1", "nodes of the driving flank, root to tip", "flank_node", ""});
+  out.put("/sector/flank_roll_angle", a.flank_roll_angle,
+          {"rad", "involute roll angle of the flank nodes", "flank_node", ""});
+  put_vtk(out.file(), whole_gear(a));
+  out.publish();
+  link_for_paraview(path);
+}
+
+MeshArtifact read_mesh(const std::string& path) {
+  const ArtifactReader in(path, "mesh", kMeshVersion);
+  MeshArtifact a;
+  a.design = take_design(in, "gear");
+  a.discretisation = take_body_discretisation(in);
+  a.node_position = in.matrix("/sector/node_position", -1, 2);
+  const Eigen::Index nodes = a.node_position.rows();
+  a.element_node = in.whole_matrix("/sector/element_node");
+  a.element_region = in.whole_vector("/sector/element_region", a.element_node.rows());
+  a.bore_node = in.whole_vector("/sector/bore_node");
+  a.side_node = in.whole_matrix("/sector/side_node", -1, 2);
+  a.flank_node = in.whole_vector("/sector/flank_node");
+  a.flank_roll_angle = in.vector("/sector/flank_roll_angle", a.flank_node.size());
+  want_indices(in, "/sector/element_node", a.element_node, nodes);
+  want_indices(in, "/sector/bore_node", a.bore_node.transpose(), nodes);
+  want_indices(in, "/sector/side_node", a.side_node, nodes);
+  want_indices(in, "/sector/flank_node", a.flank_node.transpose(), nodes);
+  return a;
+}
+
+void write(const std::string& path, const BodyArtifact& a, const Provenance& provenance) {
+  const Eigen::Index modes = a.eigenfrequency.size(), points = a.flank_position.size();
+  want_rows("nodal_diameter", a.nodal_diameter.size(), modes);
+  want_rows("component", a.component.size(), modes);
+  want_rows("inertia_coupling", a.inertia_coupling.size(), modes);
+  want_rows("flank_mode", a.flank_mode.rows(), points);
+  want_rows("compliance", static_cast<Eigen::Index>(a.compliance.size()), a.offsets + 1);
+  ArtifactWriter out(path, "body", kBodyVersion,
+                     "Reduced body of a gear on a rigid hub: " + gear_title(a.design), provenance);
+  KeyValues values;
+  values.material = a.material;
+  put_design(out, "gear", a.design);
+  out.parameters("material", values, Part::material);
+  put_body_discretisation(out, a.discretisation);
+  out.put("/inertia", a.inertia,
+          {"kg m2", "inertia of the meshed body about its axis, hub ring included", "", ""});
+  out.put("/eigenfrequency", a.eigenfrequency,
+          {"Hz", "natural frequencies with the hub fixed", "mode", "K_ff phi = w^2 M_ff phi"});
+  out.put("/nodal_diameter", a.nodal_diameter, {"1", "nodal diameters of the mode", "mode", ""});
+  out.put("/component", a.component, {"1", "0: cosine or single, 1: sine of a doublet", "mode", ""});
+  // UDUNITS knows whole exponents only; mass-normal modes need a half.
+  out.put(
+      "/inertia_coupling", a.inertia_coupling,
+      {"kg^0.5 m", "coupling of the mode to the rotation of the hub", "mode", "gamma = phi^T M_fr (Eq. 3)"});
+  out.put("/flank_position", a.flank_position,
+          {"1", "roll angle (rad) of the points of the flank table, ascending", "flank_position", ""});
+  out.put("/flank_mode", a.flank_mode,
+          {"kg^-0.5", "outward normal displacement of the mass-normal modes on the flank of tooth 0",
+           "flank_position mode", ""});
+  for (std::size_t d = 0; d < a.compliance.size(); ++d) {
+    want_rows("compliance", a.compliance[d].rows(), points);
+    want_rows("compliance (columns)", a.compliance[d].cols(), points);
+    out.put(text("/compliance/offset_", d), a.compliance[d],
+            {"m N-1",
+             text("inward normal displacement of the tooth ", d,
+                  " counter-clockwise of the loaded one per unit normal force",
+                  d == 0 ? ", less the half-plane relative to reference_depth" : ""),
+             "flank_position flank_position", ""});
+  }
+  out.put("/compliance/offsets", a.offsets, {"1", "largest tooth offset of the tables", "", ""});
+  out.put("/compliance/reference_depth", a.reference_depth,
+          {"m", "depth relative to which the half-plane is taken off", "", ""});
+  out.put("/compliance/asymmetry", a.asymmetry,
+          {"1", "relative asymmetry of the tables before symmetrisation", "", ""});
+  out.put("/compliance/least_eigenvalue", a.least_eigenvalue,
+          {"m N-1", "least eigenvalue of the compliance of all offsets less the stored modes", "", ""});
+  if (a.vtk_point.rows() > 0) put_vtk(out.file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}});
+  out.publish();
+  link_for_paraview(path);
+}
+
+BodyArtifact read_body(const std::string& path) {
+  const ArtifactReader in(path, "body", kBodyVersion);
+  BodyArtifact a;
+  KeyValues values;
+  in.parameters("material", values, Part::material);
+  a.design = take_design(in, "gear");
+  a.material = values.material;
+  a.discretisation = take_body_discretisation(in);
+  a.inertia = in.number("/inertia");
+  a.eigenfrequency = in.vector("/eigenfrequency");
+  const Eigen::Index modes = a.eigenfrequency.size();
+  a.nodal_diameter = in.whole_vector("/nodal_diameter", modes);
+  a.component = in.whole_vector("/component", modes);
+  a.inertia_coupling = in.vector("/inertia_coupling", modes);
+  a.flank_position = in.vector("/flank_position");
+  const Eigen::Index points = a.flank_position.size();
+  a.flank_mode = in.matrix("/flank_mode", points, modes);
+  a.offsets = in.whole("/compliance/offsets");
+  for (int d = 0; d <= a.offsets; ++d)
+    a.compliance.push_back(in.matrix(text("/compliance/offset_", d), points, points));
+  a.reference_depth = in.number("/compliance/reference_depth");
+  a.asymmetry = in.number("/compliance/asymmetry");
+  a.least_eigenvalue = in.number("/compliance/least_eigenvalue");
+  if (!in.file().has("/VTKHDF")) return a;
+
+  const auto flat = in.file().doubles("/VTKHDF/Points");
+  const auto count = static_cast<Eigen::Index>(flat.size() / 3);
+  a.vtk_point = Eigen::Map<const MatrixRM>(flat.data(), count, 3).leftCols(2);
+  const auto connectivity = in.file().ints("/VTKHDF/Connectivity");
+  const auto cells = static_cast<Eigen::Index>(in.file().ints("/VTKHDF/Types").size());
+  if (cells > 0) {
+    a.vtk_cell = Eigen::Map<const MatrixRMi>(connectivity.data(), cells,
+                                             static_cast<Eigen::Index>(connectivity.size()) / cells);
+  }
+  if (!in.file().has("/VTKHDF/PointData")) return a;
+  for (const std::string& name : in.file().children("/VTKHDF/PointData")) {
+    a.vtk_point_data.emplace_back(name, in.matrix("/VTKHDF/PointData/" + name, count, 3).leftCols(2));
+  }
+  return a;
+}
+
+void write(const std::string& path, const StaticArtifact& a, const Provenance& provenance) {
+  const Eigen::Index phases = a.mesh_phase.size();
+  want_rows("transmission_error", a.transmission_error.size(), phases);
+  want_rows("mesh_stiffness_secant", a.stiffness_secant.size(), phases);
+  want_rows("mesh_stiffness_tangent", a.stiffness_tangent.size(), phases);
+  want_rows("tooth_load", a.tooth_load.rows(), phases);
+  want_rows("tooth_load (columns)", a.tooth_load.cols(), a.pair.size());
+  ArtifactWriter out(path, "static", kStaticVersion,
+                     "Static transmission error: " + pair_title(a.mesh, a.torque), provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
+  values.contact = a.contact;
+  put_design(out, "driver", a.driver);
+  put_design(out, "driven", a.driven);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("discretisation", values, Part::contact);
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/contact_ratio", a.contact_ratio, {"1", "profile contact ratio of the unloaded gears", "", ""});
+  out.put("/mesh_phase", a.mesh_phase,
+          {"1", "mesh phase; 0: reference pair at the pitch point, 1: one mesh period", kPhase, ""});
+  out.put("/transmission_error", a.transmission_error,
+          {"m", "transmission error along the line of action, positive when the driver is ahead", kPhase,
+           "r1 theta1 + r2 theta2"});
+  out.put("/mesh_stiffness_secant", a.stiffness_secant,
+          {"N m-1", "secant mesh stiffness", kPhase, "(T / r1) / transmission_error"});
+  out.put("/mesh_stiffness_tangent", a.stiffness_tangent,
+          {"N m-1", "tangent mesh stiffness at fixed phase, contact changes included", kPhase,
+           "d(T / r1) / d transmission_error"});
+  out.put("/pair", a.pair,
+          {"1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", ""});
+  out.put("/tooth_load", a.tooth_load, {"N", "normal force of each tooth pair", "mesh_phase pair", ""});
+  out.put("/transmission_error_harmonic", a.transmission_error_harmonic,
+          {"m", "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic", ""});
+  out.put("/mesh_stiffness_harmonic", a.stiffness_harmonic,
+          {"N m-1", "mean, then amplitudes of the harmonics of the secant stiffness", "harmonic", ""});
+  out.put("/mean_stiffness", a.mean_stiffness,
+          {"N m-1", "mean of the secant stiffness over a mesh period", "", ""});
+  out.put("/certificate/least_gap", a.least_gap,
+          {"m", "least gap of a strip without force, over all positions", "", "d >= 0 (Eq. 13)"});
+  out.put("/certificate/least_force", a.least_force,
+          {"N", "least force of a strip in contact, over all positions", "", "p >= 0 (Eq. 13)"});
+  out.put("/certificate/torque_residual", a.torque_residual,
+          {"1", "largest relative residual of the torque, over all positions", "", "|sum a p - T| / T"});
+  // Left out where back flanks are ignored: the margin is then infinite.
+  if (!std::isinf(a.backlash_margin)) {
+    out.put("/backlash_margin", a.backlash_margin,
+            {"m", "least backlash left along the line of action", "", ""});
+  }
+  out.publish();
+}
+
+StaticArtifact read_static(const std::string& path) {
+  const ArtifactReader in(path, "static", kStaticVersion);
+  StaticArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("discretisation", values, Part::contact);
+  a.driver = take_design(in, "driver");
+  a.driven = take_design(in, "driven");
+  a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
+  a.contact = values.contact;
+  a.torque = in.number("/parameters/operation/torque");
+  a.contact_ratio = in.number("/contact_ratio");
+  a.mesh_phase = in.vector("/mesh_phase");
+  const Eigen::Index phases = a.mesh_phase.size();
+  a.transmission_error = in.vector("/transmission_error", phases);
+  a.stiffness_secant = in.vector("/mesh_stiffness_secant", phases);
+  a.stiffness_tangent = in.vector("/mesh_stiffness_tangent", phases);
+  a.pair = in.whole_vector("/pair");
+  a.tooth_load = in.matrix("/tooth_load", phases, a.pair.size());
+  a.transmission_error_harmonic = in.vector("/transmission_error_harmonic");
+  a.stiffness_harmonic = in.vector("/mesh_stiffness_harmonic");
+  a.mean_stiffness = in.number("/mean_stiffness");
+  a.least_gap = in.number("/certificate/least_gap");
+  a.least_force = in.number("/certificate/least_force");
+  a.torque_residual = in.number("/certificate/torque_residual");
+  a.backlash_margin = in.file().has("/backlash_margin") ? in.number("/backlash_margin")
+                                                        : std::numeric_limits<double>::infinity();
+  return a;
+}
+
+void write(const std::string& path, const SweepArtifact& a, const Provenance& provenance) {
+  const Eigen::Index speeds = a.mesh_frequency.size(), samples = a.transmission_error.cols(),
+                     pairs = a.pair.size();
+  want_rows("transmission_error", a.transmission_error.rows(), speeds);
+  want_rows("mesh_force", a.mesh_force.rows(), speeds);
+  want_rows("mesh_force (columns)", a.mesh_force.cols(), samples);
+  want_rows("tooth_load", static_cast<Eigen::Index>(a.tooth_load.size()), speeds);
+  want_rows("periods", a.periods.size(), speeds);
+  want_rows("residual", a.residual.size(), speeds);
+  want_rows("period_multiple", a.period_multiple.size(), speeds);
+  want_rows("energy_imbalance", a.energy_imbalance.size(), speeds);
+  want_rows("jump_width", a.jump_width.size(), a.jump_frequency.size());
+  ArtifactWriter out(path, "sweep", kSweepVersion,
+                     text("Sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
+  values.contact = a.contact;
+  values.time = a.time;
+  values.damping = a.damping;
+  put_design(out, "driver", a.driver);
+  put_design(out, "driven", a.driven);
+  values.total_inertia = a.driver_inertia;
+  out.parameters("driver", values, Part::inertia);
+  values.total_inertia = a.driven_inertia;
+  out.parameters("driven", values, Part::inertia);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("damping", values, Part::damping);
+  out.put("/parameters/damping/mean_stiffness", a.mean_stiffness,
+          {"N m-1", "mean secant stiffness that sets the bearing dampers", "", ""});
+  out.put("/parameters/damping/driver_bearing_damper", a.driver_bearing_damper,
+          {"N m s", "torque damper at the axis of the driver", "", "c = 2 ratio I w"});
+  out.put("/parameters/damping/driven_bearing_damper", a.driven_bearing_damper,
+          {"N m s", "torque damper at the axis of the driven gear", "", "c = 2 ratio I w"});
+  out.parameters("fidelity", values, Part::rung);
+  out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("discretisation", values, Part::contact);
+  out.parameters("discretisation", values, Part::time);
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/parameters/operation/direction", a.direction,
+          {"1", "direction of marching through the speeds", "", ""});
+  out.put("/mesh_frequency", a.mesh_frequency, {"Hz", "mesh frequency, in order of marching", kSpeed, ""});
+  out.put("/transmission_error", a.transmission_error,
+          {"m",
+           "dynamic transmission error over the last mesh period (period_multiple of them where "
+           "subharmonic), from phase 0",
+           kSample, "r1 theta1 + r2 theta2"});
+  out.put("/mesh_force", a.mesh_force, {"N", "normal force of all tooth pairs together", kSample, ""});
+  out.put("/pair", a.pair,
+          {"1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", ""});
+  std::vector<double> load;
+  load.reserve(static_cast<std::size_t>(speeds * samples * pairs));
+  for (const MatrixRM& rows : a.tooth_load) {
+    want_rows("tooth_load (samples)", rows.rows(), samples);
+    want_rows("tooth_load (pairs)", rows.cols(), pairs);
+    load.insert(load.end(), rows.data(), rows.data() + rows.size());
+  }
+  out.file().put(
+      "/tooth_load", load.data(),
+      {static_cast<std::size_t>(speeds), static_cast<std::size_t>(samples), static_cast<std::size_t>(pairs)},
+      {"N", "normal force of each tooth pair", "mesh_frequency sample pair", ""});
+  out.put("/periods", a.periods, {"1", "mesh periods run to steady state", kSpeed, ""});
+  out.put("/residual", a.residual,
+          {"1", "relative change of the state over the last mesh period", kSpeed, ""});
+  out.put("/period_multiple", a.period_multiple,
+          {"1", "mesh periods after which the motion repeats", kSpeed, ""});
+  out.put("/energy_imbalance", a.energy_imbalance,
+          {"1", "energy not accounted for, relative to the input of the stored periods", kSpeed, ""});
+  out.put("/jump_frequency", a.jump_frequency,
+          {"Hz", "middle of the interval in which the response jumps", "jump", ""});
+  out.put("/jump_width", a.jump_width,
+          {"Hz", "width of the interval in which the response jumps", "jump", ""});
+  out.publish();
+}
+
+SweepArtifact read_sweep(const std::string& path) {
+  const ArtifactReader in(path, "sweep", kSweepVersion);
+  SweepArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("damping", values, Part::damping);
+  in.parameters("fidelity", values, Part::rung);
+  in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("discretisation", values, Part::contact);
+  in.parameters("discretisation", values, Part::time);
+  a.driver = take_design(in, "driver");
+  a.driven = take_design(in, "driven");
+  a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
+  a.contact = values.contact;
+  a.time = values.time;
+  a.damping = values.damping;
+  in.parameters("driver", values, Part::inertia);
+  a.driver_inertia = values.total_inertia;
+  in.parameters("driven", values, Part::inertia);
+  a.driven_inertia = values.total_inertia;
+  a.mean_stiffness = in.number("/parameters/damping/mean_stiffness");
+  a.driver_bearing_damper = in.number("/parameters/damping/driver_bearing_damper");
+  a.driven_bearing_damper = in.number("/parameters/damping/driven_bearing_damper");
+  a.torque = in.number("/parameters/operation/torque");
+  a.direction = in.word("/parameters/operation/direction");
+  a.mesh_frequency = in.vector("/mesh_frequency");
+  const Eigen::Index speeds = a.mesh_frequency.size();
+  a.transmission_error = in.matrix("/transmission_error", speeds);
+  const Eigen::Index samples = a.transmission_error.cols();
+  a.mesh_force = in.matrix("/mesh_force", speeds, samples);
+  a.pair = in.whole_vector("/pair");
+  const Eigen::Index pairs = a.pair.size();
+  const h5::Shape shape = in.file().shape("/tooth_load");
+  if (shape != h5::Shape{static_cast<std::size_t>(speeds), static_cast<std::size_t>(samples),
+                         static_cast<std::size_t>(pairs)}) {
+    in.file().refuse(
+        text("dataset /tooth_load has another shape than ", speeds, " x ", samples, " x ", pairs));
+  }
+  const auto load = in.file().doubles("/tooth_load");
+  for (Eigen::Index f = 0; f < speeds; ++f) {
+    a.tooth_load.push_back(Eigen::Map<const MatrixRM>(load.data() + f * samples * pairs, samples, pairs));
+  }
+  a.periods = in.whole_vector("/periods", speeds);
+  a.residual = in.vector("/residual", speeds);
+  a.period_multiple = in.whole_vector("/period_multiple", speeds);
+  a.energy_imbalance = in.vector("/energy_imbalance", speeds);
+  a.jump_frequency = in.vector("/jump_frequency");
+  a.jump_width = in.vector("/jump_width", a.jump_frequency.size());
+  return a;
+}
+
+void write(const std::string& path, const ResponseArtifact& a, const Provenance& provenance) {
+  const Eigen::Index speeds = a.mesh_frequency.size();
+  want_rows("dte_rms", a.dte_rms.size(), speeds);
+  want_rows("dte_mean", a.dte_mean.size(), speeds);
+  want_rows("dte_harmonic", a.dte_harmonic.rows(), speeds);
+  want_rows("tooth_load_max", a.tooth_load_max.size(), speeds);
+  want_rows("mesh_force_max", a.mesh_force_max.size(), speeds);
+  want_rows("separation_fraction", a.separation_fraction.size(), speeds);
+  want_rows("separations_per_period", a.separations_per_period.size(), speeds);
+  want_rows("period_multiple", a.period_multiple.size(), speeds);
+  want_rows("jump_width", a.jump_width.size(), a.jump_frequency.size());
+  ArtifactWriter out(path, "response", kResponseVersion,
+                     text("Response, sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
+  values.damping = a.damping;
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("fidelity", values, Part::rung);
+  out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("damping", values, Part::damping);
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/parameters/operation/direction", a.direction,
+          {"1", "direction of marching through the speeds", "", ""});
+  out.put("/parameters/fidelity/model", a.model,
+          {"1", "finite elements, or the name of a lumped model", "", ""});
+  out.put("/natural_frequency", a.natural_frequency,
+          {"Hz", "natural frequency estimated from the mean secant stiffness", "",
+           "sqrt(k (r1^2/I1 + r2^2/I2)) / 2 pi"});
+  out.put("/mesh_frequency", a.mesh_frequency, {"Hz", "mesh frequency, in order of marching", kSpeed, ""});
+  out.put("/dte_rms", a.dte_rms,
+          {"m", "RMS of the oscillating part of the dynamic transmission error", kSpeed, ""});
+  out.put("/dte_mean", a.dte_mean, {"m", "mean of the dynamic transmission error", kSpeed, ""});
+  out.put("/dte_harmonic", a.dte_harmonic,
+          {"m", "amplitude of the harmonics 1, 2, ... of the mesh frequency", "mesh_frequency harmonic", ""});
+  out.put("/tooth_load_max", a.tooth_load_max, {"N", "largest normal force of one tooth pair", kSpeed, ""});
+  out.put("/mesh_force_max", a.mesh_force_max,
+          {"N", "largest normal force of all pairs together", kSpeed, ""});
+  out.put("/separation_fraction", a.separation_fraction,
+          {"1", "share of the period without force", kSpeed, ""});
+  out.put("/separations_per_period", a.separations_per_period,
+          {"1", "losses of contact per mesh period", kSpeed, ""});
+  out.put("/jump_frequency", a.jump_frequency,
+          {"Hz", "middle of the interval in which the response jumps", "jump", ""});
+  out.put("/jump_width", a.jump_width,
+          {"Hz", "width of the interval in which the response jumps", "jump", ""});
+  out.put("/period_multiple", a.period_multiple,
+          {"1", "mesh periods after which the motion repeats", kSpeed, ""});
+  out.publish();
+}
+
+ResponseArtifact read_response(const std::string& path) {
+  const ArtifactReader in(path, "response", kResponseVersion);
+  ResponseArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("fidelity", values, Part::rung);
+  in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("damping", values, Part::damping);
+  a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
+  a.damping = values.damping;
+  a.torque = in.number("/parameters/operation/torque");
+  a.direction = in.word("/parameters/operation/direction");
+  a.model = in.word("/parameters/fidelity/model");
+  a.natural_frequency = in.number("/natural_frequency");
+  a.mesh_frequency = in.vector("/mesh_frequency");
+  const Eigen::Index speeds = a.mesh_frequency.size();
+  a.dte_rms = in.vector("/dte_rms", speeds);
+  a.dte_mean = in.vector("/dte_mean", speeds);
+  a.dte_harmonic = in.matrix("/dte_harmonic", speeds);
+  a.tooth_load_max = in.vector("/tooth_load_max", speeds);
+  a.mesh_force_max = in.vector("/mesh_force_max", speeds);
+  a.separation_fraction = in.vector("/separation_fraction", speeds);
+  a.separations_per_period = in.vector("/separations_per_period", speeds);
+  a.jump_frequency = in.vector("/jump_frequency");
+  a.jump_width = in.vector("/jump_width", a.jump_frequency.size());
+  a.period_multiple = in.whole_vector("/period_multiple", speeds);
+  return a;
+}
+
+}  // namespace whine

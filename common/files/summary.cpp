@@ -1,0 +1,146 @@
+#include "files/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "base/error.h"
+#include "files/schemas.h"
+
+namespace whine {
+namespace {
+
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+template <class... Parts>
+void add(Lines& lines, const std::string& name, const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(5);
+  (out << ... << parts);
+  lines.emplace_back(name, out.str());
+}
+
+std::string jumps(const Eigen::VectorXd& frequency, const Eigen::VectorXd& width) {
+  std::string out;
+  for (Eigen::Index j = 0; j < frequency.size(); ++j) {
+    out += text(j ? ", " : "", std::round(frequency[j]), " +- ", std::round(width[j] * 5) / 10, " Hz");
+  }
+  return out.empty() ? "none" : out;
+}
+
+std::string range_of(const Eigen::VectorXd& frequency) {
+  const Eigen::Index n = frequency.size();
+  return n == 0 ? "no speeds"
+                : text(n, " speeds, ", frequency[0], " to ", frequency[n - 1], " Hz mesh frequency");
+}
+
+std::string corner_rule(const GearMeshSpec& mesh) {
+  if (!mesh.corner.enabled) return "pairs on the line of action only";
+  if (std::isinf(mesh.corner.largest_angle)) return "tip edges touch wherever they reach";
+  return text("tip edges touch up to ", mesh.corner.largest_angle * 180 / std::numbers::pi,
+              " deg between the normals");
+}
+
+void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& body) {
+  add(lines, "gear", gear.teeth, " teeth, module ", gear.module * 1e3, " mm, face width ",
+      gear.face_width * 1e3, " mm, bore radius ", gear.bore_radius * 1e3, " mm");
+  add(lines, "elements", "order ", body.element_order, ", ", body.element_size * 1e3, " mm on the flank");
+}
+
+void show(Lines& lines, const MeshArtifact& a) {
+  show_gear(lines, a.design, a.discretisation);
+  add(lines, "sector", a.node_position.rows(), " nodes, ", a.element_node.rows(), " elements of ",
+      a.element_node.cols(), " nodes");
+  add(lines, "flank", a.flank_node.size(), " nodes on the driving flank");
+}
+
+void show(Lines& lines, const BodyArtifact& a) {
+  show_gear(lines, a.design, a.discretisation);
+  add(lines, "inertia of the body", a.inertia * 1e3, " g m2");
+  std::string modes;
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(a.eigenfrequency.size(), 8); ++i) {
+    modes += text(i ? ", " : "", std::round(a.eigenfrequency[i] / 10) / 100, " (", a.nodal_diameter[i], ")");
+  }
+  add(lines, "modes", a.eigenfrequency.size(), "; kHz (nodal diameters): ", modes,
+      a.eigenfrequency.size() > 8 ? ", ..." : "");
+  add(lines, "flank table", a.flank_position.size(), " points, tooth offsets 0 to ", a.offsets);
+  add(lines, "asymmetry", a.asymmetry, ", least eigenvalue ", a.least_eigenvalue * 1e9, " um/kN");
+}
+
+void show(Lines& lines, const StaticArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", centre distance ",
+      a.mesh.centre_distance * 1e3, " mm");
+  add(lines, "corner contact", corner_rule(a.mesh));
+  add(lines, "contact ratio", a.contact_ratio);
+  add(lines, "mean stiffness", a.mean_stiffness * 1e-6, " N/um (secant)");
+  if (a.transmission_error.size() > 0) {
+    const auto& te = a.transmission_error;
+    add(lines, "transmission error", te.mean() * 1e6, " um mean, ", (te.maxCoeff() - te.minCoeff()) * 1e6,
+        " um peak to peak");
+    add(lines, "largest tooth load", a.tooth_load.size() ? a.tooth_load.maxCoeff() * 1e-3 : 0.0, " kN");
+  }
+  add(lines, "certificate", a.mesh_phase.size(), " positions; least gap ", a.least_gap * 1e6,
+      " um, least force ", a.least_force, " N, torque residual ", a.torque_residual);
+  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " um");
+}
+
+void show(Lines& lines, const SweepArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.direction, ", ",
+      range_of(a.mesh_frequency));
+  add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
+      a.fidelity.integrator);
+  add(lines, "damping", "eta ", a.damping.rayleigh_stiffness * 1e6, " us, bearing ratio ",
+      a.damping.bearing_ratio);
+  add(lines, "corner contact", corner_rule(a.mesh));
+  if (a.mesh_frequency.size() > 0) {
+    Eigen::Index worst = 0;
+    const Eigen::VectorXd rms =
+        ((a.transmission_error.colwise() - a.transmission_error.rowwise().mean()).rowwise().squaredNorm() /
+         static_cast<double>(std::max<Eigen::Index>(a.transmission_error.cols(), 1)))
+            .cwiseSqrt();
+    const double peak = rms.maxCoeff(&worst);
+    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
+        ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
+  }
+  add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
+}
+
+void show(Lines& lines, const ResponseArtifact& a) {
+  add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
+  add(lines, "model", a.model);
+  if (a.mesh_frequency.size() > 0) {
+    Eigen::Index worst = 0;
+    const double peak = a.dte_rms.maxCoeff(&worst);
+    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "largest tooth load", a.tooth_load_max.maxCoeff() * 1e-3, " kN, all pairs ",
+        a.mesh_force_max.maxCoeff() * 1e-3, " kN");
+    add(lines, "contact lost", (a.separation_fraction.array() > 0).count(), " speeds, at most ",
+        a.separation_fraction.maxCoeff() * 100, " % of the period");
+  }
+  add(lines, "natural frequency", a.natural_frequency, " Hz (mean secant stiffness)");
+  add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> summary(const std::string& path, const std::string& schema) {
+  Lines lines;
+  if (schema == "whine/mesh") {
+    show(lines, read_mesh(path));
+  } else if (schema == "whine/body") {
+    show(lines, read_body(path));
+  } else if (schema == "whine/static") {
+    show(lines, read_static(path));
+  } else if (schema == "whine/sweep") {
+    show(lines, read_sweep(path));
+  } else if (schema == "whine/response") {
+    show(lines, read_response(path));
+  } else {
+    add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
+  }
+  return lines;
+}
+
+}  // namespace whine

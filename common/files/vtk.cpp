@@ -1,0 +1,149 @@
+#include "files/vtk.h"
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <numbers>
+
+#include "base/error.h"
+#include "files/publish.h"
+
+namespace whine {
+namespace {
+
+constexpr std::uint8_t kQuad = 9, kBiquadraticQuad = 28;  // VTK cell types
+
+}  // namespace
+
+VtkGrid whole_gear(const MeshArtifact& sector) {
+  const int teeth = sector.design.teeth;
+  const Eigen::Index nodes = sector.node_position.rows(), elements = sector.element_node.rows();
+  if (teeth < 1 || nodes == 0) fail(Failure::numerical, "a sector without nodes or teeth cannot be a gear");
+
+  // A node on the clockwise edge of copy j is its image on the counter-clockwise edge of copy j - 1.
+  std::vector<Eigen::Index> image(static_cast<std::size_t>(nodes), -1),
+      own(static_cast<std::size_t>(nodes), -1);
+  for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k) {
+    image.at(static_cast<std::size_t>(sector.side_node(k, 0))) = sector.side_node(k, 1);
+  }
+  Eigen::Index per_copy = 0;
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    if (image[static_cast<std::size_t>(i)] < 0) own[static_cast<std::size_t>(i)] = per_copy++;
+  }
+  const auto number = [&](int copy, Eigen::Index node) {
+    const Eigen::Index partner = image[static_cast<std::size_t>(node)];
+    if (partner >= 0) {
+      copy = (copy + teeth - 1) % teeth;
+      node = partner;
+    }
+    if (own[static_cast<std::size_t>(node)] < 0) {
+      fail(Failure::numerical, "sector node ", node, " lies on both edges of the sector");
+    }
+    return copy * per_copy + own[static_cast<std::size_t>(node)];
+  };
+  const auto turned = [&](int copy, Eigen::Index node) {
+    const double angle = 2.0 * std::numbers::pi * copy / teeth, c = std::cos(angle), s = std::sin(angle);
+    const double x = sector.node_position(node, 0), y = sector.node_position(node, 1);
+    return Eigen::Vector2d(c * x - s * y, s * x + c * y);
+  };
+  for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k) {
+    const Eigen::Vector2d low = turned(1, sector.side_node(k, 0)), high = turned(0, sector.side_node(k, 1));
+    if ((low - high).norm() > 1e-9 * high.norm()) {
+      fail(Failure::numerical, "the sector does not close: nodes ", sector.side_node(k, 0), " and ",
+           sector.side_node(k, 1), " are ", (low - high).norm(), " m apart after a turn of one tooth");
+    }
+  }
+
+  VtkGrid out;
+  out.point.resize(per_copy * teeth, 2);
+  out.cell.resize(elements * teeth, sector.element_node.cols());
+  Eigen::VectorXi region(elements * teeth), tooth(elements * teeth);
+  for (int copy = 0; copy < teeth; ++copy) {
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      if (own[static_cast<std::size_t>(i)] >= 0) out.point.row(number(copy, i)) = turned(copy, i).transpose();
+    }
+    for (Eigen::Index e = 0; e < elements; ++e) {
+      for (Eigen::Index k = 0; k < sector.element_node.cols(); ++k) {
+        out.cell(copy * elements + e, k) = static_cast<int>(number(copy, sector.element_node(e, k)));
+      }
+      region[copy * elements + e] = e < sector.element_region.size() ? sector.element_region[e] : 0;
+      tooth[copy * elements + e] = copy;
+    }
+  }
+  out.cell_numbers = {{"region", region}, {"tooth", tooth}};
+  return out;
+}
+
+void put_vtk(h5::Writer& file, const VtkGrid& grid) {
+  const std::string group = "/VTKHDF/";
+  const auto points = static_cast<std::size_t>(grid.point.rows());
+  const auto cells = static_cast<std::size_t>(grid.cell.rows());
+  const auto corners = static_cast<std::size_t>(grid.cell.cols());
+  if (corners != 4 && corners != 9) {
+    fail(Failure::numerical, "cells of ", corners, " nodes cannot be shown; 4 or 9 are known");
+  }
+  file.group("/VTKHDF");
+  file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+  file.ascii_attribute("/VTKHDF", "Type", "UnstructuredGrid");
+
+  const auto count = [&](const std::string& name, std::size_t value, const std::string& meaning) {
+    const auto number = static_cast<std::int64_t>(value);
+    file.put(group + name, &number, {1}, {"1", meaning, "partition", ""});
+  };
+  count("NumberOfPoints", points, "number of points");
+  count("NumberOfCells", cells, "number of cells");
+  count("NumberOfConnectivityIds", cells * corners, "length of Connectivity");
+
+  const auto in_space = [&](const MatrixRM& plane, auto zero) {
+    std::vector<decltype(zero)> out(points * 3, zero);
+    for (std::size_t i = 0; i < points; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        out[3 * i + k] =
+            static_cast<decltype(zero)>(plane(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+      }
+    }
+    return out;
+  };
+  file.put(group + "Points", in_space(grid.point, 0.0).data(), {points, 3},
+           {"m", "position of the points", "point xyz", ""});
+
+  std::vector<std::int64_t> connectivity, offsets;
+  for (Eigen::Index e = 0; e < grid.cell.rows(); ++e) {
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    for (Eigen::Index k = 0; k < grid.cell.cols(); ++k) {
+      const int node = grid.cell(e, k);
+      if (node < 0 || node >= grid.point.rows()) {
+        fail(Failure::numerical, "cell ", e, " names point ", node, " of ", points);
+      }
+      connectivity.push_back(node);
+    }
+  }
+  offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  const std::vector<std::uint8_t> types(cells, corners == 4 ? kQuad : kBiquadraticQuad);
+  file.put(group + "Connectivity", connectivity.data(), {connectivity.size()},
+           {"1", "points of each cell", "connectivity", ""});
+  file.put(group + "Offsets", offsets.data(), {offsets.size()},
+           {"1", "where each cell begins in Connectivity", "cell", ""});
+  file.put(group + "Types", types.data(), {types.size()}, {"1", "VTK cell type: 9 or 28", "cell", ""});
+
+  for (const auto& [name, values] : grid.vectors) {
+    if (values.rows() != grid.point.rows() || values.cols() != 2) {
+      fail(Failure::numerical, "point data '", name, "' is ", values.rows(), " x ", values.cols(),
+           ", expected ", points, " x 2");
+    }
+    file.put(group + "PointData/" + name, in_space(values, 0.0F).data(), {points, 3},
+             {"1", name + ", for looking: single precision", "point xyz", ""});
+  }
+  for (const auto& [name, values] : grid.cell_numbers) {
+    file.put(group + "CellData/" + name, values.data(), {cells}, {"1", name + " of the cell", "cell", ""});
+  }
+}
+
+void link_for_paraview(const std::string& path) {
+  const std::filesystem::path file(path);
+  if (file.extension() != ".h5") return;
+  std::filesystem::path link(file);
+  publish_link(link.replace_extension(".hdf").string(), file.filename().string());
+}
+
+}  // namespace whine
