@@ -1,0 +1,110 @@
+#include "gear/involute.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace whine {
+
+namespace {
+constexpr double kPi = std::numbers::pi;
+double involute_function(double angle) {
+  return std::tan(angle) - angle;
+}
+Vec2 polar(double r, double angle) {
+  return {r * std::cos(angle), r * std::sin(angle)};
+}
+}  // namespace
+
+ToothGeometry::ToothGeometry(const GearDesign& design) : design_(design) {
+  const double m = design.module, alpha = design.pressure_angle, z = design.teeth, x = design.profile_shift;
+  rp_ = 0.5 * m * z;
+  rb_ = rp_ * std::cos(alpha);
+  pb_ = 2 * kPi * rb_ / z;
+  ra_ = rp_ + m * (x + design.addendum);
+  rf_ = rp_ - m * (design.dedendum - x);
+  rack_radius_ = m * design.rack_tip_radius;
+
+  if (ra_ <= rb_)
+    fail(Failure::input, "tip radius ", ra_ * 1e3, " mm lies below the base radius ", rb_ * 1e3,
+         " mm: there is no involute; raise addendum or profile_shift");
+  const double thickness = m * (0.5 * kPi + 2 * x * std::tan(alpha)) - design.tooth_thinning;  // pitch circle
+  half_base_ = thickness / (2 * rp_) + involute_function(alpha);
+  xi_tip_ = roll_angle_at_radius(ra_);
+
+  // The rack tip is a circle; lateral distances from the middle of its tooth, depths from the rolling line.
+  tip_centre_depth_ = rp_ - rf_ - rack_radius_;
+  const double half_width =
+      0.25 * kPi * m + 0.5 * design.tooth_thinning - (tip_centre_depth_ + x * m) * std::tan(alpha);
+  tip_centre_side_ = half_width - rack_radius_ / std::cos(alpha);
+  if (tip_centre_side_ < 0)
+    fail(Failure::input, "rack_tip_radius ", design.rack_tip_radius, " modules does not fit the rack tooth (",
+         -tip_centre_side_ * 1e3, " mm too wide); lower rack_tip_radius or dedendum");
+
+  // The straight part of the rack ends at this depth; what it cuts there is the lowest involute point.
+  const double straight_depth = tip_centre_depth_ + rack_radius_ * std::sin(alpha);
+  const double form_curvature = rp_ * std::sin(alpha) - straight_depth / std::sin(alpha);
+  if (form_curvature <= 0)
+    fail(Failure::input, "the rack undercuts the flank: with teeth = ", design.teeth,
+         " and profile_shift = ", x, " it reaches ", -form_curvature * 1e3,
+         " mm beyond the base circle's tangent point; raise profile_shift or teeth, or lower dedendum");
+  xi_form_ = form_curvature / rb_;
+  if (xi_form_ >= xi_tip_)
+    fail(Failure::input, "no involute is left: the root ends at radius ",
+         rb_ * std::sqrt(1 + xi_form_ * xi_form_) * 1e3, " mm, the tip is at ", ra_ * 1e3, " mm");
+  if (thickness_at_radius(ra_) <= 0)
+    fail(Failure::input, "tip thickness is ", thickness_at_radius(ra_) * 1e3,
+         " mm, below zero: the flanks cross under the tip circle; lower addendum or profile_shift");
+  if (design.bore_radius >= rf_)
+    fail(Failure::input, "bore_radius_mm = ", design.bore_radius * 1e3, " is not below the root radius ",
+         rf_ * 1e3, " mm; lower it");
+
+  double length = 0;
+  constexpr int kPieces = 200;
+  const double end = 0.5 * kPi - alpha;
+  for (int i = 0; i < kPieces; ++i)
+    length += (trochoid(end * (i + 1) / kPieces) - trochoid(end * i / kPieces)).norm();
+  t_arc_ = length / (length + rf_ * tip_centre_side_ / rp_);
+}
+
+double ToothGeometry::roll_angle_at_radius(double r) const {
+  if (r < rb_)
+    fail(Failure::input, "radius ", r * 1e3, " mm lies below the base radius ", rb_ * 1e3,
+         " mm: no involute there");
+  return std::sqrt((r / rb_) * (r / rb_) - 1);
+}
+
+double ToothGeometry::thickness_at_radius(double r) const {
+  const double xi = roll_angle_at_radius(r);
+  return 2 * r * (half_base_ - (xi - std::atan(xi)));
+}
+
+Vec2 ToothGeometry::flank_point(double xi) const {
+  return polar(rb_ * std::sqrt(1 + xi * xi), 0.5 * kPi + half_base_ - (xi - std::atan(xi)));
+}
+
+Vec2 ToothGeometry::flank_normal(double xi) const {
+  // The normal is tangent to the base circle; the tangent point stands at polar angle 90 deg + half_base -
+  // xi.
+  const double angle = 0.5 * kPi + half_base_ - xi;
+  return {-std::sin(angle), std::cos(angle)};
+}
+
+Vec2 ToothGeometry::trochoid(double angle) const {
+  // The normal through the pitch point and the rack-tip centre meets the rack where it cuts.
+  const double pitch_point = tip_centre_side_ - tip_centre_depth_ * std::tan(angle);
+  const double lateral = tip_centre_side_ - pitch_point + rack_radius_ * std::sin(angle);
+  const double depth = tip_centre_depth_ + rack_radius_ * std::cos(angle);
+  const double from_space = pitch_point / rp_ + std::atan2(lateral, rp_ - depth);
+  return polar(std::hypot(rp_ - depth, lateral), 0.5 * kPi + kPi / design_.teeth - from_space);
+}
+
+Vec2 ToothGeometry::root_point(double t) const {
+  const double end = 0.5 * kPi - design_.pressure_angle;
+  if (t <= t_arc_) return trochoid(end * (1 - t / t_arc_));
+  const double from_space = tip_centre_side_ / rp_ * (1 - t) / (1 - t_arc_);
+  return polar(rf_, 0.5 * kPi + kPi / design_.teeth - from_space);
+}
+
+}  // namespace whine

@@ -1,0 +1,174 @@
+#include "gear/pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace whine {
+
+namespace {
+constexpr double kPi = std::numbers::pi;
+const char* const kGearName[2] = {"driver", "driven gear"};
+
+Vec2 rotated(const Vec2& v, double tilt) {  // components of v along tangent (cos, -sin) and normal (sin, cos)
+  return {v.x() * std::cos(tilt) - v.y() * std::sin(tilt), v.x() * std::sin(tilt) + v.y() * std::cos(tilt)};
+}
+
+// A flank in its own frame at roll angle `at`: x along the tangent to the tip, y along the outward normal,
+// origin at the point `at`. From T(d) + string: (r_b (cos d + xi sin d), r_b (sin d - xi cos d)) with d = xi
+// - at.
+Vec2 own_frame(double base_radius, double at, double roll) {
+  const double d = roll - at, half = std::sin(0.5 * d);
+  // cos d - 1 = -2 sin^2(d/2), and d - sin d from its series: plain differences would leave 1e-16 r_b in a
+  // gap.
+  const double d_minus_sin = std::abs(d) < 0.05
+                                 ? d * d * d / 6 * (1 - d * d / 20 * (1 - d * d / 42 * (1 - d * d / 72)))
+                                 : d - std::sin(d);
+  return base_radius * Vec2(roll * std::sin(d) - 2 * half * half, d_minus_sin - 2 * roll * half * half);
+}
+}  // namespace
+
+GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double centre_distance)
+    : gear_{ToothGeometry(driver), ToothGeometry(driven)}, centre_distance_(centre_distance) {
+  const auto& [a, b] = gear_;
+  const double rb1 = a.base_radius(), rb2 = b.base_radius();
+  if (std::abs(a.base_pitch() - b.base_pitch()) > 1e-9 * a.base_pitch())
+    fail(Failure::input, "base pitches differ: driver ", a.base_pitch() * 1e3, " mm, driven gear ",
+         b.base_pitch() * 1e3, " mm; give both gears the same module and pressure angle");
+  if (a.tip_radius() + b.tip_radius() <= centre_distance)
+    fail(Failure::input, "the gears do not reach each other: tip radii add up to ",
+         (a.tip_radius() + b.tip_radius()) * 1e3, " mm, centre_distance_mm is ", centre_distance * 1e3,
+         "; lower the centre distance");
+  const double cosine = (rb1 + rb2) / centre_distance;
+  if (cosine >= 1)
+    fail(Failure::input, "the gears jam: centre_distance_mm = ", centre_distance * 1e3,
+         " is not above the sum of the base radii ", (rb1 + rb2) * 1e3, " mm; raise the centre distance");
+  alpha_ = std::acos(cosine);
+
+  const double tangent = std::tan(alpha_);
+  path_end_ = rb1 * (a.tip_roll_angle() - tangent);
+  path_start_ = -rb2 * (b.tip_roll_angle() - tangent);
+
+  // Backlash on the working pitch circles, whose arcs and pitch share the ratio of the teeth.
+  const double rw1 = rb1 / cosine, rw2 = rb2 / cosine;
+  backlash_ =
+      cosine * (2 * kPi * rw1 / driver.teeth - a.thickness_at_radius(rw1) - b.thickness_at_radius(rw2));
+  if (backlash_ < -1e-6)
+    fail(Failure::input, "the gears jam: backlash on the line of action is ", backlash_ * 1e6,
+         " micrometres (limit -1); raise centre_distance_mm or tooth_thinning_mm, or lower profile_shift");
+  for (int g = 0; g < 2; ++g) {
+    const double clearance = centre_distance - gear_[g].tip_radius() - gear_[1 - g].root_radius();
+    if (clearance < 0)
+      fail(Failure::input, "the gears jam: the tip of the ", kGearName[g], " stands ", -clearance * 1e3,
+           " mm inside the root of the ", kGearName[1 - g],
+           "; lower its addendum or raise the other's dedendum");
+  }
+  if (contact_ratio() < 1)
+    fail(Failure::input, "the contact ratio is ", contact_ratio(),
+         ", below 1: teeth would leave before the next ones touch; raise addendum or lower "
+         "centre_distance_mm");
+  const double lowest[2] = {tangent + path_start_ / rb1, tangent - path_end_ / rb2};
+  for (int g = 0; g < 2; ++g)
+    if (lowest[g] < gear_[g].form_roll_angle())
+      fail(Failure::input, "the gears jam: the tip of the ", kGearName[1 - g], " reaches roll angle ",
+           lowest[g] * 180 / kPi, " deg of the ", kGearName[g], ", below its involute, which begins at ",
+           gear_[g].form_roll_angle() * 180 / kPi, " deg; lower the addendum or raise the dedendum");
+}
+
+double GearPair::relative_curvature_radius(double path) const {
+  const double rho1 = gear_[0].base_radius() * std::tan(alpha_) + path;
+  const double rho2 = gear_[1].base_radius() * std::tan(alpha_) - path;
+  return rho1 * rho2 / (rho1 + rho2);
+}
+
+Vec2 GearPair::flank_in_nominal_frame(int g, double nominal, double roll) const {
+  const Vec2 own = own_frame(gear_[g].base_radius(), nominal, roll);
+  return g == 0 ? own : Vec2(-own);  // the driven gear looks the other way
+}
+
+PairContact GearPair::contact(double phase) const {
+  PairContact c;
+  const double path = phase * base_pitch(), tangent = std::tan(alpha_);
+  const double rb[2] = {gear_[0].base_radius(), gear_[1].base_radius()};
+  c.nominal = {tangent + path / rb[0], tangent - path / rb[1]};
+  if (c.nominal[0] <= 0 || c.nominal[1] <= 0)
+    fail(Failure::numerical, "a contact ", path * 1e3,
+         " mm from the pitch point lies beyond the base circles");
+  c.roll = c.nominal;
+  c.lever = {rb[0], rb[1]};
+
+  const bool past_end = path > path_end_, before_start = path < path_start_;
+  if (past_end || before_start) {
+    c.corner = true;
+    c.tip_gear = past_end ? 0 : 1;
+    const int tip = c.tip_gear, flank = 1 - tip;
+    c.roll[tip] = gear_[tip].tip_roll_angle();
+    // Tip edge as the touched gear sees it: radial and string coordinates about its centre, its own frame.
+    const Vec2 edge = -own_frame(rb[tip], c.nominal[tip], c.roll[tip]);
+    const double radial = rb[flank] + edge.x(), along = rb[flank] * c.nominal[flank] + edge.y();
+    // The flank's normal through the edge is the tangent from it to the base circle: closed form, no
+    // iteration. With the touched gear's frame turned by d: t = string length from the base circle to the
+    // edge.
+    const double squared = (edge.x() + 2 * rb[flank]) * edge.x() + along * along;  // r^2 - r_b^2
+    if (squared <= 0) {
+      c.on_flank = false;
+      c.gap = std::numeric_limits<double>::infinity();
+      return c;
+    }
+    const double string = std::sqrt(squared);
+    // d = atan(t / r_b) - atan(along / radial), as one arctangent: the two are nearly equal.
+    const double d = std::atan2(string * radial - along * rb[flank], rb[flank] * radial + string * along);
+    c.roll[flank] = c.nominal[flank] + d;
+    c.gap = string - rb[flank] * c.roll[flank];
+    c.on_flank =
+        c.roll[flank] >= gear_[flank].form_roll_angle() && c.roll[flank] <= gear_[flank].tip_roll_angle();
+    c.tilt = d;  // the same sign for either gear: both look along their own outward normal
+    c.origin = flank_in_nominal_frame(flank, c.nominal[flank], c.roll[flank]);
+    c.normal_angle = std::abs((c.roll[tip] - c.nominal[tip]) - d);
+    // Lever arm of the tip gear: its centre stands at (-r_b, -r_b xi) of its own nominal frame.
+    const Vec2 arm = -edge + Vec2(rb[tip], rb[tip] * c.nominal[tip]);
+    c.lever[tip] = arm.x() * std::cos(d) - arm.y() * std::sin(d);
+  }
+
+  const auto tangential = [&](int g, double roll) {
+    return rotated(flank_in_nominal_frame(g, c.nominal[g], roll) - c.origin, c.tilt).x();
+  };
+  c.x_max = std::min(tangential(0, gear_[0].tip_roll_angle()), tangential(1, gear_[1].form_roll_angle()));
+  c.x_min = std::max(tangential(0, gear_[0].form_roll_angle()), tangential(1, gear_[1].tip_roll_angle()));
+  return c;
+}
+
+double GearPair::roll_at(int g, const PairContact& c, double x) const {
+  const double rb = gear_[g].base_radius(), sign = g == 0 ? 1 : -1;
+  double roll = c.roll[g] + sign * x / (rb * c.roll[g]);
+  for (int i = 0; i < 50; ++i) {
+    const double d = roll - c.nominal[g];
+    const Vec2 place = rotated(flank_in_nominal_frame(g, c.nominal[g], roll) - c.origin, c.tilt);
+    const Vec2 slope = sign * rb * roll * rotated(Vec2(std::cos(d), -std::sin(d)), c.tilt);
+    const double step = (x - place.x()) / slope.x();
+    roll += step;
+    if (std::abs(step) < 1e-15 * std::abs(roll)) return roll;
+  }
+  // Newton on a nearly straight curve ends in 3 steps; the last steps only dither within round-off.
+  const double miss = rotated(flank_in_nominal_frame(g, c.nominal[g], roll) - c.origin, c.tilt).x() - x;
+  if (std::abs(miss) > 1e-14)
+    fail(Failure::numerical, "no flank point at tangential distance ", x * 1e3, " mm (missed by ", miss,
+         " m)");
+  return roll;
+}
+
+FlankGap GearPair::gap_at(const PairContact& c, double x) const {
+  FlankGap result;
+  double height[2];
+  for (int g = 0; g < 2; ++g) {
+    result.roll[g] = roll_at(g, c, x);
+    height[g] = rotated(flank_in_nominal_frame(g, c.nominal[g], result.roll[g]) - c.origin, c.tilt).y();
+  }
+  result.gap = height[1] - height[0];
+  return result;
+}
+
+}  // namespace whine

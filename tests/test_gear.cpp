@@ -1,0 +1,199 @@
+// Tooth and pair geometry against closed forms: everything here is exact, tolerances are round-off.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "gear/pair.h"
+
+using namespace whine;
+
+namespace {
+constexpr double kDegree = std::numbers::pi / 180;
+
+GearDesign paper_gear() {
+  GearDesign d;
+  d.teeth = 50;
+  d.module = 3e-3;
+  d.pressure_angle = 20 * kDegree;
+  d.face_width = 25.4e-3;
+  d.bore_radius = 40e-3;
+  return d;
+}
+
+GearDesign fzg_c(int teeth, double shift, double tip_diameter) {
+  GearDesign d;
+  d.teeth = teeth;
+  d.module = 4.5e-3;
+  d.pressure_angle = 20 * kDegree;
+  d.profile_shift = shift;
+  d.addendum = (tip_diameter / 2 - 0.5 * d.module * teeth) / d.module - shift;
+  d.face_width = 14e-3;
+  d.bore_radius = 10e-3;
+  return d;
+}
+
+std::string refusal(const GearDesign& d) {
+  try {
+    ToothGeometry tooth(d);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::string refusal(const GearDesign& a, const GearDesign& b, double centre) {
+  try {
+    GearPair pair(a, b, centre);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+}  // namespace
+
+TEST_CASE("the paper's gear has base radius 70.4769 mm, base pitch 8.85639 mm, contact ratio 1.7547") {
+  const GearPair pair(paper_gear(), paper_gear(), 0.150);
+  CHECK(pair.gear(0).base_radius() == doctest::Approx(70.4769466e-3).epsilon(1e-9));
+  CHECK(pair.base_pitch() == doctest::Approx(8.8563943e-3).epsilon(1e-8));
+  CHECK(pair.contact_ratio() == doctest::Approx(1.7546733).epsilon(1e-7));
+  CHECK(pair.path_end() - pair.path_start() == doctest::Approx(15.5400785e-3).epsilon(1e-8));
+  CHECK(pair.gear(0).tip_roll_angle() / kDegree == doctest::Approx(27.17).epsilon(2e-4));
+  CHECK(std::abs(pair.backlash()) < 1e-15);
+}
+
+TEST_CASE("FZG type C: working pressure angle 22.439 deg and contact ratio 1.437 with profile shift") {
+  const GearPair pair(fzg_c(16, 0.1817, 82.46e-3), fzg_c(24, 0.1715, 118.36e-3), 91.5e-3);
+  CHECK(pair.working_pressure_angle() / kDegree == doctest::Approx(22.439).epsilon(2e-5));
+  CHECK(pair.contact_ratio() == doctest::Approx(1.437).epsilon(5e-4));
+  CHECK(std::abs(pair.backlash()) < 2e-6);  // the printed shifts have four digits: 4.5 mm * 1e-4 * sin 20
+}
+
+TEST_CASE("trochoid and involute meet, root arc and trochoid meet") {
+  for (const GearDesign& d : {paper_gear(), fzg_c(16, 0.1817, 82.46e-3)}) {
+    const ToothGeometry tooth(d);
+    CHECK((tooth.flank_point(tooth.form_roll_angle()) - tooth.root_point(0)).norm() < 1e-15);
+    const double arc = tooth.root_corner();
+    CHECK((tooth.root_point(arc) - tooth.root_point(arc + 1e-12)).norm() < 1e-13);
+    CHECK(tooth.root_point(1).norm() == doctest::Approx(tooth.root_radius()).epsilon(1e-14));
+    // Tangents agree where the trochoid meets the involute: the rack's straight flank is tangent to its
+    // rounding.
+    const Vec2 along = tooth.root_point(1e-7) - tooth.root_point(0);
+    CHECK(std::abs(along.normalized().dot(tooth.flank_normal(tooth.form_roll_angle()))) < 1e-5);
+  }
+}
+
+TEST_CASE("the flank normal is tangent to the base circle") {
+  const ToothGeometry tooth(paper_gear());
+  for (double xi = tooth.form_roll_angle(); xi < tooth.tip_roll_angle(); xi += 0.02) {
+    const Vec2 p = tooth.flank_point(xi), n = tooth.flank_normal(xi);
+    CHECK(p.x() * n.y() - p.y() * n.x() == doctest::Approx(tooth.base_radius()).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("unloaded conjugate flanks: gap below 1e-12 m along the path, curvature 1/R, no negative gap") {
+  for (const GearPair& pair :
+       {GearPair(paper_gear(), paper_gear(), 0.150),
+        GearPair(fzg_c(16, 0.1817, 82.46e-3), fzg_c(24, 0.1715, 118.36e-3), 91.5e-3)}) {
+    for (double path = pair.path_start(); path <= pair.path_end(); path += 0.02 * pair.base_pitch()) {
+      const PairContact c = pair.contact(path / pair.base_pitch());
+      REQUIRE_FALSE(c.corner);
+      CHECK(std::abs(pair.gap_at(c, 0).gap) < 1e-12);
+      for (double x : {-3e-4, -1e-4, 1e-4, 3e-4})
+        if (x > c.x_min && x < c.x_max) {
+          // The next term of the series, x^3 / 6 d(1/R)/dx, is 3 % of the gap at most here.
+          const double gap = pair.gap_at(c, x).gap;
+          CHECK(gap > 0);
+          CHECK(gap == doctest::Approx(0.5 * x * x / pair.relative_curvature_radius(path)).epsilon(0.03));
+        }
+      // The second derivative itself, by a central difference: the odd term drops out.
+      const double h = 8e-6;
+      if (h < c.x_max && -h > c.x_min) {
+        const double second = (pair.gap_at(c, h).gap + pair.gap_at(c, -h).gap) / (h * h);
+        CHECK(second == doctest::Approx(1 / pair.relative_curvature_radius(path)).epsilon(1e-4));
+      }
+    }
+  }
+}
+
+TEST_CASE("corner contact: gap grows from zero at the ends of the path, by two independent ways") {
+  const GearPair pair(paper_gear(), paper_gear(), 0.150);
+  double before = 0;
+  for (double extra = 0.002; extra < 0.15; extra += 0.01) {
+    const double phase = pair.path_end() / pair.base_pitch() + extra;
+    const PairContact exit = pair.contact(phase), entry = pair.contact(-phase);
+    REQUIRE(exit.corner);
+    CHECK(exit.tip_gear == 0);
+    CHECK(entry.tip_gear == 1);
+    CHECK(exit.gap > before);
+    before = exit.gap;
+    // Equal gears: entry and exit are mirror images.
+    CHECK(std::abs(exit.gap - entry.gap) < 1e-17 + 1e-12 * exit.gap);
+    CHECK(exit.lever[1] == pair.gear(1).base_radius());
+    CHECK(exit.lever[0] < pair.gear(0).base_radius());
+    CHECK(exit.lever[0] > 0.95 * pair.gear(0).base_radius());
+    CHECK(exit.lever[0] == doctest::Approx(entry.lever[1]).epsilon(1e-12));
+    // gap_at iterates on both involutes, contact() has a closed form.
+    CHECK(std::abs(pair.gap_at(exit, 0).gap - exit.gap) < 1e-15);
+    // The tip edge is the nearest point of its flank: nothing inward is closer.
+    CHECK(pair.gap_at(exit, -1e-4).gap > exit.gap);
+  }
+}
+
+TEST_CASE("corner gap equals the separation of points found by brute force") {
+  // Edge and touched flank placed in one plane through flank_point(), which knows nothing of contact().
+  const GearPair pair(paper_gear(), paper_gear(), 0.150);
+  const double phase = pair.path_end() / pair.base_pitch() + 0.08;
+  const double alpha = pair.working_pressure_angle(), path = phase * pair.base_pitch();
+  const auto place = [&](int g, double xi) {
+    const ToothGeometry& tooth = pair.gear(g);
+    const double rb = tooth.base_radius(), nominal = std::tan(alpha) + (g == 0 ? path : -path) / rb;
+    // Turn the flank so that the normal at the nominal roll angle lies along the line of action, at alpha to
+    // the perpendicular of the line of centres (+y); driver at the origin, driven gear at (0, a) turned by
+    // 180 deg.
+    const Vec2 n = tooth.flank_normal(nominal);
+    const double turn = (std::numbers::pi - alpha) - std::atan2(n.y(), n.x());
+    const Vec2 p = Eigen::Rotation2Dd(turn) * tooth.flank_point(xi);
+    return g == 0 ? p : Vec2(-p.x(), pair.centre_distance() - p.y());
+  };
+  const Vec2 edge = place(0, pair.gear(0).tip_roll_angle());
+  const auto distance = [&](double xi) { return (place(1, xi) - edge).norm(); };
+  double low = pair.gear(1).form_roll_angle(), high = pair.gear(1).tip_roll_angle();
+  for (int i = 0; i < 200; ++i) {  // the distance has one minimum on the flank
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+  }
+  CHECK(pair.contact(phase).gap == doctest::Approx(distance(0.5 * (low + high))).epsilon(1e-7));
+  CHECK(pair.contact(phase).roll[1] == doctest::Approx(0.5 * (low + high)).epsilon(1e-4));
+}
+
+TEST_CASE("gears that cannot exist are refused with the reason") {
+  GearDesign d = paper_gear();
+  d.teeth = 10;
+  d.bore_radius = 5e-3;
+  CHECK(refusal(d).find("undercut") != std::string::npos);
+  d = paper_gear();
+  d.addendum = 4;
+  CHECK(refusal(d).find("tip thickness") != std::string::npos);
+  d = paper_gear();
+  d.bore_radius = 72e-3;
+  CHECK(refusal(d).find("root radius") != std::string::npos);
+  d = paper_gear();
+  d.rack_tip_radius = 0.6;
+  CHECK(refusal(d).find("rack_tip_radius") != std::string::npos);
+  CHECK(refusal(paper_gear()).empty());
+}
+
+TEST_CASE("pairs that do not reach, jam or run with a contact ratio below 1 are refused with the reason") {
+  const GearDesign d = paper_gear();
+  CHECK(refusal(d, d, 0.160).find("do not reach") != std::string::npos);
+  CHECK(refusal(d, d, 0.1498).find("jam") != std::string::npos);
+  CHECK(refusal(d, d, 0.140).find("jam") != std::string::npos);
+  CHECK(refusal(d, d, 0.1535).find("contact ratio") != std::string::npos);
+  GearDesign other = d;
+  other.module = 2.9e-3;
+  CHECK(refusal(d, other, 0.150).find("base pitches differ") != std::string::npos);
+  CHECK(refusal(d, d, 0.150).empty());
+}
