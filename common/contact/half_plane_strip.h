@@ -1,0 +1,35 @@
+// Surface of an elastic half-plane under a strip of constant pressure: the line load's logarithm, averaged.
+#pragma once
+#include <cmath>
+
+#include "solid/half_plane.h"
+
+namespace whine {
+
+class HalfPlaneSurface {
+ public:
+  // face_width: m; forces are total forces over it.
+  HalfPlaneSurface(const Material& material, double face_width)
+      : moduli_(plane_strain_equivalent(material)), face_width_(face_width) {}
+
+  // m N-1: C = 2 (1 - nu^2) / (pi E b), the factor of ln(depth / |x|).
+  double coefficient() const {
+    const double nu = moduli_.poisson_ratio;
+    return 2 * (1 - nu * nu) / (std::acos(-1.0) * moduli_.youngs_modulus * face_width_);
+  }
+
+  // m N-1: inward displacement at distance x (m, any) from the middle of a strip |x| <= half_width (m) that
+  // carries a unit force, relative to `depth` (m) under a line load.
+  double strip(double x, double half_width, double depth) const {
+    // Mean of ln|t| over the strip from t ln|t| - t; the rest is the line load's constant.
+    const auto primitive = [](double t) { return t == 0 ? 0.0 : t * std::log(std::abs(t)) - t; };
+    const double mean_log = (primitive(x + half_width) - primitive(x - half_width)) / (2 * half_width);
+    return flat_surface_displacement(1.0, moduli_, face_width_, depth) - coefficient() * mean_log;
+  }
+
+ private:
+  PlaneModuli moduli_;
+  double face_width_;
+};
+
+}  // namespace whine

@@ -1,0 +1,54 @@
+// Contact of one tooth pair cut into strips: exact gaps of the two flanks, and the half-plane's part of the
+// compliance.
+//
+// The window of strips moves with the nominal contact point and ends at a tip edge when it reaches one; off
+// the line of action it begins at the edge. Its number of strips never changes, so nothing jumps while the
+// gears roll. All that is smooth in the window (body compliance, modes, lag) is carried by a few nodes and
+// interpolated to the strips; the same weights collect strip forces on the nodes.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+#include "contact/half_plane_strip.h"
+#include "gear/pair.h"
+
+namespace whine {
+
+// How far contact is looked for.
+struct ContactRange {
+  double half_window = 0;  // m along the flank, either side of the nominal contact point
+  int strips = 0;          // in a window
+  double corner_gap = 0;   // m: tip edges with a larger gap than this are left out
+};
+
+struct PairStrips {
+  int pair = 0;  // number of the pair: 0 reference, +1 preceding, -1 following
+  PairContact contact;
+  double width = 0;                                // m, of a strip
+  bool low_is_edge = false, high_is_edge = false;  // the window ends at a tip edge, where force may stand
+  Eigen::VectorXd gap;                             // (strip) m, unloaded
+  Eigen::MatrixXd interpolation;                   // (strip, node) 1
+  std::array<Eigen::VectorXd, 2> node_roll;        // (node) rad, on driver and driven gear
+
+  int size() const { return static_cast<int>(gap.size()); }
+};
+
+inline constexpr int kWindowNodes = 6;
+
+// pair: number of the pair; contact: its kinematics at this phase.
+PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact,
+                       const ContactRange& range);
+
+// (strip, strip) m N-1: both half-planes' surface displacement relative to `depth` at the strips' middles for
+// a unit force spread over one strip.
+Eigen::MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface& driver,
+                                      const HalfPlaneSurface& driven, double depth);
+
+// Number of strips and half window for a force per pair (N): `across` strips over the Hertz contact width at
+// `mean_force`, a window for `largest_force`. The relative curvature is the pitch point's, the largest on the
+// path.
+ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver,
+                           const HalfPlaneSurface& driven, int across, double mean_force,
+                           double largest_force, double corner_gap);
+
+}  // namespace whine
