@@ -1,0 +1,105 @@
+// Two elastic gears in mesh at given positions: strips, gaps and compliance, ready for statics and dynamics.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "contact/complementarity.h"
+#include "contact/half_plane_strip.h"
+#include "contact/strips.h"
+#include "files/schemas.h"
+#include "gear/pair.h"
+#include "solid/flank_table.h"
+
+namespace whine {
+
+// A gear's solid as contact sees it.
+class ElasticGear {
+ public:
+  explicit ElasticGear(const BodyArtifact& body);
+  const BodyArtifact& body() const { return body_; }
+  const HalfPlaneSurface& half_plane() const { return half_plane_; }
+  const FlankTable& table() const { return table_; }
+  int table_size() const { return table_.size(); }
+  // (flank, flank) m N-1: inward displacement read on tooth `offset` counter-clockwise of the loaded one,
+  // less the half-plane relative to `depth` (m) on the loaded tooth itself. Zero beyond the stored offsets.
+  Eigen::MatrixXd compliance(int offset, double depth) const;
+  // The same less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual
+  // flexibility.
+  Eigen::MatrixXd residual(int offset, double depth, const std::vector<int>& kept) const;
+  // (flank) kg^-1/2: outward normal displacement of mode `column` on the tooth `tooth` places
+  // counter-clockwise.
+  Eigen::VectorXd mode_on_tooth(int column, int tooth) const;
+  // The other component of a doublet; the column itself if the mode is single.
+  int partner(int column) const;
+  double tooth_angle(int column) const;  // rad: 2 pi n / teeth, the turn of a doublet per tooth
+
+ private:
+  BodyArtifact body_;
+  HalfPlaneSurface half_plane_;
+  FlankTable table_;
+};
+
+// Gear 0 is the driver.
+struct GearMeshModel {
+  GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh);
+  GearPair kinematics;
+  std::array<ElasticGear, 2> gear;
+  CornerRule corner;
+
+  // Tooth of gear g that works in pair `pair`: pairs count in the sense of motion, teeth counter-clockwise.
+  static int tooth(int g, int pair) { return g == 0 ? pair : -pair; }
+};
+
+// All that contact needs at one phase; strips and nodes of all pairs in one row, pair after pair.
+struct MeshPosition {
+  double phase = 0;
+  std::vector<PairStrips> pairs;
+  std::vector<int> first_strip;                  // (pair + 1)
+  Eigen::VectorXd gap;                           // (strip) m
+  std::array<Eigen::VectorXd, 2> strip_lever;    // (strip) m
+  std::array<Eigen::VectorXd, 2> node_lever;     // (node) m
+  std::array<Eigen::MatrixXd, 2> table_weights;  // (node, flank) 1: the S of load and reading
+  double next_corner_gap =
+      std::numeric_limits<double>::infinity();  // m, least gap of a tip edge left out as too far
+  double lost_corner_gap =
+      std::numeric_limits<double>::infinity();  // m, least gap of one that has no flank to touch
+
+  int strips() const { return static_cast<int>(gap.size()); }
+  int nodes() const { return static_cast<int>(pairs.size()) * kWindowNodes; }
+  Eigen::VectorXd to_strips(const Eigen::Ref<const Eigen::VectorXd>& at_nodes) const;
+  Eigen::VectorXd to_nodes(const Eigen::Ref<const Eigen::VectorXd>& on_strips) const;
+  // Adds L C L^T to a (strip, strip), C (node, node).
+  void add_to_strips(const Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& a) const;
+  // (pair) N: sum of the strips' forces.
+  Eigen::VectorXd pair_loads(const Eigen::Ref<const Eigen::VectorXd>& p) const;
+  // True if force stands on a window's end that is no tip edge: the window is too narrow.
+  bool reaches_window_end(const Eigen::Ref<const Eigen::VectorXd>& p) const;
+};
+
+MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range);
+
+// (strip, strip) m N-1: half-planes of both gears, block diagonal.
+Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& position, double depth);
+
+// (node, node) m N-1: tables[offset + max] (flank, flank) of gear g between all nodes.
+Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
+                                const std::vector<Eigen::MatrixXd>& tables);
+
+// Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
+// approach . p = load (Eq. 18-20).
+struct Equilibrium {
+  double x = 0;          // m if approach is 1: the rigid freedom
+  double stiffness = 0;  // d load / d x at this position, contact changes included
+  Eigen::VectorXd p;     // (strip) N
+  Certificate certificate;
+  double residual = 0;  // |approach . p - load| / load
+};
+
+// load > 0. Newton on a monotone, piecewise linear function between brackets; throws Error(numerical) with
+// the residual if the load is not met to 1e-12.
+Equilibrium equilibrium(const Eigen::MatrixXd& a, const Eigen::VectorXd& gap, const Eigen::VectorXd& approach,
+                        double load, double start, ActiveSet& active, ComplementaritySolver& solver);
+
+}  // namespace whine

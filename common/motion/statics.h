@@ -1,0 +1,14 @@
+// Static equilibrium over a mesh period: transmission error, stiffness and tooth loads (Eq. 7, 13-20).
+#pragma once
+#include "files/schemas.h"
+#include "motion/rolling_mesh.h"
+
+namespace whine {
+
+// The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticArtifact but the
+// harmonics. Throws Error(input) for a torque that is not positive, Error(numerical) where no equilibrium
+// within the flanks exists or a tip edge would leave the other's involute.
+StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
+                                   const StaticSlice& slice, double torque);
+
+}  // namespace whine

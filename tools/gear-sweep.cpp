@@ -1,0 +1,80 @@
+// gear-sweep: the dynamic response of the pair at a series of speeds, each started from the state of the one
+// before.
+//
+// Reads   params (slice of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears,
+// static.h5 of the
+//         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the
+//         dampers)
+// Writes  sweep.h5    transmission error and tooth loads over the last mesh period of every speed, jumps
+// Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at
+// every step. Example: gear-sweep --params out/parker2000/params/sweep.toml --driver
+// out/parker2000/pinion/body.h5
+//            --driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5
+//            --reference-static out/parker2000/T100/static.h5 --direction up --output
+//            out/parker2000/T150/up/sweep.h5
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/tool.h"
+#include "files/provenance.h"
+#include "files/scene.h"
+#include "files/schemas.h"
+#include "motion/sweep.h"
+
+namespace {
+
+void body(int argc, char** argv) {
+  CLI::App app{"Speed sweep of the dynamic response, with contact solved at every step", "gear-sweep"};
+  std::string params, driver, driven, statics, reference, direction, output;
+  app.add_option("--params", params, "slice of the scene: out/<scene>/params/sweep.toml")->required();
+  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
+  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
+  app.add_option("--static", statics, "static.h5 of the torque to run")->required();
+  app.add_option("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
+      ->required();
+  app.add_option("--direction", direction, "up or down")->required()->check(CLI::IsMember({"up", "down"}));
+  app.add_option("--output", output, "sweep.h5 to write")->required();
+  whine::parse(app, argc, argv);
+
+  const whine::SweepSlice slice = whine::read_sweep_slice(params);
+  for (const std::string& file : {statics, reference}) {
+    whine::require_made_from(file, "driver", driver);
+    whine::require_made_from(file, "driven", driven);
+  }
+  const whine::StaticArtifact at_reference = whine::read_static(reference);
+  if (at_reference.torque != slice.reference_torque)
+    whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
+                " N m, but the scene's first torque, which sets the bearing dampers, is ",
+                slice.reference_torque, " N m; give the static.h5 of that torque");
+
+  std::optional<whine::Progress> progress;
+  const whine::SweepArtifact result = whine::sweep(
+      whine::read_body(driver), whine::read_body(driven), whine::read_static(statics),
+      at_reference.mean_stiffness, slice, direction, [&](long done, long total, const std::string& note) {
+        if (!progress) progress.emplace("gear-sweep " + direction, total);
+        progress->update(done, note);
+      });
+  progress.reset();
+
+  whine::Provenance provenance;
+  provenance.tool = whine::program_name(argv[0]);
+  provenance.command = whine::command_line(argc, argv);
+  provenance.inputs = {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
+                       "reference_static=" + reference};
+  whine::write(output, result, provenance);
+  std::string jumps;
+  for (double f : result.jump_frequency) jumps += whine::text(jumps.empty() ? ", jumps at " : ", ", f, " Hz");
+  std::cerr << whine::text("gear-sweep: ", result.torque, " N m ", direction, ", ",
+                           result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods",
+                           jumps.empty() ? ", no jump" : jumps, " -> ", output)
+            << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
