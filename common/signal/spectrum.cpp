@@ -1,0 +1,95 @@
+#include "signal/spectrum.h"
+
+#include <fftw3.h>
+
+#include <cmath>
+#include <memory>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+// Real-to-complex transform of fixed length. FFTW_ESTIMATE: the other planners choose the algorithm by
+// timing, and two runs would then differ in the last digits.
+class RealTransform {
+ public:
+  explicit RealTransform(int n) : n_(n), in_(fftw_alloc_real(n)), out_(fftw_alloc_complex(n / 2 + 1)) {
+    if (in_ && out_) plan_.reset(fftw_plan_dft_r2c_1d(n, in_.get(), out_.get(), FFTW_ESTIMATE));
+    if (!plan_) fail(Failure::numerical, "FFTW made no plan for ", n, " samples: out of memory?");
+  }
+  double* input() { return in_.get(); }
+  void execute() { fftw_execute(plan_.get()); }
+  double magnitude(int bin) const { return std::hypot(out_.get()[bin][0], out_.get()[bin][1]); }
+
+ private:
+  struct Free {
+    void operator()(void* p) const { fftw_free(p); }
+  };
+  struct Destroy {
+    void operator()(fftw_plan p) const { fftw_destroy_plan(p); }
+  };
+  int n_;
+  std::unique_ptr<double, Free> in_;
+  std::unique_ptr<fftw_complex, Free> out_;
+  std::unique_ptr<std::remove_pointer_t<fftw_plan>, Destroy> plan_;
+};
+
+void require_finite(const Eigen::Ref<const Eigen::VectorXd>& x, const char* what) {
+  for (Eigen::Index j = 0; j < x.size(); ++j)
+    if (!std::isfinite(x[j]))
+      fail(Failure::input, what, ": sample ", j, " is ", x[j], ", not a finite number");
+}
+
+}  // namespace
+
+Harmonics harmonics(const Eigen::Ref<const Eigen::VectorXd>& samples, int count, int periods) {
+  const int n = static_cast<int>(samples.size());
+  if (n < 2) fail(Failure::input, "harmonics: ", n, " samples; a period needs 2 at least");
+  if (periods < 1) fail(Failure::input, "harmonics: ", periods, " periods in the record; 1 is the least");
+  if (count < 0) fail(Failure::input, "harmonics: ", count, " harmonics wanted; 0 is the least");
+  if (count > resolved_harmonics(n, count, periods))
+    fail(Failure::input, "harmonics: harmonic ", count, " of ", periods, " period(s) needs more than ",
+         2L * count * periods, " samples, the record has ", n);
+  require_finite(samples, "harmonics");
+
+  Harmonics result;
+  result.mean = samples.mean();
+  const Eigen::VectorXd oscillating = samples.array() - result.mean;
+  result.rms = std::sqrt(oscillating.squaredNorm() / n);
+  result.amplitude.resize(count);
+  if (count == 0) return result;
+  // The mean is taken off first: otherwise its round-off would sit in every bin.
+  RealTransform transform(n);
+  Eigen::Map<Eigen::VectorXd>(transform.input(), n) = oscillating;
+  transform.execute();
+  for (int k = 1; k <= count; ++k) result.amplitude[k - 1] = 2.0 * transform.magnitude(k * periods) / n;
+  return result;
+}
+
+int resolved_harmonics(Eigen::Index samples, int wanted, int periods) {
+  // Strictly below the Nyquist bin: there amplitude and phase cannot be told apart.
+  const Eigen::Index limit = samples < 1 || periods < 1 ? 0 : (samples - 1) / 2 / periods;
+  return static_cast<int>(std::min<Eigen::Index>(wanted, limit));
+}
+
+Separations separations(const Eigen::Ref<const Eigen::VectorXd>& force) {
+  const Eigen::Index n = force.size();
+  if (n < 1) fail(Failure::input, "separations: no force samples");
+  require_finite(force, "separations");
+  if (force.minCoeff() < 0)
+    fail(Failure::input, "separations: a contact force of ", force.minCoeff(),
+         " N; teeth do not pull, 0 is the least");
+  Eigen::Index apart = 0, begins = 0;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (force[j] > 0) continue;
+    ++apart;
+    if (force[(j + n - 1) % n] > 0) ++begins;  // counts an interval that wraps round the end once
+  }
+  Separations result;
+  result.fraction = static_cast<double>(apart) / static_cast<double>(n);
+  result.intervals = apart == n ? 1 : static_cast<int>(begins);
+  return result;
+}
+
+}  // namespace whine

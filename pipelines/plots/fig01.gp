@@ -1,0 +1,61 @@
+# Figure 1: the finite element mesh of the pair (a) and of the teeth in mesh (b); lengths in mm, equal axes.
+# Variables from gear-plot: tsv, title, note1.., pitch_y, half_window, driver_tip, driven_tip, centre_distance.
+set datafile separator tab
+set datafile commentschars "#"
+
+driver_line = "#1f4e9c"
+driven_line = "#b3401a"
+driver_fill = "#e9f0fa"
+driven_fill = "#fbeee6"
+
+set multiplot title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}\n{/*0.68 " . note3 . "}" offset 0, -0.2
+set border 15 lw 1.2
+set tics out nomirror
+unset key
+set size ratio -1
+
+# (a) whole gears: fill, bore, elements
+edge = 6.0
+tip = driver_tip > driven_tip ? driver_tip : driven_tip
+set lmargin at screen 0.10
+set rmargin at screen 0.40
+set bmargin at screen 0.175
+set tmargin at screen 0.805
+set xlabel "x (mm)"
+set label 3 "{/:Bold (a)} both gears" at graph 0.5, graph 1.0 center offset 0, 0.7
+set ylabel "y (mm)"
+set xrange [-tip - edge : tip + edge]
+set yrange [-driver_tip - edge : centre_distance + driven_tip + edge]
+set xtics 50
+set ytics 50
+set label 1 "driver" at 0, 0 center tc rgb driver_line font ",16"
+set label 2 "driven" at 0, centre_distance center tc rgb driven_line font ",16"
+set object 1 rectangle center 0, pitch_y size 2 * half_window, 2 * half_window front fs empty border lc rgb "black" lw 1.5
+plot tsv index "[driver outline]" using 1:2 with filledcurves closed fc rgb driver_fill notitle, \
+  tsv index "[driven outline]" using 1:2 with filledcurves closed fc rgb driven_fill notitle, \
+  tsv index "[driver bore]" using 1:2 with filledcurves closed fc rgb "white" notitle, \
+  tsv index "[driven bore]" using 1:2 with filledcurves closed fc rgb "white" notitle, \
+  tsv index "[driver gear]" using 1:2 with lines lt 1 lw 0.25 lc rgb driver_line notitle, \
+  tsv index "[driven gear]" using 1:2 with lines lt 1 lw 0.25 lc rgb driven_line notitle
+
+# (b) close-up about the pitch point
+unset label 1
+unset label 2
+unset object 1
+set key at screen 0.72, screen 0.012 center bottom vertical maxrows 2 Left reverse samplen 2.5 spacing 1.1
+set lmargin at screen 0.48
+set rmargin at screen 0.96
+set label 3 "{/:Bold (b)} teeth in mesh" at graph 0.5, graph 1.0 center offset 0, 0.7
+set xrange [-half_window : half_window]
+set yrange [pitch_y - half_window : pitch_y + half_window]
+set xtics 5
+set ytics 5
+plot tsv index "[driver outline]" using 1:2 with filledcurves closed fc rgb driver_fill notitle, \
+  tsv index "[driven outline]" using 1:2 with filledcurves closed fc rgb driven_fill notitle, \
+  tsv index "[driver teeth]" using 1:2 with lines lt 1 lw 0.7 lc rgb driver_line notitle, \
+  tsv index "[driven teeth]" using 1:2 with lines lt 1 lw 0.7 lc rgb driven_line notitle, \
+  tsv index "[driver outline]" using 1:2 with lines lt 1 lw 2 lc rgb driver_line title "driver", \
+  tsv index "[driven outline]" using 1:2 with lines lt 1 lw 2 lc rgb driven_line title "driven", \
+  tsv index "[path of contact]" using 1:2 with lines lt 1 lw 2.2 dt (14, 8) lc rgb "black" title "path of contact", \
+  tsv index "[pitch point]" using 1:2 with points pt 7 ps 1.1 lc rgb "black" title "pitch point"
+unset multiplot

@@ -1,0 +1,48 @@
+# Figure 13: mesh stiffness over a mesh period (a) and its harmonics (b), one curve per torque, and the rectangular wave.
+# Variables from gear-plot: tsv, title, note1, note2, curves, labels, rectangle_label.
+set datafile separator tab
+set datafile commentschars "#"
+
+array colour[6] = ["#1f4e9c", "#c8201e", "#1a7f37", "#8a4fbf", "#b06a00", "#444444"]
+array mark[6] = [1, 6, 4, 2, 8, 12]   # + o square x triangle diamond
+set for [i = 1:6] linetype i lc rgb colour[i] lw 2.6 pt mark[i] ps 2.0
+set linetype 1 dt (3, 3)
+set linetype 2 dt (10, 5)
+set linetype 3 dt solid
+
+set multiplot layout 1, 2 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
+  margins screen 0.085, 0.985, 0.245, 0.83 spacing screen 0.1
+set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
+set border 3 lw 1.6
+set tics out nomirror
+set key Left reverse vertical maxrows 2 samplen 2.5 spacing 1.2 font ",14" center bottom
+
+set key at screen 0.285, screen 0.012
+set xlabel "Mesh phase (mesh periods, 0: pitch point)\n{/:Bold (a)}"
+set ylabel "Mesh stiffness (10^6 N/m)"
+set xrange [0:1]
+set offsets graph 0, graph 0, graph 0.04, graph 0.04
+set mxtics 2
+plot tsv index "[rectangular wave]" using 1:2 with lines lt 1 dt solid lw 3 lc rgb "black" title rectangle_label, \
+  for [i = 1:curves] tsv index "[mesh_stiffness]" using 1:i + 1 with lines lt i title word(labels, i)
+
+# stems side by side, so that none hides another
+shift(i) = 0.14 * (i - 0.5 * curves)
+set key at screen 0.785, screen 0.012
+set xlabel "Harmonic of the mesh frequency\n{/:Bold (b)}"
+set ylabel "Amplitude (10^6 N/m)"
+set offsets 0, 0, 0, 0
+set xrange [0.4:10.6]
+set yrange [0:*]
+set xtics 1
+set mxtics 1
+set grid noxtics
+plot tsv index "[rectangular wave harmonics]" using ($1 + shift(0)):2 with impulses lt 1 dt solid lw 1.6 lc rgb "black" \
+    notitle, \
+  for [i = 1:curves] tsv index "[mesh_stiffness harmonics]" using ($1 + shift(i)):i + 1 \
+    with impulses lt 1 dt solid lw 1.6 lc rgb colour[i] notitle, \
+  tsv index "[rectangular wave harmonics]" using ($1 + shift(0)):2 with points pt 3 ps 2 lw 2.2 lc rgb "black" \
+    title rectangle_label, \
+  for [i = 1:curves] tsv index "[mesh_stiffness harmonics]" using ($1 + shift(i)):i + 1 \
+    with points lt i dt solid lw 2.2 title word(labels, i)
+unset multiplot

@@ -1,0 +1,233 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "signal/response.h"
+#include "signal/spectrum.h"
+
+using namespace whine;
+
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// Samples of f over `periods` periods of length 1, end point left out.
+template <class F>
+Eigen::VectorXd sampled(int n, double periods, F f) {
+  Eigen::VectorXd x(n);
+  for (int j = 0; j < n; ++j) x[j] = f(periods * j / n);
+  return x;
+}
+
+// A signal with harmonics 0..12 of known amplitude and phase; micrometres, as a transmission error.
+double known_amplitude(int k) {
+  return 1e-6 / (k * std::sqrt(k));
+}
+double known_signal(double t) {
+  double x = 4e-6;
+  for (int k = 1; k <= 12; ++k) x += known_amplitude(k) * std::cos(kTwoPi * k * t + 0.7 * k * k);
+  return x;
+}
+
+Failure failure_of(const auto& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    return e.kind();
+  }
+  return static_cast<Failure>(0);
+}
+
+SweepArtifact small_sweep() {
+  SweepArtifact s;
+  s.driver.teeth = s.driven.teeth = 50;
+  s.driver.module = s.driven.module = 3e-3;
+  s.driver.pressure_angle = s.driven.pressure_angle = 20.0 * std::numbers::pi / 180.0;
+  s.driver_inertia = s.driven_inertia = 0.0148;
+  s.mean_stiffness = 462.1e6;
+  s.torque = 150;
+  s.direction = "down";
+  const int n = 64;
+  s.mesh_frequency = Eigen::Vector2d(2000, 1900);
+  s.transmission_error.resize(2, n);
+  s.mesh_force.resize(2, n);
+  s.period_multiple = Eigen::Vector2i(1, 2);
+  s.pair = Eigen::Vector2i(-1, 0);
+  for (int j = 0; j < n; ++j) {
+    s.transmission_error(0, j) = 5e-6 + 2e-6 * std::cos(kTwoPi * j / n) + 1e-6 * std::sin(kTwoPi * 3 * j / n);
+    // Period 2: a subharmonic of 3e-6 beside 4e-6 at the mesh frequency.
+    s.transmission_error(1, j) = 3e-6 * std::cos(kTwoPi * j / n) + 4e-6 * std::cos(kTwoPi * 2 * j / n);
+    s.mesh_force(0, j) = 2000 + j;
+    s.mesh_force(1, j) = j < 8 || j >= 60 ? 0.0 : 3000.0;
+  }
+  for (int f = 0; f < 2; ++f) {
+    MatrixRM load(n, 2);
+    load.col(0) = 0.25 * s.mesh_force.row(f).transpose();
+    load.col(1) = 0.75 * s.mesh_force.row(f).transpose();
+    s.tooth_load.push_back(load);
+  }
+  s.jump_frequency = Eigen::VectorXd::Constant(1, 1950.0);
+  s.jump_width = Eigen::VectorXd::Constant(1, 1.25);
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("harmonics: known mean and amplitudes come back to 1e-14 of the largest, at odd and even lengths") {
+  for (int n : {64, 101, 128}) {
+    CAPTURE(n);
+    const Harmonics h = harmonics(sampled(n, 1, known_signal), 12);
+    // Round-off of the samples themselves is 4e-6 * 2.2e-16 each; 1e-14 of the mean leaves ten of those.
+    CHECK(std::abs(h.mean - 4e-6) < 1e-14 * 4e-6);
+    for (int k = 1; k <= 12; ++k) CHECK(std::abs(h.amplitude[k - 1] - known_amplitude(k)) < 1e-14 * 4e-6);
+  }
+}
+
+TEST_CASE("harmonics: Parseval, the RMS of the samples is that of all amplitudes") {
+  const Harmonics h = harmonics(sampled(64, 1, known_signal), 31);
+  CHECK(h.rms == doctest::Approx(std::sqrt(0.5 * h.amplitude.squaredNorm())).epsilon(1e-14));
+  double exact = 0;
+  for (int k = 1; k <= 12; ++k) exact += 0.5 * known_amplitude(k) * known_amplitude(k);
+  CHECK(h.rms == doctest::Approx(std::sqrt(exact)).epsilon(1e-13));
+}
+
+TEST_CASE("harmonics: where the period starts changes nothing") {
+  const Harmonics a = harmonics(sampled(128, 1, known_signal), 10);
+  const Harmonics b = harmonics(sampled(128, 1, [](double t) { return known_signal(t + 0.3141); }), 10);
+  CHECK((a.amplitude - b.amplitude).cwiseAbs().maxCoeff() < 1e-13 * 4e-6);
+  CHECK(b.rms == doctest::Approx(a.rms).epsilon(1e-13));
+  CHECK(b.mean == doctest::Approx(a.mean).epsilon(1e-14));
+}
+
+TEST_CASE("harmonics: several periods give the harmonics of one; a subharmonic counts in the RMS only") {
+  const Harmonics one = harmonics(sampled(96, 1, known_signal), 10);
+  const Harmonics three = harmonics(sampled(288, 3, known_signal), 10, 3);
+  CHECK((one.amplitude - three.amplitude).cwiseAbs().maxCoeff() < 1e-13 * 4e-6);
+  CHECK(three.rms == doctest::Approx(one.rms).epsilon(1e-13));
+
+  const auto sub = [](double t) { return 3.0 * std::cos(0.5 * kTwoPi * t) + 4.0 * std::cos(kTwoPi * t); };
+  const Harmonics two = harmonics(sampled(128, 2, sub), 5, 2);
+  CHECK(two.amplitude[0] == doctest::Approx(4.0).epsilon(1e-14));
+  CHECK(two.amplitude.tail(4).maxCoeff() < 1e-14);
+  CHECK(two.rms == doctest::Approx(std::sqrt(12.5)).epsilon(1e-14));
+}
+
+TEST_CASE("harmonics: a constant has no oscillation at all") {
+  const Harmonics h = harmonics(Eigen::VectorXd::Constant(17, 3.0), 5);
+  CHECK(h.mean == 3.0);
+  CHECK(h.rms == 0.0);
+  CHECK(h.amplitude.maxCoeff() == 0.0);
+}
+
+TEST_CASE("harmonics: a record of n + 1/4 periods is wrong by the known amounts, a whole number is not") {
+  // Mean square of sin(2 pi t + phase) over n + 1/4 periods: 1/2 + sin(2 phase) / (4 pi (n + 1/4)). Worst at
+  // a phase of -45 degrees, where the record's mean happens to vanish. Tolerance: half a unit of the last
+  // digit quoted.
+  const struct {
+    int n;
+    double error, tolerance;
+  } known[] = {{1, 0.066, 5e-4}, {5, 0.015, 5e-4}, {20, 0.0039, 5e-5}, {100, 0.00079, 5e-6}};
+  for (const auto& [n, error, tolerance] : known) {
+    CAPTURE(n);
+    const int samples = 400 * n + 100;
+    const auto sine = [](double t) { return std::sin(kTwoPi * (t - 0.125)); };
+    CHECK(harmonics(sampled(samples, n, sine), 1, n).rms == doctest::Approx(std::sqrt(0.5)).epsilon(1e-13));
+    const double rms = harmonics(sampled(samples, n + 0.25, sine), 0).rms;
+    CHECK(std::abs(1.0 - rms / std::sqrt(0.5) - error) < tolerance);
+  }
+  // Half a bin off: the line keeps 2/pi of its amplitude (0.6366), here for 20.5 periods at bin 20; the other
+  // line's leakage is 1/41 of it.
+  const Harmonics half = harmonics(sampled(8192, 20.5, [](double t) { return std::cos(kTwoPi * t); }), 1, 20);
+  CHECK(half.amplitude[0] == doctest::Approx(2.0 / std::numbers::pi).epsilon(1.5 / 41));
+}
+
+TEST_CASE("harmonics: records that cannot be answered are refused") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(failure_of([] { harmonics(Eigen::VectorXd(), 1); }) == Failure::input);
+  CHECK(failure_of([] { harmonics(Eigen::VectorXd::Ones(1), 0); }) == Failure::input);
+  CHECK(failure_of([] { harmonics(Eigen::VectorXd::Ones(20), 10); }) == Failure::input);  // Nyquist
+  CHECK(failure_of([] { harmonics(Eigen::VectorXd::Ones(64), 10, 4); }) == Failure::input);
+  CHECK(failure_of([] { harmonics(Eigen::VectorXd::Ones(64), 1, 0); }) == Failure::input);
+  CHECK(failure_of([] { harmonics(Eigen::VectorXd::Ones(64), -1); }) == Failure::input);
+  CHECK(failure_of([nan] { harmonics(Eigen::Vector4d(1, 2, nan, 3), 1); }) == Failure::input);
+  CHECK_NOTHROW(harmonics(Eigen::VectorXd::Ones(21), 10));
+  CHECK(resolved_harmonics(20, 10) == 9);
+  CHECK(resolved_harmonics(21, 10) == 10);
+  CHECK(resolved_harmonics(128, 10, 8) == 7);
+}
+
+TEST_CASE("separations: intervals are counted on the cyclic period, one that wraps round the end once") {
+  using V = Eigen::VectorXd;
+  const auto of = [](std::initializer_list<double> f) {
+    return separations(Eigen::Map<const V>(f.begin(), static_cast<Eigen::Index>(f.size())));
+  };
+  CHECK(of({1, 2, 3}).intervals == 0);
+  CHECK(of({1, 2, 3}).fraction == 0.0);
+  CHECK(of({1, 0, 0, 3, 0, 2}).intervals == 2);
+  CHECK(of({1, 0, 0, 3, 0, 2}).fraction == 0.5);
+  CHECK(of({0, 0, 5, 5, 0}).intervals == 1);  // wraps
+  CHECK(of({0, 5, 0, 5, 0}).intervals == 2);  // one wraps, one does not
+  CHECK(of({0, 0, 0}).intervals == 1);        // never in contact
+  CHECK(of({0, 0, 0}).fraction == 1.0);
+  CHECK(failure_of([&] { of({}); }) == Failure::input);
+  CHECK(failure_of([&] { of({1, -1e-9, 2}); }) == Failure::input);
+}
+
+TEST_CASE("response: mean, RMS, harmonics, loads and separations of a sweep made by hand") {
+  const ResponseArtifact r = response(small_sweep());
+  CHECK(r.torque == 150);
+  CHECK(r.direction == "down");
+  CHECK(r.model == "finite elements");
+  CHECK(r.mesh_frequency == Eigen::VectorXd(Eigen::Vector2d(2000, 1900)));
+  // 1e-13: round-off of 64 samples
+  CHECK(r.dte_mean[0] == doctest::Approx(5e-6).epsilon(1e-13));
+  CHECK(r.dte_rms[0] == doctest::Approx(std::sqrt(2.5) * 1e-6).epsilon(1e-13));
+  CHECK(r.dte_rms[1] == doctest::Approx(std::sqrt(12.5) * 1e-6).epsilon(1e-13));
+  CHECK(std::abs(r.dte_mean[1]) < 1e-19);
+  REQUIRE(r.dte_harmonic.cols() == 10);
+  CHECK(r.dte_harmonic(0, 0) == doctest::Approx(2e-6).epsilon(1e-13));
+  CHECK(r.dte_harmonic(0, 2) == doctest::Approx(1e-6).epsilon(1e-13));
+  CHECK(r.dte_harmonic(1, 0) ==
+        doctest::Approx(4e-6).epsilon(1e-13));  // of the mesh frequency, not of its half
+  CHECK(r.dte_harmonic(0, 1) < 1e-19);
+  CHECK(r.mesh_force_max[0] == 2063);
+  CHECK(r.tooth_load_max[0] == 0.75 * 2063);
+  CHECK(r.separation_fraction[0] == 0.0);
+  CHECK(r.separation_fraction[1] == 12.0 / 64);
+  CHECK(r.separations_per_period[1] == 0.5);  // one in two mesh periods
+  CHECK(r.jump_frequency[0] == 1950);
+  CHECK(r.jump_width[0] == 1.25);
+  // m = I / (2 r^2) for equal gears
+  const double rb = 0.075 * std::cos(20.0 * std::numbers::pi / 180.0), m = 0.0148 / (2 * rb * rb);
+  CHECK(r.natural_frequency == doctest::Approx(std::sqrt(462.1e6 / m) / kTwoPi).epsilon(1e-14));
+}
+
+TEST_CASE("response: fewer harmonics where many periods share the samples, refused where none is left") {
+  SweepArtifact s = small_sweep();
+  s.period_multiple[1] = 8;
+  CHECK(response(s).dte_harmonic.cols() == 3);  // 64 samples over 8 periods: below bin 32
+  s.period_multiple[1] = 40;
+  CHECK(failure_of([&] { response(s); }) == Failure::input);
+}
+
+TEST_CASE("response: sweeps whose arrays disagree or hold impossible values are refused") {
+  const auto refused = [](auto change) {
+    SweepArtifact s = small_sweep();
+    change(s);
+    return failure_of([&] { response(s); }) == Failure::input;
+  };
+  CHECK(refused([](SweepArtifact& s) { s.mesh_frequency.resize(0); }));
+  CHECK(refused([](SweepArtifact& s) { s.mesh_force.conservativeResize(1, 64); }));
+  CHECK(refused([](SweepArtifact& s) { s.mesh_force.conservativeResize(2, 63); }));
+  CHECK(refused([](SweepArtifact& s) { s.tooth_load.pop_back(); }));
+  CHECK(refused([](SweepArtifact& s) { s.tooth_load[0](3, 1) = std::numeric_limits<double>::infinity(); }));
+  CHECK(refused([](SweepArtifact& s) { s.period_multiple[0] = 0; }));
+  CHECK(refused([](SweepArtifact& s) { s.mesh_force(0, 5) = -1; }));
+  CHECK(refused(
+      [](SweepArtifact& s) { s.transmission_error(1, 5) = std::numeric_limits<double>::quiet_NaN(); }));
+  CHECK(refused([](SweepArtifact& s) { s.jump_width.resize(0); }));
+  CHECK(refused([](SweepArtifact& s) { s.driven_inertia = 0; }));
+}

@@ -1,0 +1,47 @@
+// gear-spectra: what a speed sweep says, as numbers of a frequency response.
+//
+// Reads   sweep.h5     transmission error and tooth loads over the last mesh period(s) of each speed
+// Writes  response.h5  per speed: mean and RMS of the oscillating DTE, harmonics of the mesh frequency,
+// largest loads,
+//                      separations; the sweep's jumps
+// Equations: x = r1 theta1 + r2 theta2; mean = <x>, rms^2 = <(x - mean)^2>, amplitude_k = 2 |<x exp(-2 pi i k
+// f t)>|
+//            over a whole number of periods.
+// Example: gear-spectra --input out/parker2000/T150/up/sweep.h5 --output out/parker2000/T150/up/response.h5
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "base/tool.h"
+#include "files/schemas.h"
+#include "signal/response.h"
+
+namespace {
+
+void body(int argc, char** argv) {
+  CLI::App app{"Mean, RMS, harmonics, loads and separations of a speed sweep", "gear-spectra"};
+  std::string input, output;
+  app.add_option("--input", input, "sweep.h5")->required();
+  app.add_option("--output", output, "response.h5 to write")->required();
+  whine::parse(app, argc, argv);
+
+  const whine::SweepArtifact sweep = whine::read_sweep(input);
+  const whine::ResponseArtifact result = whine::response(sweep);
+  whine::Provenance provenance;
+  provenance.tool = whine::program_name(argv[0]);
+  provenance.command = whine::command_line(argc, argv);
+  provenance.inputs = {"sweep=" + input};
+  whine::write(output, result, provenance);
+
+  Eigen::Index peak = 0;
+  const double rms = result.dte_rms.maxCoeff(&peak);
+  std::fprintf(stderr,
+               "gear-spectra: %g N m %s, %td speeds, largest RMS %.3f µm at %.0f Hz, %td jumps -> %s\n",
+               result.torque, result.direction.c_str(), result.mesh_frequency.size(), rms * 1e6,
+               result.mesh_frequency[peak], result.jump_frequency.size(), output.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
