@@ -246,9 +246,11 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
   out.put("/mean_stiffness", a.mean_stiffness,
           {"N m-1", "mean of the secant stiffness over a mesh period", "", ""});
   out.put("/certificate/least_gap", a.least_gap,
-          {"m", "least gap of a strip without force, over all positions", "", "d >= 0 (Eq. 13)"});
+          {"m", "least gap of a strip without force, over all positions", "",
+           "d >= 0 where p = 0 (with Eq. 18, 20)"});
   out.put("/certificate/least_force", a.least_force,
-          {"N", "least force of a strip in contact, over all positions", "", "p >= 0 (Eq. 13)"});
+          {"N", "least force of a strip in contact, over all positions", "",
+           "p >= 0 where d = 0 (with Eq. 18, 20)"});
   out.put("/certificate/torque_residual", a.torque_residual,
           {"1", "largest relative residual of the torque, over all positions", "", "|sum a p - T| / T"});
   // Left out where back flanks are ignored: the margin is then infinite.

@@ -18,9 +18,10 @@ using MatrixRMi = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 
 // Where an artifact comes from; filled by the tool, completed by the writer.
 struct Provenance {
-  std::string tool;                 // program name
-  std::string command;              // as typed, paths relative to the working folder
-  std::vector<std::string> inputs;  // "role=path"; each is hashed (SHA-256 of the file) and its history copied
+  std::string tool;     // program name
+  std::string command;  // as typed, paths relative to the working folder
+  // "role=path"; each is hashed (SHA-256 of the file) and its history copied
+  std::vector<std::string> inputs;
 };
 
 // mesh.h5: one tooth sector; the tooth points along +y, sector edges at angle 90 deg -/+ 180 deg/teeth.
@@ -28,39 +29,41 @@ struct Provenance {
 struct MeshArtifact {
   GearDesign design;
   BodyDiscretisation discretisation;
-  MatrixRM node_position;        // (node, 2) m
-  MatrixRMi element_node;        // (element, 4 or 9): corners counter-clockwise, mid-sides, centre
+  MatrixRM node_position;          // (node, 2) m
+  MatrixRMi element_node;          // (element, 4 or 9): corners counter-clockwise, mid-sides, centre
   Eigen::VectorXi element_region;  // (element): 0 rim, 1 tooth (where the half-plane field is subtracted)
-  Eigen::VectorXi bore_node;     // nodes on the rigid hub
-  MatrixRMi side_node;           // (pair, 2): node on the clockwise edge (angle 90 deg - 180/teeth), its image on the
-                                 // counter-clockwise edge
-  Eigen::VectorXi flank_node;    // nodes of the driving flank, root to tip
+  Eigen::VectorXi bore_node;       // nodes on the rigid hub
+  MatrixRMi side_node;  // (pair, 2): node on the clockwise edge (angle 90 deg - 180/teeth), its image on the
+                        // counter-clockwise edge
+  Eigen::VectorXi flank_node;        // nodes of the driving flank, root to tip
   Eigen::VectorXd flank_roll_angle;  // rad, of flank_node
 };
 
 // body.h5: all that the contact of a rolling gear needs of its solid. Per real mode (doublets: two columns,
-// cosine then sine: on tooth j, counted counter-clockwise, the shape is Re and Im of exp(i n 2 pi j / teeth) phi).
+// cosine then sine: on tooth j, counted counter-clockwise, the shape is Re and Im of exp(i n 2 pi j / teeth)
+// phi).
 struct BodyArtifact {
   GearDesign design;
   Material material;
   BodyDiscretisation discretisation;
-  double inertia = 0;                   // kg m2 of the meshed body about its axis (hub ring included)
-  Eigen::VectorXd eigenfrequency;       // (mode) Hz, hub fixed
-  Eigen::VectorXi nodal_diameter;       // (mode)
-  Eigen::VectorXi component;            // (mode) 0: cosine or single, 1: sine
-  Eigen::VectorXd inertia_coupling;     // (mode) kg^1/2 m: gamma = phi^T M_fr, not zero for zero diameters only
-  Eigen::VectorXd flank_position;       // (flank) rad: roll angle of the table points, ascending
-  MatrixRM flank_mode;                  // (flank, mode) kg^-1/2: outward normal displacement, M-normal modes, tooth 0
-  int offsets = 0;                      // tables hold tooth offsets 0 .. offsets
-  std::vector<MatrixRM> compliance;     // [offset] (flank, flank) m N-1: inward normal displacement of tooth
-                                        // `offset` (counter-clockwise of the loaded one) per unit total normal force
-                                        // on tooth 0; offset 0: less the half-plane relative to reference_depth
-  double reference_depth = 0;           // m
-  double asymmetry = 0;                 // relative, before symmetrisation
-  double least_eigenvalue = 0;          // m N-1 of the compliance of all offsets less the stored modes
+  double inertia = 0;                // kg m2 of the meshed body about its axis (hub ring included)
+  Eigen::VectorXd eigenfrequency;    // (mode) Hz, hub fixed
+  Eigen::VectorXi nodal_diameter;    // (mode)
+  Eigen::VectorXi component;         // (mode) 0: cosine or single, 1: sine
+  Eigen::VectorXd inertia_coupling;  // (mode) kg^1/2 m: gamma = phi^T M_fr, not zero for zero diameters only
+  Eigen::VectorXd flank_position;    // (flank) rad: roll angle of the table points, ascending
+  MatrixRM flank_mode;  // (flank, mode) kg^-1/2: outward normal displacement, M-normal modes, tooth 0
+  int offsets = 0;      // tables hold tooth offsets 0 .. offsets
+  std::vector<MatrixRM>
+      compliance;               // [offset] (flank, flank) m N-1: inward normal displacement of tooth
+                                // `offset` (counter-clockwise of the loaded one) per unit total normal force
+                                // on tooth 0; offset 0: less the half-plane relative to reference_depth
+  double reference_depth = 0;   // m
+  double asymmetry = 0;         // relative, before symmetrisation
+  double least_eigenvalue = 0;  // m N-1 of the compliance of all offsets less the stored modes
   // for looking: the whole gear with mode shapes and the displacement under a unit force at mid flank
-  MatrixRM vtk_point;                   // (point, 2) m
-  MatrixRMi vtk_cell;                   // (cell, 4 or 9), node order as element_node
+  MatrixRM vtk_point;                                            // (point, 2) m
+  MatrixRMi vtk_cell;                                            // (cell, 4 or 9), node order as element_node
   std::vector<std::pair<std::string, MatrixRM>> vtk_point_data;  // name, (point, 2)
 };
 
@@ -70,21 +73,21 @@ struct StaticArtifact {
   GearMeshSpec mesh;
   Fidelity fidelity;
   ContactDiscretisation contact;
-  double torque = 0;                   // N m on the driver
+  double torque = 0;  // N m on the driver
   double contact_ratio = 0;
-  Eigen::VectorXd mesh_phase;          // (phase) 1
-  Eigen::VectorXd transmission_error;  // (phase) m
+  Eigen::VectorXd mesh_phase;                           // (phase) 1
+  Eigen::VectorXd transmission_error;                   // (phase) m
   Eigen::VectorXd stiffness_secant, stiffness_tangent;  // (phase) N m-1
-  Eigen::VectorXi pair;                // (pair)
-  MatrixRM tooth_load;                 // (phase, pair) N
-  Eigen::VectorXd transmission_error_harmonic;  // (harmonic 0..) m: mean, then amplitudes
-  Eigen::VectorXd stiffness_harmonic;           // (harmonic 0..) N m-1, of the secant stiffness
-  double mean_stiffness = 0;           // N m-1: mean over the period of the secant stiffness
+  Eigen::VectorXi pair;                                 // (pair)
+  MatrixRM tooth_load;                                  // (phase, pair) N
+  Eigen::VectorXd transmission_error_harmonic;          // (harmonic 0..) m: mean, then amplitudes
+  Eigen::VectorXd stiffness_harmonic;                   // (harmonic 0..) N m-1, of the secant stiffness
+  double mean_stiffness = 0;                            // N m-1: mean over the period of the secant stiffness
   // certificate: worst over all positions
-  double least_gap = 0;                // m, of strips without force
-  double least_force = 0;              // N, of strips with force
-  double torque_residual = 0;          // relative, |sum a p - T| / T
-  double backlash_margin = 0;          // m left on the line of action; infinite backlash is not stored (see flag)
+  double least_gap = 0;        // m, of strips without force
+  double least_force = 0;      // N, of strips with force
+  double torque_residual = 0;  // relative, |sum a p - T| / T
+  double backlash_margin = 0;  // m left on the line of action; infinite backlash is not stored (see flag)
 };
 
 // sweep.h5: rows in order of marching
@@ -95,40 +98,41 @@ struct SweepArtifact {
   ContactDiscretisation contact;
   TimeDiscretisation time;
   Damping damping;
-  double torque = 0;                   // N m on the driver
-  double driver_inertia = 0, driven_inertia = 0;  // kg m2
-  double mean_stiffness = 0;           // N m-1 that sets the bearing dampers
+  double torque = 0;                                            // N m on the driver
+  double driver_inertia = 0, driven_inertia = 0;                // kg m2
+  double mean_stiffness = 0;                                    // N m-1 that sets the bearing dampers
   double driver_bearing_damper = 0, driven_bearing_damper = 0;  // N m s
-  std::string direction;               // "up" or "down"
-  Eigen::VectorXd mesh_frequency;      // (speed) Hz
-  MatrixRM transmission_error;         // (speed, sample) m; the last mesh period, or the last period_multiple periods
-  MatrixRM mesh_force;                 // (speed, sample) N
-  Eigen::VectorXi pair;                // (pair)
-  std::vector<MatrixRM> tooth_load;    // [speed] (sample, pair) N
-  Eigen::VectorXi periods;             // (speed) mesh periods run
-  Eigen::VectorXd residual;            // (speed) relative change of the state over a period at the end
-  Eigen::VectorXi period_multiple;     // (speed) 1 unless subharmonic
-  Eigen::VectorXd energy_imbalance;    // (speed) relative to the input energy of the stored periods
+  std::string direction;                                        // "up" or "down"
+  Eigen::VectorXd mesh_frequency;                               // (speed) Hz
+  MatrixRM
+      transmission_error;  // (speed, sample) m; the last mesh period, or the last period_multiple periods
+  MatrixRM mesh_force;     // (speed, sample) N
+  Eigen::VectorXi pair;    // (pair)
+  std::vector<MatrixRM> tooth_load;  // [speed] (sample, pair) N
+  Eigen::VectorXi periods;           // (speed) mesh periods run
+  Eigen::VectorXd residual;          // (speed) relative change of the state over a period at the end
+  Eigen::VectorXi period_multiple;   // (speed) 1 unless subharmonic
+  Eigen::VectorXd energy_imbalance;  // (speed) relative to the input energy of the stored periods
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
 };
 
 // response.h5: what a sweep says, per speed
 struct ResponseArtifact {
   double torque = 0;
-  std::string direction, model;        // model: "finite elements" or a lumped model's name
-  Eigen::VectorXd mesh_frequency;      // (speed) Hz
-  Eigen::VectorXd dte_rms, dte_mean;   // (speed) m
-  MatrixRM dte_harmonic;               // (speed, harmonic 1..) m, amplitude
+  std::string direction, model;                    // model: "finite elements" or a lumped model's name
+  Eigen::VectorXd mesh_frequency;                  // (speed) Hz
+  Eigen::VectorXd dte_rms, dte_mean;               // (speed) m
+  MatrixRM dte_harmonic;                           // (speed, harmonic 1..) m, amplitude
   Eigen::VectorXd tooth_load_max, mesh_force_max;  // (speed) N
-  Eigen::VectorXd separation_fraction;    // (speed) share of the period without force
-  Eigen::VectorXd separations_per_period; // (speed) 1
-  Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
-  Eigen::VectorXi period_multiple;     // (speed) 1
+  Eigen::VectorXd separation_fraction;             // (speed) share of the period without force
+  Eigen::VectorXd separations_per_period;          // (speed) 1
+  Eigen::VectorXd jump_frequency, jump_width;      // (jump) Hz
+  Eigen::VectorXi period_multiple;                 // (speed) 1
   // what the sweep was computed with, so that a figure needs no other file
   GearMeshSpec mesh;
   Fidelity fidelity;
   Damping damping;
-  double natural_frequency = 0;        // Hz: sqrt(mean stiffness (r1^2/I1 + r2^2/I2)) / 2 pi, the secant estimate
+  double natural_frequency = 0;  // Hz: sqrt(mean stiffness (r1^2/I1 + r2^2/I2)) / 2 pi, the secant estimate
 };
 
 void write(const std::string& path, const MeshArtifact&, const Provenance&);

@@ -1,0 +1,186 @@
+# The programs from outside: a coarse scene through the whole chain, bad input, broken artifacts, kills and full disks.
+#
+# Every refusal has to be one line on standard error, the status of base/error.h, and no change to what was there.
+set -uo pipefail
+B=${B:-build}
+bin=$PWD/$B/bin
+scene_of_paper=$PWD/data/scenes/parker2000.toml
+plots=$PWD/pipelines/plots
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+ok() { echo "ok: $1"; }
+wrong() { echo "FAILED: $1: $2"; }
+contents() { find . -type f ! -name said ! -name 'scene*.toml' -print0 | sort -z | xargs -0 sha256sum; }
+
+# refused <claim> <status> <extended pattern in the message> <command...>
+refused() {
+  local claim=$1 status=$2 pattern=$3 before found
+  shift 3
+  before=$(contents)
+  timeout 60 "$@" > /dev/null 2> said
+  found=$?
+  if [ "$found" != "$status" ]; then wrong "$claim" "status $found instead of $status: $(head -n 1 said)"
+  elif [ "$(wc -l < said)" != 1 ]; then wrong "$claim" "$(wc -l < said) lines instead of one: $(head -n 2 said | tr '\n' '|')"
+  elif ! grep -q -E "^$(basename "$1"): error: .*($pattern)" said; then wrong "$claim" "no '$pattern' in: $(cat said)"
+  elif [ "$(contents)" != "$before" ]; then wrong "$claim" "files have changed"
+  else ok "$claim"; fi
+}
+
+# --- a coarse scene through the chain
+coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^torque_Nm = .*/torque_Nm = [100]/
+  s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2000, to = 2100, step = 50 }/'
+sed "$coarse" "$scene_of_paper" > scene.toml
+stage_scene=("$bin/gear-scene" --scene scene.toml --output scene.mk --out out)
+stage_mesh=("$bin/gear-mesh" --params out/scene/pinion/body.toml --output out/scene/pinion/mesh.h5)
+stage_reduce=("$bin/gear-reduce" --params out/scene/pinion/body.toml --mesh out/scene/pinion/mesh.h5 --output out/scene/pinion/body.h5)
+pair=(--driver out/scene/pinion/body.h5 --driven out/scene/wheel/body.h5)
+static() { echo "$bin/gear-static --params out/$1/params/static.toml ${pair[*]} --torque $2 --output out/$1/T$2/static.h5"; }
+sweep() { echo "$bin/gear-sweep --params out/$1/params/sweep.toml ${pair[*]} --static out/scene/T100/static.h5 \
+  --reference-static out/scene/T100/static.h5 --direction $2 --output out/$1/T100/$2/sweep.h5"; }
+stage_spectra=("$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output out/scene/T100/up/response.h5)
+stage_plot=("$bin/gear-plot" fig12 --plots "$plots" --output fig12 out/scene/T100/static.h5)
+chain() {
+  "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
+    $(static scene 100) && $(sweep scene up) && $(sweep scene down) && "${stage_spectra[@]}" && "${stage_plot[@]}"
+}
+if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
+  wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
+  exit 1
+fi
+rm -f log
+first=$(contents); rm -rf out fig12.*
+chain > /dev/null 2>&1
+if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
+  wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
+if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
+  wrong "no artifact holds a path of the machine" "$found"; fi
+for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/up/sweep.h5 out/scene/T100/up/response.h5; do
+  if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
+    wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
+  if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
+  bare=$(h5ls -rv $artifact 2> /dev/null | awk '
+    /^\// { if (dataset != "" && units + long_name < 2) print dataset
+      dataset = $2 == "Dataset" && $1 !~ /^\/(provenance|VTKHDF)/ ? $1 : ""; units = long_name = 0; seen += dataset != "" }
+    /Attribute: units/ { units = 1 }
+    /Attribute: long_name/ { long_name = 1 }
+    END { if (!seen) print "no datasets" }' | tr '\n' ' ')
+  if [ -z "$bare" ]; then ok "every dataset of ${artifact##*/} has units and a long name"; else wrong "every dataset of ${artifact##*/} has units and a long name" "$bare"; fi
+done
+
+# --- the command line
+declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
+  [gear-static]="$(static scene 100)" [gear-sweep]="$(sweep scene up)" [gear-spectra]="${stage_spectra[*]}"
+  [gear-plot]="${stage_plot[*]}" [gear-inspect]="gear-inspect out/scene/T100/static.h5")
+for program in "$bin"/gear-*; do
+  name=$(basename "$program")
+  "$program" --help > said 2>&1 && grep -q -- --help said && ok "$name --help" || wrong "$name --help" "$(head -n 1 said)"
+  "$program" --version > said 2>&1 && grep -q '[0-9]\.[0-9]' said && ok "$name --version" || wrong "$name --version" "$(head -n 1 said)"
+  refused "$name refuses an unknown option" 2 'no-such-option' ${whole[$name]/#gear-/$bin/gear-} --no-such-option
+done
+refused "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
+refused "a torque that is no number" 2 'torque' $(static scene ten)
+refused "a torque that is not finite" 3 'torque' $(static scene nan)
+refused "a torque below zero" 3 'torque' $(static scene -5)
+
+# --- scenes: <claim> | <pattern in the message> | <sed script>
+while IFS='|' read -r claim pattern script; do
+  [ -n "$claim" ] || continue
+  sed -E "$coarse" "$scene_of_paper" | sed -E "$script" > scene_bad.toml
+  refused "scene: $claim" 3 "$pattern" "$bin/gear-scene" --scene scene_bad.toml --output scene.mk --out out
+done << 'CASES'
+it is empty|gear|d
+an unknown key|face_widht_mm|s/^face_width_mm/face_widht_mm/
+an unknown section|dampling|s/^\[damping\]/[dampling]/
+a missing key|module_mm|/^module_mm/d
+a missing torque|torque_Nm|/^torque_Nm/d
+a key twice|teeth|s/^teeth = 50/teeth = 50\nteeth = 51/
+a negative module|module_mm|s/^module_mm = 3.0/module_mm = -3.0/
+nan|face_width_mm|s/^face_width_mm = 25.4/face_width_mm = nan/
+inf|youngs_modulus_GPa|s/^youngs_modulus_GPa = 207.0/youngs_modulus_GPa = inf/
+a torque that is no number|torque_Nm|s/^torque_Nm = .*/torque_Nm = ["ten"]/
+a torque of zero|torque_Nm|s/^torque_Nm = .*/torque_Nm = [0]/
+a list without torques|torque_Nm|s/^torque_Nm = .*/torque_Nm = []/
+half a tooth|teeth|s/^teeth = 50/teeth = 50.5/
+speeds that go down|mesh_frequency_Hz|s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 4000, to = 600, step = 20 }/
+a material that is not there|stell|s/^material = "steel"/material = "stell"/
+a gear that is not there|gear|s/^driven = "wheel"/driven = "wheell"/
+a gear like itself|like|s/^like = "pinion"/like = "wheel"/
+TOML that is none|scene_bad.toml|s/^teeth = 50/teeth = = 50/
+CASES
+refused "scene: it is not there" 4 nowhere.toml "$bin/gear-scene" --scene nowhere.toml --output scene.mk --out out
+
+# --- gears and pairs that cannot exist; whichever stage knows first has to say so
+# impossible <claim> <pattern> <sed script>
+impossible() {
+  rm -rf scene_bad.toml bad
+  sed -E "$coarse" "$scene_of_paper" | sed -E "$3" > scene_bad.toml
+  cat > bad_chain << CHAIN
+set -e
+mkdir -p bad
+$bin/gear-scene --scene scene_bad.toml --output bad/scene.mk --out bad > /dev/null 2> bad/said || { s=\$?; cat bad/said >&2; exit \$s; }
+mkdir -p bad/scene_bad/T100/up
+for step in "gear-mesh --params bad/scene_bad/pinion/body.toml --output bad/scene_bad/pinion/mesh.h5" \\
+  "gear-mesh --params bad/scene_bad/wheel/body.toml --output bad/scene_bad/wheel/mesh.h5" \\
+  "gear-reduce --params bad/scene_bad/pinion/body.toml --mesh bad/scene_bad/pinion/mesh.h5 --output bad/scene_bad/pinion/body.h5" \\
+  "gear-reduce --params bad/scene_bad/wheel/body.toml --mesh bad/scene_bad/wheel/mesh.h5 --output bad/scene_bad/wheel/body.h5" \\
+  "gear-static --params bad/scene_bad/params/static.toml --driver bad/scene_bad/pinion/body.h5 --driven bad/scene_bad/wheel/body.h5 --torque 100 --output bad/scene_bad/T100/static.h5" \\
+  "gear-sweep --params bad/scene_bad/params/sweep.toml --driver bad/scene_bad/pinion/body.h5 --driven bad/scene_bad/wheel/body.h5 --static bad/scene_bad/T100/static.h5 --reference-static bad/scene_bad/T100/static.h5 --direction up --output bad/scene_bad/T100/up/sweep.h5"; do
+  $bin/\$step > /dev/null 2> bad/said || { s=\$?; cat bad/said >&2; exit \$s; }
+done
+CHAIN
+  timeout 60 bash bad_chain 2> said
+  found=$?
+  if [ $found != 3 ]; then wrong "$1" "status $found instead of 3: $(head -n 1 said)"
+  elif [ "$(wc -l < said)" != 1 ]; then wrong "$1" "$(wc -l < said) lines: $(head -n 2 said | tr '\n' '|')"
+  elif ! grep -q -i -E "^gear-[a-z]*: error: .*($2)" said; then wrong "$1" "no '$2' in: $(cat said)"
+  else ok "$1 ($(cut -d: -f1 said))"; fi
+  rm -rf said scene_bad.toml bad bad_chain
+}
+impossible "a pair that does not reach" 'reach|contact ratio' 's/^centre_distance_mm = .*/centre_distance_mm = 160.0/'
+impossible "a pair that jams" 'jam|backlash' 's/^centre_distance_mm = .*/centre_distance_mm = 149.0/'
+impossible "a contact ratio below 1" 'contact ratio' 's/^addendum = 1.0/addendum = 0.5/'
+impossible "an inertia below the body's" 'inertia' 's/^total_inertia_kgm2 = .*/total_inertia_kgm2 = 0.001/'
+impossible "a bore above the root" 'bore' 's/^bore_radius_mm = .*/bore_radius_mm = 74.0/'
+impossible "an undercut flank" 'undercut' 's/^teeth = 50/teeth = 8/; s/^bore_radius_mm = .*/bore_radius_mm = 4.0/; s/^centre_distance_mm = .*/centre_distance_mm = 24.0/'
+impossible "a pointed tooth" 'tip' 's/^addendum = 1.0/addendum = 2.5/; s/^dedendum = .*/dedendum = 3.0/; s/^bore_radius_mm = .*/bore_radius_mm = 30.0/; s/^rack_tip_radius = .*/rack_tip_radius = 0.05/'
+
+# --- artifacts: cut off, of another kind, of another version, not there
+head -c 3000 out/scene/pinion/body.h5 > cut.h5
+refused "an artifact that is cut off" '4' 'cut.h5' "$bin/gear-static" --params out/scene/params/static.toml --driver cut.h5 --driven out/scene/wheel/body.h5 --torque 100 --output x.h5
+: > empty.h5
+refused "an empty artifact" '4' 'empty.h5' "$bin/gear-spectra" --input empty.h5 --output x.h5
+refused "an artifact of another stage" 3 'static.h5' "$bin/gear-spectra" --input out/scene/T100/static.h5 --output x.h5
+refused "an artifact that is not there" '4' 'none.h5' "$bin/gear-spectra" --input none.h5 --output x.h5
+# An older schema: the number in the file itself is changed (it stands 40 bytes after its name), all else stays.
+cp out/scene/T100/up/sweep.h5 old.h5
+place=$(grep -a -b -o -m1 schema_version old.h5 | head -n 1 | cut -d: -f1)
+printf '\0' | dd of=old.h5 bs=1 seek=$((place + 40)) conv=notrunc status=none
+refused "an artifact of an older schema names the target that makes it again" 3 'version 0.*make' "$bin/gear-spectra" --input old.h5 --output x.h5
+
+# --- interrupted and full
+kept=$(contents)
+for signal in TERM KILL; do
+  "$bin/gear-reduce" "${stage_reduce[@]:1}" > /dev/null 2>&1 &
+  sleep 0.05
+  kill -$signal $! 2> /dev/null
+  wait $! 2> /dev/null
+  find out -name '*.tmp*' -delete
+  if [ "$(contents)" = "$kept" ]; then ok "SIG$signal leaves the earlier artifact whole"; else
+    wrong "SIG$signal leaves the earlier artifact whole" "files have changed"; fi
+done
+# A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
+for name in gear-mesh gear-reduce gear-static gear-sweep gear-spectra gear-plot; do
+  before=$(contents)
+  (ulimit -f 8; trap '' XFSZ; exec ${whole[$name]}) > /dev/null 2> said
+  status=$?
+  leftover=$(find . -name '*.tmp*' | head -n 1)
+  lines=$(wc -l < said)
+  if [ $status != 4 ] || [ "$lines" != 1 ] || ! grep -q "^$name: error: " said; then wrong "$name on a full disk" "status $status: $(head -n 2 said | tr '\n' '|')"
+  elif [ -n "$leftover" ]; then wrong "$name on a full disk" "leaves $leftover"
+  elif [ "$(contents)" != "$before" ]; then wrong "$name on a full disk" "files have changed"
+  else ok "$name on a full disk says so, and what was there stays"; fi
+done
+touch file
+refused "a folder that cannot be" 4 'file/x.h5' "$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output file/x.h5

@@ -1,0 +1,212 @@
+# The graph: which stages make would run after which change.
+#
+# Works on a copy of the tree with the real makefiles and the real gear-scene; the other programs are replaced by
+# shell scripts that write a line to their outputs, so that the whole pipeline runs in a second.
+set -uo pipefail
+B=${B:-build}
+top=$PWD
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+log=$tree/log
+
+ok() { echo "ok: $1"; }
+wrong() { echo "FAILED: $1: $2"; }
+
+cp -a Makefile pipelines common tools data "$tree"
+mkdir -p "$tree/$B"
+cp -a "$B/bin" "$B/lib" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cd "$tree" || exit 1
+[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
+make_() { make $sanitize "$@" > "$log" 2>&1; }
+
+# --- comments in sources; needs the real programs, hence first
+before=$(cat "$B/id/gear-inspect")
+sleep 0.01
+printf '// A comment.\n' | cat - tools/gear-inspect.cpp > new && mv new tools/gear-inspect.cpp
+cp -p "$B/id/gear-inspect" id.before
+if make_ "$B/id/gear-inspect" && [ "$(cat "$B/id/gear-inspect")" = "$before" ] && [ ! "$B/id/gear-inspect" -nt id.before ]; then
+  grep -q 'gear-inspect.cpp' "$log" && ok "a comment in a source compiles it and leaves the id of its program" ||
+    wrong "a comment in a source" "nothing was compiled"
+else
+  wrong "a comment in a source leaves the id of its program" "$(tail -n 1 "$log")"
+fi
+
+# --- stand-ins
+for program in "$B"/bin/gear-*; do
+  case $program in */gear-scene) continue ;; esac
+  cat > "$program" <<'STUB'
+#!/bin/bash
+name=$(basename "$0")
+while [ $# -gt 0 ]; do
+  [ "$1" != --output ] || output=$2
+  [ "$1" != --params ] || [ -e "$2" ] || exit 9
+  shift
+done
+echo "$name $output" >> calls
+[ "${FAIL:-}" != "$output" ] || exit 1
+mkdir -p "$(dirname "$output")"
+case $name in gear-plot) touch "$output".tsv "$output".svg "$output".png ;; *) echo "$name" > "$output" ;; esac
+STUB
+done
+scene=data/scenes/parker2000.toml
+cp $scene scene.original
+
+# stages: what the last make says that it would run or has run, as "program output" in order of the alphabet
+shown() { sed -n 's|.*bin/\(gear-[a-z]*\) .*--output \([^ ]*\).*|\1 \2|p' <(sed ':a;/\\$/{N;s/\\\n//;ba}' "$log") | sort; }
+# programs only, each once
+programs() { shown | cut -d' ' -f1 | uniq -c | awk '{printf "%s%s*%s", s, $2, $1; s=" "}'; }
+
+# expect <claim> <stages as from programs>: after `make_ -n ...`
+expect() {
+  local found
+  found=$(programs)
+  if [ "$found" = "$2" ]; then ok "$1"; else wrong "$1" "expected '$2', found '$found' $(grep -m1 '\*\*\*' "$log")"; fi
+}
+# change <sed script>: edits the scene
+change() { sed -i -E "$1" $scene; cmp -s $scene scene.original && echo "FAILED: sed '$1' changed nothing"; }
+restore() { cp scene.original $scene; make_ $all; }
+all="figures static sweep"
+
+make_ -n $all
+expect "everything is missing at first: one body for two gears that are alike" \
+  "gear-mesh*1 gear-plot*4 gear-reduce*1 gear-spectra*8 gear-static*4 gear-sweep*8"
+make_ $all || wrong "the whole pipeline runs" "$(tail -n 1 "$log")"
+expect "the pipeline runs what make -n has shown" \
+  "gear-mesh*1 gear-plot*4 gear-reduce*1 gear-spectra*8 gear-static*4 gear-sweep*8"
+if [ "$(sort calls | uniq -d | wc -l)" = 0 ] && [ "$(wc -l < calls)" = 26 ]; then ok "each stage runs once, in parallel, too"
+else wrong "each stage runs once" "$(sort calls | uniq -d | head -n 3)"; fi
+make_ -n $all
+expect "nothing to do the second time" ""
+make_ -q $all && ok "make -q agrees" || wrong "make -q agrees" "status $?"
+
+touch "$B"/bin/gear-*; make_ -n $all
+expect "programs linked anew with the same bytes redo nothing" ""; make_ $all
+
+change '1i # a comment'; make_ -n $all
+expect "a comment in the scene redoes nothing" ""
+change 's/^(centre_distance_mm = )150.0/\1  150.000/'; make_ -n $all
+expect "another spelling of a number redoes nothing" ""; restore
+touch $scene; make_ -n $all
+expect "a touched scene redoes nothing" ""
+
+change 's/^(torque_Nm = ).*/\1[100, 160, 200, 300]/'; make_ -n static sweep
+expect "a changed torque redoes the static and the sweeps of that torque" "gear-spectra*2 gear-static*1 gear-sweep*2"
+shown | grep -v T160 && wrong "only that torque" "$(shown)" || ok "only that torque"; restore
+change 's/^(torque_Nm = ).*/\1[110, 150, 200, 300]/'; make_ -n static sweep
+expect "the first torque sets the dampers of all sweeps" "gear-spectra*8 gear-static*1 gear-sweep*8"
+make_ static sweep; restore; make_ -n $all
+expect "changed back and made again, all is up to date" ""
+
+change 's/^bore_radius_mm = 40.0/bore_radius_mm = 30.0/'; make_ -n $all
+expect "the bore redoes everything from the mesh" "gear-mesh*1 gear-plot*4 gear-reduce*1 gear-spectra*8 gear-static*4 gear-sweep*8"
+make_ $all; cp scene.original $scene; make_ -n $all
+expect "going back to a bore keeps its body and redoes what rests on it" \
+  "gear-plot*4 gear-spectra*8 gear-static*4 gear-sweep*8"; restore
+change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; make_ -n $all
+expect "damping redoes the sweeps" "gear-plot*1 gear-spectra*8 gear-sweep*8"; restore
+change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; make_ -n $all
+expect "inertia redoes the sweeps" "gear-plot*1 gear-spectra*8 gear-sweep*8"; restore
+change 's/^corner_contact = true/corner_contact = false/'; make_ -n $all
+expect "the corner rule redoes statics and sweeps, no body" "gear-plot*4 gear-spectra*8 gear-static*4 gear-sweep*8"; restore
+change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n $all
+expect "speeds redo the sweeps" "gear-plot*1 gear-spectra*8 gear-sweep*8"; restore
+change 's/^like = "pinion"/&\nprofile_shift = 0.1/; s/^centre_distance_mm = .*/centre_distance_mm = 150.4/'; make_ -n mesh
+expect "a gear that differs gets a body of its own" "gear-mesh*1"; restore
+
+# --- any torque, other scenes
+make_ -n out/parker2000/T600/up/response.h5
+expect "a torque that no list names" "gear-spectra*1 gear-static*1 gear-sweep*1"
+make_ -n out/parker2000/pinion/body.h5
+expect "a body by its name is up to date" ""
+make_ -n out/parker2000/T080/static.h5
+grep -q 'T080: the torque' "$log" && ok "a torque that is not as %g prints it is refused" || wrong "T080 is refused" "$(tail -n 1 "$log")"
+mkdir -p elsewhere
+sed -E 's/^torque_Nm = .*/torque_Nm = [90]/' scene.original > elsewhere/own.toml
+echo broken > data/scenes/parker2000.toml
+make_ -n SCENE=elsewhere/own.toml sweep
+expect "SCENE opens no other scene file, and a gear that is known keeps its body" "gear-spectra*2 gear-static*1 gear-sweep*2"
+make_ -n SCENE=elsewhere/own.toml out/own/T80/static.h5
+expect "SCENE with a torque of its own" "gear-static*1"
+make_ -n SCENE=elsewhere/own.toml out/own/T80/up/response.h5
+expect "a sweep waits for the static at the first torque, too" "gear-spectra*1 gear-static*2 gear-sweep*1"
+make_ -n fig05
+if [ $? != 0 ] && [ "$(grep -c . "$log")" = 2 ] && grep -q '^gear-scene: error: ' "$log"; then ok "a broken scene ends with one line and make's own"
+else wrong "a broken scene ends with one line and make's own" "$(cat "$log")"; fi
+cp scene.original $scene
+make_ SCENE=elsewhere/own.toml sweep
+mkdir -p other; sed 's/corner_contact = true/corner_contact = false/' elsewhere/own.toml > other/own.toml
+touch -d 2000-01-01 other/own.toml
+make_ -n SCENE=other/own.toml sweep
+expect "another scene of the same name is noticed, however old" "gear-spectra*2 gear-static*1 gear-sweep*2"
+make_ -n out/nowhere/T1/static.h5
+grep -q 'there is no data/scenes/nowhere.toml' "$log" && ok "a scene that does not exist is named" ||
+  wrong "a scene that does not exist is named" "$(tail -n 1 "$log")"
+make_ -n SCENE=nowhere.toml sweep
+grep -q 'SCENE=nowhere.toml: there is no such file' "$log" && ok "a missing SCENE is named" || wrong "a missing SCENE is named" "$(tail -n 1 "$log")"
+
+# --- broken off, removed, failed
+make_ $all
+rm -f out/parker2000/params/static.toml out/parker2000/wheel out/parker2000/T200/static.h5
+make_ $all && [ -e out/parker2000/wheel/body.h5 ] && [ -e out/parker2000/T200/static.h5 ] && ok "deleted slices, links and results come back" ||
+  wrong "deleted slices, links and results come back" "$(tail -n 1 "$log")"
+rm -rf out; : > calls
+FAIL=out/parker2000/T150/down/sweep.h5 make_ fig05 && wrong "a failed stage fails make" "status 0" || ok "a failed stage fails make"
+make_ -n fig05
+if shown | grep -q 'gear-sweep out/parker2000/T150/down/sweep.h5' && ! shown | grep -q -E 'gear-(mesh|reduce|static)'; then
+  ok "a run that broke off resumes at what is missing"
+else wrong "a run that broke off resumes at what is missing" "$(shown)"; fi
+make_ fig05 && [ -e out/figures/fig05.png ] && ok "and ends with the figure" || wrong "and ends with the figure" "$(tail -n 1 "$log")"
+make_ -n -W "$B/id/gear-sweep" fig05
+expect "another gear-sweep redoes sweeps and what follows" "gear-plot*1 gear-spectra*2 gear-sweep*2"
+make_ -n FREEZE=1 -W "$B/id/gear-sweep" fig05
+expect "FREEZE=1 keeps them" ""
+make_ -n LAUNCH='srun -n1 --exact' out/parker2000/T50/up/response.h5
+[ "$(grep -c '^srun -n1 --exact build.*/bin/gear-\(static\|sweep\) ' "$log")" = 2 ] && ok "LAUNCH carries the heavy stages" ||
+  wrong "LAUNCH carries the heavy stages" "$(grep bin/ "$log")"
+
+# --- a fresh machine: deps runs before whatever needs a package, in any order of the goals
+mkdir machine
+cat > machine/dpkg-query <<'STUB'
+#!/bin/bash
+[ -e machine/installed ] && printf 'install ok installed'
+STUB
+cat > machine/apt-get <<'STUB'
+#!/bin/bash
+echo "$DEBIAN_FRONTEND apt-get $*" >> machine/calls
+[ "$1" != install ] || { sleep 0.3; touch machine/installed; }
+STUB
+cat > machine/g++ <<'STUB'
+#!/bin/bash
+[ -e machine/installed ] || { echo "$@: compiled before deps" >> machine/early; exit 1; }
+while [ $# -gt 0 ]; do [ "$1" != -o ] || output=$2; shift; done
+cp machine/program "$output"
+STUB
+cp machine/g++ machine/ar; sed -i 's/^while.*/output=$2/' machine/ar
+printf '#!/bin/bash\n[ "$(id -u)" = 0 ] || exit 1\nexec "$@"\n' > machine/sudo
+cp "$B/bin/gear-plot" machine/program
+cp "$B/bin/gear-scene" machine/gear-scene
+chmod +x machine/*
+# --- goals that compile nothing
+for goal in "" help deps clean clean-out; do
+  rm -rf build machine/calls
+  PATH=$PWD/machine:$PATH make $goal > "$log" 2>&1
+  status=$?
+  if [ $status = 0 ] && [ ! -e build ] && [ ! -e machine/early ]; then ok "make $goal compiles nothing"
+  else wrong "make $goal compiles nothing" "status $status $(tail -n 1 "$log")"; fi
+done
+make > "$log" 2>&1; grep -q '^  fig05 ' "$log" && ok "make prints the targets" || wrong "make prints the targets" "$(tail -n 1 "$log")"
+
+for goals in "deps fig05" "fig05 deps" "-j2 deps build" "-j2 build deps"; do
+  rm -rf build out machine/installed machine/calls machine/early
+  # the stand-in for g++ cannot link gear-scene; the real one takes its place as soon as it is asked for
+  sed 's|^cp machine/program "$output"|case $output in */gear-scene) cp machine/gear-scene "$output" ;; *) cp machine/program "$output" ;; esac|' -i machine/g++
+  PATH=$PWD/machine:$PATH make $goals > "$log" 2>&1
+  status=$?
+  if [ $status = 0 ] && [ ! -e machine/early ] && grep -q 'noninteractive apt-get install .*--no-install-recommends' machine/calls &&
+    [ "$(grep -c . machine/calls)" = 2 ]; then ok "make $goals installs first, once"
+  else wrong "make $goals installs first, once" "status $status $(cat machine/early machine/calls 2>&1 | head -n 3) $(tail -n 2 "$log")"; fi
+done
+rm -f machine/calls
+PATH=$PWD/machine:$PATH make deps > "$log" 2>&1 && [ ! -e machine/calls ] && ok "make deps asks apt-get for nothing when nothing is missing" ||
+  wrong "make deps is idempotent" "$(tail -n 1 "$log")"
+cd "$top" || exit 1

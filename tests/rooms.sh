@@ -1,0 +1,45 @@
+# The rooms of common/: a room includes only rooms below it, heavy libraries stay behind their walls.
+set -uo pipefail
+
+declare -A below=(
+  [base]="base"
+  [files]="base files"
+  [gear]="base files gear"
+  [solid]="base files gear solid"
+  [contact]="base files gear solid contact"
+  [motion]="base files gear solid contact motion"
+  [signal]="base files signal"
+  [plot]="base files gear signal plot"
+)
+faults=$(for file in common/*/*.h common/*/*.cpp; do
+  room=$(basename "$(dirname "$file")")
+  [ -n "${below[$room]:-}" ] || { echo "$file: room '$room' has no place in the order"; continue; }
+  for other in $(sed -n 's|^#include "\([a-z_]*\)/.*|\1|p' "$file"); do
+    case " ${below[$room]} " in *" $other "*) ;; *) echo "$file includes $other/, which is not below $room/" ;; esac
+  done
+  sed -n "s|^#include \"\([^/]*\)\"|$file includes \"\1\" without its room|p" "$file"
+done)
+if [ -z "$faults" ]; then echo "ok: rooms include only rooms below them"; else echo "FAILED: $faults"; fi
+
+# confined <header> <pattern of files that may include it>
+confined() {
+  local found
+  found=$(grep -l "#include <$1" common/*/* tools/* tests/*.cpp | grep -v -E "^($2)$" | tr '\n' ' ')
+  if [ -z "$found" ]; then echo "ok: only $2 includes $1"; else echo "FAILED: $1 is included by $found"; fi
+}
+confined hdf5 'common/files/.*\.cpp|common/files/h5\.h'
+confined gmsh 'common/solid/mesher\.cpp'
+confined cholmod 'common/solid/.*\.cpp'
+confined fftw3 'common/signal/.*\.cpp'
+confined toml 'common/files/.*\.cpp'
+confined CLI/ 'tools/.*\.cpp|common/base/tool\.cpp'
+
+found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/* tools/* | head -3)
+if [ -z "$found" ]; then echo "ok: no date is compiled in"; else echo "FAILED: a date or std::format: $found"; fi
+if ! command -v clang-format > /dev/null; then
+  echo "skipped: layout of the sources (clang-format is not installed)"
+elif found=$(make -s check-format 2>&1); then
+  echo "ok: sources are laid out by clang-format"
+else
+  echo "FAILED: make format would change $(grep -o '^[^:]*\.\(cpp\|h\)' <<< "$found" | sort -u | tr '\n' ' ')"
+fi

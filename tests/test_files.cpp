@@ -1,0 +1,650 @@
+// Artifacts: what is written is what is read, whole or not at all, and every wrong file is refused by name.
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/h5.h"
+#include "files/provenance.h"
+#include "files/publish.h"
+#include "files/schemas.h"
+#include "files/summary.h"
+#include "files/vtk.h"
+
+using namespace whine;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder of its own for each case, removed at the end, in which the case works.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "whine-files-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path_ = name;
+    fs::current_path(path_);
+  }
+  ~Folder() {
+    fs::current_path(before_);
+    fs::remove_all(path_);
+  }
+  std::vector<std::string> names(const fs::path& where = ".") const {
+    std::vector<std::string> out;
+    for (const auto& entry : fs::directory_iterator(where)) out.push_back(entry.path().filename().string());
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+ private:
+  fs::path before_ = fs::current_path(), path_;
+};
+
+// Kind and message of the Error that f throws; kind 0 if none.
+struct Caught {
+  int kind = 0;
+  std::string message;
+  bool says(const std::string& part) const { return message.find(part) != std::string::npos; }
+};
+
+Caught caught(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return {static_cast<int>(error.kind()), error.what()};
+  }
+  return {};
+}
+
+constexpr int kInput = static_cast<int>(Failure::input), kIo = static_cast<int>(Failure::io),
+              kNumerical = static_cast<int>(Failure::numerical);
+
+// Values without a short decimal form, so that a round trip through text or single precision would show.
+Eigen::VectorXd odd_vector(Eigen::Index n, double scale) {
+  Eigen::VectorXd out(n);
+  for (Eigen::Index i = 0; i < n; ++i) out[i] = scale * std::sin(1.0 + 3.0 * static_cast<double>(i));
+  return out;
+}
+
+MatrixRM odd_matrix(Eigen::Index rows, Eigen::Index columns, double scale) {
+  const Eigen::VectorXd flat = odd_vector(rows * columns, scale);
+  return Eigen::Map<const MatrixRM>(flat.data(), rows, columns);
+}
+
+GearDesign odd_design(int teeth) {
+  GearDesign out;
+  out.teeth = teeth;
+  out.module = 0.003 * std::sqrt(1.1);
+  out.pressure_angle = 20 * std::numbers::pi / 180;
+  out.profile_shift = -0.1 / 3;
+  out.addendum = 1.0 / 3;
+  out.dedendum = 1.3 / 1.1;
+  out.rack_tip_radius = 0.38 / 1.7;
+  out.tooth_thinning = 1e-5 / 3;
+  out.face_width = 0.0254 / 1.3;
+  out.bore_radius = 0.04 / 1.7;
+  return out;
+}
+
+bool same(const GearDesign& a, const GearDesign& b) {
+  return a.teeth == b.teeth && a.module == b.module && a.pressure_angle == b.pressure_angle &&
+         a.profile_shift == b.profile_shift && a.addendum == b.addendum && a.dedendum == b.dedendum &&
+         a.rack_tip_radius == b.rack_tip_radius && a.tooth_thinning == b.tooth_thinning &&
+         a.face_width == b.face_width && a.bore_radius == b.bore_radius;
+}
+
+bool same(const GearMeshSpec& a, const GearMeshSpec& b) {
+  return a.driver == b.driver && a.driven == b.driven && a.centre_distance == b.centre_distance &&
+         a.corner.enabled == b.corner.enabled && a.corner.largest_angle == b.corner.largest_angle;
+}
+
+bool same(const Damping& a, const Damping& b) {
+  return a.rayleigh_mass == b.rayleigh_mass && a.rayleigh_stiffness == b.rayleigh_stiffness &&
+         a.undamped_depth == b.undamped_depth && a.bearing_ratio == b.bearing_ratio;
+}
+
+bool same(const BodyDiscretisation& a, const BodyDiscretisation& b) {
+  return a.element_size == b.element_size && a.element_order == b.element_order && a.modes == b.modes;
+}
+
+// A ring sector of two four-node elements, one on the other, closing exactly after a turn of 360/teeth
+// degrees.
+MeshArtifact small_mesh() {
+  MeshArtifact a;
+  a.design = odd_design(12);
+  a.discretisation = {0.0004 / 1.3, 1, 7};
+  const double half = std::numbers::pi / a.design.teeth;
+  a.node_position.resize(6, 2);
+  for (int k = 0; k < 3; ++k) {
+    const double r = 0.01 * (k + 1);
+    a.node_position.row(2 * k) << r * std::sin(half), r * std::cos(half);       // clockwise edge, x > 0
+    a.node_position.row(2 * k + 1) << -r * std::sin(half), r * std::cos(half);  // counter-clockwise edge
+  }
+  a.element_node.resize(2, 4);
+  a.element_node << 1, 0, 2, 3, 3, 2, 4, 5;
+  a.element_region = Eigen::Vector2i(0, 1);
+  a.bore_node = Eigen::Vector2i(0, 1);
+  a.side_node.resize(3, 2);
+  a.side_node << 0, 1, 2, 3, 4, 5;
+  a.flank_node = Eigen::Vector2i(3, 5);
+  a.flank_roll_angle = Eigen::Vector2d(0.1 / 3, 0.4 / 3);
+  return a;
+}
+
+BodyArtifact small_body() {
+  BodyArtifact a;
+  a.design = odd_design(50);
+  a.material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
+  a.discretisation = {0.0004 / 1.3, 2, 5};
+  a.inertia = 0.01 / 3;
+  a.eigenfrequency = odd_vector(3, 1e4).cwiseAbs();
+  a.nodal_diameter = Eigen::Vector3i(0, 1, 1);
+  a.component = Eigen::Vector3i(0, 0, 1);
+  a.inertia_coupling = odd_vector(3, 0.1);
+  a.flank_position = Eigen::Vector4d(0.1 / 3, 0.2 / 3, 0.3 / 3, 0.5 / 3);
+  a.flank_mode = odd_matrix(4, 3, 2);
+  a.offsets = 1;
+  a.compliance = {odd_matrix(4, 4, 1e-9), odd_matrix(4, 4, 1e-10)};
+  a.reference_depth = 0.001 / 3;
+  a.asymmetry = 1e-4 / 3;
+  a.least_eigenvalue = 1e-13 / 3;
+  a.vtk_point = odd_matrix(4, 2, 0.05);
+  a.vtk_cell.resize(1, 4);
+  a.vtk_cell << 0, 1, 2, 3;
+  // Point data are single precision in the file: multiples of 1/8 pass through exactly.
+  MatrixRM shape(4, 2);
+  shape << 0.125, 0.25, -0.5, 1, 2, -3, 0, 0.375;
+  a.vtk_point_data = {{"mode_1", shape}, {"mode_2", -shape}};
+  return a;
+}
+
+StaticArtifact small_static() {
+  StaticArtifact a;
+  a.driver = odd_design(50);
+  a.driven = odd_design(35);
+  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
+  a.contact = {17, 128};
+  a.torque = 150.0 / 1.3;
+  a.contact_ratio = 1.7547 / 1.1;
+  a.mesh_phase = Eigen::Vector3d(0, 1.0 / 3, 2.0 / 3);
+  a.transmission_error = odd_vector(3, 1e-5);
+  a.stiffness_secant = odd_vector(3, 4e8);
+  a.stiffness_tangent = odd_vector(3, 4.1e8);
+  a.pair = Eigen::Vector3i(-1, 0, 1);
+  a.tooth_load = odd_matrix(3, 3, 2e3);
+  a.transmission_error_harmonic = odd_vector(2, 1e-6);
+  a.stiffness_harmonic = odd_vector(2, 1e7);
+  a.mean_stiffness = 463.5e6 / 1.1;
+  a.least_gap = 1e-9 / 3;
+  a.least_force = 1e-3 / 3;
+  a.torque_residual = 1e-12 / 3;
+  a.backlash_margin = 1e-5 / 3;
+  return a;
+}
+
+SweepArtifact small_sweep() {
+  SweepArtifact a;
+  a.driver = odd_design(50);
+  a.driven = odd_design(35);
+  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {false, std::numeric_limits<double>::infinity()}};
+  a.fidelity = {"lagged", "strips", "newmark"};
+  a.contact = {17, 128};
+  a.time = {64, 250e3 / 1.1, 1e-6 / 3};
+  a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
+  a.torque = 150;
+  a.driver_inertia = 0.0148 / 1.1;
+  a.driven_inertia = 0.0148 / 1.3;
+  a.mean_stiffness = 4e8 / 1.1;
+  a.driver_bearing_damper = 1.0 / 3;
+  a.driven_bearing_damper = 2.0 / 3;
+  a.direction = "down";
+  a.mesh_frequency = Eigen::Vector2d(4000, 3980 + 1.0 / 3);
+  a.transmission_error = odd_matrix(2, 64, 1e-5);
+  a.mesh_force = odd_matrix(2, 64, 3e3);
+  a.pair = Eigen::Vector3i(-1, 0, 1);
+  a.tooth_load = {odd_matrix(64, 3, 1e3), odd_matrix(64, 3, 2e3)};
+  a.periods = Eigen::Vector2i(80, 120);
+  a.residual = odd_vector(2, 1e-7);
+  a.period_multiple = Eigen::Vector2i(1, 2);
+  a.energy_imbalance = odd_vector(2, 1e-9);
+  a.jump_frequency = Eigen::VectorXd();
+  a.jump_width = Eigen::VectorXd();
+  return a;
+}
+
+ResponseArtifact small_response() {
+  ResponseArtifact a;
+  a.torque = 150;
+  a.direction = "up";
+  a.model = "finite elements";
+  a.mesh_frequency = odd_vector(2, 1e3).cwiseAbs();
+  a.dte_rms = odd_vector(2, 1e-6);
+  a.dte_mean = odd_vector(2, 1e-5);
+  a.dte_harmonic = odd_matrix(2, 10, 1e-6);
+  a.tooth_load_max = odd_vector(2, 4e3);
+  a.mesh_force_max = odd_vector(2, 7e3);
+  a.separation_fraction = odd_vector(2, 0.1);
+  a.separations_per_period = odd_vector(2, 1);
+  a.jump_frequency = odd_vector(1, 2.8e3);
+  a.jump_width = odd_vector(1, 10);
+  a.period_multiple = Eigen::Vector2i(1, 1);
+  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, std::numeric_limits<double>::infinity()}};
+  a.fidelity = {"modal", "strips", "exact"};
+  a.damping = {0, 7.7e-6, 0.5e-3, 0.005};
+  a.natural_frequency = 2900.0 / 1.1;
+  return a;
+}
+
+const Provenance kMade{"gear-test", "gear-test --output x.h5", {}};
+
+void overwrite(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+// An artifact that differs from a right one in what `change` does.
+void write_static_like(const std::string& path, const std::function<void(h5::Writer&)>& change) {
+  h5::Writer file;
+  change(file);
+  publish(path, file.finish());
+}
+
+}  // namespace
+
+TEST_CASE("mesh.h5 gives back every value bit by bit") {
+  Folder folder;
+  const MeshArtifact a = small_mesh();
+  write("mesh.h5", a, kMade);
+  const MeshArtifact b = read_mesh("mesh.h5");
+  CHECK(same(a.design, b.design));
+  CHECK(same(a.discretisation, b.discretisation));
+  CHECK(a.node_position == b.node_position);
+  CHECK(a.element_node == b.element_node);
+  CHECK(a.element_region == b.element_region);
+  CHECK(a.bore_node == b.bore_node);
+  CHECK(a.side_node == b.side_node);
+  CHECK(a.flank_node == b.flank_node);
+  CHECK(a.flank_roll_angle == b.flank_roll_angle);
+  CHECK(fs::read_symlink("mesh.hdf") == "mesh.h5");
+}
+
+TEST_CASE("body.h5 gives back every value bit by bit") {
+  Folder folder;
+  const BodyArtifact a = small_body();
+  write("body.h5", a, kMade);
+  const BodyArtifact b = read_body("body.h5");
+  CHECK(same(a.design, b.design));
+  CHECK(same(a.discretisation, b.discretisation));
+  CHECK(a.material.youngs_modulus == b.material.youngs_modulus);
+  CHECK(a.material.poisson_ratio == b.material.poisson_ratio);
+  CHECK(a.material.density == b.material.density);
+  CHECK(a.material.plane_stress == b.material.plane_stress);
+  CHECK(a.inertia == b.inertia);
+  CHECK(a.eigenfrequency == b.eigenfrequency);
+  CHECK(a.nodal_diameter == b.nodal_diameter);
+  CHECK(a.component == b.component);
+  CHECK(a.inertia_coupling == b.inertia_coupling);
+  CHECK(a.flank_position == b.flank_position);
+  CHECK(a.flank_mode == b.flank_mode);
+  CHECK(a.offsets == b.offsets);
+  REQUIRE(b.compliance.size() == 2);
+  CHECK(a.compliance[0] == b.compliance[0]);
+  CHECK(a.compliance[1] == b.compliance[1]);
+  CHECK(a.reference_depth == b.reference_depth);
+  CHECK(a.asymmetry == b.asymmetry);
+  CHECK(a.least_eigenvalue == b.least_eigenvalue);
+  CHECK(a.vtk_point == b.vtk_point);
+  CHECK(a.vtk_cell == b.vtk_cell);
+  REQUIRE(b.vtk_point_data.size() == 2);
+  CHECK(b.vtk_point_data[0].first == "mode_1");
+  CHECK(a.vtk_point_data[1].second == b.vtk_point_data[1].second);
+  CHECK(fs::read_symlink("body.hdf") == "body.h5");
+}
+
+TEST_CASE("static.h5 gives back every value bit by bit") {
+  Folder folder;
+  StaticArtifact a = small_static();
+  write("static.h5", a, kMade);
+  const StaticArtifact b = read_static("static.h5");
+  CHECK(same(a.driver, b.driver));
+  CHECK(same(a.driven, b.driven));
+  CHECK(same(a.mesh, b.mesh));
+  CHECK(a.fidelity.contact == b.fidelity.contact);
+  CHECK(a.contact.strips == b.contact.strips);
+  CHECK(a.contact.positions == b.contact.positions);
+  CHECK(a.torque == b.torque);
+  CHECK(a.contact_ratio == b.contact_ratio);
+  CHECK(a.mesh_phase == b.mesh_phase);
+  CHECK(a.transmission_error == b.transmission_error);
+  CHECK(a.stiffness_secant == b.stiffness_secant);
+  CHECK(a.stiffness_tangent == b.stiffness_tangent);
+  CHECK(a.pair == b.pair);
+  CHECK(a.tooth_load == b.tooth_load);
+  CHECK(a.transmission_error_harmonic == b.transmission_error_harmonic);
+  CHECK(a.stiffness_harmonic == b.stiffness_harmonic);
+  CHECK(a.mean_stiffness == b.mean_stiffness);
+  CHECK(a.least_gap == b.least_gap);
+  CHECK(a.least_force == b.least_force);
+  CHECK(a.torque_residual == b.torque_residual);
+  CHECK(a.backlash_margin == b.backlash_margin);
+
+  a.backlash_margin = std::numeric_limits<double>::infinity();
+  write("static.h5", a, kMade);
+  CHECK(std::isinf(read_static("static.h5").backlash_margin));
+}
+
+TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jumps") {
+  Folder folder;
+  const SweepArtifact a = small_sweep();
+  write("sweep.h5", a, kMade);
+  const SweepArtifact b = read_sweep("sweep.h5");
+  CHECK(same(a.driver, b.driver));
+  CHECK(same(a.driven, b.driven));
+  CHECK(same(a.mesh, b.mesh));
+  CHECK(same(a.damping, b.damping));
+  CHECK(a.fidelity.body == b.fidelity.body);
+  CHECK(a.fidelity.contact == b.fidelity.contact);
+  CHECK(a.fidelity.integrator == b.fidelity.integrator);
+  CHECK(a.contact.strips == b.contact.strips);
+  CHECK(a.contact.positions == b.contact.positions);
+  CHECK(a.time.steps_per_period == b.time.steps_per_period);
+  CHECK(a.time.min_sample_rate == b.time.min_sample_rate);
+  CHECK(a.time.periodicity == b.time.periodicity);
+  CHECK(a.torque == b.torque);
+  CHECK(a.driver_inertia == b.driver_inertia);
+  CHECK(a.driven_inertia == b.driven_inertia);
+  CHECK(a.mean_stiffness == b.mean_stiffness);
+  CHECK(a.driver_bearing_damper == b.driver_bearing_damper);
+  CHECK(a.driven_bearing_damper == b.driven_bearing_damper);
+  CHECK(a.direction == b.direction);
+  CHECK(a.mesh_frequency == b.mesh_frequency);
+  CHECK(a.transmission_error == b.transmission_error);
+  CHECK(a.mesh_force == b.mesh_force);
+  CHECK(a.pair == b.pair);
+  REQUIRE(b.tooth_load.size() == 2);
+  CHECK(a.tooth_load[0] == b.tooth_load[0]);
+  CHECK(a.tooth_load[1] == b.tooth_load[1]);
+  CHECK(a.periods == b.periods);
+  CHECK(a.residual == b.residual);
+  CHECK(a.period_multiple == b.period_multiple);
+  CHECK(a.energy_imbalance == b.energy_imbalance);
+  CHECK(b.jump_frequency.size() == 0);
+  CHECK(b.jump_width.size() == 0);
+}
+
+TEST_CASE("response.h5 gives back every value bit by bit") {
+  Folder folder;
+  const ResponseArtifact a = small_response();
+  write("response.h5", a, kMade);
+  const ResponseArtifact b = read_response("response.h5");
+  CHECK(a.torque == b.torque);
+  CHECK(a.direction == b.direction);
+  CHECK(a.model == b.model);
+  CHECK(a.mesh_frequency == b.mesh_frequency);
+  CHECK(a.dte_rms == b.dte_rms);
+  CHECK(a.dte_mean == b.dte_mean);
+  CHECK(a.dte_harmonic == b.dte_harmonic);
+  CHECK(a.tooth_load_max == b.tooth_load_max);
+  CHECK(a.mesh_force_max == b.mesh_force_max);
+  CHECK(a.separation_fraction == b.separation_fraction);
+  CHECK(a.separations_per_period == b.separations_per_period);
+  CHECK(a.jump_frequency == b.jump_frequency);
+  CHECK(a.jump_width == b.jump_width);
+  CHECK(a.period_multiple == b.period_multiple);
+  CHECK(same(a.mesh, b.mesh));
+  CHECK(same(a.damping, b.damping));
+  CHECK(a.fidelity.integrator == b.fidelity.integrator);
+  CHECK(a.natural_frequency == b.natural_frequency);
+}
+
+TEST_CASE("two writes of the same values give the same bytes, another value others") {
+  Folder folder;
+  write("a.h5", small_body(), kMade);
+  write("b.h5", small_body(), kMade);
+  CHECK(read_bytes("a.h5") == read_bytes("b.h5"));
+  BodyArtifact changed = small_body();
+  changed.inertia = std::nextafter(changed.inertia, 1.0);
+  write("c.h5", changed, kMade);
+  CHECK(read_bytes("a.h5") != read_bytes("c.h5"));
+  write("d.h5", small_sweep(), kMade);
+  write("e.h5", small_sweep(), kMade);
+  CHECK(read_bytes("d.h5") == read_bytes("e.h5"));
+}
+
+TEST_CASE("the whole gear closes: teeth copies with shared edges, counter-clockwise, all on their radii") {
+  MeshArtifact sector = small_mesh();
+  const VtkGrid gear = whole_gear(sector);
+  CHECK(gear.point.rows() == 12 * 3);  // 6 nodes less 3 shared ones
+  CHECK(gear.cell.rows() == 12 * 2);
+  // Every cell has the positive area of the ring sector's quadrilaterals: 1/2 (r2^2 - r1^2) sin(2 pi /
+  // teeth).
+  for (Eigen::Index e = 0; e < gear.cell.rows(); ++e) {
+    double area = 0;
+    for (int k = 0; k < 4; ++k) {
+      const auto p = gear.point.row(gear.cell(e, k)), q = gear.point.row(gear.cell(e, (k + 1) % 4));
+      area += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    }
+    const double outer = e % 2 == 0 ? 0.02 : 0.03, inner = outer - 0.01;
+    const double expected = 0.5 * (outer * outer - inner * inner) * std::sin(2 * std::numbers::pi / 12);
+    CHECK(area == doctest::Approx(expected).epsilon(1e-12));  // round-off of the rotation only
+  }
+  // The second copy lies counter-clockwise of the first, towards negative x.
+  CHECK(gear.point.row(gear.cell(2, 0))[0] < gear.point.row(gear.cell(0, 0))[0]);
+
+  sector.node_position(4, 0) += 1e-9;
+  const Caught open = caught([&] { whole_gear(sector); });
+  CHECK(open.kind == kNumerical);
+  CHECK(open.says("does not close"));
+}
+
+TEST_CASE("provenance names tool, command, inputs with their SHA-256, and the stages before") {
+  Folder folder;
+  // SHA-256 of "abc", FIPS 180-2 example.
+  CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  publish("out/body.toml", "abc");
+  write("out/mesh.h5", small_mesh(),
+        {"gear-mesh", "gear-mesh --params out/body.toml", {"params=out/body.toml"}});
+  const std::string absolute = fs::current_path().string() + "/out/mesh.h5";
+  write("out/body.h5", small_body(),
+        {"gear-reduce", "gear-reduce", {"params=out/body.toml", "mesh=" + absolute}});
+  const Origin origin = read_origin("out/body.h5");
+  CHECK(origin.schema == "whine/body");
+  CHECK(origin.tool == "gear-reduce");
+  CHECK(origin.version == kVersion);
+  REQUIRE(origin.inputs.size() == 2);
+  CHECK(origin.inputs[0].role == "params");
+  CHECK(origin.inputs[0].sha256 == sha256("abc"));
+  CHECK(origin.inputs[1].path == "out/mesh.h5");
+  CHECK(origin.inputs[1].sha256 == sha256_of_file("out/mesh.h5"));
+  REQUIRE(origin.history.size() == 1);
+  CHECK(origin.history[0] == "gear-mesh 0.1.0: gear-mesh --params out/body.toml");
+
+  CHECK_NOTHROW(require_made_from("out/body.h5", "mesh", "out/mesh.h5"));
+  MeshArtifact other = small_mesh();
+  other.design.addendum = 1;
+  write("out/mesh.h5", other, kMade);
+  const Caught stale = caught([] { require_made_from("out/body.h5", "mesh", "out/mesh.h5"); });
+  CHECK(stale.kind == kInput);
+  CHECK(stale.says("stale"));
+  CHECK(stale.says("make out/body.h5"));
+  CHECK(caught([] { write("x.h5", small_mesh(), {"t", "t", {"mesh=absent.h5"}}); }).kind == kIo);
+}
+
+TEST_CASE("no file holds a path of the machine: commands and inputs are relative to the working folder") {
+  Folder folder;
+  const std::string here = fs::current_path().string();
+  CHECK(recorded_path(here + "/out/x.h5") == "out/x.h5");
+  CHECK(recorded_path("out/x.h5") == "out/x.h5");
+  CHECK(recorded_path("/somewhere/else/x.h5") == ".../x.h5");
+  std::vector<std::string> words = {"/usr/bin/gear-x", "--input", here + "/a.h5",
+                                    "--out=" + here + "/b c.h5"};
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  CHECK(command_line(4, argv.data()) == "gear-x --input a.h5 '--out=b c.h5'");
+}
+
+TEST_CASE("an artifact of another schema or version is refused with what it is and how to rebuild it") {
+  Folder folder;
+  write("out/static.h5", small_static(), kMade);
+  const Caught other = caught([] { read_sweep("out/static.h5"); });
+  CHECK(other.kind == kInput);
+  CHECK(other.says("'whine/static'"));
+  CHECK(other.says("'whine/sweep'"));
+  CHECK(other.says("rebuild it with: make out/static.h5"));
+
+  write_static_like("out/old.h5", [](h5::Writer& file) {
+    file.attribute("/", "schema", std::string("whine/static"));
+    file.attribute("/", "schema_version", 0);
+  });
+  const Caught old = caught([] { read_static("out/old.h5"); });
+  CHECK(old.kind == kInput);
+  CHECK(old.says("is schema version 0, this program reads 1"));
+  CHECK(old.says("make out/old.h5"));
+
+  write_static_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });
+  CHECK(caught([] { read_static("out/alien.h5"); }).kind == kInput);
+}
+
+TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is refused, never read") {
+  Folder folder;
+  CHECK(caught([] { read_static("absent.h5"); }).kind == kIo);
+  overwrite("empty.h5", "");
+  CHECK(caught([] { read_static("empty.h5"); }).says("is empty"));
+  overwrite("text.h5", "not an artifact at all");
+  CHECK(caught([] { read_static("text.h5"); }).says("not an HDF5 file"));
+  write("whole.h5", small_static(), kMade);
+  const std::string bytes = read_bytes("whole.h5");
+  for (std::size_t part = 1; part < 32; ++part) {
+    overwrite("cut.h5", bytes.substr(0, bytes.size() * part / 32));
+    const Caught cut = caught([] { read_static("cut.h5"); });
+    CHECK(cut.kind == kIo);
+    CHECK(cut.says("make cut.h5"));
+  }
+}
+
+TEST_CASE(
+    "a missing dataset, a wrong shape, a value that is not finite, an index that leads nowhere: refused by "
+    "name") {
+  Folder folder;
+  const auto head = [](h5::Writer& file) {
+    file.attribute("/", "schema", std::string("whine/mesh"));
+    file.attribute("/", "schema_version", 1);
+  };
+  write_static_like("none.h5", head);
+  const Caught none = caught([] { read_mesh("none.h5"); });
+  CHECK(none.kind == kInput);
+  CHECK(none.says("/parameters/gear/teeth"));
+  CHECK(none.says("is missing"));
+
+  BodyArtifact ragged = small_body();
+  ragged.flank_mode = odd_matrix(4, 2, 1);
+  write("ragged.h5", ragged, kMade);  // columns are checked on reading
+  const Caught shape = caught([] { read_body("ragged.h5"); });
+  CHECK(shape.kind == kInput);
+  CHECK(shape.says("/flank_mode has shape 4 x 2, expected 4 x 3"));
+
+  StaticArtifact broken = small_static();
+  broken.transmission_error[1] = std::nan("");
+  const Caught nan = caught([&] { write("nan.h5", broken, kMade); });
+  CHECK(nan.kind == kNumerical);
+  CHECK(nan.says("/transmission_error"));
+  CHECK_FALSE(fs::exists("nan.h5"));
+
+  MeshArtifact lost = small_mesh();
+  lost.flank_node[1] = 99;
+  write("lost.h5", lost, kMade);
+  CHECK(caught([] { read_mesh("lost.h5"); }).says("/sector/flank_node holds the number 99"));
+}
+
+TEST_CASE("writing is all or nothing: a failure leaves the earlier file and no rubbish") {
+  Folder folder;
+  publish("out/a/x.txt", "earlier");
+  CHECK(folder.names("out/a") == std::vector<std::string>{"x.txt"});
+
+  SUBCASE("a full disk (file size limit)") {
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{}, small{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    small = before;
+    small.rlim_cur = 1000;
+    setrlimit(RLIMIT_FSIZE, &small);
+    const Caught full = caught([] { publish("out/a/x.txt", std::string(5000, 'n')); });
+    const Caught artifact = caught([] { write("out/a/x.h5", small_static(), kMade); });
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    CHECK(full.kind == kIo);
+    CHECK(full.says("out/a/x.txt"));
+    CHECK(full.message.find('\n') == std::string::npos);
+    CHECK(artifact.kind == kIo);
+  }
+  SUBCASE("a folder in the place of the file") {
+    fs::create_directory("out/a/folder");
+    CHECK(caught([] { publish("out/a/folder", "new"); }).kind == kIo);
+    fs::remove("out/a/folder");
+  }
+  SUBCASE("a file in the place of the folder") {
+    CHECK(caught([] { publish("out/a/x.txt/y", "new"); }).kind == kIo);
+  }
+  CHECK(read_bytes("out/a/x.txt") == "earlier");
+  CHECK(folder.names("out/a") == std::vector<std::string>{"x.txt"});
+}
+
+TEST_CASE("an unchanged file or link is left alone, a changed one replaced") {
+  Folder folder;
+  CHECK(publish_if_changed("p/a.toml", "one"));
+  CHECK_FALSE(publish_if_changed("p/a.toml", "one"));
+  CHECK(publish_if_changed("p/a.toml", "two"));
+  CHECK(read_bytes("p/a.toml") == "two");
+  CHECK(publish_link("p/link", "a.toml"));
+  CHECK_FALSE(publish_link("p/link", "a.toml"));
+  CHECK(publish_link("p/link", "b.toml"));
+  CHECK(fs::read_symlink("p/link") == "b.toml");
+  CHECK(caught([] { publish_link("p/a.toml", "b.toml"); }).kind == kIo);
+  CHECK(read_bytes("p/a.toml") == "two");
+}
+
+TEST_CASE("the summary names the key numbers in an engineer's units") {
+  Folder folder;
+  StaticArtifact a = small_static();
+  a.mean_stiffness = 463.5e6;
+  a.transmission_error = Eigen::Vector3d(4e-6, 6e-6, 5e-6);
+  write("static.h5", a, kMade);
+  std::string all;
+  for (const auto& [name, words] : summary("static.h5", "whine/static")) all += name + ": " + words + "\n";
+  CHECK(all.find("463.5 N/um") != std::string::npos);
+  CHECK(all.find("5 um mean, 2 um peak to peak") != std::string::npos);
+  write("sweep.h5", small_sweep(), kMade);
+  write("response.h5", small_response(), kMade);
+  write("mesh.h5", small_mesh(), kMade);
+  write("body.h5", small_body(), kMade);
+  for (const char* name : {"sweep", "response", "mesh", "body"}) {
+    CHECK(summary(text(name, ".h5"), text("whine/", name)).size() >= 3);
+  }
+}
+
+TEST_CASE("a tool's exit status says the kind of failure") {
+  char name[] = "/usr/bin/gear-x";
+  char* argv[] = {name, nullptr};
+  const int silent = dup(STDERR_FILENO), null = open("/dev/null", O_WRONLY);
+  dup2(null, STDERR_FILENO);
+  const int good = run_tool(1, argv, [](int, char**) {});
+  const int own = run_tool(1, argv, [](int, char**) { return 3; });
+  const int io = run_tool(1, argv, [](int, char**) { fail(Failure::io, "no room"); });
+  const int memory = run_tool(1, argv, [](int, char**) -> int { throw std::bad_alloc(); });
+  dup2(silent, STDERR_FILENO);
+  close(silent);
+  close(null);
+  CHECK(good == 0);
+  CHECK(own == 3);
+  CHECK(io == 4);
+  CHECK(memory == 1);
+}

@@ -1,0 +1,434 @@
+// Scenes: every wrong one is refused with the line, the key and the limit; slices follow values and nothing
+// else.
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "base/error.h"
+#include "files/publish.h"
+#include "files/scene.h"
+
+using namespace whine;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A complete scene with required keys only; line numbers are relied on below.
+const char* const kScene = R"([gear.pinion]
+teeth = 50
+module_mm = 3
+pressure_angle_deg = 20
+face_width_mm = 25.4
+bore_radius_mm = 40
+total_inertia_kgm2 = 0.0148
+material = "steel"
+[gear.wheel]
+like = "pinion"
+[material.steel]
+youngs_modulus_GPa = 207
+poisson_ratio = 0.3
+density_kgm3 = 7600
+plane = "stress"
+[[mesh]]
+driver = "pinion"
+driven = "wheel"
+centre_distance_mm = 150
+[operation]
+torque_Nm = [100, 150]
+mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }
+)";
+
+class SceneFile {
+ public:
+  SceneFile() {
+    std::string name = (fs::temp_directory_path() / "whine-scene-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    folder_ = name;
+  }
+  ~SceneFile() { fs::remove_all(folder_); }
+  std::string path(const std::string& text, const std::string& name = "x.toml") const {
+    const std::string place = (folder_ / name).string();
+    std::ofstream(place) << text;
+    return place;
+  }
+  Scene read(const std::string& text) const { return read_scene(path(text)); }
+
+  // The message with which a scene is refused, from the file name on; "" if it is not.
+  std::string refusal(const std::string& text) const {
+    try {
+      read_scene(path(text));
+    } catch (const Error& error) {
+      CHECK(error.kind() == Failure::input);
+      const std::string message = error.what();
+      CHECK(message.find('\n') == std::string::npos);
+      const auto start = message.find("x.toml");
+      return start == std::string::npos ? message : message.substr(start);
+    }
+    return "";
+  }
+
+ private:
+  fs::path folder_;
+};
+
+// kScene with one text replaced; the text must be there once.
+std::string scene_with(const std::string& old, const std::string& now) {
+  std::string out = kScene;
+  const auto at = out.find(old);
+  REQUIRE(at != std::string::npos);
+  REQUIRE(out.find(old, at + 1) == std::string::npos);
+  return out.replace(at, old.size(), now);
+}
+
+std::string with_section(const std::string& section) {
+  return kScene + section;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return true;
+  MESSAGE("'", text, "' lacks '", part, "'");
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("the default scene reads as it stands, in SI") {
+  const fs::path file = fs::path(__FILE__).parent_path().parent_path() / "data/scenes/parker2000.toml";
+  const Scene s = read_scene(fs::exists(file) ? file.string() : "data/scenes/parker2000.toml");
+  REQUIRE(s.gears.size() == 2);
+  CHECK(s.gears[0].name == "pinion");
+  CHECK(s.gears[1].name == "wheel");
+  CHECK(s.gears[1].design.teeth == 50);
+  CHECK(s.gears[1].total_inertia == 0.0148);
+  CHECK(s.gears[0].design.module == 0.003);  // 3.0 / 1000 rounds to the double nearest to 0.003
+  CHECK(s.gears[0].design.pressure_angle == doctest::Approx(20 * std::numbers::pi / 180).epsilon(1e-15));
+  CHECK(s.gears[0].design.bore_radius == 0.04);
+  CHECK(s.gears[0].material.youngs_modulus == 207e9);
+  CHECK(s.gears[0].material.plane_stress);
+  CHECK(s.mesh.centre_distance == 0.15);
+  CHECK(s.mesh.corner.enabled);
+  CHECK(std::isinf(s.mesh.corner.largest_angle));
+  CHECK(s.damping.rayleigh_stiffness == 7.7e-6);
+  CHECK(s.operation.torques == std::vector<double>{100, 150, 200, 300});
+  CHECK(s.operation.frequency_to == 4000);
+  CHECK(s.fidelity.integrator == "exact");
+  CHECK(s.body.modes == 5);
+  CHECK(s.body.element_size == doctest::Approx(0.0004).epsilon(1e-15));
+  CHECK(s.contact.strips == 15);
+  CHECK(s.time.min_sample_rate == 250e3);
+}
+
+TEST_CASE("keys left out take the defaults of the structs") {
+  const SceneFile file;
+  const Scene s = file.read(kScene);
+  const GearDesign design;
+  CHECK(s.gears[0].design.addendum == design.addendum);
+  CHECK(s.gears[0].design.dedendum == design.dedendum);
+  CHECK(s.gears[0].design.rack_tip_radius == design.rack_tip_radius);
+  CHECK(s.damping.undamped_depth == doctest::Approx(Damping{}.undamped_depth).epsilon(1e-15));
+  CHECK(s.damping.bearing_ratio == Damping{}.bearing_ratio);
+  CHECK(s.fidelity.body == Fidelity{}.body);
+  CHECK(s.fidelity.contact == Fidelity{}.contact);
+  CHECK(s.fidelity.integrator == Fidelity{}.integrator);
+  CHECK(s.body.element_order == BodyDiscretisation{}.element_order);
+  CHECK(s.body.modes == BodyDiscretisation{}.modes);
+  CHECK(s.contact.strips == ContactDiscretisation{}.strips);
+  CHECK(s.contact.positions == ContactDiscretisation{}.positions);
+  CHECK(s.time.steps_per_period == TimeDiscretisation{}.steps_per_period);
+  CHECK(s.time.min_sample_rate == TimeDiscretisation{}.min_sample_rate);
+  CHECK(s.time.periodicity == TimeDiscretisation{}.periodicity);
+  CHECK(s.title == "x");
+}
+
+TEST_CASE("an empty scene is told what a scene needs") {
+  const SceneFile file;
+  const std::string said = file.refusal("");
+  for (const char* section : {"[gear.<name>]", "[material.<name>]", "[[mesh]]", "[operation]"}) {
+    CHECK(contains(said, section));
+  }
+  CHECK(contains(said, "data/scenes/parker2000.toml"));
+  CHECK(contains(file.refusal("# only a comment\n"), "lacks"));
+  CHECK_THROWS_AS(read_scene("/nowhere/x.toml"), Error);
+}
+
+TEST_CASE("an unknown key is refused with its line and the nearest known one") {
+  const SceneFile file;
+  CHECK(file.refusal(scene_with("module_mm", "modul_mm")) ==
+        "x.toml:3: unknown key 'modul_mm' in [gear.pinion]; did you mean 'module_mm'?");
+  CHECK(contains(file.refusal(scene_with("torque_Nm", "torque")),
+                 "x.toml:21: unknown key 'torque' in [operation]; did you mean 'torque_Nm'?"));
+  CHECK(contains(file.refusal(with_section("[dampin]\n")),
+                 "x.toml:23: unknown section 'dampin'; did you mean 'damping'?"));
+  CHECK(contains(file.refusal(with_section("[fidelity]\nstrips = 15\n")),
+                 "x.toml:24: unknown key 'strips' in [fidelity]; it belongs into [discretisation]"));
+  CHECK(contains(file.refusal(with_section("[damping]\nxyzzy_plugh_foo = 1\n")),
+                 "known are: rayleigh_mass_per_s"));
+  CHECK(contains(file.refusal(scene_with("step = 20", "stepp = 20")), "unknown key 'stepp'"));
+}
+
+TEST_CASE("a missing key is refused, all of a section in one line") {
+  const SceneFile file;
+  CHECK(
+      contains(file.refusal(scene_with("module_mm = 3\n", "")), "x.toml:1: [gear.pinion] lacks 'module_mm'"));
+  CHECK(contains(file.refusal(scene_with("teeth = 50\nmodule_mm = 3\n", "")), "lacks 'teeth', 'module_mm'"));
+  for (const char* key :
+       {"teeth = 50", "pressure_angle_deg = 20", "face_width_mm = 25.4", "bore_radius_mm = 40",
+        "total_inertia_kgm2 = 0.0148", "material = \"steel\"", "youngs_modulus_GPa = 207",
+        "poisson_ratio = 0.3", "density_kgm3 = 7600", "plane = \"stress\"", "driver = \"pinion\"",
+        "driven = \"wheel\"", "centre_distance_mm = 150", "torque_Nm = [100, 150]",
+        "mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }", ", step = 20"}) {
+    INFO(key);
+    CHECK(contains(file.refusal(scene_with(key, "")), "lacks"));
+  }
+}
+
+TEST_CASE("a value outside its range is refused with value and limit") {
+  const SceneFile file;
+  CHECK(file.refusal(scene_with("module_mm = 3", "module_mm = -3")) ==
+        "x.toml:3: 'module_mm' in [gear.pinion] = -3: must be greater than 0 mm");
+  CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = 0.0")), "greater than 0"));
+  CHECK(contains(file.refusal(scene_with("poisson_ratio = 0.3", "poisson_ratio = 0.5")),
+                 "must be at most 0.495"));
+  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 3")), "must be at least 5"));
+  CHECK(contains(file.refusal(scene_with("[100, 150]", "[100, -150]")), "= -150: must be greater than 0 Nm"));
+  CHECK(contains(file.refusal(scene_with("to = 4000", "to = 500")),
+                 "'to' must be at least 'from', which is 600"));
+  CHECK(contains(file.refusal(scene_with("step = 20", "step = 0")), "greater than 0 Hz"));
+  CHECK(contains(file.refusal(scene_with("step = 20", "step = 1e-9")), "100000 speeds"));
+  CHECK(contains(file.refusal(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
+  CHECK(contains(file.refusal(with_section("[fidelity]\nbody = \"full\"\n")),
+                 "must be one of: rigid, quasi-static, lagged, modal"));
+  CHECK(contains(file.refusal(with_section("[fidelity]\ncontact = \"line\"\n")), "must be one of: strips"));
+  CHECK(contains(file.refusal(with_section("[fidelity]\nintegrator = \"euler\"\n")),
+                 "must be one of: newmark, exact"));
+}
+
+TEST_CASE("nan, inf and values of another type are refused") {
+  const SceneFile file;
+  for (const char* value : {"nan", "inf", "-inf", "+nan"}) {
+    INFO(value);
+    CHECK(contains(file.refusal(scene_with("module_mm = 3", std::string("module_mm = ") + value)),
+                   "must be a finite number"));
+    CHECK(contains(file.refusal(scene_with("[100, 150]", std::string("[") + value + "]")),
+                   "must be a finite number"));
+  }
+  CHECK(file.refusal(scene_with("torque_Nm = [100, 150]", "torque_Nm = \"high\"")) ==
+        "x.toml:21: 'torque_Nm' in [operation] = 'high': must be a number (in Nm)");
+  CHECK(contains(file.refusal(scene_with("[100, 150]", "[100, \"150\"]")), "must be a number"));
+  CHECK(contains(file.refusal(scene_with("[100, 150]", "[]")), "at least one number"));
+  CHECK(contains(file.refusal(scene_with("[100, 150]", "true")), "must be a number"));
+  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50.5")), "must be a whole number"));
+  CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = [3]")), "must be a number"));
+  CHECK(contains(file.refusal(scene_with("material = \"steel\"", "material = 1")), "must be text"));
+  CHECK(contains(file.refusal(scene_with("{ from = 600, to = 4000, step = 20 }", "600")), "must be a table"));
+  CHECK(contains(file.refusal(with_section("damping = 3\n")),
+                 "x.toml:23: unknown key 'damping' in [operation]"));
+  CHECK(contains(file.refusal(std::string("damping = 3\n") + kScene), "'damping' must be a section"));
+  CHECK(contains(
+      file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = \"some\"")),
+      "true, false or a number of degrees"));
+}
+
+TEST_CASE("broken TOML and keys given twice are refused with the line") {
+  const SceneFile file;
+  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = ")), "x.toml:2: is not valid TOML"));
+  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50\nteeth = 51")),
+                 "x.toml:3: is not valid TOML"));
+  CHECK(contains(file.refusal("\xff\xfe"), "is not valid TOML"));
+}
+
+TEST_CASE("names must lead somewhere: gears, materials, like") {
+  const SceneFile file;
+  CHECK(contains(
+      file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinon\"")),
+      "x.toml:17: 'driver' in [mesh] = 'pinon' names no [gear.<name>] section; did you mean 'pinion'?"));
+  CHECK(contains(file.refusal(scene_with("driven = \"wheel\"", "driven = \"pinion\"")),
+                 "cannot mesh with itself"));
+  CHECK(contains(file.refusal(scene_with("material = \"steel\"", "material = \"stel\"")),
+                 "did you mean 'steel'?"));
+  CHECK(contains(file.refusal(scene_with("like = \"pinion\"", "like = \"wheel\"")), "is like itself"));
+  CHECK(
+      contains(file.refusal(scene_with("like = \"pinion\"", "like = \"pinoin\"")), "did you mean 'pinion'?"));
+  CHECK(contains(file.refusal(with_section("[gear.third]\nlike = \"wheel\"\n")), "name the first gear"));
+  CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.T150]")), "cannot be called 'T150'"));
+  CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.params]")), "cannot be called 'params'"));
+  CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.\"the wheel\"]")), "letters, digits"));
+  CHECK(contains(file.refusal(with_section(
+                     "[[mesh]]\ndriver = \"pinion\"\ndriven = \"wheel\"\ncentre_distance_mm = 150\n")),
+                 "there are 2 [[mesh]] sections"));
+  CHECK(contains(file.refusal(scene_with("[[mesh]]", "[mesh]")), "write [[mesh]]"));
+}
+
+TEST_CASE("a torque must survive the name of its folder") {
+  const SceneFile file;
+  CHECK(contains(file.refusal(scene_with("[100, 150]", "[100.0000001]")), "more than 6 significant digits"));
+  CHECK(contains(file.refusal(scene_with("[100, 150]", "[150, 150.0]")), "holds 150 twice"));
+  CHECK(file.read(scene_with("[100, 150]", "62.5")).operation.torques == std::vector<double>{62.5});
+}
+
+TEST_CASE("like takes over every key and lets own keys override") {
+  const SceneFile file;
+  const Scene s =
+      file.read(scene_with("like = \"pinion\"", "like = \"pinion\"\nteeth = 35\nprofile_shift = 0.25"));
+  CHECK(s.gear("wheel").design.teeth == 35);
+  CHECK(s.gear("wheel").design.profile_shift == 0.25);
+  CHECK(s.gear("wheel").design.module == s.gear("pinion").design.module);
+  CHECK(s.gear("pinion").design.teeth == 50);
+  CHECK(body_slice(s, "wheel") != body_slice(s, "pinion"));
+  const Scene twins = file.read(kScene);
+  CHECK(body_slice(twins, "wheel") == body_slice(twins, "pinion"));
+  CHECK_THROWS_AS(twins.gear("idler"), Error);
+}
+
+TEST_CASE("the corner rule is on, off, or an angle") {
+  const SceneFile file;
+  const auto rule = [&](const std::string& value) {
+    return file.read(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = " + value))
+        .mesh.corner;
+  };
+  CHECK(rule("true").enabled);
+  CHECK(std::isinf(rule("true").largest_angle));
+  CHECK_FALSE(rule("false").enabled);
+  CHECK(rule("2.5").largest_angle == doctest::Approx(2.5 * std::numbers::pi / 180).epsilon(1e-15));
+  CHECK(contains(file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = -1")),
+                 "at least 0"));
+}
+
+TEST_CASE("slices depend on values, not on comments, order, spelling or defaults written out") {
+  const SceneFile file;
+  const Scene plain = file.read(kScene);
+  const std::string dressed =
+      "# comment\n[discretisation]\nstrips = 15\nelement_mm = 0.40\n[operation]\nmesh_frequency_Hz = { step "
+      "= 20.0, to = 4e3, from = 600 }\n"
+      "torque_Nm = [100.0, 150]\n[[mesh]]\ncentre_distance_mm = 150.0 # c\ndriven = \"wheel\"\ndriver = "
+      "'pinion'\n"
+      "[material.steel]\nplane = \"stress\"\ndensity_kgm3 = 7.6e3\npoisson_ratio = 0.3\nyoungs_modulus_GPa = "
+      "207.0\n"
+      "[gear.wheel]\nlike = \"pinion\"\n[gear.pinion]\nmaterial = \"steel\"\naddendum = "
+      "1\ntotal_inertia_kgm2 = 0.0148\n"
+      "bore_radius_mm = 40.0\nface_width_mm = 25.4\npressure_angle_deg = 20.0\nmodule_mm = 3.0\nteeth = 50\n"
+      "[damping]\nbearing_ratio = 5e-3\n";
+  const Scene other = file.read(dressed);
+  CHECK(body_slice(plain, "pinion") == body_slice(other, "pinion"));
+  CHECK(static_slice(plain) == static_slice(other));
+  CHECK(sweep_slice(plain) == sweep_slice(other));
+}
+
+TEST_CASE("each key moves the slices of the stages that depend on it and no other") {
+  const SceneFile file;
+  const Scene base = file.read(kScene);
+  struct Change {
+    std::string scene;
+    bool body, statics, sweep;
+  };
+  const auto section = [](const std::string& text) { return with_section(text); };
+  const auto mesh_key = [](const std::string& line) {
+    return scene_with("driver = \"pinion\"", "driver = \"pinion\"\n" + line);
+  };
+  // A body that changes redoes the statics by their prerequisites and by the hash in their slice.
+  const std::vector<Change> changes = {
+      {scene_with("bore_radius_mm = 40", "bore_radius_mm = 39.999999"), true, true, false},
+      {scene_with("youngs_modulus_GPa = 207", "youngs_modulus_GPa = 206"), true, true, false},
+      {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false},
+      {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false},
+      {section("[fidelity]\nmodes = 9\n"), true, true, false},
+      {mesh_key("corner_contact = false"), false, true, false},
+      {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false},
+      {section("[discretisation]\nstrips = 21\n"), false, true, false},
+      {section("[discretisation]\npositions = 256\n"), false, true, false},
+      {scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.02"), false, false, true},
+      {section("[damping]\nrayleigh_stiffness_s = 5.5e-6\n"), false, false, true},
+      {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true},
+      {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, true},
+      {scene_with("step = 20", "step = 10"), false, false, true},
+      {scene_with("[100, 150]", "[150, 100]"), false, false, true},  // another reference torque
+      {scene_with("[100, 150]", "[100, 200, 300]"), false, false,
+       false},  // torques are paths, not parameters
+      {std::string("title = \"other\"\n") + kScene, false, false, false},
+  };
+  for (const Change& change : changes) {
+    INFO(change.scene);
+    const Scene s = file.read(change.scene);
+    CHECK((body_slice(s, "pinion") != body_slice(base, "pinion")) == change.body);
+    CHECK((static_slice(s) != static_slice(base)) == change.statics);
+    CHECK((sweep_slice(s) != sweep_slice(base)) == change.sweep);
+  }
+}
+
+TEST_CASE("slices read back bit by bit") {
+  const SceneFile file;
+  const Scene s = file.read(
+      scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = 1.7") +
+      "[damping]\nrayleigh_mass_per_s = 0.7\nrayleigh_stiffness_s = 5.55555e-6\nundamped_depth_mm = 0.37\n"
+      "[fidelity]\nbody = \"lagged\"\nintegrator = \"newmark\"\nmodes = 11\n"
+      "[discretisation]\nelement_mm = 0.37\nmin_sample_rate_kHz = 333.3\nsteps_per_period = 200\n");
+  const BodySlice body = read_body_slice(file.path(body_slice(s, "wheel"), "body.toml"));
+  const SceneGear& wheel = s.gear("wheel");
+  CHECK(body.design.teeth == wheel.design.teeth);
+  CHECK(body.design.module == wheel.design.module);
+  CHECK(body.design.pressure_angle == wheel.design.pressure_angle);
+  CHECK(body.design.face_width == wheel.design.face_width);
+  CHECK(body.design.bore_radius == wheel.design.bore_radius);
+  CHECK(body.design.rack_tip_radius == wheel.design.rack_tip_radius);
+  CHECK(body.material.youngs_modulus == wheel.material.youngs_modulus);
+  CHECK(body.material.density == wheel.material.density);
+  CHECK(body.material.plane_stress);
+  CHECK(body.discretisation.element_size == s.body.element_size);
+  CHECK(body.discretisation.element_order == 2);
+  CHECK(body.discretisation.modes == 11);
+
+  const StaticSlice statics = read_static_slice(file.path(static_slice(s), "static.toml"));
+  CHECK(statics.mesh.driver == "pinion");
+  CHECK(statics.mesh.driven == "wheel");
+  CHECK(statics.mesh.centre_distance == s.mesh.centre_distance);
+  CHECK(statics.mesh.corner.enabled);
+  CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
+  CHECK(statics.fidelity.contact == "strips");
+  CHECK(statics.contact.strips == 15);
+  CHECK(statics.contact.positions == 200);  // resolved: as steps_per_period, which is above 128
+
+  const SweepSlice sweep = read_sweep_slice(file.path(sweep_slice(s), "sweep.toml"));
+  CHECK(sweep.driver_inertia == 0.0148);
+  CHECK(sweep.driven_inertia == 0.0148);
+  CHECK(sweep.damping.rayleigh_mass == 0.7);
+  CHECK(sweep.damping.rayleigh_stiffness == s.damping.rayleigh_stiffness);
+  CHECK(sweep.damping.undamped_depth == s.damping.undamped_depth);
+  CHECK(sweep.damping.bearing_ratio == s.damping.bearing_ratio);
+  CHECK(sweep.reference_torque == 100);
+  CHECK(sweep.frequency_from == 600);
+  CHECK(sweep.frequency_to == 4000);
+  CHECK(sweep.frequency_step == 20);
+  CHECK(sweep.fidelity.body == "lagged");
+  CHECK(sweep.fidelity.integrator == "newmark");
+  CHECK(sweep.time.steps_per_period == 200);
+  CHECK(sweep.time.min_sample_rate == s.time.min_sample_rate);
+  CHECK(sweep.time.periodicity == s.time.periodicity);
+
+  CHECK_THROWS_AS(read_sweep_slice(file.path(static_slice(s), "wrong.toml")), Error);
+  CHECK(body_hash(body_slice(s, "wheel")).size() == 16);
+  CHECK(body_hash(body_slice(s, "wheel")) == sha256(body_slice(s, "wheel")).substr(0, 16));
+}
+
+TEST_CASE("the key table holds every key once, with its meaning") {
+  const std::string table = scene_key_table();
+  for (const char* key : {"teeth", "module_mm", "corner_contact", "rayleigh_stiffness_s", "torque_Nm",
+                          "mesh_frequency_Hz", "periodicity", "like"}) {
+    INFO(key);
+    CHECK(contains(table, std::string("`") + key + "` |"));
+  }
+  std::set<std::string> seen;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    INFO(line);
+    CHECK(std::count(line.begin(), line.end(), '|') == 6);
+    CHECK(seen.insert(line.substr(0, line.find('|', line.find('|', 1) + 1))).second);
+  }
+}

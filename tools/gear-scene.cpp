@@ -1,0 +1,112 @@
+// gear-scene: checks a scene and cuts it into the parts that the stages depend on.
+//
+// Reads    a scene (TOML)
+// Writes   <out>/<scene>/params/static.toml, sweep.toml   slices of the scene in SI, replaced only if they
+// change
+//          <out>/bodies/<hash>/body.toml                  one per distinct gear
+//          <out>/<scene>/<gear> -> ../bodies/<hash>       relative links
+//          --output: a make fragment that names gears, bodies and torques of the scene
+//
+//   gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out
+//   gear-scene --keys
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <vector>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/publish.h"
+#include "files/scene.h"
+
+namespace {
+
+using namespace whine;
+
+// The stem names a folder, a make variable and a goal.
+std::string checked_stem(const std::string& path) {
+  const std::string stem = std::filesystem::path(path).stem().string();
+  const bool plain = !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-';
+  });
+  if (!plain) {
+    fail(Failure::input, path, ": the name '", stem,
+         "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the "
+         "file");
+  }
+  if (stem == "bodies" || stem == "figures") {
+    fail(Failure::input, path, ": a scene cannot be called '", stem,
+         "', a folder of results is; rename the file");
+  }
+  return stem;
+}
+
+std::string short_number(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%g", value);
+  return buffer;
+}
+
+void body(int argc, char** argv) {
+  std::string path, output, folder = "out";
+  bool keys = false;
+  CLI::App app{"Checks a scene and cuts it into the parts that the stages depend on", "gear-scene"};
+  auto* scene_option = app.add_option("--scene", path, "scene file (TOML)");
+  auto* output_option = app.add_option("--output", output, "make fragment to write");
+  app.add_option("--out", folder, "folder of the artifacts")->capture_default_str();
+  auto* keys_option = app.add_flag("--keys", keys, "print the table of scene keys and end");
+  scene_option->needs(output_option)->excludes(keys_option);
+  output_option->needs(scene_option);
+  parse(app, argc, argv);
+  if (keys) {
+    std::cout << scene_key_table();
+    return;
+  }
+  if (path.empty()) fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
+
+  // 1. The whole scene is checked before anything is written.
+  const std::string stem = checked_stem(path);
+  const Scene scene = read_scene(path);
+  const std::string home = folder + "/" + stem;
+
+  // 2. Slices and links; unchanged ones are left alone, so that make sees what did change.
+  const auto name = [&](const std::string& key) { return "SCENE_" + stem + "_" + key; };
+  std::ostringstream bodies;
+  std::vector<std::string> gears, hashes;
+  for (const SceneGear& gear : scene.gears) {
+    const std::string slice = body_slice(scene, gear.name), hash = body_hash(slice);
+    publish_if_changed(folder + "/bodies/" + hash + "/body.toml", slice);
+    publish_link(home + "/" + gear.name, "../bodies/" + hash);
+    bodies << name("BODY_" + gear.name) << " := " << hash << "\n";
+    gears.push_back(gear.name);
+    if (std::find(hashes.begin(), hashes.end(), hash) == hashes.end()) hashes.push_back(hash);
+  }
+  publish_if_changed(home + "/params/static.toml", static_slice(scene));
+  publish_if_changed(home + "/params/sweep.toml", sweep_slice(scene));
+
+  // 3. The fragment, always written: make compares its time with the scene's.
+  std::ostringstream out;
+  out << "# Written by gear-scene from " << recorded_path(path) << "\n" << name("GEARS") << " :=";
+  for (const auto& gear : gears) out << " " << gear;
+  out << "\n" << name("DRIVER") << " := " << scene.mesh.driver << "\n";
+  out << name("DRIVEN") << " := " << scene.mesh.driven << "\n" << bodies.str() << name("TORQUES") << " :=";
+  for (double torque : scene.operation.torques) out << " " << short_number(torque);
+  out << "\n" << name("REFERENCE_TORQUE") << " := " << short_number(scene.operation.torques.front()) << "\n";
+  out << "BODIES +=";
+  for (const auto& hash : hashes) out << " " << hash;
+  out << "\n";
+  publish(output, out.str());
+  std::cerr << "gear-scene: " << path << ": " << scene.gears.size() << " gears, " << hashes.size()
+            << (hashes.size() == 1 ? " body, " : " bodies, ") << scene.operation.torques.size()
+            << " torques\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
