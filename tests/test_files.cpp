@@ -132,11 +132,11 @@ MeshArtifact small_mesh() {
   }
   a.element_node.resize(2, 4);
   a.element_node << 1, 0, 2, 3, 3, 2, 4, 5;
-  a.element_region = Eigen::Vector2i(0, 1);
-  a.bore_node = Eigen::Vector2i(0, 1);
+  a.element_region = Eigen::VectorXi{{0, 1}};
+  a.bore_node = Eigen::VectorXi{{0, 1}};
   a.side_node.resize(3, 2);
   a.side_node << 0, 1, 2, 3, 4, 5;
-  a.flank_node = Eigen::Vector2i(3, 5);
+  a.flank_node = Eigen::VectorXi{{3, 5}};
   a.flank_roll_angle = Eigen::Vector2d(0.1 / 3, 0.4 / 3);
   return a;
 }
@@ -148,8 +148,8 @@ BodyArtifact small_body() {
   a.discretisation = {0.0004 / 1.3, 2, 5};
   a.inertia = 0.01 / 3;
   a.eigenfrequency = odd_vector(3, 1e4).cwiseAbs();
-  a.nodal_diameter = Eigen::Vector3i(0, 1, 1);
-  a.component = Eigen::Vector3i(0, 0, 1);
+  a.nodal_diameter = Eigen::VectorXi{{0, 1, 1}};
+  a.component = Eigen::VectorXi{{0, 0, 1}};
   a.inertia_coupling = odd_vector(3, 0.1);
   a.flank_position = Eigen::Vector4d(0.1 / 3, 0.2 / 3, 0.3 / 3, 0.5 / 3);
   a.flank_mode = odd_matrix(4, 3, 2);
@@ -180,7 +180,7 @@ StaticArtifact small_static() {
   a.transmission_error = odd_vector(3, 1e-5);
   a.stiffness_secant = odd_vector(3, 4e8);
   a.stiffness_tangent = odd_vector(3, 4.1e8);
-  a.pair = Eigen::Vector3i(-1, 0, 1);
+  a.pair = Eigen::VectorXi{{-1, 0, 1}};
   a.tooth_load = odd_matrix(3, 3, 2e3);
   a.transmission_error_harmonic = odd_vector(2, 1e-6);
   a.stiffness_harmonic = odd_vector(2, 1e7);
@@ -211,11 +211,11 @@ SweepArtifact small_sweep() {
   a.mesh_frequency = Eigen::Vector2d(4000, 3980 + 1.0 / 3);
   a.transmission_error = odd_matrix(2, 64, 1e-5);
   a.mesh_force = odd_matrix(2, 64, 3e3);
-  a.pair = Eigen::Vector3i(-1, 0, 1);
+  a.pair = Eigen::VectorXi{{-1, 0, 1}};
   a.tooth_load = {odd_matrix(64, 3, 1e3), odd_matrix(64, 3, 2e3)};
-  a.periods = Eigen::Vector2i(80, 120);
+  a.periods = Eigen::VectorXi{{80, 120}};
   a.residual = odd_vector(2, 1e-7);
-  a.period_multiple = Eigen::Vector2i(1, 2);
+  a.period_multiple = Eigen::VectorXi{{1, 2}};
   a.energy_imbalance = odd_vector(2, 1e-9);
   a.jump_frequency = Eigen::VectorXd();
   a.jump_width = Eigen::VectorXd();
@@ -237,7 +237,7 @@ ResponseArtifact small_response() {
   a.separations_per_period = odd_vector(2, 1);
   a.jump_frequency = odd_vector(1, 2.8e3);
   a.jump_width = odd_vector(1, 10);
-  a.period_multiple = Eigen::Vector2i(1, 1);
+  a.period_multiple = Eigen::VectorXi{{1, 1}};
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, std::numeric_limits<double>::infinity()}};
   a.fidelity = {"modal", "strips", "exact"};
   a.damping = {0, 7.7e-6, 0.5e-3, 0.005};

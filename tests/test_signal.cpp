@@ -54,8 +54,8 @@ SweepArtifact small_sweep() {
   s.mesh_frequency = Eigen::Vector2d(2000, 1900);
   s.transmission_error.resize(2, n);
   s.mesh_force.resize(2, n);
-  s.period_multiple = Eigen::Vector2i(1, 2);
-  s.pair = Eigen::Vector2i(-1, 0);
+  s.period_multiple = Eigen::VectorXi{{1, 2}};
+  s.pair = Eigen::VectorXi{{-1, 0}};
   for (int j = 0; j < n; ++j) {
     s.transmission_error(0, j) = 5e-6 + 2e-6 * std::cos(kTwoPi * j / n) + 1e-6 * std::sin(kTwoPi * 3 * j / n);
     // Period 2: a subharmonic of 3e-6 beside 4e-6 at the mesh frequency.

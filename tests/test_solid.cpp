@@ -117,7 +117,8 @@ TEST_CASE("flank table: interpolation is exact for polynomials in the logarithmi
     CHECK(w.sum() == doctest::Approx(1).epsilon(1e-12));
     CHECK(std::abs(w.dot(values) - f(xi)) < 1e-10 * values.cwiseAbs().maxCoeff());  // round-off of degree 11
   }
-  for (int i = 0; i < 12; ++i) CHECK(table.weights(table.points()[i])[i] == 1);
+  for (int i = 0; i < 12; ++i)
+    CHECK(table.weights(table.points()[i])[i] == doctest::Approx(1).epsilon(1e-10));
   for (int i = 1; i < 12; ++i) CHECK(table.points()[i] > table.points()[i - 1]);
   CHECK(failure_of([&] { table.weights(tip + 1e-4); }) == 1);
   CHECK(failure_of([&] { table.weights(table.lowest() - 1e-4); }) == 1);

@@ -1,0 +1,156 @@
+# Whine: one graph from a scene to the figures. `make` prints the targets; pipelines/*.mk hold the stages.
+#
+#   programs   tools/gear-x.cpp and common/*/*.cpp -> build/bin/gear-x           (this file)
+#   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
+#   stages     scene -> mesh -> body -> static -> sweep -> response              (pipelines/stages.mk)
+#   figures    artifacts -> out/figures                                          (pipelines/figures.mk)
+#
+# Results depend on the contents of the programs and of the scenes, never on their time stamps alone.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+# As many jobs as processors unless -j says otherwise; no built-in rules.
+MAKEFLAGS += -rR -j$(shell nproc 2>/dev/null || echo 1)
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := help
+.PHONY: FORCE
+FORCE:
+
+# Every stage is parallel by being many; a BLAS with threads of its own would only take them from each other,
+# and would sum in an order that depends on their number.
+export OPENBLAS_NUM_THREADS := 1
+export OMP_NUM_THREADS := 1
+
+goals := $(or $(MAKECMDGOALS),help)
+$(if $(filter clean%,$(goals)),$(if $(filter-out clean%,$(goals)),\
+  $(error $(filter clean%,$(goals)) goes alone: first `make $(filter clean%,$(goals))`, then `make $(filter-out clean%,$(goals))`)))
+
+# --- programs -------------------------------------------------------------------------------------------------
+
+# a literal comma for $(if)
+, := ,
+B := build$(if $(SANITIZE),/sanitize)
+CXX := g++
+OPTIMISE := -O2
+# Without NDEBUG an assert would put its line number into the program, and a comment would redo results.
+CXXFLAGS := -std=c++20 -Wall -Wextra $(if $(SANITIZE),-O1 -g -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined,\
+  $(OPTIMISE) -DNDEBUG)
+CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
+LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed
+# Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
+HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)
+LDLIBS = -lgmsh -lcholmod $(shell pkg-config --libs hdf5 fftw3 libcrypto)
+
+# With `deps` among the goals whatever uses a package waits for it, in any order of the goals and under -j.
+with_deps := $(filter deps,$(goals))
+
+library := $(patsubst %.cpp,$(B)/obj/%.o,$(wildcard common/*/*.cpp))
+tools := $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp))
+tool_objects := $(tools:%=$(B)/obj/tools/%.o)
+test_objects := $(patsubst %.cpp,$(B)/obj/%.o,$(wildcard tests/*.cpp))
+objects := $(library) $(tool_objects) $(test_objects)
+
+.PHONY: build
+build: $(tools:%=$(B)/bin/%) ## compile the programs into build/bin
+
+folders := $(sort $(dir $(objects)) $(B)/bin/ $(B)/lib/ $(B)/id/ $(B)/scenes/)
+$(folders):
+	@mkdir -p $@
+.SECONDEXPANSION: # $$(@D)/ below
+
+$(objects): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
+
+# HDF5 stays in one room: nobody else finds its headers.
+$(filter $(B)/obj/common/files/%,$(objects)): CPPFLAGS += $(HDF5_CFLAGS)
+
+# A library for each room, from the top floor down as the linker wants them. The folder stands for its list of files: a
+# source that goes away leaves the library, too.
+rooms := plot signal motion lumped contact solid gear files base
+rooms := $(filter $(notdir $(wildcard common/*)),$(rooms)) $(filter-out $(rooms),$(notdir $(wildcard common/*)))
+define room_rules # room
+$(B)/lib/lib$1.a: $(filter $(B)/obj/common/$1/%,$(library)) common/$1 | $(B)/lib/
+	@rm -f $$@
+	ar rcsD $$@ $$(filter %.o,$$^)
+endef
+$(foreach r,$(rooms),$(eval $(call room_rules,$r)))
+
+# gear-scene runs before everything, under make -n as well, so it waits for no more than it needs.
+rooms_of = $(patsubst %,$(B)/lib/lib%.a,$(if $(filter gear-scene,$1),files base,$(rooms)))
+$(tools:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/tools/%.o $$(call rooms_of,$$*) | $(B)/bin/
+	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
+
+$(B)/bin/whine-tests: $(test_objects) $(rooms:%=$(B)/lib/lib%.a) tests | $(B)/bin/
+	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
+
+flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS)
+$(B)/flags: $(if $(filter-out "$(flags)","$(file <$(B)/flags)"),FORCE)
+	@mkdir -p $(@D)
+	@echo '$(flags)' > $@
+
+-include $(objects:.o=.d)
+
+# Tool ids: what results depend on instead of the programs. The hash of a program replaces its file only if it
+# differs, so that a program that was linked anew with the same bytes redoes nothing. `+`: also under make -n,
+# which would otherwise take every result for stale.
+id = $(if $(FREEZE),,$(B)/id/$1)
+replace_if_changed = { cat > $1.new; if cmp -s $1.new $1; then rm $1.new; else mv $1.new $1; fi; }
+
+$(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
+	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
+
+include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk
+
+# --- packages -------------------------------------------------------------------------------------------------
+
+packages := g++ pkgconf libgmsh-dev libsuitesparse-dev libeigen3-dev libhdf5-dev libfftw3-dev libspectra-dev \
+  libtomlplusplus-dev libcli11-dev libssl-dev doctest-dev libopenblas0-pthread hdf5-tools gnuplot-nox fonts-dejavu-core
+dry_run := $(findstring n,$(filter-out -%,$(firstword $(MAKEFLAGS))))
+
+.PHONY: deps
+deps: ## install the Debian packages that `figures` and `test` need
+	@missing=; for package in $(packages); do \
+	  case "$$(dpkg-query -W -f '$${Status}' $$package 2>/dev/null)" in \
+	    "install ok installed") ;; *) missing="$$missing $$package" ;; esac; done; \
+	if [ -z "$$missing" ]; then \
+	  [ -n "$(MAKE_RESTARTS)" ] || echo "deps: all $(words $(packages)) packages are installed"; exit 0; fi; \
+	if [ -n "$(dry_run)" ]; then echo "deps: make -n installs nothing; missing:$$missing" >&2; exit 1; fi; \
+	sudo=; if [ "$$(id -u)" != 0 ]; then sudo=sudo; command -v sudo > /dev/null || { \
+	  echo "deps: not root and no sudo; as root run: apt-get install$$missing" >&2; exit 1; }; fi; \
+	echo "deps: installing$$missing"; \
+	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get update -q; \
+	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $$missing
+
+# --- tests and upkeep -----------------------------------------------------------------------------------------
+
+.PHONY: test format check-format
+test: build $(B)/bin/whine-tests $(tools:%=$(B)/id/%) | $(with_deps) ## run all tests; the last line is `N passed, N failed`
+	@B=$(B) tests/run
+
+format: ## lay out the C++ sources with clang-format
+	clang-format -i $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp)
+
+check-format: ## fail if clang-format would change a source
+	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp)
+
+.PHONY: help clean clean-figures clean-motion clean-out
+help: ## print this list
+	@echo 'Whine: gear whine from elastic teeth that touch, part and touch again. Targets:'
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk Makefile
+	@echo 'Any artifact is a target, at any torque in N m; the scene stands in its path:'
+	@echo '  make out/parker2000/T600/up/response.h5'
+	@echo '  make SCENE=path/to/scene.toml sweep'
+	@echo '  make -j64 figures LAUNCH="srun -n1 --exact"     on a cluster; LAUNCH_sweep=... for one kind of stage'
+	@echo 'FREEZE=1 keeps results although their program changed; SANITIZE=1 compiles with sanitizers into build/sanitize.'
+
+clean: ## remove build/ (programs; results stay valid)
+	rm -rf build
+
+clean-figures: ## remove the figures (seconds to make again)
+	rm -rf out/figures
+
+clean-motion: ## remove statics, sweeps and responses of all scenes (minutes); bodies stay
+	rm -rf out/*/T[0-9]*
+
+clean-out: ## remove out/ with the cached meshes and bodies
+	rm -rf out

@@ -1,0 +1,62 @@
+# Stages: scene -> mesh.h5 -> body.h5 -> static.h5 -> sweep.h5 -> response.h5.
+#
+# A stage depends on the slice of the scene that it reads, on the artifacts that it reads, and on the id of its
+# program. Bodies are per distinct gear (out/bodies/<hash>), operating points are targets: the torque stands in the path.
+
+# $(call run,stage): how a stage starts; LAUNCH may carry the heavy ones to other machines.
+launch = $(or $(LAUNCH_$1),$(LAUNCH))
+run = $(if $(call launch,$1),$(call launch,$1) )$(B)/bin/gear-$1
+
+define body_rules # hash
+out/bodies/$1/mesh.h5: out/bodies/$1/body.toml $(call id,gear-mesh) | $(B)/bin/gear-mesh
+	$$(call run,mesh) --params $$< --output $$@
+
+out/bodies/$1/body.h5: out/bodies/$1/body.toml out/bodies/$1/mesh.h5 $(call id,gear-reduce) | $(B)/bin/gear-reduce
+	$$(call run,reduce) --params $$< --mesh out/bodies/$1/mesh.h5 --output $$@
+endef
+
+define gear_rules # scene, gear: the same files, seen through the link out/<scene>/<gear>
+out/$1/$2/mesh.h5: out/bodies/$(SCENE_$1_BODY_$2)/mesh.h5 ;
+out/$1/$2/body.h5: out/bodies/$(SCENE_$1_BODY_$2)/body.h5 ;
+endef
+
+pair_bodies = $(sort $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/bodies/$(SCENE_$1_BODY_$g)/body.h5))
+pair_options = --driver out/$1/$(SCENE_$1_DRIVER)/body.h5 --driven out/$1/$(SCENE_$1_DRIVEN)/body.h5
+reference_static = out/$1/T$(SCENE_$1_REFERENCE_TORQUE)/static.h5
+
+define static_rules # scene, torque
+out/$1/T$2/static.h5: out/$1/params/static.toml $(pair_bodies) $(call id,gear-static) | $(B)/bin/gear-static
+	$$(call run,static) --params $$< $(pair_options) --torque $2 --output $$@
+endef
+
+define sweep_rules # scene, torque, direction
+out/$1/T$2/$3/sweep.h5: out/$1/params/sweep.toml $(pair_bodies) \
+    out/$1/T$2/static.h5 $(reference_static) $(call id,gear-sweep) | $(B)/bin/gear-sweep
+	$$(call run,sweep) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
+	  --reference-static $(reference_static) --direction $3 --output $$@
+
+out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)/bin/gear-spectra
+	$(B)/bin/gear-spectra --input $$< --output $$@
+endef
+
+# Torques of a scene that have rules: those that it lists and those in the paths of goals and figures.
+path_torques = $(patsubst T%,%,$(foreach f,$(filter out/$1/T%,$(goals) $(figure_inputs)),$(word 3,$(subst /, ,$f))))
+torques = $(sort $(SCENE_$1_TORQUES) $(SCENE_$1_REFERENCE_TORQUE) $(path_torques))
+check_torque = $(if $(filter-out $2,$(shell printf %g '$2' 2>/dev/null || echo no number)),\
+  $(error out/$1/T$2: the torque in a path is a number in N m as printed by %g, such as T150 or T62.5))
+
+define scene_rules # scene
+$(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
+$(foreach t,$(path_torques),$(call check_torque,$1,$t))
+$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))\
+  $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))))
+endef
+
+$(foreach h,$(sort $(BODIES)),$(eval $(call body_rules,$h)))
+$(foreach s,$(scenes),$(if $(SCENE_$s_GEARS),$(eval $(call scene_rules,$s))))
+
+.PHONY: mesh reduce static sweep
+mesh: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/mesh.h5) ## mesh every gear of SCENE (default: the paper's)
+reduce: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/body.h5) ## modes and flexibility of every gear of SCENE
+static: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/static.h5) ## transmission error and stiffness, all torques of SCENE
+sweep: $(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$d/response.h5)) ## speed sweeps, all torques of SCENE
