@@ -1,0 +1,222 @@
+#include "solid/elements.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+// Lagrange polynomials through -1, 0, 1 (order 2) or -1, 1 (order 1) and their slopes.
+struct Line {
+  double value[3], slope[3];  // at the nodes -1, +1, 0
+};
+
+Line line_shape(bool quadratic, double a) {
+  if (!quadratic) return {{0.5 * (1 - a), 0.5 * (1 + a), 0}, {-0.5, 0.5, 0}};
+  return {{0.5 * a * (a - 1), 0.5 * a * (a + 1), 1 - a * a}, {a - 0.5, a + 0.5, -2 * a}};
+}
+
+// Indices into Line of each node of the element: (along a, along b).
+constexpr int kNodeLine[9][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {1, 2}, {2, 1}, {0, 2}, {2, 2}};
+
+// Shape functions at the Gauss points of an element type, tabulated once.
+struct Quadrature {
+  std::vector<Shape> shape;
+  std::vector<double> weight;
+};
+
+Quadrature make_quadrature(int nodes) {
+  const GaussRule rule = gauss_rule(nodes == 4 ? 2 : 3);
+  Quadrature q;
+  for (int i = 0; i < rule.point.size(); ++i)
+    for (int j = 0; j < rule.point.size(); ++j) {
+      q.shape.push_back(shape_functions(nodes, rule.point[i], rule.point[j]));
+      q.weight.push_back(rule.weight[i] * rule.weight[j]);
+    }
+  return q;
+}
+
+const Quadrature& quadrature(int nodes) {
+  static const Quadrature four = make_quadrature(4), nine = make_quadrature(9);
+  return nodes == 4 ? four : nine;
+}
+
+// Jacobian matrix: rows reference directions, columns x and y.
+Eigen::Matrix2d jacobian(const Shape& shape, const Eigen::MatrixX2d& nodes) {
+  return shape.slope.transpose() * nodes;
+}
+
+double checked_determinant(const Eigen::Matrix2d& j, const Eigen::MatrixX2d& nodes) {
+  const double det = j.determinant();
+  if (!(det > 0))
+    fail(Failure::numerical, "element near (", nodes(0, 0), ", ", nodes(0, 1),
+         ") m has Jacobian determinant ", det,
+         " m2, it must be above 0: the element is folded; change element_mm");
+  return det;
+}
+
+Eigen::MatrixX2d element_nodes(const MatrixRM& position, const MatrixRMi& element_node, Eigen::Index e) {
+  Eigen::MatrixX2d nodes(element_node.cols(), 2);
+  for (Eigen::Index k = 0; k < element_node.cols(); ++k) nodes.row(k) = position.row(element_node(e, k));
+  return nodes;
+}
+
+}  // namespace
+
+Shape shape_functions(int nodes, double a, double b) {
+  if (nodes != 4 && nodes != 9) fail(Failure::input, "an element has 4 or 9 nodes, not ", nodes);
+  const Line along_a = line_shape(nodes == 9, a), along_b = line_shape(nodes == 9, b);
+  Shape shape{Eigen::VectorXd(nodes), Eigen::MatrixX2d(nodes, 2)};
+  for (int k = 0; k < nodes; ++k) {
+    const int i = kNodeLine[k][0], j = kNodeLine[k][1];
+    shape.value[k] = along_a.value[i] * along_b.value[j];
+    shape.slope(k, 0) = along_a.slope[i] * along_b.value[j];
+    shape.slope(k, 1) = along_a.value[i] * along_b.slope[j];
+  }
+  return shape;
+}
+
+GaussRule gauss_rule(int points) {
+  if (points < 1) fail(Failure::input, "a Gauss rule needs 1 point or more, not ", points);
+  GaussRule rule{Eigen::VectorXd(points), Eigen::VectorXd(points)};
+  for (int i = 0; i < points; ++i) {
+    double x = std::cos(M_PI * (i + 0.75) / (points + 0.5)), slope = 1;
+    for (int iteration = 0; iteration < 100; ++iteration) {  // Newton on the Legendre polynomial
+      double p = x, previous = 1;
+      for (int k = 2; k <= points; ++k) {
+        const double next = ((2 * k - 1) * x * p - (k - 1) * previous) / k;
+        previous = p;
+        p = next;
+      }
+      slope = points * (previous - x * p) / (1 - x * x);
+      const double step = p / slope;
+      x -= step;
+      if (std::abs(step) < 1e-16) break;
+    }
+    rule.point[i] = -x;
+    rule.weight[i] = 2 / ((1 - x * x) * slope * slope);
+  }
+  return rule;
+}
+
+PlaneModuli plane_strain_equivalent(const Material& material) {
+  const double e = material.youngs_modulus, nu = material.poisson_ratio;
+  if (!material.plane_stress) return {e, nu};
+  return {e * (1 + 2 * nu) / ((1 + nu) * (1 + nu)), nu / (1 + nu)};
+}
+
+Eigen::Matrix3d plane_elasticity(const Material& material) {
+  const auto [e, nu] = plane_strain_equivalent(material);
+  const double scale = e / ((1 + nu) * (1 - 2 * nu));
+  Eigen::Matrix3d d;
+  d << 1 - nu, nu, 0, nu, 1 - nu, 0, 0, 0, 0.5 - nu;
+  return scale * d;
+}
+
+Eigen::MatrixXd element_stiffness(const Eigen::MatrixX2d& nodes, const Material& material, double thickness) {
+  const Quadrature& q = quadrature(static_cast<int>(nodes.rows()));
+  const Eigen::Matrix3d d = thickness * plane_elasticity(material);
+  const Eigen::Index n = nodes.rows();
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(2 * n, 2 * n), b = Eigen::MatrixXd::Zero(3, 2 * n);
+  for (size_t g = 0; g < q.shape.size(); ++g) {
+    const Eigen::Matrix2d j = jacobian(q.shape[g], nodes);
+    const double det = checked_determinant(j, nodes);
+    const Eigen::MatrixX2d slope = q.shape[g].slope * j.inverse().transpose();
+    for (Eigen::Index a = 0; a < n; ++a) {
+      b(0, 2 * a) = b(2, 2 * a + 1) = slope(a, 0);
+      b(1, 2 * a + 1) = b(2, 2 * a) = slope(a, 1);
+    }
+    k.noalias() += (q.weight[g] * det) * (b.transpose() * (d * b));
+  }
+  return 0.5 * (k + k.transpose());
+}
+
+Eigen::MatrixXd element_mass(const Eigen::MatrixX2d& nodes, double density, double thickness) {
+  const Quadrature& q = quadrature(static_cast<int>(nodes.rows()));
+  const Eigen::Index n = nodes.rows();
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  for (size_t g = 0; g < q.shape.size(); ++g) {
+    const double det = checked_determinant(jacobian(q.shape[g], nodes), nodes);
+    const Eigen::VectorXd& value = q.shape[g].value;
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index c = 0; c < n; ++c) {
+        const double entry = density * thickness * q.weight[g] * det * value[a] * value[c];
+        m(2 * a, 2 * c) += entry;
+        m(2 * a + 1, 2 * c + 1) += entry;
+      }
+  }
+  return m;
+}
+
+double least_jacobian(const MatrixRM& node_position, const MatrixRMi& element_node) {
+  const int n = static_cast<int>(element_node.cols());
+  std::vector<Shape> corners;
+  for (int k = 0; k < 4; ++k)
+    corners.push_back(shape_functions(n, kNodeLine[k][0] ? 1 : -1, kNodeLine[k][1] ? 1 : -1));
+  const Quadrature& q = quadrature(n);
+  double least = 1;
+  for (Eigen::Index e = 0; e < element_node.rows(); ++e) {
+    const Eigen::MatrixX2d nodes = element_nodes(node_position, element_node, e);
+    double mean = 0, smallest = std::numeric_limits<double>::infinity();
+    for (size_t g = 0; g < q.shape.size(); ++g) {
+      const double det = jacobian(q.shape[g], nodes).determinant();
+      mean += 0.25 * q.weight[g] * det;
+      smallest = std::min(smallest, det);
+    }
+    for (const Shape& shape : corners) smallest = std::min(smallest, jacobian(shape, nodes).determinant());
+    least = std::min(least, mean > 0 ? smallest / mean : -1.0);
+  }
+  return least;
+}
+
+double mesh_area(const MatrixRM& node_position, const MatrixRMi& element_node) {
+  const Quadrature& q = quadrature(static_cast<int>(element_node.cols()));
+  double area = 0;
+  for (Eigen::Index e = 0; e < element_node.rows(); ++e) {
+    const Eigen::MatrixX2d nodes = element_nodes(node_position, element_node, e);
+    for (size_t g = 0; g < q.shape.size(); ++g)
+      area += q.weight[g] * jacobian(q.shape[g], nodes).determinant();
+  }
+  return area;
+}
+
+PlaneSystem assemble(const MatrixRM& node_position, const MatrixRMi& element_node, const Material& material,
+                     double thickness, const std::vector<char>& keep) {
+  const Eigen::Index n = element_node.cols(), size = 2 * node_position.rows();
+  std::vector<Eigen::Triplet<double>> stiffness, mass;
+  stiffness.reserve(static_cast<size_t>(element_node.rows() * 4 * n * n));
+  mass.reserve(static_cast<size_t>(element_node.rows() * 2 * n * n));
+  for (Eigen::Index e = 0; e < element_node.rows(); ++e) {
+    if (!keep.empty() && !keep[static_cast<size_t>(e)]) continue;
+    const Eigen::MatrixX2d nodes = element_nodes(node_position, element_node, e);
+    const Eigen::MatrixXd k = element_stiffness(nodes, material, thickness);
+    const Eigen::MatrixXd m = element_mass(nodes, material.density, thickness);
+    for (Eigen::Index a = 0; a < 2 * n; ++a)
+      for (Eigen::Index b = 0; b < 2 * n; ++b) {
+        const int row = 2 * element_node(e, a / 2) + static_cast<int>(a % 2);
+        const int column = 2 * element_node(e, b / 2) + static_cast<int>(b % 2);
+        stiffness.emplace_back(row, column, k(a, b));
+        if (a % 2 == b % 2) mass.emplace_back(row, column, m(a, b));
+      }
+  }
+  PlaneSystem system{SparseReal(size, size), SparseReal(size, size)};
+  system.stiffness.setFromTriplets(stiffness.begin(), stiffness.end());
+  system.mass.setFromTriplets(mass.begin(), mass.end());
+  return system;
+}
+
+Eigen::VectorXd rotation_field(const MatrixRM& node_position) {
+  Eigen::VectorXd field(2 * node_position.rows());
+  for (Eigen::Index i = 0; i < node_position.rows(); ++i) {
+    field[2 * i] = -node_position(i, 1);
+    field[2 * i + 1] = node_position(i, 0);
+  }
+  return field;
+}
+
+}  // namespace whine

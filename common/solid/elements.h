@@ -1,0 +1,64 @@
+// Plane isoparametric elements: 4 nodes (bilinear) and 9 nodes (biquadratic), fully integrated (2x2 and 3x3
+// Gauss points). Displacements are ordered node by node: x0, y0, x1, y1, ...
+//
+// Node order: corners counter-clockwise from (-1, -1), then the mid-sides of the sides 0-1, 1-2, 2-3, 3-0,
+// then the centre. Bathe, Finite Element Procedures, section 5.3.
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "files/schemas.h"
+
+namespace whine {
+
+using SparseReal = Eigen::SparseMatrix<double>;
+
+// Shape functions at a point of the reference square and their derivatives there.
+struct Shape {
+  Eigen::VectorXd value;                           // (node) 1
+  Eigen::Matrix<double, Eigen::Dynamic, 2> slope;  // (node, 2) 1: with respect to the reference coordinates
+};
+Shape shape_functions(int nodes, double a, double b);  // nodes: 4 or 9; throws Error(input) otherwise
+
+// Gauss-Legendre points and weights on [-1, 1]; exact for polynomials of degree 2 n - 1.
+struct GaussRule {
+  Eigen::VectorXd point, weight;  // (point) 1
+};
+GaussRule gauss_rule(int points);
+
+// Plane strain moduli that give the material's plane state: in plane stress E (1 + 2 nu) / (1 + nu)^2 and nu
+// / (1 + nu).
+struct PlaneModuli {
+  double youngs_modulus = 0;  // Pa
+  double poisson_ratio = 0;   // 1
+};
+PlaneModuli plane_strain_equivalent(const Material& material);
+
+// Stress (xx, yy, xy) from strain (xx, yy, engineering xy). (3, 3) Pa
+Eigen::Matrix3d plane_elasticity(const Material& material);
+
+// nodes: (4 or 9, 2) m. Results (2 node, 2 node) N m-1 and kg. Throw Error(numerical) where the Jacobian is
+// not positive.
+Eigen::MatrixXd element_stiffness(const Eigen::MatrixX2d& nodes, const Material& material, double thickness);
+Eigen::MatrixXd element_mass(const Eigen::MatrixX2d& nodes, double density, double thickness);
+
+// Least Jacobian determinant over corners and Gauss points of all elements, over the element's mean. 1; > 0
+// is needed.
+double least_jacobian(const MatrixRM& node_position, const MatrixRMi& element_node);
+
+// m2: sum of the elements' areas.
+double mesh_area(const MatrixRM& node_position, const MatrixRMi& element_node);
+
+struct PlaneSystem {
+  SparseReal stiffness;  // (2 node, 2 node) N m-1
+  SparseReal mass;       // (2 node, 2 node) kg
+};
+
+// Sums the elements for which keep[element] holds; an empty `keep` takes all of them.
+PlaneSystem assemble(const MatrixRM& node_position, const MatrixRMi& element_node, const Material& material,
+                     double thickness, const std::vector<char>& keep = {});
+
+// (2 node) m per rad: the displacement of a small counter-clockwise rotation about the origin.
+Eigen::VectorXd rotation_field(const MatrixRM& node_position);
+
+}  // namespace whine

@@ -1,0 +1,25 @@
+// One tooth sector as a structured mesh of quadrilaterals, exact on every boundary.
+//
+// The half sector left of the tooth's centre line is cut into six four-sided blocks, which gmsh fills by
+// transfinite interpolation; the other half is its mirror image. Afterwards each boundary node is put on its
+// exact curve (involute, trochoid, circle, sector edge), because the splines that gmsh meshes lie micrometres
+// off. Nine-node elements get mid-side nodes on the same exact curves and centre nodes from the transfinite
+// map of the eight others. Elements are finest at the tip corner, where the stress of a load near the edge is
+// steepest.
+#pragma once
+#include "files/schemas.h"
+
+namespace whine {
+
+// Throws Error(input) for an element size or order that cannot be used, Error(numerical) when the mesh does
+// not keep its promises: positive Jacobian everywhere, sector edges that are images of each other, area of
+// the exact sector.
+MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation);
+
+// The checks alone, for a mesh from anywhere; same errors.
+void check_sector_mesh(const MeshArtifact& mesh);
+
+// m2: area of the exact sector, by quadrature of its boundary curves.
+double exact_sector_area(const GearDesign& design);
+
+}  // namespace whine

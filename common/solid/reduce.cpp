@@ -1,0 +1,398 @@
+#include "solid/reduce.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "base/error.h"
+#include "solid/flank_table.h"
+#include "solid/half_plane.h"
+#include "solid/modes.h"
+#include "solid/sector.h"
+
+namespace whine {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+using Complex = std::complex<double>;
+
+// A side of an element on the boundary of the tooth region, node order counter-clockwise around the region.
+struct Side {
+  std::vector<int> node;  // 2, or 3: start, end, middle
+  bool cut = false;       // borders on the rest of the gear; otherwise free
+  bool flank = false;     // on the driving flank
+};
+
+std::vector<Side> sides_of_tooth_region(const MeshArtifact& mesh) {
+  const std::set<int> flank(mesh.flank_node.begin(), mesh.flank_node.end());
+  std::set<int> edge;
+  for (Eigen::Index i = 0; i < mesh.side_node.size(); ++i) edge.insert(mesh.side_node.data()[i]);
+  auto element_side = [&](Eigen::Index e, int k) {
+    std::vector<int> node{mesh.element_node(e, k), mesh.element_node(e, (k + 1) % 4)};
+    if (mesh.element_node.cols() == 9) node.push_back(mesh.element_node(e, 4 + k));
+    return node;
+  };
+  std::map<std::pair<int, int>, std::pair<int, int>> count;  // tooth elements, other elements at a side
+  for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e)
+    for (int k = 0; k < 4; ++k) {
+      const auto node = element_side(e, k);
+      auto& [tooth, rest] = count[std::minmax(node[0], node[1])];
+      ++(mesh.element_region[e] == 1 ? tooth : rest);
+    }
+  std::vector<Side> sides;
+  for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e) {
+    if (mesh.element_region[e] != 1) continue;
+    for (int k = 0; k < 4; ++k) {
+      Side side{element_side(e, k)};
+      const auto [tooth, rest] = count.at(std::minmax(side.node[0], side.node[1]));
+      if (tooth == 2) continue;
+      auto all_in = [&side](const std::set<int>& set) {
+        return std::all_of(side.node.begin(), side.node.end(), [&set](int i) { return set.contains(i); });
+      };
+      side.cut = rest > 0 || all_in(edge);
+      side.flank = all_in(flank);
+      sides.push_back(side);
+    }
+  }
+  return sides;
+}
+
+// Shape functions of a side and their slopes at a in [-1, 1]; order start, end, middle.
+struct SideShape {
+  double value[3], slope[3];
+};
+SideShape side_shape(size_t nodes, double a) {
+  if (nodes == 2) return {{0.5 * (1 - a), 0.5 * (1 + a), 0}, {-0.5, 0.5, 0}};
+  return {{0.5 * a * (a - 1), 0.5 * a * (a + 1), 1 - a * a}, {a - 0.5, a + 0.5, -2 * a}};
+}
+
+// Adds the integral of N^T t_hs over one side; sides that are long against their distance to the load are
+// halved.
+class TractionIntegral {
+ public:
+  TractionIntegral(const MeshArtifact& mesh, const ToothGeometry& tooth) : mesh_(mesh), tooth_(tooth) {
+    for (Eigen::Index i = 0; i < mesh.flank_node.size(); ++i)
+      roll_[mesh.flank_node[i]] = mesh.flank_roll_angle[i];
+  }
+
+  void add(const Side& side, const Vec2& load, const LineLoadField& field,
+           Eigen::Ref<Eigen::VectorXd> force) const {
+    add(side, load, field, -1, 1, 0, force);
+  }
+
+ private:
+  struct Place {
+    Vec2 point, outward;  // outward: times the length per unit of a
+  };
+  Place place(const Side& side, double a) const {
+    const size_t n = side.node.size();
+    if (side.flank) {  // the exact involute: the half-plane's traction next to the load knows the difference
+      const double from = roll_.at(side.node[0]), to = roll_.at(side.node[1]);
+      const double xi = 0.5 * (from + to) + 0.5 * a * (to - from);
+      return {tooth_.flank_point(xi),
+              tooth_.flank_normal(xi) * (tooth_.base_radius() * xi * 0.5 * std::abs(to - from))};
+    }
+    const SideShape shape = side_shape(n, a);
+    Vec2 point = Vec2::Zero(), along = Vec2::Zero();
+    for (size_t k = 0; k < n; ++k) {
+      const Vec2 p = mesh_.node_position.row(side.node[k]);
+      point += shape.value[k] * p;
+      along += shape.slope[k] * p;
+    }
+    return {point, {along.y(), -along.x()}};
+  }
+  void add(const Side& side, const Vec2& load, const LineLoadField& field, double from, double to, int depth,
+           Eigen::Ref<Eigen::VectorXd> force) const {
+    const Vec2 start = place(side, from).point, end = place(side, to).point,
+               middle = place(side, 0.5 * (from + to)).point;
+    const double length = (end - start).norm();
+    const double distance = std::min({(start - load).norm(), (end - load).norm(), (middle - load).norm()});
+    constexpr int kDeepest = 24;  // 2e-8 of a side: beyond it the exact involute is flat to round-off
+    if (length > distance && depth < kDeepest) {
+      add(side, load, field, from, 0.5 * (from + to), depth + 1, force);
+      add(side, load, field, 0.5 * (from + to), to, depth + 1, force);
+      return;
+    }
+    if (length > distance) return;  // traction is bounded on a flank, the piece is nothing
+    static const GaussRule rule = gauss_rule(10);
+    for (Eigen::Index g = 0; g < rule.point.size(); ++g) {
+      const double a = 0.5 * (from + to) + 0.5 * (to - from) * rule.point[g];
+      const Place at = place(side, a);
+      const Vec2 traction = 0.5 * (to - from) * rule.weight[g] * field.traction(at.point, at.outward);
+      const SideShape shape = side_shape(side.node.size(), a);
+      for (size_t k = 0; k < side.node.size(); ++k)
+        force.segment<2>(2 * side.node[k]) += shape.value[k] * traction;
+    }
+  }
+
+  const MeshArtifact& mesh_;
+  const ToothGeometry& tooth_;
+  std::map<int, double> roll_;  // rad, of flank nodes
+};
+
+// One mode of one harmonic; doublets stand for two real modes.
+struct KeptMode {
+  int harmonic = 0;
+  double omega_squared = 0;
+  double coupling = 0;      // gamma
+  Eigen::VectorXcd sector;  // (2 node) kg^-1/2, normalised over the whole gear
+  Eigen::VectorXcd flank;   // (point) kg^-1/2
+};
+
+// Turns the phase so that the outward displacement of the tip-most table point is real and positive.
+void fix_phase(Eigen::VectorXcd& shape, const SparseReal& outward) {
+  const Eigen::VectorXcd flank = outward.cast<Complex>() * shape;
+  Complex value = flank[flank.size() - 1];
+  if (std::abs(value) < 1e-6 * shape.cwiseAbs().maxCoeff()) {  // the flank does not move in this mode
+    Eigen::Index largest = 0;
+    shape.cwiseAbs().maxCoeff(&largest);
+    value = shape[largest];
+  }
+  shape *= std::conj(value) / std::abs(value);
+}
+
+}  // namespace
+
+FlankReader::FlankReader(const MeshArtifact& mesh) : mesh_(mesh), tooth_(mesh.design) {
+  const Eigen::Index step = mesh.element_node.cols() == 9 ? 2 : 1;
+  if (mesh.flank_node.size() < step + 1 || (mesh.flank_node.size() - 1) % step != 0 ||
+      mesh.flank_roll_angle.size() != mesh.flank_node.size())
+    fail(Failure::input, "the mesh has ", mesh.flank_node.size(), " flank nodes and ",
+         mesh.flank_roll_angle.size(),
+         " roll angles, which do not make whole element sides; rebuild the mesh");
+}
+
+SparseReal FlankReader::outward(const Eigen::VectorXd& xi) const {
+  const Eigen::Index step = mesh_.element_node.cols() == 9 ? 2 : 1, last = mesh_.flank_node.size() - 1;
+  SparseReal reading(xi.size(), 2 * mesh_.node_position.rows());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < xi.size(); ++i) {
+    Eigen::Index side = 0;
+    while (side + step < last && mesh_.flank_roll_angle[side + step] < xi[i]) side += step;
+    const double from = mesh_.flank_roll_angle[side], to = mesh_.flank_roll_angle[side + step];
+    const SideShape shape = side_shape(static_cast<size_t>(step + 1), (2 * xi[i] - from - to) / (to - from));
+    const Vec2 normal = tooth_.flank_normal(xi[i]);
+    const Eigen::Index node[3] = {side, side + step, side + 1};
+    for (int k = 0; k < step + 1; ++k)
+      for (int c = 0; c < 2; ++c)
+        entries.emplace_back(static_cast<int>(i), 2 * mesh_.flank_node[node[k]] + c,
+                             shape.value[k] * normal[c]);
+  }
+  reading.setFromTriplets(entries.begin(), entries.end());
+  return reading;
+}
+
+FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi) {
+  const ToothGeometry tooth(mesh.design);
+  const PlaneModuli moduli = plane_strain_equivalent(material);
+  const double thickness = mesh.design.face_width;
+  const Eigen::Index nodes = mesh.node_position.rows(), loads = xi.size();
+
+  const std::vector<Side> sides = sides_of_tooth_region(mesh);
+  std::vector<char> in_region(static_cast<size_t>(mesh.element_node.rows()));
+  std::vector<char> holds_rest(static_cast<size_t>(nodes), 0);  // nodes where the unknown is w
+  std::vector<char> on_cut(static_cast<size_t>(nodes), 0);
+  for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e) {
+    in_region[static_cast<size_t>(e)] = mesh.element_region[e] == 1;
+    if (mesh.element_region[e] == 1)
+      for (Eigen::Index k = 0; k < mesh.element_node.cols(); ++k)
+        holds_rest[static_cast<size_t>(mesh.element_node(e, k))] = 1;
+  }
+  for (const Side& side : sides)
+    if (side.cut)
+      for (int node : side.node) {
+        on_cut[static_cast<size_t>(node)] = 1;
+        holds_rest[static_cast<size_t>(node)] = 0;
+      }
+  const SparseReal region_stiffness =
+      assemble(mesh.node_position, mesh.element_node, material, thickness, in_region).stiffness;
+  const TractionIntegral integral(mesh, tooth);
+
+  FlankLoads result{Eigen::MatrixXd::Zero(2 * nodes, loads), Eigen::MatrixXd::Zero(2 * nodes, loads),
+                    MatrixRM::Zero(loads, loads)};
+  for (Eigen::Index j = 0; j < loads; ++j) {
+    const Vec2 load = tooth.flank_point(xi[j]);
+    const LineLoadField field(load, tooth.flank_normal(xi[j]), moduli, thickness, kReferenceDepth);
+    Eigen::VectorXd traction = Eigen::VectorXd::Zero(2 * nodes), cut = Eigen::VectorXd::Zero(2 * nodes);
+    for (const Side& side : sides) integral.add(side, load, field, traction);
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      const Vec2 p = mesh.node_position.row(i);
+      if (on_cut[static_cast<size_t>(i)]) cut.segment<2>(2 * i) = field.displacement(p);
+      if (holds_rest[static_cast<size_t>(i)]) {
+        // A node on the loaded point itself has no finite half-plane displacement: it is read a micrometre
+        // below.
+        const Vec2 away = (p - load).norm() > 1e-6 ? p : Vec2(load - 1e-6 * tooth.flank_normal(xi[j]));
+        result.half_plane.col(j).segment<2>(2 * i) = field.displacement(away);
+      }
+    }
+    result.force.col(j) = region_stiffness * cut - traction;
+    for (Eigen::Index i = 0; i < loads; ++i) {
+      if (i == j) continue;  // on the surface under the load both parts have the same limit
+      const double arc = tooth.arc_length(xi[i]) - tooth.arc_length(xi[j]);
+      result.subtracted(i, j) = -tooth.flank_normal(xi[i]).dot(field.displacement(tooth.flank_point(xi[i]))) -
+                                flat_surface_displacement(arc, moduli, thickness, kReferenceDepth);
+    }
+  }
+  return result;
+}
+
+BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes) {
+  if (modes < 0) fail(Failure::input, "modes = ", modes, " is below 0");
+  const ToothGeometry tooth(mesh.design);
+  const int teeth = mesh.design.teeth;
+  const double thickness = mesh.design.face_width;
+  const FlankTable table(tooth, kFlankPoints);
+  const Eigen::VectorXd& xi = table.points();
+  const Eigen::Index points = xi.size();
+
+  const PlaneSystem system = assemble(mesh.node_position, mesh.element_node, material, thickness);
+  const Eigen::VectorXd rotation = rotation_field(mesh.node_position);
+  const Eigen::VectorXd momentum = system.mass * rotation;
+  const CyclicSector sector(mesh, system);
+  const SparseReal outward = FlankReader(mesh).outward(xi);
+  const FlankLoads loads = make_flank_loads(mesh, material, xi);
+
+  // Harmonic by harmonic: flexibility and the lowest modes.
+  std::vector<Eigen::MatrixXcd> flexibility;  // [harmonic] (point, load) inward
+  std::vector<KeptMode> found;
+  const Eigen::Index shown = points / 2;       // the load whose displacement is stored for looking
+  std::vector<Eigen::VectorXcd> displacement;  // [harmonic] (2 node)
+  HermitianFactor factor(sector.stiffness(0));
+  for (int n = 0; n < sector.harmonics(); ++n) {
+    const std::string what = text("sector stiffness, harmonic ", n, " of ", teeth, " teeth");
+    const SparseComplex stiffness = sector.stiffness(n);
+    factor.factorise(stiffness, what);
+    const Eigen::MatrixXcd solution = sector.expand(n, factor.solve(sector.gather(n, loads.force)));
+    flexibility.push_back(-(outward.cast<Complex>() * solution));
+    displacement.push_back(solution.col(shown));
+
+    // No more than these of a harmonic can be among the lowest `modes` of the gear; the torsional one is
+    // always sought.
+    const int wanted = n == 0 ? std::max(modes, 4) : sector.single(n) ? modes : (modes + 1) / 2;
+    if (wanted == 0) continue;
+    const ComplexModes lowest = lowest_modes(stiffness, sector.mass(n), factor, wanted, what);
+    for (int k = 0; k < wanted; ++k) {
+      KeptMode mode;
+      mode.harmonic = n;
+      mode.omega_squared = lowest.omega_squared[k];
+      mode.sector = sector.expand(n, lowest.shape.col(k)) * std::sqrt((sector.single(n) ? 1.0 : 2.0) / teeth);
+      fix_phase(mode.sector, outward);
+      if (sector.single(n)) mode.sector = mode.sector.real().cast<Complex>().eval();
+      mode.flank = outward.cast<Complex>() * mode.sector;
+      if (n == 0) mode.coupling = teeth * mode.sector.real().dot(momentum);
+      found.push_back(std::move(mode));
+    }
+  }
+
+  // The lowest modes, doublets whole, and the torsional one.
+  std::stable_sort(found.begin(), found.end(),
+                   [](const KeptMode& a, const KeptMode& b) { return a.omega_squared < b.omega_squared; });
+  size_t torsional = 0;
+  for (size_t k = 0; k < found.size(); ++k)
+    if (std::abs(found[k].coupling) > std::abs(found[torsional].coupling)) torsional = k;
+  std::vector<KeptMode> kept;
+  int real_modes = 0;
+  for (size_t k = 0; k < found.size(); ++k) {
+    if (real_modes >= modes && k != torsional) continue;
+    real_modes += sector.single(found[k].harmonic) ? 1 : 2;
+    kept.push_back(found[k]);
+  }
+
+  BodyArtifact body;
+  body.design = mesh.design;
+  body.material = material;
+  body.discretisation = mesh.discretisation;
+  body.discretisation.modes = modes;
+  body.inertia = teeth * rotation.dot(momentum);
+  body.eigenfrequency.resize(real_modes);
+  body.nodal_diameter.resize(real_modes);
+  body.component.resize(real_modes);
+  body.inertia_coupling = Eigen::VectorXd::Zero(real_modes);
+  body.flank_position = xi;
+  body.flank_mode.resize(points, real_modes);
+  body.reference_depth = kReferenceDepth;
+  const WholeGear gear = replicate(mesh);
+  body.vtk_point = gear.node_position;
+  body.vtk_cell = gear.element_node;
+  // tooth j: real part of factor(j) u, turned with the tooth
+  auto show = [&](const std::string& name, auto&& tooth_displacement) {
+    MatrixRM field(gear.node_position.rows(), 2);
+    for (int j = 0; j < teeth; ++j) {
+      const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2 * kPi * j / teeth).toRotationMatrix();
+      const Eigen::VectorXd u = tooth_displacement(j);
+      for (Eigen::Index i = 0; i < mesh.node_position.rows(); ++i)
+        field.row(gear.node(j, i)) = turn * u.segment<2>(2 * i);
+    }
+    body.vtk_point_data.emplace_back(name, std::move(field));
+  };
+  int column = 0;
+  for (const KeptMode& mode : kept)
+    for (int component = 0; component < (sector.single(mode.harmonic) ? 1 : 2); ++component, ++column) {
+      const Complex quarter = component == 0 ? Complex(1, 0) : Complex(0, -1);  // Im z = Re(-i z)
+      body.eigenfrequency[column] = std::sqrt(mode.omega_squared) / (2 * kPi);
+      body.nodal_diameter[column] = mode.harmonic;
+      body.component[column] = component;
+      body.inertia_coupling[column] = mode.coupling;
+      body.flank_mode.col(column) = (quarter * mode.flank).real();
+      char name[64];
+      std::snprintf(name, sizeof name, "mode_%02d_%.0fHz", column + 1, body.eigenfrequency[column]);
+      show(name, [&](int j) {
+        return Eigen::VectorXd(
+            (quarter * std::polar(1.0, sector.phase(mode.harmonic) * j) * mode.sector).real());
+      });
+    }
+
+  // R_d = 1/N sum over all n of exp(i theta_n d) R_n; harmonics n and N - n are conjugate.
+  auto offset_sum = [&](int d, auto&& of_harmonic) {
+    auto sum = (of_harmonic(0) * 0).real().eval();
+    for (int n = 0; n < sector.harmonics(); ++n)
+      sum += (sector.single(n) ? 1.0 : 2.0) / teeth *
+             (std::polar(1.0, sector.phase(n) * d) * of_harmonic(n)).real();
+    return sum;
+  };
+  body.offsets = std::min(kOffsets, (teeth - 1) / 2);
+  const Eigen::MatrixXd own =
+      offset_sum(0, [&](int n) -> const Eigen::MatrixXcd& { return flexibility[static_cast<size_t>(n)]; }) +
+      loads.subtracted;
+  body.asymmetry = (own - own.transpose()).norm() / own.norm();
+  constexpr double kAsymmetry = 2e-2;
+  if (!(body.asymmetry < kAsymmetry))
+    fail(Failure::numerical, "the flexibility of the flank is not symmetric: relative asymmetry ",
+         body.asymmetry, ", at most ", kAsymmetry, " is allowed; lower element_mm (now ",
+         mesh.discretisation.element_size * 1e3, ")");
+  for (auto& matrix : flexibility) {
+    matrix += loads.subtracted.cast<Complex>();  // tooth 0 alone: the same share in every harmonic
+    matrix = (0.5 * (matrix + matrix.adjoint())).eval();
+  }
+  for (int d = 0; d <= body.offsets; ++d)
+    body.compliance.push_back(
+        offset_sum(d, [&](int n) -> const Eigen::MatrixXcd& { return flexibility[static_cast<size_t>(n)]; }));
+
+  // Eigenvalues of the whole gear's table, all offsets: those of its harmonics, less the kept modes.
+  body.least_eigenvalue = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < sector.harmonics(); ++n) {
+    Eigen::MatrixXcd rest = flexibility[static_cast<size_t>(n)];
+    for (const KeptMode& mode : kept)
+      if (mode.harmonic == n)
+        rest -=
+            (sector.single(n) ? 1.0 : 0.5) * teeth / mode.omega_squared * mode.flank * mode.flank.adjoint();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(rest, Eigen::EigenvaluesOnly);
+    body.least_eigenvalue = std::min(body.least_eigenvalue, solver.eigenvalues()[0]);
+  }
+
+  show("displacement_unit_force", [&](int j) {
+    Eigen::VectorXd u =
+        offset_sum(j, [&](int n) -> const Eigen::VectorXcd& { return displacement[static_cast<size_t>(n)]; });
+    if (j == 0) u += loads.half_plane.col(shown);
+    return u;
+  });
+  return body;
+}
+
+}  // namespace whine

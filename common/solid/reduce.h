@@ -1,0 +1,51 @@
+// From a sector mesh to the body that contact needs: modes with the hub fixed and the flexibility between
+// flank points.
+//
+// Flexibility by singularity subtraction: in the tooth region D the displacement under a unit normal force at
+// s_j is u = u_hs + w, u_hs the line-load field of the tangent half-plane at s_j. The unknowns are w inside D
+// and on its free sides, u on the cut between D and the rest and beyond it; with t_hs the traction of u_hs on
+// the sides of D,
+//   K x = -(sum over sides of D of N^T t_hs) + K_D W,   W = u_hs at the nodes of the cut, 0 elsewhere.
+// w is smooth, so the elements need not resolve the contact; the logarithm stays analytical. Every harmonic
+// of the cyclic gear has the same load; offsets between teeth follow by the inverse discrete Fourier
+// transform.
+#pragma once
+#include "files/schemas.h"
+#include "gear/involute.h"
+#include "solid/elements.h"
+
+namespace whine {
+
+// modes: elastic modes of the whole gear to keep, 0 or more; the first torsional zero-diameter mode is always
+// among them. Throws Error(numerical) if a factorisation, an eigensolution or a table does not pass its
+// check.
+BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes);
+
+// Number of table points along the flank and depth to which the half-plane in the tables is relative.
+constexpr int kFlankPoints = 24;
+constexpr double kReferenceDepth = 1e-3;  // m
+constexpr int kOffsets = 3;
+
+// Reading of displacements on the driving flank of a sector mesh.
+class FlankReader {
+ public:
+  explicit FlankReader(const MeshArtifact& mesh);
+  // (points, 2 node) 1: outward normal displacement at roll angles xi from nodal displacements of the sector.
+  SparseReal outward(const Eigen::VectorXd& xi) const;
+
+ private:
+  const MeshArtifact& mesh_;
+  ToothGeometry tooth_;
+};
+
+// Right-hand sides of the subtraction for unit normal forces at roll angles xi of tooth 0, and what they are
+// made of.
+struct FlankLoads {
+  Eigen::MatrixXd force;       // (2 node, load) 1: the right-hand side K x = force
+  Eigen::MatrixXd half_plane;  // (2 node, load) m N-1: u_hs at the nodes where x holds w, 0 where it holds u
+  MatrixRM
+      subtracted;  // (point, load) m N-1: inward u_hs at the points xi, less the flat surface displacement
+};
+FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi);
+
+}  // namespace whine

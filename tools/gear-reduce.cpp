@@ -1,0 +1,50 @@
+// gear-reduce: modes and flank flexibility of a gear from the mesh of one tooth sector.
+//
+// Reads   params (slice of a scene: material and number of modes), mesh.h5 (geometry)
+// Writes  body.h5   eigenfrequencies with the hub fixed, mode shapes and compliance on the flank, inertia
+// coupling Equations: K u = omega^2 M u and M_fr of Eq. 3-6, sector by sector in the harmonics of cyclic
+// symmetry; flexibility K x = f with the half-plane solution of the line load subtracted in the tooth.
+// Example: gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5
+//            --output out/parker2000/pinion/body.h5
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/scene.h"
+#include "files/schemas.h"
+#include "solid/reduce.h"
+
+namespace {
+
+void body(int argc, char** argv) {
+  CLI::App app{"Modes and flank flexibility of a gear by cyclic symmetry", "gear-reduce"};
+  std::string params, mesh, output;
+  app.add_option("--params", params, "slice of the scene: out/bodies/<hash>/body.toml")->required();
+  app.add_option("--mesh", mesh, "mesh.h5 of the gear")->required();
+  app.add_option("--output", output, "body.h5 to write")->required();
+  whine::parse(app, argc, argv);
+
+  const whine::BodySlice slice = whine::read_body_slice(params);
+  const whine::BodyArtifact result =
+      whine::reduce(whine::read_mesh(mesh), slice.material, slice.discretisation.modes);
+
+  whine::Provenance provenance;
+  provenance.tool = whine::program_name(argv[0]);
+  provenance.command = whine::command_line(argc, argv);
+  provenance.inputs = {"params=" + params, "mesh=" + mesh};
+  whine::write(output, result, provenance);
+  Eigen::Index torsional = 0;
+  result.inertia_coupling.cwiseAbs().maxCoeff(&torsional);
+  std::cerr << whine::text("gear-reduce: ", result.eigenfrequency.size(), " modes from ",
+                           result.eigenfrequency.minCoeff(), " Hz, first torsional ",
+                           result.eigenfrequency[torsional], " Hz, body inertia ", result.inertia,
+                           " kg m2, asymmetry of the flexibility ", result.asymmetry, " -> ", output)
+            << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
