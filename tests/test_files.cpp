@@ -137,7 +137,7 @@ MeshArtifact small_mesh() {
   a.side_node.resize(3, 2);
   a.side_node << 0, 1, 2, 3, 4, 5;
   a.flank_node = Eigen::VectorXi{{3, 5}};
-  a.flank_roll_angle = Eigen::Vector2d(0.1 / 3, 0.4 / 3);
+  a.flank_roll_angle = Eigen::VectorXd{{0.1 / 3, 0.4 / 3}};
   return a;
 }
 
@@ -176,7 +176,7 @@ StaticArtifact small_static() {
   a.contact = {17, 128};
   a.torque = 150.0 / 1.3;
   a.contact_ratio = 1.7547 / 1.1;
-  a.mesh_phase = Eigen::Vector3d(0, 1.0 / 3, 2.0 / 3);
+  a.mesh_phase = Eigen::VectorXd{{0, 1.0 / 3, 2.0 / 3}};
   a.transmission_error = odd_vector(3, 1e-5);
   a.stiffness_secant = odd_vector(3, 4e8);
   a.stiffness_tangent = odd_vector(3, 4.1e8);
@@ -208,7 +208,7 @@ SweepArtifact small_sweep() {
   a.driver_bearing_damper = 1.0 / 3;
   a.driven_bearing_damper = 2.0 / 3;
   a.direction = "down";
-  a.mesh_frequency = Eigen::Vector2d(4000, 3980 + 1.0 / 3);
+  a.mesh_frequency = Eigen::VectorXd{{4000, 3980 + 1.0 / 3}};
   a.transmission_error = odd_matrix(2, 64, 1e-5);
   a.mesh_force = odd_matrix(2, 64, 3e3);
   a.pair = Eigen::VectorXi{{-1, 0, 1}};
@@ -616,7 +616,7 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   Folder folder;
   StaticArtifact a = small_static();
   a.mean_stiffness = 463.5e6;
-  a.transmission_error = Eigen::Vector3d(4e-6, 6e-6, 5e-6);
+  a.transmission_error = Eigen::VectorXd{{4e-6, 6e-6, 5e-6}};
   write("static.h5", a, kMade);
   std::string all;
   for (const auto& [name, words] : summary("static.h5", "whine/static")) all += name + ": " + words + "\n";

@@ -51,7 +51,7 @@ SweepArtifact small_sweep() {
   s.torque = 150;
   s.direction = "down";
   const int n = 64;
-  s.mesh_frequency = Eigen::Vector2d(2000, 1900);
+  s.mesh_frequency = Eigen::VectorXd{{2000, 1900}};
   s.transmission_error.resize(2, n);
   s.mesh_force.resize(2, n);
   s.period_multiple = Eigen::VectorXi{{1, 2}};

@@ -143,7 +143,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
           rigid ? MatrixXd::Zero(m, m)
                 : model_.gear[g].residual(GearMeshModel::tooth(g, difference), depth, kept_[g]));
     }
-  const int n = static_cast<int>(coordinates_.size()), pairs = 2 * reach_ + 1;
+  const int pairs = 2 * reach_ + 1;
   for (int g = 0; g < 2; ++g) {
     const int m = model_.gear[g].table_size();
     residual_[g].resize(m * pairs, m * pairs);
@@ -153,13 +153,10 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
   for (Position& position : positions_) {
     const MeshPosition& mesh = position.mesh;
     position.local = local_compliance(model_, mesh, depth);
-    position.participation = MatrixXd::Zero(mesh.nodes(), n);
+    position.participation = participation(mesh);
     position.residual = MatrixXd::Zero(mesh.nodes(), mesh.nodes());
     position.drift_lever = mesh.node_lever[0] / model_.kinematics.gear(0).base_radius() -
                            mesh.node_lever[1] / model_.kinematics.gear(1).base_radius();
-    for (int c = 0; c < n; ++c)
-      for (int g = 0; g < 2; ++g)
-        position.participation.col(c) += coordinates_[c].hub[g] * mesh.node_lever[g];
     for (int g = 0; g < 2; ++g) {
       const int m = model_.gear[g].table_size();
       position.reading[g].resize(mesh.nodes(), m * pairs);
@@ -169,12 +166,6 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
         for (int pair = -reach_; pair <= reach_; ++pair)
           position.reading[g](rows, Eigen::seqN((pair + reach_) * m, m)) =
               weights * tables[g][mesh.pairs[i].pair - pair + 2 * reach_];
-        for (int c = 0; c < n; ++c)
-          if (coordinates_[c].gear == g)
-            for (const auto& [column, share] : coordinates_[c].columns)
-              position.participation(rows, c) +=
-                  share * weights *
-                  model_.gear[g].mode_on_tooth(column, GearMeshModel::tooth(g, mesh.pairs[i].pair));
         for (size_t j = 0; j < mesh.pairs.size(); ++j) {
           const auto columns = Eigen::seqN(static_cast<int>(j) * kWindowNodes, kWindowNodes);
           position.residual(rows, columns) +=
@@ -185,6 +176,20 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     }
   }
   step_data_.clear();
+}
+
+MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
+  MatrixXd h = MatrixXd::Zero(mesh.nodes(), static_cast<int>(coordinates_.size()));
+  for (size_t c = 0; c < coordinates_.size(); ++c) {
+    for (int g = 0; g < 2; ++g) h.col(c) += coordinates_[c].hub[g] * mesh.node_lever[g];
+    const int g = coordinates_[c].gear;
+    for (size_t i = 0; i < mesh.pairs.size(); ++i)
+      for (const auto& [column, share] : coordinates_[c].columns)
+        h.col(c).segment<kWindowNodes>(i * kWindowNodes) +=
+            share * mesh.table_weights[g].middleRows<kWindowNodes>(i * kWindowNodes) *
+            model_.gear[g].mode_on_tooth(column, GearMeshModel::tooth(g, mesh.pairs[i].pair));
+  }
+  return h;
 }
 
 void RollingDynamics::set_speed(double mesh_frequency, int steps) {
@@ -220,17 +225,45 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   step_data_ = std::move(fresh);
 }
 
-RollingDynamics::State RollingDynamics::rest() {
-  const Position& position = positions_[0];
-  const int n = static_cast<int>(coordinates_.size());
-  // Elastic coordinates follow their force: z = (torque - h f) / w^2; the rigid one carries the load.
-  VectorXd flexibility = VectorXd::Zero(n);
-  for (int i = 1; i < n; ++i) flexibility[i] = 1 / frequency_squared_[i];
+VectorXd RollingDynamics::flexibility() const {
+  VectorXd f = frequency_squared_;
+  for (int i = 0; i < f.size(); ++i) f[i] = coordinates_[i].gear < 0 ? 0 : 1 / f[i];
+  return f;
+}
+
+// Elastic coordinates follow their force, z = (torque - h f) / w^2; the rigid one carries the load.
+MatrixXd RollingDynamics::static_compliance(const Position& position) const {
   MatrixXd a = position.local;
-  position.mesh.add_to_strips(position.residual + position.participation * flexibility.asDiagonal() *
+  position.mesh.add_to_strips(position.residual + position.participation * flexibility().asDiagonal() *
                                                       position.participation.transpose(),
                               a);
-  const VectorXd offset = position.participation * flexibility.cwiseProduct(torque_force_);
+  return a;
+}
+
+double RollingDynamics::frozen_frequency(int i) {
+  const Position& position = positions_[i];
+  const VectorXd offset = position.participation * flexibility().cwiseProduct(torque_force_);
+  ActiveSet active;
+  equilibrium(static_compliance(position), position.mesh.gap - position.mesh.to_strips(offset),
+              position.mesh.to_strips(position.participation.col(0)), torque_force_[0], 0, active, solver_);
+  // d = 0 on the active strips: p = (A + R)^-1 h z there, and z'' + (w^2 + h^T (A + R)^-1 h) z = 0.
+  MatrixXd a = position.local;
+  position.mesh.add_to_strips(position.residual, a);
+  const MatrixXd compliance = a(active.strips, active.strips);
+  MatrixXd h(position.mesh.strips(), position.participation.cols());
+  for (int c = 0; c < h.cols(); ++c) h.col(c) = position.mesh.to_strips(position.participation.col(c));
+  const MatrixXd touching = h(active.strips, Eigen::all);
+  MatrixXd stiffness = touching.transpose() * compliance.ldlt().solve(touching);
+  stiffness.diagonal() += frequency_squared_;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(stiffness, Eigen::EigenvaluesOnly);
+  return std::sqrt(eigen.eigenvalues()[0]) / kTwoPi;
+}
+
+RollingDynamics::State RollingDynamics::rest() {
+  const Position& position = positions_[0];
+  const MatrixXd a = static_compliance(position);
+  const VectorXd follow = flexibility();
+  const VectorXd offset = position.participation * follow.cwiseProduct(torque_force_);
   ActiveSet active;
   const Equilibrium e = equilibrium(a, position.mesh.gap - position.mesh.to_strips(offset),
                                     position.mesh.to_strips(position.participation.col(0)), torque_force_[0],
@@ -238,9 +271,9 @@ RollingDynamics::State RollingDynamics::rest() {
   const VectorXd nodes = position.mesh.to_nodes(e.p);
   State state;
   state.force = torque_force_ - position.participation.transpose() * nodes;
-  state.z = flexibility.cwiseProduct(state.force);
+  state.z = follow.cwiseProduct(state.force);
   state.z[0] = e.x;
-  state.v = VectorXd::Zero(n);
+  state.v = VectorXd::Zero(state.z.size());
   for (int g = 0; g < 2; ++g) {
     state.load[g] = MatrixXd::Zero(model_.gear[g].table_size(), 2 * reach_ + 1);
     for (size_t j = 0; j < position.mesh.pairs.size(); ++j)
@@ -267,7 +300,7 @@ double RollingDynamics::distance(const State& a, const State& b) const {
   return std::sqrt(energy) / energy_scale_;
 }
 
-void RollingDynamics::rename_teeth(State& state) const {
+void RollingDynamics::advance_tooth(State& state) const {
   for (int i = 0; i < static_cast<int>(coordinates_.size()); ++i) {
     const Coordinate& c = coordinates_[i];
     if (c.turn == 0) continue;
@@ -310,9 +343,9 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
   for (int i = 1; i <= steps_; ++i) {
     const int sample = i % steps_;
     if (sample == 0) {
-      rename_teeth(state);
+      advance_tooth(state);
       if (ledger && before.position) {
-        rename_teeth(before.state);
+        advance_tooth(before.state);
         before.renamed = 1;
       }
     }

@@ -75,6 +75,14 @@ class RollingDynamics {
   // False if contact wanted more than the range holds; the state is then spoiled. A ledger costs several
   // times the march itself.
   bool march(State& state, Period& period, Ledger* ledger = nullptr);
+  // Lowest natural frequency, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
+  // the range): undamped, the residual flexibility follows at once.
+  double frozen_frequency(int i);
+  // Renames teeth after a mesh period: what was pair j becomes pair j + 1, doublets turn by one tooth.
+  void advance_tooth(State& state) const;
+  // (node, coordinate): outward displacement of the flanks, hub rotation included, per unit coordinate; h of
+  // the gap d = e - h z + ...
+  Eigen::MatrixXd participation(const MeshPosition& mesh) const;
   // Distance of two states in the energy norm, relative to the static state's.
   double distance(const State& a, const State& b) const;
 
@@ -113,7 +121,8 @@ class RollingDynamics {
   };
   void record_step(const Instant& before, const Instant& after, double& balance, Ledger& ledger) const;
   void add_modes(int g, const std::vector<int>& columns);
-  void rename_teeth(State& state) const;
+  Eigen::VectorXd flexibility() const;  // (coordinate) s2: 1 / w^2, 0 for the rigid rotation
+  Eigen::MatrixXd static_compliance(const Position& position) const;
 
   const GearMeshModel& model_;
   DynamicParameters parameters_;
