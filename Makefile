@@ -80,7 +80,7 @@ endef
 $(foreach r,$(rooms),$(eval $(call room_rules,$r)))
 
 # gear-scene runs before everything, under make -n as well, so it waits for no more than it needs.
-rooms_of = $(patsubst %,$(B)/lib/lib%.a,$(if $(filter gear-scene,$1),files base,$(rooms)))
+rooms_of = $(patsubst %,$(B)/lib/lib%.a,$(if $(filter gear-scene,$1),gear files base,$(rooms)))
 $(tools:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/tools/%.o $$(call rooms_of,$$*) | $(B)/bin/
 	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
 

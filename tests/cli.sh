@@ -6,6 +6,7 @@ B=${B:-build}
 bin=$PWD/$B/bin
 scene_of_paper=$PWD/data/scenes/parker2000.toml
 plots=$PWD/pipelines/plots
+readme=$PWD/README.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -61,12 +62,16 @@ for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
   bare=$(h5ls -rv $artifact 2> /dev/null | awk '
-    /^\// { if (dataset != "" && units + long_name < 2) print dataset
-      dataset = $2 == "Dataset" && $1 !~ /^\/(provenance|VTKHDF)/ ? $1 : ""; units = long_name = 0; seen += dataset != "" }
+    function judge() { if (dataset != "" && units + long_name + (axes || scalar) < 3) print dataset }
+    /^\// { judge()
+      dataset = $2 == "Dataset" && $1 !~ /^\/(provenance|VTKHDF)/ ? $1 : ""; scalar = $3 == "{SCALAR}"
+      units = long_name = axes = 0; seen += dataset != "" }
     /Attribute: units/ { units = 1 }
     /Attribute: long_name/ { long_name = 1 }
-    END { if (!seen) print "no datasets" }' | tr '\n' ' ')
-  if [ -z "$bare" ]; then ok "every dataset of ${artifact##*/} has units and a long name"; else wrong "every dataset of ${artifact##*/} has units and a long name" "$bare"; fi
+    /Attribute: axes/ { axes = 1 }
+    END { judge(); if (!seen) print "no datasets" }' | tr '\n' ' ')
+  claim="every dataset of ${artifact##*/} has units, a long name and, unless it is one number, axes"
+  if [ -z "$bare" ]; then ok "$claim"; else wrong "$claim" "$bare"; fi
 done
 
 # --- the command line
@@ -80,9 +85,14 @@ for program in "$bin"/gear-*; do
   refused "$name refuses an unknown option" 2 'no-such-option' ${whole[$name]/#gear-/$bin/gear-} --no-such-option
 done
 refused "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
-refused "a torque that is no number" 2 'torque' $(static scene ten)
-refused "a torque that is not finite" 3 'torque' $(static scene nan)
-refused "a torque below zero" 3 'torque' $(static scene -5)
+at_torque=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --output x.h5 --torque)
+for torque in ten nan inf 0x10 '' '100 ' 1e999; do
+  refused "a torque of '$torque', which is no finite number" 2 "torque.*'$torque'" "${at_torque[@]}" "$torque"; done
+refused "a torque below zero" 3 'torque' "${at_torque[@]}" -5
+sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
+if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
+  wrong "the table of keys in README.md is up to date" "put the output of $B/bin/gear-scene --keys there: $(head -n 2 said | tr '\n' '|')"; fi
+rm -f keys
 
 # --- scenes: <claim> | <pattern in the message> | <sed script>
 while IFS='|' read -r claim pattern script; do
@@ -100,6 +110,8 @@ a negative module|module_mm|s/^module_mm = 3.0/module_mm = -3.0/
 nan|face_width_mm|s/^face_width_mm = 25.4/face_width_mm = nan/
 inf|youngs_modulus_GPa|s/^youngs_modulus_GPa = 207.0/youngs_modulus_GPa = inf/
 a torque that is no number|torque_Nm|s/^torque_Nm = .*/torque_Nm = ["ten"]/
+a speed below 1 Hz|'from' must be at least 1 Hz|s/from = [0-9]*/from = 0.5/
+a step of zero|'step' must be greater than 0|s/step = [0-9]*/step = 0/
 a torque of zero|torque_Nm|s/^torque_Nm = .*/torque_Nm = [0]/
 a list without torques|torque_Nm|s/^torque_Nm = .*/torque_Nm = []/
 half a tooth|teeth|s/^teeth = 50/teeth = 50.5/
@@ -153,6 +165,23 @@ refused "an artifact that is cut off" '4' 'cut.h5' "$bin/gear-static" --params o
 refused "an empty artifact" '4' 'empty.h5' "$bin/gear-spectra" --input empty.h5 --output x.h5
 refused "an artifact of another stage" 3 'static.h5' "$bin/gear-spectra" --input out/scene/T100/static.h5 --output x.h5
 refused "an artifact that is not there" '4' 'none.h5' "$bin/gear-spectra" --input none.h5 --output x.h5
+mv out/scene/T100/up/sweep.h5 sweep_away.h5
+"$bin/gear-inspect" out/scene/T100/up/response.h5 > said 2>&1
+status=$?
+if [ $status = 3 ] && grep -q 'MISSING; .*make out/scene/T100/up/sweep.h5' said; then ok "gear-inspect: an input that is missing is status 3"; else
+  wrong "gear-inspect: an input that is missing is status 3" "status $status: $(grep input said)"; fi
+mv sweep_away.h5 out/scene/T100/up/sweep.h5
+# Files of another gear, on which the stage itself would run well.
+sed "$coarse; s/^bore_radius_mm = .*/bore_radius_mm = 38.0/" "$scene_of_paper" > scene_other.toml
+"$bin/gear-scene" --scene scene_other.toml --output other.mk --out out > /dev/null 2>&1
+other=out/scene_other/pinion
+"$bin/gear-mesh" --params $other/body.toml --output $other/mesh.h5 > /dev/null 2>&1
+"$bin/gear-reduce" --params $other/body.toml --mesh $other/mesh.h5 --output $other/body.h5 > /dev/null 2>&1
+refused "a mesh of another gear" 3 'bore_radius is 0.038, .* 0.04 m; rebuild it with: make' "${stage_reduce[@]:0:3}" --mesh $other/mesh.h5 --output x.h5
+refused "a driver of another scene" 3 'the driver of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
+  --driver $other/body.h5 --driven out/scene/wheel/body.h5 --torque 100 --output x.h5
+refused "a driven gear of another scene" 3 'the driven of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
+  --driver out/scene/pinion/body.h5 --driven $other/body.h5 --torque 100 --output x.h5
 # An older schema: the number in the file itself is changed (it stands 40 bytes after its name), all else stays.
 cp out/scene/T100/up/sweep.h5 old.h5
 place=$(grep -a -b -o -m1 schema_version old.h5 | head -n 1 | cut -d: -f1)
@@ -160,16 +189,30 @@ printf '\0' | dd of=old.h5 bs=1 seek=$((place + 40)) conv=notrunc status=none
 refused "an artifact of an older schema names the target that makes it again" 3 'version 0.*make' "$bin/gear-spectra" --input old.h5 --output x.h5
 
 # --- interrupted and full
+# A sweep over so many speeds that it is still at work when the signal comes; the status says that it was.
+sed "$coarse; s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 100, to = 4000, step = 0.1 }/" "$scene_of_paper" > scene_long.toml
+"$bin/gear-scene" --scene scene_long.toml --output long.mk --out out > /dev/null 2>&1
+long_sweep=($(sweep scene up))
+long_sweep[2]=out/scene_long/params/sweep.toml
 kept=$(contents)
 for signal in TERM KILL; do
-  "$bin/gear-reduce" "${stage_reduce[@]:1}" > /dev/null 2>&1 &
-  sleep 0.05
-  kill -$signal $! 2> /dev/null
-  wait $! 2> /dev/null
-  find out -name '*.tmp*' -delete
-  if [ "$(contents)" = "$kept" ]; then ok "SIG$signal leaves the earlier artifact whole"; else
-    wrong "SIG$signal leaves the earlier artifact whole" "files have changed"; fi
+  claim="SIG$signal amid a sweep leaves the earlier artifact whole"
+  "${long_sweep[@]}" > /dev/null 2>&1 &
+  killed=$!
+  sleep 1
+  kill -$signal $killed 2> /dev/null
+  wait $killed 2> /dev/null
+  status=$?
+  if [ $status != $((128 + $(kill -l $signal))) ]; then wrong "$claim" "the sweep ended by itself with status $status"
+  elif [ "$(contents)" != "$kept" ]; then wrong "$claim" "files have changed"
+  else ok "$claim"; fi
+  all_killed="${all_killed:-} $killed"
 done
+# Killed a moment later, amid writing, they would have left these.
+for killed in $all_killed; do head -c 1000 out/scene/T100/up/sweep.h5 > out/scene/T100/up/sweep.h5.tmp.$killed; done
+$(sweep scene up) > /dev/null 2>&1
+if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact and removes what killed runs left"; else
+  wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi
 # A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
 for name in gear-mesh gear-reduce gear-static gear-sweep gear-spectra gear-plot; do
   before=$(contents)

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/fit.h"
 #include "files/h5.h"
 #include "files/provenance.h"
 #include "files/publish.h"
@@ -117,6 +119,38 @@ bool same(const BodyDiscretisation& a, const BodyDiscretisation& b) {
   return a.element_size == b.element_size && a.element_order == b.element_order && a.modes == b.modes;
 }
 
+bool same(const Material& a, const Material& b) {
+  return a.youngs_modulus == b.youngs_modulus && a.poisson_ratio == b.poisson_ratio &&
+         a.density == b.density && a.plane_stress == b.plane_stress;
+}
+
+bool same(const ContactDiscretisation& a, const ContactDiscretisation& b) {
+  return a.strips == b.strips && a.positions == b.positions;
+}
+
+bool same(const TimeDiscretisation& a, const TimeDiscretisation& b) {
+  return a.steps_per_period == b.steps_per_period && a.min_sample_rate == b.min_sample_rate &&
+         a.periodicity == b.periodicity;
+}
+
+// Both gears of a pair, all different, so that swapped roles show.
+template <class Artifact>
+void set_pair(Artifact& a) {
+  a.driver = odd_design(50);
+  a.driven = odd_design(35);
+  a.driver_material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
+  a.driven_material = {110e9 / 1.3, 0.27 / 1.1, 7200 / 1.3, true};
+  a.driver_body = {0.0004 / 1.3, 2, 5};
+  a.driven_body = {0.0007 / 1.3, 1, 12};
+}
+
+template <class Artifact>
+bool same_pair(const Artifact& a, const Artifact& b) {
+  return same(a.driver, b.driver) && same(a.driven, b.driven) && same(a.driver_material, b.driver_material) &&
+         same(a.driven_material, b.driven_material) && same(a.driver_body, b.driver_body) &&
+         same(a.driven_body, b.driven_body);
+}
+
 // A ring sector of two four-node elements, one on the other, closing exactly after a turn of 360/teeth
 // degrees.
 MeshArtifact small_mesh() {
@@ -170,8 +204,7 @@ BodyArtifact small_body() {
 
 StaticArtifact small_static() {
   StaticArtifact a;
-  a.driver = odd_design(50);
-  a.driven = odd_design(35);
+  set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
   a.contact = {17, 128};
   a.torque = 150.0 / 1.3;
@@ -194,8 +227,7 @@ StaticArtifact small_static() {
 
 SweepArtifact small_sweep() {
   SweepArtifact a;
-  a.driver = odd_design(50);
-  a.driven = odd_design(35);
+  set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {false, std::numeric_limits<double>::infinity()}};
   a.fidelity = {"lagged", "strips", "newmark"};
   a.contact = {17, 128};
@@ -207,6 +239,7 @@ SweepArtifact small_sweep() {
   a.mean_stiffness = 4e8 / 1.1;
   a.driver_bearing_damper = 1.0 / 3;
   a.driven_bearing_damper = 2.0 / 3;
+  a.natural_frequency = 2900.0 / 1.3;
   a.direction = "down";
   a.mesh_frequency = Eigen::VectorXd{{4000, 3980 + 1.0 / 3}};
   a.transmission_error = odd_matrix(2, 64, 1e-5);
@@ -217,6 +250,11 @@ SweepArtifact small_sweep() {
   a.residual = odd_vector(2, 1e-7);
   a.period_multiple = Eigen::VectorXi{{1, 2}};
   a.energy_imbalance = odd_vector(2, 1e-9);
+  a.drift_force = odd_vector(2, 1e-3).cwiseAbs();
+  a.least_gap = 1e-10 / 3;
+  a.least_force = 1e-4 / 3;
+  a.fallbacks = 3;
+  a.backlash_margin = 1e-5 / 3;
   a.jump_frequency = Eigen::VectorXd();
   a.jump_width = Eigen::VectorXd();
   return a;
@@ -224,6 +262,11 @@ SweepArtifact small_sweep() {
 
 ResponseArtifact small_response() {
   ResponseArtifact a;
+  set_pair(a);
+  a.driver_inertia = 0.0148 / 1.1;
+  a.driven_inertia = 0.0148 / 1.3;
+  a.contact = {17, 128};
+  a.time = {64, 250e3 / 1.1, 1e-6 / 3};
   a.torque = 150;
   a.direction = "up";
   a.model = "finite elements";
@@ -315,12 +358,10 @@ TEST_CASE("static.h5 gives back every value bit by bit") {
   StaticArtifact a = small_static();
   write("static.h5", a, kMade);
   const StaticArtifact b = read_static("static.h5");
-  CHECK(same(a.driver, b.driver));
-  CHECK(same(a.driven, b.driven));
+  CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(a.fidelity.contact == b.fidelity.contact);
-  CHECK(a.contact.strips == b.contact.strips);
-  CHECK(a.contact.positions == b.contact.positions);
+  CHECK(same(a.contact, b.contact));
   CHECK(a.torque == b.torque);
   CHECK(a.contact_ratio == b.contact_ratio);
   CHECK(a.mesh_phase == b.mesh_phase);
@@ -344,21 +385,17 @@ TEST_CASE("static.h5 gives back every value bit by bit") {
 
 TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jumps") {
   Folder folder;
-  const SweepArtifact a = small_sweep();
+  SweepArtifact a = small_sweep();
   write("sweep.h5", a, kMade);
   const SweepArtifact b = read_sweep("sweep.h5");
-  CHECK(same(a.driver, b.driver));
-  CHECK(same(a.driven, b.driven));
+  CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(same(a.damping, b.damping));
   CHECK(a.fidelity.body == b.fidelity.body);
   CHECK(a.fidelity.contact == b.fidelity.contact);
   CHECK(a.fidelity.integrator == b.fidelity.integrator);
-  CHECK(a.contact.strips == b.contact.strips);
-  CHECK(a.contact.positions == b.contact.positions);
-  CHECK(a.time.steps_per_period == b.time.steps_per_period);
-  CHECK(a.time.min_sample_rate == b.time.min_sample_rate);
-  CHECK(a.time.periodicity == b.time.periodicity);
+  CHECK(same(a.contact, b.contact));
+  CHECK(same(a.time, b.time));
   CHECK(a.torque == b.torque);
   CHECK(a.driver_inertia == b.driver_inertia);
   CHECK(a.driven_inertia == b.driven_inertia);
@@ -379,6 +416,16 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
   CHECK(a.energy_imbalance == b.energy_imbalance);
   CHECK(b.jump_frequency.size() == 0);
   CHECK(b.jump_width.size() == 0);
+  CHECK(a.natural_frequency == b.natural_frequency);
+  CHECK(a.drift_force == b.drift_force);
+  CHECK(a.least_gap == b.least_gap);
+  CHECK(a.least_force == b.least_force);
+  CHECK(a.fallbacks == b.fallbacks);
+  CHECK(a.backlash_margin == b.backlash_margin);
+
+  a.backlash_margin = std::numeric_limits<double>::infinity();
+  write("sweep.h5", a, kMade);
+  CHECK(std::isinf(read_sweep("sweep.h5").backlash_margin));
 }
 
 TEST_CASE("response.h5 gives back every value bit by bit") {
@@ -400,8 +447,15 @@ TEST_CASE("response.h5 gives back every value bit by bit") {
   CHECK(a.jump_frequency == b.jump_frequency);
   CHECK(a.jump_width == b.jump_width);
   CHECK(a.period_multiple == b.period_multiple);
+  CHECK(same_pair(a, b));
+  CHECK(a.driver_inertia == b.driver_inertia);
+  CHECK(a.driven_inertia == b.driven_inertia);
   CHECK(same(a.mesh, b.mesh));
+  CHECK(same(a.contact, b.contact));
+  CHECK(same(a.time, b.time));
   CHECK(same(a.damping, b.damping));
+  CHECK(a.fidelity.body == b.fidelity.body);
+  CHECK(a.fidelity.contact == b.fidelity.contact);
   CHECK(a.fidelity.integrator == b.fidelity.integrator);
   CHECK(a.natural_frequency == b.natural_frequency);
 }
@@ -492,6 +546,69 @@ TEST_CASE("no file holds a path of the machine: commands and inputs are relative
   CHECK(command_line(4, argv.data()) == "gear-x --input a.h5 '--out=b c.h5'");
 }
 
+TEST_CASE("an artifact outside the working folder is refused without a make target, which it has not") {
+  Folder folder;
+  const fs::path place = fs::temp_directory_path() / "whine-nowhere" / "x.h5";
+  for (const std::string& path : {place.string(), std::string("../whine-nowhere/x.h5")}) {
+    const Caught absent = caught([&] { read_static(path); });
+    CHECK(absent.kind == kIo);
+    CHECK(absent.says("make it again where it was made"));
+    CHECK_FALSE(absent.says("make .."));
+  }
+}
+
+TEST_CASE("a mesh of another gear, element size or order is refused with both values; modes do not matter") {
+  const MeshArtifact mesh = small_mesh();
+  const BodySlice own{mesh.design, {}, mesh.discretisation};
+  CHECK(caught([&] { require_mesh(mesh, own, "out/a/mesh.h5"); }).kind == 0);
+  BodySlice other = own;
+  other.discretisation.modes = 50;
+  CHECK(caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); }).kind == 0);
+  other = own;
+  other.design.teeth = 13;
+  const Caught teeth = caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); });
+  CHECK(teeth.kind == kInput);
+  CHECK(teeth.says("its teeth is 12, the slice of the scene says 13"));
+  CHECK(teeth.says("make out/a/mesh.h5"));
+  other = own;
+  other.design.bore_radius = std::nextafter(own.design.bore_radius, 1.0);
+  CHECK(caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); }).says("bore_radius"));
+  other = own;
+  other.discretisation.element_order = 2;
+  CHECK(caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); }).says("element_order is 1"));
+  other = own;
+  other.discretisation.element_size *= 2;
+  CHECK(caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); }).says("its element is"));
+}
+
+TEST_CASE("a body read back has the hash of its slice, and another body is refused with both hashes") {
+  Folder folder;
+  const BodyArtifact body = small_body();
+  write("body.h5", body, kMade);
+  const std::string hash = body_hash(body_slice({body.design, body.material, body.discretisation}));
+  CHECK(hash.size() == 16);
+  CHECK(caught([&] { require_body(read_body("body.h5"), hash, "driver", "body.h5"); }).kind == 0);
+  CHECK(caught([&] { require_body(body, "", "driver", "body.h5"); }).kind == 0);
+  BodyArtifact other = body;
+  other.material.density *= 2;
+  const Caught refused = caught([&] { require_body(other, hash, "driven", "out/s/wheel/body.h5"); });
+  CHECK(refused.kind == kInput);
+  CHECK(refused.says("out/s/wheel/body.h5: is the body "));
+  CHECK(refused.says("but the driven of this scene is " + hash));
+  CHECK(refused.says("make out/bodies/" + hash + "/body.h5"));
+}
+
+TEST_CASE("the number of an option is decimal, finite and the whole word") {
+  CHECK(number_option("--torque", "150") == 150);
+  CHECK(number_option("--torque", "62.5") == 62.5);
+  CHECK(number_option("--torque", "-1e3") == -1000);
+  for (const char* word : {"", " 1", "1 ", "0x10", "inf", "-inf", "nan", "1e999", "ten", "1,5", "+1"}) {
+    const Caught wrong = caught([&] { number_option("--torque", word); });
+    CHECK(wrong.kind == static_cast<int>(Failure::usage));
+    CHECK(wrong.says("--torque = '" + std::string(word) + "'"));
+  }
+}
+
 TEST_CASE("an artifact of another schema or version is refused with what it is and how to rebuild it") {
   Folder folder;
   write("out/static.h5", small_static(), kMade);
@@ -507,7 +624,7 @@ TEST_CASE("an artifact of another schema or version is refused with what it is a
   });
   const Caught old = caught([] { read_static("out/old.h5"); });
   CHECK(old.kind == kInput);
-  CHECK(old.says("is schema version 0, this program reads 1"));
+  CHECK(old.says("is schema version 0, this program reads 2"));
   CHECK(old.says("make out/old.h5"));
 
   write_static_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });
@@ -563,6 +680,23 @@ TEST_CASE(
   lost.flank_node[1] = 99;
   write("lost.h5", lost, kMade);
   CHECK(caught([] { read_mesh("lost.h5"); }).says("/sector/flank_node holds the number 99"));
+}
+
+TEST_CASE(
+    "what a killed process left beside a file goes with its next write; what a living one writes stays") {
+  Folder folder;
+  const pid_t gone = fork();
+  if (gone == 0) _exit(0);
+  REQUIRE(waitpid(gone, nullptr, 0) == gone);  // its number is free now
+  const std::string stale = text("x.txt.tmp.", gone), living = text("x.txt.tmp.", getppid());
+  for (const std::string& name : {stale, living, text("y.txt.tmp.", gone), std::string("x.txt.tmp.notes")})
+    overwrite(name, "half");
+  publish("x.txt", "whole");
+  CHECK_FALSE(fs::exists(stale));
+  CHECK(fs::exists(living));
+  CHECK(fs::exists(text("y.txt.tmp.", gone)));  // of another file
+  CHECK(fs::exists("x.txt.tmp.notes"));         // of no process
+  CHECK(read_bytes("x.txt") == "whole");
 }
 
 TEST_CASE("writing is all or nothing: a failure leaves the earlier file and no rubbish") {

@@ -118,6 +118,56 @@ TEST_CASE("unloaded conjugate flanks: gap below 1e-12 m along the path, curvatur
   }
 }
 
+TEST_CASE("conjugate action: gears turned in the ratio of their teeth touch in one point, by brute force") {
+  // Nothing here knows of lines of action: flank points of both bodies, turned about their centres by theta and
+  // -theta z1 / z2 from the position in which the flanks touch at the pitch point.
+  for (const GearPair& pair :
+       {GearPair(paper_gear(), paper_gear(), 0.150),
+        GearPair(fzg_c(16, 0.1817, 82.46e-3), fzg_c(24, 0.1715, 118.36e-3), 91.5e-3)}) {
+    const ToothGeometry &one = pair.gear(0), &two = pair.gear(1);
+    const double rw1 = one.base_radius() / std::cos(pair.working_pressure_angle());
+    const Vec2 pitch_point(0, rw1);
+    const auto turn_to = [&](const ToothGeometry& tooth, const Vec2& target) {
+      const Vec2 p = tooth.flank_point(tooth.roll_angle_at_radius(target.norm()));
+      return std::atan2(target.y(), target.x()) - std::atan2(p.y(), p.x());
+    };
+    const Vec2 centre(0, pair.centre_distance());
+    const double start1 = turn_to(one, pitch_point), start2 = turn_to(two, pitch_point - centre);
+    for (double phase : {-0.6, -0.2, 0.0, 0.35, 0.6}) {
+      const double theta = phase * 2 * std::numbers::pi / one.design().teeth;
+      const double ratio = static_cast<double>(one.design().teeth) / two.design().teeth;
+      const Eigen::Rotation2Dd turn1(start1 + theta), turn2(start2 - theta * ratio);
+      const auto point1 = [&](double xi) { return Vec2(turn1 * one.flank_point(xi)); };
+      const auto point2 = [&](double xi) { return Vec2(turn2 * two.flank_point(xi) + centre); };
+      // Signed distance of a point of flank 1 from flank 2, along flank 2's normal where that passes through it.
+      const auto separation = [&](double xi1) {
+        const Vec2 p = point1(xi1);
+        double low = two.form_roll_angle() - 0.1, high = two.tip_roll_angle() + 0.1;
+        for (int i = 0; i < 100; ++i) {  // the tangential offset changes sign once
+          const double xi = 0.5 * (low + high);
+          const Vec2 n = turn2 * two.flank_normal(xi), along(n.y(), -n.x());
+          // Towards the tip the tangent has a positive radial part.
+          const double sign = along.dot(point2(xi) - centre) > 0 ? 1 : -1;
+          (sign * along.dot(p - point2(xi)) > 0 ? low : high) = xi;
+        }
+        const double xi = 0.5 * (low + high);
+        return (p - point2(xi)).dot(turn2 * two.flank_normal(xi));
+      };
+      double least = 1, at = 0;
+      double low = one.form_roll_angle(), high = one.tip_roll_angle();
+      for (int i = 0; i < 200; ++i) {
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        (separation(a) < separation(b) ? high : low) = separation(a) < separation(b) ? b : a;
+      }
+      at = 0.5 * (low + high);
+      least = separation(at);
+      CHECK(std::abs(least) < 1e-12);
+      // ... and it is the point that the kinematics name, to the square root of the distance's round-off.
+      CHECK(std::abs(at - pair.contact(phase).roll[0]) < 1e-5);
+    }
+  }
+}
+
 TEST_CASE("corner contact: gap grows from zero at the ends of the path, by two independent ways") {
   const GearPair pair(paper_gear(), paper_gear(), 0.150);
   double before = 0;

@@ -201,7 +201,10 @@ TEST_CASE("a value outside its range is refused with value and limit") {
   CHECK(contains(file.refusal(scene_with("[100, 150]", "[100, -150]")), "= -150: must be greater than 0 Nm"));
   CHECK(contains(file.refusal(scene_with("to = 4000", "to = 500")),
                  "'to' must be at least 'from', which is 600"));
-  CHECK(contains(file.refusal(scene_with("step = 20", "step = 0")), "greater than 0 Hz"));
+  CHECK(contains(file.refusal(scene_with("step = 20", "step = 0")), "= 0: 'step' must be greater than 0 Hz"));
+  CHECK(contains(file.refusal(scene_with("from = 600", "from = 0.5")),
+                 "= 0.5: 'from' must be at least 1 Hz: slower, "));
+  CHECK(file.read(scene_with("step = 20", "step = 0.5")).operation.frequency_step == 0.5);
   CHECK(contains(file.refusal(scene_with("step = 20", "step = 1e-9")), "100000 speeds"));
   CHECK(contains(file.refusal(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
   CHECK(contains(file.refusal(with_section("[fidelity]\nbody = \"full\"\n")),
@@ -393,6 +396,10 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
   CHECK(statics.fidelity.contact == "strips");
   CHECK(statics.contact.strips == 15);
+  CHECK(statics.driver_body == body_hash(body_slice(s, "pinion")));
+  CHECK(statics.driven_body == body_hash(body_slice(s, "wheel")));
+  CHECK(statics.driver_body ==
+        body_hash(body_slice(BodySlice{s.gear("pinion").design, s.gear("pinion").material, s.body})));
   CHECK(statics.contact.positions == 200);  // resolved: as steps_per_period, which is above 128
 
   const SweepSlice sweep = read_sweep_slice(file.path(sweep_slice(s), "sweep.toml"));

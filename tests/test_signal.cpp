@@ -48,6 +48,8 @@ SweepArtifact small_sweep() {
   s.driver.pressure_angle = s.driven.pressure_angle = 20.0 * std::numbers::pi / 180.0;
   s.driver_inertia = s.driven_inertia = 0.0148;
   s.mean_stiffness = 462.1e6;
+  s.natural_frequency = 2950;
+  s.time.steps_per_period = 32;  // rows of two periods, as long as the longest orbit
   s.torque = 150;
   s.direction = "down";
   const int n = 64;
@@ -57,10 +59,11 @@ SweepArtifact small_sweep() {
   s.period_multiple = Eigen::VectorXi{{1, 2}};
   s.pair = Eigen::VectorXi{{-1, 0}};
   for (int j = 0; j < n; ++j) {
-    s.transmission_error(0, j) = 5e-6 + 2e-6 * std::cos(kTwoPi * j / n) + 1e-6 * std::sin(kTwoPi * 3 * j / n);
+    s.transmission_error(0, j) =
+        5e-6 + 2e-6 * std::cos(kTwoPi * 2 * j / n) + 1e-6 * std::sin(kTwoPi * 6 * j / n);
     // Period 2: a subharmonic of 3e-6 beside 4e-6 at the mesh frequency.
     s.transmission_error(1, j) = 3e-6 * std::cos(kTwoPi * j / n) + 4e-6 * std::cos(kTwoPi * 2 * j / n);
-    s.mesh_force(0, j) = 2000 + j;
+    s.mesh_force(0, j) = 2000 + j % 32;
     s.mesh_force(1, j) = j < 8 || j >= 60 ? 0.0 : 3000.0;
   }
   for (int f = 0; f < 2; ++f) {
@@ -193,23 +196,48 @@ TEST_CASE("response: mean, RMS, harmonics, loads and separations of a sweep made
   CHECK(r.dte_harmonic(1, 0) ==
         doctest::Approx(4e-6).epsilon(1e-13));  // of the mesh frequency, not of its half
   CHECK(r.dte_harmonic(0, 1) < 1e-19);
-  CHECK(r.mesh_force_max[0] == 2063);
-  CHECK(r.tooth_load_max[0] == 0.75 * 2063);
+  CHECK(r.mesh_force_max[0] == 2031);
+  CHECK(r.tooth_load_max[0] == 0.75 * 2031);
   CHECK(r.separation_fraction[0] == 0.0);
   CHECK(r.separation_fraction[1] == 12.0 / 64);
   CHECK(r.separations_per_period[1] == 0.5);  // one in two mesh periods
   CHECK(r.jump_frequency[0] == 1950);
   CHECK(r.jump_width[0] == 1.25);
-  // m = I / (2 r^2) for equal gears
-  const double rb = 0.075 * std::cos(20.0 * std::numbers::pi / 180.0), m = 0.0148 / (2 * rb * rb);
-  CHECK(r.natural_frequency == doctest::Approx(std::sqrt(462.1e6 / m) / kTwoPi).epsilon(1e-14));
+  CHECK(r.natural_frequency == 2950);
 }
 
-TEST_CASE("response: fewer harmonics where many periods share the samples, refused where none is left") {
+TEST_CASE(
+    "response: a fundamental orbit in rows made long by another speed's subharmonic keeps its harmonics") {
   SweepArtifact s = small_sweep();
-  s.period_multiple[1] = 8;
-  CHECK(response(s).dte_harmonic.cols() == 3);  // 64 samples over 8 periods: below bin 32
-  s.period_multiple[1] = 40;
+  const ResponseArtifact wide = response(s);
+  s.transmission_error = MatrixRM(s.transmission_error.topLeftCorner(1, 32));
+  s.mesh_force = MatrixRM(s.mesh_force.topLeftCorner(1, 32));
+  s.tooth_load = {MatrixRM(s.tooth_load[0].topRows(32))};
+  s.mesh_frequency.conservativeResize(1);
+  s.period_multiple.conservativeResize(1);
+  const ResponseArtifact narrow = response(s);
+  CHECK((wide.dte_harmonic.row(0) - narrow.dte_harmonic.row(0)).norm() < 1e-19);
+  CHECK(wide.dte_rms[0] == doctest::Approx(narrow.dte_rms[0]).epsilon(1e-14));
+  CHECK(wide.separations_per_period[0] == narrow.separations_per_period[0]);
+}
+
+TEST_CASE("response: a motion that is not periodic counts with all that is stored of it") {
+  SweepArtifact s = small_sweep();
+  s.period_multiple[1] = 0;
+  const ResponseArtifact r = response(s);
+  CHECK(r.period_multiple[1] == 0);
+  CHECK(r.dte_rms[1] == doctest::Approx(std::sqrt(12.5) * 1e-6).epsilon(1e-13));
+  CHECK(r.separation_fraction[1] == 12.0 / 64);
+}
+
+TEST_CASE("response: fewer harmonics where a period has few samples, refused where none is left") {
+  SweepArtifact s = small_sweep();
+  s.time.steps_per_period = 8;
+  CHECK(response(s).dte_harmonic.cols() == 3);  // below half of 8
+  s.time.steps_per_period = 2;
+  CHECK(failure_of([&] { response(s); }) == Failure::input);
+  s = small_sweep();
+  s.period_multiple[1] = 3;  // more than a row holds
   CHECK(failure_of([&] { response(s); }) == Failure::input);
 }
 
@@ -224,10 +252,10 @@ TEST_CASE("response: sweeps whose arrays disagree or hold impossible values are 
   CHECK(refused([](SweepArtifact& s) { s.mesh_force.conservativeResize(2, 63); }));
   CHECK(refused([](SweepArtifact& s) { s.tooth_load.pop_back(); }));
   CHECK(refused([](SweepArtifact& s) { s.tooth_load[0](3, 1) = std::numeric_limits<double>::infinity(); }));
-  CHECK(refused([](SweepArtifact& s) { s.period_multiple[0] = 0; }));
+  CHECK(refused([](SweepArtifact& s) { s.period_multiple[0] = -1; }));
   CHECK(refused([](SweepArtifact& s) { s.mesh_force(0, 5) = -1; }));
   CHECK(refused(
       [](SweepArtifact& s) { s.transmission_error(1, 5) = std::numeric_limits<double>::quiet_NaN(); }));
   CHECK(refused([](SweepArtifact& s) { s.jump_width.resize(0); }));
-  CHECK(refused([](SweepArtifact& s) { s.driven_inertia = 0; }));
+  CHECK(refused([](SweepArtifact& s) { s.time.steps_per_period = 0; }));
 }

@@ -1,10 +1,10 @@
-// gear-inspect: what an artifact is, from what it was made, its key numbers, and whether its inputs have
-// changed.
+// gear-inspect: what an artifact is, from what it was made, its key numbers, and whether its inputs changed.
 //
-// Reads    any artifacts (HDF5); their inputs at the paths recorded in /provenance, relative to the working
-// folder Writes   nothing; prints on standard output. Exit status 3 if an input is stale.
-//
-//   gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5
+// Reads      any artifacts (HDF5); their inputs at the paths recorded in /provenance, relative to the
+//            working folder
+// Writes     nothing; prints on standard output. Exit status 3 if an input has changed or is missing
+// Equations  none
+// Example    gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
@@ -24,14 +24,15 @@ void line(const std::string& name, const std::string& words) {
   std::cout << "  " << name << std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') << words << "\n";
 }
 
-// False if an input is not what it was.
+// False if an input is not what it was, or not there to tell.
 bool show_origin(const std::string& path, const Origin& origin) {
   line("made by", text(origin.tool, " ", origin.version, ": ", origin.command));
   bool fresh = true;
   for (const InputRecord& input : origin.inputs) {
     std::string state = "fresh";
     if (!std::filesystem::exists(input.path)) {
-      state = text("missing; make it with: make ", input.path);
+      state = text("MISSING; ", rebuild_advice(input.path));
+      fresh = false;
     } else if (sha256_of_file(input.path) != input.sha256) {
       state = text("STALE; ", rebuild_advice(path));
       fresh = false;

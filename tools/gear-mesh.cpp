@@ -1,9 +1,10 @@
 // gear-mesh: one tooth sector of a spur gear as a structured mesh of quadrilaterals, exact on every boundary.
 //
-// Reads   params (slice of a scene: the gear's own keys and its discretisation)
-// Writes  mesh.h5   nodes, elements, regions and node sets of the sector; the whole gear for ParaView under
-// /VTKHDF Geometry: involute of the base circle, root cut by a rounded rack, mirror symmetric tooth, order 1
-// or 2. Example: gear-mesh --params out/parker2000/pinion/body.toml --output out/parker2000/pinion/mesh.h5
+// Reads      params     slice of a scene: the gear's own keys and its discretisation
+// Writes     mesh.h5    nodes, elements, regions and node sets of the sector; the whole gear for ParaView
+//                       under /VTKHDF
+// Equations  involute of the base circle, root cut by a rounded rack; the tooth is mirror symmetric
+// Example    gear-mesh --params out/parker2000/pinion/body.toml --output out/parker2000/pinion/mesh.h5
 #include <CLI/CLI.hpp>
 #include <iostream>
 

@@ -1,13 +1,18 @@
 // gear-plot: a figure of the paper as numbers and as pictures.
 //
-// Reads   fig01  mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5     the finite element mesh
-//         fig05  response.h5 of the up and of the down sweep                      RMS of DTE against mesh
-//         frequency fig12  static.h5, one per torque                                        static
-//         transmission error fig13  static.h5, one per torque                                        mesh
-//         stiffness k = (T/r_b)/STE and the template <plots>/<figure>.gp
-// Writes  <output>.tsv, <output>.svg, <output>.png, each whole or not at all
-// Example: gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
-//              out/parker2000/T150/down/response.h5
+// Reads      fig01    mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5
+//            fig05    response.h5 of the up and of the down sweep
+//            fig12    static.h5, one per torque
+//            fig13    static.h5, one per torque
+//            <plots>/<figure>.gp, the template
+// Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all
+//            fig01    the finite element mesh
+//            fig05    RMS of the dynamic transmission error against mesh frequency
+//            fig12    static transmission error (STE)
+//            fig13    mesh stiffness
+// Equations  k = (T / r_b) / STE
+// Example    gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
+//                      out/parker2000/T150/down/response.h5
 #include <CLI/CLI.hpp>
 #include <iostream>
 

@@ -1,16 +1,19 @@
 // gear-reduce: modes and flank flexibility of a gear from the mesh of one tooth sector.
 //
-// Reads   params (slice of a scene: material and number of modes), mesh.h5 (geometry)
-// Writes  body.h5   eigenfrequencies with the hub fixed, mode shapes and compliance on the flank, inertia
-// coupling Equations: K u = omega^2 M u and M_fr of Eq. 3-6, sector by sector in the harmonics of cyclic
-// symmetry; flexibility K x = f with the half-plane solution of the line load subtracted in the tooth.
-// Example: gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5
-//            --output out/parker2000/pinion/body.h5
+// Reads      params     slice of a scene: gear, material, number of modes
+//            mesh.h5    geometry; refused unless it is of the gear of the slice
+// Writes     body.h5    eigenfrequencies with the hub fixed, mode shapes and compliance on the flank, inertia
+//                       coupling
+// Equations  K u = omega^2 M u and M_fr of Eq. 3-6, sector by sector in the harmonics of cyclic symmetry;
+//            flexibility K x = f with the half-plane solution of the line load subtracted in the tooth
+// Example    gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5
+//                        --output out/parker2000/pinion/body.h5
 #include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/fit.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "solid/reduce.h"
@@ -26,8 +29,9 @@ void body(int argc, char** argv) {
   whine::parse(app, argc, argv);
 
   const whine::BodySlice slice = whine::read_body_slice(params);
-  const whine::BodyArtifact result =
-      whine::reduce(whine::read_mesh(mesh), slice.material, slice.discretisation.modes);
+  const whine::MeshArtifact sector = whine::read_mesh(mesh);
+  whine::require_mesh(sector, slice, mesh);
+  const whine::BodyArtifact result = whine::reduce(sector, slice.material, slice.discretisation.modes);
 
   whine::Provenance provenance;
   provenance.tool = whine::program_name(argv[0]);

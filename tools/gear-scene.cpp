@@ -1,14 +1,14 @@
 // gear-scene: checks a scene and cuts it into the parts that the stages depend on.
 //
-// Reads    a scene (TOML)
-// Writes   <out>/<scene>/params/static.toml, sweep.toml   slices of the scene in SI, replaced only if they
-// change
-//          <out>/bodies/<hash>/body.toml                  one per distinct gear
-//          <out>/<scene>/<gear> -> ../bodies/<hash>       relative links
-//          --output: a make fragment that names gears, bodies and torques of the scene
-//
-//   gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out
-//   gear-scene --keys
+// Reads      a scene (TOML)
+// Writes     <out>/<scene>/params/{static,sweep}.toml    slices in SI, replaced only if they change
+//            <out>/bodies/<hash>/body.toml               one per distinct gear
+//            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
+//            --output                                    make fragment: gears, bodies, torques of the scene
+//            --keys: prints the table of scene keys
+// Equations  none; units to SI as the key table says
+// Example    gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out
+//            gear-scene --keys
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
@@ -22,6 +22,7 @@
 #include "base/tool.h"
 #include "files/publish.h"
 #include "files/scene.h"
+#include "gear/pair.h"
 
 namespace {
 
@@ -51,6 +52,23 @@ std::string short_number(double value) {
   return buffer;
 }
 
+// Gears that cannot exist and pairs that cannot run are told here, not after minutes of work.
+void check_geometry(const Scene& scene, const std::string& path) {
+  const auto in = [&](const std::string& section, const auto& make) {
+    try {
+      make();
+    } catch (const Error& error) {
+      fail(error.kind(), path, ": ", section, ": ", error.what());
+    }
+  };
+  for (const SceneGear& gear : scene.gears)
+    in("[gear." + gear.name + "]", [&] { ToothGeometry tooth(gear.design); });
+  in("[[mesh]]", [&] {
+    GearPair pair(scene.gear(scene.mesh.driver).design, scene.gear(scene.mesh.driven).design,
+                  scene.mesh.centre_distance);
+  });
+}
+
 void body(int argc, char** argv) {
   std::string path, output, folder = "out";
   bool keys = false;
@@ -71,6 +89,7 @@ void body(int argc, char** argv) {
   // 1. The whole scene is checked before anything is written.
   const std::string stem = checked_stem(path);
   const Scene scene = read_scene(path);
+  check_geometry(scene, path);
   const std::string home = folder + "/" + stem;
 
   // 2. Slices and links; unchanged ones are left alone, so that make sees what did change.

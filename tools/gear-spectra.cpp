@@ -1,13 +1,11 @@
 // gear-spectra: what a speed sweep says, as numbers of a frequency response.
 //
-// Reads   sweep.h5     transmission error and tooth loads over the last mesh period(s) of each speed
-// Writes  response.h5  per speed: mean and RMS of the oscillating DTE, harmonics of the mesh frequency,
-// largest loads,
-//                      separations; the sweep's jumps
-// Equations: x = r1 theta1 + r2 theta2; mean = <x>, rms^2 = <(x - mean)^2>, amplitude_k = 2 |<x exp(-2 pi i k
-// f t)>|
-//            over a whole number of periods.
-// Example: gear-spectra --input out/parker2000/T150/up/sweep.h5 --output out/parker2000/T150/up/response.h5
+// Reads      sweep.h5       transmission error and tooth loads over the last mesh period(s) of each speed
+// Writes     response.h5    per speed: mean and RMS of the oscillating DTE, harmonics of the mesh frequency,
+//                           largest loads, separations; the sweep's jumps
+// Equations  x = r1 theta1 + r2 theta2; mean = <x>, rms^2 = <(x - mean)^2>,
+//            amplitude_k = 2 |<x exp(-2 pi i k f t)>|, over a whole number of periods
+// Example    gear-spectra --input out/parker2000/T150/up/sweep.h5 --output out/parker2000/T150/up/response.h5
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

@@ -1,10 +1,9 @@
 // gear-static: transmission error, mesh stiffness and tooth loads of two gears at rest, over one mesh period.
 //
 // Reads   params (slice of a scene: mesh, contact discretisation), body.h5 of driver and driven gear
-// Writes  static.h5   transmission error, secant and tangent stiffness, load of each pair, harmonics,
-// certificate Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20); k =
-// (T / r_b) / STE. Example: gear-static --params out/parker2000/params/static.toml --driver
-// out/parker2000/pinion/body.h5
+// Writes  static.h5   transmission error, secant and tangent stiffness, load of each pair, harmonics, certificate
+// Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20); k = (T / r_b) / STE.
+// Example: gear-static --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
 //            --driven out/parker2000/wheel/body.h5 --torque 150 --output out/parker2000/T150/static.h5
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/fit.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "motion/statics.h"
@@ -30,17 +30,20 @@ Eigen::VectorXd mean_and_harmonics(const Eigen::VectorXd& samples) {
 void body(int argc, char** argv) {
   CLI::App app{"Static transmission error, mesh stiffness and tooth loads over a mesh period", "gear-static"};
   std::string params, driver, driven, output;
-  double torque = 0;
+  std::string torque_word;
   app.add_option("--params", params, "slice of the scene: out/<scene>/params/static.toml")->required();
   app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
   app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--torque", torque, "torque on the driver in N m, above 0")->required();
+  app.add_option("--torque", torque_word, "torque on the driver in N m, above 0")->required();
   app.add_option("--output", output, "static.h5 to write")->required();
   whine::parse(app, argc, argv);
 
+  const double torque = whine::number_option("--torque", torque_word);
   const whine::StaticSlice slice = whine::read_static_slice(params);
-  whine::StaticArtifact result =
-      whine::static_transmission(whine::read_body(driver), whine::read_body(driven), slice, torque);
+  const whine::BodyArtifact driver_body = whine::read_body(driver), driven_body = whine::read_body(driven);
+  whine::require_body(driver_body, slice.driver_body, "driver", driver);
+  whine::require_body(driven_body, slice.driven_body, "driven", driven);
+  whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, slice, torque);
   result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error);
   result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant);
 

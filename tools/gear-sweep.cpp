@@ -1,17 +1,12 @@
-// gear-sweep: the dynamic response of the pair at a series of speeds, each started from the state of the one
-// before.
+// gear-sweep: the dynamic response of the pair at a series of speeds, each started from the state of the one before.
 //
-// Reads   params (slice of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears,
-// static.h5 of the
-//         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the
-//         dampers)
-// Writes  sweep.h5    transmission error and tooth loads over the last mesh period of every speed, jumps
-// Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at
-// every step. Example: gear-sweep --params out/parker2000/params/sweep.toml --driver
-// out/parker2000/pinion/body.h5
+// Reads   params (slice of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears, static.h5 of the
+//         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
+// Writes  sweep.h5    transmission error and tooth loads over one orbit at every speed, energy, certificate, jumps
+// Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
+// Example: gear-sweep --params out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5
 //            --driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5
-//            --reference-static out/parker2000/T100/static.h5 --direction up --output
-//            out/parker2000/T150/up/sweep.h5
+//            --reference-static out/parker2000/T100/static.h5 --direction up --output out/parker2000/T150/up/sweep.h5
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <optional>
@@ -71,6 +66,15 @@ void body(int argc, char** argv) {
                            result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods",
                            jumps.empty() ? ", no jump" : jumps, " -> ", output)
             << '\n';
+  for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
+    if (result.period_multiple[i] == 0)
+      std::cerr << whine::text("gear-sweep: warning: at ", result.mesh_frequency[i],
+                               " Hz the motion is not periodic after ", result.periods[i],
+                               " mesh periods; the state still changes by ", result.residual[i],
+                               " per period\n");
+  if (result.backlash_margin <= 0)
+    std::cerr << whine::text("gear-sweep: warning: the motion goes ", -result.backlash_margin * 1e6,
+                             " um beyond the backlash; back flanks would touch, which is not modelled\n");
 }
 
 }  // namespace

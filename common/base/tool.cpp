@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -58,6 +60,16 @@ void parse(CLI::App& app, int argc, char** argv) {
     app.exit(asked, std::cout, std::cerr);
     throw Answered{};
   }
+}
+
+double number_option(const std::string& name, const std::string& word) {
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const auto [rest, code] = std::from_chars(word.data(), end, value);
+  if (code != std::errc() || rest != end || !std::isfinite(value)) {
+    fail(Failure::usage, name, " = '", word, "': must be a finite decimal number, such as 150 or 62.5");
+  }
+  return value;
 }
 
 std::string program_name(const char* argv0) {

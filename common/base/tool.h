@@ -24,6 +24,10 @@ inline constexpr const char* kVersion = "0.1.0";
 // status 0 if asked to; CLI11's errors leave through run_tool with status 2.
 void parse(CLI::App& app, int argc, char** argv);
 
+// The value of an option as a number: decimal, finite, nothing before or after it. Error(usage) names option
+// and value.
+double number_option(const std::string& name, const std::string& word);
+
 // Name of the program without folders: "build/bin/gear-mesh" -> "gear-mesh".
 std::string program_name(const char* argv0);
 

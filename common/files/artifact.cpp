@@ -86,7 +86,12 @@ class SectionSource : public ParameterSource {
 }  // namespace
 
 std::string rebuild_advice(const std::string& path) {
-  return "rebuild it with: make " + recorded_path(path);
+  const std::string target = recorded_path(path);
+  // make has no targets outside its own folder.
+  if (target.rfind("...", 0) == 0 || target.rfind("../", 0) == 0) {
+    return "it lies outside the working folder: make it again where it was made";
+  }
+  return "rebuild it with: make " + target;
 }
 
 Origin read_origin(const std::string& path) {

@@ -116,11 +116,12 @@ std::vector<Key> make_keys() {
     {Part::operation, "operation", "torque_Nm", kNewtonMetre, nullptr, 0, 999999, true, "",
      "torque on the driver: a number or a list; the first sets the bearing dampers",
      [](V& v) -> Slot { return &v.operation.torques; }},
-    {Part::operation, "operation", "mesh_frequency_Hz", kHertz, nullptr, 0, 1e6, true, "",
+    {Part::operation, "operation", "mesh_frequency_Hz", kHertz, nullptr, 1, 1e6, false, "",
      "speeds of a sweep: { from = , to = , step = }",
      [](V& v) -> Slot {
        return RangeSlot{&v.operation.frequency_from, &v.operation.frequency_to, &v.operation.frequency_step};
-     }},
+     },
+     "slower, a mesh period takes more than 250000 time steps at the default rate; the static stage is the limit of zero speed"},
 
     {Part::rung, "fidelity", "body", kNone, "modal", 0, 0, false, "rigid quasi-static lagged modal",
      "what of the elastic body moves by itself",

@@ -68,11 +68,12 @@ struct Key {
   const char* name;     // in a scene, with the unit's suffix
   Unit unit;
   const char* fallback;  // default in the scene's unit; nullptr: the key is required
-  double least, most;    // range in the scene's unit
+  double least, most;    // range in the scene's unit; of a range of speeds: of its two ends
   bool open;             // least itself is not allowed
   const char* choices;   // of a word, blank between; "" for numbers
   const char* meaning;   // one line
   Slot (*slot)(KeyValues&);
+  const char* reason = "";  // why there is the lower limit, where that is not plain
 
   std::string si_name() const;  // name without the unit's suffix
   double to_si(double value) const { return value * unit.multiply / unit.divide; }

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 
@@ -36,6 +38,22 @@ void make_folder_of(const std::string& path) {
 
 std::string temporary_name(const std::string& path) {
   return text(path, ".tmp.", ::getpid());
+}
+
+// Temporary files that killed runs have left for this very path: their process is gone. One whose process
+// lives, or whose number now belongs to another user, stays.
+void remove_stale_temporaries(const std::string& path) {
+  const std::string stem = fs::path(path).filename().string() + ".tmp.";
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder_of(path), code)) {
+    const std::string name = entry.path().filename().string();
+    if (name.compare(0, stem.size(), stem) != 0) continue;
+    pid_t process = 0;
+    const char* end = name.data() + name.size();
+    const auto [rest, wrong] = std::from_chars(name.data() + stem.size(), end, process);
+    if (wrong != std::errc() || rest != end || process <= 0) continue;
+    if (::kill(process, 0) != 0 && errno == ESRCH) ::unlink(entry.path().c_str());
+  }
 }
 
 // Removes the temporary file unless the rename has happened.
@@ -85,6 +103,11 @@ void publish(const std::string& path, const std::string& bytes) {
     fail(Failure::io, path, ": cannot ", deed, " (", bytes.size(), " bytes): ", system_says(code),
          "; nothing was changed, an earlier file is whole");
   };
+  std::error_code code;
+  const auto kind = fs::status(path, code);
+  if (fs::exists(kind) && !fs::is_regular_file(kind))
+    fail(Failure::io, path, ": is no regular file and is not replaced; give the name of a file");
+  remove_stale_temporaries(path);
   const std::string temporary = temporary_name(path);
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file.number() < 0) refuse("create a file beside it", errno);

@@ -156,16 +156,25 @@ class SectionReader {
                    as_written(node), ": ", what));
   }
 
-  double checked_number(const Key& key, const toml::node& node) const {
+  double finite_number(const Key& key, const toml::node& node, const std::string& item = "") const {
     if (!node.is_number())
-      refuse(key, node, "must be a number" + (unit_of(key).empty() ? "" : " (in" + unit_of(key) + ")"));
+      refuse(key, node,
+             item + "must be a number" + (unit_of(key).empty() ? "" : " (in" + unit_of(key) + ")"));
     const double value = node.value<double>().value_or(0.0);
-    if (!std::isfinite(value)) refuse(key, node, "must be a finite number");
+    if (!std::isfinite(value)) refuse(key, node, item + "must be a finite number");
+    return value;
+  }
+
+  // item: part of a value that the message is to name, with a blank after it.
+  double checked_number(const Key& key, const toml::node& node, const std::string& item = "") const {
+    const double value = finite_number(key, node, item);
     if (dialect_ == Dialect::slice) return value;
+    const std::string why = *key.reason ? text(": ", key.reason) : "";
     if (value < key.least || (key.open && value == key.least)) {
-      refuse(key, node, text("must be ", key.open ? "greater than " : "at least ", key.least, unit_of(key)));
+      refuse(key, node,
+             text(item, "must be ", key.open ? "greater than " : "at least ", key.least, unit_of(key), why));
     }
-    if (value > key.most) refuse(key, node, text("must be at most ", key.most, unit_of(key)));
+    if (value > key.most) refuse(key, node, text(item, "must be at most ", key.most, unit_of(key)));
     return key.to_si(value);
   }
 
@@ -248,7 +257,13 @@ class SectionReader {
     for (const auto& [name, target] : names) {
       const toml::node* item = table->get(name);
       if (!item) refuse(key, node, text("lacks '", name, "'"));
-      *target = checked_number(key, *item);
+      // The range of the key is that of the speeds; a step may be smaller.
+      const std::string label = "'" + name + "' ";
+      *target = target == slot.step ? key.to_si(finite_number(key, *item, label))
+                                    : checked_number(key, *item, label);
+      if (target == slot.step && !(*slot.step > 0)) {
+        refuse(key, *item, text(label, "must be greater than 0", unit_of(key)));
+      }
     }
     if (*slot.to < *slot.from) refuse(key, node, text("'to' must be at least 'from', which is ", *slot.from));
     if ((*slot.to - *slot.from) / *slot.step > 1e5)
@@ -527,10 +542,14 @@ Scene read_scene(const std::string& path) {
 
 std::string body_slice(const Scene& scene, const std::string& gear) {
   const SceneGear& chosen = scene.gear(gear);
+  return body_slice({chosen.design, chosen.material, scene.body});
+}
+
+std::string body_slice(const BodySlice& chosen) {
   KeyValues values;
   values.design = chosen.design;
   values.material = chosen.material;
-  values.body = scene.body;
+  values.body = chosen.discretisation;
   SliceText out("the body of a gear");
   out.add("gear", "gear", values, {Part::design});
   out.add("material", "material", values, {Part::material});
@@ -597,7 +616,12 @@ StaticSlice read_static_slice(const std::string& path) {
   read_slice_section(source, "mesh", "mesh", {Part::mesh}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::contact_rung}, values);
   read_slice_section(source, "discretisation", "discretisation", {Part::contact}, values);
-  return {values.mesh, values.fidelity, values.contact};
+  StaticSlice out{values.mesh, values.fidelity, values.contact, "", ""};
+  if (const toml::table* bodies = source.section("body")) {
+    out.driver_body = (*bodies)["driver"].value_or(std::string());
+    out.driven_body = (*bodies)["driven"].value_or(std::string());
+  }
+  return out;
 }
 
 SweepSlice read_sweep_slice(const std::string& path) {

@@ -1,6 +1,6 @@
 // A scene: every number that a user may change, read from TOML with checked keys and turned into SI.
 //
-// Each key is declared once, in scene.cpp, with name, unit, range, default and one line of documentation;
+// Each key is declared once, in keys.cpp, with name, unit, range, default and one line of documentation;
 // the reader, the canonical slices that make compares, /parameters in the artifacts and `--help` all come
 // from that declaration.
 #pragma once
@@ -120,6 +120,7 @@ struct StaticSlice {
   GearMeshSpec mesh;
   Fidelity fidelity;
   ContactDiscretisation contact;
+  std::string driver_body, driven_body;  // hashes of the bodies' slices; empty: the slice names none
 };
 
 // For gear-sweep.
@@ -135,6 +136,7 @@ struct SweepSlice {
 // Canonical text of a slice: TOML in SI, keys in a fixed order, numbers with all digits. Depends on values
 // only, not on comments, order or defaults left out. Errors: Error(input) for a gear that does not exist.
 std::string body_slice(const Scene& scene, const std::string& gear);
+std::string body_slice(const BodySlice& values);
 std::string static_slice(const Scene& scene);
 std::string sweep_slice(const Scene& scene);
 

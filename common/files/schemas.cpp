@@ -11,7 +11,7 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 1, kStaticVersion = 1, kSweepVersion = 1, kResponseVersion = 1;
+constexpr int kMeshVersion = 1, kBodyVersion = 1, kStaticVersion = 2, kSweepVersion = 2, kResponseVersion = 2;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -43,6 +43,67 @@ BodyDiscretisation take_body_discretisation(const ArtifactReader& in) {
   KeyValues values;
   in.parameters("discretisation", values, Part::body);
   return values.body;
+}
+
+// One gear of a pair: geometry, material and the discretisation of its body, under its role.
+void put_gear(ArtifactWriter& out, const std::string& role, const GearDesign& design,
+              const Material& material, const BodyDiscretisation& body) {
+  KeyValues values;
+  values.design = design;
+  values.material = material;
+  values.body = body;
+  for (const Part part : {Part::design, Part::material, Part::body}) out.parameters(role, values, part);
+}
+
+void take_gear(const ArtifactReader& in, const std::string& role, GearDesign& design, Material& material,
+               BodyDiscretisation& body) {
+  KeyValues values;
+  for (const Part part : {Part::design, Part::material, Part::body}) in.parameters(role, values, part);
+  design = values.design;
+  material = values.material;
+  body = values.body;
+}
+
+// The same names in the three artifacts of a pair.
+template <class Artifact>
+void put_pair(ArtifactWriter& out, const Artifact& a) {
+  put_gear(out, "driver", a.driver, a.driver_material, a.driver_body);
+  put_gear(out, "driven", a.driven, a.driven_material, a.driven_body);
+}
+
+template <class Artifact>
+void take_pair(const ArtifactReader& in, Artifact& a) {
+  take_gear(in, "driver", a.driver, a.driver_material, a.driver_body);
+  take_gear(in, "driven", a.driven, a.driven_material, a.driven_body);
+}
+
+void put_inertia(ArtifactWriter& out, const std::string& role, double inertia) {
+  KeyValues values;
+  values.total_inertia = inertia;
+  out.parameters(role, values, Part::inertia);
+}
+
+double take_inertia(const ArtifactReader& in, const std::string& role) {
+  KeyValues values;
+  in.parameters(role, values, Part::inertia);
+  return values.total_inertia;
+}
+
+// Left out where back flanks are ignored: the margin is then infinite.
+void put_backlash(ArtifactWriter& out, double margin) {
+  if (std::isinf(margin)) return;
+  out.put("/backlash_margin", margin, {"m", "least backlash left along the line of action", "", ""});
+}
+
+void put_natural_frequency(ArtifactWriter& out, double frequency) {
+  out.put("/natural_frequency", frequency,
+          {"Hz", "natural frequency: mean over the period with the contact frozen under the static load", "",
+           ""});
+}
+
+double take_backlash(const ArtifactReader& in) {
+  return in.file().has("/backlash_margin") ? in.number("/backlash_margin")
+                                           : std::numeric_limits<double>::infinity();
 }
 
 std::string gear_title(const GearDesign& design) {
@@ -219,8 +280,7 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
   values.mesh = a.mesh;
   values.fidelity = a.fidelity;
   values.contact = a.contact;
-  put_design(out, "driver", a.driver);
-  put_design(out, "driven", a.driven);
+  put_pair(out, a);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("fidelity", values, Part::contact_rung);
   out.parameters("discretisation", values, Part::contact);
@@ -253,11 +313,7 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
            "p >= 0 where d = 0 (with Eq. 18, 20)"});
   out.put("/certificate/torque_residual", a.torque_residual,
           {"1", "largest relative residual of the torque, over all positions", "", "|sum a p - T| / T"});
-  // Left out where back flanks are ignored: the margin is then infinite.
-  if (!std::isinf(a.backlash_margin)) {
-    out.put("/backlash_margin", a.backlash_margin,
-            {"m", "least backlash left along the line of action", "", ""});
-  }
+  put_backlash(out, a.backlash_margin);
   out.publish();
 }
 
@@ -268,8 +324,7 @@ StaticArtifact read_static(const std::string& path) {
   in.parameters("mesh", values, Part::mesh);
   in.parameters("fidelity", values, Part::contact_rung);
   in.parameters("discretisation", values, Part::contact);
-  a.driver = take_design(in, "driver");
-  a.driven = take_design(in, "driven");
+  take_pair(in, a);
   a.mesh = values.mesh;
   a.fidelity = values.fidelity;
   a.contact = values.contact;
@@ -288,8 +343,7 @@ StaticArtifact read_static(const std::string& path) {
   a.least_gap = in.number("/certificate/least_gap");
   a.least_force = in.number("/certificate/least_force");
   a.torque_residual = in.number("/certificate/torque_residual");
-  a.backlash_margin = in.file().has("/backlash_margin") ? in.number("/backlash_margin")
-                                                        : std::numeric_limits<double>::infinity();
+  a.backlash_margin = take_backlash(in);
   return a;
 }
 
@@ -304,6 +358,7 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
   want_rows("residual", a.residual.size(), speeds);
   want_rows("period_multiple", a.period_multiple.size(), speeds);
   want_rows("energy_imbalance", a.energy_imbalance.size(), speeds);
+  want_rows("drift_force", a.drift_force.size(), speeds);
   want_rows("jump_width", a.jump_width.size(), a.jump_frequency.size());
   ArtifactWriter out(path, "sweep", kSweepVersion,
                      text("Sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), provenance);
@@ -313,12 +368,9 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
   values.contact = a.contact;
   values.time = a.time;
   values.damping = a.damping;
-  put_design(out, "driver", a.driver);
-  put_design(out, "driven", a.driven);
-  values.total_inertia = a.driver_inertia;
-  out.parameters("driver", values, Part::inertia);
-  values.total_inertia = a.driven_inertia;
-  out.parameters("driven", values, Part::inertia);
+  put_pair(out, a);
+  put_inertia(out, "driver", a.driver_inertia);
+  put_inertia(out, "driven", a.driven_inertia);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("damping", values, Part::damping);
   out.put("/parameters/damping/mean_stiffness", a.mean_stiffness,
@@ -337,8 +389,8 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
   out.put("/mesh_frequency", a.mesh_frequency, {"Hz", "mesh frequency, in order of marching", kSpeed, ""});
   out.put("/transmission_error", a.transmission_error,
           {"m",
-           "dynamic transmission error over the last mesh period (period_multiple of them where "
-           "subharmonic), from phase 0",
+           "dynamic transmission error from phase 0; the first period_multiple mesh periods are one orbit; "
+           "shorter orbits repeat to fill the row",
            kSample, "r1 theta1 + r2 theta2"});
   out.put("/mesh_force", a.mesh_force, {"N", "normal force of all tooth pairs together", kSample, ""});
   out.put("/pair", a.pair,
@@ -358,9 +410,21 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
   out.put("/residual", a.residual,
           {"1", "relative change of the state over the last mesh period", kSpeed, ""});
   out.put("/period_multiple", a.period_multiple,
-          {"1", "mesh periods after which the motion repeats", kSpeed, ""});
+          {"1", "mesh periods after which the motion repeats; 0: not periodic within the limit", kSpeed, ""});
   out.put("/energy_imbalance", a.energy_imbalance,
           {"1", "energy not accounted for, relative to the input of the stored periods", kSpeed, ""});
+  put_natural_frequency(out, a.natural_frequency);
+  out.put("/drift_force", a.drift_force,
+          {"N", "largest force that the output must supply to hold the mean speed", kSpeed, ""});
+  out.put("/certificate/least_gap", a.least_gap,
+          {"m", "least gap of a strip without force, over all steps", "",
+           "d >= 0 where p = 0 (with Eq. 18, 20)"});
+  out.put(
+      "/certificate/least_force", a.least_force,
+      {"N", "least force of a strip in contact, over all steps", "", "p >= 0 where d = 0 (with Eq. 18, 20)"});
+  out.put("/certificate/fallbacks", a.fallbacks,
+          {"1", "contact solutions that needed Lawson and Hanson's method", "", ""});
+  put_backlash(out, a.backlash_margin);
   out.put("/jump_frequency", a.jump_frequency,
           {"Hz", "middle of the interval in which the response jumps", "jump", ""});
   out.put("/jump_width", a.jump_width,
@@ -378,17 +442,14 @@ SweepArtifact read_sweep(const std::string& path) {
   in.parameters("fidelity", values, Part::contact_rung);
   in.parameters("discretisation", values, Part::contact);
   in.parameters("discretisation", values, Part::time);
-  a.driver = take_design(in, "driver");
-  a.driven = take_design(in, "driven");
+  take_pair(in, a);
   a.mesh = values.mesh;
   a.fidelity = values.fidelity;
   a.contact = values.contact;
   a.time = values.time;
   a.damping = values.damping;
-  in.parameters("driver", values, Part::inertia);
-  a.driver_inertia = values.total_inertia;
-  in.parameters("driven", values, Part::inertia);
-  a.driven_inertia = values.total_inertia;
+  a.driver_inertia = take_inertia(in, "driver");
+  a.driven_inertia = take_inertia(in, "driven");
   a.mean_stiffness = in.number("/parameters/damping/mean_stiffness");
   a.driver_bearing_damper = in.number("/parameters/damping/driver_bearing_damper");
   a.driven_bearing_damper = in.number("/parameters/damping/driven_bearing_damper");
@@ -415,6 +476,12 @@ SweepArtifact read_sweep(const std::string& path) {
   a.residual = in.vector("/residual", speeds);
   a.period_multiple = in.whole_vector("/period_multiple", speeds);
   a.energy_imbalance = in.vector("/energy_imbalance", speeds);
+  a.natural_frequency = in.number("/natural_frequency");
+  a.drift_force = in.vector("/drift_force", speeds);
+  a.least_gap = in.number("/certificate/least_gap");
+  a.least_force = in.number("/certificate/least_force");
+  a.fallbacks = in.whole("/certificate/fallbacks");
+  a.backlash_margin = take_backlash(in);
   a.jump_frequency = in.vector("/jump_frequency");
   a.jump_width = in.vector("/jump_width", a.jump_frequency.size());
   return a;
@@ -436,19 +503,24 @@ void write(const std::string& path, const ResponseArtifact& a, const Provenance&
   KeyValues values;
   values.mesh = a.mesh;
   values.fidelity = a.fidelity;
+  values.contact = a.contact;
+  values.time = a.time;
   values.damping = a.damping;
+  put_pair(out, a);
+  put_inertia(out, "driver", a.driver_inertia);
+  put_inertia(out, "driven", a.driven_inertia);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("fidelity", values, Part::rung);
   out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("discretisation", values, Part::contact);
+  out.parameters("discretisation", values, Part::time);
   out.parameters("damping", values, Part::damping);
   out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
   out.put("/parameters/operation/direction", a.direction,
           {"1", "direction of marching through the speeds", "", ""});
   out.put("/parameters/fidelity/model", a.model,
           {"1", "finite elements, or the name of a lumped model", "", ""});
-  out.put("/natural_frequency", a.natural_frequency,
-          {"Hz", "natural frequency estimated from the mean secant stiffness", "",
-           "sqrt(k (r1^2/I1 + r2^2/I2)) / 2 pi"});
+  put_natural_frequency(out, a.natural_frequency);
   out.put("/mesh_frequency", a.mesh_frequency, {"Hz", "mesh frequency, in order of marching", kSpeed, ""});
   out.put("/dte_rms", a.dte_rms,
           {"m", "RMS of the oscillating part of the dynamic transmission error", kSpeed, ""});
@@ -467,7 +539,7 @@ void write(const std::string& path, const ResponseArtifact& a, const Provenance&
   out.put("/jump_width", a.jump_width,
           {"Hz", "width of the interval in which the response jumps", "jump", ""});
   out.put("/period_multiple", a.period_multiple,
-          {"1", "mesh periods after which the motion repeats", kSpeed, ""});
+          {"1", "mesh periods after which the motion repeats; 0: not periodic within the limit", kSpeed, ""});
   out.publish();
 }
 
@@ -478,9 +550,16 @@ ResponseArtifact read_response(const std::string& path) {
   in.parameters("mesh", values, Part::mesh);
   in.parameters("fidelity", values, Part::rung);
   in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("discretisation", values, Part::contact);
+  in.parameters("discretisation", values, Part::time);
   in.parameters("damping", values, Part::damping);
+  take_pair(in, a);
+  a.driver_inertia = take_inertia(in, "driver");
+  a.driven_inertia = take_inertia(in, "driven");
   a.mesh = values.mesh;
   a.fidelity = values.fidelity;
+  a.contact = values.contact;
+  a.time = values.time;
   a.damping = values.damping;
   a.torque = in.number("/parameters/operation/torque");
   a.direction = in.word("/parameters/operation/direction");

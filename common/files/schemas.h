@@ -54,10 +54,10 @@ struct BodyArtifact {
   Eigen::VectorXd flank_position;    // (flank) rad: roll angle of the table points, ascending
   MatrixRM flank_mode;  // (flank, mode) kg^-1/2: outward normal displacement, M-normal modes, tooth 0
   int offsets = 0;      // tables hold tooth offsets 0 .. offsets
-  std::vector<MatrixRM>
-      compliance;               // [offset] (flank, flank) m N-1: inward normal displacement of tooth
-                                // `offset` (counter-clockwise of the loaded one) per unit total normal force
-                                // on tooth 0; offset 0: less the half-plane relative to reference_depth
+  // [offset] (flank, flank) m N-1: inward normal displacement of tooth `offset` (counter-clockwise of the
+  // loaded one) per unit total normal force on tooth 0; offset 0: less the half-plane relative to
+  // reference_depth
+  std::vector<MatrixRM> compliance;
   double reference_depth = 0;   // m
   double asymmetry = 0;         // relative, before symmetrisation
   double least_eigenvalue = 0;  // m N-1 of the compliance of all offsets less the stored modes
@@ -70,6 +70,8 @@ struct BodyArtifact {
 // static.h5
 struct StaticArtifact {
   GearDesign driver, driven;
+  Material driver_material, driven_material;
+  BodyDiscretisation driver_body, driven_body;
   GearMeshSpec mesh;
   Fidelity fidelity;
   ContactDiscretisation contact;
@@ -93,6 +95,8 @@ struct StaticArtifact {
 // sweep.h5: rows in order of marching
 struct SweepArtifact {
   GearDesign driver, driven;
+  Material driver_material, driven_material;
+  BodyDiscretisation driver_body, driven_body;
   GearMeshSpec mesh;
   Fidelity fidelity;
   ContactDiscretisation contact;
@@ -102,18 +106,26 @@ struct SweepArtifact {
   double driver_inertia = 0, driven_inertia = 0;                // kg m2
   double mean_stiffness = 0;                                    // N m-1 that sets the bearing dampers
   double driver_bearing_damper = 0, driven_bearing_damper = 0;  // N m s
-  std::string direction;                                        // "up" or "down"
-  Eigen::VectorXd mesh_frequency;                               // (speed) Hz
-  MatrixRM
-      transmission_error;  // (speed, sample) m; the last mesh period, or the last period_multiple periods
-  MatrixRM mesh_force;     // (speed, sample) N
-  Eigen::VectorXi pair;    // (pair)
+  double natural_frequency = 0;    // Hz: mean over the period with the contact frozen under the static load
+  std::string direction;           // "up" or "down"
+  Eigen::VectorXd mesh_frequency;  // (speed) Hz
+  // (speed, sample) m: the first period_multiple mesh periods are one orbit, repeated to fill the row
+  MatrixRM transmission_error;
+  MatrixRM mesh_force;               // (speed, sample) N
+  Eigen::VectorXi pair;              // (pair)
   std::vector<MatrixRM> tooth_load;  // [speed] (sample, pair) N
   Eigen::VectorXi periods;           // (speed) mesh periods run
   Eigen::VectorXd residual;          // (speed) relative change of the state over a period at the end
-  Eigen::VectorXi period_multiple;   // (speed) 1 unless subharmonic
+  Eigen::VectorXi period_multiple;   // (speed) 1 unless subharmonic; 0: not periodic within the limit
   Eigen::VectorXd energy_imbalance;  // (speed) relative to the input energy of the stored periods
+  // (speed) N: largest force that the output must supply to hold the mean speed
+  Eigen::VectorXd drift_force;
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
+  // certificate: worst over all steps of the stored periods
+  double least_gap = 0;        // m, of strips without force
+  double least_force = 0;      // N, of strips with force
+  int fallbacks = 0;           // contact solutions that needed Lawson and Hanson's method
+  double backlash_margin = 0;  // m left on the line of action; infinite backlash is not stored (see flag)
 };
 
 // response.h5: what a sweep says, per speed
@@ -127,12 +139,18 @@ struct ResponseArtifact {
   Eigen::VectorXd separation_fraction;             // (speed) share of the period without force
   Eigen::VectorXd separations_per_period;          // (speed) 1
   Eigen::VectorXd jump_frequency, jump_width;      // (jump) Hz
-  Eigen::VectorXi period_multiple;                 // (speed) 1
+  Eigen::VectorXi period_multiple;                 // (speed) 1; 0: not periodic within the limit
   // what the sweep was computed with, so that a figure needs no other file
+  GearDesign driver, driven;
+  Material driver_material, driven_material;
+  BodyDiscretisation driver_body, driven_body;
+  double driver_inertia = 0, driven_inertia = 0;  // kg m2
   GearMeshSpec mesh;
   Fidelity fidelity;
+  ContactDiscretisation contact;
+  TimeDiscretisation time;
   Damping damping;
-  double natural_frequency = 0;  // Hz: sqrt(mean stiffness (r1^2/I1 + r2^2/I2)) / 2 pi, the secant estimate
+  double natural_frequency = 0;  // Hz: as in the sweep
 };
 
 void write(const std::string& path, const MeshArtifact&, const Provenance&);

@@ -103,7 +103,13 @@ void show(Lines& lines, const SweepArtifact& a) {
     add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
         ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
+    const Eigen::Index open = (a.period_multiple.array() == 0).count();
+    if (open > 0) add(lines, "not periodic", open, " of ", a.period_multiple.size(), " speeds");
+    add(lines, "mean speed held by", "at most ", a.drift_force.maxCoeff(), " N from the output");
   }
+  add(lines, "certificate", "least gap ", a.least_gap * 1e6, " um, least force ", a.least_force, " N, ",
+      a.fallbacks, " solutions by Lawson and Hanson");
+  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " um");
   add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
 }
 
@@ -119,7 +125,8 @@ void show(Lines& lines, const ResponseArtifact& a) {
     add(lines, "contact lost", (a.separation_fraction.array() > 0).count(), " speeds, at most ",
         a.separation_fraction.maxCoeff() * 100, " % of the period");
   }
-  add(lines, "natural frequency", a.natural_frequency, " Hz (mean secant stiffness)");
+  add(lines, "natural frequency", a.natural_frequency,
+      " Hz (mean over the period, contact frozen under the static load)");
   add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
 }
 

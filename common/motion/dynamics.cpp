@@ -21,6 +21,10 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
   const std::string& rung = parameters.fidelity.body;
   double inverse_mass = 0;
   for (int g = 0; g < 2; ++g) {
+    if (!(parameters.inertia[g] > model.gear[g].body().inertia))
+      fail(Failure::input, "total_inertia_kgm2 = ", parameters.inertia[g], " of the ",
+           g ? "driven gear" : "driver", " lies below the inertia of its own body, ",
+           model.gear[g].body().inertia, " kg m2; raise it");
     const double r = model.kinematics.gear(g).base_radius();
     inverse_mass += r * r / parameters.inertia[g];
   }
@@ -77,18 +81,12 @@ void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
   if (k > 0) {
     MatrixXd mass = MatrixXd::Identity(k + 1, k + 1), stiffness = MatrixXd::Zero(k + 1, k + 1);
     mass(0, 0) = parameters_.inertia[g];
-    double carried = 0;
     for (int i = 0; i < k; ++i) {
       const double w = kTwoPi * body.eigenfrequency[torsional[i]],
                    gamma = body.inertia_coupling[torsional[i]];
       mass(0, i + 1) = mass(i + 1, 0) = gamma;
       stiffness(i + 1, i + 1) = w * w;
-      carried += gamma * gamma;
     }
-    if (parameters_.inertia[g] <= std::max(carried, body.inertia))
-      fail(Failure::input, "total_inertia_kgm2 = ", parameters_.inertia[g], " of the ",
-           g ? "driven gear" : "driver", " lies below the inertia of its own body, ", body.inertia,
-           " kg m2; raise it");
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(stiffness, mass);
     for (int i = 1; i <= k; ++i) {  // 0 is the rigid rotation
       Coordinate c;
@@ -274,6 +272,9 @@ RollingDynamics::State RollingDynamics::rest() {
   state.z = follow.cwiseProduct(state.force);
   state.z[0] = e.x;
   state.v = VectorXd::Zero(state.z.size());
+  state.p = e.p;
+  state.d =
+      a * e.p + position.mesh.gap - position.mesh.to_strips(offset + e.x * position.participation.col(0));
   for (int g = 0; g < 2; ++g) {
     state.load[g] = MatrixXd::Zero(model_.gear[g].table_size(), 2 * reach_ + 1);
     for (size_t j = 0; j < position.mesh.pairs.size(); ++j)
@@ -300,21 +301,23 @@ double RollingDynamics::distance(const State& a, const State& b) const {
   return std::sqrt(energy) / energy_scale_;
 }
 
-void RollingDynamics::advance_tooth(State& state) const {
-  for (int i = 0; i < static_cast<int>(coordinates_.size()); ++i) {
+void RollingDynamics::turn_doublets(Eigen::Ref<VectorXd> y) const {
+  for (int i = 0; i < y.size(); ++i) {
     const Coordinate& c = coordinates_[i];
     if (c.turn == 0) continue;
-    for (VectorXd* y : {&state.z, &state.v, &state.force}) {
-      if (c.partner < 0) {
-        (*y)[i] = -(*y)[i];
-      } else if (c.partner > i) {
-        // Z = cosine - i sine turns by exp(i turn).
-        const double cosine = (*y)[i], sine = (*y)[c.partner];
-        (*y)[i] = std::cos(c.turn) * cosine + std::sin(c.turn) * sine;
-        (*y)[c.partner] = std::cos(c.turn) * sine - std::sin(c.turn) * cosine;
-      }
+    if (c.partner < 0) {
+      y[i] = -y[i];
+    } else if (c.partner > i) {
+      // Z = cosine - i sine turns by exp(i turn).
+      const double cosine = y[i], sine = y[c.partner];
+      y[i] = std::cos(c.turn) * cosine + std::sin(c.turn) * sine;
+      y[c.partner] = std::cos(c.turn) * sine - std::sin(c.turn) * cosine;
     }
   }
+}
+
+void RollingDynamics::advance_tooth(State& state) const {
+  for (VectorXd* y : {&state.z, &state.v, &state.force}) turn_doublets(*y);
   for (int g = 0; g < 2; ++g)
     for (MatrixXd* field : {&state.lag[g], &state.load[g]}) {
       for (int j = static_cast<int>(field->cols()) - 1; j > 0; --j) field->col(j) = field->col(j - 1);
@@ -322,11 +325,26 @@ void RollingDynamics::advance_tooth(State& state) const {
     }
 }
 
+RollingDynamics::Instant RollingDynamics::instant(const Position& position, const State& state) const {
+  const MeshPosition& mesh = position.mesh;
+  Instant now{&position, 0, state, mesh.to_strips(position.participation * state.z), {}, {}};
+  VectorXd nodes = VectorXd::Zero(mesh.nodes());
+  for (int g = 0; g < 2; ++g) nodes += position.reading[g] * state.lag[g].reshaped();
+  now.lagged = mesh.to_strips(nodes);
+  nodes = mesh.to_nodes(state.p);
+  now.pair_force.resize(state.z.size(), mesh.pairs.size());
+  for (size_t j = 0; j < mesh.pairs.size(); ++j)
+    now.pair_force.col(j) = position.participation.middleRows<kWindowNodes>(j * kWindowNodes).transpose() *
+                            nodes.segment<kWindowNodes>(j * kWindowNodes);
+  return now;
+}
+
 bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
   const int pairs = 2 * reach_ + 1;
   period.transmission_error.resize(steps_);
   period.pair_load = MatrixXd::Zero(pairs, steps_);
-  period.drift_force = 0;
+  period.drift_force = period.least_gap = period.least_force = 0;
+  period.fallbacks = 0;
   for (int g = 0; g < 2; ++g)
     if (state.lag[g].cols() < pairs) {  // the range grew: more teeth are followed
       const int more = (pairs - static_cast<int>(state.lag[g].cols())) / 2;
@@ -337,15 +355,17 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
       }
     }
 
-  VectorXd nodes, e, p, d, loads;
-  Instant before, after;
+  VectorXd nodes, e, loads;
+  Instant before;
+  if (ledger) before = instant(positions_[0], state);
   double balance = 0;
   for (int i = 1; i <= steps_; ++i) {
     const int sample = i % steps_;
     if (sample == 0) {
       advance_tooth(state);
-      if (ledger && before.position) {
+      if (ledger) {
         advance_tooth(before.state);
+        for (int j = 0; j < before.pair_force.cols(); ++j) turn_doublets(before.pair_force.col(j));
         before.renamed = 1;
       }
     }
@@ -366,13 +386,16 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
       nodes.noalias() += position.reading[g] * state.lag[g].reshaped();
     }
     e = mesh.gap + mesh.to_strips(nodes);
-    p.resize(mesh.strips());
-    d.resize(mesh.strips());
-    solver_.solve(step.compliance, e, step.active, p, d);
-    if (mesh.reaches_window_end(p)) return false;
+    state.p.resize(mesh.strips());
+    state.d.resize(mesh.strips());
+    const Certificate certificate = solver_.solve(step.compliance, e, step.active, state.p, state.d);
+    if (mesh.reaches_window_end(state.p)) return false;
+    period.least_gap = std::min(period.least_gap, certificate.least_gap);
+    period.least_force = std::min(period.least_force, certificate.least_force);
+    period.fallbacks += certificate.fallback;
 
     // The new force's own share.
-    nodes = mesh.to_nodes(p);
+    nodes = mesh.to_nodes(state.p);
     state.force = torque_force_;
     state.force.noalias() -= position.participation.transpose() * nodes;
     for (int c = 0; c < state.z.size(); ++c) {
@@ -390,18 +413,14 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
     }
 
     if (ledger) {
-      after = {&position, 0, state, p, d, mesh.to_strips(position.participation * state.z), {}};
-      nodes.setZero();
-      for (int g = 0; g < 2; ++g) nodes.noalias() += position.reading[g] * state.lag[g].reshaped();
-      after.lagged = mesh.to_strips(nodes);
-      if (before.position) record_step(before, after, balance, *ledger);
-      before = after;
-      nodes = mesh.to_nodes(p);
+      Instant after = instant(position, state);
+      record_step(before, after, balance, *ledger);
+      before = std::move(after);
     }
 
     const double error = error_weight_.dot(state.z);
     period.transmission_error[sample] = error;
-    loads = mesh.pair_loads(p);
+    loads = mesh.pair_loads(state.p);
     for (size_t j = 0; j < mesh.pairs.size(); ++j)
       period.pair_load(mesh.pairs[j].pair + reach_, sample) = loads[j];
     period.drift_force = std::max(period.drift_force, std::abs(position.drift_lever.dot(nodes)));
@@ -415,45 +434,68 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
   return true;
 }
 
-// One step of the ledger. With d = e - h z + U + A p and p . d = 0 at both ends, the product (p_n + p_n+1)/2
-// . (d_n+1 - d_n) is the switching line, and what the mean forces do on modes, lag and half-planes follows
-// term by term; products of an old force with a new shape are the work of the rolling.
+// One step of the ledger. With d = e - h z + U + A p and p . d = 0 at both ends, (p_n + p_n+1)/2 . (d_n+1 - d_n) is the
+// switching line, and what the mean forces do on modes, lag and half-planes follows term by term; products of an old
+// force with a new shape are the work of the rolling. A pair that a corner rule takes out under load keeps its last
+// geometry for the step, one that it lets in has its first: the gap there is the cutting line.
 void RollingDynamics::record_step(const Instant& before, const Instant& after, double& balance,
                                   Ledger& ledger) const {
-  static constexpr double kNode[4] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
-                                      0.9305681557970263};
-  static constexpr double kWeight[4] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
-                                        0.17392742256872692};  // Gauss-Legendre on (0, 1)
-  const State& a = before.state;
-  const State& b = after.state;
-  double storage = 0, rolling = 0, switching = 0;
+  // Gauss-Legendre on (0, 1): six points leave 1e-12 of what decays by exp(-1) in a step.
+  static constexpr int kPoints = 6;
+  static constexpr double kNode[kPoints] = {0.033765242898423975, 0.16939530676686776, 0.3806904069584015,
+                                            0.6193095930415985,   0.8306046932331322,  0.966234757101576};
+  static constexpr double kWeight[kPoints] = {0.08566224618958487, 0.18038078652406947, 0.23395696728634569,
+                                              0.23395696728634569, 0.18038078652406947, 0.08566224618958487};
+  const State &a = before.state, &b = after.state;
+  const MeshPosition &old_mesh = before.position->mesh, &new_mesh = after.position->mesh;
+  double rolling = 0, switching = 0, cutting = 0;
+  double storage = 0.5 * (b.p.dot(after.position->local * b.p) - a.p.dot(before.position->local * a.p));
 
-  // Strips, pair by pair: a pair that only one instant knows is out of reach and carries nothing.
-  const auto half_plane = [](const Instant& at, size_t j, const VectorXd& left, const VectorXd& right) {
-    const int first = at.position->mesh.first_strip[j], n = at.position->mesh.pairs[j].size();
-    return left.dot(at.position->local.block(first, first, n, n) * right);
+  // Displacements that the lagged loads of one instant cause under the loads of a pair at the other.
+  std::array<MatrixXd, 2> old_field, new_field;  // R (lagged loads), (flank, pair)
+  for (int g = 0; g < 2; ++g) {
+    old_field[g] = (residual_[g] * a.lag[g].reshaped()).reshaped(a.lag[g].rows(), a.lag[g].cols());
+    new_field[g] = (residual_[g] * b.lag[g].reshaped()).reshaped(b.lag[g].rows(), b.lag[g].cols());
+  }
+  const auto under = [&](const State& loads, const std::array<MatrixXd, 2>& field, int pair) {
+    double work = 0;
+    for (int g = 0; g < 2; ++g) work += loads.load[g].col(pair + reach_).dot(field[g].col(pair + reach_));
+    return work;
   };
-  const auto own_half_plane = [&](const Instant& at) { return 0.5 * at.p.dot(at.position->local * at.p); };
-  storage += own_half_plane(after) - own_half_plane(before);
-  for (size_t i = 0; i < before.position->mesh.pairs.size(); ++i)
-    for (size_t j = 0; j < after.position->mesh.pairs.size(); ++j) {
-      if (before.position->mesh.pairs[i].pair + before.renamed != after.position->mesh.pairs[j].pair)
-        continue;
-      const int n = after.position->mesh.pairs[j].size();
-      const auto old_strips = Eigen::seqN(before.position->mesh.first_strip[i], n);
-      const auto new_strips = Eigen::seqN(after.position->mesh.first_strip[j], n);
-      const VectorXd p0 = before.p(old_strips), p1 = after.p(new_strips);
-      switching += 0.5 * (p0.dot(after.d(new_strips)) - p1.dot(before.d(old_strips)));
-      rolling -=
-          0.5 * (p0 + p1).dot(after.position->mesh.gap(new_strips) - before.position->mesh.gap(old_strips));
-      rolling += 0.5 * (p0.dot(after.modal(new_strips)) - p1.dot(before.modal(old_strips)));
-      rolling -= 0.5 * (p0.dot(after.lagged(new_strips)) - p1.dot(before.lagged(old_strips)));
-      rolling -= 0.5 * (half_plane(after, j, p0, p1) - half_plane(before, i, p0, p1));
+  const auto strips = [](const MeshPosition& mesh, size_t j) {
+    return Eigen::seqN(mesh.first_strip[j], mesh.pairs[j].size());
+  };
+  const auto half_plane = [&](const Instant& at, size_t j, const VectorXd& left, const VectorXd& right) {
+    const auto own = strips(at.position->mesh, j);
+    return left.dot(at.position->local(own, own) * right);
+  };
+  std::vector<bool> met(new_mesh.pairs.size(), false);
+  for (size_t i = 0; i < old_mesh.pairs.size(); ++i) {
+    const int pair = old_mesh.pairs[i].pair + before.renamed;
+    const VectorXd p0 = a.p(strips(old_mesh, i));
+    size_t j = 0;
+    while (j < new_mesh.pairs.size() && new_mesh.pairs[j].pair != pair) ++j;
+    if (j == new_mesh.pairs.size()) {
+      cutting += 0.5 * (p0.dot(old_mesh.gap(strips(old_mesh, i))) - before.pair_force.col(i).dot(b.z));
+      if (std::abs(pair) <= reach_) cutting += 0.5 * under(a, new_field, pair);
+      continue;
     }
+    met[j] = true;
+    const VectorXd p1 = b.p(strips(new_mesh, j));
+    switching += 0.5 * (p0.dot(b.d(strips(new_mesh, j))) - p1.dot(a.d(strips(old_mesh, i))));
+    rolling -= 0.5 * (p0 + p1).dot(new_mesh.gap(strips(new_mesh, j)) - old_mesh.gap(strips(old_mesh, i)));
+    rolling += 0.5 * (p0.dot(after.modal(strips(new_mesh, j))) - p1.dot(before.modal(strips(old_mesh, i))) +
+                      after.pair_force.col(j).dot(a.z) - before.pair_force.col(i).dot(b.z));
+    rolling -= 0.5 * (p0.dot(after.lagged(strips(new_mesh, j))) - p1.dot(before.lagged(strips(old_mesh, i))) +
+                      under(b, old_field, pair) - under(a, new_field, pair));
+    rolling -= 0.5 * (half_plane(after, j, p0, p1) - half_plane(before, i, p0, p1));
+  }
+  for (size_t j = 0; j < new_mesh.pairs.size(); ++j)
+    if (!met[j])
+      cutting -= 0.5 * (b.p(strips(new_mesh, j)).dot(new_mesh.gap(strips(new_mesh, j))) -
+                        after.pair_force.col(j).dot(a.z) + under(b, old_field, new_mesh.pairs[j].pair));
 
   // Modes: force = torque - h^T p.
-  const VectorXd contact0 = torque_force_ - a.force, contact1 = torque_force_ - b.force;  // h^T p
-  rolling += 0.5 * (contact1.dot(a.z) - contact0.dot(b.z));
   const double torque = torque_force_.dot(b.z - a.z);
   double modal_damping = 0;
   for (int c = 0; c < a.z.size(); ++c) {
@@ -463,7 +505,7 @@ void RollingDynamics::record_step(const Instant& before, const Instant& after, d
       const double v = 0.5 * (a.v[c] + b.v[c]);  // the trapezoidal rule's own velocity
       modal_damping += coordinates_[c].damping * step_ * v * v;
     } else {
-      for (int k = 0; k < 4; ++k) {
+      for (int k = 0; k < kPoints; ++k) {
         const Propagator part =
             exact_propagator(coordinates_[c].frequency, coordinates_[c].damping, kNode[k] * step_);
         const double v = part.a21 * a.z[c] + part.a22 * a.v[c] + part.bv * mean;
@@ -479,11 +521,10 @@ void RollingDynamics::record_step(const Instant& before, const Instant& after, d
     const MatrixXd& r = residual_[g];
     const VectorXd lag0 = a.lag[g].reshaped(), lag1 = b.lag[g].reshaped();
     const VectorXd load0 = a.load[g].reshaped(), load1 = b.load[g].reshaped();
-    storage += 0.5 * (lag1.dot(r * lag1) - lag0.dot(r * lag0));
-    rolling += 0.5 * (load0.dot(r * lag1) - load1.dot(r * lag0));
+    storage += 0.5 * (lag1.dot(new_field[g].reshaped()) - lag0.dot(old_field[g].reshaped()));
     double exact = 0;
     if (eta > 0) {
-      for (int k = 0; k < 4; ++k) {
+      for (int k = 0; k < kPoints; ++k) {
         const Lag part = lag_step(eta, kNode[k] * step_);
         const VectorXd load = load0 + kNode[k] * (load1 - load0);
         const VectorXd rate = (load - part.decay * lag0 - part.from_old * load0 - part.from_new * load) / eta;
@@ -494,7 +535,7 @@ void RollingDynamics::record_step(const Instant& before, const Instant& after, d
     } else {
       exact = 0.5 * (load0 + load1).dot(r * (load1 - load0));
     }
-    averaging += 0.5 * (load0 + load1).dot(r * (lag1 - lag0)) - exact;
+    averaging += 0.5 * (load0 + load1).dot((new_field[g] - old_field[g]).reshaped()) - exact;
   }
 
   ledger.storage += storage;
@@ -503,9 +544,10 @@ void RollingDynamics::record_step(const Instant& before, const Instant& after, d
   ledger.modal_damping += modal_damping;
   ledger.lag_damping += lag_damping;
   ledger.switching += switching;
+  ledger.cutting += cutting;
   ledger.averaging += averaging;
   ledger.throughput += std::abs(torque) + std::abs(rolling);
-  balance += storage + modal_damping + lag_damping - torque - rolling - switching + averaging;
+  balance += storage + modal_damping + lag_damping - torque - rolling - switching - cutting + averaging;
   ledger.imbalance = std::max(ledger.imbalance, std::abs(balance));
 }
 

@@ -38,6 +38,7 @@ class RollingDynamics {
   struct State {
     Eigen::VectorXd z, v;   // (coordinate) kg^1/2 m, kg^1/2 m s-1
     Eigen::VectorXd force;  // (coordinate) contact and torque at this instant
+    Eigen::VectorXd p, d;   // (strip) N, m: at the phase of this instant
     std::array<Eigen::MatrixXd, 2> lag,
         load;  // (flank, pair) N: lagged and present loads on the flank tables
   };
@@ -46,11 +47,13 @@ class RollingDynamics {
     Eigen::VectorXd transmission_error;  // (step) m
     Eigen::MatrixXd pair_load;           // (pair, step) N, pairs -reach..reach
     double drift_force = 0;  // N: largest force that the output must supply to hold the mean speed
+    double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
+    int fallbacks = 0;                      // steps that block pivoting alone could not solve
   };
 
   // Where the energy goes, J, summed over the steps of a period. Every line is computed by itself, none as
   // what is left of the others. With mean forces p' = (p_n + p_n+1)/2:
-  //   d(storage) + modal_damping + lag_damping = torque + rolling + switching - averaging.
+  //   d(storage) + modal_damping + lag_damping = torque + rolling + switching + cutting - averaging.
   struct Ledger {
     double storage = 0;  // change of kinetic, modal, half-plane and residual energy
     double torque = 0;   // work of the constant torques on the vibration
@@ -58,8 +61,9 @@ class RollingDynamics {
         0;  // work of the prescribed rolling: gaps, participation and compliance change with phase
     double modal_damping = 0;  // Rayleigh and bearing dampers of the kept coordinates, by quadrature of v^2
     double lag_damping = 0;    // of the residual flexibility, by quadrature
-    double switching =
-        0;  // the scheme's own: strips that open or close within a step, (p_n d_n+1 - p_n+1 d_n) / 2
+    // The scheme's own: strips that open or close within a step, (p_n d_n+1 - p_n+1 d_n) / 2.
+    double switching = 0;
+    double cutting = 0;     // pairs that a corner rule takes out, or lets in, while they carry force
     double averaging = 0;   // the scheme's own: mean load times change of the lag, less the exact work
     double throughput = 0;  // sum of |torque| + |rolling| per step
     double imbalance = 0;   // largest |sum of the imbalance so far|
@@ -113,12 +117,15 @@ class RollingDynamics {
     std::array<Eigen::MatrixXd, 2> reading;  // (node, flank x pair): S R
     Eigen::VectorXd drift_lever;             // (node) 1: a1 / r1 - a2 / r2
   };
-  struct Instant {  // what the ledger keeps of a step: per strip, in the order of mesh.pairs
+  struct Instant {  // what the ledger keeps of a step, per pair and strip in the order of mesh.pairs
     const Position* position = nullptr;
     int renamed = 0;  // added to its pair numbers since
     State state;
-    Eigen::VectorXd p, d, modal, lagged;  // N; m: gap, h z, U
+    Eigen::VectorXd modal, lagged;  // (strip) m: h z, U
+    Eigen::MatrixXd pair_force;     // (coordinate, pair) h^T p of each pair
   };
+  Instant instant(const Position& position, const State& state) const;
+  void turn_doublets(Eigen::Ref<Eigen::VectorXd> y) const;
   void record_step(const Instant& before, const Instant& after, double& balance, Ledger& ledger) const;
   void add_modes(int g, const std::vector<int>& columns);
   Eigen::VectorXd flexibility() const;  // (coordinate) s2: 1 / w^2, 0 for the rigid rotation

@@ -107,7 +107,7 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Conta
   position.phase = phase;
   const GearPair& gears = model.kinematics;
   const double tangent = std::tan(gears.working_pressure_angle()), pitch = gears.base_pitch();
-  for (int pair = -3; pair <= 3; ++pair) {
+  for (int pair = -3; pair <= 3; ++pair) {  // more than a contact ratio of 4 and corners could need
     const double path = (phase + pair) * pitch;
     // Beyond the tangent points of the base circles there is no contact of these flanks.
     if (gears.gear(0).base_radius() * tangent + path <= 0 ||

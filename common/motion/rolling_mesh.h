@@ -23,7 +23,8 @@ class ElasticGear {
   const FlankTable& table() const { return table_; }
   int table_size() const { return table_.size(); }
   // (flank, flank) m N-1: inward displacement read on tooth `offset` counter-clockwise of the loaded one,
-  // less the half-plane relative to `depth` (m) on the loaded tooth itself. Zero beyond the stored offsets.
+  // less the half-plane relative to `depth` (m) on the loaded tooth itself. Zero beyond the stored offsets: teeth so far
+  // apart are loaded together only in passing.
   Eigen::MatrixXd compliance(int offset, double depth) const;
   // The same less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual
   // flexibility.

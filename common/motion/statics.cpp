@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
@@ -78,8 +79,10 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
 
 StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
                                    const StaticSlice& slice, double torque) {
-  if (!(torque > 0) || !std::isfinite(torque))
-    fail(Failure::input, "torque_Nm = ", torque, " must be above 0: static transmission needs a load");
+  constexpr double kLeastTorque = 1e-9;  // N m: gaps are round-off below
+  if (!(torque >= kLeastTorque) || !std::isfinite(torque))
+    fail(Failure::input, "torque_Nm = ", torque, " must be finite and at least ", kLeastTorque,
+         ": static transmission needs a load");
   const GearMeshModel model(driver, driven, slice.mesh);
   const double load = torque / model.kinematics.gear(0).base_radius();
   const int positions = slice.contact.positions;
@@ -87,6 +90,10 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   StaticArtifact result;
   result.driver = driver.design;
   result.driven = driven.design;
+  result.driver_material = driver.material;
+  result.driven_material = driven.material;
+  result.driver_body = driver.discretisation;
+  result.driven_body = driven.discretisation;
   result.mesh = slice.mesh;
   result.fidelity = slice.fidelity;
   result.contact = slice.contact;
@@ -110,7 +117,9 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
     corner_gap *= 1.6;
   }
   result.mean_stiffness = result.stiffness_secant.mean();
-  result.backlash_margin = model.kinematics.backlash() + result.transmission_error.minCoeff();
+  result.backlash_margin = driver.design.tooth_thinning + driven.design.tooth_thinning > 0
+                               ? model.kinematics.backlash() + result.transmission_error.minCoeff()
+                               : std::numeric_limits<double>::infinity();
   return result;
 }
 

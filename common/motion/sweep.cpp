@@ -1,8 +1,10 @@
 #include "motion/sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <optional>
 
 #include "base/error.h"
@@ -15,12 +17,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kMostPeriods = 4000;  // per speed, before it counts as not periodic
+constexpr int kMostPeriods = 3000;  // per speed, before it counts as not periodic
 constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in mesh periods
+constexpr int kStagnation = 50;     // periods over which a subharmonic must not come nearer to a shorter one
 constexpr double kJumpRatio = 1.2;  // change of RMS across a step that may be a jump
 constexpr int kJumpHalvings = 6;    // bisection: a step of 20 Hz leaves 0.3 Hz
 
-// One speed, steady: the last `multiple` periods.
+// One speed, steady: one orbit of `multiple` periods; 0: the motion did not become periodic.
 struct Steady {
   int multiple = 1, periods = 0;
   double residual = 0, rms = 0;
@@ -60,6 +63,14 @@ class Sweeper {
   }
 
   const RollingDynamics& dynamics() const { return dynamics_; }
+  // Mean over the mesh period with the contact frozen as the static load leaves it. Hz
+  double natural_frequency() {
+    constexpr int kPhases = 32;
+    const int positions = std::min(kPhases, finest_);
+    double sum = 0;
+    for (int i = 0; i < positions; ++i) sum += dynamics_.frozen_frequency(i * (finest_ / positions));
+    return sum / positions;
+  }
   RollingDynamics::State& state() { return state_; }
 
   // Runs at this speed from the present state until the state repeats.
@@ -67,7 +78,7 @@ class Sweeper {
     const RollingDynamics::State start = state_;
     for (;;) {
       dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
-      if (auto steady = settle(mesh_frequency)) return *steady;
+      if (auto steady = settle()) return *steady;
       // Contact wanted more than the window or the corner range holds: widen and run this speed again.
       if (++widened_ > 8)
         fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks: forces above ",
@@ -87,42 +98,51 @@ class Sweeper {
         finest_);
   }
 
-  std::optional<Steady> settle(double mesh_frequency) {
+  // Marches until the state repeats. A subharmonic of order m is one whose state repeats after m periods but, long
+  // since and without getting any nearer, not after a divisor of m: a slow transient may look like one for a while.
+  std::optional<Steady> settle() {
     Steady steady;
     std::deque<RollingDynamics::State> past{state_};
+    std::deque<std::array<double, kMostMultiple + 1>> history;  // change over m periods
     RollingDynamics::Period period;
-    for (int n = 1; n <= kMostPeriods; ++n) {
+    for (int n = 1;; ++n) {
       if (!dynamics_.march(state_, period)) return std::nullopt;
-      steady.residual = 1e300;
-      // The shortest multiple first: a fundamental orbit also repeats after two periods. A subharmonic is
-      // looked for only when the transient has had time to die.
-      const int longest = n < 100 ? 1 : std::min<int>(kMostMultiple, static_cast<int>(past.size()));
-      for (int m = 1; m <= longest; ++m) {
-        const double change = dynamics_.distance(state_, past[past.size() - m]);
-        if (m == 1) steady.residual = change;
-        if (!(change < slice_.time.periodicity)) continue;
-        steady.multiple = m;
-        steady.residual = change;
+      std::array<double, kMostMultiple + 1> change{};
+      const int known = static_cast<int>(past.size());
+      for (int m = 1; m <= std::min(known, n < kStagnation ? 1 : kMostMultiple); ++m)
+        change[m] = dynamics_.distance(state_, past[known - m]);
+      const auto stagnates = [&](int m) {
+        return static_cast<int>(history.size()) == kStagnation && change[m] > 100 * slice_.time.periodicity &&
+               change[m] > 0.999 * history.front()[m];
+      };
+      int multiple = 0;
+      for (int m = 1; m <= std::min(known, kMostMultiple) && multiple == 0; ++m) {
+        if (change[m] == 0 || !(change[m] < slice_.time.periodicity)) continue;
+        multiple = m;
+        for (int d = 1; d < m; ++d)
+          if (m % d == 0 && !stagnates(d)) multiple = 0;
+      }
+      if (change[1] == 0) multiple = 1;
+      if (multiple > 0 || n == kMostPeriods) {
+        // Not periodic: reported as such, with the last periods as they are.
+        const int stored = multiple > 0 ? multiple : kMostMultiple;
+        steady.multiple = multiple;
         steady.periods = n;
-        steady.record.push_back(period);
-        for (int k = 1; k < m; ++k) {
-          if (!dynamics_.march(state_, period)) return std::nullopt;
+        steady.residual = change[std::max(multiple, 1)];
+        RollingDynamics::Ledger ledger;
+        for (int k = 0; k < stored; ++k) {
+          if (!dynamics_.march(state_, period, &ledger)) return std::nullopt;
           steady.record.push_back(period);
         }
         steady.rms = oscillating_rms(steady.record);
-        RollingDynamics::Ledger ledger;
-        RollingDynamics::State audited =
-            state_;  // the march itself goes on from the state that was found steady
-        if (!dynamics_.march(audited, period, &ledger)) return std::nullopt;
         steady.energy_imbalance = ledger.imbalance / ledger.throughput;
         return steady;
       }
       past.push_back(state_);
-      if (past.size() > kMostMultiple) past.pop_front();
+      if (known == kMostMultiple) past.pop_front();
+      if (n >= kStagnation) history.push_back(change);
+      if (static_cast<int>(history.size()) > kStagnation) history.pop_front();
     }
-    fail(Failure::numerical, "at ", mesh_frequency, " Hz the motion is not periodic after ", kMostPeriods,
-         " mesh periods: the state still changes by ", steady.residual, " per period (limit ",
-         slice_.time.periodicity, "); raise the damping or leave this speed out");
   }
 
   const GearMeshModel& model_;
@@ -190,6 +210,10 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   SweepArtifact result;
   result.driver = driver.design;
   result.driven = driven.design;
+  result.driver_material = driver.material;
+  result.driven_material = driven.material;
+  result.driver_body = driver.discretisation;
+  result.driven_body = driven.discretisation;
   result.mesh = statics.mesh;
   result.fidelity = slice.fidelity;
   result.contact = statics.contact;
@@ -201,12 +225,14 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   result.mean_stiffness = mean_stiffness;
   result.driver_bearing_damper = sweeper.dynamics().bearing_damper(0);
   result.driven_bearing_damper = sweeper.dynamics().bearing_damper(1);
+  result.natural_frequency = sweeper.natural_frequency();
   result.direction = direction;
   result.mesh_frequency.resize(speeds);
   result.periods.resize(speeds);
   result.residual.resize(speeds);
   result.period_multiple.resize(speeds);
   result.energy_imbalance.resize(speeds);
+  result.drift_force = VectorXd::Zero(speeds);
 
   std::vector<Steady> steady;
   std::vector<Jump> jumps;
@@ -228,22 +254,29 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
   }
 
-  // Rows of one length: every stored row repeats its orbit to the longest multiple that occurs.
-  int longest = 1;
-  for (const Steady& s : steady)
-    while (longest % s.multiple != 0) ++longest;
+  // Rows of one length: shorter orbits repeat to fill theirs.
+  size_t longest = 1;
+  for (const Steady& s : steady) longest = std::max(longest, s.record.size());
   const int samples = slice.time.steps_per_period, reach = sweeper.dynamics().reach();
   result.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
   result.transmission_error.resize(speeds, longest * samples);
   result.mesh_force.resize(speeds, longest * samples);
+  double least_error = std::numeric_limits<double>::infinity();
   for (int i = 0; i < speeds; ++i) {
     MatrixRM loads = MatrixRM::Zero(longest * samples, 2 * reach + 1);
-    for (int k = 0; k < longest; ++k) {
-      const RollingDynamics::Period& period = steady[i].record[k % steady[i].multiple];
+    for (const RollingDynamics::Period& period : steady[i].record) {
+      least_error = std::min(least_error, period.transmission_error.minCoeff());
+      result.drift_force[i] = std::max(result.drift_force[i], period.drift_force);
+      result.least_gap = std::min(result.least_gap, period.least_gap);
+      result.least_force = std::min(result.least_force, period.least_force);
+      result.fallbacks += period.fallbacks;
+    }
+    for (size_t k = 0; k < longest; ++k) {
+      const RollingDynamics::Period& period = steady[i].record[k % steady[i].record.size()];
       const int stride = static_cast<int>(period.transmission_error.size()) / samples;
       const int own_reach = static_cast<int>(period.pair_load.rows()) / 2;
       for (int n = 0; n < samples; ++n) {
-        const int row = k * samples + n;
+        const int row = static_cast<int>(k) * samples + n;
         result.transmission_error(i, row) = period.transmission_error[n * stride];
         loads.row(row).segment(reach - own_reach, 2 * own_reach + 1) =
             period.pair_load.col(n * stride).transpose();
@@ -252,6 +285,9 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     }
     result.tooth_load.push_back(std::move(loads));
   }
+  result.backlash_margin = driver.design.tooth_thinning + driven.design.tooth_thinning > 0
+                               ? model.kinematics.backlash() + least_error
+                               : std::numeric_limits<double>::infinity();
   result.jump_frequency.resize(jumps.size());
   result.jump_width.resize(jumps.size());
   for (size_t i = 0; i < jumps.size(); ++i) {

@@ -10,8 +10,8 @@ namespace whine {
 
 // statics: of the same torque; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets
 // the bearing dampers. direction: "up" or "down". report(done, total, note) is called after each speed.
-// Throws Error(input) for parameters that do not fit, Error(numerical) if a speed does not become periodic or
-// contact leaves the flanks.
+// A speed at which the motion does not become periodic is kept with period_multiple 0. Throws Error(input) for
+// parameters that do not fit, Error(numerical) if contact leaves the flanks.
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepSlice& slice, const std::string& direction,
                     const std::function<void(long, long, const std::string&)>& report);

@@ -274,8 +274,9 @@ Figure response_figure(const ResponseArtifact& one, const ResponseArtifact& othe
   figure.notes.push_back(choices);
   figure.notes.push_back(text(up.model, ": body ", up.fidelity.body, ", contact ", up.fidelity.contact,
                               ", integrator ", up.fidelity.integrator));
-  figure.notes.push_back(text("f_n = ", fixed(up.natural_frequency, 0),
-                              " Hz, secant estimate √(k̄ (r₁²/I₁ + r₂²/I₂)) / 2π at the reference torque"));
+  figure.notes.push_back(
+      text("f_n = ", fixed(up.natural_frequency, 0),
+           " Hz: mean over the mesh period with the contact frozen under the static load"));
   figure.blocks = {branch_block(up), branch_block(down), jump_block(up), jump_block(down)};
   figure.numbers = {
       {"natural_frequency", up.natural_frequency},

@@ -10,10 +10,6 @@
 namespace whine {
 namespace {
 
-double base_radius(const GearDesign& gear) {
-  return 0.5 * gear.module * gear.teeth * std::cos(gear.pressure_angle);
-}
-
 void require_length(const char* what, Eigen::Index length, Eigen::Index speeds) {
   if (length != speeds)
     fail(Failure::input, "sweep: ", what, " has ", length, " rows, mesh_frequency has ", speeds);
@@ -29,12 +25,17 @@ void require_shapes(const SweepArtifact& s) {
   if (s.mesh_force.cols() != s.transmission_error.cols())
     fail(Failure::input, "sweep: mesh_force has ", s.mesh_force.cols(), " samples, transmission_error ",
          s.transmission_error.cols());
+  if (s.time.steps_per_period < 1 || s.transmission_error.cols() % s.time.steps_per_period != 0)
+    fail(Failure::input, "sweep: ", s.transmission_error.cols(),
+         " samples are no whole number of periods of ", s.time.steps_per_period, " steps");
   if (s.jump_width.size() != s.jump_frequency.size())
     fail(Failure::input, "sweep: ", s.jump_frequency.size(), " jumps, but ", s.jump_width.size(), " widths");
   for (Eigen::Index f = 0; f < speeds; ++f) {
-    if (s.period_multiple[f] < 1)
+    if (s.period_multiple[f] < 0 ||
+        s.period_multiple[f] * s.time.steps_per_period > s.transmission_error.cols())
       fail(Failure::input, "sweep: period_multiple is ", s.period_multiple[f], " at ", s.mesh_frequency[f],
-           " Hz; 1 is the least");
+           " Hz; 0 is the least, and ", s.transmission_error.cols(), " samples of ", s.time.steps_per_period,
+           " per period the most");
     const MatrixRM& load = s.tooth_load[f];
     if (load.rows() != s.transmission_error.cols() || load.cols() < 1)
       fail(Failure::input, "sweep: tooth_load is ", load.rows(), " x ", load.cols(), " at ",
@@ -47,35 +48,38 @@ void require_shapes(const SweepArtifact& s) {
 
 }  // namespace
 
-double natural_frequency_estimate(const SweepArtifact& s) {
-  for (const auto& [what, value] : {std::pair{"driver_inertia", s.driver_inertia},
-                                    {"driven_inertia", s.driven_inertia},
-                                    {"mean_stiffness", s.mean_stiffness}})
-    if (!(value > 0) || !std::isfinite(value))
-      fail(Failure::input, "sweep: ", what, " is ", value, "; it must be above 0");
-  const double r1 = base_radius(s.driver), r2 = base_radius(s.driven);
-  const double inverse_mass = r1 * r1 / s.driver_inertia + r2 * r2 / s.driven_inertia;
-  return std::sqrt(s.mean_stiffness * inverse_mass) / (2.0 * std::numbers::pi);
-}
-
 ResponseArtifact response(const SweepArtifact& s) {
   require_shapes(s);
   const Eigen::Index speeds = s.mesh_frequency.size();
-  const int count =
-      resolved_harmonics(s.transmission_error.cols(), kResponseHarmonics, s.period_multiple.maxCoeff());
+  // What one orbit fills of its row; a motion that is not periodic fills it all.
+  const Eigen::Index per_period = s.time.steps_per_period;
+  const auto stored = [&](Eigen::Index f) {
+    return s.period_multiple[f] > 0 ? s.period_multiple[f]
+                                    : static_cast<int>(s.transmission_error.cols() / per_period);
+  };
+  const int count = resolved_harmonics(per_period, kResponseHarmonics);
   if (count < 1)
-    fail(Failure::input, "sweep: ", s.transmission_error.cols(), " samples over ",
-         s.period_multiple.maxCoeff(),
-         " mesh periods do not resolve the mesh frequency; raise steps_per_period");
+    fail(Failure::input, "sweep: ", per_period,
+         " samples per mesh period do not resolve the mesh frequency; raise steps_per_period");
 
   ResponseArtifact r;
   r.torque = s.torque;
   r.direction = s.direction;
   r.model = "finite elements";
+  r.driver = s.driver;
+  r.driven = s.driven;
+  r.driver_material = s.driver_material;
+  r.driven_material = s.driven_material;
+  r.driver_body = s.driver_body;
+  r.driven_body = s.driven_body;
+  r.driver_inertia = s.driver_inertia;
+  r.driven_inertia = s.driven_inertia;
+  r.contact = s.contact;
+  r.time = s.time;
   r.mesh = s.mesh;
   r.fidelity = s.fidelity;
   r.damping = s.damping;
-  r.natural_frequency = natural_frequency_estimate(s);
+  r.natural_frequency = s.natural_frequency;
   r.mesh_frequency = s.mesh_frequency;
   r.jump_frequency = s.jump_frequency;
   r.jump_width = s.jump_width;
@@ -88,9 +92,10 @@ ResponseArtifact response(const SweepArtifact& s) {
   r.separation_fraction.resize(speeds);
   r.separations_per_period.resize(speeds);
   for (Eigen::Index f = 0; f < speeds; ++f) {
-    const int periods = s.period_multiple[f];
-    const Harmonics dte = harmonics(s.transmission_error.row(f).transpose(), count, periods);
-    const Separations apart = separations(s.mesh_force.row(f).transpose());
+    const int periods = stored(f);
+    const Eigen::Index samples = periods * per_period;
+    const Harmonics dte = harmonics(s.transmission_error.row(f).head(samples).transpose(), count, periods);
+    const Separations apart = separations(s.mesh_force.row(f).head(samples).transpose());
     r.dte_rms[f] = dte.rms;
     r.dte_mean[f] = dte.mean;
     r.dte_harmonic.row(f) = dte.amplitude.transpose();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "base/error.h"
@@ -11,17 +12,7 @@
 namespace whine {
 namespace {
 
-// Lagrange polynomials through -1, 0, 1 (order 2) or -1, 1 (order 1) and their slopes.
-struct Line {
-  double value[3], slope[3];  // at the nodes -1, +1, 0
-};
-
-Line line_shape(bool quadratic, double a) {
-  if (!quadratic) return {{0.5 * (1 - a), 0.5 * (1 + a), 0}, {-0.5, 0.5, 0}};
-  return {{0.5 * a * (a - 1), 0.5 * a * (a + 1), 1 - a * a}, {a - 0.5, a + 0.5, -2 * a}};
-}
-
-// Indices into Line of each node of the element: (along a, along b).
+// Indices into the shape functions of a side, of each node of the element: (along a, along b).
 constexpr int kNodeLine[9][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {1, 2}, {2, 1}, {0, 2}, {2, 2}};
 
 // Shape functions at the Gauss points of an element type, tabulated once.
@@ -68,9 +59,15 @@ Eigen::MatrixX2d element_nodes(const MatrixRM& position, const MatrixRMi& elemen
 
 }  // namespace
 
+SideShape side_shape(std::size_t nodes, double a) {
+  if (nodes == 2) return {{0.5 * (1 - a), 0.5 * (1 + a), 0}, {-0.5, 0.5, 0}};
+  return {{0.5 * a * (a - 1), 0.5 * a * (a + 1), 1 - a * a}, {a - 0.5, a + 0.5, -2 * a}};
+}
+
 Shape shape_functions(int nodes, double a, double b) {
   if (nodes != 4 && nodes != 9) fail(Failure::input, "an element has 4 or 9 nodes, not ", nodes);
-  const Line along_a = line_shape(nodes == 9, a), along_b = line_shape(nodes == 9, b);
+  const std::size_t order = nodes == 9 ? 3 : 2;
+  const SideShape along_a = side_shape(order, a), along_b = side_shape(order, b);
   Shape shape{Eigen::VectorXd(nodes), Eigen::MatrixX2d(nodes, 2)};
   for (int k = 0; k < nodes; ++k) {
     const int i = kNodeLine[k][0], j = kNodeLine[k][1];
@@ -85,7 +82,7 @@ GaussRule gauss_rule(int points) {
   if (points < 1) fail(Failure::input, "a Gauss rule needs 1 point or more, not ", points);
   GaussRule rule{Eigen::VectorXd(points), Eigen::VectorXd(points)};
   for (int i = 0; i < points; ++i) {
-    double x = std::cos(M_PI * (i + 0.75) / (points + 0.5)), slope = 1;
+    double x = std::cos(std::numbers::pi * (i + 0.75) / (points + 0.5)), slope = 1;
     for (int iteration = 0; iteration < 100; ++iteration) {  // Newton on the Legendre polynomial
       double p = x, previous = 1;
       for (int k = 2; k <= points; ++k) {

@@ -13,6 +13,12 @@ namespace whine {
 
 using SparseReal = Eigen::SparseMatrix<double>;
 
+// Lagrange polynomials of a side and their slopes at a in [-1, 1]; order start, end, middle. nodes: 2 or 3.
+struct SideShape {
+  double value[3], slope[3];  // 1
+};
+SideShape side_shape(std::size_t nodes, double a);
+
 // Shape functions at a point of the reference square and their derivatives there.
 struct Shape {
   Eigen::VectorXd value;                           // (node) 1

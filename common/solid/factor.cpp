@@ -4,9 +4,6 @@
 
 #include "base/error.h"
 
-// Present in OpenBLAS, absent in other BLAS libraries: results must not depend on the number of cores.
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-
 namespace whine {
 
 struct HermitianFactor::Work {
@@ -15,7 +12,6 @@ struct HermitianFactor::Work {
   Eigen::Index size = 0;
 
   Work() {
-    if (openblas_set_num_threads) openblas_set_num_threads(1);
     cholmod_start(&common);
     common.print = 0;
     common.supernodal = CHOLMOD_SUPERNODAL;  // L L^H: a pivot that is not positive ends it
@@ -96,10 +92,6 @@ Eigen::MatrixXcd HermitianFactor::solve(const Eigen::MatrixXcd& right) const {
   cholmod_free_dense(&x, &work_->common);
   if (!result.allFinite()) fail(Failure::numerical, "the solution of a factorised system is not finite");
   return result;
-}
-
-double HermitianFactor::factor_entries() const {
-  return work_->common.lnz;
 }
 
 }  // namespace whine

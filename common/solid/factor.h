@@ -27,8 +27,6 @@ class HermitianFactor {
   // right: (row, column); solves a x = right. Throws Error(numerical) if the result is not finite.
   Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const;
 
-  double factor_entries() const;  // stored entries of the factor, for reports
-
  private:
   struct Work;
   std::unique_ptr<Work> work_;

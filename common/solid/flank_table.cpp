@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 
@@ -26,7 +27,7 @@ FlankTable::FlankTable(double base_radius, double form_roll_angle, double tip_ro
   barycentric_.resize(points);
   const double zeta_form = zeta(form_);
   for (int j = 0; j < points; ++j) {
-    const double angle = M_PI * (2 * j + 1) / (2.0 * points);
+    const double angle = std::numbers::pi * (2 * j + 1) / (2.0 * points);
     zeta_[j] = 0.5 * zeta_form * (1 + std::cos(angle));  // descends from the form point to the tip
     const double delta = tip_scale_ * std::expm1(zeta_[j]);
     points_[j] = std::sqrt(tip_ * tip_ - 2 * delta / base_radius_);

@@ -63,15 +63,6 @@ std::vector<Side> sides_of_tooth_region(const MeshArtifact& mesh) {
   return sides;
 }
 
-// Shape functions of a side and their slopes at a in [-1, 1]; order start, end, middle.
-struct SideShape {
-  double value[3], slope[3];
-};
-SideShape side_shape(size_t nodes, double a) {
-  if (nodes == 2) return {{0.5 * (1 - a), 0.5 * (1 + a), 0}, {-0.5, 0.5, 0}};
-  return {{0.5 * a * (a - 1), 0.5 * a * (a + 1), 1 - a * a}, {a - 0.5, a + 0.5, -2 * a}};
-}
-
 // Adds the integral of N^T t_hs over one side; sides that are long against their distance to the load are
 // halved.
 class TractionIntegral {

@@ -43,8 +43,8 @@ class FlankReader {
 struct FlankLoads {
   Eigen::MatrixXd force;       // (2 node, load) 1: the right-hand side K x = force
   Eigen::MatrixXd half_plane;  // (2 node, load) m N-1: u_hs at the nodes where x holds w, 0 where it holds u
-  MatrixRM
-      subtracted;  // (point, load) m N-1: inward u_hs at the points xi, less the flat surface displacement
+  // (point, load) m N-1: inward u_hs at the points xi, less the flat surface displacement
+  MatrixRM subtracted;
 };
 FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi);
 

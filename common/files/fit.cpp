@@ -1,0 +1,39 @@
+#include "files/fit.h"
+
+#include "base/error.h"
+#include "files/keys.h"
+#include "files/provenance.h"
+
+namespace whine {
+
+void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::string& path) {
+  KeyValues found, wanted;
+  found.design = mesh.design;
+  found.body = mesh.discretisation;
+  wanted.design = slice.design;
+  wanted.body = slice.discretisation;
+  found.body.modes = wanted.body.modes;
+  for (const Part part : {Part::design, Part::body}) {
+    const auto have = parameters_of(found, part), want = parameters_of(wanted, part);
+    for (std::size_t i = 0; i < want.size(); ++i) {
+      if (have[i].value == want[i].value) continue;
+      const auto shown = [](const Parameter& parameter) {
+        return std::visit([](const auto& value) { return text(value); }, parameter.value);
+      };
+      fail(Failure::input, path, ": is the mesh of another gear: its ", want[i].name, " is ", shown(have[i]),
+           ", the slice of the scene says ", shown(want[i]), want[i].units == "1" ? "" : " " + want[i].units,
+           "; ", rebuild_advice(path));
+    }
+  }
+}
+
+void require_body(const BodyArtifact& body, const std::string& hash, const std::string& role,
+                  const std::string& path) {
+  const std::string found = body_hash(body_slice({body.design, body.material, body.discretisation}));
+  if (hash.empty() || found == hash) return;
+  fail(Failure::input, path, ": is the body ", found, ", but the ", role, " of this scene is ", hash,
+       ": it is of other gear values, or driver and driven are swapped; give out/bodies/", hash,
+       "/body.h5 (make out/bodies/", hash, "/body.h5)");
+}
+
+}  // namespace whine

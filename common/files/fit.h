@@ -1,0 +1,20 @@
+// Whether artifacts belong to the slice of a scene that a stage is given: mixed files are refused by name.
+#pragma once
+#include <string>
+
+#include "files/scene.h"
+#include "files/schemas.h"
+
+namespace whine {
+
+// Error(input), with both values and the make target, unless `mesh` (read from `path`) is of the gear, the
+// element size and the order of the slice. The number of modes does not change a mesh.
+void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::string& path);
+
+// Error(input), with both hashes and the make target, unless `body` (read from `path`) is the one whose slice
+// has this hash: keeps bodies of other scenes, or of the other role ("driver", "driven"), out of a pair. An
+// empty hash is of a slice that names no bodies: any body will do.
+void require_body(const BodyArtifact& body, const std::string& hash, const std::string& role,
+                  const std::string& path);
+
+}  // namespace whine
