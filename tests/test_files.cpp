@@ -215,6 +215,8 @@ StaticArtifact small_static() {
   a.stiffness_tangent = odd_vector(3, 4.1e8);
   a.pair = Eigen::VectorXi{{-1, 0, 1}};
   a.tooth_load = odd_matrix(3, 3, 2e3);
+  a.contact_pressure = odd_matrix(3, 3, 5e8);
+  a.contact_half_width = odd_matrix(3, 3, 1e-4);
   a.transmission_error_harmonic = odd_vector(2, 1e-6);
   a.stiffness_harmonic = odd_vector(2, 1e7);
   a.mean_stiffness = 463.5e6 / 1.1;
@@ -370,6 +372,8 @@ TEST_CASE("static.h5 gives back every value bit by bit") {
   CHECK(a.stiffness_tangent == b.stiffness_tangent);
   CHECK(a.pair == b.pair);
   CHECK(a.tooth_load == b.tooth_load);
+  CHECK(a.contact_pressure == b.contact_pressure);
+  CHECK(a.contact_half_width == b.contact_half_width);
   CHECK(a.transmission_error_harmonic == b.transmission_error_harmonic);
   CHECK(a.stiffness_harmonic == b.stiffness_harmonic);
   CHECK(a.mean_stiffness == b.mean_stiffness);

@@ -159,6 +159,34 @@ TEST_CASE("tangent stiffness is the slope of load over transmission error at fix
   }
 }
 
+TEST_CASE("contact pressure and half-width follow Hertz inside the flanks, and are not reported at corners") {
+  const BodyArtifact& body = paper_body();
+  const GearPair pair(body.design, body.design, 0.150);
+  const double width = body.design.face_width;
+  const double modulus = 0.5 * body.material.youngs_modulus;  // plane stress: 1 / E* = 2 / E
+  for (double torque : {20.0, 150.0, 600.0}) {
+    const StaticArtifact result = static_transmission(body, body, paper_statics(64), torque);
+    int reported = 0;
+    for (int i = 0; i < 64; ++i)
+      for (int j = 0; j < result.pair.size(); ++j) {
+        const double phase = result.mesh_phase[i] + result.pair[j], force = result.tooth_load(i, j);
+        if (result.contact_half_width(i, j) == 0) {
+          CHECK(result.contact_pressure(i, j) == 0);
+          continue;
+        }
+        ++reported;
+        REQUIRE_FALSE(pair.contact(phase).corner);
+        const double radius = pair.relative_curvature_radius(phase * pair.base_pitch());
+        const double a = std::sqrt(4 * force / width * radius / (kPi * modulus));
+        // Strips: 15 across at the mean load, fewer for a pair that carries less; the body's own strain under the
+        // contact is no part of Hertz.
+        CHECK(result.contact_half_width(i, j) == doctest::Approx(a).epsilon(0.01));
+        CHECK(result.contact_pressure(i, j) == doctest::Approx(2 * force / (kPi * a * width)).epsilon(0.015));
+      }
+    CHECK(reported >= 64);  // every position has a pair inside its flanks
+  }
+}
+
 TEST_CASE("equal gears: transmission error is even in phase, whichever gear drives") {
   const BodyArtifact& body = paper_body();
   const StaticArtifact result = static_transmission(body, body, paper_statics(128), 150);

@@ -99,4 +99,21 @@ ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver
   return range;
 }
 
+ContactPatch contact_patch(const PairStrips& strips, const Eigen::Ref<const VectorXd>& p, double face_width) {
+  const int n = strips.size();
+  const double force = p.sum();
+  ContactPatch patch;
+  if (!(force > 0) || strips.contact.corner || p[0] > 0 || p[n - 1] > 0) return patch;
+  double mean = 0, square = 0;
+  for (int i = 0; i < n; ++i) mean += p[i] / force * (i + 0.5) * strips.width;
+  for (int i = 0; i < n; ++i) {
+    const double x = (i + 0.5) * strips.width - mean;
+    // A strip is as wide as the others and evenly loaded: its own variance is width^2 / 12.
+    square += p[i] / force * (x * x + strips.width * strips.width / 12);
+  }
+  patch.half_width = 2 * std::sqrt(square);
+  patch.pressure = p.maxCoeff() / (strips.width * face_width);
+  return patch;
+}
+
 }  // namespace whine

@@ -33,6 +33,17 @@ struct PairStrips {
   int size() const { return static_cast<int>(gap.size()); }
 };
 
+// Size of a contact that stays inside its flank, as Hertz's theory names it.
+struct ContactPatch {
+  double pressure = 0;    // Pa, largest; 0 where no patch is reported
+  double half_width = 0;  // m: twice the standard deviation of the pressure, exact for Hertz's semi-ellipse
+};
+
+// p: (strip) N; face_width: m. Zeros for a pair without force, for a corner contact, and where force stands on a tip edge:
+// there the half-plane is no description of the surface.
+ContactPatch contact_patch(const PairStrips& strips, const Eigen::Ref<const Eigen::VectorXd>& p,
+                           double face_width);
+
 inline constexpr int kWindowNodes = 6;
 
 // pair: number of the pair; contact: its kinematics at this phase.

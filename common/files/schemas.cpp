@@ -299,6 +299,13 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
   out.put("/pair", a.pair,
           {"1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", ""});
   out.put("/tooth_load", a.tooth_load, {"N", "normal force of each tooth pair", "mesh_phase pair", ""});
+  out.put(
+      "/contact_pressure", a.contact_pressure,
+      {"Pa", "largest contact pressure of each pair inside its flanks; 0 where a corner or nothing touches",
+       "mesh_phase pair", ""});
+  out.put("/contact_half_width", a.contact_half_width,
+          {"m", "half width of each contact inside the flanks, twice the standard deviation of its pressure",
+           "mesh_phase pair", ""});
   out.put("/transmission_error_harmonic", a.transmission_error_harmonic,
           {"m", "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic", ""});
   out.put("/mesh_stiffness_harmonic", a.stiffness_harmonic,
@@ -337,6 +344,8 @@ StaticArtifact read_static(const std::string& path) {
   a.stiffness_tangent = in.vector("/mesh_stiffness_tangent", phases);
   a.pair = in.whole_vector("/pair");
   a.tooth_load = in.matrix("/tooth_load", phases, a.pair.size());
+  a.contact_pressure = in.matrix("/contact_pressure", phases, a.pair.size());
+  a.contact_half_width = in.matrix("/contact_half_width", phases, a.pair.size());
   a.transmission_error_harmonic = in.vector("/transmission_error_harmonic");
   a.stiffness_harmonic = in.vector("/mesh_stiffness_harmonic");
   a.mean_stiffness = in.number("/mean_stiffness");

@@ -82,9 +82,11 @@ struct StaticArtifact {
   Eigen::VectorXd stiffness_secant, stiffness_tangent;  // (phase) N m-1
   Eigen::VectorXi pair;                                 // (pair)
   MatrixRM tooth_load;                                  // (phase, pair) N
-  Eigen::VectorXd transmission_error_harmonic;          // (harmonic 0..) m: mean, then amplitudes
-  Eigen::VectorXd stiffness_harmonic;                   // (harmonic 0..) N m-1, of the secant stiffness
-  double mean_stiffness = 0;                            // N m-1: mean over the period of the secant stiffness
+  // (phase, pair) Pa, m: of contacts that stay inside the flank, 0 elsewhere
+  MatrixRM contact_pressure, contact_half_width;
+  Eigen::VectorXd transmission_error_harmonic;  // (harmonic 0..) m: mean, then amplitudes
+  Eigen::VectorXd stiffness_harmonic;           // (harmonic 0..) N m-1, of the secant stiffness
+  double mean_stiffness = 0;                    // N m-1: mean over the period of the secant stiffness
   // certificate: worst over all positions
   double least_gap = 0;        // m, of strips without force
   double least_force = 0;      // N, of strips with force

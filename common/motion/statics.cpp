@@ -29,7 +29,14 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
                                            compliance_tables(model.gear[1])};
   const double rb1 = model.kinematics.gear(0).base_radius();
   ComplementaritySolver solver;
-  std::vector<std::vector<std::pair<int, double>>> loads(positions);  // pair number, force
+  struct Loaded {
+    int pair;
+    double force;
+    ContactPatch patch;
+  };
+  std::vector<std::vector<Loaded>> loads(positions);
+  const double face_width =
+      std::min(model.kinematics.gear(0).design().face_width, model.kinematics.gear(1).design().face_width);
   int lowest = 0, highest = 0;
   double start = 0;
   result.least_gap = result.least_force = std::numeric_limits<double>::infinity();
@@ -58,7 +65,10 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
     result.least_force = std::min(result.least_force, e.certificate.least_force);
     const VectorXd pair_loads = position.pair_loads(e.p);
     for (size_t j = 0; j < position.pairs.size(); ++j) {
-      loads[i].emplace_back(position.pairs[j].pair, pair_loads[j]);
+      loads[i].push_back(
+          {position.pairs[j].pair, pair_loads[j],
+           contact_patch(position.pairs[j], e.p.segment(position.first_strip[j], position.pairs[j].size()),
+                         face_width)});
       if (pair_loads[j] > 0) {
         lowest = std::min(lowest, position.pairs[j].pair);
         highest = std::max(highest, position.pairs[j].pair);
@@ -69,9 +79,14 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
   highest = std::max(highest, 1);
   result.pair = Eigen::VectorXi::LinSpaced(highest - lowest + 1, lowest, highest);
   result.tooth_load = MatrixRM::Zero(positions, result.pair.size());
+  result.contact_pressure = result.contact_half_width = result.tooth_load;
   for (int i = 0; i < positions; ++i)
-    for (const auto& [pair, force] : loads[i])
-      if (force > 0) result.tooth_load(i, pair - lowest) = force;
+    for (const Loaded& at : loads[i]) {
+      if (!(at.force > 0)) continue;
+      result.tooth_load(i, at.pair - lowest) = at.force;
+      result.contact_pressure(i, at.pair - lowest) = at.patch.pressure;
+      result.contact_half_width(i, at.pair - lowest) = at.patch.half_width;
+    }
   return true;
 }
 
