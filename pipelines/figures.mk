@@ -9,8 +9,10 @@ inputs_fig01 := $(paper)/pinion/mesh.h5 $(paper)/wheel/mesh.h5 $(paper)/T100/sta
 inputs_fig05 := $(paper)/T150/up/response.h5 $(paper)/T150/down/response.h5
 inputs_fig12 := $(foreach t,100 200 300,$(paper)/T$t/static.h5)
 inputs_fig13 := $(inputs_fig12)
+inputs_error-budget := $(paper)/T150/error_budget.h5
 
-figures := fig01 fig05 fig12 fig13
+paper_figures := fig01 fig05 fig12 fig13
+figures := $(paper_figures) error-budget
 figure_inputs := $(sort $(foreach f,$(figures),$(inputs_$f)))
 
 define figure_rules # figure
@@ -24,8 +26,9 @@ endef
 $(foreach f,$(figures),$(eval $(call figure_rules,$f)))
 
 .PHONY: figures $(figures)
-figures: $(figures) ## all figures of the paper that are there so far
+figures: $(paper_figures) ## all figures of the paper that are there so far
 fig01: ## the finite element mesh of the pair
 fig05: ## RMS of the dynamic transmission error against mesh frequency, speed up and down, 150 N m
 fig12: ## static transmission error over a mesh period and its spectrum
 fig13: ## mesh stiffness over a mesh period and its spectrum
+error-budget: ## what refining each discretisation of the static stage alone changes, 150 N m

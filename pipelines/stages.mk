@@ -29,6 +29,11 @@ out/$1/T$2/static.h5: out/$1/params/static.toml $(pair_bodies) $(call id,gear-st
 	$$(call run,static) --params $$< $(pair_options) --torque $2 --output $$@
 endef
 
+define budget_rules # scene, torque
+out/$1/T$2/error_budget.h5: out/$1/params/static.toml $(pair_bodies) $(call id,gear-static) | $(B)/bin/gear-static
+	$$(call run,static) --error-budget --params $$< $(pair_options) --torque $2 --output $$@
+endef
+
 define sweep_rules # scene, torque, direction
 out/$1/T$2/$3/sweep.h5: out/$1/params/sweep.toml $(pair_bodies) \
     out/$1/T$2/static.h5 $(reference_static) $(call id,gear-sweep) | $(B)/bin/gear-sweep
@@ -48,7 +53,7 @@ check_torque = $(if $(filter-out $2,$(shell printf %g '$2' 2>/dev/null || echo n
 define scene_rules # scene
 $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
 $(foreach t,$(path_torques),$(call check_torque,$1,$t))
-$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))\
+$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))\
   $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))))
 endef
 

@@ -7,7 +7,7 @@ declare -A below=(
   [gear]="base files gear"
   [solid]="base files gear solid"
   [contact]="base files gear solid contact"
-  [motion]="base files gear solid contact motion"
+  [motion]="base files gear solid contact signal motion"
   [signal]="base files signal"
   [plot]="base files gear signal plot"
 )

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "motion/dynamics.h"
+#include "motion/error_budget.h"
 #include "motion/rolling_mesh.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
@@ -185,6 +186,19 @@ TEST_CASE("contact pressure and half-width follow Hertz inside the flanks, and a
       }
     CHECK(reported >= 64);  // every position has a pair inside its flanks
   }
+}
+
+TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness, all together below 0.3 %") {
+  // Elements twice as large as the default's, so that the refined ones are the default's.
+  const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
+  const ErrorBudgetArtifact budget = error_budget(body, body, paper_statics(128), 150);
+  CHECK(budget.entry == "strips, flank table, elements, window");
+  REQUIRE(budget.mean_stiffness_change.size() == 4);
+  CHECK(budget.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
+  CHECK(budget.mean_stiffness_change.cwiseAbs().sum() < 3e-3);
+  CHECK(budget.mean_stiffness_change.cwiseAbs().minCoeff() > 0);  // each refinement did change something
+  CHECK(budget.peak_to_peak_change.cwiseAbs().maxCoeff() < 2e-3);
+  CHECK(budget.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
 }
 
 TEST_CASE("equal gears: transmission error is even in phase, whichever gear drives") {

@@ -6,7 +6,6 @@
 // Equations  involute of the base circle, root cut by a rounded rack; the tooth is mirror symmetric
 // Example    gear-mesh --params out/parker2000/pinion/body.toml --output out/parker2000/pinion/mesh.h5
 #include <CLI/CLI.hpp>
-#include <iostream>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -33,12 +32,10 @@ void body(int argc, char** argv) {
   provenance.inputs = {"params=" + params};
   whine::write(output, mesh, provenance);
   const double area = whine::mesh_area(mesh.node_position, mesh.element_node);
-  std::cerr << whine::text("gear-mesh: ", slice.design.teeth, " teeth, ", mesh.element_node.rows(),
-                           " elements and ", mesh.node_position.rows(), " nodes a sector, least Jacobian ",
-                           whine::least_jacobian(mesh.node_position, mesh.element_node),
-                           " of the mean, area ", area * 1e6, " mm2 (relative error ",
-                           area / whine::exact_sector_area(slice.design) - 1, ") -> ", output)
-            << '\n';
+  whine::tell("gear-mesh: ", slice.design.teeth, " teeth, ", mesh.element_node.rows(), " elements and ",
+              mesh.node_position.rows(), " nodes a sector, least Jacobian ",
+              whine::least_jacobian(mesh.node_position, mesh.element_node), " of the mean, area ", area * 1e6,
+              " mm2 (relative error ", area / whine::exact_sector_area(slice.design) - 1, ") -> ", output);
 }
 
 }  // namespace

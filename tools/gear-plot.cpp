@@ -4,17 +4,18 @@
 //            fig05    response.h5 of the up and of the down sweep
 //            fig12    static.h5, one per torque
 //            fig13    static.h5, one per torque
+//            error-budget    error_budget.h5
 //            <plots>/<figure>.gp, the template
 // Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all
 //            fig01    the finite element mesh
 //            fig05    RMS of the dynamic transmission error against mesh frequency
 //            fig12    static transmission error (STE)
 //            fig13    mesh stiffness
+//            error-budget    what refining each discretisation alone changes
 // Equations  k = (T / r_b) / STE
 // Example    gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
 //                      out/parker2000/T150/down/response.h5
 #include <CLI/CLI.hpp>
-#include <iostream>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -42,8 +43,13 @@ whine::Figure figure_of(const std::string& name, const std::vector<std::string>&
     require_inputs(name, inputs, 2, "response.h5 of the up and of the down sweep");
     return whine::response_figure(whine::read_response(inputs[0]), whine::read_response(inputs[1]));
   }
+  if (name == "error-budget") {
+    require_inputs(name, inputs, 1, "error_budget.h5");
+    return whine::error_budget_figure(whine::read_error_budget(inputs[0]));
+  }
   if (name != "fig12" && name != "fig13")
-    whine::fail(whine::Failure::usage, "unknown figure '", name, "'; known are fig01, fig05, fig12, fig13");
+    whine::fail(whine::Failure::usage, "unknown figure '", name,
+                "'; known are fig01, fig05, fig12, fig13, error-budget");
   std::vector<whine::StaticArtifact> statics;
   for (const std::string& path : inputs) statics.push_back(whine::read_static(path));
   return name == "fig12" ? whine::transmission_error_figure(statics) : whine::mesh_stiffness_figure(statics);
@@ -53,7 +59,7 @@ void body(int argc, char** argv) {
   CLI::App app{"Draws a figure of the paper from artifacts", "gear-plot"};
   std::string name, output, plots = "pipelines/plots";
   std::vector<std::string> inputs;
-  app.add_option("figure", name, "fig01, fig05, fig12 or fig13")->required();
+  app.add_option("figure", name, "fig01, fig05, fig12, fig13 or error-budget")->required();
   app.add_option("inputs", inputs, "artifacts, see above")->required();
   app.add_option("--output", output, "path of the results without extension")->required();
   app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
@@ -66,7 +72,7 @@ void body(int argc, char** argv) {
   whine::publish(table, whine::tsv(figure, sources));
   whine::publish(output + ".svg", whine::draw(figure, table, recipe, whine::Picture::svg));
   whine::publish(output + ".png", whine::draw(figure, table, recipe, whine::Picture::png));
-  std::cerr << "gear-plot: " << figure.title << " -> " << output << ".{tsv,svg,png}\n";
+  whine::tell("gear-plot: ", figure.title, " -> ", output, ".{tsv,svg,png}");
 }
 
 }  // namespace

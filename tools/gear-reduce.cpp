@@ -9,7 +9,6 @@
 // Example    gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5
 //                        --output out/parker2000/pinion/body.h5
 #include <CLI/CLI.hpp>
-#include <iostream>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -40,11 +39,9 @@ void body(int argc, char** argv) {
   whine::write(output, result, provenance);
   Eigen::Index torsional = 0;
   result.inertia_coupling.cwiseAbs().maxCoeff(&torsional);
-  std::cerr << whine::text("gear-reduce: ", result.eigenfrequency.size(), " modes from ",
-                           result.eigenfrequency.minCoeff(), " Hz, first torsional ",
-                           result.eigenfrequency[torsional], " Hz, body inertia ", result.inertia,
-                           " kg m2, asymmetry of the flexibility ", result.asymmetry, " -> ", output)
-            << '\n';
+  whine::tell("gear-reduce: ", result.eigenfrequency.size(), " modes from ", result.eigenfrequency.minCoeff(),
+              " Hz, first torsional ", result.eigenfrequency[torsional], " Hz, body inertia ", result.inertia,
+              " kg m2, asymmetry of the flexibility ", result.asymmetry, " -> ", output);
 }
 
 }  // namespace

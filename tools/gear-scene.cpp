@@ -119,9 +119,8 @@ void body(int argc, char** argv) {
   for (const auto& hash : hashes) out << " " << hash;
   out << "\n";
   publish(output, out.str());
-  std::cerr << "gear-scene: " << path << ": " << scene.gears.size() << " gears, " << hashes.size()
-            << (hashes.size() == 1 ? " body, " : " bodies, ") << scene.operation.torques.size()
-            << " torques\n";
+  tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", hashes.size(),
+       (hashes.size() == 1 ? " body, " : " bodies, "), scene.operation.torques.size(), " torques");
 }
 
 }  // namespace

@@ -3,17 +3,18 @@
 // Reads   params (slice of a scene: mesh, contact discretisation), body.h5 of driver and driven gear
 // Writes  static.h5   transmission error, secant and tangent stiffness, load of each pair, harmonics, certificate
 // Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20); k = (T / r_b) / STE.
+// With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement.
 // Example: gear-static --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
 //            --driven out/parker2000/wheel/body.h5 --torque 150 --output out/parker2000/T150/static.h5
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iostream>
 
 #include "base/error.h"
 #include "base/tool.h"
 #include "files/fit.h"
 #include "files/scene.h"
 #include "files/schemas.h"
+#include "motion/error_budget.h"
 #include "motion/statics.h"
 #include "signal/spectrum.h"
 
@@ -31,11 +32,14 @@ void body(int argc, char** argv) {
   CLI::App app{"Static transmission error, mesh stiffness and tooth loads over a mesh period", "gear-static"};
   std::string params, driver, driven, output;
   std::string torque_word;
+  bool budget = false;
   app.add_option("--params", params, "slice of the scene: out/<scene>/params/static.toml")->required();
   app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
   app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
   app.add_option("--torque", torque_word, "torque on the driver in N m, above 0")->required();
   app.add_option("--output", output, "static.h5 to write")->required();
+  app.add_flag("--error-budget", budget,
+               "refine one discretisation at a time and write error_budget.h5 instead");
   whine::parse(app, argc, argv);
 
   const double torque = whine::number_option("--torque", torque_word);
@@ -43,26 +47,31 @@ void body(int argc, char** argv) {
   const whine::BodyArtifact driver_body = whine::read_body(driver), driven_body = whine::read_body(driven);
   whine::require_body(driver_body, slice.driver_body, "driver", driver);
   whine::require_body(driven_body, slice.driven_body, "driven", driven);
-  whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, slice, torque);
-  result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error);
-  result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant);
-
   whine::Provenance provenance;
   provenance.tool = whine::program_name(argv[0]);
   provenance.command = whine::command_line(argc, argv);
   provenance.inputs = {"params=" + params, "driver=" + driver, "driven=" + driven};
+  if (budget) {
+    const whine::ErrorBudgetArtifact errors = whine::error_budget(driver_body, driven_body, slice, torque);
+    whine::write(output, errors, provenance);
+    whine::tell("gear-static: error budget at ", torque, " N m (", errors.entry, "): mean stiffness to ",
+                errors.mean_stiffness_change.cwiseAbs().sum() * 100, " % in all -> ", output);
+    return;
+  }
+  whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, slice, torque);
+  result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error);
+  result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant);
+
   whine::write(output, result, provenance);
   const auto& te = result.transmission_error;
-  std::cerr << whine::text("gear-static: ", torque, " N m, contact ratio ", result.contact_ratio,
-                           ", mean stiffness ", result.mean_stiffness * 1e-6, "e6 N/m, transmission error ",
-                           te.minCoeff() * 1e6, " to ", te.maxCoeff() * 1e6, " um -> ", output)
-            << '\n';
+  whine::tell("gear-static: ", torque, " N m, contact ratio ", result.contact_ratio, ", mean stiffness ",
+              result.mean_stiffness * 1e-6, "e6 N/m, transmission error ", te.minCoeff() * 1e6, " to ",
+              te.maxCoeff() * 1e6, " um -> ", output);
   if (slice.mesh.corner.enabled == false)
-    std::cerr << "gear-static: corner contact is off: only pairs on the line of action carry load\n";
+    whine::tell("gear-static: corner contact is off: only pairs on the line of action carry load");
   if (result.driver.tooth_thinning + result.driven.tooth_thinning > 0 && result.backlash_margin <= 0)
-    std::cerr << whine::text("gear-static: warning: the backlash is used up by ",
-                             -result.backlash_margin * 1e6,
-                             " um; back flanks would touch, which is not modelled\n");
+    whine::tell("gear-static: warning: the backlash is used up by ", -result.backlash_margin * 1e6,
+                " um; back flanks would touch, which is not modelled");
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 //            --driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5
 //            --reference-static out/parker2000/T100/static.h5 --direction up --output out/parker2000/T150/up/sweep.h5
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <optional>
 
 #include "base/error.h"
@@ -62,19 +61,17 @@ void body(int argc, char** argv) {
   whine::write(output, result, provenance);
   std::string jumps;
   for (double f : result.jump_frequency) jumps += whine::text(jumps.empty() ? ", jumps at " : ", ", f, " Hz");
-  std::cerr << whine::text("gear-sweep: ", result.torque, " N m ", direction, ", ",
-                           result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods",
-                           jumps.empty() ? ", no jump" : jumps, " -> ", output)
-            << '\n';
+  whine::tell("gear-sweep: ", result.torque, " N m ", direction, ", ", result.mesh_frequency.size(),
+              " speeds, ", result.periods.sum(), " mesh periods", jumps.empty() ? ", no jump" : jumps, " -> ",
+              output);
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
     if (result.period_multiple[i] == 0)
-      std::cerr << whine::text("gear-sweep: warning: at ", result.mesh_frequency[i],
-                               " Hz the motion is not periodic after ", result.periods[i],
-                               " mesh periods; the state still changes by ", result.residual[i],
-                               " per period\n");
+      whine::tell("gear-sweep: warning: at ", result.mesh_frequency[i],
+                  " Hz the motion is not periodic after ", result.periods[i],
+                  " mesh periods; the state still changes by ", result.residual[i], " per period");
   if (result.backlash_margin <= 0)
-    std::cerr << whine::text("gear-sweep: warning: the motion goes ", -result.backlash_margin * 1e6,
-                             " um beyond the backlash; back flanks would touch, which is not modelled\n");
+    whine::tell("gear-sweep: warning: the motion goes ", -result.backlash_margin * 1e6,
+                " um beyond the backlash; back flanks would touch, which is not modelled");
 }
 
 }  // namespace

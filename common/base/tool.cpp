@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -109,10 +110,15 @@ std::string blas_name() {
   return name + ", 1 thread";
 }
 
+void tell_line(const std::string& line) {
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>& body) {
   const std::string program = program_name(argc > 0 ? argv[0] : nullptr);
   const auto say = [&](const std::string& message) {
-    std::cerr << program << ": error: " << one_line(message) << std::endl;
+    tell_line(program + ": error: " + one_line(message) + "\n");
   };
   // A file-size limit must come back from write() as an error, not end the program without a word.
   std::signal(SIGXFSZ, SIG_IGN);

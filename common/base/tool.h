@@ -9,6 +9,7 @@
 //   int main(int argc, char** argv) { return whine::run_tool(argc, argv, body); }
 #pragma once
 #include <functional>
+#include <sstream>
 #include <string>
 #include <type_traits>
 
@@ -42,6 +43,17 @@ std::string command_line(int argc, char** argv);
 // The BLAS that this program has loaded, for provenance: bits may differ between libraries and processor
 // types.
 std::string blas_name();
+
+void tell_line(const std::string& line);
+
+// A line for people on standard error, in one write so that programs side by side do not mix theirs; numbers with 6
+// digits, files hold the rest.
+template <class... Parts>
+void tell(const Parts&... parts) {
+  std::ostringstream out;
+  (out << ... << parts) << '\n';
+  tell_line(out.str());
+}
 
 // Runs body, which returns void or the exit status. An Error prints "<program>: error: <message>" as one line
 // on standard error and returns its Failure code; CLI11's errors return 2; anything else thrown returns 1.

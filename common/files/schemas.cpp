@@ -11,7 +11,8 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 1, kStaticVersion = 2, kSweepVersion = 2, kResponseVersion = 2;
+constexpr int kMeshVersion = 1, kBodyVersion = 1, kStaticVersion = 3, kErrorBudgetVersion = 1,
+              kSweepVersion = 2, kResponseVersion = 2;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -322,6 +323,49 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
           {"1", "largest relative residual of the torque, over all positions", "", "|sum a p - T| / T"});
   put_backlash(out, a.backlash_margin);
   out.publish();
+}
+
+void write(const std::string& path, const ErrorBudgetArtifact& a, const Provenance& provenance) {
+  const Eigen::Index entries = a.mean_stiffness_change.size();
+  want_rows("peak_to_peak_change", a.peak_to_peak_change.size(), entries);
+  want_rows("harmonic_change", a.harmonic_change.rows(), entries);
+  ArtifactWriter out(path, "error_budget", kErrorBudgetVersion,
+                     "Error budget of the static transmission error: " + pair_title(a.mesh, a.torque),
+                     provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.contact = a.contact;
+  put_pair(out, a);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("discretisation", values, Part::contact);
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/entry", a.entry, {"1", "what was refined alone, in the order of the entries", "", ""});
+  out.put("/mean_stiffness_change", a.mean_stiffness_change,
+          {"1", "relative change of the mean secant stiffness", "entry", ""});
+  out.put("/peak_to_peak_change", a.peak_to_peak_change,
+          {"1", "relative change of the peak-to-peak transmission error", "entry", ""});
+  out.put("/harmonic_change", a.harmonic_change,
+          {"1", "change of the first harmonics of the transmission error over its first harmonic",
+           "entry harmonic", ""});
+  out.publish();
+}
+
+ErrorBudgetArtifact read_error_budget(const std::string& path) {
+  const ArtifactReader in(path, "error_budget", kErrorBudgetVersion);
+  ErrorBudgetArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("discretisation", values, Part::contact);
+  take_pair(in, a);
+  a.mesh = values.mesh;
+  a.contact = values.contact;
+  a.torque = in.number("/parameters/operation/torque");
+  a.entry = in.word("/entry");
+  a.mean_stiffness_change = in.vector("/mean_stiffness_change");
+  const Eigen::Index entries = a.mean_stiffness_change.size();
+  a.peak_to_peak_change = in.vector("/peak_to_peak_change", entries);
+  a.harmonic_change = in.matrix("/harmonic_change", entries, -1);
+  return a;
 }
 
 StaticArtifact read_static(const std::string& path) {

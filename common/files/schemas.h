@@ -94,6 +94,20 @@ struct StaticArtifact {
   double backlash_margin = 0;  // m left on the line of action; infinite backlash is not stored (see flag)
 };
 
+// error_budget.h5: what refining one discretisation alone changes in the static answer
+struct ErrorBudgetArtifact {
+  GearDesign driver, driven;
+  Material driver_material, driven_material;
+  BodyDiscretisation driver_body, driven_body;
+  GearMeshSpec mesh;
+  ContactDiscretisation contact;
+  double torque = 0;                      // N m on the driver
+  std::string entry;                      // names of the entries, separated by ", "
+  Eigen::VectorXd mean_stiffness_change;  // (entry) 1, relative
+  Eigen::VectorXd peak_to_peak_change;    // (entry) 1, relative, of the transmission error
+  MatrixRM harmonic_change;  // (entry, harmonic 1..5) 1, of the transmission error, over its first harmonic
+};
+
 // sweep.h5: rows in order of marching
 struct SweepArtifact {
   GearDesign driver, driven;
@@ -158,11 +172,13 @@ struct ResponseArtifact {
 void write(const std::string& path, const MeshArtifact&, const Provenance&);
 void write(const std::string& path, const BodyArtifact&, const Provenance&);
 void write(const std::string& path, const StaticArtifact&, const Provenance&);
+void write(const std::string& path, const ErrorBudgetArtifact&, const Provenance&);
 void write(const std::string& path, const SweepArtifact&, const Provenance&);
 void write(const std::string& path, const ResponseArtifact&, const Provenance&);
 MeshArtifact read_mesh(const std::string& path);
 BodyArtifact read_body(const std::string& path);
 StaticArtifact read_static(const std::string& path);
+ErrorBudgetArtifact read_error_budget(const std::string& path);
 SweepArtifact read_sweep(const std::string& path);
 ResponseArtifact read_response(const std::string& path);
 

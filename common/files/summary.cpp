@@ -85,6 +85,19 @@ void show(Lines& lines, const StaticArtifact& a) {
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " um");
 }
 
+void show(Lines& lines, const ErrorBudgetArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver);
+  std::string rest = a.entry;
+  for (Eigen::Index i = 0; i < a.mean_stiffness_change.size(); ++i) {
+    const auto comma = rest.find(", ");
+    add(lines, rest.substr(0, comma), "mean stiffness ", a.mean_stiffness_change[i] * 100,
+        " %, peak to peak ", a.peak_to_peak_change[i] * 100, " %, first harmonic ",
+        a.harmonic_change(i, 0) * 100, " %");
+    rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
+  }
+  add(lines, "sum", a.mean_stiffness_change.cwiseAbs().sum() * 100, " % of the mean stiffness");
+}
+
 void show(Lines& lines, const SweepArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.direction, ", ",
       range_of(a.mesh_frequency));
@@ -140,6 +153,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_body(path));
   } else if (schema == "whine/static") {
     show(lines, read_static(path));
+  } else if (schema == "whine/error_budget") {
+    show(lines, read_error_budget(path));
   } else if (schema == "whine/sweep") {
     show(lines, read_sweep(path));
   } else if (schema == "whine/response") {

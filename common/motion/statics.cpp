@@ -93,7 +93,7 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
 }  // namespace
 
 StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
-                                   const StaticSlice& slice, double torque) {
+                                   const StaticSlice& slice, double torque, double window) {
   constexpr double kLeastTorque = 1e-9;  // N m: gaps are round-off below
   if (!(torque >= kLeastTorque) || !std::isfinite(torque))
     fail(Failure::input, "torque_Nm = ", torque, " must be finite and at least ", kLeastTorque,
@@ -118,7 +118,7 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
        {&result.mesh_phase, &result.transmission_error, &result.stiffness_secant, &result.stiffness_tangent})
     v->resize(positions);
 
-  double largest_force = 1.1 * load, corner_gap = 1e-6 + 8e-9 * load;
+  double largest_force = 1.1 * load * window * window, corner_gap = 1e-6 + 8e-9 * load;
   for (int attempt = 0;; ++attempt) {
     const ContactRange range = contact_range(
         model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), slice.contact.strips,

@@ -5,10 +5,11 @@
 
 namespace whine {
 
+// window: the strips' window is this many times as wide as the load alone asks for.
 // The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticArtifact but the
 // harmonics. Throws Error(input) for a torque that is not positive, Error(numerical) where no equilibrium
 // within the flanks exists or a tip edge would leave the other's involute.
 StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
-                                   const StaticSlice& slice, double torque);
+                                   const StaticSlice& slice, double torque, double window = 1);
 
 }  // namespace whine

@@ -44,6 +44,9 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics);
 // rectangular wave.
 Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
 
+// Changes of the static answer by each refinement, as bars, in parts per thousand.
+Figure error_budget_figure(const ErrorBudgetArtifact& budget);
+
 // The rectangular wave that stands for a mesh stiffness: one level per number of pairs in nominal contact.
 // Levels are read from the curve in the middle of the two zones, switches stand where pairs come and go
 // without load.

@@ -233,12 +233,12 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
   return result;
 }
 
-BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes) {
+BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes, int flank_points) {
   if (modes < 0) fail(Failure::input, "modes = ", modes, " is below 0");
   const ToothGeometry tooth(mesh.design);
   const int teeth = mesh.design.teeth;
   const double thickness = mesh.design.face_width;
-  const FlankTable table(tooth, kFlankPoints);
+  const FlankTable table(tooth, flank_points);
   const Eigen::VectorXd& xi = table.points();
   const Eigen::Index points = xi.size();
 

@@ -16,15 +16,16 @@
 
 namespace whine {
 
-// modes: elastic modes of the whole gear to keep, 0 or more; the first torsional zero-diameter mode is always
-// among them. Throws Error(numerical) if a factorisation, an eigensolution or a table does not pass its
-// check.
-BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes);
-
 // Number of table points along the flank and depth to which the half-plane in the tables is relative.
 constexpr int kFlankPoints = 24;
 constexpr double kReferenceDepth = 1e-3;  // m
 constexpr int kOffsets = 3;
+
+// modes: elastic modes of the whole gear to keep, 0 or more; the first torsional zero-diameter mode is always
+// among them. Throws Error(numerical) if a factorisation, an eigensolution or a table does not pass its
+// check.
+BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes,
+                    int flank_points = kFlankPoints);
 
 // Reading of displacements on the driving flank of a sector mesh.
 class FlankReader {

@@ -1,0 +1,93 @@
+#include "motion/error_budget.h"
+
+#include <functional>
+
+#include "motion/statics.h"
+#include "signal/spectrum.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+
+namespace whine {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kHarmonics = 5;
+
+struct Answer {
+  double mean_stiffness, peak_to_peak;
+  VectorXd harmonic;
+};
+
+Answer answer(const StaticArtifact& s) {
+  return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
+          harmonics(s.transmission_error, kHarmonics).amplitude};
+}
+
+BodyArtifact reduced_again(const BodyArtifact& body, const BodyDiscretisation& discretisation,
+                           int flank_points) {
+  return reduce(make_sector_mesh(body.design, discretisation), body.material, discretisation.modes,
+                flank_points);
+}
+
+}  // namespace
+
+ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
+                                 const StaticSlice& slice, double torque) {
+  const auto solve = [&](const BodyArtifact& a, const BodyArtifact& b, const StaticSlice& s,
+                         double window = 1) { return answer(static_transmission(a, b, s, torque, window)); };
+  const StaticArtifact base = static_transmission(driver, driven, slice, torque);
+  const Answer reference = answer(base);
+
+  std::vector<std::pair<std::string, Answer>> refined;
+  StaticSlice finer = slice;
+  finer.contact.strips *= 2;
+  refined.emplace_back("strips", solve(driver, driven, finer));
+  const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
+  const auto with_bodies = [&](const std::string& name,
+                               const std::function<BodyArtifact(const BodyArtifact&)>& change) {
+    const BodyArtifact first = change(driver);
+    refined.emplace_back(name, solve(first, alike ? first : change(driven), slice));
+  };
+  with_bodies("flank table", [](const BodyArtifact& body) {
+    return reduced_again(body, body.discretisation, 2 * static_cast<int>(body.flank_position.size()));
+  });
+  with_bodies("elements", [](const BodyArtifact& body) {
+    BodyDiscretisation half = body.discretisation;
+    half.element_size *= 0.5;
+    return reduced_again(body, half, static_cast<int>(body.flank_position.size()));
+  });
+  if (driver.discretisation.element_order == 1 || driven.discretisation.element_order == 1)
+    with_bodies("order", [](const BodyArtifact& body) {
+      BodyDiscretisation second = body.discretisation;
+      second.element_order = 2;
+      return reduced_again(body, second, static_cast<int>(body.flank_position.size()));
+    });
+  refined.emplace_back("window", solve(driver, driven, slice, 2));
+
+  ErrorBudgetArtifact budget;
+  budget.driver = base.driver;
+  budget.driven = base.driven;
+  budget.driver_material = base.driver_material;
+  budget.driven_material = base.driven_material;
+  budget.driver_body = base.driver_body;
+  budget.driven_body = base.driven_body;
+  budget.mesh = base.mesh;
+  budget.contact = base.contact;
+  budget.torque = torque;
+  const auto count = static_cast<Eigen::Index>(refined.size());
+  budget.mean_stiffness_change.resize(count);
+  budget.peak_to_peak_change.resize(count);
+  budget.harmonic_change.resize(count, kHarmonics);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& [name, other] = refined[i];
+    budget.entry += (i ? ", " : "") + name;
+    budget.mean_stiffness_change[i] = other.mean_stiffness / reference.mean_stiffness - 1;
+    budget.peak_to_peak_change[i] = other.peak_to_peak / reference.peak_to_peak - 1;
+    budget.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
+  }
+  return budget;
+}
+
+}  // namespace whine
