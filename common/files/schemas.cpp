@@ -11,7 +11,7 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 1, kStaticVersion = 3, kErrorBudgetVersion = 1,
+constexpr int kMeshVersion = 1, kBodyVersion = 1, kStaticVersion = 2, kErrorBudgetVersion = 1,
               kSweepVersion = 2, kResponseVersion = 2;
 
 const char* const kPhase = "mesh_phase";
