@@ -105,7 +105,7 @@ replace_if_changed = { cat > $1.new; if cmp -s $1.new $1; then rm $1.new; else m
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
 
-include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk
+include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk pipelines/bench.mk
 
 # --- packages -------------------------------------------------------------------------------------------------
 
@@ -113,19 +113,24 @@ packages := g++ pkgconf libgmsh-dev libsuitesparse-dev libeigen3-dev libhdf5-dev
   libtomlplusplus-dev libcli11-dev libssl-dev doctest-dev libopenblas0-pthread hdf5-tools gnuplot-nox fonts-dejavu-core
 dry_run := $(findstring n,$(filter-out -%,$(firstword $(MAKEFLAGS))))
 
-.PHONY: deps
-deps: ## install the Debian packages that `figures` and `test` need
-	@missing=; for package in $(packages); do \
+define install_wanted
+	@missing=; for package in $(wanted); do \
 	  case "$$(dpkg-query -W -f '$${Status}' $$package 2>/dev/null)" in \
 	    "install ok installed") ;; *) missing="$$missing $$package" ;; esac; done; \
 	if [ -z "$$missing" ]; then \
-	  [ -n "$(MAKE_RESTARTS)" ] || echo "deps: all $(words $(packages)) packages are installed"; exit 0; fi; \
-	if [ -n "$(dry_run)" ]; then echo "deps: make -n installs nothing; missing:$$missing" >&2; exit 1; fi; \
+	  [ -n "$(MAKE_RESTARTS)" ] || echo "$@: all $(words $(wanted)) packages are installed"; exit 0; fi; \
+	if [ -n "$(dry_run)" ]; then echo "$@: make -n installs nothing; missing:$$missing" >&2; exit 1; fi; \
 	sudo=; if [ "$$(id -u)" != 0 ]; then sudo=sudo; command -v sudo > /dev/null || { \
-	  echo "deps: not root and no sudo; as root run: apt-get install$$missing" >&2; exit 1; }; fi; \
-	echo "deps: installing$$missing"; \
+	  echo "$@: not root and no sudo; as root run: apt-get install$$missing" >&2; exit 1; }; fi; \
+	echo "$@: installing$$missing"; \
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get update -q; \
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $$missing
+endef
+
+.PHONY: deps
+deps: wanted := $(packages)
+deps: ## install the Debian packages that `figures` and `test` need
+	$(install_wanted)
 
 # --- tests and upkeep -----------------------------------------------------------------------------------------
 
@@ -134,15 +139,15 @@ test: build $(B)/bin/whine-tests $(tools:%=$(B)/id/%) | $(with_deps) ## run all 
 	@B=$(B) tests/run
 
 format: ## lay out the C++ sources with clang-format
-	clang-format -i $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp)
+	clang-format -i $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp tests/*/*.h tests/*/*.cpp)
 
 check-format: ## fail if clang-format would change a source
-	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp)
+	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp tests/*/*.h tests/*/*.cpp)
 
 .PHONY: help clean clean-figures clean-motion clean-out
 help: ## print this list
 	@echo 'Whine: gear whine from elastic teeth that touch, part and touch again. Targets:'
-	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk Makefile
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk pipelines/bench.mk Makefile
 	@echo 'Any artifact is a target, at any torque in N m; the scene stands in its path:'
 	@echo '  make out/parker2000/T600/up/response.h5'
 	@echo '  make SCENE=path/to/scene.toml sweep'

@@ -1,99 +1,350 @@
 #include "contact/complementarity.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
 namespace whine {
 
-using Eigen::MatrixXd;
 using Eigen::Ref;
 using Eigen::VectorXd;
 
-void ComplementaritySolver::reserve(int n) {
-  if (e_active_.size() >= n) return;
-  in_.resize(n);
-  wrong_.reserve(n);
-  e_active_.resize(n);
-  p_active_.resize(n);
+namespace {
+
+// Blocks of 10 to 40 strips are too small for a BLAS; all loops below run down padded columns, 4 numbers at a time.
+constexpr int kLanes = 4;
+typedef double Lanes __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
+
+constexpr int padded(int n) {
+  return (n + kLanes - 1) / kLanes * kLanes;
 }
 
-void ComplementaritySolver::factorise(const Ref<const MatrixXd>& a, ActiveSet& active) {
-  const int k = static_cast<int>(active.strips.size());
-  active.inverse.resize(k, k);
-  for (int j = 0; j < k; ++j)
-    for (int i = 0; i < k; ++i) active.inverse(i, j) = a(active.strips[i], active.strips[j]);
-  if (k > 0) {
-    const Eigen::LLT<MatrixXd> cholesky(active.inverse);
-    if (cholesky.info() != Eigen::Success)
-      fail(Failure::numerical, "the compliance of ", k,
-           " active strips is not positive definite; their smallest diagonal is ",
-           active.inverse.diagonal().minCoeff(), " m/N: strips coincide or the body's table is wrong");
-    active.inverse = cholesky.solve(MatrixXd::Identity(k, k));
+// y[first..last) += sum over j < count of f[j] * column j; first and last multiples of 4.
+inline void add_columns(double* y, const double* columns, int stride, const double* f, int count, int first,
+                        int last) {
+  int j = 0;
+  for (; j + 4 <= count; j += 4) {
+    const double *c0 = columns + static_cast<Eigen::Index>(j) * stride, *c1 = c0 + stride, *c2 = c1 + stride,
+                 *c3 = c2 + stride;
+    const double f0 = f[j], f1 = f[j + 1], f2 = f[j + 2], f3 = f[j + 3];
+    for (int i = first; i < last; i += kLanes)
+      *reinterpret_cast<Lanes*>(y + i) +=
+          f0 * *reinterpret_cast<const Lanes*>(c0 + i) + f1 * *reinterpret_cast<const Lanes*>(c1 + i) +
+          f2 * *reinterpret_cast<const Lanes*>(c2 + i) + f3 * *reinterpret_cast<const Lanes*>(c3 + i);
+  }
+  for (; j < count; ++j) {
+    const double* c = columns + static_cast<Eigen::Index>(j) * stride;
+    const double f0 = f[j];
+    for (int i = first; i < last; i += kLanes)
+      *reinterpret_cast<Lanes*>(y + i) += f0 * *reinterpret_cast<const Lanes*>(c + i);
+  }
+}
+
+inline double dot(const double* x, const double* y, int first, int last) {
+  Lanes sum{};
+  for (int i = first; i < last; i += kLanes)
+    sum += *reinterpret_cast<const Lanes*>(x + i) * *reinterpret_cast<const Lanes*>(y + i);
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+}  // namespace
+
+void GrowingMatrix::reserve(int n) {
+  const int stride = padded(n);
+  if (stride <= stride_) return;
+  store_.setZero(static_cast<Eigen::Index>(stride) * stride);
+  stride_ = stride;
+  size_ = 0;
+}
+
+void ComplementaritySolver::reserve(int n) {
+  if (static_cast<int>(in_.size()) >= n) return;
+  in_.resize(n);
+  wrong_.reserve(n);
+  next_.reserve(n);
+  factor_.reserve(n);
+  for (VectorXd* v : {&right_, &p_active_, &work_, &reciprocal_, &force_, &target_}) v->setZero(padded(n));
+}
+
+// Cholesky, column by column from the left, of A on active.strips. What stands above the diagonal is 0.
+void ComplementaritySolver::factorise(const Matrix& a, ActiveSet& active) {
+  constexpr double kLeastPivot = 1e-13;                      // of the diagonal: below it is round-off
+  constexpr double kFirstShift = 1e-13, kLastShift = 1e-10;  // of the largest diagonal
+  const int k = static_cast<int>(active.strips.size()), end = padded(k);
+  const int* strips = active.strips.data();
+  active.known = active.shifted = false;
+  active.updates = 0;
+  factored_ = true;
+  factor_.resize(k);
+  double largest = 0, least = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < k; ++j) {
+    const double diagonal = a(strips[j], strips[j]);
+    largest = std::max(largest, diagonal);
+    least = std::min(least, diagonal);
+  }
+  double pivot = least, diagonal = least;
+  double* row = work_.data();
+  for (double shift = 0; least > 0; shift = shift == 0 ? kFirstShift * largest : 10 * shift) {
+    if (shift > kLastShift * largest) break;
+    active.shifted = shift > 0;
+    int j = 0;
+    for (; j < k; ++j) {
+      double* column = factor_.column(j);
+      const int first = j / kLanes * kLanes;
+      const double* from = a.data() + strips[j] * a.outerStride();
+      for (int i = j; i < k; ++i) column[i] = from[strips[i]];
+      std::fill(column + k, column + end, 0.0);
+      diagonal = column[j] += shift;
+      for (int i = 0; i < j; ++i) row[i] = -factor_.column(i)[j];
+      add_columns(column, factor_.column(0), factor_.stride(), row, j, first, end);
+      pivot = column[j];
+      if (!(pivot > kLeastPivot * diagonal * (shift > 0 ? 0.1 : 1.0))) break;
+      std::fill(column, column + j, 0.0);
+      const double scale = reciprocal_[j] = 1 / std::sqrt(pivot);
+      for (int i = first; i < end; i += kLanes) *reinterpret_cast<Lanes*>(column + i) *= scale;
+    }
+    if (j == k) return;
+  }
+  if (k == 0) return;
+  fail(Failure::numerical, "the compliance of ", k, " active strips is not positive definite: pivot ", pivot,
+       " m/N of the diagonal ", diagonal, " m/N (at least ", kLeastPivot,
+       " of it is needed); the least diagonal is ", least,
+       " m/N: the body's table is wrong or strips coincide with different gaps");
+}
+
+// The inverse B of the set from its factor: B L = L^-T, whose lower triangle is 1 / L_jj on the diagonal, gives
+// the columns of B from the last to the first.
+void ComplementaritySolver::invert(ActiveSet& active) {
+  const int k = factor_.rows(), end = padded(k);
+  GrowingMatrix& b = active.inverse;
+  b.resize(k);
+  double* f = work_.data();
+  for (int j = k - 1; j >= 0; --j) {
+    double *column = b.column(j), *l = factor_.column(j);
+    const double scale = reciprocal_[j];
+    for (int i = j + 1; i < k; ++i) f[i] = -scale * l[i];
+    const int first = j / kLanes * kLanes;
+    std::fill(column + first, column + end, 0.0);
+    if (j + 1 < k) add_columns(column, b.column(j + 1), b.stride(), f + j + 1, k - j - 1, first, end);
+    std::fill(column + first, column + j + 1, 0.0);
+    column[j] = scale * (scale - dot(column, l, first, end));
+    for (int i = j + 1; i < k; ++i) b.column(i)[j] = column[i];
   }
   active.known = true;
 }
 
-// Fills p and d for the set and lists in wrong_ what breaks a sign. True if nothing does.
-bool ComplementaritySolver::verify(const Ref<const MatrixXd>& a, const Ref<const VectorXd>& e,
-                                   const std::vector<int>& strips, Ref<VectorXd> p, Ref<VectorXd> d,
-                                   Certificate& certificate) {
+// From the kept inverse B of active.strips to that of next_, one strip at a time:
+//   goes: B - b b^T / b_i;  comes: [B + v v^T / s, -v / s; -v^T / s, 1 / s], v = B a, s = a_ii - a . v.
+// False if that would cost more than a factorisation or lose digits; the set is then to be factorised.
+bool ComplementaritySolver::border(const Matrix& a, ActiveSet& active) {
+  constexpr int kMostUpdates = 50;      // round-off of many updates adds up
+  constexpr double kLeastPivot = 1e-6;  // of the diagonal
+  std::vector<int>& strips = active.strips;
+  GrowingMatrix& b = active.inverse;
+  int changes = 0;
+  for (size_t i = 0, j = 0; i < strips.size() || j < next_.size();) {
+    const int old = i < strips.size() ? strips[i] : std::numeric_limits<int>::max();
+    const int now = j < next_.size() ? next_[j] : std::numeric_limits<int>::max();
+    changes += old != now;
+    i += old <= now;
+    j += now <= old;
+  }
+  if (active.shifted || active.updates + changes > kMostUpdates ||
+      4 * changes > static_cast<int>(next_.size()) + 3)
+    return false;
+  active.updates += changes;
+  double *v = work_.data(), *right = right_.data();
+  for (int position = static_cast<int>(strips.size()) - 1; position >= 0; --position) {
+    if (in_[strips[position]]) continue;
+    const int k = b.rows();
+    std::copy(b.column(position), b.column(position) + padded(k), v);
+    const double scale = -1 / v[position];
+    for (int j = 0; j < k; ++j) {
+      if (j == position) continue;
+      double *from = b.column(j), *to = b.column(j > position ? j - 1 : j);
+      const double f = scale * v[j];
+      add_columns(from, v, 0, &f, 1, 0, padded(k));
+      if (to != from) std::copy(from, from + position, to);
+      std::copy(from + position + 1, from + k, to + position);
+    }
+    b.resize(k - 1);
+    strips.erase(strips.begin() + position);
+  }
+  for (int position = 0; position < static_cast<int>(next_.size()); ++position) {
+    const int strip = next_[position], k = b.rows(), end = padded(k);
+    if (position < k && strips[position] == strip) continue;
+    const double* column = a.data() + strip * a.outerStride();
+    for (int i = 0; i < k; ++i) right[i] = column[strips[i]];
+    std::fill(right + k, right + end, 0.0);
+    std::fill(v, v + end, 0.0);
+    add_columns(v, b.column(0), b.stride(), right, k, 0, end);
+    std::fill(v + k, v + end, 0.0);
+    const double s = column[strip] - dot(v, right, 0, end);
+    if (!(s > kLeastPivot * column[strip])) return false;
+    for (int j = k - 1; j >= 0; --j) {
+      double *from = b.column(j), *to = b.column(j >= position ? j + 1 : j);
+      const double f = v[j] / s;
+      add_columns(from, v, 0, &f, 1, 0, end);
+      std::copy_backward(from + position, from + k, to + k + 1);
+      if (to != from) std::copy(from, from + position, to);
+      to[position] = -f;
+    }
+    double* added = b.column(position);
+    for (int i = 0; i < k; ++i) added[i < position ? i : i + 1] = -v[i] / s;
+    added[position] = 1 / s;
+    b.resize(k + 1);
+    strips.insert(strips.begin() + position, strip);
+  }
+  return true;
+}
+
+void ComplementaritySolver::list(std::vector<int>& strips) const {
+  strips.clear();
+  for (int i = 0; i < static_cast<int>(in_.size()); ++i)
+    if (in_[i]) strips.push_back(i);
+}
+
+// result = A^-1 right on the active set, both padded; right is lost.
+void ComplementaritySolver::apply(const ActiveSet& active, const double* right, double* result) {
+  const int k = static_cast<int>(active.strips.size()), end = padded(k);
+  if (!factored_) {
+    std::fill(result, result + end, 0.0);
+    add_columns(result, active.inverse.column(0), active.inverse.stride(), right, k, 0, end);
+    return;
+  }
+  double* y = work_.data();
+  std::copy(right, right + k, y);
+  std::fill(y + k, y + end, 0.0);
+  std::fill(result, result + end, 0.0);
+  for (int j = 0; j < k; ++j) {
+    const double value = y[j] * reciprocal_[j], negative = -value;
+    add_columns(y, factor_.column(j), 0, &negative, 1, j / kLanes * kLanes, end);
+    y[j] = value;
+  }
+  for (int j = k - 1; j >= 0; --j)
+    result[j] = (y[j] - dot(factor_.column(j), result, j / kLanes * kLanes, end)) * reciprocal_[j];
+}
+
+// Fills p and d for the set, lists in wrong_ what breaks a sign and measures how well the set itself is met.
+void ComplementaritySolver::verify(const Matrix& a, const Vector& e, const std::vector<int>& strips, Result p,
+                                   Result d, Certificate& certificate) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const int n = static_cast<int>(e.size()), k = static_cast<int>(strips.size());
   p.setZero();
   d = e;
+  int j = 0;
+  for (; j + 4 <= k; j += 4)
+    d.noalias() += p_active_[j] * a.col(strips[j]) + p_active_[j + 1] * a.col(strips[j + 1]) +
+                   p_active_[j + 2] * a.col(strips[j + 2]) + p_active_[j + 3] * a.col(strips[j + 3]);
+  for (; j < k; ++j) d.noalias() += p_active_[j] * a.col(strips[j]);
+  if (!std::isfinite(d.sum()))
+    fail(Failure::numerical, "the gaps of ", n, " strips are not finite with ", k,
+         " of them in contact: the compliance or the unloaded gap (largest ", scale_, " m) holds no number");
+
+  defect_ = 0;
+  double sum = 0, diagonal = 0, least_force = kInfinity, least_product = kInfinity;
   for (int i = 0; i < k; ++i) {
-    p[strips[i]] = p_active_[i];
-    d.noalias() += p_active_[i] * a.col(strips[i]);
+    const int strip = strips[i];
+    const double force = p_active_[i], own = a(strip, strip);
+    p[strip] = force;
+    defect_ = std::max(defect_, std::abs(d[strip]));
+    sum += std::abs(force);
+    diagonal = std::max(diagonal, own);
+    least_force = std::min(least_force, force);
+    least_product = std::min(least_product, force * own);
+    right_[i] = d[strip];
+    d[strip] = kInfinity;  // so that the least gap is that of the others
   }
-  for (int i : strips) d[i] = 0;  // exact by the solve, round-off otherwise
-  certificate.least_gap = certificate.least_force = 0;
-  bool first_gap = true, first_force = true;
+  const double least_gap = n > k ? d.minCoeff() : 0;
+  for (int i = 0; i < k; ++i) d[strips[i]] = 0;  // exact by the solve, round-off otherwise
+  gap_tolerance_ = 1e-12 * scale_ + 16 * std::numeric_limits<double>::epsilon() * diagonal * sum;
+  certificate.least_gap = least_gap;
+  certificate.least_force = k > 0 ? least_force : 0;
+  certificate.degenerate = 0;
   wrong_.clear();
-  for (int i = 0, next = 0; i < n; ++i) {
-    if (next < k && strips[next] == i) {
-      ++next;
-      certificate.least_force = first_force ? p[i] : std::min(certificate.least_force, p[i]);
-      first_force = false;
-      if (p[i] < -gap_tolerance_ / a(i, i)) wrong_.push_back(i);
-    } else {
-      certificate.least_gap = first_gap ? d[i] : std::min(certificate.least_gap, d[i]);
-      first_gap = false;
-      if (d[i] < -gap_tolerance_) wrong_.push_back(i);
+  double residual = std::max(defect_, -least_gap);
+  if (least_product <= gap_tolerance_ || (n > k && least_gap <= gap_tolerance_)) {
+    for (int i = 0, next = 0; i < n; ++i) {
+      const bool active = next < k && strips[next] == i;
+      next += active;
+      const double value = active ? p[i] * a(i, i) : d[i];
+      if (value < -gap_tolerance_)
+        wrong_.push_back(i);
+      else if (value <= gap_tolerance_)
+        ++certificate.degenerate;
     }
+    if (k > 0) residual = std::max(residual, -least_product);
   }
-  return wrong_.empty();
+  certificate.residual = scale_ > 0 ? residual / scale_ : 0;
 }
 
-Certificate ComplementaritySolver::solve(const Ref<const MatrixXd>& a, const Ref<const VectorXd>& e,
-                                         ActiveSet& active, Ref<VectorXd> p, Ref<VectorXd> d) {
-  const int n = static_cast<int>(e.size());
-  reserve(n);
-  gap_tolerance_ = 1e-12 * (n > 0 ? e.cwiseAbs().maxCoeff() : 0.0);
-  Certificate certificate;
-  const auto try_set = [&] {
-    const int k = static_cast<int>(active.strips.size());
-    for (int i = 0; i < k; ++i) e_active_[i] = -e[active.strips[i]];
-    p_active_.head(k).noalias() = active.inverse.topLeftCorner(k, k) * e_active_.head(k);
-    return verify(a, e, active.strips, p, d, certificate);
-  };
-  if (active.known && try_set()) return certificate;
+// True if the set solves the problem.
+bool ComplementaritySolver::attempt(const Matrix& a, const Vector& e, const ActiveSet& active, Result p,
+                                    Result d, Certificate& certificate) {
+  const int k = static_cast<int>(active.strips.size());
+  ++certificate.iterations;
+  certificate.shifted = active.shifted;
+  for (int i = 0; i < k; ++i) right_[i] = -e[active.strips[i]];
+  apply(active, right_.data(), p_active_.data());
+  verify(a, e, active.strips, p, d, certificate);
+  // Iterative refinement: an inverse, or a shifted factor, leaves a defect that its next use removes.
+  for (int again = 0; again < 3 && defect_ > gap_tolerance_; ++again) {
+    apply(active, right_.data(), target_.data());
+    p_active_.head(k) -= target_.head(k);
+    verify(a, e, active.strips, p, d, certificate);
+  }
+  return wrong_.empty() && defect_ <= gap_tolerance_;
+}
 
-  std::fill(in_.begin(), in_.begin() + n, 0);
-  for (int i : active.strips) in_[i] = 1;
+Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, ActiveSet& active, Result p,
+                                         Result d) {
+  const int n = static_cast<int>(e.size());
+  if (a.rows() != n || a.cols() != n || p.size() != n || d.size() != n)
+    fail(Failure::numerical, "a contact problem of ", n, " gaps has a compliance of ", a.rows(), " x ",
+         a.cols(), " and room for ", p.size(), " forces and ", d.size(), " gaps");
+  reserve(n);
+  active.inverse.reserve(n);
+  active.strips.reserve(n);
+  scale_ = n > 0 ? e.cwiseAbs().maxCoeff() : 0.0;
+  Certificate certificate;
+  factored_ = false;
+  bool rebuild = !active.known;
+  if (active.known) {
+    if (attempt(a, e, active, p, d, certificate)) return certificate;
+    rebuild = defect_ > gap_tolerance_;
+  }
+
+  std::fill(in_.begin(), in_.end(), 0);
+  for (int i : active.strips) {
+    if (i < 0 || i >= n)
+      fail(Failure::numerical, "strip ", i, " of the first guess is none of the ", n, " strips");
+    in_[i] = 1;
+  }
   constexpr int kPatience = 10;  // block steps that may fail to improve before least-index steps begin
   int fewest = n + 1, patience = kPatience;
   const int limit = 20 * n + 100;
   for (int iteration = 0; iteration < limit; ++iteration) {
-    if (iteration > 0 || !active.known) {
-      active.strips.clear();
-      for (int i = 0; i < n; ++i)
-        if (in_[i]) active.strips.push_back(i);
-      factorise(a, active);
-      ++certificate.factorisations;
-      if (try_set()) return certificate;
+    if (rebuild || iteration > 0) {
+      bool solved = false;
+      list(next_);
+      factored_ = rebuild || !active.known || !border(a, active);
+      if (!factored_) solved = attempt(a, e, active, p, d, certificate);
+      if (factored_ || defect_ > gap_tolerance_) {
+        active.strips = next_;
+        factorise(a, active);
+        ++certificate.factorisations;
+        solved = attempt(a, e, active, p, d, certificate);
+      }
+      rebuild = false;
+      if (solved) {
+        if (factored_) invert(active);
+        return certificate;
+      }
     }
     const int count = static_cast<int>(wrong_.size());
+    if (count == 0) break;  // the signs are right, the set is not met: round-off is too large
     if (count < fewest) {
       fewest = count;
       patience = kPatience;
@@ -108,52 +359,56 @@ Certificate ComplementaritySolver::solve(const Ref<const MatrixXd>& a, const Ref
   }
   lawson_hanson(a, e, active);
   certificate.fallback = true;
-  if (!try_set())
+  ++certificate.factorisations;
+  if (!attempt(a, e, active, p, d, certificate))
     fail(Failure::numerical, "the contact problem of ", n, " strips has no certified solution: least gap ",
-         certificate.least_gap, " m, least force ", certificate.least_force, " N");
+         certificate.least_gap, " m, least force ", certificate.least_force,
+         " N, largest gap of a strip with force ", defect_, " m, tolerance of gaps ", gap_tolerance_, " m");
+  invert(active);
   return certificate;
 }
 
 // min 1/2 p'Ap + e'p, p >= 0: the objective falls with every outer step, so no set returns.
-void ComplementaritySolver::lawson_hanson(const Ref<const MatrixXd>& a, const Ref<const VectorXd>& e,
-                                          ActiveSet& active) {
+void ComplementaritySolver::lawson_hanson(const Matrix& a, const Vector& e, ActiveSet& active) {
   const int n = static_cast<int>(e.size());
-  VectorXd p = VectorXd::Zero(n), gradient(n), target = VectorXd::Zero(n);
-  std::fill(in_.begin(), in_.begin() + n, 0);
+  const double tolerance = 1e-12 * scale_;
+  force_.head(n).setZero();
+  std::fill(in_.begin(), in_.end(), 0);
+  active.strips.clear();
   for (int outer = 0; outer < 30 * n + 30; ++outer) {
-    gradient = a * p + e;
+    target_.head(n) = e;
+    for (int i : active.strips) target_.head(n).noalias() += force_[i] * a.col(i);
     int enter = -1;
-    double least = -gap_tolerance_;
+    double least = -tolerance;
     for (int i = 0; i < n; ++i)
-      if (!in_[i] && gradient[i] < least) least = gradient[i], enter = i;
+      if (!in_[i] && target_[i] < least) least = target_[i], enter = i;
     if (enter < 0) break;
     in_[enter] = 1;
     for (;;) {
-      active.strips.clear();
-      for (int i = 0; i < n; ++i)
-        if (in_[i]) active.strips.push_back(i);
+      list(active.strips);
       factorise(a, active);
       const int k = static_cast<int>(active.strips.size());
-      for (int i = 0; i < k; ++i) e_active_[i] = -e[active.strips[i]];
-      p_active_.head(k).noalias() = active.inverse * e_active_.head(k);
+      for (int i = 0; i < k; ++i) right_[i] = -e[active.strips[i]];
+      apply(active, right_.data(), p_active_.data());
       double step = 1;
-      for (int i = 0; i < k; ++i)
-        if (p_active_[i] <= 0)
-          step = std::min(step, p[active.strips[i]] / (p[active.strips[i]] - p_active_[i]));
-      target.setZero();
-      for (int i = 0; i < k; ++i) target[active.strips[i]] = p_active_[i];
-      if (step >= 1) {
-        p = target;
-        break;
+      for (int i = 0; i < k; ++i) {
+        const double force = force_[active.strips[i]];
+        if (p_active_[i] <= 0 && (force > 0 || p_active_[i] < 0))
+          step = std::min(step, force / (force - p_active_[i]));
       }
-      p += step * (target - p);
-      for (int i = 0; i < n; ++i)
-        if (in_[i] && p[i] <= 0) in_[i] = 0, p[i] = 0;
+      for (int i = 0; i < k; ++i) {
+        double& force = force_[active.strips[i]];
+        force = step < 1 ? force + step * (p_active_[i] - force) : p_active_[i];
+      }
+      if (step >= 1) break;
+      bool left = false;
+      for (int i : active.strips)
+        if (force_[i] <= 0) in_[i] = 0, force_[i] = 0, left = true;
+      if (!left) break;  // round-off kept the blocking strip above 0
     }
+    list(active.strips);
   }
-  active.strips.clear();
-  for (int i = 0; i < n; ++i)
-    if (in_[i]) active.strips.push_back(i);
+  list(active.strips);
   factorise(a, active);
 }
 

@@ -5,50 +5,103 @@
 // guessed active set; when its block steps stop paying, least-index steps; if even they take too long, Lawson
 // and Hanson's non-negative least squares on the same matrix, whose objective falls with every step. An
 // active set that was right before is kept with the inverse of its block, so that a problem whose contact
-// pattern repeats costs one matrix-vector product and a check.
+// pattern repeats costs one matrix-vector product and a check; strips that come or go border the inverse.
+//
+// Memory is taken when the number of strips grows, never afterwards.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
 
 namespace whine {
 
+// A square matrix that changes its size without changing its memory. Columns stand `stride` apart, a multiple
+// of 4; what lies between their ends and the next multiple of 4 is finite.
+class GrowingMatrix {
+ public:
+  using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+  using ConstBlock = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+  // Room for (n, n). Loses the contents if it has to grow.
+  void reserve(int n);
+  void resize(int n) { size_ = n; }  // n at most what was reserved
+  int rows() const { return size_; }
+  int cols() const { return size_; }
+  int stride() const { return stride_; }
+  double* column(int j) { return store_.data() + static_cast<Eigen::Index>(j) * stride_; }
+  const double* column(int j) const { return store_.data() + static_cast<Eigen::Index>(j) * stride_; }
+  double operator()(int i, int j) const { return column(j)[i]; }
+  ConstBlock block() const { return {store_.data(), size_, size_, Eigen::OuterStride<>(stride_)}; }
+  operator ConstBlock() const { return block(); }
+  template <class Vector>
+  auto operator*(const Eigen::MatrixBase<Vector>& v) const {
+    return block() * v.derived();
+  }
+
+ private:
+  Eigen::VectorXd store_;
+  int size_ = 0, stride_ = 0;
+};
+
 // The active set of a solve and the inverse of A on it. One per problem family (for instance: one per mesh
 // position); `forget` when A changes.
 struct ActiveSet {
   std::vector<int> strips;  // indices with force, ascending
-  Eigen::MatrixXd inverse;  // (active, active) of A on them; valid if `known`
+  GrowingMatrix inverse;    // (active, active) of A on them; valid if `known`
   bool known = false;
+  bool shifted = false;  // the inverse is that of A + shift I
+  int updates = 0;       // strips that came or went since the inverse was computed from A
   void forget() { known = false; }
 };
 
-// What a solve reached. A solution is returned only if both bounds hold (tolerances in solve).
+// What a solve reached. A solution is returned only if all bounds hold (tolerances in solve).
 struct Certificate {
   double least_gap = 0;    // m, over strips without force (0 if there is none); >= -gap tolerance
   double least_force = 0;  // N, over strips with force (0 if there is none); >= -force tolerance
-  int factorisations = 0;  // 0: the kept inverse was right
+  double residual = 0;     // max |min(d_i, p_i A_ii)| / max |e|, d as computed on every strip
+  int factorisations = 0;  // 0: the kept inverse was right, or was bordered
+  int iterations = 0;      // sets tried, a kept one included
+  int degenerate = 0;      // strips that touch without force, within the tolerances
   bool fallback = false;   // Lawson-Hanson was needed
+  bool shifted =
+      false;  // A is singular to round-off on the active strips: A + shift I was factorised instead
 };
 
 class ComplementaritySolver {
  public:
-  // A: (n, n); e: (n); p, d: (n), results. active: start and result. Gap tolerance: 1e-12 of the largest |e|,
-  // force tolerance: that over A_ii. Throws Error(numerical) if A is not positive definite on the set that is
-  // tried.
+  // A: (n, n); e: (n); p, d: (n), results. active: start and result. Gap tolerance: 1e-12 of the largest |e|
+  // and the round-off of A p; force tolerance: that over A_ii. A block of A that is singular to round-off is
+  // shifted by 1e-13 of its largest diagonal (or a little more) and reported in the certificate; the residual
+  // is that of A itself. Throws Error(numerical) if A is not positive definite beyond that on a set that is
+  // tried, if a number is not finite, or if no set passes.
   Certificate solve(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::VectorXd>& e,
                     ActiveSet& active, Eigen::Ref<Eigen::VectorXd> p, Eigen::Ref<Eigen::VectorXd> d);
 
  private:
+  using Matrix = Eigen::Ref<const Eigen::MatrixXd>;
+  using Vector = Eigen::Ref<const Eigen::VectorXd>;
+  using Result = Eigen::Ref<Eigen::VectorXd>;
   void reserve(int n);
-  bool verify(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::VectorXd>& e,
-              const std::vector<int>& strips, Eigen::Ref<Eigen::VectorXd> p, Eigen::Ref<Eigen::VectorXd> d,
+  void factorise(const Matrix& a, ActiveSet& active);
+  void invert(ActiveSet& active);
+  bool border(const Matrix& a, ActiveSet& active);
+  void list(std::vector<int>& strips) const;
+  void apply(const ActiveSet& active, const double* right, double* result);
+  bool attempt(const Matrix& a, const Vector& e, const ActiveSet& active, Result p, Result d,
+               Certificate& certificate);
+  void verify(const Matrix& a, const Vector& e, const std::vector<int>& strips, Result p, Result d,
               Certificate& certificate);
-  void factorise(const Eigen::Ref<const Eigen::MatrixXd>& a, ActiveSet& active);
-  void lawson_hanson(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::VectorXd>& e,
-                     ActiveSet& active);
-  std::vector<char> in_;    // (n) 1: in the active set
-  std::vector<int> wrong_;  // indices that break a sign
-  Eigen::VectorXd e_active_, p_active_;
-  double gap_tolerance_ = 0;  // m
+  void lawson_hanson(const Matrix& a, const Vector& e, ActiveSet& active);
+
+  std::vector<char> in_;                     // (n) 1: in the active set
+  std::vector<int> wrong_;                   // indices that break a sign
+  std::vector<int> next_;                    // the set that `border` goes to
+  GrowingMatrix factor_;                     // L of A = L L^T on the set
+  Eigen::VectorXd reciprocal_;               // 1 / L_jj
+  Eigen::VectorXd right_, p_active_, work_;  // (n, padded)
+  Eigen::VectorXd force_, target_;           // (n) of Lawson-Hanson
+  double gap_tolerance_ = 0, scale_ = 0;     // m
+  double defect_ = 0;                        // m: largest |d| on the active strips
+  bool factored_ = false;                    // factor_ belongs to the set, otherwise its inverse does
 };
 
 }  // namespace whine

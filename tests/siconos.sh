@@ -1,0 +1,17 @@
+# Complementarity beside Siconos: compiled here, because Siconos is needed for nothing else.
+set -uo pipefail
+B=${B:-build}
+if [ ! -e /usr/include/siconos/numerics/lcp_cst.h ]; then
+  echo "skipped: comparison with Siconos: libsiconos-numerics-dev is not installed"
+  exit 0
+fi
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+# The flags of the libraries: objects of different flags do not fit each other.
+read -r -a compile < "$B/flags"
+if ! "${compile[@]}" -Itests -isystem /usr/include/siconos -isystem /usr/include/siconos/numerics -o "$scratch/siconos" \
+    tests/peer/siconos.cpp "$B"/lib/lib{contact,solid,gear,files,base}.a -lsiconos_numerics 2> "$scratch/errors"; then
+  echo "FAILED: tests/peer/siconos.cpp does not compile: $(head -3 "$scratch/errors" | tr '\n' ' ')"
+  exit 1
+fi
+OPENBLAS_NUM_THREADS=1 "$scratch/siconos"

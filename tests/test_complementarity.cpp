@@ -1,0 +1,322 @@
+// Complementarity: hard matrices with known solutions, an independent solver, recorded strips, memory.
+#include "contact/complementarity.h"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <random>
+#include <string>
+
+#include "base/error.h"
+#include "peer/strip_problems.h"
+
+using namespace whine;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Eigen takes memory by malloc, the standard library by operator new, which calls malloc: counted here for the
+// whole test program. A sanitizer brings its own malloc; the case below then counts nothing and says so.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define WHINE_COUNTS_MEMORY 1
+static std::atomic<long> memory_requests{0};
+extern "C" void* __libc_malloc(size_t);
+extern "C" void* malloc(size_t size) noexcept {
+  memory_requests.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+#endif
+
+namespace {
+
+struct Solved {
+  VectorXd p, d;
+  Certificate certificate;
+  ActiveSet active;
+};
+Solved solve(const MatrixXd& a, const VectorXd& e, std::vector<int> start = {}) {
+  Solved s;
+  s.p.resize(e.size());
+  s.d.resize(e.size());
+  s.active.strips = std::move(start);
+  ComplementaritySolver solver;
+  s.certificate = solver.solve(a, e, s.active, s.p, s.d);
+  return s;
+}
+
+// max over i of |min(d_i, p_i A_ii)| / max |e|, from scratch
+double kkt_residual(const MatrixXd& a, const VectorXd& e, const VectorXd& p) {
+  const VectorXd d = a * p + e;
+  double worst = 0;
+  for (int i = 0; i < e.size(); ++i) worst = std::max(worst, std::abs(std::min(d[i], p[i] * a(i, i))));
+  const double scale = e.size() > 0 ? e.cwiseAbs().maxCoeff() : 0;
+  return scale > 0 ? worst / scale : worst;
+}
+
+MatrixXd hilbert(int n) {
+  MatrixXd a(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) a(i, j) = 1.0 / (i + j + 1);
+  return a;
+}
+
+// Projected Gauss-Seidel until a sweep moves no force by more than 1e-13 of the largest; linear convergence,
+// nothing in common with pivoting.
+VectorXd gauss_seidel(const MatrixXd& a, const VectorXd& e) {
+  VectorXd p = VectorXd::Zero(e.size());
+  for (int sweep = 0; sweep < 100000; ++sweep) {
+    double change = 0;
+    for (int i = 0; i < e.size(); ++i) {
+      const double next = std::max(0.0, p[i] - (a.col(i).dot(p) + e[i]) / a(i, i));
+      change = std::max(change, std::abs(next - p[i]));
+      p[i] = next;
+    }
+    if (change <= 1e-13 * p.maxCoeff()) return p;
+  }
+  FAIL("Gauss-Seidel did not converge");
+  return p;
+}
+
+// Every active set, one after the other; the only one whose forces and gaps have no wrong sign.
+VectorXd enumerate(const MatrixXd& a, const VectorXd& e) {
+  const int n = static_cast<int>(e.size());
+  VectorXd best = VectorXd::Zero(n);
+  double least = 1e300;
+  for (unsigned set = 0; set < 1u << n; ++set) {
+    std::vector<int> f;
+    for (int i = 0; i < n; ++i)
+      if (set >> i & 1) f.push_back(i);
+    VectorXd p = VectorXd::Zero(n);
+    if (!f.empty()) p(f) = -MatrixXd(a(f, f)).partialPivLu().solve(VectorXd(e(f)));
+    if (const double residual = kkt_residual(a, e, p); residual < least) least = residual, best = p;
+  }
+  return best;
+}
+
+struct Problem {
+  MatrixXd a;
+  VectorXd e;
+};
+Problem random_problem(std::mt19937& random, int n, double floor) {
+  std::normal_distribution<double> normal;
+  Problem problem{MatrixXd(n, n), VectorXd(n)};
+  for (int i = 0; i < n; ++i) {
+    problem.e[i] = normal(random);
+    for (int j = 0; j < n; ++j) problem.a(i, j) = normal(random);
+  }
+  problem.a = (problem.a * problem.a.transpose() / n + floor * MatrixXd::Identity(n, n)).eval();
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("complementarity: Fathi's matrices take n + 1 block steps and no fallback") {
+  for (int n : {6, 10, 14, 18, 20}) {
+    MatrixXd l = MatrixXd::Identity(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < i; ++j) l(i, j) = 2;
+    const Solved s = solve(l * l.transpose(), VectorXd::Constant(n, -1));
+    CHECK((s.p - VectorXd::Unit(n, 0)).norm() < 1e-12);
+    CHECK((s.d - (VectorXd::Ones(n) - VectorXd::Unit(n, 0))).norm() < 1e-11);
+    // Least-index pivoting alone takes 8, 65, 457, 5186 and 12536.
+    INFO("n = ", n);
+    CHECK(s.certificate.iterations == n + 1);
+    CHECK(!s.certificate.fallback);
+  }
+}
+
+TEST_CASE("complementarity: one contact point twice is singular, reported and solved") {
+  const MatrixXd a{{1, 2}, {2, 4}};
+  const VectorXd e{{-1, -2}};
+  for (const std::vector<int>& start : {std::vector<int>{}, {0}, {1}, {0, 1}}) {
+    const Solved s = solve(a, e, start);
+    CHECK(std::abs(s.p[0] + 2 * s.p[1] - 1) < 1e-12);
+    CHECK(s.p.minCoeff() >= 0);
+    CHECK(s.d.cwiseAbs().maxCoeff() < 1e-12);
+    CHECK(s.certificate.residual < 1e-12);
+    CHECK(s.certificate.shifted == (s.active.strips.size() == 2));
+  }
+  // The shift selects the solution of least norm, (0.2, 0.4), as far as round-off over shift allows: 1e-16 / 1e-13.
+  CHECK((solve(a, e).p - VectorXd{{0.2, 0.4}}).norm() < 1e-2);
+  // A kept inverse of a shifted block says so.
+  ComplementaritySolver solver;
+  ActiveSet active;
+  VectorXd p(2), d(2);
+  solver.solve(a, e, active, p, d);
+  CHECK(solver.solve(a, 1.5 * e, active, p, d).shifted);
+  CHECK(std::abs(p[0] + 2 * p[1] - 1.5) < 1e-12);
+}
+
+TEST_CASE("complementarity: nothing to carry, and exactly touching") {
+  for (int n : {1, 2, 9}) {
+    const MatrixXd a = MatrixXd::Identity(n, n) + MatrixXd::Constant(n, n, 0.5);
+    const Solved open = solve(a, VectorXd::Constant(n, 1)), touching = solve(a, VectorXd::Zero(n));
+    CHECK(open.p.norm() == 0);
+    CHECK(open.certificate.degenerate == 0);
+    CHECK(open.certificate.least_gap == 1);
+    CHECK(touching.p.norm() == 0);
+    CHECK(touching.certificate.degenerate == n);
+    VectorXd one = VectorXd::Constant(n, 1);
+    one[n / 2] = 0;
+    CHECK(solve(a, one).p.norm() == 0);
+    CHECK(solve(a, one).certificate.degenerate == 1);
+  }
+  CHECK(solve(MatrixXd(0, 0), VectorXd(0)).certificate.residual == 0);
+}
+
+TEST_CASE("complementarity: Hilbert matrices up to condition 1e17 keep their residual") {
+  // p = 1 in exact arithmetic; in double only the residual can be asked for. From 12 on Cholesky breaks down.
+  for (int n = 1; n <= 16; ++n) {
+    const MatrixXd a = hilbert(n);
+    const VectorXd e = -a * VectorXd::Ones(n);
+    for (int start = 0; start < 3; ++start) {
+      std::vector<int> guess;
+      for (int i = 0; i < n; ++i)
+        if (start == 1 || (start == 2 && i % 2)) guess.push_back(i);
+      const Solved s = solve(a, e, guess);
+      INFO("n = ", n, ", start ", start);
+      CHECK(kkt_residual(a, e, s.p) <= 1e-12);
+      CHECK(s.certificate.residual <= 1e-12);
+      CHECK(s.p.allFinite());
+      if (n == 8) CHECK(!s.certificate.shifted);
+    }
+  }
+  std::vector<int> all(14);
+  std::iota(all.begin(), all.end(), 0);
+  CHECK(solve(hilbert(14), -hilbert(14) * VectorXd::Ones(14), all).certificate.shifted);
+}
+
+TEST_CASE("complementarity: two strips in place of one carry its force, in any order") {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 2 + trial % 20;
+    const Problem whole = random_problem(random, n, 0.2);
+    const VectorXd p = solve(whole.a, whole.e).p;
+    // Strip 0 cut into equal halves: each sees, and is seen by, the others as the whole.
+    std::vector<int> of(n + 1);
+    std::iota(of.begin(), of.end(), 0);
+    of[n] = 0;
+    std::shuffle(of.begin(), of.end(), random);
+    const MatrixXd a = whole.a(of, of);
+    const VectorXd e = whole.e(of);
+    const Solved s = solve(a, e);
+    VectorXd sum = VectorXd::Zero(n);
+    for (int i = 0; i <= n; ++i) sum[of[i]] += s.p[i];
+    CHECK((sum - p).cwiseAbs().maxCoeff() < 1e-10 * (1 + p.maxCoeff()));
+    // A permutation alone, also with the neighbour's active set as guess.
+    std::vector<int> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), random);
+    const MatrixXd b = whole.a(order, order);
+    const VectorXd f = whole.e(order);
+    CHECK((solve(b, f, {0, n - 1}).p - p(order)).cwiseAbs().maxCoeff() < 1e-10 * (1 + p.maxCoeff()));
+  }
+}
+
+TEST_CASE("complementarity: 10 000 random problems against projected Gauss-Seidel and enumeration") {
+  std::mt19937 random(3);
+  ComplementaritySolver shared;  // of problems of all sizes
+  double worst = 0, worst_residual = 0;
+  int fallbacks = 0;
+  for (int trial = 0; trial < 10000; ++trial) {
+    const int n = 1 + trial % 24;
+    const Problem problem = random_problem(random, n, 0.5);
+    VectorXd p(n), d(n);
+    ActiveSet active;
+    const Certificate c = shared.solve(problem.a, problem.e, active, p, d);
+    const VectorXd other = n <= 4 ? enumerate(problem.a, problem.e) : gauss_seidel(problem.a, problem.e);
+    worst = std::max(worst, (p - other).cwiseAbs().maxCoeff() / (1 + other.maxCoeff()));
+    worst_residual = std::max({worst_residual, kkt_residual(problem.a, problem.e, p), c.residual});
+    fallbacks += c.fallback;
+  }
+  CHECK(worst < 1e-11);  // Gauss-Seidel stops at steps of 1e-13; its rate here is 0.9 at worst
+  CHECK(worst_residual < 1e-12);
+  CHECK(fallbacks == 0);
+}
+
+TEST_CASE("complementarity: strips that come and go border the inverse without losing digits") {
+  // Rolling strips with a kept set, beside a solve from nothing at every load.
+  int factorisations = 0, cold_factorisations = 0;
+  double worst = 0, worst_inverse = 0;
+  for (double phase : {-0.6, -0.2, 0.3, 0.8}) {
+    const StripProblem problem = strip_problem(phase, 24);
+    ComplementaritySolver solver;
+    ActiveSet active;
+    const int n = static_cast<int>(problem.gap.size());
+    VectorXd p(n), d(n);
+    for (int step = 0; step < 400; ++step) {
+      const double approach = 3e-6 * (1 + 0.9 * std::sin(0.03 * step));
+      const VectorXd e = problem.gap.array() - approach;
+      factorisations += solver.solve(problem.a, e, active, p, d).factorisations;
+      const Solved cold = solve(problem.a, e);
+      cold_factorisations += cold.certificate.factorisations;
+      worst = std::max(worst, (p - cold.p).cwiseAbs().maxCoeff() / cold.p.maxCoeff());
+      CHECK(active.strips == cold.active.strips);
+      const int k = active.inverse.rows();
+      REQUIRE(k == static_cast<int>(active.strips.size()));
+      const MatrixXd block = problem.a(active.strips, active.strips);
+      worst_inverse = std::max(
+          worst_inverse, (active.inverse.block() * block - MatrixXd::Identity(k, k)).cwiseAbs().maxCoeff());
+    }
+  }
+  CHECK(worst < 1e-11);          // condition of the strips, 1e3, and round-off
+  CHECK(worst_inverse < 1e-10);  // the same, with the round-off of 50 updates
+  CHECK(factorisations * 20 < cold_factorisations);
+}
+
+TEST_CASE("complementarity: no memory is taken once the size is known") {
+#ifdef WHINE_COUNTS_MEMORY
+  const StripProblem problem = strip_problem(0.1, 20);
+  const int n = static_cast<int>(problem.gap.size());
+  ComplementaritySolver solver;
+  ActiveSet active;
+  VectorXd e(n), p(n), d(n);
+  e = problem.gap.array() - 1e-7;
+  solver.solve(problem.a, e, active, p, d);
+  long before = memory_requests;
+  {
+    VectorXd witness(100);
+    CHECK(witness.size() == 100);
+  }
+  CHECK(memory_requests > before);  // the counter counts
+  int factorisations = 0, sets = 0;
+  before = memory_requests;
+  for (int step = 0; step < 1000; ++step) {
+    e.array() = problem.gap.array() - 4e-6 * (1 + std::sin(0.37 * step));
+    if (step % 7 == 0) active.forget();
+    if (step % 11 == 0) active.strips.clear();
+    const Certificate c = solver.solve(problem.a, e, active, p, d);
+    factorisations += c.factorisations;
+    sets += c.iterations;
+  }
+  const long taken = memory_requests - before;
+  CHECK(taken == 0);
+  CHECK(factorisations > 100);  // the loop went through all the ways to a set
+  CHECK(sets > 1500);
+#else
+  MESSAGE("not counted: this program brings its own malloc");
+#endif
+}
+
+TEST_CASE("complementarity: what has no solution is refused with its numbers") {
+  const auto says = [](const MatrixXd& a, const VectorXd& e) -> std::string {
+    try {
+      solve(a, e);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(says(MatrixXd{{1, 2}, {2, 1}}, VectorXd{{-1, -1}}).find("not positive definite") !=
+        std::string::npos);
+  CHECK(says(MatrixXd{{0.0}}, VectorXd{{-1.0}}).find("not positive definite") != std::string::npos);
+  // Singular, and no force closes both gaps: d1 + d2 = -2 whatever p is.
+  CHECK(says(MatrixXd{{1, -1}, {-1, 1}}, VectorXd{{-1, -1}}) != "");
+  CHECK(says(MatrixXd::Identity(2, 2), VectorXd{{-1, std::nan("")}}).find("finite") != std::string::npos);
+  CHECK(says(MatrixXd{{1, std::nan("")}, {std::nan(""), 1}}, VectorXd{{-1, 1}}) != "");
+  CHECK(says(MatrixXd::Identity(3, 3), VectorXd{{-1, -1}}).find("3 x 3") != std::string::npos);
+}
