@@ -34,7 +34,7 @@ fi
 # --- stand-ins
 for program in "$B"/bin/gear-*; do
   case $program in */gear-scene) continue ;; esac
-  cat > "$program" <<'STUB'
+  cat > "$program" <<'SCRIPT'
 #!/bin/bash
 name=$(basename "$0")
 while [ $# -gt 0 ]; do
@@ -46,7 +46,7 @@ echo "$name $output" >> calls
 [ "${FAIL:-}" != "$output" ] || exit 1
 mkdir -p "$(dirname "$output")"
 case $name in gear-plot) touch "$output".tsv "$output".svg "$output".png ;; *) echo "$name" > "$output" ;; esac
-STUB
+SCRIPT
 done
 scene=data/scenes/parker2000.toml
 cp $scene scene.original
@@ -166,21 +166,21 @@ make_ -n LAUNCH='srun -n1 --exact' out/parker2000/T50/up/response.h5
 
 # --- a fresh machine: deps runs before whatever needs a package, in any order of the goals
 mkdir machine
-cat > machine/dpkg-query <<'STUB'
+cat > machine/dpkg-query <<'SCRIPT'
 #!/bin/bash
 [ -e machine/installed ] && printf 'install ok installed'
-STUB
-cat > machine/apt-get <<'STUB'
+SCRIPT
+cat > machine/apt-get <<'SCRIPT'
 #!/bin/bash
 echo "$DEBIAN_FRONTEND apt-get $*" >> machine/calls
 [ "$1" != install ] || { sleep 0.3; touch machine/installed; }
-STUB
-cat > machine/g++ <<'STUB'
+SCRIPT
+cat > machine/g++ <<'SCRIPT'
 #!/bin/bash
 [ -e machine/installed ] || { echo "$@: compiled before deps" >> machine/early; exit 1; }
 while [ $# -gt 0 ]; do [ "$1" != -o ] || output=$2; shift; done
 cp machine/program "$output"
-STUB
+SCRIPT
 cp machine/g++ machine/ar; sed -i 's/^while.*/output=$2/' machine/ar
 printf '#!/bin/bash\necho sudo >> machine/calls\nexec "$@"\n' > machine/sudo
 cp "$B/bin/gear-plot" machine/program
