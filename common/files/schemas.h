@@ -169,6 +169,17 @@ struct ResponseArtifact {
   double natural_frequency = 0;  // Hz: as in the sweep
 };
 
+// What a static, sweep or error-budget artifact says of its two gears.
+template <class Artifact>
+void set_gears(Artifact& artifact, const BodyArtifact& driver, const BodyArtifact& driven) {
+  artifact.driver = driver.design;
+  artifact.driven = driven.design;
+  artifact.driver_material = driver.material;
+  artifact.driven_material = driven.material;
+  artifact.driver_body = driver.discretisation;
+  artifact.driven_body = driven.discretisation;
+}
+
 void write(const std::string& path, const MeshArtifact&, const Provenance&);
 void write(const std::string& path, const BodyArtifact&, const Provenance&);
 void write(const std::string& path, const StaticArtifact&, const Provenance&);

@@ -67,12 +67,7 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   refined.emplace_back("window", solve(driver, driven, slice, 2));
 
   ErrorBudgetArtifact budget;
-  budget.driver = base.driver;
-  budget.driven = base.driven;
-  budget.driver_material = base.driver_material;
-  budget.driven_material = base.driven_material;
-  budget.driver_body = base.driver_body;
-  budget.driven_body = base.driven_body;
+  set_gears(budget, driver, driven);
   budget.mesh = base.mesh;
   budget.contact = base.contact;
   budget.torque = torque;

@@ -103,12 +103,7 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   const int positions = slice.contact.positions;
 
   StaticArtifact result;
-  result.driver = driver.design;
-  result.driven = driven.design;
-  result.driver_material = driver.material;
-  result.driven_material = driven.material;
-  result.driver_body = driver.discretisation;
-  result.driven_body = driven.discretisation;
+  set_gears(result, driver, driven);
   result.mesh = slice.mesh;
   result.fidelity = slice.fidelity;
   result.contact = slice.contact;

@@ -208,12 +208,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   Sweeper sweeper(model, parameters, statics, slice);
 
   SweepArtifact result;
-  result.driver = driver.design;
-  result.driven = driven.design;
-  result.driver_material = driver.material;
-  result.driven_material = driven.material;
-  result.driver_body = driver.discretisation;
-  result.driven_body = driven.discretisation;
+  set_gears(result, driver, driven);
   result.mesh = statics.mesh;
   result.fidelity = slice.fidelity;
   result.contact = statics.contact;
