@@ -27,6 +27,19 @@ class HalfPlaneSurface {
     return flat_surface_displacement(1.0, moduli_, face_width_, depth) - coefficient() * mean_log;
   }
 
+  // m N-1: the same, averaged over another strip whose middle lies at x and whose half width is `reading` (m).
+  // Symmetric in the two strips.
+  double mean_over_strip(double x, double half_width, double reading, double depth) const {
+    // Twice integrated: t^2 / 2 ln|t| - 3 t^2 / 4.
+    const auto primitive = [](double t) {
+      return t == 0 ? 0.0 : t * t * (0.5 * std::log(std::abs(t)) - 0.75);
+    };
+    const double mean_log = (primitive(x + half_width + reading) - primitive(x + half_width - reading) -
+                             primitive(x - half_width + reading) + primitive(x - half_width - reading)) /
+                            (4 * half_width * reading);
+    return flat_surface_displacement(1.0, moduli_, face_width_, depth) - coefficient() * mean_log;
+  }
+
  private:
   PlaneModuli moduli_;
   double face_width_;

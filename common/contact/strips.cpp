@@ -11,6 +11,24 @@ namespace whine {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+// n strips between low and high; low_grade, high_grade: 0 for strips of one width, 1 for widths that grow with
+// the root of the distance from that end.
+VectorXd strip_borders(double low, double high, double low_grade, double high_grade, int n) {
+  VectorXd border(n + 1);
+  const double grade = std::clamp(std::max(low_grade, high_grade), 0.0, 1.0);
+  for (int i = 0; i <= n; ++i) {
+    const double even = static_cast<double>(i) / n;
+    const double from_edge = low_grade > high_grade ? even : 1 - even;
+    const double graded = (1 - grade) * from_edge + grade * from_edge * from_edge;
+    border[i] = low_grade > high_grade ? low + (high - low) * graded : high - (high - low) * graded;
+  }
+  return border;
+}
+
+}  // namespace
+
 PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact,
                        const ContactRange& range) {
   PairStrips s;
@@ -21,7 +39,9 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   const auto is_tip = [&](int g, double x) {
     return std::abs(gears.gap_at(contact, x).roll[g] - gears.gear(g).tip_roll_angle()) < 1e-9;
   };
-  double low = -range.half_window, high = range.half_window;
+  const int n = range.strips;
+  const double offset = 0.5 * range.half_window / n;  // a quarter strip
+  double low = offset - range.half_window, high = offset + range.half_window;
   if (low <= contact.x_min) {
     low = contact.x_min;
     s.low_is_edge = is_tip(1, low);
@@ -30,10 +50,15 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
     high = contact.x_max;
     s.high_is_edge = is_tip(0, high);
   }
-  const int n = range.strips;
-  s.width = (high - low) / n;
+  s.border = strip_borders(low, high, s.low_is_edge ? 1 + low / range.half_window : 0,
+                           s.high_is_edge ? 1 - high / range.half_window : 0, n);
   s.gap.resize(n);
-  for (int i = 0; i < n; ++i) s.gap[i] = gears.gap_at(contact, low + (i + 0.5) * s.width).gap;
+  for (int i = 0; i < n; ++i) {
+    // Gauss's two points: the mean of a cubic.
+    const double reach = 0.5 * s.width(i) / std::numbers::sqrt3;
+    s.gap[i] = 0.5 * (gears.gap_at(contact, s.middle(i) - reach).gap +
+                      gears.gap_at(contact, s.middle(i) + reach).gap);
+  }
 
   // Chebyshev points of the first kind and their barycentric weights.
   VectorXd node(kWindowNodes), weight(kWindowNodes);
@@ -49,7 +74,7 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   }
   s.interpolation.resize(n, kWindowNodes);
   for (int i = 0; i < n; ++i) {
-    const double x = low + (i + 0.5) * s.width;
+    const double x = s.middle(i);
     double sum = 0;
     int hit = -1;
     for (int k = 0; k < kWindowNodes; ++k) {
@@ -68,13 +93,22 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
 MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface& driver,
                                const HalfPlaneSurface& driven, double depth) {
   const int n = strips.size();
-  VectorXd by_distance(n);  // equal strips: a Toeplitz matrix
-  for (int i = 0; i < n; ++i)
-    by_distance[i] = driver.strip(i * strips.width, 0.5 * strips.width, depth) +
-                     driven.strip(i * strips.width, 0.5 * strips.width, depth);
+  const auto between = [&](int i, int j) {
+    double sum = 0;
+    for (const HalfPlaneSurface* surface : {&driver, &driven})
+      sum += surface->mean_over_strip(strips.middle(i) - strips.middle(j), 0.5 * strips.width(j),
+                                      0.5 * strips.width(i), depth);
+    return sum;
+  };
   MatrixXd a(n, n);
+  if (std::abs(strips.width(0) / strips.width(n - 1) - 1) < 1e-9) {  // of one width: a Toeplitz matrix
+    for (int i = 0; i < n; ++i) a(i, 0) = between(i, 0);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) a(i, j) = a(std::abs(i - j), 0);
+    return a;
+  }
   for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) a(i, j) = by_distance[std::abs(i - j)];
+    for (int i = j; i < n; ++i) a(i, j) = a(j, i) = between(i, j);
   return a;
 }
 
@@ -105,14 +139,14 @@ ContactPatch contact_patch(const PairStrips& strips, const Eigen::Ref<const Vect
   ContactPatch patch;
   if (!(force > 0) || strips.contact.corner || p[0] > 0 || p[n - 1] > 0) return patch;
   double mean = 0, square = 0;
-  for (int i = 0; i < n; ++i) mean += p[i] / force * (i + 0.5) * strips.width;
+  for (int i = 0; i < n; ++i) mean += p[i] / force * strips.middle(i);
   for (int i = 0; i < n; ++i) {
-    const double x = (i + 0.5) * strips.width - mean;
-    // A strip is as wide as the others and evenly loaded: its own variance is width^2 / 12.
-    square += p[i] / force * (x * x + strips.width * strips.width / 12);
+    const double x = strips.middle(i) - mean;
+    // A strip is evenly loaded: its own variance is width^2 / 12.
+    square += p[i] / force * (x * x + strips.width(i) * strips.width(i) / 12);
+    patch.pressure = std::max(patch.pressure, p[i] / (strips.width(i) * face_width));
   }
   patch.half_width = 2 * std::sqrt(square);
-  patch.pressure = p.maxCoeff() / (strips.width * face_width);
   return patch;
 }
 

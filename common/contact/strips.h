@@ -3,7 +3,13 @@
 //
 // The window of strips moves with the nominal contact point and ends at a tip edge when it reaches one; off
 // the line of action it begins at the edge. Its number of strips never changes, so nothing jumps while the
-// gears roll. All that is smooth in the window (body compliance, modes, lag) is carried by a few nodes and
+// gears roll. Strips are of one width, and ever narrower towards a tip edge as the contact comes near it: there the
+// pressure goes with the inverse root of the distance, and the first touch is at the edge itself. A strip's gap
+// and displacement are means over the strip, which makes the compliance symmetric for any widths.
+//
+// The window stands a quarter strip off the contact point. The force is a piecewise linear function of the approach,
+// its pieces begin where a strip is added; strips that are added in turn at either end halve the pieces.
+// All that is smooth in the window (body compliance, modes, lag) is carried by a few nodes and
 // interpolated to the strips; the same weights collect strip forces on the nodes.
 #pragma once
 #include <Eigen/Core>
@@ -24,13 +30,15 @@ struct ContactRange {
 struct PairStrips {
   int pair = 0;  // number of the pair: 0 reference, +1 preceding, -1 following
   PairContact contact;
-  double width = 0;                                // m, of a strip
+  Eigen::VectorXd border;  // (strip + 1) m along the flank from the nominal contact point
   bool low_is_edge = false, high_is_edge = false;  // the window ends at a tip edge, where force may stand
   Eigen::VectorXd gap;                             // (strip) m, unloaded
   Eigen::MatrixXd interpolation;                   // (strip, node) 1
   std::array<Eigen::VectorXd, 2> node_roll;        // (node) rad, on driver and driven gear
 
   int size() const { return static_cast<int>(gap.size()); }
+  double width(int i) const { return border[i + 1] - border[i]; }           // m
+  double middle(int i) const { return 0.5 * (border[i] + border[i + 1]); }  // m
 };
 
 // Size of a contact that stays inside its flank, as Hertz's theory names it.
@@ -50,8 +58,8 @@ inline constexpr int kWindowNodes = 6;
 PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact,
                        const ContactRange& range);
 
-// (strip, strip) m N-1: both half-planes' surface displacement relative to `depth` at the strips' middles for
-// a unit force spread over one strip.
+// (strip, strip) m N-1: both half-planes' surface displacement relative to `depth` of a strip for a unit force spread
+// over another, mean over the strip.
 Eigen::MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface& driver,
                                       const HalfPlaneSurface& driven, double depth);
 
