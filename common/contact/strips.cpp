@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "contact/lanes.h"
 
 namespace whine {
 
@@ -128,7 +129,7 @@ ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver
   ContactRange range;
   range.half_window = half_width(largest_force);
   range.strips =
-      std::max(4, static_cast<int>(std::ceil(across * range.half_window / half_width(mean_force))));
+      padded(std::max(4, static_cast<int>(std::ceil(across * range.half_window / half_width(mean_force)))));
   range.corner_gap = corner_gap;
   return range;
 }

@@ -3,9 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/error.h"
+#include "contact/lanes.h"
 
 namespace whine {
 
@@ -123,8 +125,30 @@ double RollingDynamics::bearing_damper(int g) const {
   return 2 * parameters_.damping.bearing_ratio * parameters_.inertia[g] * rigid_frequency_;
 }
 
+namespace {
+
+constexpr int kFields = 12;    // per tooth; a multiple of kLanes
+constexpr int kPairNodes = 8;  // columns of nodes: kWindowNodes and zeros up to whole lanes
+static_assert(kFields % kLanes == 0 && kPairNodes % kLanes == 0 && kPairNodes >= kWindowNodes);
+
+// (flank, field) orthonormal: the loads of a flank that its own displacements, and before all those of its neighbours,
+// depend on most. tables: flexibility by offset between teeth, -max..max.
+MatrixXd lagged_fields(const std::vector<MatrixXd>& tables) {
+  const int max = static_cast<int>(tables.size()) / 2, m = static_cast<int>(tables[max].rows());
+  // What teeth do to each other has rank 4 to 1e-8 of their own flexibility. The weight takes it whole.
+  constexpr double kNeighbourWeight = 1e6;
+  MatrixXd importance = tables[max] * tables[max];
+  for (int offset = -max; offset <= max; ++offset)
+    if (offset != 0) importance += kNeighbourWeight * tables[offset + max] * tables[offset + max].transpose();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(importance);
+  return eigen.eigenvectors().rightCols(std::min(kFields, m));
+}
+
+}  // namespace
+
 void RollingDynamics::set_range(const ContactRange& range, int steps) {
-  const bool rigid = parameters_.fidelity.body == "rigid";
+  if (range.strips % kLanes != 0)
+    fail(Failure::numerical, range.strips, " strips in a window are no multiple of ", kLanes);
   const double depth = parameters_.damping.undamped_depth;
   positions_.assign(steps, {});
   reach_ = 1;
@@ -133,47 +157,92 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     for (const PairStrips& s : positions_[i].mesh.pairs) reach_ = std::max(reach_, std::abs(s.pair));
   }
 
-  std::vector<MatrixXd> tables[2];  // index pair difference + 2 reach
-  for (int g = 0; g < 2; ++g)
-    for (int difference = -2 * reach_; difference <= 2 * reach_; ++difference) {
-      const int m = model_.gear[g].table_size();
-      tables[g].push_back(
-          rigid ? MatrixXd::Zero(m, m)
-                : model_.gear[g].residual(GearMeshModel::tooth(g, difference), depth, kept_[g]));
-    }
   const int pairs = 2 * reach_ + 1;
+  std::array<std::vector<MatrixXd>, 2> tables;  // by offset between teeth, -2 reach..2 reach
   for (int g = 0; g < 2; ++g) {
     const int m = model_.gear[g].table_size();
-    residual_[g].resize(m * pairs, m * pairs);
+    const bool rigid = parameters_.fidelity.body == "rigid";
+    for (int offset = -2 * reach_; offset <= 2 * reach_; ++offset)
+      tables[g].push_back(rigid ? MatrixXd::Zero(m, m) : model_.gear[g].residual(offset, depth, kept_[g]));
+    fields_[g] = lagged_fields(tables[g]);
+    coupling_[g] = MatrixXd::Zero(kFields * pairs, kFields * pairs);
+    const int own = static_cast<int>(fields_[g].cols());
     for (int i = 0; i < pairs; ++i)
-      for (int j = 0; j < pairs; ++j) residual_[g].block(i * m, j * m, m, m) = tables[g][i - j + 2 * reach_];
+      for (int j = 0; j < pairs; ++j)
+        coupling_[g].block(i * kFields, j * kFields, own, own) =
+            fields_[g].transpose() * tables[g][GearMeshModel::tooth(g, i - j) + 2 * reach_] * fields_[g];
   }
   for (Position& position : positions_) {
     const MeshPosition& mesh = position.mesh;
-    position.local = local_compliance(model_, mesh, depth);
     position.participation = participation(mesh);
-    position.residual = MatrixXd::Zero(mesh.nodes(), mesh.nodes());
-    position.drift_lever = mesh.node_lever[0] / model_.kinematics.gear(0).base_radius() -
-                           mesh.node_lever[1] / model_.kinematics.gear(1).base_radius();
+    position.lagged = MatrixXd::Zero(mesh.nodes(), mesh.nodes());
+    MatrixXd whole = position.lagged;
     for (int g = 0; g < 2; ++g) {
-      const int m = model_.gear[g].table_size();
-      position.reading[g].resize(mesh.nodes(), m * pairs);
-      for (size_t i = 0; i < mesh.pairs.size(); ++i) {
-        const auto rows = Eigen::seqN(static_cast<int>(i) * kWindowNodes, kWindowNodes);
-        const MatrixXd weights = mesh.table_weights[g](rows, Eigen::all);
-        for (int pair = -reach_; pair <= reach_; ++pair)
-          position.reading[g](rows, Eigen::seqN((pair + reach_) * m, m)) =
-              weights * tables[g][mesh.pairs[i].pair - pair + 2 * reach_];
-        for (size_t j = 0; j < mesh.pairs.size(); ++j) {
-          const auto columns = Eigen::seqN(static_cast<int>(j) * kWindowNodes, kWindowNodes);
-          position.residual(rows, columns) +=
-              position.reading[g](rows, Eigen::seqN((mesh.pairs[j].pair + reach_) * m, m)) *
-              mesh.table_weights[g](columns, Eigen::all).transpose();
-        }
+      whole += body_compliance(mesh, g, tables[g]);
+      position.field_weight[g] = MatrixXd::Zero(mesh.nodes(), kFields);
+      position.field_weight[g].leftCols(fields_[g].cols()) = mesh.table_weights[g] * fields_[g];
+      const auto rows = [&](size_t i) {
+        return position.field_weight[g].middleRows<kWindowNodes>(static_cast<int>(i) * kWindowNodes);
+      };
+      for (size_t i = 0; i < mesh.pairs.size(); ++i)
+        for (size_t j = 0; j < mesh.pairs.size(); ++j)
+          position.lagged.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes) +=
+              rows(i) *
+              coupling_[g].block<kFields, kFields>((mesh.pairs[i].pair + reach_) * kFields,
+                                                   (mesh.pairs[j].pair + reach_) * kFields) *
+              rows(j).transpose();
+    }
+    position.local = local_compliance(model_, mesh, depth);
+    mesh.add_to_strips(whole - position.lagged, position.local);
+    for (const PairStrips& s : mesh.pairs)
+      position.drift_lever.push_back(s.contact.lever[0] / model_.kinematics.gear(0).base_radius() -
+                                     s.contact.lever[1] / model_.kinematics.gear(1).base_radius());
+  }
+  step_data_.clear();
+  pack();
+}
+
+// Lays the numbers of each position side by side.
+void RollingDynamics::pack() {
+  stream_.clear();
+  const auto place = [this](Eigen::Index count) {
+    const size_t at = stream_.size();
+    stream_.resize(at + static_cast<size_t>(count), 0.0);
+    return at;
+  };
+  const int coordinates = padded(static_cast<int>(coordinates_.size()));
+  size_t inner = std::numeric_limits<size_t>::max();  // windows without an edge are all alike
+  for (Position& position : positions_) {
+    const MeshPosition& mesh = position.mesh;
+    const int pairs = static_cast<int>(mesh.pairs.size()), nodes = pairs * kPairNodes;
+    position.gap = place(mesh.strips());
+    std::copy(mesh.gap.begin(), mesh.gap.end(), stream_.begin() + static_cast<std::ptrdiff_t>(position.gap));
+    position.shape = place(nodes * coordinates);
+    for (int j = 0; j < pairs; ++j) {
+      for (int c = 0; c < static_cast<int>(coordinates_.size()); ++c)
+        for (int k = 0; k < kWindowNodes; ++k)
+          stream_[position.shape + c * nodes + j * kPairNodes + k] =
+              position.participation(j * kWindowNodes + k, c);
+      const PairStrips& s = mesh.pairs[j];
+      const bool edge = s.low_is_edge || s.high_is_edge;
+      if (edge || inner == std::numeric_limits<size_t>::max()) {
+        const size_t at = place(s.size() * kPairNodes);
+        for (int k = 0; k < kWindowNodes; ++k)
+          for (int i = 0; i < s.size(); ++i) stream_[at + k * s.size() + i] = s.interpolation(i, k);
+        position.interpolation.push_back(at);
+        if (!edge) inner = at;
+      } else {
+        position.interpolation.push_back(inner);
+      }
+      for (int g = 0; g < 2; ++g) {
+        const size_t at = place(kPairNodes * kFields);
+        for (int r = 0; r < kFields; ++r)
+          for (int k = 0; k < kWindowNodes; ++k)
+            stream_[at + r * kPairNodes + k] = position.field_weight[g](j * kWindowNodes + k, r);
+        position.field[g].push_back(at);
       }
     }
   }
-  step_data_.clear();
 }
 
 MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
@@ -198,26 +267,33 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   steps_ = steps;
   stride_ = finest / steps;
   const double h = step_ = 1 / (mesh_frequency * steps);
-  propagators_.clear();
-  VectorXd half_response(coordinates_.size());
-  for (size_t i = 0; i < coordinates_.size(); ++i) {
+  const int n = static_cast<int>(coordinates_.size());
+  for (VectorXd* x : {&speed_.a11, &speed_.a12, &speed_.a21, &speed_.a22, &speed_.bq, &speed_.bv})
+    x->setZero(padded(n));
+  for (int i = 0; i < n; ++i) {
     const Coordinate& c = coordinates_[i];
-    propagators_.push_back(parameters_.fidelity.integrator == "newmark"
-                               ? newmark_propagator(c.frequency, c.damping, h)
-                               : exact_propagator(c.frequency, c.damping, h));
-    half_response[i] = 0.5 * propagators_.back().bq;
+    const Propagator a = parameters_.fidelity.integrator == "newmark"
+                             ? newmark_propagator(c.frequency, c.damping, h)
+                             : exact_propagator(c.frequency, c.damping, h);
+    speed_.a11[i] = a.a11;
+    speed_.a12[i] = a.a12;
+    speed_.a21[i] = a.a21;
+    speed_.a22[i] = a.a22;
+    speed_.bq[i] = a.bq;
+    speed_.bv[i] = a.bv;
   }
-  lag_ =
-      lag_step(parameters_.fidelity.body == "quasi-static" ? 0 : parameters_.damping.rayleigh_stiffness, h);
+  const VectorXd half_response = 0.5 * speed_.bq.head(n);
+  lag_ = lag_step(relaxation(), h);
+  damping_ = damping_integrals();
 
   std::vector<Step> fresh(steps);
   for (int i = 0; i < steps; ++i) {
     const Position& position = positions_[i * stride_];
     if (static_cast<int>(step_data_.size()) == steps) fresh[i].active.strips = step_data_[i].active.strips;
     fresh[i].compliance = position.local;
-    position.mesh.add_to_strips(lag_.from_new * position.residual + position.participation *
-                                                                        half_response.asDiagonal() *
-                                                                        position.participation.transpose(),
+    position.mesh.add_to_strips(lag_.from_new * position.lagged + position.participation *
+                                                                      half_response.asDiagonal() *
+                                                                      position.participation.transpose(),
                                 fresh[i].compliance);
   }
   step_data_ = std::move(fresh);
@@ -232,8 +308,8 @@ VectorXd RollingDynamics::flexibility() const {
 // Elastic coordinates follow their force, z = (torque - h f) / w^2; the rigid one carries the load.
 MatrixXd RollingDynamics::static_compliance(const Position& position) const {
   MatrixXd a = position.local;
-  position.mesh.add_to_strips(position.residual + position.participation * flexibility().asDiagonal() *
-                                                      position.participation.transpose(),
+  position.mesh.add_to_strips(position.lagged + position.participation * flexibility().asDiagonal() *
+                                                    position.participation.transpose(),
                               a);
   return a;
 }
@@ -246,7 +322,7 @@ double RollingDynamics::frozen_frequency(int i) {
               position.mesh.to_strips(position.participation.col(0)), torque_force_[0], 0, active, solver_);
   // d = 0 on the active strips: p = (A + R)^-1 h z there, and z'' + (w^2 + h^T (A + R)^-1 h) z = 0.
   MatrixXd a = position.local;
-  position.mesh.add_to_strips(position.residual, a);
+  position.mesh.add_to_strips(position.lagged, a);
   const MatrixXd compliance = a(active.strips, active.strips);
   MatrixXd h(position.mesh.strips(), position.participation.cols());
   for (int c = 0; c < h.cols(); ++c) h.col(c) = position.mesh.to_strips(position.participation.col(c));
@@ -276,10 +352,10 @@ RollingDynamics::State RollingDynamics::rest() {
   state.d =
       a * e.p + position.mesh.gap - position.mesh.to_strips(offset + e.x * position.participation.col(0));
   for (int g = 0; g < 2; ++g) {
-    state.load[g] = MatrixXd::Zero(model_.gear[g].table_size(), 2 * reach_ + 1);
+    state.load[g] = MatrixXd::Zero(kFields, 2 * reach_ + 1);
     for (size_t j = 0; j < position.mesh.pairs.size(); ++j)
       state.load[g].col(position.mesh.pairs[j].pair + reach_) +=
-          position.mesh.table_weights[g].middleRows<kWindowNodes>(j * kWindowNodes).transpose() *
+          position.field_weight[g].middleRows<kWindowNodes>(j * kWindowNodes).transpose() *
           nodes.segment<kWindowNodes>(j * kWindowNodes);
     state.lag[g] = state.load[g];
   }
@@ -325,22 +401,9 @@ void RollingDynamics::advance_tooth(State& state) const {
     }
 }
 
-RollingDynamics::Instant RollingDynamics::instant(const Position& position, const State& state) const {
-  const MeshPosition& mesh = position.mesh;
-  Instant now{&position, 0, state, mesh.to_strips(position.participation * state.z), {}, {}};
-  VectorXd nodes = VectorXd::Zero(mesh.nodes());
-  for (int g = 0; g < 2; ++g) nodes += position.reading[g] * state.lag[g].reshaped();
-  now.lagged = mesh.to_strips(nodes);
-  nodes = mesh.to_nodes(state.p);
-  now.pair_force.resize(state.z.size(), mesh.pairs.size());
-  for (size_t j = 0; j < mesh.pairs.size(); ++j)
-    now.pair_force.col(j) = position.participation.middleRows<kWindowNodes>(j * kWindowNodes).transpose() *
-                            nodes.segment<kWindowNodes>(j * kWindowNodes);
-  return now;
-}
-
 bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
-  const int pairs = 2 * reach_ + 1;
+  const int pairs = 2 * reach_ + 1, own = static_cast<int>(coordinates_.size()), coordinates = padded(own),
+            fields = kFields * pairs;
   period.transmission_error.resize(steps_);
   period.pair_load = MatrixXd::Zero(pairs, steps_);
   period.drift_force = period.least_gap = period.least_force = 0;
@@ -355,75 +418,133 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
       }
     }
 
-  VectorXd nodes, e, loads;
-  Instant before;
-  if (ledger) before = instant(positions_[0], state);
+  // All vectors of a step, each a whole number of lanes.
+  VectorXd z(coordinates), v(coordinates), force(coordinates), torque = VectorXd::Zero(coordinates),
+                                                               weight = torque, response(coordinates);
+  torque.head(own) = torque_force_;
+  weight.head(own) = error_weight_;
+  std::array<VectorXd, 2> lag, load;
+  const auto take = [&] {
+    z.setZero();
+    v.setZero();
+    force.setZero();
+    z.head(own) = state.z;
+    v.head(own) = state.v;
+    force.head(own) = state.force;
+    for (int g = 0; g < 2; ++g) {
+      lag[g] = state.lag[g].reshaped();
+      load[g] = state.load[g].reshaped();
+    }
+  };
+  const auto give = [&] {
+    state.z = z.head(own);
+    state.v = v.head(own);
+    state.force = force.head(own);
+    for (int g = 0; g < 2; ++g) {
+      state.lag[g].reshaped() = lag[g];
+      state.load[g].reshaped() = load[g];
+    }
+  };
+  take();
+  int most_strips = 0;
+  size_t most_pairs = 0;
+  for (const Position& position : positions_) {
+    most_strips = std::max(most_strips, position.mesh.strips());
+    most_pairs = std::max(most_pairs, position.mesh.pairs.size());
+  }
+  VectorXd e(most_strips), p(most_strips), d(most_strips);
+  VectorXd nodes(most_pairs * kPairNodes), displacement(kFields);
+
+  std::array<Instant, 2> instants;  // before and after a step, in turn
+  if (ledger) fill(instants[0], positions_[0], state);
   double balance = 0;
   for (int i = 1; i <= steps_; ++i) {
-    const int sample = i % steps_;
+    const int sample = i == steps_ ? 0 : i;
     if (sample == 0) {
+      give();
       advance_tooth(state);
-      if (ledger) {
-        advance_tooth(before.state);
-        for (int j = 0; j < before.pair_force.cols(); ++j) turn_doublets(before.pair_force.col(j));
-        before.renamed = 1;
-      }
+      take();
+      if (ledger) rename(instants[(i - 1) % 2]);
     }
     const Position& position = positions_[sample * stride_];
     const MeshPosition& mesh = position.mesh;
     Step& step = step_data_[sample];
+    const int strips = mesh.strips(), present = static_cast<int>(mesh.pairs.size()),
+              rows = present * kPairNodes, of_pair = present > 0 ? strips / present : 0;
 
     // What the step would bring without new contact force.
-    for (int c = 0; c < state.z.size(); ++c) {
-      const Propagator& a = propagators_[c];
-      const double mean = 0.5 * (state.force[c] + torque_force_[c]), z = state.z[c], v = state.v[c];
-      state.z[c] = a.a11 * z + a.a12 * v + a.bq * mean;
-      state.v[c] = a.a21 * z + a.a22 * v + a.bv * mean;
+    for (int c = 0; c < coordinates; c += kLanes) {
+      const Lanes mean = 0.5 * (lanes(&force[c]) + lanes(&torque[c])), z0 = lanes(&z[c]), v0 = lanes(&v[c]);
+      lanes(&z[c]) = lanes(&speed_.a11[c]) * z0 + lanes(&speed_.a12[c]) * v0 + lanes(&speed_.bq[c]) * mean;
+      lanes(&v[c]) = lanes(&speed_.a21[c]) * z0 + lanes(&speed_.a22[c]) * v0 + lanes(&speed_.bv[c]) * mean;
+      lanes(&response[c]) = -lanes(&z[c]);
     }
-    nodes.noalias() = -position.participation * state.z;
+    std::fill(nodes.data(), nodes.data() + rows, 0.0);
+    add_columns(nodes.data(), &stream_[position.shape], rows, response.data(), coordinates, 0, rows);
     for (int g = 0; g < 2; ++g) {
-      state.lag[g] = lag_.decay * state.lag[g] + lag_.from_old * state.load[g];
-      nodes.noalias() += position.reading[g] * state.lag[g].reshaped();
+      double *moved = lag[g].data(), *old = load[g].data();
+      for (int k = 0; k < fields; k += kLanes)
+        lanes(moved + k) = lag_.decay * lanes(moved + k) + lag_.from_old * lanes(old + k);
+      for (int j = 0; j < present; ++j) {
+        const int slot = (mesh.pairs[j].pair + reach_) * kFields;
+        displacement.setZero();
+        add_columns(displacement.data(), coupling_[g].data() + slot, fields, moved, fields, 0, kFields);
+        add_columns(&nodes[j * kPairNodes], &stream_[position.field[g][j]], kPairNodes, displacement.data(),
+                    kFields, 0, kPairNodes);
+      }
     }
-    e = mesh.gap + mesh.to_strips(nodes);
-    state.p.resize(mesh.strips());
-    state.d.resize(mesh.strips());
-    const Certificate certificate = solver_.solve(step.compliance, e, step.active, state.p, state.d);
-    if (mesh.reaches_window_end(state.p)) return false;
+    std::copy(&stream_[position.gap], &stream_[position.gap] + strips, e.data());
+    for (int j = 0; j < present; ++j)
+      add_columns(&e[j * of_pair], &stream_[position.interpolation[j]], of_pair, &nodes[j * kPairNodes],
+                  kWindowNodes, 0, of_pair);
+    const Certificate certificate =
+        solver_.solve(step.compliance, e.head(strips), step.active, p.head(strips), d.head(strips));
     period.least_gap = std::min(period.least_gap, certificate.least_gap);
     period.least_force = std::min(period.least_force, certificate.least_force);
     period.fallbacks += certificate.fallback;
 
     // The new force's own share.
-    nodes = mesh.to_nodes(state.p);
-    state.force = torque_force_;
-    state.force.noalias() -= position.participation.transpose() * nodes;
-    for (int c = 0; c < state.z.size(); ++c) {
-      const double own = 0.5 * (state.force[c] - torque_force_[c]);
-      state.z[c] += propagators_[c].bq * own;
-      state.v[c] += propagators_[c].bv * own;
+    double drift = 0;
+    for (int j = 0; j < present; ++j) {
+      const PairStrips& pair = mesh.pairs[j];
+      const double* own_p = &p[j * of_pair];
+      if ((!pair.low_is_edge && own_p[0] > 0) || (!pair.high_is_edge && own_p[of_pair - 1] > 0)) return false;
+      dot_columns(&nodes[j * kPairNodes], &stream_[position.interpolation[j]], of_pair, kPairNodes, own_p,
+                  of_pair);
+      Lanes total{};
+      for (int k = 0; k < of_pair; k += kLanes) total += lanes(own_p + k);
+      const double carried = sum(total);
+      period.pair_load(pair.pair + reach_, sample) = carried;
+      drift += position.drift_lever[j] * carried;
+    }
+    period.drift_force = std::max(period.drift_force, std::abs(drift));
+    dot_columns(response.data(), &stream_[position.shape], rows, coordinates, nodes.data(), rows);
+    Lanes error_sum{};
+    for (int c = 0; c < coordinates; c += kLanes) {
+      const Lanes contact = lanes(&response[c]);
+      lanes(&force[c]) = lanes(&torque[c]) - contact;
+      lanes(&z[c]) -= 0.5 * lanes(&speed_.bq[c]) * contact;
+      lanes(&v[c]) -= 0.5 * lanes(&speed_.bv[c]) * contact;
+      error_sum += lanes(&weight[c]) * lanes(&z[c]);
     }
     for (int g = 0; g < 2; ++g) {
-      state.load[g].setZero();
-      for (size_t j = 0; j < mesh.pairs.size(); ++j)
-        state.load[g].col(mesh.pairs[j].pair + reach_).noalias() +=
-            mesh.table_weights[g].middleRows<kWindowNodes>(j * kWindowNodes).transpose() *
-            nodes.segment<kWindowNodes>(j * kWindowNodes);
-      state.lag[g] += lag_.from_new * state.load[g];
+      load[g].setZero();
+      for (int j = 0; j < present; ++j)
+        dot_columns(&load[g][(mesh.pairs[j].pair + reach_) * kFields], &stream_[position.field[g][j]],
+                    kPairNodes, kFields, &nodes[j * kPairNodes], kPairNodes);
+      for (int k = 0; k < fields; k += kLanes) lanes(&lag[g][k]) += lag_.from_new * lanes(&load[g][k]);
     }
 
     if (ledger) {
-      Instant after = instant(position, state);
-      record_step(before, after, balance, *ledger);
-      before = std::move(after);
+      give();
+      state.p = p.head(strips);
+      state.d = d.head(strips);
+      fill(instants[i % 2], position, state);
+      record_step(instants[(i - 1) % 2], instants[i % 2], balance, *ledger);
     }
 
-    const double error = error_weight_.dot(state.z);
+    const double error = sum(error_sum);
     period.transmission_error[sample] = error;
-    loads = mesh.pair_loads(state.p);
-    for (size_t j = 0; j < mesh.pairs.size(); ++j)
-      period.pair_load(mesh.pairs[j].pair + reach_, sample) = loads[j];
-    period.drift_force = std::max(period.drift_force, std::abs(position.drift_lever.dot(nodes)));
     if (error > mesh.lost_corner_gap)
       fail(Failure::numerical, "at mesh phase ", mesh.phase, " the transmission error ", error * 1e6,
            " micrometres closes the gap of a tip edge that would touch below the involute; lower the torque "
@@ -431,124 +552,11 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
            "corner_contact = false");
     if (error > mesh.next_corner_gap) return false;
   }
+  give();
+  const int strips = positions_[0].mesh.strips();
+  state.p = p.head(strips);
+  state.d = d.head(strips);
   return true;
-}
-
-// One step of the ledger. With d = e - h z + U + A p and p . d = 0 at both ends, (p_n + p_n+1)/2 . (d_n+1 - d_n) is the
-// switching line, and what the mean forces do on modes, lag and half-planes follows term by term; products of an old
-// force with a new shape are the work of the rolling. A pair that a corner rule takes out under load keeps its last
-// geometry for the step, one that it lets in has its first: the gap there is the cutting line.
-void RollingDynamics::record_step(const Instant& before, const Instant& after, double& balance,
-                                  Ledger& ledger) const {
-  // Gauss-Legendre on (0, 1): six points leave 1e-12 of what decays by exp(-1) in a step.
-  static constexpr int kPoints = 6;
-  static constexpr double kNode[kPoints] = {0.033765242898423975, 0.16939530676686776, 0.3806904069584015,
-                                            0.6193095930415985,   0.8306046932331322,  0.966234757101576};
-  static constexpr double kWeight[kPoints] = {0.08566224618958487, 0.18038078652406947, 0.23395696728634569,
-                                              0.23395696728634569, 0.18038078652406947, 0.08566224618958487};
-  const State &a = before.state, &b = after.state;
-  const MeshPosition &old_mesh = before.position->mesh, &new_mesh = after.position->mesh;
-  double rolling = 0, switching = 0, cutting = 0;
-  double storage = 0.5 * (b.p.dot(after.position->local * b.p) - a.p.dot(before.position->local * a.p));
-
-  // Displacements that the lagged loads of one instant cause under the loads of a pair at the other.
-  std::array<MatrixXd, 2> old_field, new_field;  // R (lagged loads), (flank, pair)
-  for (int g = 0; g < 2; ++g) {
-    old_field[g] = (residual_[g] * a.lag[g].reshaped()).reshaped(a.lag[g].rows(), a.lag[g].cols());
-    new_field[g] = (residual_[g] * b.lag[g].reshaped()).reshaped(b.lag[g].rows(), b.lag[g].cols());
-  }
-  const auto under = [&](const State& loads, const std::array<MatrixXd, 2>& field, int pair) {
-    double work = 0;
-    for (int g = 0; g < 2; ++g) work += loads.load[g].col(pair + reach_).dot(field[g].col(pair + reach_));
-    return work;
-  };
-  const auto strips = [](const MeshPosition& mesh, size_t j) {
-    return Eigen::seqN(mesh.first_strip[j], mesh.pairs[j].size());
-  };
-  const auto half_plane = [&](const Instant& at, size_t j, const VectorXd& left, const VectorXd& right) {
-    const auto own = strips(at.position->mesh, j);
-    return left.dot(at.position->local(own, own) * right);
-  };
-  std::vector<bool> met(new_mesh.pairs.size(), false);
-  for (size_t i = 0; i < old_mesh.pairs.size(); ++i) {
-    const int pair = old_mesh.pairs[i].pair + before.renamed;
-    const VectorXd p0 = a.p(strips(old_mesh, i));
-    size_t j = 0;
-    while (j < new_mesh.pairs.size() && new_mesh.pairs[j].pair != pair) ++j;
-    if (j == new_mesh.pairs.size()) {
-      cutting += 0.5 * (p0.dot(old_mesh.gap(strips(old_mesh, i))) - before.pair_force.col(i).dot(b.z));
-      if (std::abs(pair) <= reach_) cutting += 0.5 * under(a, new_field, pair);
-      continue;
-    }
-    met[j] = true;
-    const VectorXd p1 = b.p(strips(new_mesh, j));
-    switching += 0.5 * (p0.dot(b.d(strips(new_mesh, j))) - p1.dot(a.d(strips(old_mesh, i))));
-    rolling -= 0.5 * (p0 + p1).dot(new_mesh.gap(strips(new_mesh, j)) - old_mesh.gap(strips(old_mesh, i)));
-    rolling += 0.5 * (p0.dot(after.modal(strips(new_mesh, j))) - p1.dot(before.modal(strips(old_mesh, i))) +
-                      after.pair_force.col(j).dot(a.z) - before.pair_force.col(i).dot(b.z));
-    rolling -= 0.5 * (p0.dot(after.lagged(strips(new_mesh, j))) - p1.dot(before.lagged(strips(old_mesh, i))) +
-                      under(b, old_field, pair) - under(a, new_field, pair));
-    rolling -= 0.5 * (half_plane(after, j, p0, p1) - half_plane(before, i, p0, p1));
-  }
-  for (size_t j = 0; j < new_mesh.pairs.size(); ++j)
-    if (!met[j])
-      cutting -= 0.5 * (b.p(strips(new_mesh, j)).dot(new_mesh.gap(strips(new_mesh, j))) -
-                        after.pair_force.col(j).dot(a.z) + under(b, old_field, new_mesh.pairs[j].pair));
-
-  // Modes: force = torque - h^T p.
-  const double torque = torque_force_.dot(b.z - a.z);
-  double modal_damping = 0;
-  for (int c = 0; c < a.z.size(); ++c) {
-    const double w2 = frequency_squared_[c], mean = 0.5 * (a.force[c] + b.force[c]);
-    storage += 0.5 * (b.v[c] * b.v[c] - a.v[c] * a.v[c] + w2 * (b.z[c] * b.z[c] - a.z[c] * a.z[c]));
-    if (parameters_.fidelity.integrator == "newmark") {
-      const double v = 0.5 * (a.v[c] + b.v[c]);  // the trapezoidal rule's own velocity
-      modal_damping += coordinates_[c].damping * step_ * v * v;
-    } else {
-      for (int k = 0; k < kPoints; ++k) {
-        const Propagator part =
-            exact_propagator(coordinates_[c].frequency, coordinates_[c].damping, kNode[k] * step_);
-        const double v = part.a21 * a.z[c] + part.a22 * a.v[c] + part.bv * mean;
-        modal_damping += coordinates_[c].damping * step_ * kWeight[k] * v * v;
-      }
-    }
-  }
-
-  // Residual flexibility: eta G' + G = g, energy G R G / 2, dissipation eta G' R G', g linear in the step.
-  const double eta = parameters_.fidelity.body == "quasi-static" ? 0 : parameters_.damping.rayleigh_stiffness;
-  double lag_damping = 0, averaging = 0;
-  for (int g = 0; g < 2; ++g) {
-    const MatrixXd& r = residual_[g];
-    const VectorXd lag0 = a.lag[g].reshaped(), lag1 = b.lag[g].reshaped();
-    const VectorXd load0 = a.load[g].reshaped(), load1 = b.load[g].reshaped();
-    storage += 0.5 * (lag1.dot(new_field[g].reshaped()) - lag0.dot(old_field[g].reshaped()));
-    double exact = 0;
-    if (eta > 0) {
-      for (int k = 0; k < kPoints; ++k) {
-        const Lag part = lag_step(eta, kNode[k] * step_);
-        const VectorXd load = load0 + kNode[k] * (load1 - load0);
-        const VectorXd rate = (load - part.decay * lag0 - part.from_old * load0 - part.from_new * load) / eta;
-        const VectorXd moved = r * rate;
-        exact += step_ * kWeight[k] * load.dot(moved);
-        lag_damping += eta * step_ * kWeight[k] * rate.dot(moved);
-      }
-    } else {
-      exact = 0.5 * (load0 + load1).dot(r * (load1 - load0));
-    }
-    averaging += 0.5 * (load0 + load1).dot((new_field[g] - old_field[g]).reshaped()) - exact;
-  }
-
-  ledger.storage += storage;
-  ledger.torque += torque;
-  ledger.rolling += rolling;
-  ledger.modal_damping += modal_damping;
-  ledger.lag_damping += lag_damping;
-  ledger.switching += switching;
-  ledger.cutting += cutting;
-  ledger.averaging += averaging;
-  ledger.throughput += std::abs(torque) + std::abs(rolling);
-  balance += storage + modal_damping + lag_damping - torque - rolling - switching - cutting + averaging;
-  ledger.imbalance = std::max(ledger.imbalance, std::abs(balance));
 }
 
 }  // namespace whine

@@ -6,16 +6,19 @@
 // out;
 // - per gear the elastic modes. Those with zero diameters couple with the hub rotation through gamma and are
 //   diagonalised with it: M0 = [[I, gamma^T], [gamma, 1]], K0 = diag(0, w^2);
-// - what the modes leave of the flanks' flexibility relaxes with the Rayleigh time: eta U' + U = R p. Every
-// truncated
-//   mode has the same time, so the loads on the flank tables are relaxed instead and U = R (lagged loads).
+// - what the modes leave of the flanks' flexibility relaxes with the Rayleigh time: eta U' + U = R p. Every truncated
+//   mode has the same time, so loads are relaxed instead and U = R (lagged loads). A tooth carries them in a few
+//   fields V of its flank table, those that hold all of R that is worth a memory; R - V V^T R V V^T follows at once.
 // Gap of a strip: d = e - h z + U + A_local p >= 0 with p >= 0, p . d = 0 at the end of each step (Eq. 18).
+//
+// All that a step streams lies packed by position, in columns of whole lanes; steps allocate nothing.
 #pragma once
 #include <Eigen/Core>
 #include <array>
 #include <vector>
 
 #include "files/schemas.h"
+#include "motion/ledger.h"
 #include "motion/propagator.h"
 #include "motion/rolling_mesh.h"
 
@@ -40,7 +43,7 @@ class RollingDynamics {
     Eigen::VectorXd force;  // (coordinate) contact and torque at this instant
     Eigen::VectorXd p, d;   // (strip) N, m: at the phase of this instant
     std::array<Eigen::MatrixXd, 2> lag,
-        load;  // (flank, pair) N: lagged and present loads on the flank tables
+        load;  // (field, pair) N: lagged and present loads of the lagged fields
   };
   // What one mesh period showed, sampled at each step: sample i at phase i / steps.
   struct Period {
@@ -51,24 +54,6 @@ class RollingDynamics {
     int fallbacks = 0;                      // steps that block pivoting alone could not solve
   };
 
-  // Where the energy goes, J, summed over the steps of a period. Every line is computed by itself, none as
-  // what is left of the others. With mean forces p' = (p_n + p_n+1)/2:
-  //   d(storage) + modal_damping + lag_damping = torque + rolling + switching + cutting - averaging.
-  struct Ledger {
-    double storage = 0;  // change of kinetic, modal, half-plane and residual energy
-    double torque = 0;   // work of the constant torques on the vibration
-    double rolling =
-        0;  // work of the prescribed rolling: gaps, participation and compliance change with phase
-    double modal_damping = 0;  // Rayleigh and bearing dampers of the kept coordinates, by quadrature of v^2
-    double lag_damping = 0;    // of the residual flexibility, by quadrature
-    // The scheme's own: strips that open or close within a step, (p_n d_n+1 - p_n+1 d_n) / 2.
-    double switching = 0;
-    double cutting = 0;     // pairs that a corner rule takes out, or lets in, while they carry force
-    double averaging = 0;   // the scheme's own: mean load times change of the lag, less the exact work
-    double throughput = 0;  // sum of |torque| + |rolling| per step
-    double imbalance = 0;   // largest |sum of the imbalance so far|
-  };
-
   // Builds the strips at `steps` phases; keeps nothing of an earlier range.
   void set_range(const ContactRange& range, int steps);
   // mesh frequency: Hz; steps per period must divide the steps of the range.
@@ -76,8 +61,8 @@ class RollingDynamics {
   // Static equilibrium at phase 0, at rest.
   State rest();
   // Marches one mesh period and renames teeth, so that the state can be compared with the one before.
-  // False if contact wanted more than the range holds; the state is then spoiled. A ledger costs several
-  // times the march itself.
+  // False if contact wanted more than the range holds; the state is then spoiled. With a ledger a step costs several
+  // times as much.
   bool march(State& state, Period& period, Ledger* ledger = nullptr);
   // Lowest natural frequency, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
   // the range): undamped, the residual flexibility follows at once.
@@ -111,22 +96,45 @@ class RollingDynamics {
   };
   struct Position {
     MeshPosition mesh;
-    Eigen::MatrixXd local;                   // (strip, strip)
-    Eigen::MatrixXd participation;           // (node, coordinate)
-    Eigen::MatrixXd residual;                // (node, node): S R S^T of both gears
-    std::array<Eigen::MatrixXd, 2> reading;  // (node, flank x pair): S R
-    Eigen::VectorXd drift_lever;             // (node) 1: a1 / r1 - a2 / r2
+    Eigen::MatrixXd local;                        // (strip, strip): all that follows at once
+    Eigen::MatrixXd participation;                // (node, coordinate)
+    Eigen::MatrixXd lagged;                       // (node, node): of both gears, when nothing moves
+    std::array<Eigen::MatrixXd, 2> field_weight;  // (node, field)
+    std::vector<double> drift_lever;              // (pair) 1: a1 / r1 - a2 / r2
+    // In stream_: columns of nodes stand 8 a pair, those of fields and coordinates have whole lanes.
+    size_t gap = 0;                            // (strip)
+    size_t shape = 0;                          // (node, coordinate)
+    std::vector<size_t> interpolation;         // per pair (strip of the pair, node of the pair)
+    std::array<std::vector<size_t>, 2> field;  // per pair (node of the pair, field)
   };
-  struct Instant {  // what the ledger keeps of a step, per pair and strip in the order of mesh.pairs
+  struct SpeedCoefficients {  // one number per coordinate, in whole lanes
+    Eigen::VectorXd a11, a12, a21, a22, bq, bv;
+  };
+  // What the ledger keeps of an instant, per pair and strip in the order of mesh.pairs.
+  struct Instant {
     const Position* position = nullptr;
     int renamed = 0;  // added to its pair numbers since
     State state;
-    Eigen::VectorXd modal, lagged;  // (strip) m: h z, U
-    Eigen::MatrixXd pair_force;     // (coordinate, pair) h^T p of each pair
+    Eigen::VectorXd modal, lagged;         // (strip) m: h z, U
+    Eigen::MatrixXd pair_force;            // (coordinate, pair) h^T p of each pair
+    std::array<Eigen::MatrixXd, 2> field;  // (field, pair) m: displacement that the lagged loads cause
   };
-  Instant instant(const Position& position, const State& state) const;
+  // Integrals over one step that the ledger's dampers need, by coordinate and for the lag.
+  struct DampingIntegrals {
+    Eigen::VectorXd speed, mixed, push;  // of a22^2, a22 s, s^2, v = a22 v0 + s (mean force - w^2 z0)
+    double decay2 = 0, mixed2 = 0,
+           growth2 = 0;  // of (a, b): load - lag = a (load0 - lag0) + b (load1 - load0)
+    double decay = 0, growth = 0, late_decay = 0, late_growth = 0;  // of a, b, t a, t b
+  };
+  void fill(Instant& now, const Position& position, const State& state) const;
+  void rename(Instant& instant) const;
   void turn_doublets(Eigen::Ref<Eigen::VectorXd> y) const;
   void record_step(const Instant& before, const Instant& after, double& balance, Ledger& ledger) const;
+  DampingIntegrals damping_integrals() const;
+  double relaxation() const {  // s, of the lagged flexibility
+    return parameters_.fidelity.body == "quasi-static" ? 0 : parameters_.damping.rayleigh_stiffness;
+  }
+  void pack();
   void add_modes(int g, const std::vector<int>& columns);
   Eigen::VectorXd flexibility() const;  // (coordinate) s2: 1 / w^2, 0 for the rigid rotation
   Eigen::MatrixXd static_compliance(const Position& position) const;
@@ -139,11 +147,14 @@ class RollingDynamics {
   double rigid_frequency_ = 0;  // rad s-1: sqrt(mean stiffness / reduced mass)
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;
+  std::vector<double> stream_;
   std::vector<Step> step_data_;
-  std::vector<Propagator> propagators_;
+  SpeedCoefficients speed_;
+  DampingIntegrals damping_;
   Lag lag_{};
   double step_ = 0;                          // s
-  std::array<Eigen::MatrixXd, 2> residual_;  // (flank x pair, flank x pair) m N-1
+  std::array<Eigen::MatrixXd, 2> fields_;    // (flank, field) V, orthonormal
+  std::array<Eigen::MatrixXd, 2> coupling_;  // (field x pair, field x pair) m N-1
   double static_deflection_ = 0, energy_scale_ = 1;
   ComplementaritySolver solver_;
 };

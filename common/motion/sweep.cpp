@@ -129,7 +129,7 @@ class Sweeper {
         steady.multiple = multiple;
         steady.periods = n;
         steady.residual = change[std::max(multiple, 1)];
-        RollingDynamics::Ledger ledger;
+        Ledger ledger;
         for (int k = 0; k < stored; ++k) {
           if (!dynamics_.march(state_, period, &ledger)) return std::nullopt;
           steady.record.push_back(period);
