@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 
@@ -65,6 +66,7 @@ void ComplementaritySolver::reserve(int n) {
   wrong_.reserve(n);
   next_.reserve(n);
   factor_.reserve(n);
+  grown_.reserve(n);
   for (VectorXd* v : {&right_, &p_active_, &work_, &reciprocal_, &force_, &target_}) v->setZero(padded(n));
 }
 
@@ -114,11 +116,72 @@ void ComplementaritySolver::factorise(const Matrix& a, ActiveSet& active) {
        " m/N: the body's table is wrong or strips coincide with different gaps");
 }
 
+// An active set from nothing: Cholesky of A whose next pivot is the strip with the least gap, until no gap is
+// negative or the pivot is round-off. The rows of L below the set carry the gaps of all strips along. Ends with the
+// inverse, which the next problem with this A needs anyway.
+void ComplementaritySolver::grow(const Matrix& a, const Vector& e, ActiveSet& active) {
+  constexpr double kLeastPivot = 1e-10;  // of the diagonal
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const int n = static_cast<int>(e.size()), end = padded(n);
+  const double tolerance = 1e-12 * scale_;
+  double *gap = target_.data(), *row = work_.data();
+  std::copy(e.data(), e.data() + n, gap);
+  std::fill(gap + n, gap + end, kInfinity);
+  active.shifted = false;
+  active.updates = 0;
+  int k = 0;
+  for (; k < n; ++k) {
+    Lanes least = *reinterpret_cast<const Lanes*>(gap);
+    for (int i = kLanes; i < end; i += kLanes) {
+      const Lanes other = *reinterpret_cast<const Lanes*>(gap + i);
+      least = other < least ? other : least;
+    }
+    const double value = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+    if (!(value < -tolerance)) break;
+    const int strip = static_cast<int>(std::find(gap, gap + n, value) - gap);
+    double* column = grown_.column(k);
+    std::copy(a.data() + strip * a.outerStride(), a.data() + strip * a.outerStride() + n, column);
+    std::fill(column + n, column + end, 0.0);
+    for (int j = 0; j < k; ++j) row[j] = -grown_.column(j)[strip];
+    add_columns(column, grown_.column(0), grown_.stride(), row, k, 0, end);
+    const double pivot = column[strip];
+    if (!(pivot > kLeastPivot * a(strip, strip))) break;
+    const double scale = reciprocal_[k] = 1 / std::sqrt(pivot), step = -value * scale;
+    for (int i = 0; i < end; i += kLanes) {
+      Lanes& l = *reinterpret_cast<Lanes*>(column + i);
+      l *= scale;
+      *reinterpret_cast<Lanes*>(gap + i) += step * l;
+    }
+    gap[strip] = kInfinity;
+    for (int j = 0; j < k; ++j) factor_.column(j)[k] = -row[j];
+    std::fill(factor_.column(k), factor_.column(k) + end, 0.0);
+    factor_.column(k)[k] = pivot * scale;
+    active.strips.push_back(strip);
+  }
+  factor_.resize(k);
+  invert(grown_);
+
+  // From the order of the pivots to that of the strips.
+  std::vector<int>&strips = active.strips, &rank = next_;
+  wrong_.assign(n, 0);
+  for (int strip : strips) wrong_[strip] = 1;
+  std::exclusive_scan(wrong_.begin(), wrong_.end(), wrong_.begin(), 0);
+  rank.clear();
+  for (int strip : strips) rank.push_back(wrong_[strip]);
+  active.inverse.resize(k);
+  for (int j = 0; j < k; ++j) {
+    const double* from = grown_.column(j);
+    double* to = active.inverse.column(rank[j]);
+    for (int i = 0; i < k; ++i) to[rank[i]] = from[i];
+  }
+  std::sort(strips.begin(), strips.end());
+  active.known = true;
+}
+
 // The inverse B of the set from its factor: B L = L^-T, whose lower triangle is 1 / L_jj on the diagonal, gives
 // the columns of B from the last to the first.
-void ComplementaritySolver::invert(ActiveSet& active) {
+void ComplementaritySolver::invert(GrowingMatrix& b) {
   const int k = factor_.rows(), end = padded(k);
-  GrowingMatrix& b = active.inverse;
   b.resize(k);
   double* f = work_.data();
   for (int j = k - 1; j >= 0; --j) {
@@ -132,7 +195,6 @@ void ComplementaritySolver::invert(ActiveSet& active) {
     column[j] = scale * (scale - dot(column, l, first, end));
     for (int i = j + 1; i < k; ++i) b.column(i)[j] = column[i];
   }
-  active.known = true;
 }
 
 // From the kept inverse B of active.strips to that of next_, one strip at a time:
@@ -310,6 +372,11 @@ Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, Activ
   scale_ = n > 0 ? e.cwiseAbs().maxCoeff() : 0.0;
   Certificate certificate;
   factored_ = false;
+  if (static_cast<int>(active.strips.size()) != active.inverse.rows()) active.known = false;
+  if (!active.known && active.strips.empty()) {
+    grow(a, e, active);
+    ++certificate.factorisations;
+  }
   bool rebuild = !active.known;
   if (active.known) {
     if (attempt(a, e, active, p, d, certificate)) return certificate;
@@ -339,7 +406,7 @@ Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, Activ
       }
       rebuild = false;
       if (solved) {
-        if (factored_) invert(active);
+        if (factored_) invert(active.inverse), active.known = true;
         return certificate;
       }
     }
@@ -364,7 +431,8 @@ Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, Activ
     fail(Failure::numerical, "the contact problem of ", n, " strips has no certified solution: least gap ",
          certificate.least_gap, " m, least force ", certificate.least_force,
          " N, largest gap of a strip with force ", defect_, " m, tolerance of gaps ", gap_tolerance_, " m");
-  invert(active);
+  invert(active.inverse);
+  active.known = true;
   return certificate;
 }
 

@@ -3,9 +3,11 @@
 //
 // Block principal pivoting (Judice and Pires; Portugal, Judice and Vicente, Math. Comp. 63 (1994) 625) from a
 // guessed active set; when its block steps stop paying, least-index steps; if even they take too long, Lawson
-// and Hanson's non-negative least squares on the same matrix, whose objective falls with every step. An
-// active set that was right before is kept with the inverse of its block, so that a problem whose contact
-// pattern repeats costs one matrix-vector product and a check; strips that come or go border the inverse.
+// and Hanson's non-negative least squares on the same matrix, whose objective falls with every step. Without a
+// guess the set first grows with its Cholesky factor, each time by the strip that penetrates most; on contact
+// patches nothing is left to pivot then. An active set that was right before is kept with the inverse of its
+// block, so that a problem whose contact pattern repeats costs one matrix-vector product and a check; strips
+// that come or go border the inverse.
 //
 // Memory is taken when the number of strips grows, never afterwards.
 #pragma once
@@ -82,7 +84,8 @@ class ComplementaritySolver {
   using Result = Eigen::Ref<Eigen::VectorXd>;
   void reserve(int n);
   void factorise(const Matrix& a, ActiveSet& active);
-  void invert(ActiveSet& active);
+  void grow(const Matrix& a, const Vector& e, ActiveSet& active);
+  void invert(GrowingMatrix& inverse);
   bool border(const Matrix& a, ActiveSet& active);
   void list(std::vector<int>& strips) const;
   void apply(const ActiveSet& active, const double* right, double* result);
@@ -96,6 +99,7 @@ class ComplementaritySolver {
   std::vector<int> wrong_;                   // indices that break a sign
   std::vector<int> next_;                    // the set that `border` goes to
   GrowingMatrix factor_;                     // L of A = L L^T on the set
+  GrowingMatrix grown_;                      // its rows for all strips, in `grow`
   Eigen::VectorXd reciprocal_;               // 1 / L_jj
   Eigen::VectorXd right_, p_active_, work_;  // (n, padded)
   Eigen::VectorXd force_, target_;           // (n) of Lawson-Hanson
