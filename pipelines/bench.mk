@@ -1,8 +1,8 @@
 # Speed beside other people's programs, which nothing else needs.
 #
-#   make deps-bench bench     a table on standard output; without Siconos its columns are left out
+#   make deps-bench bench     tables on standard output; without Siconos or CalculiX their columns are left out
 
-bench_packages := libsiconos-numerics-dev
+bench_packages := libsiconos-numerics-dev calculix-ccx
 # Recursive: `deps-bench` may bring it in the same run.
 bench_siconos = $(if $(shell ls /usr/include/siconos/numerics/lcp_cst.h 2>/dev/null),$1)
 
@@ -14,11 +14,11 @@ deps-bench: | $(with_deps) ## install the packages that only `bench` and the tes
 with_deps_bench := $(with_deps) $(filter deps-bench,$(goals))
 
 # Compiled in every run (seconds), so that it sees whether Siconos has come or gone.
-$(B)/bin/whine-bench: tests/bench/bench.cpp tests/peer/lemke.h $(rooms:%=$(B)/lib/lib%.a) FORCE | $(B)/bin/ $(with_deps_bench)
+$(B)/bin/whine-bench: tests/bench/bench.cpp tests/bench/calculix.h tests/peer/lemke.h $(rooms:%=$(B)/lib/lib%.a) FORCE | $(B)/bin/ $(with_deps_bench)
 	$(CXX) $(CPPFLAGS) $(if $(call bench_siconos,x),-isystem /usr/include/siconos -isystem /usr/include/siconos/numerics) \
 	  $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS) $(call bench_siconos,-lsiconos_numerics)
 
 .PHONY: bench
-bench: $(B)/bin/whine-bench $(call pair_bodies,$(paper_scene)) ## solves per second, beside Siconos if `deps-bench` has installed it
+bench: $(B)/bin/whine-bench $(call pair_bodies,$(paper_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
 	@$< --params out/$(paper_scene)/params/static.toml --torque 150 \
 	  --driver out/$(paper_scene)/pinion/body.h5 --driven out/$(paper_scene)/wheel/body.h5

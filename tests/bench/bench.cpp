@@ -1,5 +1,6 @@
-// Times complementarity and static solves. Methods take turns within each repeat, so that a slow spell of the machine
-// hits all of them; minimum and median over the repeats. A time stands beside the error at which it was reached.
+// Times complementarity, static positions and reductions. Methods take turns within each repeat, so that a slow spell of
+// the machine hits all of them; minimum and median over the repeats. What takes seconds is run once, by its CPU time. A
+// time stands beside the error at which it was reached.
 //
 // Reads   optionally params and two body.h5 for the static position; writes a table on standard output.
 // Example: whine-bench --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
@@ -9,15 +10,20 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/tool.h"
+#include "calculix.h"
 #include "contact/complementarity.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "motion/rolling_mesh.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
 #if __has_include(<siconos/numerics/lcp_cst.h>)
 #include "../peer/lemke.h"
 #define WHINE_HAS_SICONOS 1
@@ -29,6 +35,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kRepeats = 21;
+constexpr double kPhase = 0.25;  // two pairs of teeth in contact
 
 struct Times {
   double least = 0, median = 0;  // s per solve
@@ -142,11 +149,72 @@ void complementarity(int n) {
   std::printf("\n");
 }
 
-void static_position(const std::string& params, const std::string& driver, const std::string& driven,
-                     double torque) {
+// A body reduced in a process of its own, so that its peak of memory is its own.
+struct Reduction {
+  double compliance = 0;  // m N-1: at the pitch point, half-plane to 1 mm included
+  int nodes = 0;          // of a sector
+  whine::Usage usage;     // mesh and reduction
+};
+Reduction reduce_apart(const whine::BodyArtifact& like, double element_size) {
   using namespace whine;
-  const StaticSlice slice = read_static_slice(params);
-  const GearMeshModel model(read_body(driver), read_body(driven), slice.mesh);
+  int ends[2];
+  if (pipe(ends) != 0) fail(Failure::io, "no pipe to a child process");
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    try {
+      BodyDiscretisation discretisation = like.discretisation;
+      discretisation.element_size = element_size;
+      const MeshArtifact mesh = make_sector_mesh(like.design, discretisation);
+      const BodyArtifact body = reduce(mesh, like.material, discretisation.modes);
+      const ElasticGear gear(body);
+      const ToothGeometry tooth(body.design);
+      const auto weights = gear.table().weights(tooth.roll_angle_at_radius(tooth.pitch_radius()));
+      const double values[2] = {weights.dot(gear.compliance(0, 1e-3) * weights.transpose()),
+                                double(mesh.node_position.rows())};
+      _exit(write(ends[1], values, sizeof values) == sizeof values ? 0 : 1);
+    } catch (const std::exception& error) {
+      tell("reduction at ", element_size * 1e3, " mm: ", error.what());
+    }
+    _exit(1);
+  }
+  close(ends[1]);
+  double values[2] = {};
+  const bool whole = read(ends[0], values, sizeof values) == sizeof values;
+  close(ends[0]);
+  Reduction result;
+  result.usage = wait_for(child, text("the reduction with elements of ", element_size * 1e3, " mm"));
+  if (!whole) fail(Failure::io, "a reduction handed back no result");
+  result.compliance = values[0];
+  result.nodes = static_cast<int>(values[1]);
+  return result;
+}
+
+void reductions(const whine::BodyArtifact& body) {
+  constexpr double kElements[] = {0.8e-3, 0.4e-3, 0.2e-3, 0.1e-3};
+  std::vector<Reduction> results;
+  for (double element : kElements) results.push_back(reduce_apart(body, element));
+  std::printf("Mesh and reduction of one gear (%d teeth, order %d), in a process each\n", body.design.teeth,
+              body.discretisation.element_order);
+  std::printf("  %10s %14s %8s %8s %28s\n", "element mm", "nodes a sector", "CPU s", "peak MB",
+              "compliance at the pitch point");
+  for (size_t i = 0; i < results.size(); ++i) {
+    std::printf("  %10g %14d %8.2f %8.0f ", kElements[i] * 1e3, results[i].nodes, results[i].usage.seconds,
+                results[i].usage.megabytes);
+    if (i + 1 < results.size())
+      std::printf("%20.1e off\n", results[i].compliance / results.back().compliance - 1);
+    else
+      std::printf("%15.5e m/N\n", results[i].compliance);
+  }
+}
+
+struct PositionTimes {
+  Times warm, cold, cold_with_compliance;
+  whine::Equilibrium rest;
+};
+PositionTimes static_position(const whine::GearMeshModel& model, const whine::StaticSlice& slice,
+                              double torque, const char* what) {
+  using namespace whine;
   const double load = torque / model.kinematics.gear(0).base_radius(), depth = 1e-3;
   const ContactRange range = contact_range(
       model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), slice.contact.strips,
@@ -166,40 +234,82 @@ void static_position(const std::string& params, const std::string& driver, const
   };
   MeshPosition position;
   MatrixXd a;
-  prepare(0.25, position, a);
+  prepare(kPhase, position, a);
   const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
   const auto rest = [&](double force, double start) {
     const Equilibrium e = equilibrium(a, position.gap, approach, force, start, active, solver);
     residual = std::max({residual, e.residual, e.certificate.residual});
-    return e.x;
+    return e;
   };
   constexpr int kCount = 200;
-  const std::vector<Times> times = take_turns({[&] {
-                                                 for (int i = 0; i < kCount; ++i)
-                                                   warm_start = rest(load * (1 + 0.01 * (i % 2)), warm_start);
-                                               },
-                                               [&] {
-                                                 for (int i = 0; i < kCount; ++i)
-                                                   active = ActiveSet(), rest(load, 0);
-                                               },
-                                               [&] {
-                                                 for (int i = 0; i < kCount; ++i)
-                                                   prepare(0.25, position, a), active = ActiveSet(),
-                                                                               rest(load, 0);
-                                               }},
-                                              {kCount, kCount, kCount});
+  const std::vector<Times> times =
+      take_turns({[&] {
+                    for (int i = 0; i < kCount; ++i)
+                      warm_start = rest(load * (1 + 0.01 * (i % 2)), warm_start).x;
+                  },
+                  [&] {
+                    for (int i = 0; i < kCount; ++i) active = ActiveSet(), rest(load, 0);
+                  },
+                  [&] {
+                    for (int i = 0; i < kCount; ++i)
+                      prepare(kPhase, position, a), active = ActiveSet(), rest(load, 0);
+                  }},
+                 {kCount, kCount, kCount});
   const char* names[] = {"warm, 1 % other load", "cold", "cold, with its compliance"};
-  std::printf("Static solves at one position: %s, %g N m, %d strips; microseconds\n", params.c_str(), torque,
+  std::printf("Static solves at mesh phase %g, %s: %g N m, %d strips; microseconds\n", kPhase, what, torque,
               position.strips());
   std::printf("  %-26s %10s %10s %12s\n", "", "minimum", "median", "per second");
   for (int m = 0; m < 3; ++m)
     std::printf("  %-26s %10.2f %10.2f %12.0f\n", names[m], times[m].least * 1e6, times[m].median * 1e6,
                 1 / times[m].median);
   std::printf("  largest residual of load and contact %.1e\n", residual);
+  active = ActiveSet();
+  return {times[0], times[1], times[2], rest(load, 0)};
+}
+
+// The same position by CalculiX, in plane strain: its elements in plane stress change their thickness.
+void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+                     const whine::StaticSlice& slice, double torque) {
+  using namespace whine;
+  constexpr double kElement = 0.06e-3;  // m, where the flanks touch
+  if (driver.material.youngs_modulus != driven.material.youngs_modulus ||
+      driver.material.poisson_ratio != driven.material.poisson_ratio)
+    fail(Failure::input, "the gears are of different materials; the comparison with CalculiX knows one");
+  double reduction = std::numeric_limits<double>::infinity();  // s of CPU
+  const auto in_plane_strain = [&](const BodyArtifact& body) {
+    const std::clock_t start = std::clock();
+    Material material = body.material;
+    material.plane_stress = false;
+    const BodyArtifact result =
+        reduce(make_sector_mesh(body.design, body.discretisation), material, body.discretisation.modes);
+    reduction = std::min(reduction, double(std::clock() - start) / CLOCKS_PER_SEC);
+    return result;
+  };
+  const GearMeshModel model(in_plane_strain(driver), in_plane_strain(driven), slice.mesh);
+  const PositionTimes whine = static_position(model, slice, torque, "plane strain");
+  std::printf("The same position by CalculiX\n");
+  if (!CalculixPair::installed()) {
+    std::printf("  (no CalculiX to compare with: make deps-bench)\n");
+    return;
+  }
+  const double base_radius = model.kinematics.gear(0).base_radius();
+  const CalculixPosition peer =
+      CalculixPair(model.kinematics, driver.material, kPhase, kElement).solve(whine.rest.x / base_radius);
+  const double off = (torque - peer.torque) / base_radius / whine.rest.stiffness / whine.rest.x;
+  std::printf("  both gears whole, %d nodes of quadratic triangles, %g mm where the flanks touch\n",
+              peer.nodes, kElement * 1e3);
+  std::printf("  CPU %.1f s, peak %.0f MB\n", peer.usage.seconds, peer.usage.megabytes);
+  std::printf("  transmission error: Whine %.4f micrometres, CalculiX %+.3f %%\n", whine.rest.x * 1e6,
+              100 * off);
+  std::printf("  its CPU over Whine's: %.1e warm, %.1e cold, %.1e cold with its compliance\n",
+              peer.usage.seconds / whine.warm.least, peer.usage.seconds / whine.cold.least,
+              peer.usage.seconds / whine.cold_with_compliance.least);
+  std::printf("  mesh and reduction of one gear take %.2f s of CPU, %.2f of this\n", reduction,
+              reduction / peer.usage.seconds);
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Times complementarity and static solves", "whine-bench"};
+  CLI::App app{"Times complementarity, static positions and reductions", "whine-bench"};
   std::string params, driver, driven, torque = "150";
   CLI::Option* slice =
       app.add_option("--params", params, "slice of the scene: out/<scene>/params/static.toml");
@@ -220,7 +330,13 @@ void body(int argc, char** argv) {
 #endif
   std::printf("\n");
   for (int n : {10, 20, 40, 80}) complementarity(n);
-  if (!params.empty()) static_position(params, driver, driven, whine::number_option("--torque", torque));
+  if (params.empty()) return;
+  const double load = whine::number_option("--torque", torque);
+  const whine::StaticSlice read = whine::read_static_slice(params);
+  const whine::BodyArtifact driving = whine::read_body(driver), following = whine::read_body(driven);
+  static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, params.c_str());
+  reductions(driving);
+  beside_calculix(driving, following, read, load);
 }
 
 }  // namespace
