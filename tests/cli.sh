@@ -89,6 +89,7 @@ at_torque=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}"
 for torque in ten nan inf 0x10 '' '100 ' 1e999; do
   refused "a torque of '$torque', which is no finite number" 2 "torque.*'$torque'" "${at_torque[@]}" "$torque"; done
 refused "a torque below zero" 3 'torque' "${at_torque[@]}" -5
+refused "a torque whose contact leaves the flanks" 1 '400000 N m contact leaves the flanks: window [0-9.]+ mm' "${at_torque[@]}" 400000
 sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
   wrong "the table of keys in README.md is up to date" "put the output of $B/bin/gear-scene --keys there: $(head -n 2 said | tr '\n' '|')"; fi
@@ -115,6 +116,8 @@ a step of zero|'step' must be greater than 0|s/step = [0-9]*/step = 0/
 a torque of zero|torque_Nm|s/^torque_Nm = .*/torque_Nm = [0]/
 a list without torques|torque_Nm|s/^torque_Nm = .*/torque_Nm = []/
 half a tooth|teeth|s/^teeth = 50/teeth = 50.5/
+a near field that is none|'near_field'.*must be one of: subtraction, matching|s/^\[discretisation\]/[discretisation]\nnear_field = "penalty"/
+a matching depth of zero|matching_depth_mm|s/^\[discretisation\]/[discretisation]\nmatching_depth_mm = 0/
 speeds that go down|mesh_frequency_Hz|s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 4000, to = 600, step = 20 }/
 a material that is not there|stell|s/^material = "steel"/material = "stell"/
 a gear that is not there|gear|s/^driven = "wheel"/driven = "wheell"/
@@ -157,6 +160,18 @@ impossible "an inertia below the body's" 'inertia' 's/^total_inertia_kgm2 = .*/t
 impossible "a bore above the root" 'bore' 's/^bore_radius_mm = .*/bore_radius_mm = 74.0/'
 impossible "an undercut flank" 'undercut' 's/^teeth = 50/teeth = 8/; s/^bore_radius_mm = .*/bore_radius_mm = 4.0/; s/^centre_distance_mm = .*/centre_distance_mm = 24.0/'
 impossible "a pointed tooth" 'tip' 's/^addendum = 1.0/addendum = 2.5/; s/^dedendum = .*/dedendum = 3.0/; s/^bore_radius_mm = .*/bore_radius_mm = 30.0/; s/^rack_tip_radius = .*/rack_tip_radius = 0.05/'
+
+impossible "a matching depth beyond the tooth" 'matching_depth_mm = 6 leaves the tooth: [0-9.]+ mm below' 's/^\[discretisation\]/[discretisation]\nnear_field = "matching"\nmatching_depth_mm = 6/'
+
+# --- the near field matched at a depth: another body on the same mesh
+sed -E "$coarse; s/^\[discretisation\]/[discretisation]\nnear_field = \"matching\"\nmatching_depth_mm = 1.25/" "$scene_of_paper" > scene_matched.toml
+matched=out/scene_matched/pinion
+"$bin/gear-scene" --scene scene_matched.toml --output matched.mk --out out > /dev/null 2>&1
+if "$bin/gear-reduce" --params $matched/body.toml --mesh out/scene/pinion/mesh.h5 --output $matched/body.h5 > said 2>&1 &&
+  grep -q 'near field by matching at 1.25 mm' said && "$bin/gear-inspect" $matched/body.h5 > said 2>&1 &&
+  grep -q 'matching at 1.25 mm below the flank' said; then ok "gear-reduce matches at the depth of the scene, and body.h5 says so"; else
+  wrong "gear-reduce matches at the depth of the scene, and body.h5 says so" "$(tail -n 1 said)"; fi
+rm -f said
 
 # --- artifacts: cut off, of another kind, of another version, not there
 head -c 3000 out/scene/pinion/body.h5 > cut.h5

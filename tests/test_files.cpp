@@ -116,7 +116,8 @@ bool same(const Damping& a, const Damping& b) {
 }
 
 bool same(const BodyDiscretisation& a, const BodyDiscretisation& b) {
-  return a.element_size == b.element_size && a.element_order == b.element_order && a.modes == b.modes;
+  return a.element_size == b.element_size && a.element_order == b.element_order && a.modes == b.modes &&
+         a.near_field == b.near_field && a.matching_depth == b.matching_depth;
 }
 
 bool same(const Material& a, const Material& b) {
@@ -141,7 +142,7 @@ void set_pair(Artifact& a) {
   a.driver_material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
   a.driven_material = {110e9 / 1.3, 0.27 / 1.1, 7200 / 1.3, true};
   a.driver_body = {0.0004 / 1.3, 2, 5};
-  a.driven_body = {0.0007 / 1.3, 1, 12};
+  a.driven_body = {0.0007 / 1.3, 1, 12, "matching", 0.001 / 1.3};
 }
 
 template <class Artifact>
@@ -179,7 +180,7 @@ BodyArtifact small_body() {
   BodyArtifact a;
   a.design = odd_design(50);
   a.material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
-  a.discretisation = {0.0004 / 1.3, 2, 5};
+  a.discretisation = {0.0004 / 1.3, 2, 5, "matching", 0.001 / 1.3};
   a.inertia = 0.01 / 3;
   a.eigenfrequency = odd_vector(3, 1e4).cwiseAbs();
   a.nodal_diameter = Eigen::VectorXi{{0, 1, 1}};

@@ -343,6 +343,9 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
       {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false},
       {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false},
       {section("[fidelity]\nmodes = 9\n"), true, true, false},
+      {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false},
+      {section("[discretisation]\nmatching_depth_mm = 2.0\n"), false, false,
+       false},  // subtraction has no depth
       {mesh_key("corner_contact = false"), false, true, false},
       {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false},
       {section("[discretisation]\nstrips = 21\n"), false, true, false},
@@ -372,7 +375,8 @@ TEST_CASE("slices read back bit by bit") {
       scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = 1.7") +
       "[damping]\nrayleigh_mass_per_s = 0.7\nrayleigh_stiffness_s = 5.55555e-6\nundamped_depth_mm = 0.37\n"
       "[fidelity]\nbody = \"lagged\"\nintegrator = \"newmark\"\nmodes = 11\n"
-      "[discretisation]\nelement_mm = 0.37\nmin_sample_rate_kHz = 333.3\nsteps_per_period = 200\n");
+      "[discretisation]\nelement_mm = 0.37\nmin_sample_rate_kHz = 333.3\nsteps_per_period = 200\n"
+      "near_field = \"matching\"\nmatching_depth_mm = 0.77\n");
   const BodySlice body = read_body_slice(file.path(body_slice(s, "wheel"), "body.toml"));
   const SceneGear& wheel = s.gear("wheel");
   CHECK(body.design.teeth == wheel.design.teeth);
@@ -387,6 +391,8 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(body.discretisation.element_size == s.body.element_size);
   CHECK(body.discretisation.element_order == 2);
   CHECK(body.discretisation.modes == 11);
+  CHECK(body.discretisation.near_field == "matching");
+  CHECK(body.discretisation.matching_depth == s.body.matching_depth);
 
   const StaticSlice statics = read_static_slice(file.path(static_slice(s), "static.toml"));
   CHECK(statics.mesh.driver == "pinion");

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -51,6 +52,15 @@ int failure_of(const std::function<void()>& f) {
     return static_cast<int>(error.kind());
   }
   return -1;
+}
+
+std::string refusal(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
 }
 
 // A sector of an annulus (or of anything that `place` makes of it) with fixed inner edge: columns x rows
@@ -187,6 +197,29 @@ TEST_CASE("patch test: a linear displacement field on distorted elements, both o
     }
 }
 
+TEST_CASE("the element map is inverted: points of straight, tapered and curved elements are found again") {
+  for (int nodes : {4, 9}) {
+    Eigen::MatrixX2d element(9, 2);
+    element << 0, 0, 2e-3, 0.3e-3, 1.4e-3, 1e-3, -0.2e-3, 0.8e-3, 1e-3, 0.05e-3, 1.8e-3, 0.7e-3, 0.6e-3,
+        0.95e-3, -0.15e-3, 0.4e-3, 0.8e-3, 0.5e-3;
+    element.rowwise() += Eigen::RowVector2d(0.01, 0.07);
+    for (double scale : {1.0, 1e-3}) {  // micrometres, as at the tip corner
+      const Eigen::MatrixX2d placed =
+          ((element.rowwise() - element.row(0)) * scale).rowwise() + element.row(0);
+      for (double a : {-1.0, -0.3, 0.0, 0.8, 1.0})
+        for (double b : {-1.0, 0.1, 1.0}) {
+          const Eigen::VectorXd value = shape_functions(nodes, a, b).value;
+          Vec2 found;
+          REQUIRE(invert_map(placed.topRows(nodes), placed.topRows(nodes).transpose() * value, found));
+          CHECK((found - Vec2(a, b)).norm() < 1e-14 / (scale * 1e-3));
+        }
+    }
+    Vec2 found;
+    const bool any = invert_map(element.topRows(nodes), Vec2(0.02, 0.07), found);
+    CHECK((!any || found.cwiseAbs().maxCoeff() > 1));
+  }
+}
+
 TEST_CASE("sector mesh: exact boundary, images, orientation and area for many gears") {
   const std::vector<GearDesign> gears{kDefault,
                                       gear(12, 3e-3, 5e-3, 0.5),
@@ -292,6 +325,41 @@ TEST_CASE("meshes that cannot be made or are broken are refused") {
   MeshArtifact wild = mesh;
   wild.bore_node[0] = static_cast<int>(mesh.node_position.rows());
   CHECK(failure_of([&] { reduce(wild, kSteel, 1); }) == 3);
+  for (const Material& material :
+       {Material{-207e9, 0.3, 7600, true}, Material{207e9, 0.5, 7600, false}, Material{207e9, 0.3, 0, true}})
+    CHECK(failure_of([&] { reduce(mesh, material, 1); }) == 3);
+  MeshArtifact regionless = mesh;  // no tooth that carries the load: the table is what was subtracted
+  regionless.element_region.setZero();
+  CHECK(refusal([&] { reduce(regionless, kSteel, 1); }).find("indefinite: least eigenvalue -") !=
+        std::string::npos);
+  MeshArtifact mirrored = mesh;  // its driving flank is the other one
+  mirrored.node_position.col(0) *= -1;
+  for (int e = 0; e < mirrored.element_node.rows(); ++e)
+    for (auto [a, b] : {std::pair{1, 3}, {4, 7}, {5, 6}})
+      std::swap(mirrored.element_node(e, a), mirrored.element_node(e, b));
+  mirrored.side_node.col(0).swap(mirrored.side_node.col(1));
+  CHECK(refusal([&] { reduce(mirrored, kSteel, 1); }).find("relative asymmetry 1.") != std::string::npos);
+}
+
+TEST_CASE("no displacement is read off the flank, none below it where there is no tooth") {
+  BodyDiscretisation discretisation;
+  discretisation.element_size = 1e-3;
+  discretisation.near_field = "matching";
+  const ToothGeometry tooth(kDefault);
+  const MeshArtifact mesh = make_sector_mesh(kDefault, discretisation);
+  for (double xi : {tooth.tip_roll_angle() + 1e-3, tooth.form_roll_angle() - 1e-3, std::nan("")})
+    CHECK(failure_of([&] { FlankReader(mesh).outward(Eigen::VectorXd::Constant(1, xi)); }) == 1);
+  const auto matched = [&](double depth, const std::string& near_field) {
+    MeshArtifact copy = mesh;
+    copy.discretisation.matching_depth = depth;
+    copy.discretisation.near_field = near_field;
+    return refusal([&] { reduce(copy, kSteel, 1); });
+  };
+  CHECK(matched(1e-3, "matching").empty());
+  CHECK(matched(5e-3, "matching").find("matching_depth_mm = 5 leaves the tooth: ") != std::string::npos);
+  CHECK(matched(0, "matching").find("matching_depth_mm = 0 is not above 0") != std::string::npos);
+  CHECK(matched(std::nan(""), "matching").find("matching_depth_mm = nan") != std::string::npos);
+  CHECK(matched(1e-3, "penalty").find("\"penalty\" is neither") != std::string::npos);
 }
 
 TEST_CASE("rigid motions cost no energy and carry the body's inertia") {
@@ -426,6 +494,119 @@ TEST_CASE("subtraction: the right-hand side is statically a unit normal force on
   }
 }
 
+TEST_CASE("matching: nodal forces are a unit normal force, the half-plane is taken at the depth") {
+  BodyDiscretisation discretisation;
+  discretisation.element_size = 0.6e-3;
+  const MeshArtifact mesh = make_sector_mesh(kDefault, discretisation);
+  const ToothGeometry tooth(kDefault);
+  const Eigen::VectorXd xi = FlankTable(tooth, 8).points(), rotation = rotation_field(mesh.node_position);
+  const double depth = 0.7e-3;
+  const FlankLoads matched = make_matched_loads(mesh, kSteel, xi, depth),
+                   subtracted = make_flank_loads(mesh, kSteel, xi);
+  CHECK(matched.half_plane.norm() == 0);
+  const SparseReal below = FlankReader(mesh).outward_below(xi, depth);
+  // The lever arm is r_b at any depth; parabolas stand for the flank.
+  CHECK((below * rotation - FlankReader(mesh).outward(xi) * rotation).norm() < 1e-6 * tooth.base_radius());
+  for (int j = 0; j < 8; ++j) {
+    Vec2 sum(0, 0);
+    for (int i = 0; i < mesh.node_position.rows(); ++i) sum += matched.force.col(j).segment<2>(2 * i);
+    CHECK((sum + tooth.flank_normal(xi[j])).norm() < 1e-12);
+    CHECK(rotation.dot(matched.force.col(j)) == doctest::Approx(-tooth.base_radius()).epsilon(1e-6));
+    // Under the load itself: C ln(reference depth / depth) is what the half-plane has left there.
+    const double log = 2 / (kPi * 207e9 * 25.4e-3) * std::log(1e-3 / depth);
+    CHECK(matched.subtracted(j, j) == doctest::Approx(-log).epsilon(1e-12));
+    for (int i = 0; i < 8; ++i) {
+      const LineLoadField field(tooth.flank_point(xi[j]), tooth.flank_normal(xi[j]),
+                                plane_strain_equivalent(kSteel), 25.4e-3, 1e-3);
+      const Vec2 n = tooth.flank_normal(xi[i]);
+      CHECK(matched.subtracted(i, j) - subtracted.subtracted(i, j) ==
+            doctest::Approx(n.dot(field.displacement(tooth.flank_point(xi[i]) - depth * n))).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE(
+    "matching at a depth against subtraction: a per cent mid flank, and it converges as element and depth "
+    "shrink") {
+  // Under the load itself, with the 0.3 nm/N of a strip's contact added, as a share of the compliance. The half-plane
+  // cannot know the corner of the tip: points closer to it than the depth have an error that hardly shrinks.
+  const GearDesign design = gear(24, 3e-3, 20e-3);
+  const auto body = [&](double size, int order, double depth) {
+    BodyDiscretisation discretisation;
+    discretisation.element_size = size;
+    discretisation.element_order = order;
+    if (depth > 0) {
+      discretisation.near_field = "matching";
+      discretisation.matching_depth = depth;
+    }
+    return reduce(make_sector_mesh(design, discretisation), kSteel, 1);
+  };
+  const BodyArtifact reference = body(0.4e-3, 2, 0);
+  const ToothGeometry tooth(design);
+  const auto errors = [&](const BodyArtifact& matched) {
+    const Eigen::ArrayXd exact = reference.compliance[0].diagonal();
+    return Eigen::ArrayXd((matched.compliance[0].diagonal().array() - exact) / (exact + 3e-10));
+  };
+  int inner = 0;  // table points at least 1 mm from the tip edge
+  while (tooth.arc_length(tooth.tip_roll_angle()) - tooth.arc_length(reference.flank_position[inner]) > 1e-3)
+    ++inner;
+  REQUIRE(inner > 5);
+  const BodyArtifact matched = body(0.4e-3, 2, 1e-3);
+  CHECK(matched.discretisation.near_field == "matching");
+  CHECK(errors(matched).head(inner).abs().maxCoeff() < 0.015);
+  CHECK(errors(matched).abs().maxCoeff() < 0.2);
+  CHECK(errors(matched).tail(1)[0] < -0.02);  // what a corner gives way is missed
+  CHECK(matched.asymmetry > 1e-4);
+  CHECK(matched.asymmetry < 0.03);
+  CHECK((matched.compliance[0] - matched.compliance[0].transpose()).norm() == 0);
+  for (int d = 1; d <= 3; ++d)  // teeth that carry no load themselves are read at the surface
+    CHECK((matched.compliance[d] - reference.compliance[d]).norm() < 2e-3 * reference.compliance[d].norm());
+  // Errors go as (element / depth)^2 and as depth over tooth, so the depth has to shrink with the element.
+  double before = 1;
+  for (double size : {0.8e-3, 0.4e-3, 0.2e-3}) {
+    const double now = errors(body(size, 2, 2 * size)).head(inner).abs().maxCoeff();
+    CHECK(now < 0.03);
+    CHECK(now < 0.75 * before);
+    before = now;
+  }
+}
+
+TEST_CASE("block on a fixed base under a Hertz load: matching and the full field") {
+  // 6 mm square, plane strain, 83793.53 N/m over a half-width of 109.686 micrometres at the middle of the top, or 0.75 mm
+  // from a side. The displacements there come from subtraction on four-node meshes down to 0.094 mm, extrapolated.
+  const double load = 83793.53, centred = 1.16123e-6, near_side = 1.60129e-6, side = 6e-3,
+               local = 0.631449e-6;  // local: Hertz, to 1 mm
+  const PlaneModuli moduli{207e9, 0.3};
+  const auto matched = [&](int n, double depth, double from_side) {
+    const double h = side / n;
+    const int column = static_cast<int>(std::lround(from_side / h));
+    MatrixRM position((n + 1) * (n + 1), 2);
+    MatrixRMi element(n * n, 4);
+    const auto number = [n](int i, int j) { return j * (n + 1) + i; };
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) position.row(number(i, j)) << i * h - side / 2, j * h - side;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        element.row(j * n + i) << number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1);
+    const SparseReal stiffness = assemble(position, element, kSteelStrain, 1).stiffness;
+    const int fixed = 2 * (n + 1), free = static_cast<int>(stiffness.rows()) - fixed;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(free);
+    force[2 * number(column, n) + 1 - fixed] = -1;  // on a node: the load is narrower than an element
+    const SparseReal inner = stiffness.bottomRightCorner(free, free);
+    const Eigen::VectorXd u = Eigen::SimplicialLDLT<SparseReal>(inner).solve(force);
+    const int down = static_cast<int>(std::lround(depth / h));
+    const double read = -u[2 * number(column, n - down) + 1 - fixed];
+    const LineLoadField field({0, 0}, {0, 1}, moduli, 1, 1e-3);
+    return load * (read + field.displacement({0, -depth}).y()) + local;
+  };
+  CHECK(matched(8, 0.75e-3, 3e-3) == doctest::Approx(centred).epsilon(0.03));
+  CHECK(matched(16, 0.75e-3, 3e-3) == doctest::Approx(centred).epsilon(0.03));
+  CHECK(matched(64, 0.375e-3, 3e-3) == doctest::Approx(centred).epsilon(0.01));
+  CHECK(matched(8, 0.75e-3, 0.75e-3) ==
+        doctest::Approx(near_side).epsilon(0.06));  // the side is no half-plane
+  CHECK(matched(32, 0.1875e-3, 0.75e-3) == doctest::Approx(near_side).epsilon(0.03));
+}
+
 TEST_CASE("cyclic symmetry: the spectra of all harmonics are the spectrum of the whole, every eigenvalue") {
   // A sector without mirror symmetry, wavy and skewed.
   const int teeth = 7;
@@ -472,14 +653,18 @@ TEST_CASE("cyclic symmetry: the spectra of all harmonics are the spectrum of the
 }
 
 TEST_CASE(
-    "sector against full gear: flexibility of the loaded tooth and its neighbours, modes, both orders") {
-  for (int order : {1, 2}) {
+    "sector against full gear: flexibility of the loaded tooth and its neighbours, modes, both orders and "
+    "near fields") {
+  for (auto [order, matching] : {std::pair{1, false}, {2, false}, {2, true}}) {
     CAPTURE(order);
+    CAPTURE(matching);
     const GearDesign design = gear(order == 1 ? 13 : 12, 3e-3, 8e-3, 0.5);
     const int teeth = design.teeth;
     BodyDiscretisation discretisation;
     discretisation.element_size = 3e-3;
     discretisation.element_order = order;
+    const double depth = discretisation.matching_depth = 0.6e-3;
+    if (matching) discretisation.near_field = "matching";
     const MeshArtifact mesh = make_sector_mesh(design, discretisation);
     const BodyArtifact body = reduce(mesh, kSteel, 6);
     REQUIRE(body.offsets == 3);
@@ -507,8 +692,10 @@ TEST_CASE(
     factor.factorise(stiffness, "full gear");
 
     const Eigen::VectorXd& xi = body.flank_position;
-    const FlankLoads loads = make_flank_loads(mesh, kSteel, xi);
-    const SparseReal outward = FlankReader(mesh).outward(xi);
+    const FlankLoads loads =
+        matching ? make_matched_loads(mesh, kSteel, xi, depth) : make_flank_loads(mesh, kSteel, xi);
+    const SparseReal outward = FlankReader(mesh).outward(xi),
+                     own_outward = matching ? FlankReader(mesh).outward_below(xi, depth) : outward;
     Eigen::MatrixXcd force = Eigen::MatrixXcd::Zero(size, xi.size());
     for (int i = 0; i < loads.force.rows(); ++i)
       if (const int u = unknown[2 * whole.node(0, i / 2) + i % 2]; u >= 0)
@@ -521,7 +708,7 @@ TEST_CASE(
         const int u = unknown[2 * whole.node((tooth + teeth) % teeth, i)];
         if (u >= 0) own.middleRows(2 * i, 2) = back * solution.middleRows(u, 2);
       }
-      return Eigen::MatrixXd(-(outward * own));
+      return Eigen::MatrixXd(-((tooth == 0 ? own_outward : outward) * own));
     };
     for (int d = 0; d <= 3; ++d) {
       Eigen::MatrixXd expected = 0.5 * (reading(d) + reading(-d).transpose());
@@ -605,6 +792,48 @@ TEST_CASE(
   CHECK(std::abs(body.inertia_coupling[0]) == doctest::Approx(std::abs(gamma[largest])).epsilon(1e-8));
   CHECK(body.inertia_coupling[0] * body.flank_mode(5, 0) > 0);  // the sign that a wrong one would turn
   CHECK(body.inertia == doctest::Approx(inertia).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "what the ends of the flank have left to converge: elements and table, at the tip edge and at the form "
+    "point") {
+  // A unit force spread evenly over `width` that ends at the edge, displacement averaged over it: what a strip does. The
+  // compliance of a point on the edge itself is infinite.
+  struct Ends {
+    double points[3], tip[3], form;
+  };
+  const ToothGeometry tooth(kDefault);
+  const double tip = tooth.tip_roll_angle(), form = tooth.form_roll_angle(), rb = tooth.base_radius();
+  const auto ends = [&](double size, int points) {
+    BodyDiscretisation discretisation;
+    discretisation.element_size = size;
+    const BodyArtifact body = reduce(make_sector_mesh(kDefault, discretisation), kSteel, 1, points);
+    const FlankTable table(tooth, points);
+    const auto spread = [&](double start, double width) {  // start: rad, width: m, below 0 towards the root
+      constexpr int kPieces = 100;
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(points);
+      for (int i = 0; i < kPieces; ++i)
+        row += table.weights(std::sqrt(start * start + 2 * width * (i + 0.5) / kPieces / rb)) / kPieces;
+      return row.dot(body.compliance[0] * row.transpose());
+    };
+    Ends e{};
+    for (int i = 0; i < 3; ++i) {
+      e.points[i] = body.compliance[0](points - 1 - i, points - 1 - i);
+      e.tip[i] = spread(tip, -std::array{5e-6, 15e-6, 50e-6}[i]);
+    }
+    e.form = spread(form, 15e-6);
+    return e;
+  };
+  const Ends at = ends(0.4e-3, 24), finer = ends(0.2e-3, 24), more = ends(0.4e-3, 36);
+  for (int i = 0; i < 3; ++i) {
+    // Outermost table points, 0.3, 2.3 and 6.8 micrometres from the edge: smaller than an element, the first one.
+    CHECK(std::abs(finer.points[i] / at.points[i] - 1) < (i == 0 ? 3e-3 : 3e-4));
+    CHECK(std::abs(finer.tip[i] / at.tip[i] - 1) < 3e-4);
+    CHECK(std::abs(more.tip[i] / at.tip[i] - 1) < 1e-3);
+    CHECK(finer.tip[i] != at.tip[i]);
+  }
+  CHECK(std::abs(finer.form / at.form - 1) < 3e-4);
+  CHECK(std::abs(more.form / at.form - 1) < 1e-3);
 }
 
 TEST_CASE("the default gear: torsional mode near 15 kHz, tables symmetric, semidefinite, converged") {

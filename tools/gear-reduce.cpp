@@ -5,7 +5,8 @@
 // Writes     body.h5    eigenfrequencies with the hub fixed, mode shapes and compliance on the flank, inertia
 //                       coupling
 // Equations  K u = omega^2 M u and M_fr of Eq. 3-6, sector by sector in the harmonics of cyclic symmetry;
-//            flexibility K x = f with the half-plane solution of the line load subtracted in the tooth
+//            flexibility K x = f with the half-plane solution of the line load subtracted in the tooth, or matched
+//            at a depth
 // Example    gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5
 //                        --output out/parker2000/pinion/body.h5
 #include <CLI/CLI.hpp>
@@ -28,8 +29,9 @@ void body(int argc, char** argv) {
   whine::parse(app, argc, argv);
 
   const whine::BodySlice slice = whine::read_body_slice(params);
-  const whine::MeshArtifact sector = whine::read_mesh(mesh);
+  whine::MeshArtifact sector = whine::read_mesh(mesh);
   whine::require_mesh(sector, slice, mesh);
+  sector.discretisation = slice.discretisation;  // a mesh does not say how its near field is reduced
   const whine::BodyArtifact result = whine::reduce(sector, slice.material, slice.discretisation.modes);
 
   whine::Provenance provenance;
@@ -41,7 +43,11 @@ void body(int argc, char** argv) {
   result.inertia_coupling.cwiseAbs().maxCoeff(&torsional);
   whine::tell("gear-reduce: ", result.eigenfrequency.size(), " modes from ", result.eigenfrequency.minCoeff(),
               " Hz, first torsional ", result.eigenfrequency[torsional], " Hz, body inertia ", result.inertia,
-              " kg m2, asymmetry of the flexibility ", result.asymmetry, " -> ", output);
+              " kg m2, near field by ", slice.discretisation.near_field,
+              slice.discretisation.near_field == "matching"
+                  ? whine::text(" at ", slice.discretisation.matching_depth * 1e3, " mm")
+                  : "",
+              ", asymmetry of the flexibility ", result.asymmetry, " -> ", output);
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ enum class Part {
   rung,          // body and integrator
   contact_rung,  // contact
   body,
+  near_field,  // of a body; a slice holds it only where it is not the default
   contact,
   time
 };

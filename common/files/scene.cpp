@@ -522,8 +522,8 @@ Scene read_scene(const std::string& path) {
   scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
   read_gears(source, scene);
   read_mesh_section(source, scene);
-  const std::set<Part> rest = {Part::damping, Part::operation, Part::rung, Part::contact_rung,
-                               Part::body,    Part::contact,   Part::time};
+  const std::set<Part> rest = {Part::damping, Part::operation,  Part::rung,    Part::contact_rung,
+                               Part::body,    Part::near_field, Part::contact, Part::time};
   static const toml::table kNothing;
   for (const char* name : {"damping", "operation", "fidelity", "discretisation"}) {
     const toml::table* table = source.section(name);
@@ -555,6 +555,8 @@ std::string body_slice(const BodySlice& chosen) {
   out.add("material", "material", values, {Part::material});
   out.add("fidelity", "fidelity", values, {Part::body});
   out.add("discretisation", "discretisation", values, {Part::body});
+  if (values.body.near_field != BodyDiscretisation{}.near_field)
+    out.add("discretisation", "discretisation", values, {Part::near_field});
   return out.text();
 }
 
@@ -607,6 +609,8 @@ BodySlice read_body_slice(const std::string& path) {
   read_slice_section(source, "material", "material", {Part::material}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::body}, values);
   read_slice_section(source, "discretisation", "discretisation", {Part::body}, values);
+  if (source.section("discretisation")->contains("near_field"))
+    read_slice_section(source, "discretisation", "discretisation", {Part::near_field}, values);
   return {values.design, values.material, values.body};
 }
 

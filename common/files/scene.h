@@ -37,6 +37,9 @@ struct BodyDiscretisation {
   double element_size = 0;  // m on the flank
   int element_order = 2;    // 1 or 2
   int modes = 5;            // elastic modes of the whole gear; doublets are never cut
+  std::string near_field =
+      "subtraction";             // of the half-plane in the finite elements; or "matching" at a depth
+  double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
 };
 
 struct SceneGear {

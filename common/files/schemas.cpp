@@ -11,7 +11,7 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 1, kStaticVersion = 2, kErrorBudgetVersion = 1,
+constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 2, kErrorBudgetVersion = 1,
               kSweepVersion = 2, kResponseVersion = 2;
 
 const char* const kPhase = "mesh_phase";
@@ -53,13 +53,15 @@ void put_gear(ArtifactWriter& out, const std::string& role, const GearDesign& de
   values.design = design;
   values.material = material;
   values.body = body;
-  for (const Part part : {Part::design, Part::material, Part::body}) out.parameters(role, values, part);
+  for (const Part part : {Part::design, Part::material, Part::body, Part::near_field})
+    out.parameters(role, values, part);
 }
 
 void take_gear(const ArtifactReader& in, const std::string& role, GearDesign& design, Material& material,
                BodyDiscretisation& body) {
   KeyValues values;
-  for (const Part part : {Part::design, Part::material, Part::body}) in.parameters(role, values, part);
+  for (const Part part : {Part::design, Part::material, Part::body, Part::near_field})
+    in.parameters(role, values, part);
   design = values.design;
   material = values.material;
   body = values.body;
@@ -187,9 +189,10 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
                      "Reduced body of a gear on a rigid hub: " + gear_title(a.design), provenance);
   KeyValues values;
   values.material = a.material;
+  values.body = a.discretisation;
   put_design(out, "gear", a.design);
   out.parameters("material", values, Part::material);
-  put_body_discretisation(out, a.discretisation);
+  for (const Part part : {Part::body, Part::near_field}) out.parameters("discretisation", values, part);
   out.put("/inertia", a.inertia,
           {"kg m2", "inertia of the meshed body about its axis, hub ring included", "", ""});
   out.put("/eigenfrequency", a.eigenfrequency,
@@ -232,9 +235,10 @@ BodyArtifact read_body(const std::string& path) {
   BodyArtifact a;
   KeyValues values;
   in.parameters("material", values, Part::material);
+  for (const Part part : {Part::body, Part::near_field}) in.parameters("discretisation", values, part);
   a.design = take_design(in, "gear");
   a.material = values.material;
-  a.discretisation = take_body_discretisation(in);
+  a.discretisation = values.body;
   a.inertia = in.number("/inertia");
   a.eigenfrequency = in.vector("/eigenfrequency");
   const Eigen::Index modes = a.eigenfrequency.size();

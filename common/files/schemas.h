@@ -28,11 +28,11 @@ struct Provenance {
 // The driving flank is the one that leads when the gear turns counter-clockwise (x < 0 side of the tooth).
 struct MeshArtifact {
   GearDesign design;
-  BodyDiscretisation discretisation;
-  MatrixRM node_position;          // (node, 2) m
-  MatrixRMi element_node;          // (element, 4 or 9): corners counter-clockwise, mid-sides, centre
-  Eigen::VectorXi element_region;  // (element): 0 rim, 1 tooth (where the half-plane field is subtracted)
-  Eigen::VectorXi bore_node;       // nodes on the rigid hub
+  BodyDiscretisation discretisation;  // the file does not hold its near field: no mesh depends on it
+  MatrixRM node_position;             // (node, 2) m
+  MatrixRMi element_node;             // (element, 4 or 9): corners counter-clockwise, mid-sides, centre
+  Eigen::VectorXi element_region;     // (element): 0 rim, 1 tooth (where the half-plane field is subtracted)
+  Eigen::VectorXi bore_node;          // nodes on the rigid hub
   MatrixRMi side_node;  // (pair, 2): node on the clockwise edge (angle 90 deg - 180/teeth), its image on the
                         // counter-clockwise edge
   Eigen::VectorXi flank_node;        // nodes of the driving flank, root to tip

@@ -64,6 +64,9 @@ void show(Lines& lines, const BodyArtifact& a) {
   }
   add(lines, "modes", a.eigenfrequency.size(), "; kHz (nodal diameters): ", modes,
       a.eigenfrequency.size() > 8 ? ", ..." : "");
+  const BodyDiscretisation& d = a.discretisation;
+  add(lines, "near field", d.near_field,
+      d.near_field == "matching" ? text(" at ", d.matching_depth * 1e3, " mm below the flank") : "");
   add(lines, "flank table", a.flank_position.size(), " points, tooth offsets 0 to ", a.offsets);
   add(lines, "asymmetry", a.asymmetry, ", least eigenvalue ", a.least_eigenvalue * 1e9, " um/kN");
 }

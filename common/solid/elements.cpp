@@ -78,6 +78,22 @@ Shape shape_functions(int nodes, double a, double b) {
   return shape;
 }
 
+bool invert_map(const Eigen::MatrixX2d& nodes, const Eigen::Vector2d& p, Eigen::Vector2d& reference) {
+  reference.setZero();
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const Shape shape = shape_functions(static_cast<int>(nodes.rows()), reference[0], reference[1]);
+    const Eigen::Matrix2d j = jacobian(shape, nodes);
+    if (!(j.determinant() > 0)) return false;
+    const Eigen::Vector2d miss = p - nodes.transpose() * shape.value;
+    const Eigen::Vector2d step = j.transpose().inverse() * miss;
+    reference += step;
+    if (!(reference.cwiseAbs().maxCoeff() < 10)) return false;
+    // Quadratic: the next step would be round-off, which is 1e-11 in an element of a micrometre.
+    if (step.cwiseAbs().maxCoeff() < 1e-8) return true;
+  }
+  return false;
+}
+
 GaussRule gauss_rule(int points) {
   if (points < 1) fail(Failure::input, "a Gauss rule needs 1 point or more, not ", points);
   GaussRule rule{Eigen::VectorXd(points), Eigen::VectorXd(points)};

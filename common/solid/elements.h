@@ -26,6 +26,10 @@ struct Shape {
 };
 Shape shape_functions(int nodes, double a, double b);  // nodes: 4 or 9; throws Error(input) otherwise
 
+// The point of the reference square that the element maps to p: (a, b), within [-1, 1] if p lies in the element. nodes:
+// (4 or 9, 2) m; p: m. False if Newton's method finds none, as it may for a p far outside.
+bool invert_map(const Eigen::MatrixX2d& nodes, const Eigen::Vector2d& p, Eigen::Vector2d& reference);
+
 // Gauss-Legendre points and weights on [-1, 1]; exact for polynomials of degree 2 n - 1.
 struct GaussRule {
   Eigen::VectorXd point, weight;  // (point) 1
