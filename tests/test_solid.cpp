@@ -802,12 +802,13 @@ TEST_CASE(
   struct Ends {
     double points[3], tip[3], form;
   };
-  const ToothGeometry tooth(kDefault);
+  const GearDesign design = gear(24, 3e-3, 20e-3);
+  const ToothGeometry tooth(design);
   const double tip = tooth.tip_roll_angle(), form = tooth.form_roll_angle(), rb = tooth.base_radius();
   const auto ends = [&](double size, int points) {
     BodyDiscretisation discretisation;
     discretisation.element_size = size;
-    const BodyArtifact body = reduce(make_sector_mesh(kDefault, discretisation), kSteel, 1, points);
+    const BodyArtifact body = reduce(make_sector_mesh(design, discretisation), kSteel, 1, points);
     const FlankTable table(tooth, points);
     const auto spread = [&](double start, double width) {  // start: rad, width: m, below 0 towards the root
       constexpr int kPieces = 100;
@@ -833,7 +834,7 @@ TEST_CASE(
     CHECK(finer.tip[i] != at.tip[i]);
   }
   CHECK(std::abs(finer.form / at.form - 1) < 3e-4);
-  CHECK(std::abs(more.form / at.form - 1) < 1e-3);
+  CHECK(std::abs(more.form / at.form - 1) < 3e-3);
 }
 
 TEST_CASE("the default gear: torsional mode near 15 kHz, tables symmetric, semidefinite, converged") {
