@@ -457,8 +457,9 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
     body.compliance.push_back(
         offset_sum(d, [&](int n) -> const Eigen::MatrixXcd& { return flexibility[static_cast<size_t>(n)]; }));
 
-  // Eigenvalues of the whole gear's table, all offsets: those of its harmonics, less the kept modes. What the half-plane
-  // takes too much beyond its depth leaves up to 2 % of the largest entry below zero (at a module of 0.3 mm); far more is no body.
+  // Eigenvalues of the whole gear's table, all offsets: those of its harmonics, less the kept modes. What the
+  // half-plane takes too much beyond its depth leaves up to 2 % of the largest entry below zero (at a module of
+  // 0.3 mm); far more is no body.
   const double lowest = -0.1 * body.compliance[0].cwiseAbs().maxCoeff();
   body.least_eigenvalue = std::numeric_limits<double>::infinity();
   for (int n = 0; n < sector.harmonics(); ++n) {

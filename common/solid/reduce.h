@@ -10,11 +10,11 @@
 // of the cyclic gear has the same load; offsets between teeth follow by the inverse discrete Fourier
 // transform.
 //
-// Or by matching at a depth d, as Parker, Vijayakar and Imajo (J. Sound Vib. 237 (2000) 435, section 2.2) do: the finite
-// elements carry the force itself, as consistent nodal forces on the flank, and are read at the point d below s_i; the
-// half-plane gives what lies between that point and the surface. Load and reading stand at different places, so the
-// table is not symmetric, and both the spread of the nodal load, (element / d)^2, and the finite body, d / tooth,
-// leave their errors in it.
+// Or by matching at a depth d, as Parker, Vijayakar and Imajo (J. Sound Vib. 237 (2000) 435) do: the finite
+// elements carry the force itself, as consistent nodal forces on the flank, and are read at the point d below
+// s_i; the half-plane gives what lies between that point and the surface. Load and reading stand at different
+// places, so the table is not symmetric, and both the spread of the nodal load, (element / d)^2, and the finite
+// body, d / tooth, leave their errors in it.
 #pragma once
 #include "files/schemas.h"
 #include "gear/involute.h"
