@@ -219,6 +219,32 @@ TEST_CASE("corner gap equals the separation of points found by brute force") {
   CHECK(pair.contact(phase).roll[1] == doctest::Approx(0.5 * (low + high)).epsilon(1e-4));
 }
 
+TEST_CASE("the gap's slope and curvature at the touching point, on the line of action and at corners") {
+  const GearPair pair(fzg_c(16, 0.1817, 82.46e-3), fzg_c(24, 0.1715, 118.36e-3), 91.5e-3);
+  const double start = pair.path_start() / pair.base_pitch(), end = pair.path_end() / pair.base_pitch();
+  for (double phase : {start - 0.08, start - 0.02, 0.5 * start, 0.0, 0.7 * end, end + 0.02, end + 0.08}) {
+    const PairContact contact = pair.contact(phase);
+    REQUIRE(contact.corner == (phase < start || phase > end));
+    // Inwards from the edge that touches; differences of a gap that is exact to round-off, extrapolated.
+    const double inward = contact.corner && contact.tip_gear == 0 ? -1 : 1, h = 8e-6;
+    const auto gap = [&](double x) { return pair.gap_at(contact, inward * x).gap; };
+    const auto second = [&](double step) { return (gap(0) - 2 * gap(step) + gap(2 * step)) / (step * step); };
+    const double curvature = 2 * second(0.5 * h) - second(h);
+    CHECK(1 / pair.relative_curvature_radius(contact) == doctest::Approx(curvature).epsilon(1e-4));
+    const double slope = (4 * gap(0.5 * h) - gap(h) - 3 * gap(0)) / h;
+    if (contact.corner) CHECK(std::tan(contact.normal_angle) == doctest::Approx(slope).epsilon(1e-3));
+    if (!contact.corner)
+      CHECK(pair.relative_curvature_radius(contact) ==
+            doctest::Approx(pair.relative_curvature_radius(phase * pair.base_pitch())).epsilon(1e-12));
+    // The driver's tip edge in the frame of the contact, from its flank's arc.
+    const ToothGeometry& driver = pair.gear(0);
+    const double arc = driver.arc_length(driver.tip_roll_angle()) - driver.arc_length(contact.roll[0]);
+    if (std::isfinite(pair.tip_distance(contact, 0)) && arc < 1e-3)
+      CHECK(pair.tip_distance(contact, 0) == doctest::Approx(arc).epsilon(0.01));
+    if (contact.corner) CHECK(pair.tip_distance(contact, contact.tip_gear) < 1e-15);
+  }
+}
+
 TEST_CASE("gears that cannot exist are refused with the reason") {
   GearDesign d = paper_gear();
   d.teeth = 10;

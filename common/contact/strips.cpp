@@ -37,19 +37,16 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   s.contact = contact;
   // Which end of the flanks is a tip edge: the driver's at x_max or the driven gear's at x_min. The other
   // limits are the roots, where strips must not carry force.
-  const auto is_tip = [&](int g, double x) {
-    return std::abs(gears.gap_at(contact, x).roll[g] - gears.gear(g).tip_roll_angle()) < 1e-9;
-  };
   const int n = range.strips;
   const double offset = 0.5 * range.half_window / n;  // a quarter strip
   double low = offset - range.half_window, high = offset + range.half_window;
   if (low <= contact.x_min) {
     low = contact.x_min;
-    s.low_is_edge = is_tip(1, low);
+    s.low_is_edge = std::isfinite(gears.tip_distance(contact, 1));
   }
   if (high >= contact.x_max) {
     high = contact.x_max;
-    s.high_is_edge = is_tip(0, high);
+    s.high_is_edge = std::isfinite(gears.tip_distance(contact, 0));
   }
   s.border = strip_borders(low, high, s.low_is_edge ? 1 + low / range.half_window : 0,
                            s.high_is_edge ? 1 - high / range.half_window : 0, n);

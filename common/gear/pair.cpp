@@ -84,6 +84,14 @@ double GearPair::relative_curvature_radius(double path) const {
   return rho1 * rho2 / (rho1 + rho2);
 }
 
+double GearPair::relative_curvature_radius(const PairContact& c) const {
+  const int tip = c.tip_gear, flank = 1 - tip;
+  const double cosine = std::cos(c.normal_angle);
+  const double rho_tip = gear_[tip].base_radius() * c.roll[tip] * cosine * cosine * cosine;
+  const double rho_flank = gear_[flank].base_radius() * c.roll[flank];
+  return rho_tip * rho_flank / (rho_tip + rho_flank);
+}
+
 Vec2 GearPair::flank_in_nominal_frame(int g, double nominal, double roll) const {
   const Vec2 own = own_frame(gear_[g].base_radius(), nominal, roll);
   return g == 0 ? own : Vec2(-own);  // the driven gear looks the other way
@@ -169,6 +177,12 @@ FlankGap GearPair::gap_at(const PairContact& c, double x) const {
   }
   result.gap = height[1] - height[0];
   return result;
+}
+
+double GearPair::tip_distance(const PairContact& c, int g) const {
+  const double end = g == 0 ? c.x_max : c.x_min;
+  const bool is_tip = std::abs(roll_at(g, c, end) - gear_[g].tip_roll_angle()) < 1e-9;
+  return is_tip ? std::abs(end) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace whine

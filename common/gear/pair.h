@@ -49,6 +49,11 @@ class GearPair {
   double path_end() const { return path_end_; }         // m, driver's tip leaves
   double backlash() const { return backlash_; }         // m along the line of action, both gears unloaded
   double relative_curvature_radius(double path) const;  // m, rho1 rho2 / (rho1 + rho2)
+  // m: 1 / second derivative of the gap along x at the touching point. At a corner the derivative is the one from
+  // the side where both flanks exist: 1 / rho_flank + 1 / (rho_tip cos^3 psi), psi the angle between the normals,
+  // by which the tip's flank runs off the other's tangent (curvature kappa at slope tan psi: y'' = kappa /
+  // cos^3 psi). The slope tan psi itself, and the tooth that ends at the edge, are no part of it.
+  double relative_curvature_radius(const PairContact& contact) const;
 
   // phase: mesh periods from the pitch point, any value for which the nominal point lies between the base
   // circles' tangent points (throws Error(numerical) beyond).
@@ -58,6 +63,10 @@ class GearPair {
   // point, in [x_min, x_max]. Exact: both involutes are intersected with the line parallel to the contact
   // normal.
   FlankGap gap_at(const PairContact& contact, double x) const;
+
+  // m, >= 0: from the nominal touching point to gear g's tip edge, the driver's at x_max, the driven gear's at x_min;
+  // infinity if the flanks' common range ends before it.
+  double tip_distance(const PairContact& contact, int g) const;
 
  private:
   Vec2 flank_in_nominal_frame(int g, double nominal, double roll) const;
