@@ -4,10 +4,13 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "base/error.h"
 #include "contact/complementarity.h"
 #include "contact/half_plane_strip.h"
+#include "contact/hertz_line.h"
+#include "contact/line_contact.h"
 #include "contact/strips.h"
 
 using namespace whine;
@@ -146,4 +149,205 @@ TEST_CASE("window of strips: constant count, exact interpolation of smooth field
     CHECK(s.low_is_edge == (phase <= -0.87));  // the driven gear's tip edge
     CHECK(s.high_is_edge == (phase >= 0.87));  // the driver's
   }
+}
+
+namespace {
+constexpr double kRadius = 12.8257552e-3;  // m, the paper's pair at the pitch point
+
+HertzLine paper_line(double depth, double edge_slope = -INFINITY, double radius = kRadius) {
+  const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
+  return HertzLine(surface, surface, radius, depth, edge_slope);
+}
+
+// N: force of strips on two half-planes at an approach; the gap ends at x = from, n strips to x = to.
+double strips_force(double from, double to, int n, double slope, double approach, double depth) {
+  const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
+  const double h = (to - from) / n;
+  MatrixXd a(n, n);
+  VectorXd e(n);
+  for (int i = 0; i < n; ++i) {
+    const double x = from + (i + 0.5) * h;
+    e[i] = slope * x + 0.5 * x * x / kRadius - approach;
+    for (int j = 0; j < n; ++j) a(i, j) = 2 * surface.strip((i - j) * h, 0.5 * h, depth);
+  }
+  return solve(a, e).p.sum();
+}
+
+struct Lines {
+  PairMatrix c;
+  std::vector<HertzLine> law;
+};
+
+// Semidefinite of a random rank, entries about a tooth's 1e-9 m/N.
+template <class Random>
+Lines random_lines(int n, Random& random) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const int rank = static_cast<int>(uniform(random) * (n + 1));
+  const MatrixXd root = MatrixXd::NullaryExpr(n, rank, [&] { return normal(random); });
+  Lines lines{1e-9 / n * root * root.transpose(), {}};
+  for (int i = 0; i < n; ++i) {
+    const double slope[] = {-INFINITY, -0.01 * uniform(random), 0.0, 0.01 * uniform(random)};
+    lines.law.push_back(
+        paper_line(1e-3, slope[static_cast<int>(4 * uniform(random))], 5e-3 + 0.02 * uniform(random)));
+  }
+  return lines;
+}
+}  // namespace
+
+TEST_CASE("Hertz's law of one line: the exact indentation relative to 1 and 3 mm, from 100 to 600 N m") {
+  // Indentation of one body relative to a point at the depth below the semi-ellipse's middle: C F g(depth / a),
+  // g(l) = asinh l - nu / (1 - nu) l (sqrt(1 + l^2) - l). The law is its limit for a small a.
+  struct Row {
+    double torque, half_width, at_1mm, at_3mm;
+  };
+  const double c = HalfPlaneSurface(strain_steel(), 25.4e-3).coefficient(), nu = 0.3, share = nu / (1 - nu);
+  for (const Row& row : {Row{100, 89.558, 0.452472, 0.623892}, Row{150, 109.686, 0.631449, 0.888327},
+                         Row{300, 155.120, 1.102036, 1.614294}, Row{600, 219.373, 1.885633, 2.904246}})
+    for (double depth : {1e-3, 3e-3}) {
+      const double force = row.torque / 70.4769466e-3;
+      const HertzLine law = paper_line(depth);
+      const double a = 0.5 * law.width(force), l = depth / a;
+      CHECK(a * 1e6 == doctest::Approx(row.half_width).epsilon(1e-5));
+      const double exact = std::asinh(l) - share * l * (std::sqrt(1 + l * l) - l),
+                   limit = std::log(2 * l) - 0.5 * share;
+      CHECK((0.5 * law.at(force).indentation + c * force * (exact - limit)) * 1e6 ==
+            doctest::Approx(depth == 1e-3 ? row.at_1mm : row.at_3mm).epsilon(2e-6));
+    }
+}
+
+TEST_CASE("the law of one line inside a flank, cut by a tip edge and at a corner is that of fine strips") {
+  const double depth = 1e-3;
+  for (double force : {300.0, 2128.0})
+    for (double in_widths : {-2.0, -0.5, -0.2, 0.0, 0.3, 2.0}) {
+      // In the slope that a Hertz contact has at its end.
+      const double slope = in_widths * 0.5 * paper_line(depth).width(force) / kRadius;
+      const HertzLine law = paper_line(depth, slope);
+      const double from = law.at_edge(force) ? 0 : -1.01 * 0.5 * law.width(force) - slope * kRadius;
+      const double to = from + 1.02 * law.width(force);
+      const double at_edge_gap =
+          slope < 0 ? 0.5 * slope * slope * kRadius : 0;  // the law counts from the touching point
+      const auto strips = [&](int n) {
+        return strips_force(from, to, n, slope, law.at(force).indentation - at_edge_gap, depth);
+      };
+      INFO("force " << force << " slope " << slope);
+      // The middle of the first strip stands half a strip off the edge: an error of first order in its width.
+      const double coarse = strips(100), fine = strips(200);
+      CHECK(fine == doctest::Approx(force).epsilon(6e-3));
+      CHECK(2 * fine - coarse == doctest::Approx(force).epsilon(3e-4));
+      CHECK(law.at_edge(force) == (in_widths > -1));
+    }
+}
+
+TEST_CASE(
+    "the law of one line: slope and energy are those of its indentation, over every joint and the far end") {
+  for (double slope : {-double(INFINITY), -0.02, -0.008, 0.0, 0.005}) {
+    const HertzLine law = paper_line(1e-3, slope);
+    const double largest = law.largest_force();
+    for (double force : {1e-3, 10.0, 300.0, 1000.0, 2000.0, 0.999 * largest, 1.5 * largest, -50.0}) {
+      const double h = 1e-4 * std::abs(force);
+      const auto low = law.at(force - h), at = law.at(force), high = law.at(force + h);
+      CHECK(at.slope == doctest::Approx((high.indentation - low.indentation) / (2 * h)).epsilon(1e-5));
+      CHECK(at.indentation == doctest::Approx((high.energy - low.energy) / (2 * h)).epsilon(1e-5));
+      CHECK(at.slope > 0);
+    }
+    CHECK(std::abs(law.at(0).indentation) < 1e-28);
+    // Continuous where Hertz's law ends at the edge (a = s) and where the straight line begins.
+    const double c = 2 * HalfPlaneSurface(strain_steel(), 25.4e-3).coefficient();
+    CHECK(law.at(2 * largest).slope == doctest::Approx(c / 8).epsilon(1e-9));
+    if (slope < 0 && std::isfinite(slope)) {
+      const double joint = 0.5 * slope * slope * kRadius / c;
+      const auto before = law.at(joint * (1 - 1e-9)), after = law.at(joint * (1 + 1e-9));
+      CHECK(after.indentation == doctest::Approx(before.indentation).epsilon(1e-8));
+      CHECK(after.slope == doctest::Approx(before.slope).epsilon(1e-8));
+      CHECK(after.energy == doctest::Approx(before.energy).epsilon(1e-8));
+      CHECK(law.centroid(joint) == doctest::Approx(-slope * kRadius).epsilon(1e-9));
+    }
+  }
+  // From the last contact on the line of action to the first corner.
+  CHECK(paper_line(1e-3, -1e-12).at(1000).indentation ==
+        doctest::Approx(paper_line(1e-3, 1e-12).at(1000).indentation).epsilon(1e-8));
+}
+
+TEST_CASE("line contact: one pair is where bisection puts it") {
+  const HertzLine law = paper_line(1e-3, -0.005);
+  PairMatrix c(1, 1);
+  c(0, 0) = 2.1e-9;
+  for (double approach : {1e-12, 1e-9, 1e-6, 5e-6}) {
+    double low = 0, high = 1e5;
+    for (int i = 0; i < 200; ++i) {
+      const double middle = 0.5 * (low + high);
+      (c(0, 0) * middle + law.at(middle).indentation < approach ? low : high) = middle;
+    }
+    for (double start : {0.0, 1.0, 1e5}) {
+      VectorXd force = VectorXd::Constant(1, start), d(1);
+      solve_line_contact(c, std::span(&law, 1), VectorXd::Constant(1, -approach), force, d);
+      CHECK(force[0] == doctest::Approx(low).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE(
+    "line contact: random problems against projected gradients, from any start; stiffness as a difference") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int empty = 0, steps = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 1 + trial % kMostPairs;
+    const Lines lines = random_lines(n, random);
+    const VectorXd e = VectorXd::NullaryExpr(n, [&] { return 4e-6 * uniform(random); });
+    VectorXd force = VectorXd::Zero(n), d(n);
+    const Certificate certificate = solve_line_contact(lines.c, lines.law, e, force, d);
+    steps = std::max(steps, certificate.factorisations);
+    CHECK(certificate.residual < 1e-12);
+    CHECK(force.minCoeff() >= 0);
+    CHECK(certificate.least_gap > -1e-12 * e.cwiseAbs().maxCoeff());
+    empty += force.isZero();
+
+    VectorXd again = VectorXd::NullaryExpr(n, [&] { return 5e3 * uniform(random); }), other_d(n);
+    solve_line_contact(lines.c, lines.law, e, again, other_d);
+    CHECK((again - force).cwiseAbs().maxCoeff() < 1e-8 * (1 + force.maxCoeff()));
+
+    // Projected Gauss and Seidel: each force in turn by bisection, the others held.
+    VectorXd sweep = VectorXd::Zero(n);
+    for (int iteration = 0; iteration < 400; ++iteration)
+      for (int i = 0; i < n; ++i) {
+        const double rest = lines.c.row(i).dot(sweep) - lines.c(i, i) * sweep[i] + e[i];
+        double low = 0, high = rest < 0 ? 1e6 : 0;
+        for (int k = 0; k < 60; ++k) {
+          const double middle = 0.5 * (low + high);
+          (lines.c(i, i) * middle + lines.law[i].at(middle).indentation + rest < 0 ? low : high) = middle;
+        }
+        sweep[i] = 0.5 * (low + high);
+      }
+    CHECK((sweep - force).cwiseAbs().maxCoeff() < 1e-6 * (1 + force.maxCoeff()));
+
+    const VectorXd approach = VectorXd::NullaryExpr(n, [&] { return 1 + 0.03 * uniform(random); });
+    const double stiffness = line_contact_stiffness(lines.c, lines.law, approach, force), h = 1e-12;
+    VectorXd more = force, less = force;
+    solve_line_contact(lines.c, lines.law, e - h * approach, more, d);
+    solve_line_contact(lines.c, lines.law, e + h * approach, less, d);
+    if (force.minCoeff() == 0 && d.cwiseAbs().minCoeff() < 1e-11) continue;  // a pair comes or goes
+    CHECK(stiffness == doctest::Approx((approach.dot(more) - approach.dot(less)) / (2 * h)).epsilon(1e-3));
+  }
+  CHECK(empty < 60);
+  CHECK(steps < 60);
+}
+
+TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be solved is refused") {
+  std::mt19937 random(3);
+  const Lines lines = random_lines(2, random);
+  VectorXd force = VectorXd::Constant(2, 100.0), d(2);
+  const VectorXd apart = VectorXd::Constant(2, 1e-6);
+  CHECK(solve_line_contact(lines.c, lines.law, apart, force, d).least_gap == 1e-6);
+  CHECK(force.isZero());
+
+  const VectorXd deep = VectorXd::Constant(2, -1.0);
+  solve_line_contact(lines.c, lines.law, deep, force, d);
+  CHECK_THROWS_AS(require_hertz_range(lines.law, force), Error);
+  CHECK_NOTHROW(require_hertz_range(lines.law, VectorXd::Constant(2, 1000.0)));
+  CHECK_THROWS_AS(solve_line_contact(lines.c, lines.law, VectorXd::Constant(2, NAN), force, d), Error);
+  PairMatrix indefinite = -1e-8 * PairMatrix::Identity(2, 2);
+  force.setZero();
+  CHECK_THROWS_AS(solve_line_contact(indefinite, lines.law, VectorXd::Constant(2, -1e-6), force, d), Error);
 }

@@ -18,13 +18,19 @@ class HalfPlaneSurface {
     return 2 * (1 - nu * nu) / (std::acos(-1.0) * moduli_.youngs_modulus * face_width_);
   }
 
+  // m N-1: inward displacement at distance x (m, not 0) from a line load of unit force, relative to `depth` (m)
+  // under it: C (ln(depth / |x|) - 1 / (2 (1 - nu))).
+  double line(double x, double depth) const {
+    return flat_surface_displacement(x, moduli_, face_width_, depth);
+  }
+
   // m N-1: inward displacement at distance x (m, any) from the middle of a strip |x| <= half_width (m) that
   // carries a unit force, relative to `depth` (m) under a line load.
   double strip(double x, double half_width, double depth) const {
     // Mean of ln|t| over the strip from t ln|t| - t; the rest is the line load's constant.
     const auto primitive = [](double t) { return t == 0 ? 0.0 : t * std::log(std::abs(t)) - t; };
     const double mean_log = (primitive(x + half_width) - primitive(x - half_width)) / (2 * half_width);
-    return flat_surface_displacement(1.0, moduli_, face_width_, depth) - coefficient() * mean_log;
+    return line(1.0, depth) - coefficient() * mean_log;
   }
 
   // m N-1: the same, averaged over another strip whose middle lies at x and whose half width is `reading` (m).

@@ -1,0 +1,188 @@
+#include "contact/line_contact.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kRoundOff = 16 * std::numeric_limits<double>::epsilon();
+
+struct Energy {
+  double value = 0;
+  double magnitude = 0;  // sum of the terms' sizes, for the round-off
+};
+
+Energy energy(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+              const Eigen::Ref<const VectorXd>& e, const PairVector& force) {
+  Energy result;
+  for (Eigen::Index i = 0; i < force.size(); ++i) {
+    if (force[i] == 0) continue;
+    const double own = law[i].at(force[i]).energy, shared = 0.5 * force[i] * c.row(i).dot(force),
+                 work = e[i] * force[i];
+    result.value += own + shared + work;
+    result.magnitude += std::abs(own) + std::abs(shared) + std::abs(work);
+  }
+  return result;
+}
+
+// (carrying, carrying) of C + slopes, factorised.
+using Factor = Eigen::LLT<PairMatrix>;
+Factor factorise(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law, const PairVector& force,
+                 const std::array<int, kMostPairs>& carrying, int count) {
+  PairMatrix tangent(count, count);
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) tangent(i, j) = c(carrying[i], carrying[j]);
+    tangent(i, i) += law[carrying[i]].at(force[carrying[i]]).slope;
+  }
+  Factor factor(tangent);
+  if (factor.info() != Eigen::Success)
+    fail(Failure::numerical, "line contact: the compliance of ", count,
+         " pairs and their Hertz laws is not positive definite (least diagonal term ",
+         tangent.diagonal().minCoeff(), " m/N); take the laws relative to a smaller depth");
+  return factor;
+}
+
+int list(const std::array<bool, kMostPairs>& in, Eigen::Index n, std::array<int, kMostPairs>& carrying) {
+  int count = 0;
+  for (int i = 0; i < n; ++i)
+    if (in[i]) carrying[count++] = i;
+  return count;
+}
+
+}  // namespace
+
+Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                               const Eigen::Ref<const VectorXd>& e, Eigen::Ref<VectorXd> force,
+                               Eigen::Ref<VectorXd> d) {
+  const Eigen::Index n = e.size();
+  if (n > kMostPairs)
+    fail(Failure::numerical, "line contact: ", n, " pairs, at most ", kMostPairs, " are foreseen");
+  if (!e.allFinite() || !c.allFinite()) fail(Failure::numerical, "line contact: a number is not finite");
+  Certificate certificate;
+  PairVector f(n);
+  std::array<bool, kMostPairs> in{};
+  for (int i = 0; i < n; ++i) {
+    in[i] = force[i] > 0 && std::isfinite(force[i]);
+    f[i] = in[i] ? force[i] : 0;
+  }
+  const double scale = n ? e.cwiseAbs().maxCoeff() : 0;
+  PairVector tolerance(n);  // m: round-off of each pair's terms, however far the others are
+  std::array<int, kMostPairs> carrying;
+  constexpr int kMostSteps = 200;
+  for (int step = 0;; ++step) {
+    double worst = 0, least = 0;
+    int incoming = -1;
+    bool met = true;
+    for (int i = 0; i < n; ++i) {
+      const double own = f[i] > 0 ? law[i].at(f[i]).indentation : 0;
+      d[i] = c.row(i).dot(f) + own + e[i];
+      tolerance[i] = kRoundOff * (c.row(i).cwiseAbs().dot(f) + std::abs(own) + std::abs(e[i]));
+      if (in[i]) {
+        met = met && std::abs(d[i]) <= tolerance[i];
+        worst = std::max(worst, std::abs(d[i]));
+      } else if (d[i] < std::min(least, -tolerance[i])) {
+        least = d[i];
+        incoming = i;
+      }
+    }
+    certificate.iterations = step + 1;
+    if (met) {
+      if (incoming < 0) break;
+      in[incoming] = true;
+    }
+    if (step == kMostSteps)
+      fail(Failure::numerical, "line contact did not converge: a gap of ", worst, " m where ", n,
+           " pairs touch, largest |e| ", scale, " m, after ", step, " steps");
+
+    // A pair that has just come to zero, or came in, and is pulled below zero by the others stays out.
+    PairVector change(n), right;
+    int count;
+    for (bool again = true; again;) {
+      again = false;
+      count = list(in, n, carrying);
+      right.resize(count);
+      for (int i = 0; i < count; ++i) right[i] = -d[carrying[i]];
+      ++certificate.factorisations;
+      right = factorise(c, law, f, carrying, count).solve(right);
+      for (int i = 0; i < count; ++i)
+        if (f[carrying[i]] == 0 && right[i] < 0) {
+          in[carrying[i]] = false;
+          again = true;
+        }
+    }
+    change.setZero();
+    for (int i = 0; i < count; ++i) change[carrying[i]] = right[i];
+
+    double reach = 1;
+    for (int i = 0; i < n; ++i)
+      if (f[i] + reach * change[i] < 0) reach = -f[i] / change[i];
+    const double fall = change.dot(d);
+    const Energy before = energy(c, law, e, f);
+    PairVector next(n);
+    for (double part = reach;; part *= 0.5) {
+      next = (f + part * change).cwiseMax(0.0);
+      const Energy after = energy(c, law, e, next);
+      const double slack = kRoundOff * (before.magnitude + after.magnitude);
+      if (after.value <= before.value + 1e-4 * part * fall + slack || part < 1e-9 * reach) {
+        for (int i = 0; i < n; ++i) {
+          if (part == reach && reach < 1 && change[i] < 0 && next[i] <= kRoundOff * f[i]) next[i] = 0;
+          if (next[i] == 0) in[i] = false;
+        }
+        break;
+      }
+    }
+    f = next;
+  }
+
+  force = f;
+  certificate.least_gap = certificate.least_force = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < n; ++i) {
+    if (f[i] > 0) {
+      certificate.least_force = std::min(certificate.least_force, f[i]);
+    } else {
+      certificate.least_gap = std::min(certificate.least_gap, d[i]);
+      certificate.degenerate += std::abs(d[i]) <= tolerance[i];
+    }
+    const double compliance = c(i, i) + law[i].at(f[i]).slope;
+    if (scale > 0)
+      certificate.residual =
+          std::max(certificate.residual, std::abs(std::min(d[i], f[i] * compliance)) / scale);
+  }
+  if (std::isinf(certificate.least_gap)) certificate.least_gap = 0;
+  if (std::isinf(certificate.least_force)) certificate.least_force = 0;
+  return certificate;
+}
+
+double line_contact_stiffness(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                              const Eigen::Ref<const VectorXd>& approach,
+                              const Eigen::Ref<const VectorXd>& force) {
+  std::array<bool, kMostPairs> in{};
+  std::array<int, kMostPairs> carrying;
+  for (int i = 0; i < force.size(); ++i) in[i] = force[i] > 0;
+  const int count = list(in, force.size(), carrying);
+  if (count == 0) return 0;
+  PairVector reduced(count);
+  for (int i = 0; i < count; ++i) reduced[i] = approach[carrying[i]];
+  return reduced.dot(factorise(c, law, force, carrying, count).solve(reduced));
+}
+
+void require_hertz_range(std::span<const HertzLine> law, const Eigen::Ref<const VectorXd>& force) {
+  for (int i = 0; i < force.size(); ++i)
+    if (!(force[i] <= law[i].largest_force()))
+      fail(Failure::numerical, "line contact: a pair carries ", force[i], " N on a width of ",
+           law[i].width(force[i]) * 1e3, " mm; Hertz's law relative to its depth holds up to ",
+           law[i].largest_force(), " N, width ", law[i].width(law[i].largest_force()) * 1e3,
+           " mm; lower the load, take a larger depth or contact = \"strips\"");
+}
+
+}  // namespace whine

@@ -1,0 +1,40 @@
+// Contact of a few tooth pairs, one unknown force each: find F >= 0 with d = C F + law(F) + e >= 0 and F . d = 0.
+//
+// C is symmetric and positive semidefinite and the law of each pair rises, so the problem has one solution: the least
+// value of the strictly convex energy 1/2 F C F + sum of the laws' energies + e . F over F >= 0. Newton's method on
+// the pairs that carry force, cut where a force would fall below zero and by Armijo's rule where the energy would not
+// fall; a pair comes in only at the least energy of the others, so that no set of pairs comes back (as in Lawson and
+// Hanson, Solving Least Squares Problems, 1974, chapter 23). No memory is taken.
+#pragma once
+#include <Eigen/Core>
+#include <span>
+
+#include "contact/complementarity.h"
+#include "contact/hertz_line.h"
+
+namespace whine {
+
+inline constexpr int kMostPairs = 8;
+using PairVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPairs, 1>;
+using PairMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostPairs, kMostPairs>;
+
+// c: (pair, pair) m N-1; law: (pair); e: (pair) m; force: (pair) N, start and result; d: (pair) m, result. Values of
+// force that are not above 0 are no start. Beyond HertzLine::largest_force the law is a straight line, and whoever
+// uses the result asks require_hertz_range. Certificate as ComplementaritySolver's: gap tolerance the round-off of
+// each pair's own terms; forces are never negative; `factorisations` counts Newton steps. Throws
+// Error(numerical) for more than kMostPairs pairs, a number that is not finite, a C that is not semidefinite where it
+// is tried, or no convergence within 200 steps.
+Certificate solve_line_contact(const Eigen::Ref<const Eigen::MatrixXd>& c, std::span<const HertzLine> law,
+                               const Eigen::Ref<const Eigen::VectorXd>& e, Eigen::Ref<Eigen::VectorXd> force,
+                               Eigen::Ref<Eigen::VectorXd> d);
+
+// d (approach . F) / d x for e = gap - x approach at a solution: approach^T (C + slopes)^-1 approach over the pairs with
+// force. N m-1 if approach is 1; 0 without force.
+double line_contact_stiffness(const Eigen::Ref<const Eigen::MatrixXd>& c, std::span<const HertzLine> law,
+                              const Eigen::Ref<const Eigen::VectorXd>& approach,
+                              const Eigen::Ref<const Eigen::VectorXd>& force);
+
+// Throws Error(numerical) if a force is above the largest for which the law holds.
+void require_hertz_range(std::span<const HertzLine> law, const Eigen::Ref<const Eigen::VectorXd>& force);
+
+}  // namespace whine
