@@ -209,7 +209,9 @@ TEST_CASE("a value outside its range is refused with value and limit") {
   CHECK(contains(file.refusal(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
   CHECK(contains(file.refusal(with_section("[fidelity]\nbody = \"full\"\n")),
                  "must be one of: rigid, quasi-static, lagged, modal"));
-  CHECK(contains(file.refusal(with_section("[fidelity]\ncontact = \"line\"\n")), "must be one of: strips"));
+  CHECK(contains(file.refusal(with_section("[fidelity]\ncontact = \"point\"\n")),
+                 "must be one of: line, strips"));
+  CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == "line");
   CHECK(contains(file.refusal(with_section("[fidelity]\nintegrator = \"euler\"\n")),
                  "must be one of: newmark, exact"));
 }
@@ -353,6 +355,7 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
       {scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.02"), false, false, true},
       {section("[damping]\nrayleigh_stiffness_s = 5.5e-6\n"), false, false, true},
       {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true},
+      {section("[fidelity]\ncontact = \"line\"\n"), false, true, true},
       {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, true},
       {scene_with("step = 20", "step = 10"), false, false, true},
       {scene_with("[100, 150]", "[150, 100]"), false, false, true},  // another reference torque

@@ -75,7 +75,7 @@ struct Operation {
 
 struct Fidelity {
   std::string body = "modal";        // rigid, quasi-static, lagged, modal
-  std::string contact = "strips";    // strips
+  std::string contact = "strips";    // line, strips
   std::string integrator = "exact";  // newmark, exact
 };
 

@@ -102,9 +102,8 @@ bool MeshPosition::reaches_window_end(const Eigen::Ref<const VectorXd>& p) const
   return false;
 }
 
-MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range) {
-  MeshPosition position;
-  position.phase = phase;
+PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap) {
+  PairsInReach reach;
   const GearPair& gears = model.kinematics;
   const double tangent = std::tan(gears.working_pressure_angle()), pitch = gears.base_pitch();
   for (int pair = -3; pair <= 3; ++pair) {  // more than a contact ratio of 4 and corners could need
@@ -117,16 +116,28 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Conta
     if (contact.corner) {
       if (!model.corner.enabled || contact.normal_angle > model.corner.largest_angle) continue;
       if (!contact.on_flank) {
-        position.lost_corner_gap = std::min(position.lost_corner_gap, contact.gap);
+        reach.lost_corner_gap = std::min(reach.lost_corner_gap, contact.gap);
         continue;
       }
-      if (contact.gap > range.corner_gap) {
-        position.next_corner_gap = std::min(position.next_corner_gap, contact.gap);
+      if (contact.gap > corner_gap) {
+        reach.next_corner_gap = std::min(reach.next_corner_gap, contact.gap);
         continue;
       }
     }
-    position.pairs.push_back(make_strips(gears, pair, contact, range));
+    reach.pair.push_back(pair);
+    reach.contact.push_back(contact);
   }
+  return reach;
+}
+
+MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range) {
+  MeshPosition position;
+  position.phase = phase;
+  const PairsInReach reach = pairs_in_reach(model, phase, range.corner_gap);
+  position.next_corner_gap = reach.next_corner_gap;
+  position.lost_corner_gap = reach.lost_corner_gap;
+  for (int j = 0; j < reach.size(); ++j)
+    position.pairs.push_back(make_strips(model.kinematics, reach.pair[j], reach.contact[j], range));
 
   position.first_strip.push_back(0);
   for (const PairStrips& s : position.pairs)
@@ -161,42 +172,105 @@ MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& positi
   return a;
 }
 
-MatrixXd body_compliance(const MeshPosition& position, int g, const std::vector<MatrixXd>& tables) {
+LinePosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
+                                double pair_force) {
+  const GearPair& gears = model.kinematics;
+  LinePosition position;
+  position.phase = phase;
+  position.reach = pairs_in_reach(model, phase, corner_gap);
+  const int n = position.reach.size();
+  position.gap.resize(n);
+  for (int g = 0; g < 2; ++g) {
+    position.lever[g].resize(n);
+    position.table_weights[g].resize(n, model.gear[g].table_size());
+  }
+  for (int j = 0; j < n; ++j) {
+    const PairContact& contact = position.reach.contact[j];
+    position.gap[j] = contact.gap;
+    const double tip[2] = {gears.tip_distance(contact, 0), gears.tip_distance(contact, 1)};
+    const int near = contact.corner ? contact.tip_gear : tip[0] < tip[1] ? 0 : 1;
+    const double radius = gears.relative_curvature_radius(contact);
+    const double edge_slope = contact.corner ? std::tan(contact.normal_angle) : -tip[near] / radius;
+    position.law.emplace_back(model.gear[0].half_plane(), model.gear[1].half_plane(), radius, depth,
+                              edge_slope);
+    const HertzLine& law = position.law.back();
+    // The driver's tip edge is where x is largest.
+    const double inward =
+        law.at_edge(pair_force) ? law.centroid(pair_force) - (contact.corner ? 0 : tip[near]) : 0;
+    const FlankGap middle = gears.gap_at(contact, near == 0 ? -inward : inward);
+    for (int g = 0; g < 2; ++g) {
+      position.lever[g][j] = contact.lever[g];
+      position.table_weights[g].row(j) = model.gear[g].table().weights(
+          std::clamp(middle.roll[g], model.gear[g].table().lowest(), model.gear[g].table().highest()));
+    }
+  }
+  return position;
+}
+
+namespace {
+
+// kNodes rows of weights per pair.
+template <int kNodes>
+MatrixXd between_nodes(const MatrixXd& weights, const std::vector<int>& pair, int g,
+                       const std::vector<MatrixXd>& tables) {
   const int max = static_cast<int>(tables.size()) / 2;
-  MatrixXd c = MatrixXd::Zero(position.nodes(), position.nodes());
-  const MatrixXd& s = position.table_weights[g];
-  for (size_t i = 0; i < position.pairs.size(); ++i)
-    for (size_t j = 0; j < position.pairs.size(); ++j) {
-      const int offset = GearMeshModel::tooth(g, position.pairs[i].pair - position.pairs[j].pair);
+  MatrixXd c = MatrixXd::Zero(weights.rows(), weights.rows());
+  for (size_t i = 0; i < pair.size(); ++i)
+    for (size_t j = 0; j < pair.size(); ++j) {
+      const int offset = GearMeshModel::tooth(g, pair[i] - pair[j]);
       if (std::abs(offset) > max) continue;
-      c.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes) =
-          s.middleRows<kWindowNodes>(i * kWindowNodes) * tables[offset + max] *
-          s.middleRows<kWindowNodes>(j * kWindowNodes).transpose();
+      c.block<kNodes, kNodes>(i * kNodes, j * kNodes) = weights.middleRows<kNodes>(i * kNodes) *
+                                                        tables[offset + max] *
+                                                        weights.middleRows<kNodes>(j * kNodes).transpose();
     }
   return c;
 }
 
+}  // namespace
+
+MatrixXd body_compliance(const MeshPosition& position, int g, const std::vector<MatrixXd>& tables) {
+  std::vector<int> pair;
+  for (const PairStrips& strips : position.pairs) pair.push_back(strips.pair);
+  return between_nodes<kWindowNodes>(position.table_weights[g], pair, g, tables);
+}
+
+MatrixXd body_compliance(const LinePosition& position, int g, const std::vector<MatrixXd>& tables) {
+  return between_nodes<1>(position.table_weights[g], position.reach.pair, g, tables);
+}
+
 Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& approach, double load,
                         double start, ActiveSet& active, ComplementaritySolver& solver) {
-  const int n = static_cast<int>(gap.size());
-  Equilibrium result;
-  result.p.resize(n);
-  VectorXd e(n), d(n), reduced, response;
-  double touch = std::numeric_limits<double>::infinity();  // where the first strip touches
-  for (int k = 0; k < n; ++k)
-    if (approach[k] > 0) touch = std::min(touch, gap[k] / approach[k]);
-  if (!std::isfinite(touch)) fail(Failure::numerical, "no strip can carry the load: no pair is in reach");
-  double low = touch, high = std::numeric_limits<double>::infinity();
-  double x = std::max(start, touch + 1e-3 * std::abs(touch) + 1e-9);
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    e = gap - x * approach;
-    result.certificate = solver.solve(a, e, active, result.p, d);
-    const double excess = approach.dot(result.p) - load;
+  VectorXd d(gap.size()), reduced, response;
+  return equilibrium(gap, approach, load, start, [&](const VectorXd& e, VectorXd& p) {
+    HeldContact held;
+    held.certificate = solver.solve(a, e, active, p, d);
     const int k = static_cast<int>(active.strips.size());
     reduced.resize(k);
     for (int i = 0; i < k; ++i) reduced[i] = approach[active.strips[i]];
     response = active.inverse * reduced;
-    result.stiffness = reduced.dot(response);
+    held.stiffness = reduced.dot(response);
+    return held;
+  });
+}
+
+Equilibrium equilibrium(const VectorXd& gap, const VectorXd& approach, double load, double start,
+                        const ContactSolve& solve) {
+  const int n = static_cast<int>(gap.size());
+  Equilibrium result;
+  result.p = VectorXd::Zero(n);
+  VectorXd e(n);
+  double touch = std::numeric_limits<double>::infinity();  // where the first strip touches
+  for (int k = 0; k < n; ++k)
+    if (approach[k] > 0) touch = std::min(touch, gap[k] / approach[k]);
+  if (!std::isfinite(touch)) fail(Failure::numerical, "no pair is in reach to carry the load");
+  double low = touch, high = std::numeric_limits<double>::infinity();
+  double x = std::max(start, touch + 1e-3 * std::abs(touch) + 1e-9);
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    e = gap - x * approach;
+    const HeldContact held = solve(e, result.p);
+    result.certificate = held.certificate;
+    result.stiffness = held.stiffness;
+    const double excess = approach.dot(result.p) - load;
     result.x = x;
     result.residual = std::abs(excess) / load;
     if (result.residual < 1e-12) return result;

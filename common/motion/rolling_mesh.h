@@ -2,11 +2,13 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <limits>
 #include <vector>
 
 #include "contact/complementarity.h"
 #include "contact/half_plane_strip.h"
+#include "contact/line_contact.h"
 #include "contact/strips.h"
 #include "files/schemas.h"
 #include "gear/pair.h"
@@ -53,6 +55,21 @@ struct GearMeshModel {
   static int tooth(int g, int pair) { return g == 0 ? pair : -pair; }
 };
 
+// Which pairs may touch at one phase, in the order of their numbers.
+struct PairsInReach {
+  std::vector<int> pair;
+  std::vector<PairContact> contact;
+  double next_corner_gap =
+      std::numeric_limits<double>::infinity();  // m, least gap of a tip edge left out as too far
+  double lost_corner_gap =
+      std::numeric_limits<double>::infinity();  // m, least gap of one that has no flank to touch
+
+  int size() const { return static_cast<int>(pair.size()); }
+};
+
+// corner_gap: m, tip edges with a larger gap than this are left out.
+PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap);
+
 // All that contact needs at one phase; strips and nodes of all pairs in one row, pair after pair.
 struct MeshPosition {
   double phase = 0;
@@ -88,6 +105,25 @@ Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition&
 Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
                                 const std::vector<Eigen::MatrixXd>& tables);
 
+// The same with one contact line per pair.
+struct LinePosition {
+  double phase = 0;
+  PairsInReach reach;
+  Eigen::VectorXd gap;                           // (pair) m
+  std::array<Eigen::VectorXd, 2> lever;          // (pair) m
+  std::array<Eigen::MatrixXd, 2> table_weights;  // (pair, flank) 1: the S of load and reading
+  std::vector<HertzLine> law;                    // (pair)
+};
+
+// depth: m, of the Hertz laws. The tables are read at the middle of the pressure that pair_force (N) makes, which
+// moves inwards from the touching point where contact ends at a tip edge; held there, whatever force the pair carries.
+LinePosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
+                                double pair_force);
+
+// (pair, pair) m N-1: as body_compliance, between the contact lines.
+Eigen::MatrixXd body_compliance(const LinePosition& position, int g,
+                                const std::vector<Eigen::MatrixXd>& tables);
+
 // Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
 // approach . p = load (Eq. 18-20).
 struct Equilibrium {
@@ -98,8 +134,19 @@ struct Equilibrium {
   double residual = 0;  // |approach . p - load| / load
 };
 
-// load > 0. Newton on a monotone, piecewise linear function between brackets; throws Error(numerical) with
-// the residual if the load is not met to 1e-12.
+// A contact whose rigid freedom is held, so that its gaps are e (m): fills the forces p (N), start and result.
+struct HeldContact {
+  Certificate certificate;
+  double stiffness = 0;  // d (approach . p) / d x
+};
+using ContactSolve = std::function<HeldContact(const Eigen::VectorXd& e, Eigen::VectorXd& p)>;
+
+// load > 0. Newton on a monotone function between brackets; throws Error(numerical) with the residual if the load is
+// not met to 1e-12.
+Equilibrium equilibrium(const Eigen::VectorXd& gap, const Eigen::VectorXd& approach, double load,
+                        double start, const ContactSolve& solve);
+
+// The same for d = A p + e.
 Equilibrium equilibrium(const Eigen::MatrixXd& a, const Eigen::VectorXd& gap, const Eigen::VectorXd& approach,
                         double load, double start, ActiveSet& active, ComplementaritySolver& solver);
 

@@ -1,8 +1,11 @@
 #include "motion/statics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 
@@ -13,67 +16,134 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kTableDepth = 1e-3;  // m: statics do not depend on it, near field and far field cancel it
-
-std::vector<MatrixXd> compliance_tables(const ElasticGear& gear) {
+std::vector<MatrixXd> compliance_tables(const ElasticGear& gear, double depth) {
   std::vector<MatrixXd> tables;
   for (int offset = -gear.body().offsets; offset <= gear.body().offsets; ++offset)
-    tables.push_back(gear.compliance(offset, kTableDepth));
+    tables.push_back(gear.compliance(offset, depth));
   return tables;
+}
+
+struct Loaded {
+  int pair;
+  double force;
+  ContactPatch patch;
+};
+
+// One mesh position, as either contact rung answers it.
+struct PositionAnswer {
+  Equilibrium equilibrium;
+  std::vector<Loaded> loads;
+  double next_corner_gap = 0, lost_corner_gap = 0;  // m, see PairsInReach
+  bool leaves_window = false;                       // a wider range may do
+};
+
+// A rung of contact at one load: the equilibrium at a phase, looked for from `start` (m).
+using ContactRung = std::function<PositionAnswer(double phase, double start)>;
+
+ContactRung strips_rung(const GearMeshModel& model, const ContactRange& range, double load,
+                        double face_width) {
+  constexpr double kDepth = 1e-3;  // m: statics do not depend on it, near field and far field cancel it
+  return [&model, range, load, face_width,
+          tables =
+              std::array{compliance_tables(model.gear[0], kDepth), compliance_tables(model.gear[1], kDepth)},
+          solver = ComplementaritySolver()](double phase, double start) mutable {
+    const MeshPosition position = make_position(model, phase, range);
+    MatrixXd a = local_compliance(model, position, kDepth);
+    position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
+                           a);
+    const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
+    ActiveSet active;
+    PositionAnswer answer;
+    answer.equilibrium = equilibrium(a, position.gap, approach, load, start, active, solver);
+    answer.next_corner_gap = position.next_corner_gap;
+    answer.lost_corner_gap = position.lost_corner_gap;
+    const VectorXd& p = answer.equilibrium.p;
+    answer.leaves_window = position.reaches_window_end(p);
+    const VectorXd pair_loads = position.pair_loads(p);
+    for (size_t j = 0; j < position.pairs.size(); ++j)
+      answer.loads.push_back(
+          {position.pairs[j].pair, pair_loads[j],
+           contact_patch(position.pairs[j], p.segment(position.first_strip[j], position.pairs[j].size()),
+                         face_width)});
+    return answer;
+  };
+}
+
+ContactRung line_rung(const GearMeshModel& model, const ContactRange& range, double load, double face_width) {
+  // The half window is Hertz's half-width under the whole load: the laws rise over all of it, and the tables keep what
+  // lies deeper.
+  const double depth = 3 * range.half_window;
+  // Where a contact comes to a tip edge, two pairs share the load.
+  const double pair_force = 0.5 * load;
+  return [&model, range, load, face_width, depth, pair_force,
+          tables = std::array{compliance_tables(model.gear[0], depth),
+                              compliance_tables(model.gear[1], depth)}](double phase, double start) {
+    const LinePosition position = make_line_position(model, phase, range.corner_gap, depth, pair_force);
+    const MatrixXd c = body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]);
+    const VectorXd approach = position.lever[0] / model.kinematics.gear(0).base_radius();
+    VectorXd d(position.reach.size());
+    PositionAnswer answer;
+    answer.equilibrium =
+        equilibrium(position.gap, approach, load, start, [&](const VectorXd& e, VectorXd& force) {
+          const Certificate certificate = solve_line_contact(c, position.law, e, force, d);
+          return HeldContact{certificate, line_contact_stiffness(c, position.law, approach, force)};
+        });
+    answer.next_corner_gap = position.reach.next_corner_gap;
+    answer.lost_corner_gap = position.reach.lost_corner_gap;
+    const VectorXd& force = answer.equilibrium.p;
+    require_hertz_range(position.law, force);
+    for (int j = 0; j < position.reach.size(); ++j) {
+      const PairContact& contact = position.reach.contact[j];
+      const double width = position.law[j].width(force[j]);
+      if (width > contact.x_max - contact.x_min)
+        fail(Failure::numerical, "at mesh phase ", phase, " contact leaves the flanks: a pair carries ",
+             force[j], " N on a width of ", 1e3 * width, " mm, and its flanks face each other over ",
+             (contact.x_max - contact.x_min) * 1e3, " mm; lower the torque");
+      ContactPatch patch;
+      if (force[j] > 0 && !position.law[j].at_edge(force[j]))
+        patch = {4 * force[j] / (std::numbers::pi * width * face_width), 0.5 * width};
+      answer.loads.push_back({position.reach.pair[j], force[j], patch});
+    }
+    return answer;
+  };
 }
 
 // One whole period; false if contact wants more than the range holds.
 bool solve_period(const GearMeshModel& model, const ContactRange& range, double load, int positions,
                   StaticArtifact& result) {
-  const std::vector<MatrixXd> tables[2] = {compliance_tables(model.gear[0]),
-                                           compliance_tables(model.gear[1])};
-  const double rb1 = model.kinematics.gear(0).base_radius();
-  ComplementaritySolver solver;
-  struct Loaded {
-    int pair;
-    double force;
-    ContactPatch patch;
-  };
-  std::vector<std::vector<Loaded>> loads(positions);
   const double face_width =
       std::min(model.kinematics.gear(0).design().face_width, model.kinematics.gear(1).design().face_width);
+  const ContactRung solve =
+      (result.fidelity.contact == "line" ? line_rung : strips_rung)(model, range, load, face_width);
+  std::vector<std::vector<Loaded>> loads(positions);
   int lowest = 0, highest = 0;
   double start = 0;
   result.least_gap = result.least_force = std::numeric_limits<double>::infinity();
   result.torque_residual = 0;
   for (int i = 0; i < positions; ++i) {
-    const MeshPosition position = make_position(model, static_cast<double>(i) / positions, range);
-    MatrixXd a = local_compliance(model, position, kTableDepth);
-    position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
-                           a);
-    const VectorXd approach = position.strip_lever[0] / rb1;
-    ActiveSet active;
-    const Equilibrium e = equilibrium(a, position.gap, approach, load, start, active, solver);
+    const double phase = static_cast<double>(i) / positions;
+    PositionAnswer answer = solve(phase, start);
+    const Equilibrium& e = answer.equilibrium;
     start = e.x;
-    if (position.reaches_window_end(e.p)) return false;
-    if (e.x > position.lost_corner_gap)
-      fail(Failure::numerical, "at mesh phase ", position.phase, " the deflection ", e.x * 1e6,
+    if (answer.leaves_window) return false;
+    if (e.x > answer.lost_corner_gap)
+      fail(Failure::numerical, "at mesh phase ", phase, " the deflection ", e.x * 1e6,
            " micrometres closes the gap of a tip edge that would touch below the involute (gap ",
-           position.lost_corner_gap * 1e6, " micrometres); lower the torque or set corner_contact = false");
-    if (e.x > position.next_corner_gap) return false;
-    result.mesh_phase[i] = position.phase;
+           answer.lost_corner_gap * 1e6, " micrometres); lower the torque or set corner_contact = false");
+    if (e.x > answer.next_corner_gap) return false;
+    result.mesh_phase[i] = phase;
     result.transmission_error[i] = e.x;
     result.stiffness_secant[i] = load / e.x;
     result.stiffness_tangent[i] = e.stiffness;
     result.torque_residual = std::max(result.torque_residual, e.residual);
     result.least_gap = std::min(result.least_gap, e.certificate.least_gap);
     result.least_force = std::min(result.least_force, e.certificate.least_force);
-    const VectorXd pair_loads = position.pair_loads(e.p);
-    for (size_t j = 0; j < position.pairs.size(); ++j) {
-      loads[i].push_back(
-          {position.pairs[j].pair, pair_loads[j],
-           contact_patch(position.pairs[j], e.p.segment(position.first_strip[j], position.pairs[j].size()),
-                         face_width)});
-      if (pair_loads[j] > 0) {
-        lowest = std::min(lowest, position.pairs[j].pair);
-        highest = std::max(highest, position.pairs[j].pair);
+    for (const Loaded& at : answer.loads)
+      if (at.force > 0) {
+        lowest = std::min(lowest, at.pair);
+        highest = std::max(highest, at.pair);
       }
-    }
+    loads[i] = std::move(answer.loads);
   }
   lowest = std::min(lowest, -1);
   highest = std::max(highest, 1);
