@@ -90,6 +90,14 @@ for torque in ten nan inf 0x10 '' '100 ' 1e999; do
   refused "a torque of '$torque', which is no finite number" 2 "torque.*'$torque'" "${at_torque[@]}" "$torque"; done
 refused "a torque below zero" 3 'torque' "${at_torque[@]}" -5
 refused "a torque whose contact leaves the flanks" 1 '400000 N m contact leaves the flanks: window [0-9.]+ mm' "${at_torque[@]}" 400000
+for stage in static sweep; do
+  mkdir -p line; sed 's/^contact = .*/contact = "line"/' out/scene/params/$stage.toml > line/$stage.toml; done
+line_static=("$bin/gear-static" --params line/static.toml "${pair[@]}" --torque 100 --output line/static.h5)
+if "${line_static[@]}" --next-rung > said 2>&1 && grep -q 'strips change, elsewhere' said; then ok "gear-static --next-rung"; else
+  wrong "gear-static --next-rung" "$(head -n 1 said)"; fi
+refused "the next rung of the last one" 3 'last rung' "${at_torque[@]}" 100 --next-rung
+refused "a sweep with one line per pair" 3 'not available in sweeps' $(sweep scene up | sed 's|out/scene/params|line|')
+rm -rf line
 sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
   wrong "the table of keys in README.md is up to date" "put the output of $B/bin/gear-scene --keys there: $(head -n 2 said | tr '\n' '|')"; fi

@@ -199,6 +199,85 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(budget.mean_stiffness_change.cwiseAbs().minCoeff() > 0);  // each refinement did change something
   CHECK(budget.peak_to_peak_change.cwiseAbs().maxCoeff() < 2e-3);
   CHECK(budget.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
+
+  StaticSlice line = paper_statics(32);
+  line.fidelity.contact = "line";
+  const ErrorBudgetArtifact of_line = error_budget(body, body, line, 150);
+  CHECK(of_line.entry == "flank table, elements");
+  CHECK(of_line.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
+}
+
+TEST_CASE(
+    "one line per pair against fine strips: 0.1 % of the transmission error, 0.3 % where a tip edge "
+    "touches") {
+  const BodyArtifact& body = paper_body();
+  StaticSlice slice = paper_statics(128);
+  slice.contact.strips = 61;
+  slice.fidelity.contact = "line";
+  for (double torque : {20.0, 100.0, 300.0}) {
+    const StaticArtifact line = static_transmission(body, body, slice, torque);
+    const NextRung change = next_contact_rung(body, body, slice, line);
+    CHECK(change.corner.positions + change.elsewhere.positions == 128);
+    CHECK(change.corner.positions > 5);
+    CHECK(change.corner.error_largest < 3e-3);
+    CHECK(change.corner.load_largest < 3e-3);
+    CHECK(change.elsewhere.error_largest < 1e-3);
+    CHECK(change.elsewhere.load_largest < 1e-3);
+    CHECK(change.elsewhere.error_rms < 3e-4);
+    CHECK(change.elsewhere.error_rms > 0);
+  }
+  slice.fidelity.contact = "strips";
+  CHECK_THROWS_AS(next_contact_rung(body, body, slice, static_transmission(body, body, slice, 100)), Error);
+}
+
+TEST_CASE("one line per pair: load balance, tangent, Hertz's pressure, and nothing of strips or window") {
+  const BodyArtifact& body = paper_body();
+  const GearPair pair(body.design, body.design, 0.150);
+  const double rb = pair.gear(0).base_radius(), width = body.design.face_width;
+  StaticSlice slice = paper_statics(64);
+  slice.fidelity.contact = "line";
+  for (double torque : {1e-6, 150.0, 600.0}) {
+    const StaticArtifact at = static_transmission(body, body, slice, torque),
+                         less = static_transmission(body, body, slice, torque * (1 - 1e-5)),
+                         more = static_transmission(body, body, slice, torque * (1 + 1e-5));
+    CHECK(at.torque_residual < 1e-12);
+    for (int i = 0; i < 64; ++i) {
+      double moment = 0;
+      bool near_edge = false;
+      for (int j = 0; j < at.pair.size(); ++j) {
+        const double phase = at.mesh_phase[i] + at.pair[j], force = at.tooth_load(i, j);
+        if (force > 0) moment += force * pair.contact(phase).lever[0];
+        if (force > 0) {
+          const PairContact contact = pair.contact(phase);
+          const double shared = std::sqrt(4 * torque / rb / width * pair.relative_curvature_radius(contact) /
+                                          (kPi * body.material.youngs_modulus));
+          near_edge |= std::min(pair.tip_distance(contact, 0), pair.tip_distance(contact, 1)) < shared;
+        }
+        if (at.contact_half_width(i, j) == 0) continue;
+        REQUIRE_FALSE(pair.contact(phase).corner);
+        const double radius = pair.relative_curvature_radius(phase * pair.base_pitch());
+        const double a = std::sqrt(8 * force / width * radius / (kPi * body.material.youngs_modulus));
+        CHECK(at.contact_half_width(i, j) == doctest::Approx(a).epsilon(1e-9));
+        CHECK(at.contact_pressure(i, j) == doctest::Approx(2 * force / (kPi * a * width)).epsilon(1e-9));
+      }
+      CHECK(moment == doctest::Approx(torque).epsilon(1e-12));
+      if (torque < 1) continue;  // gaps are round-off there
+      const double slope = 2e-5 * torque / rb / (more.transmission_error[i] - less.transmission_error[i]);
+      // Where half the load would reach an edge, the place where the tables are read moves with the torque, and the
+      // tangent leaves that out.
+      CHECK(at.stiffness_tangent[i] == doctest::Approx(slope).epsilon(near_edge ? 6e-3 : 1e-5));
+    }
+  }
+  // The window sets the depth at which laws and tables meet; the strips are none.
+  StaticSlice other = slice;
+  other.contact.strips = 40;
+  const StaticArtifact base = static_transmission(body, body, slice, 150),
+                       wide = static_transmission(body, body, other, 150, 2);
+  CHECK((wide.transmission_error - base.transmission_error).norm() < 1e-11 * base.transmission_error.norm());
+  CHECK_THROWS_AS(static_transmission(body, body, slice, 1e6), Error);
+  slice.mesh.corner.enabled = false;
+  CHECK(static_transmission(body, body, slice, 150).mean_stiffness < base.mean_stiffness);
+  CHECK_THROWS_AS(static_transmission(body, body, slice, 1e6), Error);
 }
 
 TEST_CASE("equal gears: transmission error is even in phase, whichever gear drives") {

@@ -4,10 +4,13 @@
 // Writes  static.h5   transmission error, secant and tangent stiffness, load of each pair, harmonics, certificate
 // Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20); k = (T / r_b) / STE.
 // With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement.
+// With --next-rung: beside static.h5, in words, what contact = "strips" would change in the answer of contact = "line".
 // Example: gear-static --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
 //            --driven out/parker2000/wheel/body.h5 --torque 150 --output out/parker2000/T150/static.h5
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
+#include <string>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -28,18 +31,28 @@ Eigen::VectorXd mean_and_harmonics(const Eigen::VectorXd& samples) {
   return out;
 }
 
+void tell_change(const std::string& where, const whine::StaticDifference& change) {
+  if (change.positions == 0) return;
+  whine::tell("gear-static: strips change, ", where, " (", change.positions,
+              " positions): transmission error by ", change.error_largest * 100, " % at most, ",
+              change.error_rms * 100, " % RMS; pair loads by ", change.load_largest * 100, " % at most, ",
+              change.load_rms * 100, " % RMS of the load");
+}
+
 void body(int argc, char** argv) {
   CLI::App app{"Static transmission error, mesh stiffness and tooth loads over a mesh period", "gear-static"};
   std::string params, driver, driven, output;
   std::string torque_word;
-  bool budget = false;
+  bool budget = false, next_rung = false;
   app.add_option("--params", params, "slice of the scene: out/<scene>/params/static.toml")->required();
   app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
   app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
   app.add_option("--torque", torque_word, "torque on the driver in N m, above 0")->required();
   app.add_option("--output", output, "static.h5 to write")->required();
-  app.add_flag("--error-budget", budget,
-               "refine one discretisation at a time and write error_budget.h5 instead");
+  auto* of_budget = app.add_flag("--error-budget", budget,
+                                 "refine one discretisation at a time and write error_budget.h5 instead");
+  app.add_flag("--next-rung", next_rung, "for contact = \"line\": say what \"strips\" would change")
+      ->excludes(of_budget);
   whine::parse(app, argc, argv);
 
   const double torque = whine::number_option("--torque", torque_word);
@@ -59,6 +72,8 @@ void body(int argc, char** argv) {
     return;
   }
   whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, slice, torque);
+  std::optional<whine::NextRung> change;
+  if (next_rung) change = whine::next_contact_rung(driver_body, driven_body, slice, result);
   result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error);
   result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant);
 
@@ -67,6 +82,10 @@ void body(int argc, char** argv) {
   whine::tell("gear-static: ", torque, " N m, contact ratio ", result.contact_ratio, ", mean stiffness ",
               result.mean_stiffness * 1e-6, "e6 N/m, transmission error ", te.minCoeff() * 1e6, " to ",
               te.maxCoeff() * 1e6, " um -> ", output);
+  if (change) {
+    tell_change("where a pair carries load off the line of action", change->corner);
+    tell_change("elsewhere", change->elsewhere);
+  }
   if (slice.mesh.corner.enabled == false)
     whine::tell("gear-static: corner contact is off: only pairs on the line of action carry load");
   if (result.driver.tooth_thinning + result.driven.tooth_thinning > 0 && result.backlash_margin <= 0)

@@ -1,7 +1,10 @@
 #include "motion/error_budget.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
+#include "base/error.h"
 #include "motion/statics.h"
 #include "signal/spectrum.h"
 #include "solid/mesher.h"
@@ -41,9 +44,12 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   const Answer reference = answer(base);
 
   std::vector<std::pair<std::string, Answer>> refined;
-  StaticSlice finer = slice;
-  finer.contact.strips *= 2;
-  refined.emplace_back("strips", solve(driver, driven, finer));
+  const bool strips = slice.fidelity.contact == "strips";
+  if (strips) {
+    StaticSlice finer = slice;
+    finer.contact.strips *= 2;
+    refined.emplace_back("strips", solve(driver, driven, finer));
+  }
   const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
   const auto with_bodies = [&](const std::string& name,
                                const std::function<BodyArtifact(const BodyArtifact&)>& change) {
@@ -64,7 +70,7 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
       second.element_order = 2;
       return reduced_again(body, second, static_cast<int>(body.flank_position.size()));
     });
-  refined.emplace_back("window", solve(driver, driven, slice, 2));
+  if (strips) refined.emplace_back("window", solve(driver, driven, slice, 2));
 
   ErrorBudgetArtifact budget;
   set_gears(budget, driver, driven);
@@ -83,6 +89,48 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
     budget.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
   }
   return budget;
+}
+
+NextRung next_contact_rung(const BodyArtifact& driver, const BodyArtifact& driven, const StaticSlice& slice,
+                           const StaticArtifact& result) {
+  if (slice.fidelity.contact != "line")
+    fail(Failure::input, "contact = \"", slice.fidelity.contact,
+         "\" is the last rung of contact; the error budget says what its strips are worth");
+  StaticSlice next = slice;
+  next.fidelity.contact = "strips";
+  const StaticArtifact strips = static_transmission(driver, driven, next, result.torque);
+  const GearPair gears(driver.design, driven.design, slice.mesh.centre_distance);
+  const double mean_error = strips.transmission_error.mean(),
+               load = result.torque / gears.gear(0).base_radius();
+  const auto load_of = [](const StaticArtifact& a, Eigen::Index position, int pair) {
+    const int j = pair - a.pair[0];
+    return j >= 0 && j < a.pair.size() ? a.tooth_load(position, j) : 0.0;
+  };
+  const int lowest = std::min(result.pair[0], strips.pair[0]),
+            highest = std::max(result.pair[result.pair.size() - 1], strips.pair[strips.pair.size() - 1]);
+  NextRung change;
+  for (Eigen::Index i = 0; i < result.mesh_phase.size(); ++i) {
+    bool corner = false;
+    double worst = 0;
+    for (int pair = lowest; pair <= highest; ++pair) {
+      const double line = load_of(result, i, pair), by_strips = load_of(strips, i, pair);
+      worst = std::max(worst, std::abs(by_strips - line) / load);
+      if (line > 0 || by_strips > 0) corner |= gears.contact(result.mesh_phase[i] + pair).corner;
+    }
+    const double error = (strips.transmission_error[i] - result.transmission_error[i]) / mean_error;
+    StaticDifference& zone = corner ? change.corner : change.elsewhere;
+    ++zone.positions;
+    zone.error_largest = std::max(zone.error_largest, std::abs(error));
+    zone.load_largest = std::max(zone.load_largest, worst);
+    zone.error_rms += error * error;
+    zone.load_rms += worst * worst;
+  }
+  for (StaticDifference* zone : {&change.corner, &change.elsewhere})
+    if (zone->positions > 0) {
+      zone->error_rms = std::sqrt(zone->error_rms / zone->positions);
+      zone->load_rms = std::sqrt(zone->load_rms / zone->positions);
+    }
+  return change;
 }
 
 }  // namespace whine

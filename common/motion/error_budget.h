@@ -1,13 +1,32 @@
-// What each discretisation of the static stage is worth: one is refined alone, and the change of the answer is its entry.
+// What each discretisation of the static stage is worth: one is refined alone, and the change of the answer is its entry;
+// and what the next rung of contact would change.
 #pragma once
 #include "files/schemas.h"
 
 namespace whine {
 
 // The bodies are meshed and reduced again where an entry needs it. Entries: strips (twice as many), flank table (twice
-// the points), elements (half the size), order (only for first-order elements: second), window (twice as wide).
+// the points), elements (half the size), order (only for first-order elements: second), window (twice as wide). One
+// contact line per pair has neither strips nor window.
 // Errors as static_transmission, make_sector_mesh and reduce.
 ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
                                  const StaticSlice& slice, double torque);
+
+// Difference of two static answers over some of the positions.
+struct StaticDifference {
+  int positions = 0;
+  double error_largest = 0, error_rms = 0;  // of the transmission error, over its mean
+  double load_largest = 0, load_rms = 0;    // of the pair load that differs most, over the load T / r_b
+};
+
+// Positions where a pair carries load off the line of action, and all others.
+struct NextRung {
+  StaticDifference corner, elsewhere;
+};
+
+// What contact = "strips" changes in `result`, an answer with contact = "line" at the same slice; relative to the
+// strips. Throws Error(input) if the slice's contact is another, errors as static_transmission.
+NextRung next_contact_rung(const BodyArtifact& driver, const BodyArtifact& driven, const StaticSlice& slice,
+                           const StaticArtifact& result);
 
 }  // namespace whine
