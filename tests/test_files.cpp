@@ -228,6 +228,39 @@ StaticArtifact small_static() {
   return a;
 }
 
+ImpactArtifact small_impact() {
+  ImpactArtifact a;
+  set_pair(a);
+  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.1 / 3}};
+  a.fidelity = {"lagged", "strips", "newmark"};
+  a.contact = {17, 128};
+  a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
+  a.torque = 150;
+  a.torque_step = 0.01 / 3;
+  a.driver_inertia = 0.0148 / 1.1;
+  a.driven_inertia = 0.0148 / 1.3;
+  a.mean_stiffness = 4e8 / 1.1;
+  a.driver_bearing_damper = 1.0 / 3;
+  a.driven_bearing_damper = 2.0 / 3;
+  a.contact_state = {"one", "two", "mean"};
+  a.natural_frequency = odd_vector(3, 3e3);
+  a.damping_ratio = odd_vector(3, 0.07);
+  a.undamped_frequency = odd_vector(3, 2.9e3);
+  a.state_phase = odd_vector(2, 0.5);
+  a.time = odd_vector(5, 1e-3);
+  a.transmission_error = odd_matrix(2, 5, 1e-8);
+  a.mesh_phase = odd_vector(4, 0.7);
+  a.loaded_pairs = Eigen::VectorXi{{1, 2, 2, 2}};
+  a.phase_natural_frequency = odd_vector(4, 3e3);
+  a.phase_damping_ratio = odd_vector(4, 0.07);
+  a.phase_undamped_frequency = odd_vector(4, 2.8e3);
+  a.eigen_frequency = odd_vector(4, 2.7e3);
+  a.eigen_damping_ratio = odd_vector(4, 0.06);
+  a.fit_residual = odd_vector(4, 1e-8);
+  a.least_mesh_force = 0.99 / 1.1;
+  return a;
+}
+
 SweepArtifact small_sweep() {
   SweepArtifact a;
   set_pair(a);
@@ -431,6 +464,46 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
   a.backlash_margin = std::numeric_limits<double>::infinity();
   write("sweep.h5", a, kMade);
   CHECK(std::isinf(read_sweep("sweep.h5").backlash_margin));
+}
+
+TEST_CASE("impact.h5 gives back every value bit by bit, and refuses rows that do not fit") {
+  Folder folder;
+  ImpactArtifact a = small_impact();
+  write("impact.h5", a, kMade);
+  const ImpactArtifact b = read_impact("impact.h5");
+  CHECK(same_pair(a, b));
+  CHECK(same(a.mesh, b.mesh));
+  CHECK(same(a.damping, b.damping));
+  CHECK(a.fidelity.body == b.fidelity.body);
+  CHECK(a.fidelity.contact == b.fidelity.contact);
+  CHECK(a.fidelity.integrator == b.fidelity.integrator);
+  CHECK(same(a.contact, b.contact));
+  CHECK(a.torque == b.torque);
+  CHECK(a.torque_step == b.torque_step);
+  CHECK(a.driver_inertia == b.driver_inertia);
+  CHECK(a.driven_inertia == b.driven_inertia);
+  CHECK(a.mean_stiffness == b.mean_stiffness);
+  CHECK(a.driver_bearing_damper == b.driver_bearing_damper);
+  CHECK(a.driven_bearing_damper == b.driven_bearing_damper);
+  CHECK(a.contact_state == b.contact_state);
+  CHECK(a.natural_frequency == b.natural_frequency);
+  CHECK(a.damping_ratio == b.damping_ratio);
+  CHECK(a.undamped_frequency == b.undamped_frequency);
+  CHECK(a.state_phase == b.state_phase);
+  CHECK(a.time == b.time);
+  CHECK(a.transmission_error == b.transmission_error);
+  CHECK(a.mesh_phase == b.mesh_phase);
+  CHECK(a.loaded_pairs == b.loaded_pairs);
+  CHECK(a.phase_natural_frequency == b.phase_natural_frequency);
+  CHECK(a.phase_damping_ratio == b.phase_damping_ratio);
+  CHECK(a.phase_undamped_frequency == b.phase_undamped_frequency);
+  CHECK(a.eigen_frequency == b.eigen_frequency);
+  CHECK(a.eigen_damping_ratio == b.eigen_damping_ratio);
+  CHECK(a.fit_residual == b.fit_residual);
+  CHECK(a.least_mesh_force == b.least_mesh_force);
+
+  a.eigen_frequency = odd_vector(3, 3e3);
+  CHECK(caught([&] { write("impact.h5", a, kMade); }).says("by_phase/eigen_frequency has 3 rows"));
 }
 
 TEST_CASE("response.h5 gives back every value bit by bit") {
@@ -761,11 +834,12 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   for (const auto& [name, words] : summary("static.h5", "whine/static")) all += name + ": " + words + "\n";
   CHECK(all.find("463.5 N/um") != std::string::npos);
   CHECK(all.find("5 um mean, 2 um peak to peak") != std::string::npos);
+  write("impact.h5", small_impact(), kMade);
   write("sweep.h5", small_sweep(), kMade);
   write("response.h5", small_response(), kMade);
   write("mesh.h5", small_mesh(), kMade);
   write("body.h5", small_body(), kMade);
-  for (const char* name : {"sweep", "response", "mesh", "body"}) {
+  for (const char* name : {"impact", "sweep", "response", "mesh", "body"}) {
     CHECK(summary(text(name, ".h5"), text("whine/", name)).size() >= 3);
   }
 }

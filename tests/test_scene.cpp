@@ -324,6 +324,7 @@ TEST_CASE("slices depend on values, not on comments, order, spelling or defaults
   const Scene other = file.read(dressed);
   CHECK(body_slice(plain, "pinion") == body_slice(other, "pinion"));
   CHECK(static_slice(plain) == static_slice(other));
+  CHECK(impact_slice(plain) == impact_slice(other));
   CHECK(sweep_slice(plain) == sweep_slice(other));
 }
 
@@ -332,7 +333,7 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
   const Scene base = file.read(kScene);
   struct Change {
     std::string scene;
-    bool body, statics, sweep;
+    bool body, statics, impact, sweep;
   };
   const auto section = [](const std::string& text) { return with_section(text); };
   const auto mesh_key = [](const std::string& line) {
@@ -340,34 +341,35 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
   };
   // A body that changes redoes the statics by their prerequisites and by the hash in their slice.
   const std::vector<Change> changes = {
-      {scene_with("bore_radius_mm = 40", "bore_radius_mm = 39.999999"), true, true, false},
-      {scene_with("youngs_modulus_GPa = 207", "youngs_modulus_GPa = 206"), true, true, false},
-      {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false},
-      {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false},
-      {section("[fidelity]\nmodes = 9\n"), true, true, false},
-      {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false},
-      {section("[discretisation]\nmatching_depth_mm = 2.0\n"), false, false,
+      {scene_with("bore_radius_mm = 40", "bore_radius_mm = 39.999999"), true, true, false, false},
+      {scene_with("youngs_modulus_GPa = 207", "youngs_modulus_GPa = 206"), true, true, false, false},
+      {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false, false},
+      {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false, false},
+      {section("[fidelity]\nmodes = 9\n"), true, true, false, false},
+      {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false, false},
+      {section("[discretisation]\nmatching_depth_mm = 2.0\n"), false, false, false,
        false},  // subtraction has no depth
-      {mesh_key("corner_contact = false"), false, true, false},
-      {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false},
-      {section("[discretisation]\nstrips = 21\n"), false, true, false},
-      {section("[discretisation]\npositions = 256\n"), false, true, false},
-      {scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.02"), false, false, true},
-      {section("[damping]\nrayleigh_stiffness_s = 5.5e-6\n"), false, false, true},
-      {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true},
-      {section("[fidelity]\ncontact = \"line\"\n"), false, true, true},
-      {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, true},
-      {scene_with("step = 20", "step = 10"), false, false, true},
-      {scene_with("[100, 150]", "[150, 100]"), false, false, true},  // another reference torque
-      {scene_with("[100, 150]", "[100, 200, 300]"), false, false,
+      {mesh_key("corner_contact = false"), false, true, false, false},
+      {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false, false},
+      {section("[discretisation]\nstrips = 21\n"), false, true, false, false},
+      {section("[discretisation]\npositions = 256\n"), false, true, false, false},
+      {scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.02"), false, false, true, true},
+      {section("[damping]\nrayleigh_stiffness_s = 5.5e-6\n"), false, false, true, true},
+      {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true, true},
+      {section("[fidelity]\ncontact = \"line\"\n"), false, true, true, true},
+      {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, false, true},
+      {scene_with("step = 20", "step = 10"), false, false, false, true},
+      {scene_with("[100, 150]", "[150, 100]"), false, false, true, true},  // another reference torque
+      {scene_with("[100, 150]", "[100, 200, 300]"), false, false, false,
        false},  // torques are paths, not parameters
-      {std::string("title = \"other\"\n") + kScene, false, false, false},
+      {std::string("title = \"other\"\n") + kScene, false, false, false, false},
   };
   for (const Change& change : changes) {
     INFO(change.scene);
     const Scene s = file.read(change.scene);
     CHECK((body_slice(s, "pinion") != body_slice(base, "pinion")) == change.body);
     CHECK((static_slice(s) != static_slice(base)) == change.statics);
+    CHECK((impact_slice(s) != impact_slice(base)) == change.impact);
     CHECK((sweep_slice(s) != sweep_slice(base)) == change.sweep);
   }
 }
@@ -428,7 +430,19 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(sweep.time.min_sample_rate == s.time.min_sample_rate);
   CHECK(sweep.time.periodicity == s.time.periodicity);
 
+  const ImpactSlice impact = read_impact_slice(file.path(impact_slice(s), "impact.toml"));
+  CHECK(impact.driver_inertia == 0.0148);
+  CHECK(impact.driven_inertia == 0.0148);
+  CHECK(impact.damping.rayleigh_mass == 0.7);
+  CHECK(impact.damping.rayleigh_stiffness == s.damping.rayleigh_stiffness);
+  CHECK(impact.damping.undamped_depth == s.damping.undamped_depth);
+  CHECK(impact.damping.bearing_ratio == s.damping.bearing_ratio);
+  CHECK(impact.reference_torque == 100);
+  CHECK(impact.fidelity.body == "lagged");
+  CHECK(impact.fidelity.integrator == "newmark");
+
   CHECK_THROWS_AS(read_sweep_slice(file.path(static_slice(s), "wrong.toml")), Error);
+  CHECK_THROWS_AS(read_impact_slice(file.path(static_slice(s), "wrong.toml")), Error);
   CHECK(body_hash(body_slice(s, "wheel")).size() == 16);
   CHECK(body_hash(body_slice(s, "wheel")) == sha256(body_slice(s, "wheel")).substr(0, 16));
 }

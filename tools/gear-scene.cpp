@@ -1,7 +1,7 @@
 // gear-scene: checks a scene and cuts it into the parts that the stages depend on.
 //
 // Reads      a scene (TOML)
-// Writes     <out>/<scene>/params/{static,sweep}.toml    slices in SI, replaced only if they change
+// Writes     <out>/<scene>/params/{static,impact,sweep}.toml    slices in SI, replaced only if they change
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
@@ -105,6 +105,7 @@ void body(int argc, char** argv) {
     if (std::find(hashes.begin(), hashes.end(), hash) == hashes.end()) hashes.push_back(hash);
   }
   publish_if_changed(home + "/params/static.toml", static_slice(scene));
+  publish_if_changed(home + "/params/impact.toml", impact_slice(scene));
   publish_if_changed(home + "/params/sweep.toml", sweep_slice(scene));
 
   // 3. The fragment, always written: make compares its time with the scene's.

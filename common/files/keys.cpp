@@ -113,7 +113,7 @@ std::vector<Key> make_keys() {
      "damping ratio of the torque damper at each axis",
      [](V& v) -> Slot { return &v.damping.bearing_ratio; }},
 
-    {Part::operation, "operation", "torque_Nm", kNewtonMetre, nullptr, 0, 999999, true, "",
+    {Part::load, "operation", "torque_Nm", kNewtonMetre, nullptr, 0, 999999, true, "",
      "torque on the driver: a number or a list; the first sets the bearing dampers",
      [](V& v) -> Slot { return &v.operation.torques; }},
     {Part::operation, "operation", "mesh_frequency_Hz", kHertz, nullptr, 1, 1e6, false, "",

@@ -36,7 +36,8 @@ enum class Part {
   material,
   mesh,
   damping,
-  operation,
+  load,          // torque
+  operation,     // speeds
   rung,          // body and integrator
   contact_rung,  // contact
   body,

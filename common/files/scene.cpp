@@ -522,8 +522,8 @@ Scene read_scene(const std::string& path) {
   scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
   read_gears(source, scene);
   read_mesh_section(source, scene);
-  const std::set<Part> rest = {Part::damping, Part::operation,  Part::rung,    Part::contact_rung,
-                               Part::body,    Part::near_field, Part::contact, Part::time};
+  const std::set<Part> rest = {Part::damping, Part::load,       Part::operation, Part::rung, Part::contact_rung,
+                               Part::body,    Part::near_field, Part::contact,   Part::time};
   static const toml::table kNothing;
   for (const char* name : {"damping", "operation", "fidelity", "discretisation"}) {
     const toml::table* table = source.section(name);
@@ -577,7 +577,9 @@ std::string static_slice(const Scene& scene) {
   return out.text();
 }
 
-std::string sweep_slice(const Scene& scene) {
+namespace {
+
+KeyValues motion_values(const Scene& scene) {
   KeyValues values;
   values.damping = scene.damping;
   values.operation = scene.operation;
@@ -585,14 +587,34 @@ std::string sweep_slice(const Scene& scene) {
   values.operation.torques = {scene.operation.torques.front()};
   values.fidelity = scene.fidelity;
   values.time = scene.time;
-  SliceText out("a sweep");
+  return values;
+}
+
+void add_inertia_and_damping(SliceText& out, const Scene& scene, KeyValues& values) {
   for (const auto& [label, name] :
        {std::pair{"driver", scene.mesh.driver}, std::pair{"driven", scene.mesh.driven}}) {
     values.total_inertia = scene.gear(name).total_inertia;
     out.add("gear", label, values, {Part::inertia});
   }
   out.add("damping", "damping", values, {Part::damping});
-  out.add("operation", "operation", values, {Part::operation});
+}
+
+}  // namespace
+
+std::string impact_slice(const Scene& scene) {
+  KeyValues values = motion_values(scene);
+  SliceText out("the ring-down");
+  add_inertia_and_damping(out, scene, values);
+  out.add("operation", "operation", values, {Part::load});
+  out.add("fidelity", "fidelity", values, {Part::rung, Part::contact_rung});
+  return out.text();
+}
+
+std::string sweep_slice(const Scene& scene) {
+  KeyValues values = motion_values(scene);
+  SliceText out("a sweep");
+  add_inertia_and_damping(out, scene, values);
+  out.add("operation", "operation", values, {Part::load, Part::operation});
   out.add("fidelity", "fidelity", values, {Part::rung, Part::contact_rung});
   out.add("discretisation", "discretisation", values, {Part::time});
   return out.text();
@@ -628,24 +650,33 @@ StaticSlice read_static_slice(const std::string& path) {
   return out;
 }
 
-SweepSlice read_sweep_slice(const std::string& path) {
+ImpactSlice read_impact_slice(const std::string& path) {
   const Source source(path);
   KeyValues values;
-  SweepSlice out;
+  ImpactSlice out;
   read_slice_section(source, "gear", "driver", {Part::inertia}, values);
   out.driver_inertia = values.total_inertia;
   read_slice_section(source, "gear", "driven", {Part::inertia}, values);
   out.driven_inertia = values.total_inertia;
   read_slice_section(source, "damping", "damping", {Part::damping}, values);
-  read_slice_section(source, "operation", "operation", {Part::operation}, values);
+  read_slice_section(source, "operation", "operation", {Part::load}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::rung, Part::contact_rung}, values);
-  read_slice_section(source, "discretisation", "discretisation", {Part::time}, values);
   out.damping = values.damping;
   out.reference_torque = values.operation.torques.front();
+  out.fidelity = values.fidelity;
+  return out;
+}
+
+SweepSlice read_sweep_slice(const std::string& path) {
+  SweepSlice out;
+  static_cast<ImpactSlice&>(out) = read_impact_slice(path);
+  const Source source(path);
+  KeyValues values;
+  read_slice_section(source, "operation", "operation", {Part::operation}, values);
+  read_slice_section(source, "discretisation", "discretisation", {Part::time}, values);
   out.frequency_from = values.operation.frequency_from;
   out.frequency_to = values.operation.frequency_to;
   out.frequency_step = values.operation.frequency_step;
-  out.fidelity = values.fidelity;
   out.time = values.time;
   return out;
 }

@@ -126,13 +126,17 @@ struct StaticSlice {
   std::string driver_body, driven_body;  // hashes of the bodies' slices; empty: the slice names none
 };
 
-// For gear-sweep.
-struct SweepSlice {
+// For gear-impact.
+struct ImpactSlice {
   double driver_inertia = 0, driven_inertia = 0;  // kg m2, total
   Damping damping;
   double reference_torque = 0;  // N m: first torque listed, whose mean stiffness sets the bearing dampers
-  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
   Fidelity fidelity;
+};
+
+// For gear-sweep.
+struct SweepSlice : ImpactSlice {
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
   TimeDiscretisation time;
 };
 
@@ -141,6 +145,7 @@ struct SweepSlice {
 std::string body_slice(const Scene& scene, const std::string& gear);
 std::string body_slice(const BodySlice& values);
 std::string static_slice(const Scene& scene);
+std::string impact_slice(const Scene& scene);
 std::string sweep_slice(const Scene& scene);
 
 // First 16 hexadecimal digits of the SHA-256 of a body slice: the folder out/bodies/<hash>/.
@@ -149,6 +154,7 @@ std::string body_hash(const std::string& slice);
 // Read what the functions above wrote; errors as read_scene.
 BodySlice read_body_slice(const std::string& path);
 StaticSlice read_static_slice(const std::string& path);
+ImpactSlice read_impact_slice(const std::string& path);
 SweepSlice read_sweep_slice(const std::string& path);
 
 // The table of keys as Markdown: section, key, range, default, meaning.

@@ -11,8 +11,8 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 2, kErrorBudgetVersion = 1,
-              kSweepVersion = 2, kResponseVersion = 2;
+constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 3, kErrorBudgetVersion = 1,
+              kImpactVersion = 1, kSweepVersion = 3, kResponseVersion = 3;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -90,6 +90,24 @@ double take_inertia(const ArtifactReader& in, const std::string& role) {
   KeyValues values;
   in.parameters(role, values, Part::inertia);
   return values.total_inertia;
+}
+
+// Bearing dampers and what sets them.
+template <class Artifact>
+void put_bearings(ArtifactWriter& out, const Artifact& a) {
+  out.put("/parameters/damping/mean_stiffness", a.mean_stiffness,
+          {"N m-1", "mean secant stiffness that sets the bearing dampers", "", ""});
+  out.put("/parameters/damping/driver_bearing_damper", a.driver_bearing_damper,
+          {"N m s", "torque damper at the axis of the driver", "", "c = 2 ratio I w"});
+  out.put("/parameters/damping/driven_bearing_damper", a.driven_bearing_damper,
+          {"N m s", "torque damper at the axis of the driven gear", "", "c = 2 ratio I w"});
+}
+
+template <class Artifact>
+void take_bearings(const ArtifactReader& in, Artifact& a) {
+  a.mean_stiffness = in.number("/parameters/damping/mean_stiffness");
+  a.driver_bearing_damper = in.number("/parameters/damping/driver_bearing_damper");
+  a.driven_bearing_damper = in.number("/parameters/damping/driven_bearing_damper");
 }
 
 // Left out where back flanks are ignored: the margin is then infinite.
@@ -404,6 +422,123 @@ StaticArtifact read_static(const std::string& path) {
   return a;
 }
 
+void write(const std::string& path, const ImpactArtifact& a, const Provenance& provenance) {
+  const auto states = static_cast<Eigen::Index>(a.contact_state.size()), phases = a.mesh_phase.size();
+  for (const auto& [name, size] :
+       {std::pair{"natural_frequency", a.natural_frequency.size()},
+        std::pair{"damping_ratio", a.damping_ratio.size()},
+        std::pair{"undamped_frequency", a.undamped_frequency.size()},
+        std::pair{"ring_down/mesh_phase", a.state_phase.size() + 1},
+        std::pair{"ring_down/transmission_error", a.transmission_error.rows() + 1}})
+    want_rows(name, size, states);
+  want_rows("ring_down/transmission_error (columns)", a.transmission_error.cols(), a.time.size());
+  for (const auto& [name, size] : {std::pair{"loaded_pairs", a.loaded_pairs.size()},
+                                   std::pair{"natural_frequency", a.phase_natural_frequency.size()},
+                                   std::pair{"damping_ratio", a.phase_damping_ratio.size()},
+                                   std::pair{"undamped_frequency", a.phase_undamped_frequency.size()},
+                                   std::pair{"eigen_frequency", a.eigen_frequency.size()},
+                                   std::pair{"eigen_damping_ratio", a.eigen_damping_ratio.size()},
+                                   std::pair{"fit_residual", a.fit_residual.size()}})
+    want_rows(text("by_phase/", name).c_str(), size, phases);
+  ArtifactWriter out(path, "impact", kImpactVersion, "Ring-down: " + pair_title(a.mesh, a.torque),
+                     provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
+  values.contact = a.contact;
+  values.damping = a.damping;
+  put_pair(out, a);
+  put_inertia(out, "driver", a.driver_inertia);
+  put_inertia(out, "driven", a.driven_inertia);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("damping", values, Part::damping);
+  put_bearings(out, a);
+  out.parameters("fidelity", values, Part::rung);
+  out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("discretisation", values, Part::contact);
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/parameters/operation/torque_step", a.torque_step,
+          {"1", "torque that is let go at the start of a decay, over the torque", "", ""});
+  const char *const state = "contact_state", *const trace = "ring_down/mesh_phase ring_down/time";
+  out.file().put("/contact_state", a.contact_state,
+                 {"1",
+                  "number of loaded tooth pairs, held amid the longest part of the period that has it; mean: "
+                  "over the whole period",
+                  state, ""});
+  out.put("/natural_frequency", a.natural_frequency,
+          {"Hz", "frequency Im s / 2 pi of the decaying transmission error (damped natural frequency)", state,
+           ""});
+  out.put("/damping_ratio", a.damping_ratio,
+          {"1", "damping ratio -Re s / |s| of the decaying transmission error", state, ""});
+  out.put("/undamped_frequency", a.undamped_frequency,
+          {"Hz", "natural frequency with the contact frozen and no damping", state, ""});
+  out.put("/ring_down/mesh_phase", a.state_phase,
+          {"1", "mesh phase of the contact states, the mean left out", "contact_state", ""});
+  out.put("/ring_down/time", a.time, {"s", "time since the torque step was let go", "ring_down/time", ""});
+  out.put("/ring_down/transmission_error", a.transmission_error,
+          {"m", "transmission error less its static value", trace, "r1 theta1 + r2 theta2"});
+  out.put("/mesh_phase", a.mesh_phase, {"1", "mesh phase at which the gears are held", kPhase, ""});
+  out.put("/by_phase/loaded_pairs", a.loaded_pairs,
+          {"1", "tooth pairs that carry load in static equilibrium", kPhase, ""});
+  out.put("/by_phase/natural_frequency", a.phase_natural_frequency,
+          {"Hz", "frequency Im s / 2 pi of the decaying transmission error (damped natural frequency)",
+           kPhase, ""});
+  out.put("/by_phase/damping_ratio", a.phase_damping_ratio,
+          {"1", "damping ratio -Re s / |s| of the decaying transmission error", kPhase, ""});
+  out.put("/by_phase/undamped_frequency", a.phase_undamped_frequency,
+          {"Hz", "natural frequency with the contact frozen and no damping", kPhase, ""});
+  out.put("/by_phase/eigen_frequency", a.eigen_frequency,
+          {"Hz", "frequency Im s / 2 pi of the eigenvalue with the contact frozen", kPhase, ""});
+  out.put("/by_phase/eigen_damping_ratio", a.eigen_damping_ratio,
+          {"1", "damping ratio -Re s / |s| of the eigenvalue with the contact frozen", kPhase, ""});
+  out.put("/by_phase/fit_residual", a.fit_residual,
+          {"1", "RMS of decay less fit over RMS of decay", kPhase, ""});
+  out.put("/certificate/least_mesh_force", a.least_mesh_force,
+          {"1", "least mesh force of all decays over the static one; teeth part at 0", "", ""});
+  out.publish();
+}
+
+ImpactArtifact read_impact(const std::string& path) {
+  const ArtifactReader in(path, "impact", kImpactVersion);
+  ImpactArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("damping", values, Part::damping);
+  in.parameters("fidelity", values, Part::rung);
+  in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("discretisation", values, Part::contact);
+  take_pair(in, a);
+  a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
+  a.contact = values.contact;
+  a.damping = values.damping;
+  a.driver_inertia = take_inertia(in, "driver");
+  a.driven_inertia = take_inertia(in, "driven");
+  take_bearings(in, a);
+  a.torque = in.number("/parameters/operation/torque");
+  a.torque_step = in.number("/parameters/operation/torque_step");
+  a.contact_state = in.file().strings("/contact_state");
+  const auto states = static_cast<Eigen::Index>(a.contact_state.size());
+  if (states < 2) in.file().refuse("/contact_state names no state");
+  a.natural_frequency = in.vector("/natural_frequency", states);
+  a.damping_ratio = in.vector("/damping_ratio", states);
+  a.undamped_frequency = in.vector("/undamped_frequency", states);
+  a.state_phase = in.vector("/ring_down/mesh_phase", states - 1);
+  a.time = in.vector("/ring_down/time");
+  a.transmission_error = in.matrix("/ring_down/transmission_error", states - 1, a.time.size());
+  a.mesh_phase = in.vector("/mesh_phase");
+  const Eigen::Index phases = a.mesh_phase.size();
+  a.loaded_pairs = in.whole_vector("/by_phase/loaded_pairs", phases);
+  a.phase_natural_frequency = in.vector("/by_phase/natural_frequency", phases);
+  a.phase_damping_ratio = in.vector("/by_phase/damping_ratio", phases);
+  a.phase_undamped_frequency = in.vector("/by_phase/undamped_frequency", phases);
+  a.eigen_frequency = in.vector("/by_phase/eigen_frequency", phases);
+  a.eigen_damping_ratio = in.vector("/by_phase/eigen_damping_ratio", phases);
+  a.fit_residual = in.vector("/by_phase/fit_residual", phases);
+  a.least_mesh_force = in.number("/certificate/least_mesh_force");
+  return a;
+}
+
 void write(const std::string& path, const SweepArtifact& a, const Provenance& provenance) {
   const Eigen::Index speeds = a.mesh_frequency.size(), samples = a.transmission_error.cols(),
                      pairs = a.pair.size();
@@ -430,12 +565,7 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
   put_inertia(out, "driven", a.driven_inertia);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("damping", values, Part::damping);
-  out.put("/parameters/damping/mean_stiffness", a.mean_stiffness,
-          {"N m-1", "mean secant stiffness that sets the bearing dampers", "", ""});
-  out.put("/parameters/damping/driver_bearing_damper", a.driver_bearing_damper,
-          {"N m s", "torque damper at the axis of the driver", "", "c = 2 ratio I w"});
-  out.put("/parameters/damping/driven_bearing_damper", a.driven_bearing_damper,
-          {"N m s", "torque damper at the axis of the driven gear", "", "c = 2 ratio I w"});
+  put_bearings(out, a);
   out.parameters("fidelity", values, Part::rung);
   out.parameters("fidelity", values, Part::contact_rung);
   out.parameters("discretisation", values, Part::contact);
@@ -507,9 +637,7 @@ SweepArtifact read_sweep(const std::string& path) {
   a.damping = values.damping;
   a.driver_inertia = take_inertia(in, "driver");
   a.driven_inertia = take_inertia(in, "driven");
-  a.mean_stiffness = in.number("/parameters/damping/mean_stiffness");
-  a.driver_bearing_damper = in.number("/parameters/damping/driver_bearing_damper");
-  a.driven_bearing_damper = in.number("/parameters/damping/driven_bearing_damper");
+  take_bearings(in, a);
   a.torque = in.number("/parameters/operation/torque");
   a.direction = in.word("/parameters/operation/direction");
   a.mesh_frequency = in.vector("/mesh_frequency");

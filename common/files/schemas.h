@@ -108,6 +108,39 @@ struct ErrorBudgetArtifact {
   MatrixRM harmonic_change;  // (entry, harmonic 1..5) 1, of the transmission error, over its first harmonic
 };
 
+// impact.h5: free decay of the transmission error about the static equilibrium, gears held at a mesh phase. A
+// natural frequency is Im s / 2 pi, that of the decaying oscillation, and a damping ratio -Re s / |s| of the lowest
+// oscillating root s.
+struct ImpactArtifact {
+  GearDesign driver, driven;
+  Material driver_material, driven_material;
+  BodyDiscretisation driver_body, driven_body;
+  GearMeshSpec mesh;
+  Fidelity fidelity;
+  ContactDiscretisation contact;
+  Damping damping;
+  double torque = 0;                              // N m on the driver
+  double torque_step = 0;                         // 1: what is let go at the start, over the torque
+  double driver_inertia = 0, driven_inertia = 0;  // kg m2
+  double mean_stiffness = 0;                      // N m-1 that sets the bearing dampers
+  double driver_bearing_damper = 0, driven_bearing_damper = 0;  // N m s
+  // (state) number of loaded pairs in words, fewest first, each amid the longest part of the period that has it;
+  // "mean" last: over the period
+  std::vector<std::string> contact_state;
+  Eigen::VectorXd natural_frequency, damping_ratio;              // (state) Hz, 1
+  Eigen::VectorXd undamped_frequency;                            // (state) Hz: contact frozen, no damping
+  Eigen::VectorXd state_phase;                                   // (state but the mean) 1: mesh phase
+  Eigen::VectorXd time;                                          // (time) s
+  MatrixRM transmission_error;                                   // (state but the mean, time) m
+  Eigen::VectorXd mesh_phase;                                    // (phase) 1
+  Eigen::VectorXi loaded_pairs;                                  // (phase) in static equilibrium
+  Eigen::VectorXd phase_natural_frequency, phase_damping_ratio;  // (phase) Hz, 1: of the decay
+  Eigen::VectorXd phase_undamped_frequency;                      // (phase) Hz: contact frozen, no damping
+  Eigen::VectorXd eigen_frequency, eigen_damping_ratio;  // (phase) Hz, 1: eigenvalues with contact frozen
+  Eigen::VectorXd fit_residual;                          // (phase) RMS of decay less fit over RMS of decay
+  double least_mesh_force = 0;  // 1: least mesh force of all decays, over the static one
+};
+
 // sweep.h5: rows in order of marching
 struct SweepArtifact {
   GearDesign driver, driven;
@@ -169,7 +202,7 @@ struct ResponseArtifact {
   double natural_frequency = 0;  // Hz: as in the sweep
 };
 
-// What a static, sweep or error-budget artifact says of its two gears.
+// What an artifact of a pair says of its two gears.
 template <class Artifact>
 void set_gears(Artifact& artifact, const BodyArtifact& driver, const BodyArtifact& driven) {
   artifact.driver = driver.design;
@@ -184,12 +217,14 @@ void write(const std::string& path, const MeshArtifact&, const Provenance&);
 void write(const std::string& path, const BodyArtifact&, const Provenance&);
 void write(const std::string& path, const StaticArtifact&, const Provenance&);
 void write(const std::string& path, const ErrorBudgetArtifact&, const Provenance&);
+void write(const std::string& path, const ImpactArtifact&, const Provenance&);
 void write(const std::string& path, const SweepArtifact&, const Provenance&);
 void write(const std::string& path, const ResponseArtifact&, const Provenance&);
 MeshArtifact read_mesh(const std::string& path);
 BodyArtifact read_body(const std::string& path);
 StaticArtifact read_static(const std::string& path);
 ErrorBudgetArtifact read_error_budget(const std::string& path);
+ImpactArtifact read_impact(const std::string& path);
 SweepArtifact read_sweep(const std::string& path);
 ResponseArtifact read_response(const std::string& path);
 

@@ -48,6 +48,11 @@ void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& b
   add(lines, "elements", "order ", body.element_order, ", ", body.element_size * 1e3, " mm on the flank");
 }
 
+void show_damping(Lines& lines, const Damping& damping) {
+  add(lines, "damping", "eta ", damping.rayleigh_stiffness * 1e6, " us, bearing ratio ",
+      damping.bearing_ratio);
+}
+
 void show(Lines& lines, const MeshArtifact& a) {
   show_gear(lines, a.design, a.discretisation);
   add(lines, "sector", a.node_position.rows(), " nodes, ", a.element_node.rows(), " elements of ",
@@ -101,13 +106,32 @@ void show(Lines& lines, const ErrorBudgetArtifact& a) {
   add(lines, "sum", a.mean_stiffness_change.cwiseAbs().sum() * 100, " % of the mean stiffness");
 }
 
+void show(Lines& lines, const ImpactArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.torque_step * 100, " % let go");
+  show_damping(lines, a.damping);
+  for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
+    add(lines, i < a.state_phase.size() ? text("loaded pairs: ", a.contact_state[i]) : a.contact_state[i],
+        a.natural_frequency[i], " Hz, damping ratio ", a.damping_ratio[i] * 100, " %; undamped ",
+        a.undamped_frequency[i], " Hz");
+  add(lines, "fit", a.mesh_phase.size(), " phases; largest residual ", a.fit_residual.maxCoeff(),
+      "; furthest from the eigenvalues ",
+      ((a.phase_natural_frequency - a.eigen_frequency).array() / a.eigen_frequency.array()).abs().maxCoeff() *
+          100,
+      " % in frequency, ",
+      ((a.phase_damping_ratio - a.eigen_damping_ratio).array() / a.eigen_damping_ratio.array())
+              .abs()
+              .maxCoeff() *
+          100,
+      " % in damping");
+  add(lines, "least mesh force", a.least_mesh_force * 100, " % of the static one");
+}
+
 void show(Lines& lines, const SweepArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.direction, ", ",
       range_of(a.mesh_frequency));
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
       a.fidelity.integrator);
-  add(lines, "damping", "eta ", a.damping.rayleigh_stiffness * 1e6, " us, bearing ratio ",
-      a.damping.bearing_ratio);
+  show_damping(lines, a.damping);
   add(lines, "corner contact", corner_rule(a.mesh));
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0;
@@ -158,6 +182,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_static(path));
   } else if (schema == "whine/error_budget") {
     show(lines, read_error_budget(path));
+  } else if (schema == "whine/impact") {
+    show(lines, read_impact(path));
   } else if (schema == "whine/sweep") {
     show(lines, read_sweep(path));
   } else if (schema == "whine/response") {
