@@ -333,6 +333,29 @@ double RollingDynamics::frozen_frequency(int i) {
   return std::sqrt(eigen.eigenvalues()[0]) / kTwoPi;
 }
 
+HeldMesh RollingDynamics::hold(int i) const {
+  const Position& position = positions_[i];
+  const MeshPosition& mesh = position.mesh;
+  HeldMesh held;
+  held.frequency_squared = frequency_squared_;
+  held.damping.resize(frequency_squared_.size());
+  held.participation.resize(mesh.strips(), frequency_squared_.size());
+  for (int c = 0; c < held.damping.size(); ++c) {
+    held.damping[c] = coordinates_[c].damping;
+    held.participation.col(c) = mesh.to_strips(position.participation.col(c));
+  }
+  held.torque = torque_force_;
+  held.error_weight = error_weight_;
+  held.local = position.local;
+  held.residual = MatrixXd::Zero(mesh.strips(), mesh.strips());
+  mesh.add_to_strips(position.residual, held.residual);
+  held.gap = mesh.gap;
+  held.first_strip = mesh.first_strip;
+  if (parameters_.fidelity.body != "quasi-static") held.relaxation = parameters_.damping.rayleigh_stiffness;
+  held.newmark = parameters_.fidelity.integrator == "newmark";
+  return held;
+}
+
 RollingDynamics::State RollingDynamics::rest() {
   const Position& position = positions_[0];
   const MatrixXd a = static_compliance(position);

@@ -32,6 +32,21 @@ struct DynamicParameters {
   Fidelity fidelity;
 };
 
+// The pair held at one phase: z'' + damping z' + frequency_squared z = torque - participation^T p under contact with
+// gap d = gap - participation z + U + local p, relaxation U' + U = residual p.
+struct HeldMesh {
+  Eigen::VectorXd frequency_squared;  // (coordinate) rad2 s-2; the first is the rigid rotation, 0
+  Eigen::VectorXd damping;            // (coordinate) s-1
+  Eigen::VectorXd torque;             // (coordinate) constant force of the torques
+  Eigen::VectorXd error_weight;       // (coordinate) transmission error per unit
+  Eigen::MatrixXd participation;      // (strip, coordinate)
+  Eigen::MatrixXd local, residual;    // (strip, strip) m N-1
+  Eigen::VectorXd gap;                // (strip) m
+  std::vector<int> first_strip;       // (pair + 1)
+  double relaxation = 0;              // s; 0: the residual flexibility follows at once
+  bool newmark = false;
+};
+
 class RollingDynamics {
  public:
   // Throws Error(input) if a total inertia is not above what the body's modes carry.
@@ -67,6 +82,8 @@ class RollingDynamics {
   // Lowest natural frequency, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
   // the range): undamped, the residual flexibility follows at once.
   double frozen_frequency(int i);
+  // The pair at phase i / (steps of the range), to be moved without rolling.
+  HeldMesh hold(int i) const;
   // Renames teeth after a mesh period: what was pair j becomes pair j + 1, doublets turn by one tooth.
   void advance_tooth(State& state) const;
   // (node, coordinate): outward displacement of the flanks, hub rotation included, per unit coordinate; h of

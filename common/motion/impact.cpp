@@ -1,0 +1,377 @@
+#include "motion/impact.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "motion/rolling_mesh.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// Per oscillation at the mean undamped frequency: the averaged force lengthens it by (2 pi / steps)^2 / 12, 1e-5 here.
+constexpr int kSteps = 512, kSamples = 32, kOscillations = 8;
+
+struct Rest {
+  double x = 0;  // of the rigid rotation
+  VectorXd p;    // (strip) N
+  ActiveSet active;
+};
+
+// Static equilibrium under `share` of the torque: elastic coordinates follow their force, the rigid one carries the
+// load.
+Rest rest(const HeldMesh& mesh, double share, ComplementaritySolver& solver) {
+  VectorXd follow = mesh.frequency_squared;
+  for (double& f : follow) f = f > 0 ? 1 / f : 0;
+  const MatrixXd a =
+      mesh.local + mesh.residual + mesh.participation * follow.asDiagonal() * mesh.participation.transpose();
+  const VectorXd offset = share * mesh.participation * follow.cwiseProduct(mesh.torque);
+  Rest at;
+  const Equilibrium e = equilibrium(a, mesh.gap - offset, mesh.participation.col(0), share * mesh.torque[0],
+                                    0, at.active, solver);
+  at.x = e.x;
+  at.p = e.p;
+  return at;
+}
+
+VectorXd coordinates(const HeldMesh& mesh, const Rest& at, double share) {
+  VectorXd z = share * mesh.torque - mesh.participation.transpose() * at.p;
+  for (int c = 1; c < z.size(); ++c) z[c] /= mesh.frequency_squared[c];
+  z[0] = at.x;
+  return z;
+}
+
+int loaded_pairs(const HeldMesh& mesh, const VectorXd& p) {
+  int loaded = 0;
+  for (size_t j = 0; j + 1 < mesh.first_strip.size(); ++j)
+    loaded += p.segment(mesh.first_strip[j], mesh.first_strip[j + 1] - mesh.first_strip[j]).sum() > 0;
+  return loaded;
+}
+
+std::string in_words(int count) {
+  static const char* const kWords[] = {"no", "one", "two", "three", "four", "five", "six", "seven"};
+  return kWords[count];
+}
+
+// The pair at all phases, for any Rayleigh stiffness factor.
+class HeldPair {
+ public:
+  HeldPair(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+           double mean_stiffness, const ImpactSlice& slice, const ImpactPlan& plan)
+      : plan_(plan), lagged_(slice.fidelity.body != "quasi-static") {
+    if (plan.phases < 2 || plan.phases % 2)
+      fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
+    const GearMeshModel model(driver, driven, statics.mesh);
+    DynamicParameters parameters;
+    parameters.torque = statics.torque;
+    parameters.inertia = {slice.driver_inertia, slice.driven_inertia};
+    parameters.mean_stiffness = mean_stiffness;
+    parameters.damping = slice.damping;
+    parameters.damping.rayleigh_stiffness = 0;
+    parameters.fidelity = slice.fidelity;
+    RollingDynamics dynamics(model, parameters);
+    const double load = statics.torque / model.kinematics.gear(0).base_radius();
+    // As a sweep begins, so that the strips are the same.
+    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+                                     statics.contact.strips, load / model.kinematics.contact_ratio(),
+                                     2.5 * load, 2.5 * statics.transmission_error.maxCoeff()),
+                       plan_.phases);
+    set_gears(blank_, driver, driven);
+    blank_.mesh = statics.mesh;
+    blank_.fidelity = slice.fidelity;
+    blank_.contact = statics.contact;
+    blank_.damping = slice.damping;
+    blank_.torque = statics.torque;
+    blank_.torque_step = plan.torque_step;
+    blank_.driver_inertia = slice.driver_inertia;
+    blank_.driven_inertia = slice.driven_inertia;
+    blank_.mean_stiffness = mean_stiffness;
+    blank_.driver_bearing_damper = dynamics.bearing_damper(0);
+    blank_.driven_bearing_damper = dynamics.bearing_damper(1);
+    blank_.mesh_phase = VectorXd::LinSpaced(plan_.phases, 0, 1 - 1.0 / plan_.phases);
+    blank_.phase_undamped_frequency.resize(plan_.phases);
+    blank_.loaded_pairs.resize(plan_.phases);
+    ComplementaritySolver solver;
+    for (int i = 0; i < plan_.phases; ++i) {
+      meshes_.push_back(dynamics.hold(i));
+      blank_.phase_undamped_frequency[i] = dynamics.frozen_frequency(i);
+      blank_.loaded_pairs[i] = loaded_pairs(meshes_[i], rest(meshes_[i], 1, solver).p);
+    }
+    const double mean_period = 1 / blank_.phase_undamped_frequency.mean();
+    step_ = mean_period / kSteps;
+    blank_.time = VectorXd::LinSpaced(kSamples * kOscillations + 1, 0, kOscillations * mean_period);
+    find_states();
+  }
+
+  // The phases of a contact state; Error(input) if it does not occur.
+  std::vector<int> phases_of(const std::string& contact_state) const {
+    std::vector<int> phases;
+    std::string known;
+    for (const auto& [pairs, phase] : state_phase_) {
+      known += in_words(pairs) + ", ";
+      if (in_words(pairs) == contact_state) return {phase};
+    }
+    if (contact_state != "mean")
+      fail(Failure::input, "the contact state '", contact_state, "' does not occur at ", blank_.torque,
+           " N m; choose one of: ", known, "mean");
+    for (int i = 0; i < plan_.phases; ++i) phases.push_back(i);
+    return phases;
+  }
+
+  double damping_ratio(const std::vector<int>& phases, double rayleigh_stiffness) const {
+    double sum = 0;
+    for (int i : phases) sum += decay(at(i, rayleigh_stiffness)).second.root.damping_ratio;
+    return sum / static_cast<double>(phases.size());
+  }
+
+  double mean_frequency() const { return blank_.phase_undamped_frequency.mean(); }
+
+  ImpactArtifact run(double rayleigh_stiffness, const std::function<void(long, long)>& report) const {
+    ImpactArtifact result = blank_;
+    result.damping.rayleigh_stiffness = rayleigh_stiffness;
+    for (VectorXd* v : {&result.phase_natural_frequency, &result.phase_damping_ratio, &result.eigen_frequency,
+                        &result.eigen_damping_ratio, &result.fit_residual})
+      v->resize(plan_.phases);
+    const auto states = static_cast<Eigen::Index>(state_phase_.size());
+    result.transmission_error.resize(states, result.time.size());
+    result.least_mesh_force = 1;
+    for (int i = 0; i < plan_.phases; ++i) {
+      const HeldMesh mesh = at(i, rayleigh_stiffness);
+      const auto [trace, fit] = decay(mesh);
+      result.phase_natural_frequency[i] = fit.root.frequency;
+      result.phase_damping_ratio[i] = fit.root.damping_ratio;
+      result.fit_residual[i] = fit.residual;
+      result.least_mesh_force = std::min(result.least_mesh_force, trace.least_mesh_force);
+      const DampedRoot root = frozen_root(mesh);
+      result.eigen_frequency[i] = root.frequency;
+      result.eigen_damping_ratio[i] = root.damping_ratio;
+      Eigen::Index row = 0;
+      for (const auto& state : state_phase_) {
+        if (state.second == i) result.transmission_error.row(row) = trace.transmission_error.transpose();
+        ++row;
+      }
+      report(i + 1, plan_.phases);
+    }
+
+    result.natural_frequency.resize(states + 1);
+    result.damping_ratio.resize(states + 1);
+    result.undamped_frequency.resize(states + 1);
+    result.state_phase.resize(states);
+    Eigen::Index row = 0;
+    for (const auto& [pairs, phase] : state_phase_) {
+      result.contact_state.push_back(in_words(pairs));
+      result.state_phase[row] = result.mesh_phase[phase];
+      result.natural_frequency[row] = result.phase_natural_frequency[phase];
+      result.damping_ratio[row] = result.phase_damping_ratio[phase];
+      result.undamped_frequency[row] = result.phase_undamped_frequency[phase];
+      ++row;
+    }
+    result.contact_state.push_back("mean");
+    result.natural_frequency[states] = result.phase_natural_frequency.mean();
+    result.damping_ratio[states] = result.phase_damping_ratio.mean();
+    result.undamped_frequency[states] = result.phase_undamped_frequency.mean();
+    return result;
+  }
+
+ private:
+  HeldMesh at(int i, double rayleigh_stiffness) const {
+    HeldMesh mesh = meshes_[i];
+    mesh.damping += rayleigh_stiffness * mesh.frequency_squared;  // Eq. 21
+    mesh.relaxation = lagged_ ? rayleigh_stiffness : 0;
+    return mesh;
+  }
+
+  std::pair<RingDown, Decay> decay(const HeldMesh& mesh) const {
+    RingDown trace =
+        ring_down(mesh, plan_.torque_step, step_, static_cast<int>(blank_.time.size()), kSteps / kSamples);
+    const Decay fit = fit_decay(trace.transmission_error, step_ * kSteps / kSamples);
+    return {std::move(trace), fit};
+  }
+
+  // Amid the longest run of phases with as many loaded pairs; the period is cyclic.
+  void find_states() {
+    const Eigen::VectorXi& loaded = blank_.loaded_pairs;
+    std::map<int, int> longest;
+    for (int start = 0; start < plan_.phases; ++start) {
+      const int pairs = loaded[start];
+      if (start > 0 && loaded[start - 1] == pairs) continue;
+      int before = 0, after = 0;  // the run that begins here goes on across the ends of the period
+      while (start == 0 && before < plan_.phases - 1 && loaded[plan_.phases - 1 - before] == pairs) ++before;
+      while (after < plan_.phases - before && loaded[(start + after) % plan_.phases] == pairs) ++after;
+      const int length = before + after;
+      if (length <= longest[pairs]) continue;
+      longest[pairs] = length;
+      state_phase_[pairs] = (start - before + (length - 1) / 2 + plan_.phases) % plan_.phases;
+    }
+  }
+
+  ImpactPlan plan_;
+  double step_ = 0;
+  bool lagged_;
+  ImpactArtifact blank_;  // all that does not depend on the Rayleigh stiffness factor
+  std::vector<HeldMesh> meshes_;
+  std::map<int, int> state_phase_;  // loaded pairs -> phase
+};
+
+}  // namespace
+
+RingDown ring_down(const HeldMesh& mesh, double torque_step, double step, int samples, int stride) {
+  if (!(torque_step > 0 && torque_step <= 0.5))
+    fail(Failure::input, "a torque step of ", torque_step,
+         " of the torque is outside (0, 0.5]; decays are to stay in the linear regime");
+  ComplementaritySolver solver;
+  const Rest before = rest(mesh, 1 + torque_step, solver), end = rest(mesh, 1, solver);
+  const VectorXd target = coordinates(mesh, end, 1);
+  const double mesh_force = end.p.sum();
+
+  const auto n = mesh.frequency_squared.size();
+  std::vector<Propagator> propagators;
+  VectorXd half_response(n);
+  for (int c = 0; c < n; ++c) {
+    const double w = std::sqrt(mesh.frequency_squared[c]);
+    propagators.push_back(mesh.newmark ? newmark_propagator(w, mesh.damping[c], step)
+                                       : exact_propagator(w, mesh.damping[c], step));
+    half_response[c] = 0.5 * propagators[c].bq;
+  }
+  const Lag lag = lag_step(mesh.relaxation, step);
+  const MatrixXd compliance =
+      mesh.local + lag.from_new * mesh.residual +
+      mesh.participation * half_response.asDiagonal() * mesh.participation.transpose();
+
+  VectorXd z = coordinates(mesh, before, 1 + torque_step), v = VectorXd::Zero(n), p = before.p,
+           lagged = before.p, force = mesh.torque - mesh.participation.transpose() * p, d(p.size());
+  ActiveSet active = before.active;
+  active.forget();
+  RingDown result;
+  result.transmission_error.resize(samples);
+  result.least_mesh_force = 1;
+  result.transmission_error[0] = mesh.error_weight.dot(z - target);
+  for (int i = 1; i <= (samples - 1) * stride; ++i) {
+    for (int c = 0; c < n; ++c) {
+      const Propagator& a = propagators[c];
+      const double mean = 0.5 * (force[c] + mesh.torque[c]), z0 = z[c], v0 = v[c];
+      z[c] = a.a11 * z0 + a.a12 * v0 + a.bq * mean;
+      v[c] = a.a21 * z0 + a.a22 * v0 + a.bv * mean;
+    }
+    lagged = lag.decay * lagged + lag.from_old * p;
+    const VectorXd e = mesh.gap - mesh.participation * z + mesh.residual * lagged;
+    solver.solve(compliance, e, active, p, d);
+    const VectorXd own = mesh.participation.transpose() * p;
+    for (int c = 0; c < n; ++c) {
+      z[c] -= 0.5 * propagators[c].bq * own[c];
+      v[c] -= 0.5 * propagators[c].bv * own[c];
+    }
+    force = mesh.torque - own;
+    lagged += lag.from_new * p;
+    result.least_mesh_force = std::min(result.least_mesh_force, p.sum() / mesh_force);
+    if (i % stride == 0) result.transmission_error[i / stride] = mesh.error_weight.dot(z - target);
+  }
+  if (!(result.least_mesh_force > 0))
+    fail(Failure::input, "a torque step of ", torque_step,
+         " of the torque parts the teeth; take a smaller one");
+  return result;
+}
+
+DampedRoot frozen_root(const HeldMesh& mesh) {
+  ComplementaritySolver solver;
+  const Rest end = rest(mesh, 1, solver);
+  const std::vector<int>& touching = end.active.strips;
+  const MatrixXd h = mesh.participation(touching, Eigen::all), r = mesh.residual(touching, touching);
+  MatrixXd a = mesh.local(touching, touching);
+  const auto n = h.cols(), k = h.rows();
+  const bool lagged = mesh.relaxation > 0;
+  if (!lagged) a += r;
+  const Eigen::LDLT<MatrixXd> factor(a);
+  const MatrixXd coupling = factor.solve(h);
+  // In z, v / w and A P, which are of one size.
+  const double w = std::sqrt(h.col(0).dot(coupling.col(0)));
+  MatrixXd system = MatrixXd::Zero(2 * n + (lagged ? k : 0), 2 * n + (lagged ? k : 0));
+  system.block(0, n, n, n).diagonal().setConstant(w);
+  system.block(n, 0, n, n) = -h.transpose() * coupling / w;
+  system.block(n, 0, n, n).diagonal() -= mesh.frequency_squared / w;
+  system.block(n, n, n, n).diagonal() = -mesh.damping;
+  if (lagged) {
+    const MatrixXd follow = r * factor.solve(MatrixXd::Identity(k, k));  // R P per A P
+    system.block(n, 2 * n, n, k) = coupling.transpose() * follow / w;
+    system.block(2 * n, 0, k, n) = h / mesh.relaxation;
+    system.block(2 * n, 2 * n, k, k) = -follow / mesh.relaxation;
+    system.block(2 * n, 2 * n, k, k).diagonal().array() -= 1 / mesh.relaxation;
+  }
+  const Eigen::VectorXcd roots = Eigen::EigenSolver<MatrixXd>(system, false).eigenvalues();
+  DampedRoot lowest;
+  for (const std::complex<double>& s : roots) {
+    if (!(s.imag() > 1e-5 * std::abs(s))) continue;  // the many equal real roots of the lag come out as pairs
+    const double frequency = s.imag() / (2 * std::numbers::pi);
+    if (lowest.frequency == 0 || frequency < lowest.frequency) lowest = {frequency, -s.real() / std::abs(s)};
+  }
+  if (lowest.frequency == 0)
+    fail(Failure::numerical, "no eigenvalue of the held pair oscillates: it is damped above critical");
+  return lowest;
+}
+
+ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+                      double mean_stiffness, const ImpactSlice& slice, const ImpactPlan& plan,
+                      const std::function<void(long, long)>& report) {
+  return HeldPair(driver, driven, statics, mean_stiffness, slice, plan)
+      .run(slice.damping.rayleigh_stiffness, report);
+}
+
+ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
+                         const StaticArtifact& statics, double mean_stiffness, const ImpactSlice& slice,
+                         const ImpactPlan& plan, double damping_ratio, const std::string& contact_state,
+                         const std::function<void(long, long)>& report) {
+  if (!(damping_ratio > 0 && damping_ratio < 1))
+    fail(Failure::input, "a damping ratio of ", damping_ratio, " is outside (0, 1)");
+  const HeldPair pair(driver, driven, statics, mean_stiffness, slice, plan);
+  const std::vector<int> phases = pair.phases_of(contact_state);
+  const auto excess = [&](double eta) { return pair.damping_ratio(phases, eta) - damping_ratio; };
+  double low = 0, below = excess(low);
+  if (below > 0)
+    fail(Failure::input, "bearings and mass-proportional damping alone give a damping ratio of ",
+         below + damping_ratio, " in the contact state '", contact_state, "', above ", damping_ratio,
+         "; lower bearing_ratio or rayleigh_mass_per_s");
+  // All of the compliance relaxing, the ratio is half of eta w; it is less for the undamped part.
+  double high = damping_ratio / (std::numbers::pi * pair.mean_frequency()), above = excess(high);
+  while (above < 0) {
+    const double next = excess(2 * high);
+    if (!(next > above))
+      fail(Failure::input, "no rayleigh_stiffness_s gives a damping ratio of ", damping_ratio,
+           " in the contact state '", contact_state, "': the largest is near ", above + damping_ratio,
+           ", at ", high, " s; ask for less, or lower undamped_depth_mm");
+    low = high;
+    below = above;
+    high *= 2;
+    above = next;
+  }
+  // Regula falsi, Illinois: an end that stays counts half.
+  double eta = high, off = above;
+  for (int side = 0, i = 0; std::abs(off) > 1e-7 * damping_ratio; ++i) {
+    if (i == 60)
+      fail(Failure::numerical, "the damping ratio stays ", off, " away from ", damping_ratio, " at ", eta,
+           " s");
+    eta = high - above * (high - low) / (above - below);
+    off = excess(eta);
+    if (off > 0) {
+      high = eta;
+      above = off;
+      if (side == 1) below *= 0.5;
+      side = 1;
+    } else {
+      low = eta;
+      below = off;
+      if (side == -1) above *= 0.5;
+      side = -1;
+    }
+  }
+  return pair.run(eta, report);
+}
+
+}  // namespace whine

@@ -1,0 +1,50 @@
+// Natural frequency and damping by ring-down, as P2000 measures them: the gears are held at a mesh phase in static
+// equilibrium, a small part of the torque is let go, and the transmission error decays. The time steps are those
+// of a sweep, with contact solved at every one, but nothing rolls.
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+#include "files/schemas.h"
+#include "motion/dynamics.h"
+#include "signal/decay.h"
+
+namespace whine {
+
+// Where and how far the pair is disturbed.
+struct ImpactPlan {
+  double torque_step = 0.01;  // 1: what is let go, over the torque
+  int phases = 256;  // even: the mean over the period is off by up to half a phase of one pair for two
+};
+
+struct RingDown {
+  Eigen::VectorXd transmission_error;  // (sample 0..) m, less its static value
+  double least_mesh_force = 0;         // 1: over the static one
+};
+
+// Free motion after the pair was in equilibrium under (1 + torque_step) of its torque; steps of `step` s, of which
+// every `stride`-th is kept. Throws Error(input) for a torque step outside (0, 0.5], or one that parts the teeth.
+RingDown ring_down(const HeldMesh& mesh, double torque_step, double step, int samples, int stride);
+
+// Lowest oscillating eigenvalue of the pair in static equilibrium with its contact frozen: modes, lag and
+// half-planes as one linear system z'' + c z' + w^2 z = -H^T p, eta P' + P = p, A p = H z - R P on the strips that
+// touch. Throws Error(numerical) if none oscillates.
+DampedRoot frozen_root(const HeldMesh& mesh);
+
+// statics: of the same torque; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets the
+// bearing dampers. report(done, total) is called after each phase. Errors as
+// ring_down and fit_decay.
+ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+                      double mean_stiffness, const ImpactSlice& slice, const ImpactPlan& plan,
+                      const std::function<void(long, long)>& report);
+
+// The same at the Rayleigh stiffness factor (slice.damping.rayleigh_stiffness of the result) that gives a damping
+// ratio in one contact state ("one", "two", ... or "mean"), to 1e-7 of it. Throws Error(input) if the state does not
+// occur, or if no factor gives the ratio.
+ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
+                         const StaticArtifact& statics, double mean_stiffness, const ImpactSlice& slice,
+                         const ImpactPlan& plan, double damping_ratio, const std::string& contact_state,
+                         const std::function<void(long, long)>& report);
+
+}  // namespace whine

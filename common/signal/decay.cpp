@@ -1,0 +1,72 @@
+#include "signal/decay.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace whine {
+
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+namespace {
+constexpr int kMostRoots = 12;
+constexpr double kNoise = 1e-9;  // singular values below this share of the largest are round-off
+constexpr double kStrong = 0.1;  // share of the strongest pair's energy that makes a pair count
+constexpr int kLeastSamples = 16;
+}  // namespace
+
+Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step) {
+  const Eigen::Index n = samples.size(), pencil = n / 3;
+  if (n < kLeastSamples)
+    fail(Failure::input, "a decay of ", n, " samples is too short, ", kLeastSamples, " are needed");
+  if (!samples.allFinite()) fail(Failure::input, "a sample of the decay is not finite");
+  const double norm = samples.norm();
+  if (!(norm > 0) || !(step > 0))
+    fail(Failure::input, "the decay holds no signal, or its step is not above 0");
+
+  MatrixXd hankel(n - pencil, pencil + 1);
+  for (Eigen::Index j = 0; j <= pencil; ++j) hankel.col(j) = samples.segment(j, n - pencil);
+  const Eigen::BDCSVD<MatrixXd> svd(hankel, Eigen::ComputeThinV);
+  const VectorXd& sigma = svd.singularValues();
+  const auto roots = std::min<Eigen::Index>(kMostRoots, (sigma.array() > kNoise * sigma[0]).count());
+  const MatrixXd rows = svd.matrixV().leftCols(roots);
+  const MatrixXd shift = rows.topRows(pencil).colPivHouseholderQr().solve(rows.bottomRows(pencil));
+  const VectorXcd z = Eigen::EigenSolver<MatrixXd>(shift, false).eigenvalues();
+
+  MatrixXcd powers(n, roots);
+  powers.row(0).setOnes();
+  for (Eigen::Index i = 1; i < n; ++i) powers.row(i) = powers.row(i - 1).cwiseProduct(z.transpose());
+  const VectorXcd amplitude = powers.colPivHouseholderQr().solve(samples.cast<std::complex<double>>());
+
+  // Round-off may let an undamped one grow.
+  const auto swings = [&](Eigen::Index k) {
+    return z[k].imag() > 0 && std::abs(z[k]) < 1 + 1e-3 / static_cast<double>(n);
+  };
+  const VectorXd energy = (powers * amplitude.asDiagonal()).colwise().squaredNorm();
+  double strongest = 0;
+  for (Eigen::Index k = 0; k < roots; ++k)
+    if (swings(k)) strongest = std::max(strongest, energy[k]);
+  Decay decay;
+  for (Eigen::Index k = 0; k < roots; ++k) {
+    if (!swings(k) || energy[k] < kStrong * strongest) continue;
+    const std::complex<double> s = std::log(z[k]) / step;
+    const double frequency = s.imag() / (2 * std::numbers::pi);
+    if (decay.root.frequency == 0 || frequency < decay.root.frequency)
+      decay.root = {frequency, -s.real() / std::abs(s)};
+  }
+  if (decay.root.frequency == 0)
+    fail(Failure::numerical, "nothing oscillates in the decay: it is damped above critical, or grows");
+  decay.residual = (samples.cast<std::complex<double>>() - powers * amplitude).norm() / norm;
+  return decay;
+}
+
+}  // namespace whine

@@ -1,0 +1,29 @@
+// The slowest oscillation of a free decay, from its samples.
+//
+// Matrix pencil (Hua and Sarkar, IEEE Trans. Acoust. Speech Signal Process. 38 (1990) 814): the samples of a sum
+// of damped exponentials a_k z_k^j fill a Hankel matrix of as many singular values as there are exponentials,
+// and the z_k follow from the shift between its rows. Faster modes get roots of their own, so they do not
+// disturb the one that is asked for, as they would peaks and zero crossings.
+#pragma once
+#include <Eigen/Core>
+
+namespace whine {
+
+// A root s of a damped oscillation.
+struct DampedRoot {
+  double frequency = 0;      // Hz: Im s / 2 pi, of the decaying oscillation itself
+  double damping_ratio = 0;  // 1: -Re s / |s|
+};
+
+struct Decay {
+  DampedRoot
+      root;  // lowest frequency among the pairs that hold a tenth of the strongest one's energy or more
+  double residual = 0;  // 1: RMS of samples less all exponentials over RMS of samples
+};
+
+// samples: (sample) of a signal that decays to zero, at equal steps (s) from any start on; several oscillations, and
+// more than two samples in each. Throws Error(input) for fewer than 16 samples, values that are not finite, or no
+// signal; Error(numerical) if nothing in it oscillates and decays.
+Decay fit_decay(const Eigen::Ref<const Eigen::VectorXd>& samples, double step);
+
+}  // namespace whine

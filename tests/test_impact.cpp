@@ -1,0 +1,245 @@
+// Ring-down: the fit against decays whose roots are known, the held pair against the eigenvalues of its linear system.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "base/error.h"
+#include "motion/impact.h"
+#include "motion/statics.h"
+#include "signal/decay.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+
+using namespace whine;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+constexpr double kPi = std::numbers::pi;
+
+// amplitude exp(-ratio w t) cos(2 pi frequency t + phase), w sqrt(1 - ratio^2) = 2 pi frequency.
+VectorXd oscillation(double frequency, double ratio, double amplitude, double phase, double step,
+                     int samples) {
+  VectorXd y(samples);
+  const double w = 2 * kPi * frequency, decay = ratio / std::sqrt(1 - ratio * ratio) * w;
+  for (int i = 0; i < samples; ++i)
+    y[i] = amplitude * std::exp(-decay * i * step) * std::cos(w * i * step + phase);
+  return y;
+}
+
+// A mass on one strip: half-plane `local` without damping in series with a flexibility that lags.
+HeldMesh lagged_mass() {
+  HeldMesh mesh;
+  mesh.frequency_squared = mesh.damping = VectorXd::Zero(1);
+  mesh.participation = MatrixXd::Constant(1, 1, 1 / std::sqrt(1.4));  // kg
+  mesh.torque = VectorXd::Constant(1, 2000 / std::sqrt(1.4));         // N
+  mesh.error_weight = mesh.participation.col(0);
+  mesh.local = MatrixXd::Constant(1, 1, 0.6e-9);
+  mesh.residual = MatrixXd::Constant(1, 1, 2.2e-9);
+  mesh.gap = VectorXd::Zero(1);
+  mesh.first_strip = {0, 1};
+  mesh.relaxation = 7.683e-6;
+  return mesh;
+}
+
+const BodyArtifact& coarse_body() {
+  static const BodyArtifact body = [] {
+    GearDesign d;
+    d.teeth = 50;
+    d.module = 3e-3;
+    d.pressure_angle = 20 * kPi / 180;
+    d.face_width = 25.4e-3;
+    d.bore_radius = 40e-3;
+    BodyDiscretisation discretisation;
+    discretisation.element_size = 0.8e-3;
+    return reduce(make_sector_mesh(d, discretisation), Material{207e9, 0.3, 7600, true},
+                  discretisation.modes);
+  }();
+  return body;
+}
+
+StaticArtifact coarse_statics(double torque) {
+  StaticSlice slice;
+  slice.mesh.driver = "pinion";
+  slice.mesh.driven = "wheel";
+  slice.mesh.centre_distance = 0.150;
+  slice.contact.positions = 64;
+  return static_transmission(coarse_body(), coarse_body(), slice, torque);
+}
+
+ImpactSlice coarse_impact() {
+  ImpactSlice slice;
+  slice.driver_inertia = slice.driven_inertia = 0.0148;
+  slice.damping.rayleigh_stiffness = 7.7e-6;
+  slice.reference_torque = 100;
+  return slice;
+}
+
+void no_report(long, long) {}
+
+ImpactArtifact ring(const ImpactSlice& slice, double torque_step = 0.01) {
+  return impact(coarse_body(), coarse_body(), coarse_statics(150), 463e6, slice, {torque_step, 64},
+                no_report);
+}
+
+double furthest(const VectorXd& a, const VectorXd& b) {
+  return (a.array() / b.array() - 1).abs().maxCoeff();
+}
+}  // namespace
+
+TEST_CASE("decay: roots of one oscillation, with faster ones, a relaxation, and noise") {
+  const double step = 1 / (32 * 2700.0);
+  for (double ratio : {0.0005, 0.07, 0.4}) {
+    const VectorXd slow = oscillation(2500, ratio, 1, 0.4, step, 257);
+    Decay fit = fit_decay(slow, step);
+    CHECK(fit.root.frequency == doctest::Approx(2500).epsilon(1e-9));
+    CHECK(fit.root.damping_ratio == doctest::Approx(ratio).epsilon(1e-7));
+    CHECK(fit.residual < 1e-9);
+
+    // Peaks and zero crossings would be those of the sum: the faster ones are as strong at the start.
+    VectorXd sum =
+        slow + oscillation(9000, 0.1, 1, 1, step, 257) + oscillation(15000, 0.05, 0.7, -2, step, 257);
+    for (int i = 0; i < 257; ++i) sum[i] += 0.5 * std::exp(-i * step / 8e-6);
+    fit = fit_decay(sum, step);
+    CHECK(fit.root.frequency == doctest::Approx(2500).epsilon(1e-7));
+    CHECK(fit.root.damping_ratio == doctest::Approx(ratio).epsilon(1e-5));
+
+    unsigned random = 1;  // a linear congruential sequence in [-0.5, 0.5)
+    for (double& y : sum) {
+      random = 1664525u * random + 1013904223u;
+      y += 1e-4 * (random / 4294967296.0 - 0.5);
+    }
+    fit = fit_decay(sum, step);
+    CHECK(fit.root.frequency == doctest::Approx(2500).epsilon(1e-3));
+    CHECK(std::abs(fit.root.damping_ratio - ratio) < 1e-3);
+    CHECK(fit.residual > 1e-7);
+    CHECK(fit.residual < 1e-3);
+  }
+}
+
+TEST_CASE("decay: a weak slow oscillation is passed over, what does not oscillate is refused") {
+  const double step = 1e-5;
+  const VectorXd strong = oscillation(3000, 0.05, 1, 0, step, 200);
+  CHECK(fit_decay(strong + oscillation(1200, 0.05, 0.01, 0, step, 200), step).root.frequency ==
+        doctest::Approx(3000).epsilon(1e-6));
+  CHECK(fit_decay(strong + oscillation(1200, 0.05, 0.9, 0, step, 200), step).root.frequency ==
+        doctest::Approx(1200).epsilon(1e-6));
+  VectorXd decay(200);
+  for (int i = 0; i < 200; ++i) decay[i] = std::exp(-0.05 * i);
+  CHECK_THROWS_WITH_AS(fit_decay(decay, step), doctest::Contains("nothing oscillates"), Error);
+  CHECK_THROWS_WITH_AS(fit_decay(VectorXd::Zero(200), step), doctest::Contains("no signal"), Error);
+  CHECK_THROWS_WITH_AS(fit_decay(strong.head(8), step), doctest::Contains("too short"), Error);
+  decay[7] = std::nan("");
+  CHECK_THROWS_WITH_AS(fit_decay(decay, step), doctest::Contains("finite"), Error);
+}
+
+TEST_CASE("mass on an elastic and a lagging spring: roots of its cubic, by eigenvalue and by ring-down") {
+  const HeldMesh mesh = lagged_mass();
+  const DampedRoot root = frozen_root(mesh);
+  // m s^2 (A + R + eta A s) + 1 + eta s = 0: m eta A s^3 + m (A + R) s^2 + eta s + 1 = 0.
+  const double w = 2 * kPi * root.frequency;
+  const std::complex<double> s(
+      -w * root.damping_ratio / std::sqrt(1 - root.damping_ratio * root.damping_ratio), w);
+  const double m = 1.4, a = 0.6e-9, r = 2.2e-9, eta = 7.683e-6;
+  CHECK(std::abs(m * eta * a * s * s * s + m * (a + r) * s * s + eta * s + 1.0) < 1e-12);
+  CHECK(root.frequency == doctest::Approx(2542.28).epsilon(2e-6));
+  CHECK(root.damping_ratio == doctest::Approx(0.048238).epsilon(2e-5));
+
+  // Second order in the step: 32 samples an oscillation are kept.
+  double before = 0;
+  for (int stride : {2, 4, 8, 16}) {
+    const double sample = 1 / (32 * 2540.0);
+    const RingDown trace = ring_down(mesh, 0.01, sample / stride, 257, stride);
+    const Decay fit = fit_decay(trace.transmission_error, sample);
+    const double error =
+        std::hypot(fit.root.frequency / root.frequency - 1, fit.root.damping_ratio / root.damping_ratio - 1);
+    INFO("stride " << stride << ": " << fit.root.frequency << " Hz, " << fit.root.damping_ratio);
+    if (before > 0) CHECK(std::log2(before / error) == doctest::Approx(2).epsilon(0.02));
+    CHECK(trace.transmission_error[0] == doctest::Approx(0.01 * 2000 * (a + r)).epsilon(1e-9));
+    before = error;
+  }
+  CHECK(before < 3e-5);
+}
+
+TEST_CASE("held pair: ring-down against the eigenvalues of the system with frozen contact, on every rung") {
+  struct Rung {
+    std::string body, integrator;
+  };
+  for (const Rung& rung : {Rung{"modal", "exact"}, Rung{"modal", "newmark"}, Rung{"lagged", "exact"},
+                           Rung{"quasi-static", "exact"}, Rung{"rigid", "exact"}}) {
+    INFO(rung.body << " " << rung.integrator);
+    ImpactSlice slice = coarse_impact();
+    slice.fidelity.body = rung.body;
+    slice.fidelity.integrator = rung.integrator;
+    // Small enough that hardly a strip comes or goes.
+    const ImpactArtifact a = ring(slice, 1e-4);
+    CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-4);
+    CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 1e-3);
+    CHECK(a.fit_residual.maxCoeff() < 1e-4);
+    // Without damping the eigenvalues are the undamped frequencies, found another way.
+    slice.damping.rayleigh_stiffness = slice.damping.bearing_ratio = 0;
+    const ImpactArtifact undamped = ring(slice, 1e-4);
+    CHECK(furthest(undamped.eigen_frequency, undamped.phase_undamped_frequency) < 1e-9);
+    CHECK(furthest(undamped.phase_natural_frequency, undamped.phase_undamped_frequency) < 1e-4);
+    CHECK(undamped.phase_damping_ratio.cwiseAbs().maxCoeff() < 1e-4);
+  }
+}
+
+TEST_CASE("held pair: one and two pairs, their mean, and no dependence on what is let go") {
+  const ImpactArtifact a = ring(coarse_impact());
+  REQUIRE(a.contact_state == std::vector<std::string>{"one", "two", "mean"});
+  CHECK(a.state_phase == Eigen::Vector2d(0, 0.5));
+  CHECK(a.natural_frequency[0] < a.natural_frequency[2]);
+  CHECK(a.natural_frequency[2] < a.natural_frequency[1]);
+  CHECK(a.natural_frequency[2] == doctest::Approx(a.phase_natural_frequency.mean()).epsilon(1e-14));
+  CHECK(a.damping_ratio[2] == doctest::Approx(a.phase_damping_ratio.mean()).epsilon(1e-14));
+  // Equal gears: a phase and its mirror image are the same.
+  for (int i = 1; i < 64; ++i)
+    CHECK(a.phase_natural_frequency[i] == doctest::Approx(a.phase_natural_frequency[64 - i]).epsilon(1e-6));
+  // The first sample is the static difference, the last has decayed by the damping ratio.
+  const double oscillations = a.time[a.time.size() - 1] * a.natural_frequency[1];
+  const VectorXd two = a.transmission_error.row(1);
+  CHECK(two[0] > 0);
+  CHECK(two.tail(33).cwiseAbs().maxCoeff() <
+        1.5 * two[0] * std::exp(-2 * kPi * a.damping_ratio[1] * (oscillations - 1)));
+  for (double step : {1e-4, 1e-3, 0.05}) {
+    const ImpactArtifact other = ring(coarse_impact(), step);
+    INFO("let go " << step);
+    CHECK(other.least_mesh_force == doctest::Approx(1 - 0.85 * step).epsilon(0.1 * step));
+    for (int state = 0; state < 3; ++state) {
+      CHECK(other.natural_frequency[state] == doctest::Approx(a.natural_frequency[state]).epsilon(1e-3));
+      CHECK(other.damping_ratio[state] == doctest::Approx(a.damping_ratio[state]).epsilon(1e-3));
+    }
+  }
+  CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0), doctest::Contains("torque step"), Error);
+  CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0.6), doctest::Contains("torque step"), Error);
+}
+
+TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is refused") {
+  const StaticArtifact statics = coarse_statics(150);
+  const auto calibrated = [&](const ImpactSlice& slice, double ratio, const std::string& state) {
+    return calibrate(coarse_body(), coarse_body(), statics, 463e6, slice, {0.01, 64}, ratio, state,
+                     no_report);
+  };
+  for (const auto& [state, row] : {std::pair{"one", 0}, std::pair{"two", 1}, std::pair{"mean", 2}}) {
+    ImpactSlice slice = coarse_impact();
+    const ImpactArtifact found = calibrated(slice, 0.05, state);
+    slice.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
+    CHECK(ring(slice).damping_ratio[row] == doctest::Approx(0.05).epsilon(1e-6));
+    // It does not depend on the factor that the scene has now.
+    slice.damping.rayleigh_stiffness = 1e-5;
+    CHECK(calibrated(slice, 0.05, state).damping.rayleigh_stiffness == found.damping.rayleigh_stiffness);
+  }
+  ImpactSlice slice = coarse_impact();
+  CHECK_THROWS_WITH_AS(calibrated(slice, 0.05, "three"), doctest::Contains("choose one of: one, two, mean"),
+                       Error);
+  CHECK_THROWS_WITH_AS(calibrated(slice, 0.9, "two"), doctest::Contains("the largest is near"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(slice, 1.5, "two"), doctest::Contains("outside (0, 1)"), Error);
+  slice.damping.bearing_ratio = 0.1;
+  CHECK_THROWS_WITH_AS(calibrated(slice, 0.05, "two"), doctest::Contains("lower bearing_ratio"), Error);
+  slice = coarse_impact();
+  slice.fidelity.body = "rigid";
+  CHECK_THROWS_WITH_AS(calibrated(slice, 0.05, "two"), doctest::Contains("the largest is near"), Error);
+}

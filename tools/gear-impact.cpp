@@ -1,0 +1,112 @@
+// gear-impact: natural frequency and damping of the pair by ring-down, held at a series of mesh phases.
+//
+// Reads   params (slice of a scene: damping, inertia, fidelity), body.h5 of both gears, static.h5 of the torque (mesh,
+//         contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
+// Writes  impact.h5   frequency, damping ratio and decay per contact state; both, with the eigenvalues, per mesh phase
+// Equations: Eq. 1-6 in modes of the hub-fixed gears, Eq. 13-20 at every step, Eq. 21; Table 1 of P2000.
+// With --calibrate: the eta of Eq. 21 that gives a damping ratio in one contact state, on standard output; no file.
+// Example: gear-impact --params out/parker2000/params/impact.toml --driver out/parker2000/pinion/body.h5
+//            --driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5
+//            --reference-static out/parker2000/T100/static.h5 --output out/parker2000/T150/impact.h5
+#include <CLI/CLI.hpp>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/tool.h"
+#include "files/provenance.h"
+#include "files/scene.h"
+#include "files/schemas.h"
+#include "motion/impact.h"
+
+namespace {
+
+std::string states(const whine::ImpactArtifact& a) {
+  std::ostringstream out;
+  out << std::fixed;
+  for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
+    out << (i ? ", " : "") << a.contact_state[i] << std::setprecision(1) << " " << a.natural_frequency[i]
+        << " Hz " << std::setprecision(3) << a.damping_ratio[i] * 100 << " %";
+  return out.str();
+}
+
+// A line for a scene, with all that the number belongs to.
+void print_calibration(const whine::ImpactArtifact& a, double ratio, const std::string& state) {
+  std::cout << "rayleigh_stiffness_s = " << std::setprecision(5) << a.damping.rayleigh_stiffness
+            << "  # damping ratio " << ratio << " by ring-down, loaded pairs: " << state << ", at "
+            << a.torque << " N m, bearing_ratio " << a.damping.bearing_ratio << ", rayleigh_mass_per_s "
+            << a.damping.rayleigh_mass << ", undamped_depth_mm " << a.damping.undamped_depth * 1e3
+            << ", body " << a.fidelity.body << "; in all: " << states(a) << "\n";
+}
+
+void body(int argc, char** argv) {
+  CLI::App app{"Natural frequency and damping of the held pair by ring-down", "gear-impact"};
+  std::string params, driver, driven, statics, reference, output, step_word = "0.01", ratio_word,
+                                                                  state = "two";
+  app.add_option("--params", params, "slice of the scene: out/<scene>/params/impact.toml")->required();
+  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
+  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
+  app.add_option("--static", statics, "static.h5 of the torque")->required();
+  app.add_option("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
+      ->required();
+  app.add_option("--torque-step", step_word, "what is let go, over the torque, up to 0.5")
+      ->capture_default_str();
+  auto* write = app.add_option("--output", output, "impact.h5 to write");
+  auto* calibrate =
+      app.add_option("--calibrate", ratio_word, "damping ratio to find the eta of Eq. 21 for; prints");
+  app.add_option("--contact-state", state, "where that ratio holds: loaded pairs in words, or mean")
+      ->needs(calibrate)
+      ->capture_default_str();
+  write->excludes(calibrate);
+  whine::parse(app, argc, argv);
+  if (output.empty() && ratio_word.empty())
+    whine::fail(whine::Failure::usage, "--output or --calibrate is needed; see --help");
+
+  whine::ImpactPlan plan;
+  plan.torque_step = whine::number_option("--torque-step", step_word);
+  const whine::ImpactSlice slice = whine::read_impact_slice(params);
+  for (const std::string& file : {statics, reference}) {
+    whine::require_made_from(file, "driver", driver);
+    whine::require_made_from(file, "driven", driven);
+  }
+  const whine::StaticArtifact at_torque = whine::read_static(statics),
+                              at_reference = whine::read_static(reference);
+  if (at_reference.torque != slice.reference_torque)
+    whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
+                " N m, but the scene's first torque, which sets the bearing dampers, is ",
+                slice.reference_torque, " N m; give the static.h5 of that torque");
+
+  const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
+  std::optional<whine::Progress> progress;
+  const auto report = [&](long done, long total) {
+    if (!progress) progress.emplace("gear-impact", total);
+    progress->update(done, "");
+  };
+  if (!ratio_word.empty()) {
+    const double ratio = whine::number_option("--calibrate", ratio_word);
+    const whine::ImpactArtifact result = whine::calibrate(
+        first, second, at_torque, at_reference.mean_stiffness, slice, plan, ratio, state, report);
+    progress.reset();
+    print_calibration(result, ratio, state);
+    return;
+  }
+  const whine::ImpactArtifact result =
+      whine::impact(first, second, at_torque, at_reference.mean_stiffness, slice, plan, report);
+  progress.reset();
+  whine::Provenance provenance;
+  provenance.tool = whine::program_name(argv[0]);
+  provenance.command = whine::command_line(argc, argv);
+  provenance.inputs = {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
+                       "reference_static=" + reference};
+  whine::write(output, result, provenance);
+  whine::tell("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
