@@ -1,4 +1,4 @@
-# Stages: scene -> mesh.h5 -> body.h5 -> static.h5 -> sweep.h5 -> response.h5.
+# Stages: scene -> mesh.h5 -> body.h5 -> static.h5 -> sweep.h5 -> response.h5, and static.h5 -> impact.h5.
 #
 # A stage depends on the slice of the scene that it reads, on the artifacts that it reads, and on the id of its
 # program. Bodies are per distinct gear (out/bodies/<hash>), operating points are targets: the torque stands in the path.
@@ -34,6 +34,14 @@ out/$1/T$2/error_budget.h5: out/$1/params/static.toml $(pair_bodies) $(call id,g
 	$$(call run,static) --error-budget --params $$< $(pair_options) --torque $2 --output $$@
 endef
 
+impact_inputs = out/$1/params/impact.toml $(pair_bodies) out/$1/T$2/static.h5 $(reference_static)
+impact_options = --params out/$1/params/impact.toml $(pair_options) --static out/$1/T$2/static.h5 --reference-static $(reference_static)
+
+define impact_rules # scene, torque
+out/$1/T$2/impact.h5: $(impact_inputs) $(call id,gear-impact) | $(B)/bin/gear-impact
+	$$(call run,impact) $(impact_options) --output $$@
+endef
+
 define sweep_rules # scene, torque, direction
 out/$1/T$2/$3/sweep.h5: out/$1/params/sweep.toml $(pair_bodies) \
     out/$1/T$2/static.h5 $(reference_static) $(call id,gear-sweep) | $(B)/bin/gear-sweep
@@ -44,24 +52,33 @@ out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)
 	$(B)/bin/gear-spectra --input $$< --output $$@
 endef
 
+# What eta gives the damping ratio DAMPING in the contact state STATE (one, two, mean) at TORQUE.
+DAMPING ?= 0.07
+STATE ?= two
+TORQUE ?= $(if $(SCENE),$(SCENE_$(own_scene)_REFERENCE_TORQUE),150)
+calibrated_torque = $(if $(filter calibrate,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
+
 # Torques of a scene that have rules: those that it lists and those in the paths of goals and figures.
 path_torques = $(patsubst T%,%,$(foreach f,$(filter out/$1/T%,$(goals) $(figure_inputs)),$(word 3,$(subst /, ,$f))))
-torques = $(sort $(SCENE_$1_TORQUES) $(SCENE_$1_REFERENCE_TORQUE) $(path_torques))
+torques = $(sort $(SCENE_$1_TORQUES) $(SCENE_$1_REFERENCE_TORQUE) $(path_torques) $(calibrated_torque))
 check_torque = $(if $(filter-out $2,$(shell printf %g '$2' 2>/dev/null || echo no number)),\
   $(error out/$1/T$2: the torque in a path is a number in N m as printed by %g, such as T150 or T62.5))
 
 define scene_rules # scene
 $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
-$(foreach t,$(path_torques),$(call check_torque,$1,$t))
-$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))\
+$(foreach t,$(path_torques) $(calibrated_torque),$(call check_torque,$1,$t))
+$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))\
   $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))))
 endef
 
 $(foreach h,$(sort $(BODIES)),$(eval $(call body_rules,$h)))
 $(foreach s,$(scenes),$(if $(SCENE_$s_GEARS),$(eval $(call scene_rules,$s))))
 
-.PHONY: mesh reduce static sweep
+.PHONY: mesh reduce static impact calibrate sweep
 mesh: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/mesh.h5) ## mesh every gear of SCENE (default: the paper's)
 reduce: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/body.h5) ## modes and flexibility of every gear of SCENE
 static: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/static.h5) ## transmission error and stiffness, all torques of SCENE
+impact: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/impact.h5) ## natural frequency and damping by ring-down, all torques of SCENE
+calibrate: $(if $(filter calibrate,$(goals)),$(call impact_inputs,$(own_scene),$(TORQUE))) | $(B)/bin/gear-impact ## print the eta that gives a damping ratio: DAMPING=0.07 TORQUE=150 STATE=two
+	@$| $(call impact_options,$(own_scene),$(TORQUE)) --calibrate $(DAMPING) --contact-state $(STATE)
 sweep: $(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$d/response.h5)) ## speed sweeps, all torques of SCENE

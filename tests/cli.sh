@@ -40,11 +40,13 @@ pair=(--driver out/scene/pinion/body.h5 --driven out/scene/wheel/body.h5)
 static() { echo "$bin/gear-static --params out/$1/params/static.toml ${pair[*]} --torque $2 --output out/$1/T$2/static.h5"; }
 sweep() { echo "$bin/gear-sweep --params out/$1/params/sweep.toml ${pair[*]} --static out/scene/T100/static.h5 \
   --reference-static out/scene/T100/static.h5 --direction $2 --output out/$1/T100/$2/sweep.h5"; }
+measured_pair="${pair[*]} --static out/scene/T100/static.h5 --reference-static out/scene/T100/static.h5"
+stage_impact=("$bin/gear-impact" --params out/scene/params/impact.toml $measured_pair --output out/scene/T100/impact.h5)
 stage_spectra=("$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output out/scene/T100/up/response.h5)
 stage_plot=("$bin/gear-plot" fig12 --plots "$plots" --output fig12 out/scene/T100/static.h5)
 chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
-    $(static scene 100) && $(sweep scene up) && $(sweep scene down) && "${stage_spectra[@]}" && "${stage_plot[@]}"
+    $(static scene 100) && "${stage_impact[@]}" && $(sweep scene up) && $(sweep scene down) && "${stage_spectra[@]}" && "${stage_plot[@]}"
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
@@ -57,7 +59,7 @@ if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
   wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
 if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
   wrong "no artifact holds a path of the machine" "$found"; fi
-for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/up/sweep.h5 out/scene/T100/up/response.h5; do
+for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/up/sweep.h5 out/scene/T100/up/response.h5; do
   if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
@@ -76,7 +78,7 @@ done
 
 # --- the command line
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
-  [gear-static]="$(static scene 100)" [gear-sweep]="$(sweep scene up)" [gear-spectra]="${stage_spectra[*]}"
+  [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-spectra]="${stage_spectra[*]}"
   [gear-plot]="${stage_plot[*]}" [gear-inspect]="gear-inspect out/scene/T100/static.h5")
 for program in "$bin"/gear-*; do
   name=$(basename "$program")
@@ -85,6 +87,19 @@ for program in "$bin"/gear-*; do
   refused "$name refuses an unknown option" 2 'no-such-option' ${whole[$name]/#gear-/$bin/gear-} --no-such-option
 done
 refused "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
+ring_down=("${stage_impact[@]::${#stage_impact[@]}-2}")
+"${ring_down[@]}" --calibrate 0.05 --contact-state one > said 2> /dev/null
+eta=$(sed -n 's/^rayleigh_stiffness_s = \([^ ]*\)  # damping ratio 0.05 .* one, .* undamped_depth_mm 0.5.*/\1/p' said)
+sed "s/^rayleigh_stiffness = [^ ]*/rayleigh_stiffness = ${eta:-none}/" out/scene/params/impact.toml > calibrated.toml
+"$bin/gear-impact" --params calibrated.toml $measured_pair --output calibrated.h5 > said 2>&1
+if grep -q 'one [0-9.]* Hz 5.000 %' said; then ok "the eta that gear-impact prints gives the damping ratio that was asked for"; else
+  wrong "the eta that gear-impact prints gives the damping ratio that was asked for" "$(head -n 1 said)"; fi
+rm -f calibrated.*
+refused "a ring-down without --output or --calibrate" 2 'calibrate is needed' "${ring_down[@]}"
+refused "a ring-down with both" 2 'calibrate' "${stage_impact[@]}" --calibrate 0.05
+refused "a torque step above a half" 3 'torque step of 0.6' "${stage_impact[@]}" --torque-step 0.6
+refused "a damping ratio that no eta gives" 3 'the largest is near' "${ring_down[@]}" --calibrate 0.9
+refused "a contact state that does not occur" 3 "'five' does not occur.*one, two, mean" "${ring_down[@]}" --calibrate 0.05 --contact-state five
 at_torque=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --output x.h5 --torque)
 for torque in ten nan inf 0x10 '' '100 ' 1e999; do
   refused "a torque of '$torque', which is no finite number" 2 "torque.*'$torque'" "${at_torque[@]}" "$torque"; done
@@ -237,7 +252,7 @@ $(sweep scene up) > /dev/null 2>&1
 if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact and removes what killed runs left"; else
   wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi
 # A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
-for name in gear-mesh gear-reduce gear-static gear-sweep gear-spectra gear-plot; do
+for name in gear-mesh gear-reduce gear-static gear-impact gear-sweep gear-spectra gear-plot; do
   before=$(contents)
   (ulimit -f 8; trap '' XFSZ; exec ${whole[$name]}) > /dev/null 2> said
   status=$?

@@ -104,6 +104,12 @@ expect "going back to a bore keeps its body and redoes what rests on it" \
   "gear-plot*4 gear-spectra*8 gear-static*4 gear-sweep*8"; restore
 change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; make_ -n $all
 expect "damping redoes the sweeps" "gear-plot*1 gear-spectra*8 gear-sweep*8"; restore
+make_ impact; make_ -n impact
+expect "ring-downs are up to date" ""
+change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n impact
+expect "speeds redo no ring-down" ""; restore
+change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; make_ -n impact
+expect "damping redoes the ring-downs" "gear-impact*4"; restore
 change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; make_ -n $all
 expect "inertia redoes the sweeps" "gear-plot*1 gear-spectra*8 gear-sweep*8"; restore
 change 's/^corner_contact = true/corner_contact = false/'; make_ -n $all
@@ -116,6 +122,14 @@ expect "a gear that differs gets a body of its own" "gear-mesh*1"; restore
 # --- any torque, other scenes
 make_ -n out/parker2000/T600/up/response.h5
 expect "a torque that no list names" "gear-spectra*1 gear-static*1 gear-sweep*1"
+make_ -n out/parker2000/T600/impact.h5
+expect "a ring-down at a torque that no list names" "gear-impact*1 gear-static*1"
+rm -f calls; make_ calibrate DAMPING=0.05 TORQUE=600 STATE=one
+[ "$(tr '\n' ' ' < calls)" = "gear-static out/parker2000/T600/static.h5 gear-impact  " ] && ok "calibrate runs the static of its torque first" ||
+  wrong "calibrate runs the static of its torque first" "$(cat calls "$log")"
+make_ calibrate; make_ -n calibrate
+grep -q 'gear-impact .*/T150/static.h5 .* --calibrate 0.07 --contact-state two$' "$log" && ok "calibrate: 7 %, 150 N m, two pairs unless told" ||
+  wrong "calibrate: 7 %, 150 N m, two pairs unless told" "$(cat "$log")"
 make_ -n out/parker2000/pinion/body.h5
 expect "a body by its name is up to date" ""
 make_ -n out/parker2000/T080/static.h5
