@@ -6,51 +6,12 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "contact/lanes.h"
 
 namespace whine {
 
 using Eigen::Ref;
 using Eigen::VectorXd;
-
-namespace {
-
-// Blocks of 10 to 40 strips are too small for a BLAS; all loops below run down padded columns, 4 numbers at a time.
-constexpr int kLanes = 4;
-typedef double Lanes __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
-
-constexpr int padded(int n) {
-  return (n + kLanes - 1) / kLanes * kLanes;
-}
-
-// y[first..last) += sum over j < count of f[j] * column j; first and last multiples of 4.
-inline void add_columns(double* y, const double* columns, int stride, const double* f, int count, int first,
-                        int last) {
-  int j = 0;
-  for (; j + 4 <= count; j += 4) {
-    const double *c0 = columns + static_cast<Eigen::Index>(j) * stride, *c1 = c0 + stride, *c2 = c1 + stride,
-                 *c3 = c2 + stride;
-    const double f0 = f[j], f1 = f[j + 1], f2 = f[j + 2], f3 = f[j + 3];
-    for (int i = first; i < last; i += kLanes)
-      *reinterpret_cast<Lanes*>(y + i) +=
-          f0 * *reinterpret_cast<const Lanes*>(c0 + i) + f1 * *reinterpret_cast<const Lanes*>(c1 + i) +
-          f2 * *reinterpret_cast<const Lanes*>(c2 + i) + f3 * *reinterpret_cast<const Lanes*>(c3 + i);
-  }
-  for (; j < count; ++j) {
-    const double* c = columns + static_cast<Eigen::Index>(j) * stride;
-    const double f0 = f[j];
-    for (int i = first; i < last; i += kLanes)
-      *reinterpret_cast<Lanes*>(y + i) += f0 * *reinterpret_cast<const Lanes*>(c + i);
-  }
-}
-
-inline double dot(const double* x, const double* y, int first, int last) {
-  Lanes sum{};
-  for (int i = first; i < last; i += kLanes)
-    sum += *reinterpret_cast<const Lanes*>(x + i) * *reinterpret_cast<const Lanes*>(y + i);
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-}  // namespace
 
 void GrowingMatrix::reserve(int n) {
   const int stride = padded(n);
@@ -105,7 +66,7 @@ void ComplementaritySolver::factorise(const Matrix& a, ActiveSet& active) {
       if (!(pivot > kLeastPivot * diagonal * (shift > 0 ? 0.1 : 1.0))) break;
       std::fill(column, column + j, 0.0);
       const double scale = reciprocal_[j] = 1 / std::sqrt(pivot);
-      for (int i = first; i < end; i += kLanes) *reinterpret_cast<Lanes*>(column + i) *= scale;
+      for (int i = first; i < end; i += kLanes) lanes(column + i) *= scale;
     }
     if (j == k) return;
   }
@@ -131,9 +92,9 @@ void ComplementaritySolver::grow(const Matrix& a, const Vector& e, ActiveSet& ac
   active.updates = 0;
   int k = 0;
   for (; k < n; ++k) {
-    Lanes least = *reinterpret_cast<const Lanes*>(gap);
+    Lanes least = lanes(gap);
     for (int i = kLanes; i < end; i += kLanes) {
-      const Lanes other = *reinterpret_cast<const Lanes*>(gap + i);
+      const Lanes other = lanes(gap + i);
       least = other < least ? other : least;
     }
     const double value = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
@@ -148,9 +109,9 @@ void ComplementaritySolver::grow(const Matrix& a, const Vector& e, ActiveSet& ac
     if (!(pivot > kLeastPivot * a(strip, strip))) break;
     const double scale = reciprocal_[k] = 1 / std::sqrt(pivot), step = -value * scale;
     for (int i = 0; i < end; i += kLanes) {
-      Lanes& l = *reinterpret_cast<Lanes*>(column + i);
+      Lanes& l = lanes(column + i);
       l *= scale;
-      *reinterpret_cast<Lanes*>(gap + i) += step * l;
+      lanes(gap + i) += step * l;
     }
     gap[strip] = kInfinity;
     for (int j = 0; j < k; ++j) factor_.column(j)[k] = -row[j];
@@ -296,11 +257,23 @@ void ComplementaritySolver::verify(const Matrix& a, const Vector& e, const std::
   const int n = static_cast<int>(e.size()), k = static_cast<int>(strips.size());
   p.setZero();
   d = e;
-  int j = 0;
-  for (; j + 4 <= k; j += 4)
-    d.noalias() += p_active_[j] * a.col(strips[j]) + p_active_[j + 1] * a.col(strips[j + 1]) +
-                   p_active_[j + 2] * a.col(strips[j + 2]) + p_active_[j + 3] * a.col(strips[j + 3]);
-  for (; j < k; ++j) d.noalias() += p_active_[j] * a.col(strips[j]);
+  const int whole = n / kLanes * kLanes;
+  for (int j = 0; j < k; j += 4) {
+    const double* column[4];
+    double force[4];
+    for (int m = 0; m < 4; ++m) {
+      const bool there = j + m < k;
+      column[m] = a.data() + strips[there ? j + m : j] * a.outerStride();
+      force[m] = there ? p_active_[j + m] : 0;
+    }
+    double* gap = d.data();
+    for (int i = 0; i < whole; i += kLanes)
+      lanes(gap + i) += force[0] * lanes(column[0] + i) + force[1] * lanes(column[1] + i) +
+                        force[2] * lanes(column[2] + i) + force[3] * lanes(column[3] + i);
+    for (int i = whole; i < n; ++i)
+      gap[i] += force[0] * column[0][i] + force[1] * column[1][i] + force[2] * column[2][i] +
+                force[3] * column[3][i];
+  }
   if (!std::isfinite(d.sum()))
     fail(Failure::numerical, "the gaps of ", n, " strips are not finite with ", k,
          " of them in contact: the compliance or the unloaded gap (largest ", scale_, " m) holds no number");

@@ -348,10 +348,10 @@ HeldMesh RollingDynamics::hold(int i) const {
   held.error_weight = error_weight_;
   held.local = position.local;
   held.residual = MatrixXd::Zero(mesh.strips(), mesh.strips());
-  mesh.add_to_strips(position.residual, held.residual);
+  mesh.add_to_strips(position.lagged, held.residual);
   held.gap = mesh.gap;
   held.first_strip = mesh.first_strip;
-  if (parameters_.fidelity.body != "quasi-static") held.relaxation = parameters_.damping.rayleigh_stiffness;
+  held.relaxation = relaxation();
   held.newmark = parameters_.fidelity.integrator == "newmark";
   return held;
 }
