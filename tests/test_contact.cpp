@@ -120,6 +120,56 @@ TEST_CASE("Hertz line contact: 12 to 50 strips across, any place of the grid") {
   }
 }
 
+TEST_CASE("strips of any widths: compliance symmetric, equal to the mean of readings across the strip") {
+  const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
+  for (double x : {0.0, 1e-5, 3e-5, 2e-4}) {
+    const double there = surface.mean_over_strip(x, 2e-5, 5e-6, 1e-3);
+    CHECK(surface.mean_over_strip(-x, 5e-6, 2e-5, 1e-3) == doctest::Approx(there).epsilon(1e-13));
+    double mean = 0;  // midpoint rule over the reading strip
+    constexpr int kPoints = 4000;
+    for (int i = 0; i < kPoints; ++i)
+      mean += surface.strip(x + 5e-6 * (2 * (i + 0.5) / kPoints - 1), 2e-5, 1e-3) / kPoints;
+    CHECK(there == doctest::Approx(mean).epsilon(1e-7));
+  }
+}
+
+TEST_CASE(
+    "Hertz line contact that grows: a grid a quarter strip off has a quarter of the ripple of a centred "
+    "one") {
+  // Force at the approach that Hertz's closed form gives, while the half width grows by one strip from 12 strips across.
+  // With a set of strips that stays, force is linear in the approach; at 12 strips a centred grid adds both ends at once.
+  const double face = 25.4e-3, radius = 12.8257552e-3, depth = 1e-3, line = 0.5 / 0.7;
+  const HalfPlaneSurface surface(strain_steel(), face);
+  const double a0 = 109.686e-6, force0 = 150 / 70.4769466e-3, h = 2 * a0 / 12;
+  const auto spread = [&](double offset, double& mean) {
+    std::vector<double> errors;
+    const int n = 28;
+    MatrixXd a(n, n);
+    VectorXd gap(n);
+    for (int i = 0; i < n; ++i) {
+      const double x = (i - 0.5 * (n - 1) + offset) * h;
+      gap[i] = (0.5 * x * x + h * h / 24) / radius;  // mean over the strip
+      for (int j = 0; j < n; ++j) a(i, j) = 2 * surface.mean_over_strip((i - j) * h, 0.5 * h, 0.5 * h, depth);
+    }
+    for (int k = 0; k <= 32; ++k) {
+      const double growth = 1 + k / (32 * 6.0), half_width = a0 * growth, force = force0 * growth * growth;
+      const double approach =
+          2 * surface.coefficient() * force * (std::log(2 * depth / half_width) + 0.5 - line);
+      errors.push_back(solve(a, gap.array() - approach).p.sum() / force - 1);
+    }
+    mean = Eigen::Map<VectorXd>(errors.data(), 33).mean();
+    return std::sqrt((Eigen::Map<VectorXd>(errors.data(), 33).array() - mean).square().mean());
+  };
+  double mean = 0;
+  const double centred = spread(0, mean);
+  CHECK(std::abs(mean) < 1e-4);
+  CHECK(centred < 1e-3);  // 8.4e-4
+  const double quarter = spread(0.25, mean);
+  CHECK(std::abs(mean) < 1e-4);  // 5e-5
+  CHECK(quarter < 2.5e-4);       // 2.1e-4
+  CHECK(quarter < 0.3 * centred);
+}
+
 TEST_CASE("a kept active set costs no factorisation, a changed load finds its own") {
   const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
   const int n = 20;
