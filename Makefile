@@ -51,8 +51,9 @@ with_deps := $(filter deps,$(goals))
 library := $(patsubst %.cpp,$(B)/obj/%.o,$(wildcard common/*/*.cpp))
 tools := $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp))
 tool_objects := $(tools:%=$(B)/obj/tools/%.o)
-test_objects := $(patsubst %.cpp,$(B)/obj/%.o,$(wildcard tests/*.cpp))
-objects := $(library) $(tool_objects) $(test_objects)
+hard_cases := $(B)/obj/tests/hard_cases.o
+test_objects := $(filter-out $(hard_cases),$(patsubst %.cpp,$(B)/obj/%.o,$(wildcard tests/*.cpp)))
+objects := $(library) $(tool_objects) $(test_objects) $(hard_cases)
 
 .PHONY: build
 build: $(tools:%=$(B)/bin/%) ## compile the programs into build/bin
@@ -85,6 +86,9 @@ $(tools:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/tools/%.o $$(call rooms_of,$$*) | $(
 	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
 
 $(B)/bin/whine-tests: $(test_objects) $(rooms:%=$(B)/lib/lib%.a) tests | $(B)/bin/
+	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
+
+$(B)/bin/whine-hard-cases: $(hard_cases) $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/
 	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
 
 flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS)
@@ -134,8 +138,11 @@ deps: ## install the Debian packages that `figures` and `test` need
 
 # --- tests and upkeep -----------------------------------------------------------------------------------------
 
-.PHONY: test format check-format
-test: build $(B)/bin/whine-tests $(tools:%=$(B)/id/%) | $(with_deps) ## run all tests; the last line is `N passed, N failed`
+.PHONY: hard-cases test format check-format
+hard-cases: $(B)/bin/whine-hard-cases | $(with_deps) ## hard cases with known answers: expected, found, allowed; status 1 if one fails
+	@$<
+
+test: build $(B)/bin/whine-tests $(B)/bin/whine-hard-cases $(tools:%=$(B)/id/%) | $(with_deps) ## run all tests; the last line is `N passed, N failed`
 	@B=$(B) tests/run
 
 format: ## lay out the C++ sources with clang-format
