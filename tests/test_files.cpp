@@ -286,6 +286,8 @@ SweepArtifact small_sweep() {
   a.residual = odd_vector(2, 1e-7);
   a.period_multiple = Eigen::VectorXi{{1, 2}};
   a.energy_imbalance = odd_vector(2, 1e-9);
+  a.energy = MatrixRM::Constant(2, kEnergyLines.size(), 1e-3);
+  a.energy(1, 3) = -2e-4;
   a.drift_force = odd_vector(2, 1e-3).cwiseAbs();
   a.least_gap = 1e-10 / 3;
   a.least_force = 1e-4 / 3;
@@ -452,6 +454,7 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
   CHECK(a.residual == b.residual);
   CHECK(a.period_multiple == b.period_multiple);
   CHECK(a.energy_imbalance == b.energy_imbalance);
+  CHECK(a.energy == b.energy);
   CHECK(b.jump_frequency.size() == 0);
   CHECK(b.jump_width.size() == 0);
   CHECK(a.natural_frequency == b.natural_frequency);
@@ -702,7 +705,7 @@ TEST_CASE("an artifact of another schema or version is refused with what it is a
   });
   const Caught old = caught([] { read_static("out/old.h5"); });
   CHECK(old.kind == kInput);
-  CHECK(old.says("is schema version 0, this program reads 2"));
+  CHECK(old.says("is schema version 0, this program reads 3"));
   CHECK(old.says("make out/old.h5"));
 
   write_static_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });

@@ -44,6 +44,9 @@ void ComplementaritySolver::factorise(const Matrix& a, ActiveSet& active) {
   double largest = 0, least = std::numeric_limits<double>::infinity();
   for (int j = 0; j < k; ++j) {
     const double diagonal = a(strips[j], strips[j]);
+    if (!std::isfinite(diagonal))
+      fail(Failure::numerical, "the compliance of strip ", strips[j], " is ", diagonal,
+           " m/N: the body's table holds no number");
     largest = std::max(largest, diagonal);
     least = std::min(least, diagonal);
   }

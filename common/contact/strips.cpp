@@ -48,8 +48,8 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
     high = contact.x_max;
     s.high_is_edge = std::isfinite(gears.tip_distance(contact, 0));
   }
-  s.border = strip_borders(low, high, s.low_is_edge ? 1 + low / range.half_window : 0,
-                           s.high_is_edge ? 1 - high / range.half_window : 0, n);
+  s.border = strip_borders(low, high, s.low_is_edge ? 1 + low / (range.half_window - offset) : 0,
+                           s.high_is_edge ? 1 - high / (range.half_window + offset) : 0, n);
   s.gap.resize(n);
   for (int i = 0; i < n; ++i) {
     // Gauss's two points: the mean of a cubic.

@@ -27,14 +27,16 @@ struct ContactRange {
   double corner_gap = 0;   // m: tip edges with a larger gap than this are left out
 };
 
+inline constexpr int kWindowNodes = 6;
+
 struct PairStrips {
   int pair = 0;  // number of the pair: 0 reference, +1 preceding, -1 following
   PairContact contact;
   Eigen::VectorXd border;  // (strip + 1) m along the flank from the nominal contact point
   bool low_is_edge = false, high_is_edge = false;  // the window ends at a tip edge, where force may stand
   Eigen::VectorXd gap;                             // (strip) m, unloaded
-  Eigen::MatrixXd interpolation;                   // (strip, node) 1
-  std::array<Eigen::VectorXd, 2> node_roll;        // (node) rad, on driver and driven gear
+  Eigen::Matrix<double, Eigen::Dynamic, kWindowNodes> interpolation;  // (strip, node) 1
+  std::array<Eigen::VectorXd, 2> node_roll;                           // (node) rad, on driver and driven gear
 
   int size() const { return static_cast<int>(gap.size()); }
   double width(int i) const { return border[i + 1] - border[i]; }           // m
@@ -51,8 +53,6 @@ struct ContactPatch {
 // there the half-plane is no description of the surface.
 ContactPatch contact_patch(const PairStrips& strips, const Eigen::Ref<const Eigen::VectorXd>& p,
                            double face_width);
-
-inline constexpr int kWindowNodes = 6;
 
 // pair: number of the pair; contact: its kinematics at this phase.
 PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact,

@@ -522,8 +522,9 @@ Scene read_scene(const std::string& path) {
   scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
   read_gears(source, scene);
   read_mesh_section(source, scene);
-  const std::set<Part> rest = {Part::damping, Part::load,       Part::operation, Part::rung, Part::contact_rung,
-                               Part::body,    Part::near_field, Part::contact,   Part::time};
+  const std::set<Part> rest = {Part::damping,    Part::load,         Part::operation,
+                               Part::rung,       Part::contact_rung, Part::body,
+                               Part::near_field, Part::contact,      Part::time};
   static const toml::table kNothing;
   for (const char* name : {"damping", "operation", "fidelity", "discretisation"}) {
     const toml::table* table = source.section(name);

@@ -12,7 +12,7 @@ namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
 constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 3, kErrorBudgetVersion = 1,
-              kImpactVersion = 1, kSweepVersion = 3, kResponseVersion = 3;
+              kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -550,6 +550,10 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
   want_rows("residual", a.residual.size(), speeds);
   want_rows("period_multiple", a.period_multiple.size(), speeds);
   want_rows("energy_imbalance", a.energy_imbalance.size(), speeds);
+  want_rows("energy", a.energy.rows(), speeds);
+  if (a.energy.cols() != static_cast<Eigen::Index>(kEnergyLines.size()))
+    fail(Failure::numerical, "the energy ledger has ", a.energy.cols(), " lines instead of ",
+         kEnergyLines.size());
   want_rows("drift_force", a.drift_force.size(), speeds);
   want_rows("jump_width", a.jump_width.size(), a.jump_frequency.size());
   ArtifactWriter out(path, "sweep", kSweepVersion,
@@ -600,6 +604,10 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
           {"1", "mesh periods after which the motion repeats; 0: not periodic within the limit", kSpeed, ""});
   out.put("/energy_imbalance", a.energy_imbalance,
           {"1", "energy not accounted for, relative to the input of the stored periods", kSpeed, ""});
+  for (size_t i = 0; i < kEnergyLines.size(); ++i)
+    out.put(text("/energy/", kEnergyLines[i].name),
+            Eigen::VectorXd(a.energy.col(static_cast<Eigen::Index>(i))),
+            {"J", text(kEnergyLines[i].meaning, ", over the stored periods"), kSpeed, ""});
   put_natural_frequency(out, a.natural_frequency);
   out.put("/drift_force", a.drift_force,
           {"N", "largest force that the output must supply to hold the mean speed", kSpeed, ""});
@@ -661,6 +669,9 @@ SweepArtifact read_sweep(const std::string& path) {
   a.residual = in.vector("/residual", speeds);
   a.period_multiple = in.whole_vector("/period_multiple", speeds);
   a.energy_imbalance = in.vector("/energy_imbalance", speeds);
+  a.energy.resize(speeds, kEnergyLines.size());
+  for (size_t i = 0; i < kEnergyLines.size(); ++i)
+    a.energy.col(static_cast<Eigen::Index>(i)) = in.vector(text("/energy/", kEnergyLines[i].name), speeds);
   a.natural_frequency = in.number("/natural_frequency");
   a.drift_force = in.vector("/drift_force", speeds);
   a.least_gap = in.number("/certificate/least_gap");

@@ -6,6 +6,7 @@
 // throw Error(input) or Error(io) with the make target that rebuilds the file.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -141,6 +142,24 @@ struct ImpactArtifact {
   double least_mesh_force = 0;  // 1: least mesh force of all decays, over the static one
 };
 
+// Lines of a sweep's energy ledger: the changes of what is stored and what dampers take equal the works less
+// averaging.
+struct EnergyLine {
+  const char *name, *meaning;
+};
+inline constexpr std::array<EnergyLine, 11> kEnergyLines{
+    {{"kinetic", "change of the energy of motion"},
+     {"modal", "change of the energy in the springs of the kept modes"},
+     {"residual", "change of the energy in the lagged flexibility"},
+     {"local", "change of the energy in the half-planes and all that follows at once"},
+     {"torque", "work of the constant torques on the vibration"},
+     {"rolling", "work of the prescribed rolling"},
+     {"modal_damping", "taken by the Rayleigh and bearing dampers of the kept coordinates"},
+     {"lag_damping", "taken by the Rayleigh damping of the lagged flexibility"},
+     {"switching", "work of the scheme itself where strips open or close within a step"},
+     {"cutting", "work where a corner rule takes out or lets in a pair that carries force"},
+     {"averaging", "mean load times change of the lag, less the exact work: of the scheme itself"}}};
+
 // sweep.h5: rows in order of marching
 struct SweepArtifact {
   GearDesign driver, driven;
@@ -167,6 +186,7 @@ struct SweepArtifact {
   Eigen::VectorXd residual;          // (speed) relative change of the state over a period at the end
   Eigen::VectorXi period_multiple;   // (speed) 1 unless subharmonic; 0: not periodic within the limit
   Eigen::VectorXd energy_imbalance;  // (speed) relative to the input energy of the stored periods
+  MatrixRM energy;                   // (speed, line of kEnergyLines) J over the stored periods
   // (speed) N: largest force that the output must supply to hold the mean speed
   Eigen::VectorXd drift_force;
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz

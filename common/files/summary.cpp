@@ -143,6 +143,17 @@ void show(Lines& lines, const SweepArtifact& a) {
     add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
         ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
+    const auto line = [&a](const char* name) {
+      for (size_t i = 0; i < kEnergyLines.size(); ++i)
+        if (std::string(name) == kEnergyLines[i].name)
+          return Eigen::ArrayXd(a.energy.col(static_cast<Eigen::Index>(i)));
+      return Eigen::ArrayXd();
+    };
+    const Eigen::ArrayXd damped = line("modal_damping") + line("lag_damping");
+    add(lines, "energy", "at most ", damped.maxCoeff(),
+        " J damped in the stored periods; of that the scheme's own work, ", "strips that switch ",
+        (line("switching") / damped).abs().maxCoeff() * 100, " %, averaging ",
+        (line("averaging") / damped).abs().maxCoeff() * 100, " %");
     const Eigen::Index open = (a.period_multiple.array() == 0).count();
     if (open > 0) add(lines, "not periodic", open, " of ", a.period_multiple.size(), " speeds");
     add(lines, "mean speed held by", "at most ", a.drift_force.maxCoeff(), " N from the output");

@@ -164,7 +164,12 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     const bool rigid = parameters_.fidelity.body == "rigid";
     for (int offset = -2 * reach_; offset <= 2 * reach_; ++offset)
       tables[g].push_back(rigid ? MatrixXd::Zero(m, m) : model_.gear[g].residual(offset, depth, kept_[g]));
-    fields_[g] = lagged_fields(tables[g]);
+    // Of all offsets that the body holds, so that the state keeps its meaning when a wider range reaches more teeth.
+    std::vector<MatrixXd> known;
+    const int offsets = model_.gear[g].body().offsets;
+    for (int offset = -offsets; offset <= offsets; ++offset)
+      known.push_back(rigid ? MatrixXd::Zero(m, m) : model_.gear[g].residual(offset, depth, kept_[g]));
+    fields_[g] = lagged_fields(known);
     coupling_[g] = MatrixXd::Zero(kFields * pairs, kFields * pairs);
     const int own = static_cast<int>(fields_[g].cols());
     for (int i = 0; i < pairs; ++i)
@@ -286,17 +291,23 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   lag_ = lag_step(relaxation(), h);
   damping_ = damping_integrals();
 
-  std::vector<Step> fresh(steps);
+  // Memory stays; so do the active strips of a step at the same phase, as a first guess.
+  const int before = static_cast<int>(step_data_.size());
+  if (before != steps) {
+    std::vector<Step> other(steps);
+    for (int i = 0; i < steps && before > 0; ++i)
+      if (i * before % steps == 0) other[i].active.strips = step_data_[i * before / steps].active.strips;
+    step_data_ = std::move(other);
+  }
   for (int i = 0; i < steps; ++i) {
     const Position& position = positions_[i * stride_];
-    if (static_cast<int>(step_data_.size()) == steps) fresh[i].active.strips = step_data_[i].active.strips;
-    fresh[i].compliance = position.local;
+    step_data_[i].active.forget();
+    step_data_[i].compliance = position.local;
     position.mesh.add_to_strips(lag_.from_new * position.lagged + position.participation *
                                                                       half_response.asDiagonal() *
                                                                       position.participation.transpose(),
-                                fresh[i].compliance);
+                                step_data_[i].compliance);
   }
-  step_data_ = std::move(fresh);
 }
 
 VectorXd RollingDynamics::flexibility() const {

@@ -80,12 +80,14 @@ VectorXd MeshPosition::to_nodes(const Eigen::Ref<const VectorXd>& on_strips) con
 }
 
 void MeshPosition::add_to_strips(const MatrixXd& at_nodes, MatrixXd& a) const {
+  Eigen::Matrix<double, Eigen::Dynamic, kWindowNodes> half;
   for (size_t i = 0; i < pairs.size(); ++i)
-    for (size_t j = 0; j < pairs.size(); ++j)
+    for (size_t j = 0; j < pairs.size(); ++j) {
+      half.noalias() = pairs[i].interpolation *
+                       at_nodes.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes);
       a.block(first_strip[i], first_strip[j], pairs[i].size(), pairs[j].size()).noalias() +=
-          pairs[i].interpolation *
-          at_nodes.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes) *
-          pairs[j].interpolation.transpose();
+          half.lazyProduct(pairs[j].interpolation.transpose());
+    }
 }
 
 VectorXd MeshPosition::pair_loads(const Eigen::Ref<const VectorXd>& p) const {
@@ -271,6 +273,9 @@ Equilibrium equilibrium(const VectorXd& gap, const VectorXd& approach, double lo
     result.certificate = held.certificate;
     result.stiffness = held.stiffness;
     const double excess = approach.dot(result.p) - load;
+    if (!std::isfinite(excess) || !std::isfinite(result.stiffness))
+      fail(Failure::numerical, "static equilibrium: the contact at x = ", x, " m carries ", excess + load,
+           " N with a stiffness of ", result.stiffness, " N/m: the compliance holds no number");
     result.x = x;
     result.residual = std::abs(excess) / load;
     if (result.residual < 1e-12) return result;

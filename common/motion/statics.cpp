@@ -1,5 +1,6 @@
 #include "motion/statics.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,6 +52,13 @@ ContactRung strips_rung(const GearMeshModel& model, const ContactRange& range, d
     MatrixXd a = local_compliance(model, position, kDepth);
     position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
                            a);
+    // A contact that happens to end on a sound part of a broken table would look right.
+    const double least =
+        a.allFinite() ? a.ldlt().vectorD().minCoeff() : std::numeric_limits<double>::quiet_NaN();
+    if (!(least > 0))
+      fail(Failure::numerical, "at mesh phase ", phase, " the compliance of ", position.strips(),
+           " strips is not positive definite: pivot ", least,
+           " m/N; the body's table is wrong, rebuild body.h5");
     const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
     ActiveSet active;
     PositionAnswer answer;
@@ -115,14 +123,14 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
       std::min(model.kinematics.gear(0).design().face_width, model.kinematics.gear(1).design().face_width);
   const ContactRung solve =
       (result.fidelity.contact == "line" ? line_rung : strips_rung)(model, range, load, face_width);
-  std::vector<std::vector<Loaded>> loads(positions);
+  std::vector<std::pair<int, Loaded>> loads;  // position and what a pair carries there
   int lowest = 0, highest = 0;
   double start = 0;
   result.least_gap = result.least_force = std::numeric_limits<double>::infinity();
   result.torque_residual = 0;
   for (int i = 0; i < positions; ++i) {
     const double phase = static_cast<double>(i) / positions;
-    PositionAnswer answer = solve(phase, start);
+    const PositionAnswer answer = solve(phase, start);
     const Equilibrium& e = answer.equilibrium;
     start = e.x;
     if (answer.leaves_window) return false;
@@ -142,21 +150,19 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
       if (at.force > 0) {
         lowest = std::min(lowest, at.pair);
         highest = std::max(highest, at.pair);
+        loads.emplace_back(i, at);
       }
-    loads[i] = std::move(answer.loads);
   }
   lowest = std::min(lowest, -1);
   highest = std::max(highest, 1);
   result.pair = Eigen::VectorXi::LinSpaced(highest - lowest + 1, lowest, highest);
   result.tooth_load = MatrixRM::Zero(positions, result.pair.size());
   result.contact_pressure = result.contact_half_width = result.tooth_load;
-  for (int i = 0; i < positions; ++i)
-    for (const Loaded& at : loads[i]) {
-      if (!(at.force > 0)) continue;
-      result.tooth_load(i, at.pair - lowest) = at.force;
-      result.contact_pressure(i, at.pair - lowest) = at.patch.pressure;
-      result.contact_half_width(i, at.pair - lowest) = at.patch.half_width;
-    }
+  for (const auto& [i, at] : loads) {
+    result.tooth_load(i, at.pair - lowest) = at.force;
+    result.contact_pressure(i, at.pair - lowest) = at.patch.pressure;
+    result.contact_half_width(i, at.pair - lowest) = at.patch.half_width;
+  }
   return true;
 }
 

@@ -27,7 +27,7 @@ constexpr int kJumpHalvings = 6;    // bisection: a step of 20 Hz leaves 0.3 Hz
 struct Steady {
   int multiple = 1, periods = 0;
   double residual = 0, rms = 0;
-  double energy_imbalance = 0;  // relative to the work put in over one period
+  Ledger ledger;  // of the stored periods
   std::vector<RollingDynamics::Period> record;
 };
 
@@ -129,13 +129,11 @@ class Sweeper {
         steady.multiple = multiple;
         steady.periods = n;
         steady.residual = change[std::max(multiple, 1)];
-        Ledger ledger;
         for (int k = 0; k < stored; ++k) {
-          if (!dynamics_.march(state_, period, &ledger)) return std::nullopt;
+          if (!dynamics_.march(state_, period, &steady.ledger)) return std::nullopt;
           steady.record.push_back(period);
         }
         steady.rms = oscillating_rms(steady.record);
-        steady.energy_imbalance = ledger.imbalance / ledger.throughput;
         return steady;
       }
       past.push_back(state_);
@@ -227,6 +225,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   result.residual.resize(speeds);
   result.period_multiple.resize(speeds);
   result.energy_imbalance.resize(speeds);
+  result.energy.resize(speeds, kEnergyLines.size());
   result.drift_force = VectorXd::Zero(speeds);
 
   std::vector<Steady> steady;
@@ -241,7 +240,10 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     result.periods[i] = s.periods;
     result.residual[i] = s.residual;
     result.period_multiple[i] = s.multiple;
-    result.energy_imbalance[i] = s.energy_imbalance;
+    const Ledger& l = s.ledger;
+    result.energy_imbalance[i] = l.imbalance / l.throughput;
+    result.energy.row(i) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
+        l.lag_damping, l.switching, l.cutting, l.averaging;  // kEnergyLines
     if (i > 0 && differs(steady[i - 1].rms, s.rms))
       if (const auto jump =
               find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f, s.rms))
