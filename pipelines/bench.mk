@@ -1,6 +1,7 @@
 # Speed beside other people's programs, which nothing else needs.
 #
 #   make deps-bench bench     tables on standard output; without Siconos or CalculiX their columns are left out
+#   make work-precision       out/figures/work-precision.{tsv,svg,png}; it holds times, so no two runs give the same bytes
 
 bench_packages := libsiconos-numerics-dev calculix-ccx
 # Recursive: `deps-bench` may bring it in the same run.
@@ -22,3 +23,11 @@ $(B)/bin/whine-bench: tests/bench/bench.cpp tests/bench/calculix.h tests/peer/le
 bench: $(B)/bin/whine-bench $(call pair_bodies,$(paper_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
 	@$< --params out/$(paper_scene)/params/static.toml --torque 150 \
 	  --driver out/$(paper_scene)/pinion/body.h5 --driven out/$(paper_scene)/wheel/body.h5
+
+$(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS)
+
+.PHONY: work-precision
+work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(paper_scene)) ## error against CPU time of each numerical choice, at a damping with two branches
+	@$< --static-params out/$(paper_scene)/params/static.toml --sweep-params out/$(paper_scene)/params/sweep.toml \
+	  $(call pair_options,$(paper_scene)) --torque 150 --rayleigh-stiffness 5.5e-6 --output out/figures/work-precision

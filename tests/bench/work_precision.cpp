@@ -1,0 +1,468 @@
+// Error against CPU time: each numerical choice of a sweep varied alone about the scene's own settings, for the pair at a
+// damping at which two branches of motion exist.
+//
+// Observables: RMS, mean and peak tooth load of five steady motions, on both branches, and the two speeds at which a branch
+// ends. The errors of a choice are against its finest setting, those of the time steps against the other integrator. A
+// reference in which everything is finer at once says what all of them make together; the same one level coarser says what
+// that reference is worth.
+//
+// Branches are followed here rather than by sweep(), whose speeds are equally spaced: near its end the basin of a branch is
+// narrower than a step of the sweep, so the frequency at which a sweep jumps depends on its step. Here the step is halved
+// until even the smallest one leaves the branch.
+//
+// Reads   params of the static and of the sweep stage, body.h5 of both gears (for their design and material)
+// Writes  <output>.{tsv,svg,png}, and the same table in words on standard output
+// Example: whine-work-precision --static-params out/parker2000/params/static.toml --sweep-params
+//            out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5 --driven
+//            out/parker2000/wheel/body.h5 --output out/figures/work-precision
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/publish.h"
+#include "files/scene.h"
+#include "files/schemas.h"
+#include "motion/dynamics.h"
+#include "motion/statics.h"
+#include "plot/figures.h"
+#include "plot/gnuplot.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+
+namespace {
+
+using namespace whine;
+
+constexpr double kFollowStep = 50;     // Hz, first step along a branch
+constexpr double kFoldWidth = 0.01;    // Hz, to which the end of a branch is enclosed
+constexpr double kLeavesBranch = 1.2;  // ratio of RMS across a step that leaves a branch
+constexpr int kMostPeriods = 600;      // per speed; what is not steady by then leaves its branch
+constexpr double kLeastSeconds = 1;    // of CPU per setting: shorter ones are run again
+constexpr int kMostRuns = 3;
+constexpr double kLowest = 1000, kHighest = 4000;  // Hz, in which branches are followed
+
+// Steady motions that are compared. Up to 2400 Hz and at 3300 Hz rest leads to them, to the upper branch only a march down.
+enum Motion { k1350, k3300, kLower2400, kUpper2400, kUpper2000, kMotions };
+constexpr double kRestAt = 2900;  // Hz: one branch only, the upper one begins here
+
+struct Setting {
+  int steps = 0;           // per mesh period
+  double sample_rate = 0;  // Hz, steps are doubled until it is reached
+  int strips = 0, modes = 0, flank_points = 0;
+  double element = 0;  // m
+  double periodicity = 0;
+  std::string integrator, body;
+};
+
+struct Answer {
+  std::array<double, kMotions> rms, mean, peak;  // m, m, N; below 0 (RMS): there is no such motion
+  double down = -1, up = -1;          // Hz: ends of the upper and the lower branch; below 0: none found
+  double deflection = 0;              // m, static
+  double seconds = 0, reduction = 0;  // CPU: marching, mesh and reduction of both gears
+  Answer() {
+    rms.fill(-1);
+    mean.fill(0);
+    peak.fill(0);
+  }
+};
+
+struct Errors {
+  // Largest over the motions: relative, over the static deflection, relative; Hz. Below 0: not to be had.
+  double rms = 0, mean = 0, peak = 0, down = 0, up = 0;
+};
+
+Errors errors(const Answer& a, const Answer& b) {
+  Errors e;
+  for (int i = 0; i < kMotions; ++i) {
+    if (a.rms[i] < 0 || b.rms[i] < 0) {
+      e.rms = e.mean = e.peak = -1;
+      break;
+    }
+    e.rms = std::max(e.rms, std::abs(a.rms[i] / b.rms[i] - 1));
+    e.mean = std::max(e.mean, std::abs(a.mean[i] - b.mean[i]) / b.deflection);
+    e.peak = std::max(e.peak, std::abs(a.peak[i] / b.peak[i] - 1));
+  }
+  const auto apart = [](double x, double y) { return x < 0 || y < 0 ? -1 : std::abs(x - y); };
+  e.down = apart(a.down, b.down);
+  e.up = apart(a.up, b.up);
+  return e;
+}
+
+double cpu_seconds(std::clock_t since) {
+  return static_cast<double>(std::clock() - since) / CLOCKS_PER_SEC;
+}
+
+// A pair marched with one setting.
+class Rig {
+ public:
+  Rig(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
+      const Setting& setting)
+      : model_(model), dynamics_(model, parameters), setting_(setting) {
+    load_ = statics.torque / model.kinematics.gear(0).base_radius();
+    largest_force_ = 2.5 * load_;
+    corner_gap_ = 2.5 * statics.transmission_error.maxCoeff();
+    set_range();
+  }
+
+  Answer observe() {
+    Answer answer;
+    RollingDynamics::State state = dynamics_.rest();
+    answer.deflection = dynamics_.static_deflection();
+    if (settle(state, 1350)) note(k1350, answer);
+    state = dynamics_.rest();
+    if (settle(state, 3300)) note(k3300, answer);
+    state = dynamics_.rest();
+    if (settle(state, kRestAt))
+      answer.down = follow(state, kRestAt, -1, [&](double f) {
+        if (f == 2400) note(kUpper2400, answer);
+        if (f == 2000) note(kUpper2000, answer);
+      });
+    state = dynamics_.rest();
+    if (settle(state, 2400)) {
+      note(kLower2400, answer);
+      answer.up = follow(state, 2400, 1, [](double) {});
+    }
+    return answer;
+  }
+
+ private:
+  int steps_at(double mesh_frequency) const {
+    int steps = setting_.steps;
+    while (steps * mesh_frequency < setting_.sample_rate) steps *= 2;
+    return steps;
+  }
+
+  void set_range() {
+    dynamics_.set_range(contact_range(model_.kinematics, model_.gear[0].half_plane(),
+                                      model_.gear[1].half_plane(), setting_.strips,
+                                      load_ / model_.kinematics.contact_ratio(), largest_force_, corner_gap_),
+                        steps_at(kLowest));
+  }
+
+  // Runs until the motion repeats; period_ then holds one period of it. False if it does not.
+  bool settle(RollingDynamics::State& state, double mesh_frequency) {
+    const RollingDynamics::State start = state;
+    dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
+    for (int n = 0; n < kMostPeriods; ++n) {
+      const RollingDynamics::State before = state;
+      if (!dynamics_.march(state, period_)) {
+        if (++widened_ > 8) fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks");
+        largest_force_ *= 1.6;
+        corner_gap_ *= 1.6;
+        set_range();
+        dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
+        state = start;
+        n = -1;
+      } else if (dynamics_.distance(state, before) < setting_.periodicity) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  double rms() const {
+    const auto error = period_.transmission_error.array();
+    return std::sqrt((error - error.mean()).square().mean());
+  }
+  void note(Motion motion, Answer& answer) const {
+    answer.rms[motion] = rms();
+    answer.mean[motion] = period_.transmission_error.mean();
+    answer.peak[motion] = period_.pair_load.maxCoeff();
+  }
+
+  // Hz: where the branch ends on which period_ and the state are; below 0 if it does not within the limits.
+  template <class Visit>
+  double follow(RollingDynamics::State& state, double at, int direction, Visit visit) {
+    double step = kFollowStep, present = rms();
+    while (step > kFoldWidth) {
+      const double next = at + direction * step;
+      if (next < kLowest || next > kHighest) return -1;
+      RollingDynamics::State trial = state;
+      const bool steady = settle(trial, next);
+      const double changed = rms();
+      if (steady && std::max(changed, present) < kLeavesBranch * std::min(changed, present)) {
+        at = next;
+        present = changed;
+        state = trial;
+        visit(at);
+      } else {
+        step *= 0.5;
+      }
+    }
+    return at + 0.5 * direction * step;
+  }
+
+  const GearMeshModel& model_;
+  RollingDynamics dynamics_;
+  Setting setting_;
+  RollingDynamics::Period period_;
+  int widened_ = 0;
+  double load_ = 0, largest_force_ = 0, corner_gap_ = 0;
+};
+
+// The pair and its load; reduces a body anew for each discretisation and keeps it.
+class Bench {
+ public:
+  Bench(BodyArtifact driver, BodyArtifact driven, StaticSlice statics, SweepSlice slice, double torque)
+      : driver_(std::move(driver)),
+        driven_(std::move(driven)),
+        statics_(std::move(statics)),
+        slice_(std::move(slice)),
+        torque_(torque) {}
+
+  Setting usual() const {
+    return {slice_.time.steps_per_period,
+            slice_.time.min_sample_rate,
+            statics_.contact.strips,
+            driver_.discretisation.modes,
+            static_cast<int>(driver_.flank_position.size()),
+            driver_.discretisation.element_size,
+            slice_.time.periodicity,
+            slice_.fidelity.integrator,
+            slice_.fidelity.body};
+  }
+
+  Answer run(const Setting& setting, const std::string& name) {
+    const Bodies& bodies = reduced(setting);
+    StaticSlice slice = statics_;
+    slice.contact.strips = setting.strips;
+    const StaticArtifact statics = static_transmission(bodies.driver, bodies.driven, slice, torque_);
+    DynamicParameters parameters;
+    parameters.torque = torque_;
+    parameters.inertia = {slice_.driver_inertia, slice_.driven_inertia};
+    parameters.mean_stiffness =
+        static_transmission(bodies.driver, bodies.driven, slice, slice_.reference_torque).mean_stiffness;
+    parameters.damping = slice_.damping;
+    parameters.fidelity = slice_.fidelity;
+    parameters.fidelity.integrator = setting.integrator;
+    parameters.fidelity.body = setting.body;
+    const GearMeshModel model(bodies.driver, bodies.driven, slice.mesh);
+    Answer answer;
+    double least = 0, all = 0;
+    for (int i = 0; i < kMostRuns && (i == 0 || all < kLeastSeconds); ++i) {
+      const std::clock_t start = std::clock();
+      answer = Rig(model, parameters, statics, setting).observe();
+      const double seconds = cpu_seconds(start);
+      least = i == 0 ? seconds : std::min(least, seconds);
+      all += seconds;
+    }
+    answer.seconds = least;
+    answer.reduction = bodies.seconds;
+    tell("work-precision: ", name, ": ", least, " s; at 2400 Hz RMS ", answer.rms[kUpper2400] * 1e6, " and ",
+         answer.rms[kLower2400] * 1e6, " um, branches end at ", text(answer.down), " and ", text(answer.up),
+         " Hz");
+    return answer;
+  }
+
+ private:
+  struct Bodies {
+    BodyArtifact driver, driven;
+    double seconds = 0;  // of CPU, mesh and reduction
+  };
+
+  const Bodies& reduced(const Setting& setting) {
+    const auto key = std::make_tuple(setting.element, setting.modes, setting.flank_points);
+    const auto found = bodies_.find(key);
+    if (found != bodies_.end()) return found->second;
+    const auto again = [&](const BodyArtifact& body) {
+      BodyDiscretisation discretisation = body.discretisation;
+      discretisation.element_size = setting.element;
+      discretisation.modes = setting.modes;
+      return reduce(make_sector_mesh(body.design, discretisation), body.material, setting.modes,
+                    setting.flank_points);
+    };
+    const std::clock_t start = std::clock();
+    Bodies bodies;
+    bodies.driver = again(driver_);
+    bodies.driven = driver_.compliance == driven_.compliance ? bodies.driver : again(driven_);
+    bodies.seconds = cpu_seconds(start);
+    tell("work-precision: bodies with ", setting.modes, " modes, ", setting.element * 1e3, " mm, ",
+         setting.flank_points, " points: ", bodies.seconds, " s");
+    return bodies_.emplace(key, std::move(bodies)).first->second;
+  }
+
+  BodyArtifact driver_, driven_;
+  StaticSlice statics_;
+  SweepSlice slice_;
+  double torque_;
+  std::map<std::tuple<double, int, int>, Bodies> bodies_;
+};
+
+// One choice: its settings, from the coarsest; what they are measured against comes last.
+struct Axis {
+  std::string name, column;
+  struct Point {
+    double shown;
+    Setting setting;
+  };
+  std::vector<Point> points;
+  Setting reference;
+  std::string against;
+};
+
+std::vector<Axis> axes(const Setting& usual) {
+  std::vector<Axis> all;
+  const auto vary = [&](const std::string& name, const std::string& column, const std::vector<double>& values,
+                        double finest, auto set) {
+    Axis axis{name, column, {}, usual, ""};
+    for (double value : values) {
+      axis.points.push_back({value, usual});
+      set(axis.points.back().setting, value);
+    }
+    set(axis.reference, finest);
+    axis.against = text(finest, " (", column, ")");
+    all.push_back(axis);
+  };
+  const auto of_steps = [](const char* integrator) {
+    return [integrator](Setting& s, double n) {
+      s.steps = static_cast<int>(n);
+      s.sample_rate = 1;
+      s.integrator = integrator;
+    };
+  };
+  // Each integrator against the other.
+  vary("steps, exact", "steps per period", {32, 64, 128, 256, 512}, 1024, of_steps("exact"));
+  of_steps("newmark")(all.back().reference, 1024);
+  all.back().against += ", Newmark";
+  vary("steps, Newmark", "steps per period", {32, 64, 128, 256, 512}, 1024, of_steps("newmark"));
+  of_steps("exact")(all.back().reference, 1024);
+  all.back().against += ", exact";
+  vary("strips", "strips", {4, 6, 8, 10, 15, 30}, 60,
+       [](Setting& s, double n) { s.strips = static_cast<int>(n); });
+  vary("modes", "elastic modes, the torsional one always", {0, 5, 11, 21}, 61,
+       [](Setting& s, double n) { s.modes = static_cast<int>(n); });
+  vary("flank table", "points", {16, 24}, 36,
+       [](Setting& s, double n) { s.flank_points = static_cast<int>(n); });
+  vary("elements", "mm", {1.2, 0.8, 0.4}, 0.2, [](Setting& s, double mm) { s.element = mm * 1e-3; });
+  vary("periodicity", "change of the state per period", {1e-4, 1e-5, 1e-6, 1e-7}, 1e-9,
+       [](Setting& s, double change) { s.periodicity = change; });
+  constexpr const char* kRungs[] = {"rigid", "quasi-static", "lagged", "modal"};
+  vary("body", "0 rigid, 1 quasi-static, 2 lagged", {0, 1, 2}, 3,
+       [&](Setting& s, double rung) { s.body = kRungs[static_cast<int>(rung)]; });
+  all.back().against = "modal";
+  return all;
+}
+
+std::vector<double> row(double shown, const Answer& answer, const Errors& e) {
+  return {shown, answer.seconds, answer.reduction, e.rms, e.mean, e.peak, e.down, e.up};
+}
+std::vector<std::string> columns(const std::string& setting) {
+  return {"setting [" + setting + "]",
+          "CPU of the march [s]",
+          "CPU of mesh and reduction [s]",
+          "RMS [1]",
+          "mean [static deflection]",
+          "peak tooth load [1]",
+          "jump down [Hz]",
+          "jump up [Hz]"};
+}
+void print(const FigureBlock& block, const std::string& against) {
+  std::printf("%s, against %s\n  %10s %8s %9s %10s %10s %10s %10s %10s\n", block.name.c_str(),
+              against.c_str(), "", "march s", "bodies s", "RMS", "mean", "peak load", "down Hz", "up Hz");
+  for (const auto& values : block.rows) {
+    std::printf("  %10g %8.2f %9.2f", values[0], values[1], values[2]);
+    for (size_t c = 3; c < values.size(); ++c)
+      if (values[c] < 0)
+        std::printf(" %10s", "-");
+      else
+        std::printf(" %10.1e", values[c]);
+    std::printf("\n");
+  }
+  std::fflush(stdout);
+}
+
+void body(int argc, char** argv) {
+  CLI::App app{"Error against CPU time of each numerical choice", "whine-work-precision"};
+  std::string statics, sweeps, driver, driven, output, torque = "150", damping = "5.5e-6",
+                                                       plots = "pipelines/plots";
+  app.add_option("--static-params", statics, "slice of the scene: out/<scene>/params/static.toml")
+      ->required();
+  app.add_option("--sweep-params", sweeps, "slice of the scene: out/<scene>/params/sweep.toml")->required();
+  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
+  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
+  app.add_option("--output", output, "path of the results without extension")->required();
+  app.add_option("--torque", torque, "torque on the driver in N m, above 0")->capture_default_str();
+  app.add_option("--rayleigh-stiffness", damping, "in s; small enough for two branches at 2400 Hz")
+      ->capture_default_str();
+  app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
+  parse(app, argc, argv);
+
+  SweepSlice slice = read_sweep_slice(sweeps);
+  slice.damping.rayleigh_stiffness = number_option("--rayleigh-stiffness", damping);
+  if (!(slice.damping.rayleigh_stiffness > 0))
+    fail(Failure::usage, "--rayleigh-stiffness = ", damping, " must be above 0");
+  const double load = number_option("--torque", torque);
+  Bench bench(read_body(driver), read_body(driven), read_static_slice(statics), slice, load);
+  const Setting usual = bench.usual();
+  const Answer present = bench.run(usual, "the scene's settings");
+  if (*std::min_element(present.rms.begin(), present.rms.end()) < 0 || present.down < 0 || present.up < 0 ||
+      present.rms[kUpper2400] < kLeavesBranch * present.rms[kLower2400])
+    fail(Failure::input, "at ", load, " N m and a Rayleigh stiffness of ", damping,
+         " s there are no two branches at 2400 Hz; lower --rayleigh-stiffness");
+
+  Figure figure;
+  figure.title = text("Error against CPU time, ", torque, " N m, η = ", damping, " s");
+  figure.notes = {
+      "one choice varied at a time about the scene's settings (ring), against its finest; tooth loads and "
+      "transmission error: worst of five steady motions",
+      "3300 and 1350 Hz, 2400 Hz on both branches, 2000 Hz on the upper one; jumps: ends of the branches"};
+  std::string labels;
+  FigureBlock circles{"scene", columns("axis"), {}};
+  std::vector<Axis> choices = axes(usual);
+  for (size_t i = 0; i < choices.size(); ++i) {
+    const Axis& axis = choices[i];
+    const Answer reference = bench.run(axis.reference, axis.name + " against " + axis.against);
+    FigureBlock block{axis.name, columns(axis.column), {}};
+    for (const Axis::Point& point : axis.points) {
+      const Answer answer = bench.run(point.setting, text(axis.name, " ", point.shown));
+      block.rows.push_back(row(point.shown, answer, errors(answer, reference)));
+    }
+    circles.rows.push_back(row(static_cast<double>(i), present, errors(present, reference)));
+    print(block, axis.against);
+    figure.blocks.push_back(block);
+    labels += "'" + axis.name + "' ";
+  }
+  print(circles, "the finest of each of the above: the scene's settings");
+
+  Setting fine = usual, coarser = usual;
+  fine.sample_rate = coarser.sample_rate = 1;
+  fine.steps = 512, coarser.steps = 256;
+  fine.integrator = "newmark", coarser.integrator = "exact";
+  fine.strips = 20, coarser.strips = 15;
+  fine.modes = 21, coarser.modes = 11;
+  fine.flank_points = 36, coarser.flank_points = 30;
+  fine.element = 0.2e-3, coarser.element = 0.3e-3;
+  fine.periodicity = 1e-8, coarser.periodicity = 1e-7;
+  const Answer best = bench.run(fine, "all finer, Newmark"), second = bench.run(coarser, "one level coarser");
+  FigureBlock together{"together", columns("0 scene, 1 reference one level coarser"), {}};
+  together.rows = {row(0, present, errors(present, best)), row(1, second, errors(second, best))};
+  print(together,
+        "all finer at once, by Newmark; 0: the scene's settings, 1: the reference one level coarser");
+  figure.blocks.push_back(circles);
+  figure.blocks.push_back(together);
+  figure.numbers = {{"axes", static_cast<double>(choices.size())}, {"fold_width", kFoldWidth}};
+  figure.words = {{"labels", labels}};
+
+  const std::string table = output + ".tsv", recipe = plots + "/work-precision.gp";
+  publish(table, tsv(figure, {recorded_path(statics), recorded_path(sweeps), recorded_path(driver),
+                              recorded_path(driven)}));
+  publish(output + ".svg", draw(figure, table, recipe, Picture::svg));
+  publish(output + ".png", draw(figure, table, recipe, Picture::png));
+  tell("work-precision -> ", output, ".{tsv,svg,png}");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
