@@ -14,22 +14,22 @@ set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set logscale xy
 set format x "10^{%L}"
 set format y "10^{%L}"
-set xlabel "CPU of the march (s)" font ",15" offset 0, 0.4
+set xlabel "CPU (s)" font ",15" offset 0, 0.4
 unset key
 seen(x, least) = x < 0 ? NaN : (x < least ? least : x)
 panel(c, least) = sprintf('plot for [i = 1:axes] tsv index sprintf("[%%s]", word(labels, i)) using 2:(seen(column(%d), %g)) ' \
   . 'with linespoints lt 1 lw 2 lc rgb colour[i] pt mark[i] ps 1.3, ' \
   . 'tsv index "[scene]" using 2:(seen(column(%d), %g)) with points pt 6 ps 2.4 lw 1.5 lc rgb "black"', c, least, c, least)
 set ylabel "RMS, relative error" font ",15" offset 0.8
-eval(panel(4, 1e-8))
-set ylabel "mean, error / static deflection" font ",15" offset 0.8
 eval(panel(5, 1e-8))
-set ylabel "peak tooth load, relative error" font ",15" offset 0.8
+set ylabel "mean, error / static deflection" font ",15" offset 0.8
 eval(panel(6, 1e-8))
+set ylabel "peak tooth load, relative error" font ",15" offset 0.8
+eval(panel(7, 1e-8))
 set ylabel "jump, speed falling, error (Hz)" font ",15" offset 0.8
-eval(panel(7, fold_width))
-set ylabel "jump, speed rising, error (Hz)" font ",15" offset 0.8
 eval(panel(8, fold_width))
+set ylabel "jump, speed rising, error (Hz)" font ",15" offset 0.8
+eval(panel(9, fold_width))
 
 unset logscale
 unset border
@@ -37,7 +37,7 @@ unset tics
 unset xlabel
 unset ylabel
 unset grid
-set key at graph 0.5, graph 0.95 center top vertical maxrows 12 Left reverse samplen 3 spacing 1.35
+set key at graph 0.08, graph 0.97 left top vertical maxrows 12 Left reverse samplen 3 spacing 1.2 font ",15"
 set xrange [0:1]
 set yrange [0:1]
 plot for [i = 1:axes] NaN with linespoints lt 1 lw 2 lc rgb colour[i] pt mark[i] ps 1.3 title word(labels, i), \
