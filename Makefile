@@ -146,10 +146,10 @@ test: build $(B)/bin/whine-tests $(B)/bin/whine-hard-cases $(tools:%=$(B)/id/%) 
 	@B=$(B) tests/run
 
 format: ## lay out the C++ sources with clang-format
-	clang-format -i $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp tests/*/*.h tests/*/*.cpp)
+	clang-format -i $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
 
 check-format: ## fail if clang-format would change a source
-	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp tests/*/*.h tests/*/*.cpp)
+	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
 
 .PHONY: help clean clean-figures clean-motion clean-out
 help: ## print this list

@@ -145,6 +145,7 @@ TEST_CASE("keys left out take the defaults of the structs") {
   CHECK(s.time.steps_per_period == TimeDiscretisation{}.steps_per_period);
   CHECK(s.time.min_sample_rate == TimeDiscretisation{}.min_sample_rate);
   CHECK(s.time.periodicity == TimeDiscretisation{}.periodicity);
+  CHECK(s.time.steady_state == TimeDiscretisation{}.steady_state);
   CHECK(s.title == "x");
 }
 
@@ -358,6 +359,7 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
       {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true, true},
       {section("[fidelity]\ncontact = \"line\"\n"), false, true, true, true},
       {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, false, true},
+      {section("[discretisation]\nsteady_state = \"march\"\n"), false, false, false, true},
       {scene_with("step = 20", "step = 10"), false, false, false, true},
       {scene_with("[100, 150]", "[150, 100]"), false, false, true, true},  // another reference torque
       {scene_with("[100, 150]", "[100, 200, 300]"), false, false, false,
@@ -429,6 +431,7 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(sweep.time.steps_per_period == 200);
   CHECK(sweep.time.min_sample_rate == s.time.min_sample_rate);
   CHECK(sweep.time.periodicity == s.time.periodicity);
+  CHECK(sweep.time.steady_state == s.time.steady_state);
 
   const ImpactSlice impact = read_impact_slice(file.path(impact_slice(s), "impact.toml"));
   CHECK(impact.driver_inertia == 0.0148);

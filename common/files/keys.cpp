@@ -132,7 +132,7 @@ std::vector<Key> make_keys() {
     {Part::rung, "fidelity", "integrator", kNone, "exact", 0, 0, false, "newmark exact",
      "time integration: Newmark (Eq. 8), or modal propagators",
      [](V& v) -> Slot { return &v.fidelity.integrator; }},
-    {Part::body, "fidelity", "modes", kNone, "5", 1, 100000, false, "",
+    {Part::body, "fidelity", "modes", kNone, "61", 1, 100000, false, "",
      "elastic modes of the whole gear; a doublet is never cut (rounded up)",
      [](V& v) -> Slot { return &v.body.modes; }},
 
@@ -163,6 +163,9 @@ std::vector<Key> make_keys() {
     {Part::time, "discretisation", "periodicity", kNone, "1e-6", 0, 1, true, "",
      "relative change of the state over a mesh period at which a speed counts as steady",
      [](V& v) -> Slot { return &v.time.periodicity; }},
+    {Part::time, "discretisation", "steady_state", kNone, "extrapolate", 0, 0, false, "extrapolate march",
+     "once close, skip the rest of a transient, or march through it as a rig would; same orbits",
+     [](V& v) -> Slot { return &v.time.steady_state; }},
   };
   // clang-format on
 }

@@ -36,7 +36,7 @@ struct Material {
 struct BodyDiscretisation {
   double element_size = 0;  // m on the flank
   int element_order = 2;    // 1 or 2
-  int modes = 5;            // elastic modes of the whole gear; doublets are never cut
+  int modes = 61;           // elastic modes of the whole gear; doublets are never cut
   std::string near_field =
       "subtraction";             // of the half-plane in the finite elements; or "matching" at a depth
   double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
@@ -88,6 +88,7 @@ struct TimeDiscretisation {
   int steps_per_period = 128;      // stored samples per mesh period
   double min_sample_rate = 250e3;  // Hz; steps per period are doubled until it is reached
   double periodicity = 1e-6;       // relative change of the state at which a speed counts as steady
+  std::string steady_state = "extrapolate";  // or "march": every period on the way, as a rig would
 };
 
 struct Scene {

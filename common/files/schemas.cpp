@@ -272,21 +272,6 @@ BodyArtifact read_body(const std::string& path) {
   a.reference_depth = in.number("/compliance/reference_depth");
   a.asymmetry = in.number("/compliance/asymmetry");
   a.least_eigenvalue = in.number("/compliance/least_eigenvalue");
-  if (!in.file().has("/VTKHDF")) return a;
-
-  const auto flat = in.file().doubles("/VTKHDF/Points");
-  const auto count = static_cast<Eigen::Index>(flat.size() / 3);
-  a.vtk_point = Eigen::Map<const MatrixRM>(flat.data(), count, 3).leftCols(2);
-  const auto connectivity = in.file().ints("/VTKHDF/Connectivity");
-  const auto cells = static_cast<Eigen::Index>(in.file().ints("/VTKHDF/Types").size());
-  if (cells > 0) {
-    a.vtk_cell = Eigen::Map<const MatrixRMi>(connectivity.data(), cells,
-                                             static_cast<Eigen::Index>(connectivity.size()) / cells);
-  }
-  if (!in.file().has("/VTKHDF/PointData")) return a;
-  for (const std::string& name : in.file().children("/VTKHDF/PointData")) {
-    a.vtk_point_data.emplace_back(name, in.matrix("/VTKHDF/PointData/" + name, count, 3).leftCols(2));
-  }
   return a;
 }
 

@@ -62,7 +62,8 @@ struct BodyArtifact {
   double reference_depth = 0;   // m
   double asymmetry = 0;         // relative, before symmetrisation
   double least_eigenvalue = 0;  // m N-1 of the compliance of all offsets less the stored modes
-  // for looking: the whole gear with mode shapes and the displacement under a unit force at mid flank
+  // for looking: the whole gear with mode shapes and the displacement under a unit force at mid flank; written, never
+  // read: no stage needs them, and they are most of the file
   MatrixRM vtk_point;                                            // (point, 2) m
   MatrixRMi vtk_cell;                                            // (cell, 4 or 9), node order as element_node
   std::vector<std::pair<std::string, MatrixRM>> vtk_point_data;  // name, (point, 2)

@@ -401,14 +401,12 @@ RollingDynamics::State RollingDynamics::rest() {
   return state;
 }
 
-double RollingDynamics::distance(const State& a, const State& b) const {
-  double energy = 0;
-  for (int i = 0; i < a.z.size(); ++i) {
-    const double dz = a.z[i] - b.z[i], dv = a.v[i] - b.v[i];
-    energy += dv * dv +
-              std::max(frequency_squared_[i], i == 0 ? rigid_frequency_ * rigid_frequency_ : 0.0) * dz * dz;
-  }
-  return std::sqrt(energy) / energy_scale_;
+VectorXd RollingDynamics::difference(const State& a, const State& b) const {
+  const Eigen::Index n = a.z.size();
+  VectorXd both(2 * n);
+  both << (a.z - b.z).cwiseProduct(frequency_squared_.cwiseSqrt()), a.v - b.v;
+  both[0] = rigid_frequency_ * (a.z[0] - b.z[0]);
+  return both / energy_scale_;
 }
 
 void RollingDynamics::turn_doublets(Eigen::Ref<VectorXd> y) const {

@@ -89,8 +89,9 @@ class RollingDynamics {
   // (node, coordinate): outward displacement of the flanks, hub rotation included, per unit coordinate; h of
   // the gap d = e - h z + ...
   Eigen::MatrixXd participation(const MeshPosition& mesh) const;
-  // Distance of two states in the energy norm, relative to the static state's.
-  double distance(const State& a, const State& b) const;
+  // (2 coordinate) a - b, scaled so that its norm is the distance in the energy norm relative to the static state's.
+  Eigen::VectorXd difference(const State& a, const State& b) const;
+  double distance(const State& a, const State& b) const { return difference(a, b).norm(); }
 
   int reach() const { return reach_; }                             // largest |pair| that can touch
   double bearing_damper(int g) const;                              // N m s

@@ -1,14 +1,13 @@
 #include "motion/sweep.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <optional>
 
 #include "base/error.h"
 #include "motion/dynamics.h"
+#include "motion/steady_state.h"
 
 namespace whine {
 
@@ -17,31 +16,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kMostPeriods = 3000;  // per speed, before it counts as not periodic
-constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in mesh periods
-constexpr int kStagnation = 50;     // periods over which a subharmonic must not come nearer to a shorter one
 constexpr double kJumpRatio = 1.2;  // change of RMS across a step that may be a jump
-constexpr int kJumpHalvings = 6;    // bisection: a step of 20 Hz leaves 0.3 Hz
-
-// One speed, steady: one orbit of `multiple` periods; 0: the motion did not become periodic.
-struct Steady {
-  int multiple = 1, periods = 0;
-  double residual = 0, rms = 0;
-  Ledger ledger;  // of the stored periods
-  std::vector<RollingDynamics::Period> record;
-};
-
-double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
-  double sum = 0, square = 0;
-  Eigen::Index count = 0;
-  for (const auto& period : record) {
-    sum += period.transmission_error.sum();
-    count += period.transmission_error.size();
-  }
-  const double mean = sum / static_cast<double>(count);
-  for (const auto& period : record) square += (period.transmission_error.array() - mean).square().sum();
-  return std::sqrt(square / static_cast<double>(count));
-}
+constexpr int kJumpFineness = 64;   // steps of the sweep are halved down to this part: 20 Hz leave 0.3 Hz
 
 class Sweeper {
  public:
@@ -74,11 +50,12 @@ class Sweeper {
   RollingDynamics::State& state() { return state_; }
 
   // Runs at this speed from the present state until the state repeats.
-  Steady run(double mesh_frequency) {
+  Orbit run(double mesh_frequency) {
     const RollingDynamics::State start = state_;
     for (;;) {
       dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
-      if (auto steady = settle()) return *steady;
+      if (auto orbit = settle(dynamics_, state_, slice_.time.periodicity, slice_.time.steady_state))
+        return *orbit;
       // Contact wanted more than the window or the corner range holds: widen and run this speed again.
       if (++widened_ > 8)
         fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks: forces above ",
@@ -98,51 +75,6 @@ class Sweeper {
         finest_);
   }
 
-  // Marches until the state repeats. A subharmonic of order m is one whose state repeats after m periods but, long
-  // since and without getting any nearer, not after a divisor of m: a slow transient may look like one for a while.
-  std::optional<Steady> settle() {
-    Steady steady;
-    std::deque<RollingDynamics::State> past{state_};
-    std::deque<std::array<double, kMostMultiple + 1>> history;  // change over m periods
-    RollingDynamics::Period period;
-    for (int n = 1;; ++n) {
-      if (!dynamics_.march(state_, period)) return std::nullopt;
-      std::array<double, kMostMultiple + 1> change{};
-      const int known = static_cast<int>(past.size());
-      for (int m = 1; m <= std::min(known, n < kStagnation ? 1 : kMostMultiple); ++m)
-        change[m] = dynamics_.distance(state_, past[known - m]);
-      const auto stagnates = [&](int m) {
-        return static_cast<int>(history.size()) == kStagnation && change[m] > 100 * slice_.time.periodicity &&
-               change[m] > 0.999 * history.front()[m];
-      };
-      int multiple = 0;
-      for (int m = 1; m <= std::min(known, kMostMultiple) && multiple == 0; ++m) {
-        if (change[m] == 0 || !(change[m] < slice_.time.periodicity)) continue;
-        multiple = m;
-        for (int d = 1; d < m; ++d)
-          if (m % d == 0 && !stagnates(d)) multiple = 0;
-      }
-      if (change[1] == 0) multiple = 1;
-      if (multiple > 0 || n == kMostPeriods) {
-        // Not periodic: reported as such, with the last periods as they are.
-        const int stored = multiple > 0 ? multiple : kMostMultiple;
-        steady.multiple = multiple;
-        steady.periods = n;
-        steady.residual = change[std::max(multiple, 1)];
-        for (int k = 0; k < stored; ++k) {
-          if (!dynamics_.march(state_, period, &steady.ledger)) return std::nullopt;
-          steady.record.push_back(period);
-        }
-        steady.rms = oscillating_rms(steady.record);
-        return steady;
-      }
-      past.push_back(state_);
-      if (known == kMostMultiple) past.pop_front();
-      if (n >= kStagnation) history.push_back(change);
-      if (static_cast<int>(history.size()) > kStagnation) history.pop_front();
-    }
-  }
-
   const GearMeshModel& model_;
   RollingDynamics dynamics_;
   const SweepSlice& slice_;
@@ -155,33 +87,47 @@ bool differs(double a, double b) {
   return std::max(a, b) > kJumpRatio * std::min(a, b);
 }
 
-// Between two speeds whose responses differ: follows the branch from the first with ever smaller steps. A
-// resonance flank comes back within the ratio, a jump does not.
+// Between two speeds whose responses differ: follows the branch of the first, with steps that are halved where they leave
+// it, to where it ends - past the second speed too, since a long step leaves a branch early whose basin has become
+// narrow. Nothing if the branch passes through the response at the second speed: a resonance flank, no jump.
 struct Jump {
   double frequency, width;
 };
 std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& before, double from,
-                              double from_rms, double to, double to_rms) {
+                              double from_rms, double to, double to_rms, double limit) {
   const RollingDynamics::State after = sweeper.state();
-  sweeper.state() = before;
   RollingDynamics::State branch = before;
-  for (int i = 0; i < kJumpHalvings && differs(from_rms, to_rms); ++i) {
-    const double middle = 0.5 * (from + to);
+  double at = from, rms = from_rms, step = 0.5 * (to - from);
+  const double direction = to > from ? 1 : -1, finest = std::abs(to - from) / kJumpFineness;
+  std::optional<Jump> jump;
+  for (bool passed = false; std::abs(step) >= finest;) {
+    // Speeds of the sweep are met, so that the branch can be compared there.
+    double next = at + step;
+    if (!passed && direction * (next - to) > 0) next = to;
+    if (direction * (next - limit) > 0) {  // the branch outlives the sweep, which left it within this step
+      jump = Jump{0.5 * (from + to), std::abs(to - from)};
+      break;
+    }
     sweeper.state() = branch;
-    const double rms = sweeper.run(middle).rms;
-    const auto ratio = [](double a, double b) { return std::max(a, b) / std::min(a, b); };
-    if (ratio(from_rms, rms) > ratio(rms, to_rms)) {
-      to = middle;
-      to_rms = rms;
-    } else {
-      from = middle;
-      from_rms = rms;
-      branch = sweeper.state();
+    const double found = sweeper.run(next).rms;
+    if (differs(rms, found)) {
+      step *= 0.5;
+      jump = Jump{0.5 * (at + next), std::abs(next - at)};
+      continue;
+    }
+    at = next;
+    rms = found;
+    branch = sweeper.state();
+    if (at == to) {
+      passed = true;
+      if (!differs(found, to_rms)) {
+        jump.reset();
+        break;
+      }
     }
   }
   sweeper.state() = after;
-  if (!differs(from_rms, to_rms)) return std::nullopt;
-  return Jump{0.5 * (from + to), std::abs(to - from)};
+  return jump;
 }
 
 }  // namespace
@@ -228,14 +174,14 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   result.energy.resize(speeds, kEnergyLines.size());
   result.drift_force = VectorXd::Zero(speeds);
 
-  std::vector<Steady> steady;
+  const auto speed = [&](int i) { return slice.frequency_from + i * slice.frequency_step; };
+  std::vector<Orbit> steady;
   std::vector<Jump> jumps;
   for (int i = 0; i < speeds; ++i) {
-    const double f = direction == "up" ? slice.frequency_from + i * slice.frequency_step
-                                       : slice.frequency_from + (speeds - 1 - i) * slice.frequency_step;
+    const double f = speed(direction == "up" ? i : speeds - 1 - i);
     const RollingDynamics::State before = sweeper.state();
     steady.push_back(sweeper.run(f));
-    const Steady& s = steady.back();
+    const Orbit& s = steady.back();
     result.mesh_frequency[i] = f;
     result.periods[i] = s.periods;
     result.residual[i] = s.residual;
@@ -245,15 +191,15 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     result.energy.row(i) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
         l.lag_damping, l.switching, l.cutting, l.averaging;  // kEnergyLines
     if (i > 0 && differs(steady[i - 1].rms, s.rms))
-      if (const auto jump =
-              find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f, s.rms))
+      if (const auto jump = find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f,
+                                      s.rms, direction == "up" ? speed(speeds - 1) : speed(0)))
         jumps.push_back(*jump);
     report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
   }
 
   // Rows of one length: shorter orbits repeat to fill theirs.
   size_t longest = 1;
-  for (const Steady& s : steady) longest = std::max(longest, s.record.size());
+  for (const Orbit& s : steady) longest = std::max(longest, s.record.size());
   const int samples = slice.time.steps_per_period, reach = sweeper.dynamics().reach();
   result.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
   result.transmission_error.resize(speeds, longest * samples);

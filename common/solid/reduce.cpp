@@ -20,6 +20,7 @@ namespace whine {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr int kDrawnModes = 16;  // modes shown in ParaView; each costs megabytes
 using Complex = std::complex<double>;
 
 // A side of an element on the boundary of the tooth region, node order counter-clockwise around the region.
@@ -421,6 +422,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
       body.component[column] = component;
       body.inertia_coupling[column] = mode.coupling;
       body.flank_mode.col(column) = (quarter * mode.flank).real();
+      if (column >= kDrawnModes) continue;
       char name[64];
       std::snprintf(name, sizeof name, "mode_%02d_%.0fHz", column + 1, body.eigenfrequency[column]);
       show(name, [&](int j) {

@@ -1,0 +1,195 @@
+#include "motion/steady_state.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using State = RollingDynamics::State;
+
+namespace {
+
+constexpr int kMostPeriods = 3000;  // per speed, before it counts as not periodic
+constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in mesh periods
+constexpr int kStagnation = 50;     // periods over which a subharmonic must not come nearer to a shorter one
+constexpr int kColumns = 4;         // changes that one extrapolation combines: three multipliers go
+constexpr double kClose = 1e-2;     // change per period below which the motion counts as close to its orbit
+constexpr int kLongestPause = 64;   // periods of plain marching after extrapolations that gained nothing
+
+double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
+  double sum = 0, square = 0;
+  Eigen::Index count = 0;
+  for (const auto& period : record) {
+    sum += period.transmission_error.sum();
+    count += period.transmission_error.size();
+  }
+  const double mean = sum / static_cast<double>(count);
+  for (const auto& period : record) square += (period.transmission_error.array() - mean).square().sum();
+  return std::sqrt(square / static_cast<double>(count));
+}
+
+// Sum of weight[i] times the state i.
+State combination(const std::deque<State>& states, const VectorXd& weight) {
+  State sum = states.back();
+  const auto add = [&](auto&& part) {
+    auto& total = part(sum);
+    total = weight[0] * part(states[0]);
+    for (int i = 1; i < weight.size(); ++i) total += weight[i] * part(states[i]);
+  };
+  add([](auto& s) -> auto& { return s.z; });
+  add([](auto& s) -> auto& { return s.v; });
+  add([](auto& s) -> auto& { return s.force; });
+  add([](auto& s) -> auto& { return s.p; });
+  add([](auto& s) -> auto& { return s.d; });
+  for (int g = 0; g < 2; ++g) {
+    add([g](auto& s) -> auto& { return s.lag[g]; });
+    add([g](auto& s) -> auto& { return s.load[g]; });
+  }
+  return sum;
+}
+
+// Reduced rank extrapolation over successive states.
+class Extrapolation {
+ public:
+  explicit Extrapolation(const RollingDynamics& dynamics) : dynamics_(dynamics) {}
+
+  void forget() { states_.clear(); }
+  bool ready() const { return static_cast<int>(states_.size()) == kColumns + 1; }
+  void take(const State& state) {
+    states_.push_back(state);
+    if (static_cast<int>(states_.size()) > kColumns + 1) states_.pop_front();
+  }
+  // Of the affine combinations of the states that the map brought forth, the one whose combined change is least. Nothing if
+  // a multiplier that the changes show is not below 1: what lies at the end of them is no orbit that marching could find.
+  std::optional<State> propose() const {
+    const int n = kColumns;
+    MatrixXd change(dynamics_.difference(states_[1], states_[0]).size(), n);
+    for (int i = 0; i < n; ++i) change.col(i) = dynamics_.difference(states_[i + 1], states_[i]);
+    // The map takes each change to the next: the last as a sum of those before it gives the characteristic polynomial.
+    const auto earlier = change.leftCols(n - 1);
+    MatrixXd companion = MatrixXd::Zero(n - 1, n - 1);
+    companion.diagonal(-1).setOnes();
+    companion.rightCols(1) = solve(earlier, change.col(n - 1));
+    const Eigen::EigenSolver<MatrixXd> multipliers(companion, false);
+    if (multipliers.info() != Eigen::Success || multipliers.eigenvalues().cwiseAbs().maxCoeff() >= 1)
+      return std::nullopt;
+    // Weights sum to 1: differences of neighbouring changes are free.
+    const VectorXd share = solve(earlier - change.rightCols(n - 1), -change.col(n - 1));
+    VectorXd weight = VectorXd::Zero(n + 1);  // the first state is no image of another
+    weight[n] = 1;
+    for (int i = 0; i + 1 < n; ++i) {
+      weight[i + 1] += share[i];
+      weight[i + 2] -= share[i];
+    }
+    return combination(states_, weight);
+  }
+
+ private:
+  static VectorXd solve(const MatrixXd& a, const VectorXd& b) {
+    Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
+    qr.setThreshold(1e-8);  // changes that repeat each other say nothing new
+    return qr.solve(b);
+  }
+
+  const RollingDynamics& dynamics_;
+  std::deque<State> states_;
+};
+
+}  // namespace
+
+// A subharmonic of order m is a motion whose state repeats after m periods but, long since and without getting any nearer,
+// not after a divisor of m: a slow transient may look like one for a while.
+std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double periodicity,
+                            const std::string& method) {
+  Orbit orbit;
+  std::deque<State> past{state};
+  std::deque<std::array<double, kMostMultiple + 1>> history;  // change over m periods
+  RollingDynamics::Period period;
+  Extrapolation extrapolation(dynamics);
+  extrapolation.take(state);
+  struct Proposal {
+    State marched;         // where marching had come to
+    double change = 0;     // in its last period
+    bool pending = false;  // the present state descends from an extrapolation
+  } proposal;
+  int pause = 0, patience = 0;
+  const auto reject = [&] {
+    state = proposal.marched;
+    proposal.pending = false;
+    pause = patience = std::min(2 * patience + kColumns, kLongestPause);
+    extrapolation.forget();
+    past.assign(1, state);
+  };
+  for (int n = 1;; ++n) {
+    if (!dynamics.march(state, period)) {
+      if (!proposal.pending) return std::nullopt;
+      reject();
+      continue;
+    }
+    std::array<double, kMostMultiple + 1> change{};
+    const int known = static_cast<int>(past.size());
+    for (int m = 1; m <= std::min(known, n < kStagnation ? 1 : kMostMultiple); ++m)
+      change[m] = dynamics.distance(state, past[known - m]);
+    const auto stagnates = [&](int m) {
+      return static_cast<int>(history.size()) == kStagnation && change[m] > 100 * periodicity &&
+             change[m] > 0.999 * history.front()[m];
+    };
+    int multiple = 0;
+    for (int m = 1; m <= std::min(known, kMostMultiple) && multiple == 0; ++m) {
+      if (change[m] == 0 || !(change[m] < periodicity)) continue;
+      multiple = m;
+      for (int d = 1; d < m; ++d)
+        if (m % d == 0 && !stagnates(d)) multiple = 0;
+    }
+    if (change[1] == 0) multiple = 1;
+    if (multiple > 0 || n >= kMostPeriods) {
+      // Not periodic: reported as such, with the last periods as they are.
+      const State reached = state;
+      orbit.multiple = multiple;
+      orbit.periods = n;
+      orbit.residual = change[std::max(multiple, 1)];
+      orbit.ledger = {};
+      orbit.record.clear();
+      for (int k = 0; k < (multiple > 0 ? multiple : kMostMultiple); ++k) {
+        if (!dynamics.march(state, period, &orbit.ledger)) return std::nullopt;
+        orbit.record.push_back(period);
+      }
+      // An extrapolation may have hit an unstable orbit: then the period just recorded was a step away from it.
+      const bool leaves = proposal.pending && multiple == 1 && n < kMostPeriods &&
+                          dynamics.distance(state, reached) > orbit.residual;
+      if (!leaves) {
+        orbit.rms = oscillating_rms(orbit.record);
+        return orbit;
+      }
+      ++n;
+    }
+    past.push_back(state);
+    if (known == kMostMultiple) past.pop_front();
+    if (n >= kStagnation) history.push_back(change);
+    if (static_cast<int>(history.size()) > kStagnation) history.pop_front();
+
+    if (method == "march") continue;
+    if (proposal.pending && change[1] > proposal.change) reject();
+    extrapolation.take(state);
+    if (pause > 0) {
+      --pause;
+    } else if (extrapolation.ready() && change[1] < kClose) {
+      if (const auto proposed = extrapolation.propose()) {
+        proposal = {state, change[1], true};
+        state = *proposed;
+        extrapolation.forget();
+        extrapolation.take(state);
+        past.assign(1, state);
+        history.clear();
+      }
+    }
+  }
+}
+
+}  // namespace whine

@@ -1,0 +1,30 @@
+// The periodic motion that a rolling pair settles into at one speed.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motion/dynamics.h"
+
+namespace whine {
+
+// One orbit of `multiple` mesh periods; 0: the motion did not become periodic and `record` holds the last periods.
+struct Orbit {
+  int multiple = 1;
+  int periods = 0;      // mesh periods marched before those recorded
+  double residual = 0;  // relative change of the state over the orbit
+  double rms = 0;       // m, of the oscillating transmission error
+  Ledger ledger;        // of the recorded periods
+  std::vector<RollingDynamics::Period> record;
+};
+
+// Marches from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance); `state` then stands at
+// the start of a mesh period on the orbit. method "march": plain marching, as a rig would. "extrapolate": once the motion
+// is close, reduced rank extrapolation (Sidi, Vector Extrapolation Methods with Applications, SIAM 2017, ch. 2) takes
+// the slow multipliers out. It is used only where the multipliers that it sees lie inside the unit circle, and counts only
+// if marching on comes closer still: an unstable orbit is left again. Empty if contact wanted more than the range of the dynamics holds; the state is then
+// spoiled.
+std::optional<Orbit> settle(RollingDynamics& dynamics, RollingDynamics::State& state, double periodicity,
+                            const std::string& method);
+
+}  // namespace whine

@@ -1,0 +1,74 @@
+// The paper's gear pair, for tests that need no scene.
+#pragma once
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+#include <tuple>
+
+#include "motion/dynamics.h"
+#include "motion/statics.h"
+#include "motion/sweep.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+
+namespace whine {
+
+// The paper's gear at the default discretisation; reduced once per bore, element size and number of modes.
+inline const BodyArtifact& paper_body(double bore = 40e-3, double element = 0.4e-3, int modes = 5) {
+  static std::map<std::tuple<double, double, int>, BodyArtifact> cache;
+  const auto key = std::make_tuple(bore, element, modes);
+  if (!cache.count(key)) {
+    GearDesign d;
+    d.teeth = 50;
+    d.module = 3e-3;
+    d.pressure_angle = 20 * std::numbers::pi / 180;
+    d.face_width = 25.4e-3;
+    d.bore_radius = bore;
+    BodyDiscretisation discretisation;
+    discretisation.element_size = element;
+    discretisation.modes = modes;
+    cache[key] = reduce(make_sector_mesh(d, discretisation), Material{207e9, 0.3, 7600, true}, modes);
+  }
+  return cache[key];
+}
+
+inline StaticSlice paper_statics(int positions) {
+  StaticSlice slice;
+  slice.mesh.driver = "pinion";
+  slice.mesh.driven = "wheel";
+  slice.mesh.centre_distance = 0.150;
+  slice.contact.strips = 15;
+  slice.contact.positions = positions;
+  return slice;
+}
+
+inline SweepSlice paper_sweep(double from, double to, double step) {
+  SweepSlice slice;
+  slice.driver_inertia = slice.driven_inertia = 0.0148;
+  slice.damping.rayleigh_stiffness = 7.7e-6;
+  slice.reference_torque = 100;
+  slice.frequency_from = from;
+  slice.frequency_to = to;
+  slice.frequency_step = step;
+  return slice;
+}
+
+inline double rms(const SweepArtifact& sweep, int row) {
+  const Eigen::VectorXd te = sweep.transmission_error.row(row);
+  return std::sqrt((te.array() - te.mean()).square().mean());
+}
+
+inline DynamicParameters paper_parameters(double mean_stiffness, const std::string& body = "modal") {
+  DynamicParameters p;
+  p.torque = 150;
+  p.inertia = {0.0148, 0.0148};
+  p.mean_stiffness = mean_stiffness;
+  p.damping.rayleigh_stiffness = 7.7e-6;
+  p.fidelity.body = body;
+  return p;
+}
+
+inline void no_report(long, long, const std::string&) {}
+
+}  // namespace whine

@@ -1,0 +1,142 @@
+// Periodic motions: found by marching and by extrapolation, on both branches; order in the time step; ends of branches.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "motion/steady_state.h"
+#include "paper_pair.h"
+
+using namespace whine;
+using Eigen::VectorXd;
+using State = RollingDynamics::State;
+
+namespace {
+
+constexpr double kLightDamping = 5.5e-6;  // s: two branches from 1860 to 2800 Hz at 150 N m
+
+// The paper's pair at 150 N m, its contact ready for `finest` steps per period.
+struct Rig {
+  explicit Rig(int finest, double eta = kLightDamping, bool corner = true, const char* integrator = "exact")
+      : statics(at_rest(corner)),
+        model(paper_body(), paper_body(), statics.mesh),
+        dynamics(model, parameters(statics, eta, integrator)) {
+    const double load = 150 / model.kinematics.gear(0).base_radius();
+    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+                                     8, load / model.kinematics.contact_ratio(), 6 * load,
+                                     6 * statics.transmission_error.maxCoeff()),
+                       finest);
+  }
+  static StaticArtifact at_rest(bool corner) {
+    StaticSlice slice = paper_statics(128);
+    slice.mesh.corner.enabled = corner;
+    return static_transmission(paper_body(), paper_body(), slice, 150);
+  }
+  static DynamicParameters parameters(const StaticArtifact& statics, double eta, const char* integrator) {
+    DynamicParameters p = paper_parameters(statics.mean_stiffness);
+    p.damping.rayleigh_stiffness = eta;
+    p.fidelity.integrator = integrator;
+    return p;
+  }
+  // The orbit that speeds from..to in steps of 50 Hz lead to, from rest.
+  State carried(double from, double to, int steps) {
+    State state = dynamics.rest();
+    const double step = to > from ? 50 : -50;
+    for (double f = from; step * (to - f) >= 0; f += step) {
+      dynamics.set_speed(f, steps);
+      REQUIRE(settle(dynamics, state, 1e-6, "march"));
+    }
+    return state;
+  }
+
+  StaticArtifact statics;
+  GearMeshModel model;
+  RollingDynamics dynamics;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "marching and extrapolating end on the same orbit, on both branches; the second in a third of the "
+    "periods") {
+  Rig rig(128);
+  for (const double from : {2000.0, 2900.0}) {  // lower and upper branch at 2400 Hz
+    const State start = rig.carried(from, from < 2400 ? 2350 : 2450, 128);
+    rig.dynamics.set_speed(2400, 128);
+    State marched = start, extrapolated = start;
+    const auto slow = settle(rig.dynamics, marched, 1e-9, "march"),
+               fast = settle(rig.dynamics, extrapolated, 1e-9, "extrapolate");
+    REQUIRE(slow);
+    REQUIRE(fast);
+    INFO("from " << from << " Hz: " << slow->periods << " and " << fast->periods << " periods");
+    CHECK(slow->multiple == 1);
+    CHECK(fast->multiple == 1);
+    CHECK(3 * fast->periods < slow->periods + 3);
+    CHECK(rig.dynamics.distance(marched, extrapolated) < 1e-8);
+    CHECK(std::abs(fast->rms - slow->rms) < 1e-8 * slow->rms);
+  }
+}
+
+TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unstable orbit of one period") {
+  Rig rig(128, 2e-6, false);
+  bool subharmonic = false;
+  State state = rig.dynamics.rest();
+  for (double f = 5500; f <= 6200; f += 100) {
+    rig.dynamics.set_speed(f, 128);
+    State extrapolated = state;
+    const auto slow = settle(rig.dynamics, state, 1e-6, "march"),
+               fast = settle(rig.dynamics, extrapolated, 1e-6, "extrapolate");
+    REQUIRE(slow);
+    REQUIRE(fast);
+    INFO(f << " Hz: orbits of " << slow->multiple << " and " << fast->multiple << " mesh periods");
+    CHECK(fast->multiple == slow->multiple);
+    if (slow->multiple > 0) CHECK(std::abs(fast->rms - slow->rms) < 1e-4 * slow->rms);
+    subharmonic = subharmonic || slow->multiple == 2;
+  }
+  CHECK(subharmonic);
+}
+
+TEST_CASE(
+    "second order in the time step: state of the orbit at a fixed phase, least squares, both branches") {
+  // Against the other integrator at 4096 steps, which shares nothing but the contact positions.
+  constexpr int kReference = 4096;
+  Rig exact(kReference), newmark(kReference, kLightDamping, true, "newmark");
+  for (const double from : {2000.0, 2900.0}) {
+    State state = exact.carried(from, from < 2400 ? 2350 : 2450, 128);
+    newmark.dynamics.rest();  // sets the scale of distances
+    State reference = state;
+    newmark.dynamics.set_speed(2400, kReference);
+    REQUIRE(settle(newmark.dynamics, reference, 1e-10, "extrapolate"));
+    VectorXd steps(4), error(4);
+    steps << 64, 128, 256, 512;
+    for (int i = 0; i < 4; ++i) {
+      exact.dynamics.set_speed(2400, static_cast<int>(steps[i]));
+      REQUIRE(settle(exact.dynamics, state, 1e-10, "extrapolate"));
+      error[i] = exact.dynamics.distance(state, reference);
+    }
+    const VectorXd x = steps.array().log() - steps.array().log().mean(), y = error.array().log();
+    const double order = -x.dot(y) / x.squaredNorm();
+    MESSAGE("from " << from << " Hz: order " << order << ", errors " << error.transpose());
+    CHECK(order > 1.8);
+    CHECK(order < 2.2);
+    CHECK(error[3] < 2e-3);
+  }
+}
+
+TEST_CASE("the end of a branch does not depend on the steps of the sweep that left it early") {
+  const BodyArtifact& body = paper_body();
+  StaticSlice coarse = paper_statics(128);
+  coarse.contact.strips = 8;
+  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  std::vector<double> ends;
+  for (const double step : {20.0, 50.0}) {
+    SweepSlice slice = paper_sweep(1700, 2900, step);
+    slice.damping.rayleigh_stiffness = kLightDamping;
+    const SweepArtifact down = sweep(body, body, statics, 463e6, slice, "down", no_report);
+    REQUIRE(down.jump_frequency.size() == 1);
+    CHECK(down.jump_width[0] < 1);
+    ends.push_back(down.jump_frequency[0]);
+  }
+  INFO("jumps down at " << ends[0] << " and " << ends[1] << " Hz");
+  CHECK(std::abs(ends[1] - ends[0]) < 2);
+}
