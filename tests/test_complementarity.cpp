@@ -43,7 +43,7 @@ Solved solve(const MatrixXd& a, const VectorXd& e, std::vector<int> start = {}) 
   s.p.resize(e.size());
   s.d.resize(e.size());
   s.active.strips = std::move(start);
-  ComplementaritySolver solver;
+  ComplementaritySolver solver(Singular::shift);
   s.certificate = solver.solve(a, e, s.active, s.p, s.d);
   return s;
 }
@@ -148,13 +148,87 @@ TEST_CASE("complementarity: one contact point twice is singular, reported and so
   // The shift selects the solution of least norm, (0.2, 0.4), as far as round-off over shift allows: 1e-16 / 1e-13.
   CHECK((solve(a, e, {0, 1}).p - VectorXd{{0.2, 0.4}}).norm() < 1e-2);
   // A kept inverse of a shifted block says so.
-  ComplementaritySolver solver;
+  ComplementaritySolver solver(Singular::shift);
   ActiveSet active;
   active.strips = {0, 1};
   VectorXd p(2), d(2);
   solver.solve(a, e, active, p, d);
   CHECK(solver.solve(a, 1.5 * e, active, p, d).shifted);
   CHECK(std::abs(p[0] + 2 * p[1] - 1.5) < 1e-12);
+}
+
+TEST_CASE(
+    "complementarity: stages refuse forces that the problem does not determine, or digits that are lost") {
+  const MatrixXd a{{1, 2}, {2, 4}};
+  const VectorXd e{{-1, -2}};
+  VectorXd p(2), d(2);
+  ComplementaritySolver solver;
+  ActiveSet both;
+  both.strips = {0, 1};
+  for (int again = 0; again < 2; ++again)  // the second time with the kept inverse of the shifted block
+    CHECK_THROWS_WITH_AS(solver.solve(a, e, both, p, d),
+                         doctest::Contains("the 2 strips that touch is singular to round-off"), Error);
+  // One of them alone carries it as well: the set that block pivoting finds needs no shift.
+  ActiveSet one;
+  one.strips = {1};
+  CHECK(!solver.solve(a, e, one, p, d).shifted);
+  CHECK(p[1] == doctest::Approx(0.5).epsilon(1e-14));
+
+  // Two strips that pull against each other carry 1e9 times what closes their gaps: 7 digits of the gap are left.
+  const double close = 1e-9 / 3;
+  const MatrixXd pull{{1, close - 1}, {close - 1, 1}};
+  ActiveSet active;
+  CHECK_THROWS_WITH_AS(solver.solve(pull, VectorXd{{-1.0 / 3, -0.7}}, active, p, d),
+                       doctest::Contains("of the largest unloaded gap only, 1e-10 is needed"), Error);
+  Certificate certificate;
+  certificate.residual = kMostResidual;
+  CHECK_NOTHROW(require_residual(certificate));
+  certificate.residual = std::nan("");
+  CHECK_THROWS_AS(require_residual(certificate), Error);
+}
+
+TEST_CASE("complementarity: a number that is none, anywhere, from any set: refused, or of no account") {
+  const StripProblem problem = strip_problem(0.3, 8);
+  const int n = static_cast<int>(problem.gap.size());
+  const VectorXd e = problem.gap.array() - 3e-6;
+  const Solved sound = solve(problem.a, e);
+  std::vector<int> all(n);
+  std::iota(all.begin(), all.end(), 0);
+  const int touching = static_cast<int>((sound.p.array() > 0).count());
+  REQUIRE(touching > 2);
+  REQUIRE(touching < n);
+  int refused = 0, solved = 0;
+  for (const double bad : {std::nan(""), double(INFINITY), -double(INFINITY)})
+    for (const std::vector<int>& start : {std::vector<int>{}, {0, n - 1}, all}) {
+      for (int i = 0; i < n; ++i) {
+        VectorXd f = e;
+        f[i] = bad;
+        CHECK_THROWS_AS(solve(problem.a, f, start), Error);
+        for (int j = 0; j <= i; ++j) {
+          MatrixXd a = problem.a;
+          a(i, j) = a(j, i) = bad;
+          try {
+            // Only what no strip that touches reads may be wrong without being found.
+            const Solved s = solve(a, e, start);
+            CHECK(sound.p[i] + sound.p[j] == 0);
+            CHECK((s.p - sound.p).norm() < 1e-10 * sound.p.norm());
+            ++solved;
+          } catch (const Error& error) {
+            CHECK(error.kind() == Failure::numerical);
+            ++refused;
+          }
+        }
+      }
+    }
+  CHECK(refused > solved);
+  // With a kept inverse, too.
+  ComplementaritySolver solver;
+  ActiveSet active;
+  VectorXd p(n), d(n), f = e;
+  solver.solve(problem.a, e, active, p, d);
+  MatrixXd a = problem.a;
+  a(active.strips[0], active.strips[1]) = a(active.strips[1], active.strips[0]) = std::nan("");
+  CHECK_THROWS_AS(solver.solve(a, e, active, p, d), Error);
 }
 
 TEST_CASE("complementarity: nothing to carry, and exactly touching") {

@@ -232,7 +232,7 @@ void ComplementaritySolver::list(std::vector<int>& strips) const {
     if (in_[i]) strips.push_back(i);
 }
 
-// result = A^-1 right on the active set, both padded; right is lost.
+// result = A^-1 right on the active set, both padded.
 void ComplementaritySolver::apply(const ActiveSet& active, const double* right, double* result) {
   const int k = static_cast<int>(active.strips.size()), end = padded(k);
   if (!factored_) {
@@ -336,6 +336,28 @@ bool ComplementaritySolver::attempt(const Matrix& a, const Vector& e, const Acti
   return wrong_.empty() && defect_ <= gap_tolerance_;
 }
 
+void require_residual(const Certificate& certificate) {
+  if (!(certificate.residual <= kMostResidual))
+    fail(Failure::numerical, "the contact is met to ", certificate.residual,
+         " of the largest unloaded gap only, ", kMostResidual, " is needed: least gap ",
+         certificate.least_gap, " m, least force ", certificate.least_force,
+         " N; the compliance is nearly singular where the flanks touch");
+}
+
+// What solve hands out: nothing that the problem does not determine.
+Certificate ComplementaritySolver::certified(const Certificate& certificate, const Matrix& a,
+                                             const ActiveSet& active) const {
+  require_residual(certificate);
+  if (certificate.shifted && singular_ == Singular::refuse) {
+    double largest = 0;
+    for (int i : active.strips) largest = std::max(largest, a(i, i));
+    fail(Failure::numerical, "the compliance of the ", active.strips.size(),
+         " strips that touch is singular to round-off (largest diagonal ", largest,
+         " m/N) and does not say how they share the load: strips coincide, or the body's table is wrong");
+  }
+  return certificate;
+}
+
 Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, ActiveSet& active, Result p,
                                          Result d) {
   const int n = static_cast<int>(e.size());
@@ -355,7 +377,7 @@ Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, Activ
   }
   bool rebuild = !active.known;
   if (active.known) {
-    if (attempt(a, e, active, p, d, certificate)) return certificate;
+    if (attempt(a, e, active, p, d, certificate)) return certified(certificate, a, active);
     rebuild = defect_ > gap_tolerance_;
   }
 
@@ -383,7 +405,7 @@ Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, Activ
       rebuild = false;
       if (solved) {
         if (factored_) invert(active.inverse), active.known = true;
-        return certificate;
+        return certified(certificate, a, active);
       }
     }
     const int count = static_cast<int>(wrong_.size());
@@ -409,7 +431,7 @@ Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, Activ
          " N, largest gap of a strip with force ", defect_, " m, tolerance of gaps ", gap_tolerance_, " m");
   invert(active.inverse);
   active.known = true;
-  return certificate;
+  return certified(certificate, a, active);
 }
 
 // min 1/2 p'Ap + e'p, p >= 0: the objective falls with every outer step, so no set returns.

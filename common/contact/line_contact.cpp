@@ -129,17 +129,22 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
     const double fall = change.dot(d);
     const Energy before = energy(c, law, e, f);
     PairVector next(n);
-    for (double part = reach;; part *= 0.5) {
+    constexpr int kMostHalvings = 30;
+    double part = reach;
+    for (int halving = 0;; ++halving, part *= 0.5) {
       next = (f + part * change).cwiseMax(0.0);
       const Energy after = energy(c, law, e, next);
       const double slack = kRoundOff * (before.magnitude + after.magnitude);
-      if (after.value <= before.value + 1e-4 * part * fall + slack || part < 1e-9 * reach) {
-        for (int i = 0; i < n; ++i) {
-          if (part == reach && reach < 1 && change[i] < 0 && next[i] <= kRoundOff * f[i]) next[i] = 0;
-          if (next[i] == 0) in[i] = false;
-        }
-        break;
-      }
+      if (after.value <= before.value + 1e-4 * part * fall + slack) break;
+      if (halving == kMostHalvings)
+        fail(Failure::numerical, "line contact: after ", step, " steps the energy ", before.value, " N m of ",
+             count, " pairs with force does not fall along Newton's step (to ", after.value, " N m over ",
+             part, " of it, slope ", fall, " N m, gap ", worst,
+             " m): the compliance is not symmetric and positive definite");
+    }
+    for (int i = 0; i < n; ++i) {
+      if (part == reach && reach < 1 && change[i] < 0 && next[i] <= kRoundOff * f[i]) next[i] = 0;
+      if (next[i] == 0) in[i] = false;
     }
     f = next;
   }
@@ -160,6 +165,7 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
   }
   if (std::isinf(certificate.least_gap)) certificate.least_gap = 0;
   if (std::isinf(certificate.least_force)) certificate.least_force = 0;
+  require_residual(certificate);
   return certificate;
 }
 

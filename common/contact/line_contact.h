@@ -23,7 +23,8 @@ using PairMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMos
 // uses the result asks require_hertz_range. Certificate as ComplementaritySolver's: gap tolerance the round-off of
 // each pair's own terms; forces are never negative; `factorisations` counts Newton steps. Throws
 // Error(numerical) for more than kMostPairs pairs, a number that is not finite, a C that is not semidefinite where it
-// is tried, or no convergence within 200 steps.
+// is tried, an energy that does not fall within 30 halvings of a step, no convergence within 200 steps, or by
+// require_residual.
 Certificate solve_line_contact(const Eigen::Ref<const Eigen::MatrixXd>& c, std::span<const HertzLine> law,
                                const Eigen::Ref<const Eigen::VectorXd>& e, Eigen::Ref<Eigen::VectorXd> force,
                                Eigen::Ref<Eigen::VectorXd> d);
