@@ -49,6 +49,14 @@ Solved solve(const MatrixXd& a, const VectorXd& e, std::vector<int> start = {}) 
   return s;
 }
 
+// m N-1: inward displacement of the point at x (m) from the middle of a strip |x| <= half_width (m) that carries a unit
+// force, relative to `depth` (m) under a line load: the mean of ln|t| over the strip from t ln|t| - t.
+double under_strip(const HalfPlaneSurface& surface, double x, double half_width, double depth) {
+  const auto primitive = [](double t) { return t == 0 ? 0.0 : t * std::log(std::abs(t)) - t; };
+  const double mean_log = (primitive(x + half_width) - primitive(x - half_width)) / (2 * half_width);
+  return surface.line(1.0, depth) - surface.coefficient() * mean_log;
+}
+
 // max over i of |min(d_i, p_i A_ii)|, in the unit of e
 double complementarity_residual(const MatrixXd& a, const VectorXd& e, const VectorXd& p) {
   const VectorXd d = a * p + e;
@@ -73,15 +81,16 @@ TEST_CASE("strip on a half-plane: printed values in plane strain") {
     const double d = 1e-3, nu = 0.3, r2 = x * x + d * d;
     const double under = force * 1.3 / (kPi * 207e9) *
                          ((-(1 - nu) * std::log(r2) + d * d / r2) - (-(1 - nu) * std::log(d * d) + 1));
-    CHECK((surface.strip(x, 20e-6, d) * force - under) * 1e6 == doctest::Approx(value).epsilon(2e-4));
+    CHECK((under_strip(surface, x, 20e-6, d) * force - under) * 1e6 == doctest::Approx(value).epsilon(2e-4));
   }
 }
 
 TEST_CASE("strips do not depend on how a load is cut: two halves make a whole") {
   const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
   for (double x : {0.0, 1e-5, 7e-5, 1e-3}) {
-    const double whole = surface.strip(x, 2e-5, 1e-3);
-    const double halves = 0.5 * (surface.strip(x - 1e-5, 1e-5, 1e-3) + surface.strip(x + 1e-5, 1e-5, 1e-3));
+    const double whole = under_strip(surface, x, 2e-5, 1e-3);
+    const double halves =
+        0.5 * (under_strip(surface, x - 1e-5, 1e-5, 1e-3) + under_strip(surface, x + 1e-5, 1e-5, 1e-3));
     CHECK(whole == doctest::Approx(halves).epsilon(1e-13));
   }
 }
@@ -100,7 +109,7 @@ TEST_CASE("Hertz line contact: 12 to 50 strips across, any place of the grid") {
       for (int i = 0; i < n; ++i) {
         const double x = (i - 0.5 * (n - 1) + shift) * h;
         gap[i] = 0.5 * x * x / radius;
-        for (int j = 0; j < n; ++j) a(i, j) = 2 * surface.strip((i - j) * h, 0.5 * h, 1e-3);
+        for (int j = 0; j < n; ++j) a(i, j) = 2 * under_strip(surface, (i - j) * h, 0.5 * h, 1e-3);
       }
       // Approach that Hertz says carries this force: both bodies' centre displacement, from the exact line
       // integral g = asinh(l) - ... less the constant between a Hertz load's and a line load's depth point.
@@ -128,7 +137,7 @@ TEST_CASE("strips of any widths: compliance symmetric, equal to the mean of read
     double mean = 0;  // midpoint rule over the reading strip
     constexpr int kPoints = 4000;
     for (int i = 0; i < kPoints; ++i)
-      mean += surface.strip(x + 5e-6 * (2 * (i + 0.5) / kPoints - 1), 2e-5, 1e-3) / kPoints;
+      mean += under_strip(surface, x + 5e-6 * (2 * (i + 0.5) / kPoints - 1), 2e-5, 1e-3) / kPoints;
     CHECK(there == doctest::Approx(mean).epsilon(1e-7));
   }
 }
@@ -177,7 +186,7 @@ TEST_CASE("a kept active set costs no factorisation, a changed load finds its ow
   VectorXd gap(n);
   for (int i = 0; i < n; ++i) {
     gap[i] = 40 * std::pow((i - 9.5) * 1e-5, 2);
-    for (int j = 0; j < n; ++j) a(i, j) = 2 * surface.strip((i - j) * 1e-5, 5e-6, 1e-3);
+    for (int j = 0; j < n; ++j) a(i, j) = 2 * under_strip(surface, (i - j) * 1e-5, 5e-6, 1e-3);
   }
   ComplementaritySolver solver;
   ActiveSet active;
@@ -201,6 +210,70 @@ TEST_CASE("window of strips: constant count, exact interpolation of smooth field
   }
 }
 
+TEST_CASE("window of strips between two tip edges: narrow at both, without a step as either comes near") {
+  GearDesign stub = paper_gear();
+  stub.addendum = 0.8;  // tips within the other's involute on both sides
+  const GearPair gears(stub, stub, 0.150);
+  const PairContact contact = gears.contact(0.1);
+  const double low = contact.x_min, high = contact.x_max;
+  const auto window = [&](double half) { return make_strips(gears, 0, contact, {half, 32, 1e-5}); };
+  for (double half : {1.2 * high - 1.2 * low, 0.1, 10.0}) {
+    const PairStrips s = window(half);
+    REQUIRE(s.low_is_edge);
+    REQUIRE(s.high_is_edge);
+    CHECK(s.border[0] == low);
+    CHECK(s.border[32] == high);
+    const VectorXd width = s.border.tail(32) - s.border.head(32);
+    CHECK(width.minCoeff() > 0);
+    const double share = half < 0.05 ? 0.9 : 0.5;
+    CHECK(width[0] < share * width[16]);
+    CHECK(width[31] < share * width[16]);
+  }
+  // The window that reaches either edge, then the other, then has the grade of one pass the other's: borders move with it.
+  const double first = std::min(-low, high), last = std::max(-low, high);
+  VectorXd before;
+  double worst = 0;
+  for (int k = 0; k <= 4000; ++k) {
+    const PairStrips s = window(0.9 * first + k / 4000.0 * (4 * last - 0.9 * first));
+    if (k > 0) worst = std::max(worst, (s.border - before).cwiseAbs().maxCoeff());
+    before = s.border;
+  }
+  CHECK(worst < 3 * (4 * last - 0.9 * first) / 4000);
+
+  // A flat punch: pressure F / (pi sqrt(a^2 - x^2)), mean of ln|x| under it ln(a / 2) (Johnson, section 2.8).
+  const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
+  const PairStrips s = window(10.0);
+  const MatrixXd a = half_plane_compliance(s, surface, surface, 20e-3);
+  const double exact = 1e-6 / (2 * surface.line(0.25 * (high - low), 20e-3));
+  CHECK(solve(a, VectorXd::Constant(32, -1e-6)).p.sum() == doctest::Approx(exact).epsilon(1e-3));
+  for (int i = 0; i < 32; ++i)
+    for (int j = 0; j < 32; ++j) {
+      const double one =
+          surface.mean_over_strip(s.middle(i) - s.middle(j), 0.5 * s.width(j), 0.5 * s.width(i), 20e-3);
+      CHECK(a(i, j) / (2 * one) == doctest::Approx(1).epsilon(1e-9));  // differences of x^2 ln x
+    }
+}
+
+TEST_CASE("window of strips: alike at both ends is not of one width; flanks that do not meet have none") {
+  PairStrips s;
+  s.border.resize(9);
+  for (int i = 0; i <= 8; ++i) s.border[i] = -1e-4 * std::cos(kPi * i / 8);
+  s.gap = VectorXd::Zero(8);
+  const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
+  const MatrixXd a = half_plane_compliance(s, surface, surface, 1e-3);
+  const double one =
+      surface.mean_over_strip(s.middle(4) - s.middle(3), 0.5 * s.width(3), 0.5 * s.width(4), 1e-3);
+  CHECK(a(4, 3) / (2 * one) == doctest::Approx(1).epsilon(1e-12));
+  CHECK(a(4, 3) < 0.9 * a(1, 0));
+
+  const GearPair gears(paper_gear(), paper_gear(), 0.150);
+  PairContact apart = gears.contact(0);
+  apart.x_min = 1e-5;
+  apart.x_max = 0.5e-5;
+  CHECK_THROWS_WITH_AS(make_strips(gears, 0, apart, {2e-4, 24, 1e-5}),
+                       doctest::Contains("no window of strips fits between"), Error);
+}
+
 namespace {
 constexpr double kRadius = 12.8257552e-3;  // m, the paper's pair at the pitch point
 
@@ -218,7 +291,7 @@ double strips_force(double from, double to, int n, double slope, double approach
   for (int i = 0; i < n; ++i) {
     const double x = from + (i + 0.5) * h;
     e[i] = slope * x + 0.5 * x * x / kRadius - approach;
-    for (int j = 0; j < n; ++j) a(i, j) = 2 * surface.strip((i - j) * h, 0.5 * h, depth);
+    for (int j = 0; j < n; ++j) a(i, j) = 2 * under_strip(surface, (i - j) * h, 0.5 * h, depth);
   }
   return solve(a, e).p.sum();
 }
@@ -397,6 +470,12 @@ TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be sol
   CHECK_THROWS_AS(require_hertz_range(lines.law, force), Error);
   CHECK_NOTHROW(require_hertz_range(lines.law, VectorXd::Constant(2, 1000.0)));
   CHECK_THROWS_AS(solve_line_contact(lines.c, lines.law, VectorXd::Constant(2, NAN), force, d), Error);
+  // Newton's step from a compliance that is not symmetric need not lower any energy: said so, and never searched for ever.
+  PairMatrix skew(2, 2);
+  skew << 2e-9, -9e-9, 0, 2e-9;
+  force.setZero();
+  CHECK_THROWS_WITH_AS(solve_line_contact(skew, lines.law, VectorXd::Constant(2, -1e-6), force, d),
+                       doctest::Contains("does not fall along Newton's step"), Error);
   PairMatrix indefinite = -1e-8 * PairMatrix::Identity(2, 2);
   force.setZero();
   CHECK_THROWS_AS(solve_line_contact(indefinite, lines.law, VectorXd::Constant(2, -1e-6), force, d), Error);

@@ -132,6 +132,13 @@ TEST_CASE("flank table: interpolation is exact for polynomials in the logarithmi
   for (int i = 1; i < 12; ++i) CHECK(table.points()[i] > table.points()[i - 1]);
   CHECK(failure_of([&] { table.weights(tip + 1e-4); }) == 1);
   CHECK(failure_of([&] { table.weights(table.lowest() - 1e-4); }) == 1);
+  // Round-off beyond an end reads as the end; what is more stops with its numbers.
+  for (const auto& [end, outward] : {std::pair{tip, 1.0}, std::pair{table.lowest(), -1.0}}) {
+    CHECK((table.weights(end + outward * 5e-10) - table.weights(end)).norm() < 1e-5);
+    CHECK_THROWS_WITH_AS(table.weights(end + outward * 2e-9),
+                         doctest::Contains("a flank point outside the involute: roll angle "), Error);
+  }
+  CHECK_THROWS_WITH_AS(table.weights(std::nan("")), doctest::Contains("outside the involute"), Error);
   CHECK(failure_of([&] { FlankTable(0.07, 0.3, 0.2, 1e-5, 8); }) == 3);
 }
 

@@ -24,17 +24,9 @@ class HalfPlaneSurface {
     return flat_surface_displacement(x, moduli_, face_width_, depth);
   }
 
-  // m N-1: inward displacement at distance x (m, any) from the middle of a strip |x| <= half_width (m) that
-  // carries a unit force, relative to `depth` (m) under a line load.
-  double strip(double x, double half_width, double depth) const {
-    // Mean of ln|t| over the strip from t ln|t| - t; the rest is the line load's constant.
-    const auto primitive = [](double t) { return t == 0 ? 0.0 : t * std::log(std::abs(t)) - t; };
-    const double mean_log = (primitive(x + half_width) - primitive(x - half_width)) / (2 * half_width);
-    return line(1.0, depth) - coefficient() * mean_log;
-  }
-
-  // m N-1: the same, averaged over another strip whose middle lies at x and whose half width is `reading` (m).
-  // Symmetric in the two strips.
+  // m N-1: inward displacement relative to `depth` (m) under a line load, of a unit force spread evenly over a strip of
+  // half width `half_width` (m), averaged over another strip whose middle lies at distance x (m, any) and whose half
+  // width is `reading` (m). Symmetric in the two strips.
   double mean_over_strip(double x, double half_width, double reading, double depth) const {
     // Twice integrated: t^2 / 2 ln|t| - 3 t^2 / 4.
     const auto primitive = [](double t) {

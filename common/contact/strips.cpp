@@ -15,16 +15,21 @@ using Eigen::VectorXd;
 namespace {
 
 // n strips between low and high; low_grade, high_grade: 0 for strips of one width, 1 for widths that grow with
-// the root of the distance from that end.
+// the root of the distance from that end. The width goes with (1 - low_grade + 2 low_grade t) (1 + high_grade - 2
+// high_grade t), t from 0 at low to 1 at high.
 VectorXd strip_borders(double low, double high, double low_grade, double high_grade, int n) {
+  constexpr double kRoundOff = 1e-9;
+  for (const double grade : {low_grade, high_grade})
+    if (!(grade >= -kRoundOff && grade <= 1 + kRoundOff) || !(high > low))
+      fail(Failure::numerical, "the flanks of a pair face each other from ", low * 1e3, " to ", high * 1e3,
+           " mm of the contact point, grades ", low_grade, " and ", high_grade,
+           " (0 to 1): no window of strips fits between");
+  const double a = 1 - low_grade, b = 2 * low_grade, c = 1 + high_grade, d = 2 * high_grade;
+  const auto primitive = [&](double t) { return t * (a * c + t * (0.5 * (b * c - a * d) - t * b * d / 3)); };
   VectorXd border(n + 1);
-  const double grade = std::clamp(std::max(low_grade, high_grade), 0.0, 1.0);
-  for (int i = 0; i <= n; ++i) {
-    const double even = static_cast<double>(i) / n;
-    const double from_edge = low_grade > high_grade ? even : 1 - even;
-    const double graded = (1 - grade) * from_edge + grade * from_edge * from_edge;
-    border[i] = low_grade > high_grade ? low + (high - low) * graded : high - (high - low) * graded;
-  }
+  for (int i = 0; i <= n; ++i)
+    border[i] = low + (high - low) * primitive(static_cast<double>(i) / n) / primitive(1);
+  border[n] = high;
   return border;
 }
 
@@ -66,9 +71,7 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
     node[k] = 0.5 * (low + high) - 0.5 * (high - low) * std::cos(angle);
     weight[k] = (k % 2 ? -1 : 1) * std::sin(angle);
     const FlankGap at = gears.gap_at(contact, node[k]);
-    for (int g = 0; g < 2; ++g)
-      s.node_roll[g][k] =
-          std::clamp(at.roll[g], gears.gear(g).form_roll_angle(), gears.gear(g).tip_roll_angle());
+    for (int g = 0; g < 2; ++g) s.node_roll[g][k] = at.roll[g];
   }
   s.interpolation.resize(n, kWindowNodes);
   for (int i = 0; i < n; ++i) {
@@ -99,7 +102,12 @@ MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface&
     return sum;
   };
   MatrixXd a(n, n);
-  if (std::abs(strips.width(0) / strips.width(n - 1) - 1) < 1e-9) {  // of one width: a Toeplitz matrix
+  double narrowest = strips.width(0), widest = narrowest;
+  for (int i = 1; i < n; ++i) {
+    narrowest = std::min(narrowest, strips.width(i));
+    widest = std::max(widest, strips.width(i));
+  }
+  if (widest - narrowest < 1e-9 * widest) {  // of one width: a Toeplitz matrix
     for (int i = 0; i < n; ++i) a(i, 0) = between(i, 0);
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) a(i, j) = a(std::abs(i - j), 0);

@@ -3,7 +3,7 @@
 //
 // The window of strips moves with the nominal contact point and ends at a tip edge when it reaches one; off
 // the line of action it begins at the edge. Its number of strips never changes, so nothing jumps while the
-// gears roll. Strips are of one width, and ever narrower towards a tip edge as the contact comes near it: there the
+// gears roll. Strips are of one width, and ever narrower towards a tip edge (or both) as the contact comes near it: there the
 // pressure goes with the inverse root of the distance, and the first touch is at the edge itself. A strip's gap
 // and displacement are means over the strip, which makes the compliance symmetric for any widths.
 //
@@ -54,7 +54,8 @@ struct ContactPatch {
 ContactPatch contact_patch(const PairStrips& strips, const Eigen::Ref<const Eigen::VectorXd>& p,
                            double face_width);
 
-// pair: number of the pair; contact: its kinematics at this phase.
+// pair: number of the pair; contact: its kinematics at this phase. Throws Error(numerical) if the flanks do not face each
+// other about the contact point.
 PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact,
                        const ContactRange& range);
 

@@ -10,8 +10,27 @@ namespace whine {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+// A number that is none would reach some loads and not others.
+const BodyArtifact& finite(const BodyArtifact& body) {
+  const auto require = [](const auto& numbers, const std::string& name) {
+    if (!numbers.allFinite())
+      fail(Failure::input, "the body's ", name, " holds a number that is not finite; rebuild body.h5");
+  };
+  require(body.flank_position, "flank_position");
+  require(body.flank_mode, "flank_mode");
+  require(body.eigenfrequency, "eigenfrequency");
+  require(body.inertia_coupling, "inertia_coupling");
+  for (size_t d = 0; d < body.compliance.size(); ++d)
+    require(body.compliance[d], text("compliance at tooth offset ", d));
+  return body;
+}
+
+}  // namespace
+
 ElasticGear::ElasticGear(const BodyArtifact& body)
-    : body_(body),
+    : body_(finite(body)),
       half_plane_(body.material, body.design.face_width),
       table_(ToothGeometry(body.design), static_cast<int>(body.flank_position.size())) {
   if ((table_.points() - body.flank_position).cwiseAbs().maxCoeff() > 1e-12)
@@ -178,7 +197,6 @@ LinePosition make_line_position(const GearMeshModel& model, double phase, double
                                 double pair_force) {
   const GearPair& gears = model.kinematics;
   LinePosition position;
-  position.phase = phase;
   position.reach = pairs_in_reach(model, phase, corner_gap);
   const int n = position.reach.size();
   position.gap.resize(n);
@@ -202,8 +220,7 @@ LinePosition make_line_position(const GearMeshModel& model, double phase, double
     const FlankGap middle = gears.gap_at(contact, near == 0 ? -inward : inward);
     for (int g = 0; g < 2; ++g) {
       position.lever[g][j] = contact.lever[g];
-      position.table_weights[g].row(j) = model.gear[g].table().weights(
-          std::clamp(middle.roll[g], model.gear[g].table().lowest(), model.gear[g].table().highest()));
+      position.table_weights[g].row(j) = model.gear[g].table().weights(middle.roll[g]);
     }
   }
   return position;
@@ -281,13 +298,13 @@ Equilibrium equilibrium(const VectorXd& gap, const VectorXd& approach, double lo
     if (result.residual < 1e-12) return result;
     (excess > 0 ? high : low) = x;
     double next = result.stiffness > 0 ? x - excess / result.stiffness : x;
-    // The set may be right and only round-off left.
+    // No double between is left to try.
     if (result.residual < 1e-10 && (next == x || high - low < 4e-16 * std::abs(x))) return result;
     if (!(next > low && next < high)) next = std::isfinite(high) ? 0.5 * (low + high) : 2 * x - touch + 1e-9;
     x = next;
   }
   fail(Failure::numerical, "static equilibrium did not converge: residual ", result.residual, " of the load ",
-       load, " after 200 steps at x = ", result.x);
+       load, " N after 200 steps at x = ", result.x, " m");
 }
 
 }  // namespace whine

@@ -19,6 +19,8 @@ namespace whine {
 // A gear's solid as contact sees it.
 class ElasticGear {
  public:
+  // Throws Error(input) for numbers that are not finite, by the name of their array, and for a flank table with other
+  // points than this program's.
   explicit ElasticGear(const BodyArtifact& body);
   const BodyArtifact& body() const { return body_; }
   const HalfPlaneSurface& half_plane() const { return half_plane_; }
@@ -107,7 +109,6 @@ Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
 
 // The same with one contact line per pair.
 struct LinePosition {
-  double phase = 0;
   PairsInReach reach;
   Eigen::VectorXd gap;                           // (pair) m
   std::array<Eigen::VectorXd, 2> lever;          // (pair) m
@@ -117,6 +118,7 @@ struct LinePosition {
 
 // depth: m, of the Hertz laws. The tables are read at the middle of the pressure that pair_force (N) makes, which
 // moves inwards from the touching point where contact ends at a tip edge; held there, whatever force the pair carries.
+// So the stiffness of a contact near an edge lacks what the tables change along the flank as the pressure moves.
 LinePosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
                                 double pair_force);
 
@@ -141,8 +143,9 @@ struct HeldContact {
 };
 using ContactSolve = std::function<HeldContact(const Eigen::VectorXd& e, Eigen::VectorXd& p)>;
 
-// load > 0. Newton on a monotone function between brackets; throws Error(numerical) with the residual if the load is
-// not met to 1e-12.
+// load > 0. Newton on a monotone function between brackets, until the load is met to 1e-12. Where neighbouring doubles x
+// already carry loads that differ by more (loads so small that the gaps are round-off), the nearest one is taken if it
+// meets the load to 1e-10; `residual` says what was reached. Throws Error(numerical) with the residual otherwise.
 Equilibrium equilibrium(const Eigen::VectorXd& gap, const Eigen::VectorXd& approach, double load,
                         double start, const ContactSolve& solve);
 

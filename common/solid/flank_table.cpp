@@ -41,10 +41,11 @@ double FlankTable::zeta(double xi) const {
 }
 
 Eigen::RowVectorXd FlankTable::weights(double xi) const {
-  const double slack = 1e-9 * (tip_ - form_);
-  if (!(xi >= form_ - slack && xi <= tip_ + slack))
-    fail(Failure::numerical, "flank table: roll angle ", xi, " rad is off the flank, which goes from ", form_,
-         " to ", tip_, " rad; the contact has left the involute");
+  constexpr double kRoundOff = 1e-9;  // rad
+  if (!(xi >= form_ - kRoundOff && xi <= tip_ + kRoundOff))
+    fail(Failure::numerical, "flank table: a flank point outside the involute: roll angle ", xi,
+         " rad, the flank goes from ", form_, " to ", tip_, " rad (beyond it by ",
+         xi < form_ ? form_ - xi : xi - tip_, " rad, ", kRoundOff, " is round-off); lower the torque");
   const double z = zeta(xi);
   Eigen::RowVectorXd row(size());
   double sum = 0;

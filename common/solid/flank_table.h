@@ -27,7 +27,7 @@ class FlankTable {
   double highest() const { return tip_; }                    // rad: tip edge
 
   // (point) 1: value(xi) = weights(xi) . values at the points. Between the outermost point and the end of the
-  // flank the polynomial goes on; beyond the flank (more than 1e-9 of its length) throws Error(numerical).
+  // flank the polynomial goes on; more than 1e-9 rad beyond the flank throws Error(numerical) with the numbers.
   Eigen::RowVectorXd weights(double xi) const;
 
  private:

@@ -73,7 +73,8 @@ Family rolling_strips(int n, int problems) {
   for (int pair = 0; pair < 2; ++pair)
     for (int i = 0; i < m; ++i)
       for (int j = 0; j < m; ++j)
-        family.a(pair * m + i, pair * m + j) = 2e-9 + 2 * surface.strip((i - j) * width, width / 2, 1e-3);
+        family.a(pair * m + i, pair * m + j) =
+            2e-9 + 2 * surface.mean_over_strip((i - j) * width, width / 2, width / 2, 1e-3);
   const double scale = family.a.maxCoeff();
   family.a /= scale;
   for (int t = 0; t < problems; ++t) {
