@@ -213,6 +213,15 @@ TEST_CASE("a value outside its range is refused with value and limit") {
   CHECK(contains(file.refusal(with_section("[fidelity]\ncontact = \"point\"\n")),
                  "must be one of: line, strips"));
   CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == "line");
+  for (const char* near_field : {"", "near_field = \"subtraction\"\n"})
+    CHECK(contains(
+        file.refusal(
+            with_section("[discretisation]\n" + std::string(near_field) + "matching_depth_mm = 2.0\n")),
+        std::string(*near_field ? "x.toml:25:" : "x.toml:24:") +
+            " 'matching_depth_mm' in [discretisation] = 2: near_field is \"subtraction\", which has "
+            "no depth"));
+  CHECK(file.read(with_section("[discretisation]\nmatching_depth_mm = 2.0\nnear_field = \"matching\"\n"))
+            .body.matching_depth == 2e-3);
   CHECK(contains(file.refusal(with_section("[fidelity]\nintegrator = \"euler\"\n")),
                  "must be one of: newmark, exact"));
 }
@@ -348,8 +357,6 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
       {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false, false},
       {section("[fidelity]\nmodes = 9\n"), true, true, false, false},
       {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false, false},
-      {section("[discretisation]\nmatching_depth_mm = 2.0\n"), false, false, false,
-       false},  // subtraction has no depth
       {mesh_key("corner_contact = false"), false, true, false, false},
       {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false, false},
       {section("[discretisation]\nstrips = 21\n"), false, true, false, false},

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "files/fit.h"
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
@@ -41,19 +42,22 @@ void body(int argc, char** argv) {
     whine::require_made_from(file, "driver", driver);
     whine::require_made_from(file, "driven", driven);
   }
-  const whine::StaticArtifact at_reference = whine::read_static(reference);
+  const whine::StaticArtifact at_torque = whine::read_static(statics),
+                              at_reference = whine::read_static(reference);
+  whine::require_contact(at_torque, slice.fidelity, statics);
+  whine::require_contact(at_reference, slice.fidelity, reference);
   if (at_reference.torque != slice.reference_torque)
     whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
                 " N m, but the scene's first torque, which sets the bearing dampers, is ",
                 slice.reference_torque, " N m; give the static.h5 of that torque");
 
   std::optional<whine::Progress> progress;
-  const whine::SweepArtifact result = whine::sweep(
-      whine::read_body(driver), whine::read_body(driven), whine::read_static(statics),
-      at_reference.mean_stiffness, slice, direction, [&](long done, long total, const std::string& note) {
-        if (!progress) progress.emplace("gear-sweep " + direction, total);
-        progress->update(done, note);
-      });
+  const whine::SweepArtifact result =
+      whine::sweep(whine::read_body(driver), whine::read_body(driven), at_torque, at_reference.mean_stiffness,
+                   slice, direction, [&](long done, long total, const std::string& note) {
+                     if (!progress) progress.emplace("gear-sweep " + direction, total);
+                     progress->update(done, note);
+                   });
   progress.reset();
 
   whine::Provenance provenance;

@@ -36,4 +36,10 @@ void require_body(const BodyArtifact& body, const std::string& hash, const std::
        "/body.h5 (make out/bodies/", hash, "/body.h5)");
 }
 
+void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path) {
+  if (statics.fidelity.contact == wanted.contact) return;
+  fail(Failure::input, path, ": was made with contact = \"", statics.fidelity.contact,
+       "\", the slice of this stage says \"", wanted.contact, "\"; ", rebuild_advice(path));
+}
+
 }  // namespace whine

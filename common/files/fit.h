@@ -17,4 +17,8 @@ void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::s
 void require_body(const BodyArtifact& body, const std::string& hash, const std::string& role,
                   const std::string& path);
 
+// Error(input), with both rungs and the make target, unless `statics` (read from `path`) has the contact that the
+// slice of a later stage says.
+void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path);
+
 }  // namespace whine

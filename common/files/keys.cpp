@@ -146,7 +146,7 @@ std::vector<Key> make_keys() {
      "how the half-plane at the contact joins the finite elements: subtracted, or matched at a depth as in P2000",
      [](V& v) -> Slot { return &v.body.near_field; }},
     {Part::near_field, "discretisation", "matching_depth_mm", kMillimetre, "1.0", 0, 100, true, "",
-     "depth below the flank at which the two are matched; must stay inside the tooth",
+     "depth below the flank at which the two are matched; must stay inside the tooth; only with near_field = \"matching\"",
      [](V& v) -> Slot { return &v.body.matching_depth; }},
     {Part::contact, "discretisation", "strips", kNone, "15", 3, 1001, false, "",
      "pressure strips across the contact width at the mean load",

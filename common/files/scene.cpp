@@ -531,6 +531,11 @@ Scene read_scene(const std::string& path) {
     const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
     reader.refuse_unknown();
     reader.read(values, rest, false);
+    const toml::node* depth = table ? table->get("matching_depth_mm") : nullptr;
+    if (depth && values.body.near_field != "matching")
+      source.refuse(*depth, text("'matching_depth_mm' in [", name, "] = ", as_written(*depth),
+                                 ": near_field is \"", values.body.near_field,
+                                 "\", which has no depth; set near_field = \"matching\" or take it out"));
   }
   scene.damping = values.damping;
   scene.operation = values.operation;
