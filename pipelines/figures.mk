@@ -31,4 +31,4 @@ fig01: ## the finite element mesh of the pair
 fig05: ## RMS of the dynamic transmission error against mesh frequency, speed up and down, 150 N m
 fig12: ## static transmission error over a mesh period and its spectrum
 fig13: ## mesh stiffness over a mesh period and its spectrum
-error-budget: ## what refining each discretisation of the static stage alone changes, 150 N m
+error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m

@@ -110,7 +110,17 @@ for stage in static sweep; do
 line_static=("$bin/gear-static" --params line/static.toml "${pair[@]}" --torque 100 --output line/static.h5)
 if "${line_static[@]}" --next-rung > said 2>&1 && grep -q 'strips change, elsewhere' said; then ok "gear-static --next-rung"; else
   wrong "gear-static --next-rung" "$(head -n 1 said)"; fi
+budget=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --torque 100 --error-budget --output budget.h5)
+if "${budget[@]}" > said 2>&1 && "$bin/gear-inspect" budget.h5 > said 2>&1 && grep -q '^ *or contact line ' said &&
+  grep -q '^ *or matching at 1 mm ' said && "$bin/gear-plot" error-budget --plots "$plots" --output budget budget.h5 > said 2>&1 &&
+  grep -q '>matching at 1 mm<' budget.svg; then ok "gear-static --error-budget, with the other choices apart, and its figure"; else
+  wrong "gear-static --error-budget, with the other choices apart, and its figure" "$(head -n 1 said)"; fi
+rm -f budget.*
 refused "the next rung of the last one" 3 'last rung' "${at_torque[@]}" 100 --next-rung
+refused "a sweep on a static result of another contact" 3 'was made with contact = "line", the slice of this stage says "strips"' \
+  $(sweep scene up | sed 's|--static out/scene/T100|--static line|')
+refused "a sweep whose dampers come from another contact" 3 'line/static.h5: was made with contact = "line"' \
+  $(sweep scene up | sed 's|--reference-static out/scene/T100|--reference-static line|')
 refused "a sweep with one line per pair" 3 'not available in sweeps' $(sweep scene up | sed 's|out/scene/params|line|')
 rm -rf line
 sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
@@ -140,7 +150,8 @@ a torque of zero|torque_Nm|s/^torque_Nm = .*/torque_Nm = [0]/
 a list without torques|torque_Nm|s/^torque_Nm = .*/torque_Nm = []/
 half a tooth|teeth|s/^teeth = 50/teeth = 50.5/
 a near field that is none|'near_field'.*must be one of: subtraction, matching|s/^\[discretisation\]/[discretisation]\nnear_field = "penalty"/
-a matching depth of zero|matching_depth_mm|s/^\[discretisation\]/[discretisation]\nmatching_depth_mm = 0/
+a matching depth of zero|matching_depth_mm.*greater than 0|s/^\[discretisation\]/[discretisation]\nnear_field = "matching"\nmatching_depth_mm = 0/
+a matching depth without matching|scene_bad.toml:[0-9]*: 'matching_depth_mm'.*set near_field = "matching"|s/^\[discretisation\]/[discretisation]\nmatching_depth_mm = 1.0/
 speeds that go down|mesh_frequency_Hz|s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 4000, to = 600, step = 20 }/
 a material that is not there|stell|s/^material = "steel"/material = "stell"/
 a gear that is not there|gear|s/^driven = "wheel"/driven = "wheell"/

@@ -228,6 +228,20 @@ StaticArtifact small_static() {
   return a;
 }
 
+ErrorBudgetArtifact small_budget() {
+  ErrorBudgetArtifact a;
+  set_pair(a);
+  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
+  a.fidelity.contact = "line";
+  a.contact = {17, 128};
+  a.torque = 150.0 / 1.3;
+  a.refinement = {"strips, flank table, elements", odd_vector(3, 1e-4), odd_vector(3, 3e-4),
+                  odd_matrix(3, 5, 2e-4)};
+  a.choice = {"matching at 1 mm, contact strips", odd_vector(2, 1e-2), odd_vector(2, 3e-2),
+              odd_matrix(2, 5, 2e-2)};
+  return a;
+}
+
 ImpactArtifact small_impact() {
   ImpactArtifact a;
   set_pair(a);
@@ -430,6 +444,35 @@ TEST_CASE("static.h5 gives back every value bit by bit") {
   a.backlash_margin = std::numeric_limits<double>::infinity();
   write("static.h5", a, kMade);
   CHECK(std::isinf(read_static("static.h5").backlash_margin));
+}
+
+TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices apart") {
+  Folder folder;
+  ErrorBudgetArtifact a = small_budget();
+  write("error_budget.h5", a, kMade);
+  const auto same_changes = [](const StaticChanges& one, const StaticChanges& other) {
+    return one.entry == other.entry && one.mean_stiffness_change == other.mean_stiffness_change &&
+           one.peak_to_peak_change == other.peak_to_peak_change &&
+           one.harmonic_change == other.harmonic_change;
+  };
+  const ErrorBudgetArtifact b = read_error_budget("error_budget.h5");
+  CHECK(same_pair(a, b));
+  CHECK(same(a.mesh, b.mesh));
+  CHECK(b.fidelity.contact == "line");
+  CHECK(same(a.contact, b.contact));
+  CHECK(a.torque == b.torque);
+  CHECK(same_changes(a.refinement, b.refinement));
+  CHECK(same_changes(a.choice, b.choice));
+  CHECK(b.choice_missing == "");
+
+  a.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), MatrixRM(0, 5)};
+  a.choice_missing = "matching at 1 mm: leaves the tooth";
+  write("error_budget.h5", a, kMade);
+  const ErrorBudgetArtifact c = read_error_budget("error_budget.h5");
+  CHECK(same_changes(a.choice, c.choice));
+  CHECK(c.choice_missing == a.choice_missing);
+  a.choice.peak_to_peak_change.resize(1);
+  CHECK(caught([&] { write("x.h5", a, kMade); }).says("peak_to_peak_change"));
 }
 
 TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jumps") {
@@ -688,6 +731,20 @@ TEST_CASE("a body read back has the hash of its slice, and another body is refus
   CHECK(refused.says("make out/bodies/" + hash + "/body.h5"));
 }
 
+TEST_CASE("a static result of another contact rung than a later stage's is refused with both") {
+  StaticArtifact statics = small_static();
+  statics.fidelity.contact = "line";
+  Fidelity wanted;
+  wanted.contact = "line";
+  CHECK(caught([&] { require_contact(statics, wanted, "out/s/T100/static.h5"); }).kind == 0);
+  wanted.contact = "strips";
+  const Caught refused = caught([&] { require_contact(statics, wanted, "out/s/T100/static.h5"); });
+  CHECK(refused.kind == kInput);
+  CHECK(refused.says(
+      "out/s/T100/static.h5: was made with contact = \"line\", the slice of this stage says \"strips\""));
+  CHECK(refused.says("make out/s/T100/static.h5"));
+}
+
 TEST_CASE("the number of an option is decimal, finite and the whole word") {
   CHECK(number_option("--torque", "150") == 150);
   CHECK(number_option("--torque", "62.5") == 62.5);
@@ -846,6 +903,15 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   for (const auto& [name, words] : summary("static.h5", "whine/static")) all += name + ": " + words + "\n";
   CHECK(all.find("463.5 N/um") != std::string::npos);
   CHECK(all.find("5 um mean, 2 um peak to peak") != std::string::npos);
+  ErrorBudgetArtifact budget = small_budget();
+  budget.refinement.mean_stiffness_change = Eigen::VectorXd{{1e-4, -2e-4, 3e-4}};
+  budget.choice.mean_stiffness_change = Eigen::VectorXd{{0.5, 0.25}};
+  write("error_budget.h5", budget, kMade);
+  all = "";
+  for (const auto& [name, words] : summary("error_budget.h5", "whine/error_budget"))
+    all += name + ": " + words + "\n";
+  CHECK(all.find("sum: 0.06 % of the mean stiffness") != std::string::npos);
+  CHECK(all.find("or contact strips: mean stiffness 25 %") != std::string::npos);
   write("impact.h5", small_impact(), kMade);
   write("sweep.h5", small_sweep(), kMade);
   write("response.h5", small_response(), kMade);

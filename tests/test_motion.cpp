@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "base/error.h"
@@ -136,19 +137,42 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   // Elements twice as large as the default's, so that the refined ones are the default's.
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
   const ErrorBudgetArtifact budget = error_budget(body, body, paper_statics(128), 150);
-  CHECK(budget.entry == "strips, flank table, elements, window");
-  REQUIRE(budget.mean_stiffness_change.size() == 4);
-  CHECK(budget.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
-  CHECK(budget.mean_stiffness_change.cwiseAbs().sum() < 3e-3);
-  CHECK(budget.mean_stiffness_change.cwiseAbs().minCoeff() > 0);  // each refinement did change something
-  CHECK(budget.peak_to_peak_change.cwiseAbs().maxCoeff() < 2e-3);
-  CHECK(budget.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
+  const StaticChanges& errors = budget.refinement;
+  CHECK(errors.entry == "strips, flank table, elements, window");
+  REQUIRE(errors.mean_stiffness_change.size() == 4);
+  CHECK(errors.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
+  CHECK(errors.mean_stiffness_change.cwiseAbs().sum() < 3e-3);
+  CHECK(errors.mean_stiffness_change.cwiseAbs().minCoeff() > 0);  // each refinement did change something
+  CHECK(errors.peak_to_peak_change.cwiseAbs().maxCoeff() < 2e-3);
+  CHECK(errors.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
+  // Choices are what a body and a slice made that way answer.
+  CHECK(budget.fidelity.contact == "strips");
+  CHECK(budget.choice.entry == "matching at 1 mm, contact line");
+  CHECK(budget.choice_missing == "");
+  const double mean = static_transmission(body, body, paper_statics(128), 150).mean_stiffness;
+  BodyDiscretisation matching = body.discretisation;
+  matching.near_field = "matching";
+  const BodyArtifact matched = reduce(make_sector_mesh(body.design, matching), body.material, 5);
+  CHECK(budget.choice.mean_stiffness_change[0] ==
+        doctest::Approx(static_transmission(matched, matched, paper_statics(128), 150).mean_stiffness / mean -
+                        1)
+            .epsilon(1e-9));
+  StaticSlice by_line = paper_statics(128);
+  by_line.fidelity.contact = "line";
+  CHECK(
+      budget.choice.mean_stiffness_change[1] ==
+      doctest::Approx(static_transmission(body, body, by_line, 150).mean_stiffness / mean - 1).epsilon(1e-9));
 
   StaticSlice line = paper_statics(32);
   line.fidelity.contact = "line";
-  const ErrorBudgetArtifact of_line = error_budget(body, body, line, 150);
-  CHECK(of_line.entry == "flank table, elements");
-  CHECK(of_line.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
+  BodyArtifact deep = body;
+  deep.discretisation.matching_depth = 6e-3;
+  const ErrorBudgetArtifact of_line = error_budget(deep, deep, line, 150);
+  CHECK(of_line.fidelity.contact == "line");
+  CHECK(of_line.refinement.entry == "flank table, elements");
+  CHECK(of_line.refinement.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
+  CHECK(of_line.choice.entry == "contact strips");
+  CHECK(of_line.choice_missing.find("matching at 6 mm: matching_depth_mm = 6 leaves the tooth") == 0);
 }
 
 TEST_CASE(
@@ -343,6 +367,56 @@ TEST_CASE("a flank table that no body has stops the contact with its numbers") {
   moved.flank_position[3] += 1e-6;
   CHECK_THROWS_WITH(static_transmission(moved, moved, paper_statics(8), 150),
                     doctest::Contains("flank positions are not those"));
+}
+
+TEST_CASE("a body with a number that is none is refused by the name of its array") {
+  const auto refusal = [](const std::function<void(BodyArtifact&)>& spoil) {
+    BodyArtifact body = paper_body();
+    spoil(body);
+    std::string message;
+    try {
+      ElasticGear gear(body);
+    } catch (const Error& e) {
+      CHECK(e.kind() == Failure::input);
+      message = e.what();
+    }
+    return message;
+  };
+  CHECK(refusal([](BodyArtifact&) {}) == "");
+  for (const double bad : {std::nan(""), double(INFINITY)}) {
+    const auto says = [&](const std::function<void(BodyArtifact&)>& spoil, const std::string& name) {
+      const std::string message = refusal(spoil);
+      INFO(message);
+      CHECK(message.find("the body's " + name + " holds a number that is not finite") == 0);
+    };
+    says([&](BodyArtifact& b) { b.compliance[2](3, 1) = bad; }, "compliance at tooth offset 2");
+    says([&](BodyArtifact& b) { b.flank_mode(1, 2) = bad; }, "flank_mode");
+    says([&](BodyArtifact& b) { b.eigenfrequency[4] = bad; }, "eigenfrequency");
+    says([&](BodyArtifact& b) { b.inertia_coupling[0] = bad; }, "inertia_coupling");
+    says([&](BodyArtifact& b) { b.flank_position[5] = bad; }, "flank_position");
+  }
+}
+
+TEST_CASE("equilibrium: the load is met to 1e-12, to 1e-10 where no double lies between, or refused") {
+  // One strip of 1 nm/N whose gap is far larger than its approach: x carries a load of its own round-off.
+  const auto at = [](double gap, double load) {
+    ComplementaritySolver solver;
+    ActiveSet active;
+    return equilibrium(MatrixXd::Constant(1, 1, 1e-9), VectorXd::Constant(1, gap), VectorXd::Ones(1), load, 0,
+                       active, solver);
+  };
+  double worst = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double load = 20 * (1 + i / 7.0);
+    CHECK(at(0, load).residual < 1e-12);
+    CHECK(at(0, load).x / (1e-9 * load) == doctest::Approx(1).epsilon(1e-11));
+    const Equilibrium rounded = at(1e-3, load);
+    CHECK(rounded.residual < 1e-10);
+    CHECK(std::abs(rounded.residual - std::abs(rounded.p[0] / load - 1)) < 1e-15);
+    worst = std::max(worst, rounded.residual);
+  }
+  CHECK(worst > 1e-12);
+  CHECK_THROWS_WITH_AS(at(1, 1.0 / 3), doctest::Contains("did not converge: residual "), Error);
 }
 
 TEST_CASE("plane strain, any bore: a finer table and finer elements change no transmission error by 0.05 %") {

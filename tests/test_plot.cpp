@@ -233,6 +233,30 @@ TEST_CASE(
   CHECK(refused([](R& up, R&) { up.jump_frequency[0] = 5000; }));
 }
 
+TEST_CASE("error budget: choices stand apart from the errors and in no sum") {
+  ErrorBudgetArtifact budget;
+  budget.torque = 150;
+  budget.refinement = {"strips, flank table", Eigen::Vector2d(1e-4, -2e-4), Eigen::Vector2d(3e-4, 1e-4),
+                       MatrixRM::Constant(2, 5, -1e-4)};
+  budget.choice = {"matching at 1 mm", Eigen::VectorXd::Constant(1, -7e-3),
+                   Eigen::VectorXd::Constant(1, 0.01), MatrixRM::Constant(1, 5, 2e-3)};
+  const Figure figure = error_budget_figure(budget);
+  CHECK(figure.notes[0].find("mean stiffness 0.3 ‰") != std::string::npos);
+  REQUIRE(block(figure, "changes").rows.size() == 2);
+  REQUIRE(block(figure, "choices").rows.size() == 1);
+  CHECK(block(figure, "changes").rows[1][1] == doctest::Approx(0.2));
+  CHECK(block(figure, "choices").rows[0][1] == doctest::Approx(7));
+  const auto word = [&](const std::string& name) {
+    for (const auto& [key, value] : figure.words)
+      if (key == name) return value;
+    return std::string();
+  };
+  CHECK(word("labels") == "'strips' 'flank table' ");
+  CHECK(word("choice_labels") == "'matching at 1 mm' ");
+  budget.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), MatrixRM(0, 5)};
+  CHECK(block(error_budget_figure(budget), "choices").rows.empty());
+}
+
 TEST_CASE(
     "tsv: blocks stand two empty lines apart under their names; a value that is not finite is refused") {
   Figure figure;

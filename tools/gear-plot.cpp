@@ -11,7 +11,7 @@
 //            fig05    RMS of the dynamic transmission error against mesh frequency
 //            fig12    static transmission error (STE)
 //            fig13    mesh stiffness
-//            error-budget    what refining each discretisation alone changes
+//            error-budget    what refining each discretisation alone changes, and what other choices change
 // Equations  k = (T / r_b) / STE
 // Example    gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
 //                      out/parker2000/T150/down/response.h5

@@ -3,7 +3,8 @@
 // Reads   params (slice of a scene: mesh, contact discretisation), body.h5 of driver and driven gear
 // Writes  static.h5   transmission error, secant and tangent stiffness, load of each pair, harmonics, certificate
 // Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20); k = (T / r_b) / STE.
-// With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement.
+// With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
+// for information those by the other near field and the other contact.
 // With --next-rung: beside static.h5, in words, what contact = "strips" would change in the answer of contact = "line".
 // Example: gear-static --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
 //            --driven out/parker2000/wheel/body.h5 --torque 150 --output out/parker2000/T150/static.h5
@@ -67,8 +68,11 @@ void body(int argc, char** argv) {
   if (budget) {
     const whine::ErrorBudgetArtifact errors = whine::error_budget(driver_body, driven_body, slice, torque);
     whine::write(output, errors, provenance);
-    whine::tell("gear-static: error budget at ", torque, " N m (", errors.entry, "): mean stiffness to ",
-                errors.mean_stiffness_change.cwiseAbs().sum() * 100, " % in all -> ", output);
+    whine::tell("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
+                "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
+                " % in all -> ", output);
+    if (!errors.choice_missing.empty())
+      whine::tell("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
     return;
   }
   whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, slice, torque);

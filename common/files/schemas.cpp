@@ -11,7 +11,7 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 3, kErrorBudgetVersion = 1,
+constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 3, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3;
 
 const char* const kPhase = "mesh_phase";
@@ -332,28 +332,54 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
   out.publish();
 }
 
-void write(const std::string& path, const ErrorBudgetArtifact& a, const Provenance& provenance) {
+namespace {
+
+void put_changes(ArtifactWriter& out, const std::string& group, const StaticChanges& a,
+                 const std::string& what) {
   const Eigen::Index entries = a.mean_stiffness_change.size();
   want_rows("peak_to_peak_change", a.peak_to_peak_change.size(), entries);
   want_rows("harmonic_change", a.harmonic_change.rows(), entries);
+  const std::string axis = group.substr(1) + "/entry";
+  out.put(group + "/entry", a.entry, {"1", what + ", in the order of the entries", "", ""});
+  out.put(group + "/mean_stiffness_change", a.mean_stiffness_change,
+          {"1", "relative change of the mean secant stiffness", axis, ""});
+  out.put(group + "/peak_to_peak_change", a.peak_to_peak_change,
+          {"1", "relative change of the peak-to-peak transmission error", axis, ""});
+  out.put(group + "/harmonic_change", a.harmonic_change,
+          {"1", "change of the first harmonics of the transmission error over its first harmonic",
+           axis + " harmonic", ""});
+}
+
+StaticChanges take_changes(const ArtifactReader& in, const std::string& group) {
+  StaticChanges a;
+  a.entry = in.word(group + "/entry");
+  a.mean_stiffness_change = in.vector(group + "/mean_stiffness_change");
+  const Eigen::Index entries = a.mean_stiffness_change.size();
+  a.peak_to_peak_change = in.vector(group + "/peak_to_peak_change", entries);
+  a.harmonic_change = in.matrix(group + "/harmonic_change", entries, -1);
+  return a;
+}
+
+}  // namespace
+
+void write(const std::string& path, const ErrorBudgetArtifact& a, const Provenance& provenance) {
   ArtifactWriter out(path, "error_budget", kErrorBudgetVersion,
                      "Error budget of the static transmission error: " + pair_title(a.mesh, a.torque),
                      provenance);
   KeyValues values;
   values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
   values.contact = a.contact;
   put_pair(out, a);
   out.parameters("mesh", values, Part::mesh);
+  out.parameters("fidelity", values, Part::contact_rung);
   out.parameters("discretisation", values, Part::contact);
   out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
-  out.put("/entry", a.entry, {"1", "what was refined alone, in the order of the entries", "", ""});
-  out.put("/mean_stiffness_change", a.mean_stiffness_change,
-          {"1", "relative change of the mean secant stiffness", "entry", ""});
-  out.put("/peak_to_peak_change", a.peak_to_peak_change,
-          {"1", "relative change of the peak-to-peak transmission error", "entry", ""});
-  out.put("/harmonic_change", a.harmonic_change,
-          {"1", "change of the first harmonics of the transmission error over its first harmonic",
-           "entry harmonic", ""});
+  put_changes(out, "/refinement", a.refinement, "what was refined alone");
+  put_changes(out, "/choice", a.choice, "what was chosen instead, for information and in no sum of errors");
+  if (!a.choice_missing.empty())
+    out.put("/choice/missing", a.choice_missing,
+            {"1", "other choices that could not be computed, and why", "", ""});
   out.publish();
 }
 
@@ -362,16 +388,16 @@ ErrorBudgetArtifact read_error_budget(const std::string& path) {
   ErrorBudgetArtifact a;
   KeyValues values;
   in.parameters("mesh", values, Part::mesh);
+  in.parameters("fidelity", values, Part::contact_rung);
   in.parameters("discretisation", values, Part::contact);
   take_pair(in, a);
   a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
   a.contact = values.contact;
   a.torque = in.number("/parameters/operation/torque");
-  a.entry = in.word("/entry");
-  a.mean_stiffness_change = in.vector("/mean_stiffness_change");
-  const Eigen::Index entries = a.mean_stiffness_change.size();
-  a.peak_to_peak_change = in.vector("/peak_to_peak_change", entries);
-  a.harmonic_change = in.matrix("/harmonic_change", entries, -1);
+  a.refinement = take_changes(in, "/refinement");
+  a.choice = take_changes(in, "/choice");
+  if (in.file().has("/choice/missing")) a.choice_missing = in.word("/choice/missing");
   return a;
 }
 

@@ -94,16 +94,21 @@ void show(Lines& lines, const StaticArtifact& a) {
 }
 
 void show(Lines& lines, const ErrorBudgetArtifact& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver);
-  std::string rest = a.entry;
-  for (Eigen::Index i = 0; i < a.mean_stiffness_change.size(); ++i) {
-    const auto comma = rest.find(", ");
-    add(lines, rest.substr(0, comma), "mean stiffness ", a.mean_stiffness_change[i] * 100,
-        " %, peak to peak ", a.peak_to_peak_change[i] * 100, " %, first harmonic ",
-        a.harmonic_change(i, 0) * 100, " %");
-    rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
-  }
-  add(lines, "sum", a.mean_stiffness_change.cwiseAbs().sum() * 100, " % of the mean stiffness");
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", contact ", a.fidelity.contact);
+  const auto rows = [&](const StaticChanges& changes, const std::string& before) {
+    std::string rest = changes.entry;
+    for (Eigen::Index i = 0; i < changes.mean_stiffness_change.size(); ++i) {
+      const auto comma = rest.find(", ");
+      add(lines, before + rest.substr(0, comma), "mean stiffness ", changes.mean_stiffness_change[i] * 100,
+          " %, peak to peak ", changes.peak_to_peak_change[i] * 100, " %, first harmonic ",
+          changes.harmonic_change(i, 0) * 100, " %");
+      rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
+    }
+  };
+  rows(a.refinement, "");
+  add(lines, "sum", a.refinement.mean_stiffness_change.cwiseAbs().sum() * 100, " % of the mean stiffness");
+  rows(a.choice, "or ");
+  if (!a.choice_missing.empty()) add(lines, "not computed", a.choice_missing);
 }
 
 void show(Lines& lines, const ImpactArtifact& a) {

@@ -28,6 +28,22 @@ Answer answer(const StaticArtifact& s) {
           harmonics(s.transmission_error, kHarmonics).amplitude};
 }
 
+StaticChanges changes(const std::vector<std::pair<std::string, Answer>>& others, const Answer& reference) {
+  const auto count = static_cast<Eigen::Index>(others.size());
+  StaticChanges result;
+  result.mean_stiffness_change.resize(count);
+  result.peak_to_peak_change.resize(count);
+  result.harmonic_change.resize(count, kHarmonics);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& [name, other] = others[i];
+    result.entry += (i ? ", " : "") + name;
+    result.mean_stiffness_change[i] = other.mean_stiffness / reference.mean_stiffness - 1;
+    result.peak_to_peak_change[i] = other.peak_to_peak / reference.peak_to_peak - 1;
+    result.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
+  }
+  return result;
+}
+
 BodyArtifact reduced_again(const BodyArtifact& body, const BodyDiscretisation& discretisation,
                            int flank_points) {
   return reduce(make_sector_mesh(body.design, discretisation), body.material, discretisation.modes,
@@ -51,10 +67,13 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
     refined.emplace_back("strips", solve(driver, driven, finer));
   }
   const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
+  const auto of_bodies = [&](const std::function<BodyArtifact(const BodyArtifact&)>& change) {
+    const BodyArtifact first = change(driver);
+    return solve(first, alike ? first : change(driven), slice);
+  };
   const auto with_bodies = [&](const std::string& name,
                                const std::function<BodyArtifact(const BodyArtifact&)>& change) {
-    const BodyArtifact first = change(driver);
-    refined.emplace_back(name, solve(first, alike ? first : change(driven), slice));
+    refined.emplace_back(name, of_bodies(change));
   };
   with_bodies("flank table", [](const BodyArtifact& body) {
     return reduced_again(body, body.discretisation, 2 * static_cast<int>(body.flank_position.size()));
@@ -75,19 +94,33 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   ErrorBudgetArtifact budget;
   set_gears(budget, driver, driven);
   budget.mesh = base.mesh;
+  budget.fidelity = base.fidelity;
   budget.contact = base.contact;
   budget.torque = torque;
-  const auto count = static_cast<Eigen::Index>(refined.size());
-  budget.mean_stiffness_change.resize(count);
-  budget.peak_to_peak_change.resize(count);
-  budget.harmonic_change.resize(count, kHarmonics);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& [name, other] = refined[i];
-    budget.entry += (i ? ", " : "") + name;
-    budget.mean_stiffness_change[i] = other.mean_stiffness / reference.mean_stiffness - 1;
-    budget.peak_to_peak_change[i] = other.peak_to_peak / reference.peak_to_peak - 1;
-    budget.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
-  }
+  budget.refinement = changes(refined, reference);
+
+  // A choice has limits of its own; where it cannot be made the budget is still one.
+  std::vector<std::pair<std::string, Answer>> chosen;
+  const auto choose = [&](const std::string& name, const std::function<Answer()>& instead) {
+    try {
+      chosen.emplace_back(name, instead());
+    } catch (const Error& error) {
+      budget.choice_missing += text(budget.choice_missing.empty() ? "" : "; ", name, ": ", error.what());
+    }
+  };
+  const BodyDiscretisation& present = driver.discretisation;
+  const bool matched = present.near_field == "matching";
+  choose(matched ? "subtraction" : text("matching at ", present.matching_depth * 1e3, " mm"), [&] {
+    return of_bodies([&](const BodyArtifact& body) {
+      BodyDiscretisation other = body.discretisation;
+      other.near_field = matched ? "subtraction" : "matching";
+      return reduced_again(body, other, static_cast<int>(body.flank_position.size()));
+    });
+  });
+  StaticSlice other = slice;
+  other.fidelity.contact = strips ? "line" : "strips";
+  choose("contact " + other.fidelity.contact, [&] { return solve(driver, driven, other); });
+  budget.choice = changes(chosen, reference);
   return budget;
 }
 

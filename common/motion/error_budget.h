@@ -1,5 +1,6 @@
 // What each discretisation of the static stage is worth: one is refined alone, and the change of the answer is its entry;
-// and what the next rung of contact would change.
+// beside them what another model of near field or contact would change; and what the next rung of contact would, at
+// each position.
 #pragma once
 #include "files/schemas.h"
 
@@ -7,8 +8,10 @@ namespace whine {
 
 // The bodies are meshed and reduced again where an entry needs it. Entries: strips (twice as many), flank table (twice
 // the points), elements (half the size), order (only for first-order elements: second), window (twice as wide). One
-// contact line per pair has neither strips nor window.
-// Errors as static_transmission, make_sector_mesh and reduce.
+// contact line per pair has neither strips nor window. Choices, of which none is an error of the other: the other near
+// field (matching at the body's matching_depth, or subtraction) and the other rung of contact; one that cannot be
+// computed stands in choice_missing with its reason.
+// Errors of all else as static_transmission, make_sector_mesh and reduce.
 ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
                                  const StaticSlice& slice, double torque);
 

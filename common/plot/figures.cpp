@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "base/error.h"
 #include "gear/pair.h"
@@ -310,26 +311,32 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
   Figure figure;
   figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
   figure.notes.push_back(text("each discretisation refined alone; sum of the changes of the mean stiffness ",
-                              shown(budget.mean_stiffness_change.cwiseAbs().sum() * 1e3, 3), " ‰"));
-  FigureBlock block{"changes", {"entry", "mean_stiffness [per mille]", "peak_to_peak [per mille]"}, {}};
-  for (Eigen::Index n = 1; n <= budget.harmonic_change.cols(); ++n)
-    block.columns.push_back(text("harmonic_", n, " [per mille of the first]"));
-  for (Eigen::Index i = 0; i < budget.mean_stiffness_change.size(); ++i) {
-    std::vector<double> row{static_cast<double>(i), std::abs(budget.mean_stiffness_change[i]) * 1e3,
-                            std::abs(budget.peak_to_peak_change[i]) * 1e3};
-    for (Eigen::Index n = 0; n < budget.harmonic_change.cols(); ++n)
-      row.push_back(std::abs(budget.harmonic_change(i, n)) * 1e3);
-    block.rows.push_back(row);
+                              shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * 1e3, 3),
+                              " ‰"));
+  figure.notes.push_back(
+      text("contact = ", budget.fidelity.contact, ", near field by ", budget.driver_body.near_field,
+           "; beyond the line what another choice changes, which is no error of this one"));
+  for (const auto& [name, labels, count, changes] :
+       {std::tuple{"changes", "labels", "entries", &budget.refinement},
+        std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {
+    FigureBlock block{name, {"entry", "mean_stiffness [per mille]", "peak_to_peak [per mille]"}, {}};
+    for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
+      block.columns.push_back(text("harmonic_", n, " [per mille of the first]"));
+    std::string words, rest = changes->entry;
+    for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
+      std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * 1e3,
+                              std::abs(changes->peak_to_peak_change[i]) * 1e3};
+      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
+        row.push_back(std::abs(changes->harmonic_change(i, n)) * 1e3);
+      block.rows.push_back(row);
+      const size_t comma = rest.find(", ");
+      words += "'" + rest.substr(0, comma) + "' ";
+      rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
+    }
+    figure.blocks.push_back(block);
+    figure.words.emplace_back(labels, words);
+    figure.numbers.emplace_back(count, static_cast<double>(block.rows.size()));
   }
-  figure.blocks = {block};
-  std::string labels;
-  for (size_t at = 0; at != std::string::npos;) {
-    const size_t comma = budget.entry.find(", ", at);
-    labels += "'" + budget.entry.substr(at, comma == std::string::npos ? comma : comma - at) + "' ";
-    at = comma == std::string::npos ? comma : comma + 2;
-  }
-  figure.words = {{"labels", labels}};
-  figure.numbers = {{"entries", static_cast<double>(budget.mean_stiffness_change.size())}};
   return figure;
 }
 

@@ -1,8 +1,9 @@
-# Error budget: changes of the static answer when one discretisation is refined alone, as bars on a logarithmic scale.
-# Variables from gear-plot: tsv, title, note1, labels, entries.
+# Error budget: changes of the static answer when one discretisation is refined alone, as bars on a logarithmic scale;
+# beyond a line those by another choice of the model.
+# Variables from gear-plot: tsv, title, note1, note2, labels, entries, choice_labels, choices.
 set datafile separator tab
 set datafile commentschars "#"
-set title title . "\n{/*0.68 " . note1 . "}" offset 0, 0.4
+set title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, 0.4
 set lmargin screen 0.1
 set rmargin screen 0.97
 set bmargin screen 0.2
@@ -13,15 +14,25 @@ set grid ytics lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set logscale y
 set format y "10^{%L}"
 set ylabel "Change (parts per thousand)"
-set yrange [1e-4:10]
-set xrange [-0.6:entries - 0.4]
+set yrange [1e-4:100]
+set xrange [-0.6:entries + (choices > 0 ? choices + 0.1 : -0.4)]
 set xtics ()
 do for [i = 1:entries] { set xtics add (word(labels, i) i - 1) }
+first_choice = entries + 0.5
+do for [i = 1:choices] { set xtics add (word(choice_labels, i) first_choice + i - 1) }
 array colour[7] = ["#1f4e9c", "#c8201e", "#1a7f37", "#6aa84f", "#93c47d", "#b6d7a8", "#d9ead3"]
 array name[7] = ["mean stiffness", "peak to peak", "harmonic 1", "harmonic 2", "harmonic 3", "harmonic 4", "harmonic 5"]
 set key at screen 0.9, screen 0.1 horizontal Left reverse samplen 1.5 maxrows 2
 set style fill solid 0.9 noborder
 set boxwidth 0.1
 floor_value(x) = x < 1e-4 ? 1e-4 : x
-plot for [k = 1:7] tsv index "[changes]" using ($1 + 0.11 * (k - 4)):(floor_value(column(k + 1))) with boxes \
-    lc rgb colour[k] title name[k]
+bars = 'for [k = 1:7] tsv index "[changes]" using ($1 + 0.11 * (k - 4)):(floor_value(column(k + 1))) with boxes' \
+  . ' lc rgb colour[k] title name[k]'
+if (choices > 0) {
+  set arrow from entries - 0.22, graph 0 to entries - 0.22, graph 1 nohead lt 1 lw 1.6 lc rgb "#505050"
+  set label "errors" at entries - 0.3, graph 0.97 right tc rgb "#505050"
+  set label "other choices" at entries - 0.14, graph 0.97 left tc rgb "#505050"
+  bars = bars . ', for [k = 1:7] tsv index "[choices]" using (first_choice + $1 + 0.11 * (k - 4))' \
+    . ':(floor_value(column(k + 1))) with boxes lc rgb colour[k] notitle'
+}
+eval("plot " . bars)
