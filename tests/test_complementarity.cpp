@@ -383,16 +383,23 @@ TEST_CASE("complementarity: no memory is taken once the size is known") {
 }
 
 TEST_CASE("complementarity: what has no solution is refused with its numbers") {
-  const auto says = [](const MatrixXd& a, const VectorXd& e) -> std::string {
+  const auto says = [](const MatrixXd& a, const VectorXd& e, std::vector<int> start = {}) -> std::string {
     try {
-      solve(a, e);
+      solve(a, e, std::move(start));
     } catch (const Error& error) {
       return error.what();
     }
     return "";
   };
-  CHECK(says(MatrixXd{{1, -2}, {-2, 1}}, VectorXd{{-1, -1}}).find("not positive definite") !=
-        std::string::npos);
+  for (double coupling : {2.0, -2.0})
+    for (const std::vector<int>& start : {std::vector<int>{}, {0, 1}})
+      CHECK(says(MatrixXd{{1, coupling}, {coupling, 1}}, VectorXd{{-1, -1}}, start)
+                .find("not positive definite") != std::string::npos);
+  // With coupling 2, forces (1, 0), (0, 1) and (1/3, 1/3) all meet the signs. Here forces (1, 1, 0) do, and the strip
+  // that makes A indefinite stays open.
+  for (double gap : {0.5, 100.0})
+    CHECK(says(MatrixXd{{1, 0, 0}, {0, 1, 2}, {0, 2, 1}}, VectorXd{{-1, -1, gap}})
+              .find("not positive definite") != std::string::npos);
   CHECK(says(MatrixXd{{0.0}}, VectorXd{{-1.0}}).find("not positive definite") != std::string::npos);
   // Singular, and no force closes both gaps: d1 + d2 = -2 whatever p is.
   CHECK(says(MatrixXd{{1, -1}, {-1, 1}}, VectorXd{{-1, -1}}) != "");

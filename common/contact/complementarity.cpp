@@ -123,6 +123,23 @@ void ComplementaritySolver::grow(const Matrix& a, const Vector& e, ActiveSet& ac
     active.strips.push_back(strip);
   }
   factor_.resize(k);
+
+  // What the factor leaves of each diagonal is negative only if A is not semidefinite, whether or not that strip would
+  // come to carry force: another set may then solve the same problem, and this one is no answer.
+  double* left = force_.data();
+  for (int i = 0; i < n; ++i) left[i] = a(i, i);
+  for (int i = 0; i < end; i += kLanes) {
+    Lanes carried{};
+    const double* row_of_factor = grown_.column(0) + i;
+    for (int j = 0; j < k; ++j, row_of_factor += grown_.stride())
+      carried += lanes(row_of_factor) * lanes(row_of_factor);
+    lanes(left + i) -= carried;
+  }
+  for (int i = 0; i < n; ++i)
+    if (left[i] < -kLeastPivot * a(i, i))
+      fail(Failure::numerical, "the compliance of ", n, " strips is not positive definite: pivot ", left[i],
+           " m/N of the diagonal ", a(i, i), " m/N at strip ", i, " beside ", k,
+           " active strips: the body's table is wrong");
   invert(grown_);
 
   // From the order of the pivots to that of the strips.

@@ -88,8 +88,9 @@ class ComplementaritySolver {
   // and the round-off of A p; force tolerance: that over A_ii. A block of A that is singular to round-off is
   // shifted by 1e-13 of its largest diagonal (or a little more); the residual is that of A itself. At most 20 n + 100
   // sets are tried, then 30 n + 30 steps of n factorisations at most. Throws Error(numerical) if A is not positive
-  // definite beyond that on a set that is tried, if a number that the solution depends on is not finite, if no set
-  // passes, by require_residual, or if the solution's own block had to be shifted (Singular::refuse).
+  // definite beyond that on a set that is tried or, where the set grows from nothing, on that set and any one strip; if a
+  // number that the solution depends on is not finite; if no set passes; by require_residual; or if the solution's own
+  // block had to be shifted (Singular::refuse).
   Certificate solve(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::VectorXd>& e,
                     ActiveSet& active, Eigen::Ref<Eigen::VectorXd> p, Eigen::Ref<Eigen::VectorXd> d);
 
