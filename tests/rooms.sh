@@ -36,6 +36,8 @@ confined CLI/ 'tools/.*\.cpp|common/base/tool\.cpp'
 
 found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/* tools/* | head -3)
 if [ -z "$found" ]; then echo "ok: no date is compiled in"; else echo "FAILED: a date or std::format: $found"; fi
+found=$(grep -n -w Approx tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp | grep -v '^tests/relative\.h:' | head -3)
+if [ -z "$found" ]; then echo "ok: tests compare numbers by relative() only"; else echo "FAILED: Approx adds 1 to the scale, use relative(): $found"; fi
 if ! command -v clang-format > /dev/null; then
   echo "skipped: layout of the sources (clang-format is not installed)"
 elif found=$(make -s check-format 2>&1); then

@@ -172,7 +172,7 @@ TEST_CASE(
   ActiveSet one;
   one.strips = {1};
   CHECK(!solver.solve(a, e, one, p, d).shifted);
-  CHECK(p[1] == doctest::Approx(0.5).epsilon(1e-14));
+  CHECK(p[1] == relative(0.5, 1e-14));
 
   // Two strips that pull against each other carry 1e9 times what closes their gaps: 7 digits of the gap are left.
   const double close = 1e-9 / 3;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "motion/impact.h"
 #include "motion/statics.h"
+#include "relative.h"
 #include "signal/decay.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -60,12 +61,13 @@ const BodyArtifact& coarse_body() {
   return body;
 }
 
-StaticArtifact coarse_statics(double torque) {
+StaticArtifact coarse_statics(double torque, int strips = 15) {
   StaticSlice slice;
   slice.mesh.driver = "pinion";
   slice.mesh.driven = "wheel";
   slice.mesh.centre_distance = 0.150;
   slice.contact.positions = 64;
+  slice.contact.strips = strips;
   return static_transmission(coarse_body(), coarse_body(), slice, torque);
 }
 
@@ -94,8 +96,8 @@ TEST_CASE("decay: roots of one oscillation, with faster ones, a relaxation, and 
   for (double ratio : {0.0005, 0.07, 0.4}) {
     const VectorXd slow = oscillation(2500, ratio, 1, 0.4, step, 257);
     Decay fit = fit_decay(slow, step);
-    CHECK(fit.root.frequency == doctest::Approx(2500).epsilon(1e-9));
-    CHECK(fit.root.damping_ratio == doctest::Approx(ratio).epsilon(1e-7));
+    CHECK(fit.root.frequency == relative(2500, 1e-9));
+    CHECK(fit.root.damping_ratio == relative(ratio, 1e-7));
     CHECK(fit.residual < 1e-9);
 
     // Peaks and zero crossings would be those of the sum: the faster ones are as strong at the start.
@@ -103,8 +105,8 @@ TEST_CASE("decay: roots of one oscillation, with faster ones, a relaxation, and 
         slow + oscillation(9000, 0.1, 1, 1, step, 257) + oscillation(15000, 0.05, 0.7, -2, step, 257);
     for (int i = 0; i < 257; ++i) sum[i] += 0.5 * std::exp(-i * step / 8e-6);
     fit = fit_decay(sum, step);
-    CHECK(fit.root.frequency == doctest::Approx(2500).epsilon(1e-7));
-    CHECK(fit.root.damping_ratio == doctest::Approx(ratio).epsilon(1e-5));
+    CHECK(fit.root.frequency == relative(2500, 1e-7));
+    CHECK(fit.root.damping_ratio == relative(ratio, 1e-5));
 
     unsigned random = 1;  // a linear congruential sequence in [-0.5, 0.5)
     for (double& y : sum) {
@@ -112,7 +114,7 @@ TEST_CASE("decay: roots of one oscillation, with faster ones, a relaxation, and 
       y += 1e-4 * (random / 4294967296.0 - 0.5);
     }
     fit = fit_decay(sum, step);
-    CHECK(fit.root.frequency == doctest::Approx(2500).epsilon(1e-3));
+    CHECK(fit.root.frequency == relative(2500, 1e-3));
     CHECK(std::abs(fit.root.damping_ratio - ratio) < 1e-3);
     CHECK(fit.residual > 1e-7);
     CHECK(fit.residual < 1e-3);
@@ -123,9 +125,9 @@ TEST_CASE("decay: a weak slow oscillation is passed over, what does not oscillat
   const double step = 1e-5;
   const VectorXd strong = oscillation(3000, 0.05, 1, 0, step, 200);
   CHECK(fit_decay(strong + oscillation(1200, 0.05, 0.01, 0, step, 200), step).root.frequency ==
-        doctest::Approx(3000).epsilon(1e-6));
+        relative(3000, 1e-6));
   CHECK(fit_decay(strong + oscillation(1200, 0.05, 0.9, 0, step, 200), step).root.frequency ==
-        doctest::Approx(1200).epsilon(1e-6));
+        relative(1200, 1e-6));
   VectorXd decay(200);
   for (int i = 0; i < 200; ++i) decay[i] = std::exp(-0.05 * i);
   CHECK_THROWS_WITH_AS(fit_decay(decay, step), doctest::Contains("nothing oscillates"), Error);
@@ -144,8 +146,8 @@ TEST_CASE("mass on an elastic and a lagging spring: roots of its cubic, by eigen
       -w * root.damping_ratio / std::sqrt(1 - root.damping_ratio * root.damping_ratio), w);
   const double m = 1.4, a = 0.6e-9, r = 2.2e-9, eta = 7.683e-6;
   CHECK(std::abs(m * eta * a * s * s * s + m * (a + r) * s * s + eta * s + 1.0) < 1e-12);
-  CHECK(root.frequency == doctest::Approx(2542.28).epsilon(2e-6));
-  CHECK(root.damping_ratio == doctest::Approx(0.048238).epsilon(2e-5));
+  CHECK(root.frequency == relative(2542.281, 1e-7));
+  CHECK(root.damping_ratio == relative(0.0482362, 1e-6));
 
   // Second order in the step: 32 samples an oscillation are kept.
   double before = 0;
@@ -156,8 +158,8 @@ TEST_CASE("mass on an elastic and a lagging spring: roots of its cubic, by eigen
     const double error =
         std::hypot(fit.root.frequency / root.frequency - 1, fit.root.damping_ratio / root.damping_ratio - 1);
     INFO("stride " << stride << ": " << fit.root.frequency << " Hz, " << fit.root.damping_ratio);
-    if (before > 0) CHECK(std::log2(before / error) == doctest::Approx(2).epsilon(0.02));
-    CHECK(trace.transmission_error[0] == doctest::Approx(0.01 * 2000 * (a + r)).epsilon(1e-9));
+    if (before > 0) CHECK(std::log2(before / error) == relative(2, 0.02));
+    CHECK(trace.transmission_error[0] == relative(0.01 * 2000 * (a + r), 1e-9));
     before = error;
   }
   CHECK(before < 3e-5);
@@ -193,11 +195,11 @@ TEST_CASE("held pair: one and two pairs, their mean, and no dependence on what i
   CHECK(a.state_phase == Eigen::Vector2d(0, 0.5));
   CHECK(a.natural_frequency[0] < a.natural_frequency[2]);
   CHECK(a.natural_frequency[2] < a.natural_frequency[1]);
-  CHECK(a.natural_frequency[2] == doctest::Approx(a.phase_natural_frequency.mean()).epsilon(1e-14));
-  CHECK(a.damping_ratio[2] == doctest::Approx(a.phase_damping_ratio.mean()).epsilon(1e-14));
+  CHECK(a.natural_frequency[2] == relative(a.phase_natural_frequency.mean(), 1e-14));
+  CHECK(a.damping_ratio[2] == relative(a.phase_damping_ratio.mean(), 1e-14));
   // Equal gears: a phase and its mirror image are the same.
   for (int i = 1; i < 64; ++i)
-    CHECK(a.phase_natural_frequency[i] == doctest::Approx(a.phase_natural_frequency[64 - i]).epsilon(5e-3));
+    CHECK(a.phase_natural_frequency[i] == relative(a.phase_natural_frequency[64 - i], 5e-3));
   // The first sample is the static difference, the last has decayed by the damping ratio.
   const double oscillations = a.time[a.time.size() - 1] * a.natural_frequency[1];
   const VectorXd two = a.transmission_error.row(1);
@@ -207,14 +209,41 @@ TEST_CASE("held pair: one and two pairs, their mean, and no dependence on what i
   for (double step : {1e-4, 1e-3, 0.05}) {
     const ImpactArtifact other = ring(coarse_impact(), step);
     INFO("let go " << step);
-    CHECK(other.least_mesh_force == doctest::Approx(1 - 0.85 * step).epsilon(0.1 * step));
+    CHECK(other.least_mesh_force == relative(1 - 0.85 * step, 0.1 * step));
     for (int state = 0; state < 3; ++state) {
-      CHECK(other.natural_frequency[state] == doctest::Approx(a.natural_frequency[state]).epsilon(2e-3));
-      CHECK(other.damping_ratio[state] == doctest::Approx(a.damping_ratio[state]).epsilon(1e-3));
+      CHECK(other.natural_frequency[state] == relative(a.natural_frequency[state], 2e-3));
+      // With 5 % a strip comes and goes, and the damping ratio of one pair moves by 0.3 %; see finer strips below.
+      CHECK(other.damping_ratio[state] == relative(a.damping_ratio[state], step > 0.01 ? 5e-3 : 1e-3));
     }
   }
   CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0), doctest::Contains("torque step"), Error);
   CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0.6), doctest::Contains("torque step"), Error);
+}
+
+TEST_CASE(
+    "held pair: four times the strips take away what breaks the mirror image and what depends on the step") {
+  // Windows stand a quarter strip off the contact, on the same side at a phase and at its mirror image: an error of
+  // first order in the strips, 2.3e-3 and 0.6e-3. One strip that comes or goes moves a damping ratio by up to
+  // 0.9 %; 60 strips: 0.02 %.
+  const auto mirror = [](const ImpactArtifact& a) {
+    double worst = 0;
+    for (int i = 1; i < 8; ++i)
+      worst = std::max(worst, std::abs(a.phase_natural_frequency[i] / a.phase_natural_frequency[16 - i] - 1));
+    return worst;
+  };
+  const auto spread = [](const ImpactArtifact& a, const ImpactArtifact& b) {
+    return std::max(furthest(a.natural_frequency, b.natural_frequency),
+                    furthest(a.damping_ratio, b.damping_ratio));
+  };
+  const auto with = [](int strips, double step) {
+    return impact(coarse_body(), coarse_body(), coarse_statics(150, strips), 463e6, coarse_impact(),
+                  {step, 16}, no_report);
+  };
+  const ImpactArtifact coarse = with(15, 1e-4), fine = with(60, 1e-4);
+  CHECK(mirror(coarse) < 3e-3);
+  CHECK(mirror(fine) < 0.3 * mirror(coarse));
+  CHECK(spread(with(15, 0.02), coarse) < 1.2e-2);
+  CHECK(spread(with(60, 0.02), fine) < 1e-3);
 }
 
 TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is refused") {
@@ -227,7 +256,7 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
     ImpactSlice slice = coarse_impact();
     const ImpactArtifact found = calibrated(slice, 0.05, state);
     slice.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
-    CHECK(ring(slice).damping_ratio[row] == doctest::Approx(0.05).epsilon(1e-6));
+    CHECK(ring(slice).damping_ratio[row] == relative(0.05, 1e-6));
     // It does not depend on the factor that the scene has now.
     slice.damping.rayleigh_stiffness = 1e-5;
     CHECK(calibrated(slice, 0.05, state).damping.rayleigh_stiffness == found.damping.rayleigh_stiffness);

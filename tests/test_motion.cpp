@@ -14,6 +14,7 @@
 #include "motion/statics.h"
 #include "motion/sweep.h"
 #include "paper_pair.h"
+#include "relative.h"
 #include "signal/spectrum.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -47,7 +48,7 @@ TEST_CASE(
     const auto between = [&](double a, double b) { return (1 - w) * a + w * b; };
     const double error = between(result.transmission_error[i], result.transmission_error[i + 1]);
     INFO("bore " << point.bore << " phase " << point.phase << ": " << error << " against " << point.error);
-    CHECK(error == doctest::Approx(point.error).epsilon(0.01));
+    CHECK(error == relative(point.error, 0.01));
     const double total = point.torque / 70.4769466e-3;
     CHECK(std::abs(between(result.tooth_load(i, 0), result.tooth_load(i + 1, 0)) - point.following) <
           0.02 * total);
@@ -61,10 +62,10 @@ TEST_CASE("mean mesh stiffness at 100 N m within 1 % of 463.5e6 N/m, and it rise
   double before = 0;
   for (double torque : {100.0, 200.0, 300.0}) {
     const StaticArtifact result = static_transmission(body, body, paper_statics(128), torque);
-    if (torque == 100) CHECK(result.mean_stiffness == doctest::Approx(463.5e6).epsilon(0.01));
+    if (torque == 100) CHECK(result.mean_stiffness == relative(463.5e6, 0.01));
     CHECK(result.mean_stiffness > before);
     before = result.mean_stiffness;
-    CHECK(result.contact_ratio == doctest::Approx(1.7547).epsilon(1e-4));
+    CHECK(result.contact_ratio == relative(1.7547, 1e-4));
   }
 }
 
@@ -85,8 +86,8 @@ TEST_CASE("equilibrium: forces times lever arms give the torque, the load alone 
         sum += result.tooth_load(i, j);
         moment += result.tooth_load(i, j) * contact.lever[0];
       }
-      CHECK(moment == doctest::Approx(torque).epsilon(1e-10));
-      CHECK(sum == doctest::Approx(torque / pair.gear(0).base_radius()).epsilon(corner ? 5e-3 : 1e-10));
+      CHECK(moment == relative(torque, 1e-10));
+      CHECK(sum == relative(torque / pair.gear(0).base_radius(), corner ? 5e-3 : 1e-10));
     }
   }
 }
@@ -100,7 +101,7 @@ TEST_CASE("tangent stiffness is the slope of load over transmission error at fix
   for (int i = 0; i < 16; ++i) {
     const double slope = 0.2 / 70.4769466e-3 / (more.transmission_error[i] - less.transmission_error[i]);
     // Strips change with the load's window and count, and enter contact one by one: 2 % of the tangent.
-    CHECK(at.stiffness_tangent[i] == doctest::Approx(slope).epsilon(0.02));
+    CHECK(at.stiffness_tangent[i] == relative(slope, 0.02));
     CHECK(at.stiffness_tangent[i] > at.stiffness_secant[i]);
   }
 }
@@ -124,10 +125,14 @@ TEST_CASE("contact pressure and half-width follow Hertz inside the flanks, and a
         REQUIRE_FALSE(pair.contact(phase).corner);
         const double radius = pair.relative_curvature_radius(phase * pair.base_pitch());
         const double a = std::sqrt(4 * force / width * radius / (kPi * modulus));
-        // Strips: 15 across at the mean load, fewer for a pair that carries less; the body's own strain under the
-        // contact is no part of Hertz.
-        CHECK(result.contact_half_width(i, j) == doctest::Approx(a).epsilon(0.01));
-        CHECK(result.contact_pressure(i, j) == doctest::Approx(2 * force / (kPi * a * width)).epsilon(0.015));
+        // Strips: 15 across at the mean load, fewer for a pair that carries less: 0.6 %. Beside a free tip
+        // edge the tooth is no half-plane: the contact is narrower by 1.3 % of (a / distance)^2, the same with
+        // 60 strips, 0.2 mm elements and 48 flank points.
+        const PairContact contact = pair.contact(phase);
+        const double edge = a / std::min(pair.tip_distance(contact, 0), pair.tip_distance(contact, 1));
+        const double allowed = 0.0075 + 0.014 * edge * edge;
+        CHECK(result.contact_half_width(i, j) == relative(a, allowed));
+        CHECK(result.contact_pressure(i, j) == relative(2 * force / (kPi * a * width), allowed));
       }
     CHECK(reported >= 64);  // every position has a pair inside its flanks
   }
@@ -154,14 +159,12 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   matching.near_field = "matching";
   const BodyArtifact matched = reduce(make_sector_mesh(body.design, matching), body.material, 5);
   CHECK(budget.choice.mean_stiffness_change[0] ==
-        doctest::Approx(static_transmission(matched, matched, paper_statics(128), 150).mean_stiffness / mean -
-                        1)
-            .epsilon(1e-9));
+        relative(static_transmission(matched, matched, paper_statics(128), 150).mean_stiffness / mean - 1,
+                 1e-9));
   StaticSlice by_line = paper_statics(128);
   by_line.fidelity.contact = "line";
-  CHECK(
-      budget.choice.mean_stiffness_change[1] ==
-      doctest::Approx(static_transmission(body, body, by_line, 150).mean_stiffness / mean - 1).epsilon(1e-9));
+  CHECK(budget.choice.mean_stiffness_change[1] ==
+        relative(static_transmission(body, body, by_line, 150).mean_stiffness / mean - 1, 1e-9));
 
   StaticSlice line = paper_statics(32);
   line.fidelity.contact = "line";
@@ -225,15 +228,15 @@ TEST_CASE("one line per pair: load balance, tangent, Hertz's pressure, and nothi
         REQUIRE_FALSE(pair.contact(phase).corner);
         const double radius = pair.relative_curvature_radius(phase * pair.base_pitch());
         const double a = std::sqrt(8 * force / width * radius / (kPi * body.material.youngs_modulus));
-        CHECK(at.contact_half_width(i, j) == doctest::Approx(a).epsilon(1e-9));
-        CHECK(at.contact_pressure(i, j) == doctest::Approx(2 * force / (kPi * a * width)).epsilon(1e-9));
+        CHECK(at.contact_half_width(i, j) == relative(a, 1e-9));
+        CHECK(at.contact_pressure(i, j) == relative(2 * force / (kPi * a * width), 1e-9));
       }
-      CHECK(moment == doctest::Approx(torque).epsilon(1e-12));
+      CHECK(moment == relative(torque, 1e-12));
       if (torque < 1) continue;  // gaps are round-off there
       const double slope = 2e-5 * torque / rb / (more.transmission_error[i] - less.transmission_error[i]);
       // Where half the load would reach an edge, the place where the tables are read moves with the torque, and the
       // tangent leaves that out.
-      CHECK(at.stiffness_tangent[i] == doctest::Approx(slope).epsilon(near_edge ? 6e-3 : 1e-5));
+      CHECK(at.stiffness_tangent[i] == relative(slope, near_edge ? 6e-3 : 1e-5));
     }
   }
   // The window sets the depth at which laws and tables meet; the strips are none.
@@ -275,12 +278,51 @@ TEST_CASE(
   CHECK((strips_only - finest).cwiseAbs().maxCoeff() < 1e-4 * finest.minCoeff());
 }
 
-TEST_CASE("equal gears: transmission error is even in phase, whichever gear drives") {
+TEST_CASE(
+    "equal gears: a mesh phase and its mirror image with the torque on the other gear are one problem") {
   const BodyArtifact& body = paper_body();
-  const StaticArtifact result = static_transmission(body, body, paper_statics(128), 150);
-  // Entry and exit differ only in who carries the torque at a corner: its lever arm, 0.5 %.
-  for (int i = 1; i < 64; ++i)
-    CHECK(result.transmission_error[i] == doctest::Approx(result.transmission_error[128 - i]).epsilon(3e-3));
+  const StaticSlice slice = paper_statics(128);
+  const StaticArtifact result = static_transmission(body, body, slice, 150);
+  const GearMeshModel model(body, body, slice.mesh);
+  const double rb = model.kinematics.gear(0).base_radius(), load = 150 / rb, depth = 1e-3;
+  std::array<std::vector<MatrixXd>, 2> tables;
+  for (int g = 0; g < 2; ++g)
+    for (int offset = -body.offsets; offset <= body.offsets; ++offset)
+      tables[g].push_back(model.gear[g].compliance(offset, depth));
+  // m: the gear's rotation over its base circle if 150 N m turn it and the other is held.
+  const auto deflection = [&](double phase, int gear, int strips) {
+    const ContactRange range = contact_range(
+        model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), strips,
+        load / model.kinematics.contact_ratio(), 1.8 * load, 3 * result.transmission_error.maxCoeff());
+    const MeshPosition position = make_position(model, phase, range);
+    MatrixXd a = local_compliance(model, position, depth);
+    position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
+                           a);
+    ActiveSet active;
+    ComplementaritySolver solver;
+    return equilibrium(a, position.gap, position.strip_lever[gear] / rb, load, 0, active, solver).x;
+  };
+  double coarse = 0, fine = 0, corner = 0, elsewhere = 0;
+  for (int i = 1; i < 64; ++i) {
+    // Windows stand a quarter strip off, on the same side in both: an error of the strips.
+    const double mirrored = deflection(1 - i / 128.0, 1, 15);
+    coarse = std::max(coarse, std::abs(result.transmission_error[i] / mirrored - 1));
+    if (i % 2)
+      fine = std::max(fine, std::abs(deflection(i / 128.0, 0, 60) / deflection(1 - i / 128.0, 1, 60) - 1));
+    // With the torque on the driver at both, they differ by the lever arm of a corner.
+    bool at_corner = false;
+    for (int position : {i, 128 - i})
+      for (int j = 0; j < result.pair.size(); ++j)
+        at_corner |= result.tooth_load(position, j) > 0 &&
+                     model.kinematics.contact(result.mesh_phase[position] + result.pair[j]).corner;
+    double& worst = at_corner ? corner : elsewhere;
+    worst = std::max(worst, std::abs(result.transmission_error[i] / result.transmission_error[128 - i] - 1));
+  }
+  CHECK(coarse < 2e-4);  // 1.2e-4
+  CHECK(fine < 0.4 * coarse);
+  CHECK(elsewhere < 2e-4);
+  CHECK(corner > 2e-3);
+  CHECK(corner < 6e-3);
 }
 
 TEST_CASE("corner rule: without it the pair loses its early contact, an angle between keeps part of it") {
@@ -330,12 +372,12 @@ TEST_CASE(
   StaticSlice slice = paper_statics(8);
   slice.mesh.corner.enabled = false;
   const StaticArtifact one = static_transmission(strain, strain, slice, 12467.7);
-  CHECK(one.contact_half_width(0, 1) == doctest::Approx(1e-3).epsilon(0.025));
-  CHECK(one.contact_pressure(0, 1) == doctest::Approx(4.434e9).epsilon(0.025));
+  CHECK(one.contact_half_width(0, 1) == relative(1e-3, 0.025));
+  CHECK(one.contact_pressure(0, 1) == relative(4.434e9, 0.025));
   slice.contact.strips = 60;
   const StaticArtifact finer = static_transmission(strain, strain, slice, 12467.7);
-  CHECK(finer.transmission_error[0] == doctest::Approx(one.transmission_error[0]).epsilon(1e-4));
-  CHECK(finer.contact_half_width(0, 1) == doctest::Approx(one.contact_half_width(0, 1)).epsilon(2e-3));
+  CHECK(finer.transmission_error[0] == relative(one.transmission_error[0], 1e-4));
+  CHECK(finer.contact_half_width(0, 1) == relative(one.contact_half_width(0, 1), 2e-3));
 
   slice.mesh.corner.enabled = true;
   slice.contact.strips = 15;
@@ -346,7 +388,7 @@ TEST_CASE(
     CHECK(shared.transmission_error[i] < 1.001 * one.transmission_error[i]);
     CHECK((shared.tooth_load.row(i).array() > 0).count() >= 2);
     CHECK(shared_finer.transmission_error[i] ==
-          doctest::Approx(shared.transmission_error[i]).epsilon(3e-3));  // force on tip edges
+          relative(shared.transmission_error[i], 3e-3));  // force on tip edges
   }
 }
 
@@ -409,7 +451,7 @@ TEST_CASE("equilibrium: the load is met to 1e-12, to 1e-10 where no double lies 
   for (int i = 0; i < 40; ++i) {
     const double load = 20 * (1 + i / 7.0);
     CHECK(at(0, load).residual < 1e-12);
-    CHECK(at(0, load).x / (1e-9 * load) == doctest::Approx(1).epsilon(1e-11));
+    CHECK(at(0, load).x / (1e-9 * load) == relative(1, 1e-11));
     const Equilibrium rounded = at(1e-3, load);
     CHECK(rounded.residual < 1e-10);
     CHECK(std::abs(rounded.residual - std::abs(rounded.p[0] / load - 1)) < 1e-15);
@@ -443,16 +485,18 @@ TEST_CASE("plane strain, any bore: a finer table and finer elements change no tr
 TEST_CASE("at rest the modal form gives the static transmission error, whatever modes are kept") {
   const BodyArtifact& body = paper_body();
   const StaticSlice slice = paper_statics(128);
-  const StaticArtifact statics = static_transmission(body, body, slice, 150);
+  // A window twice as wide as the load wants, which the statics need not widen: the strips of both are the same.
+  const StaticArtifact statics = static_transmission(body, body, slice, 150, 2);
   const GearMeshModel model(body, body, slice.mesh);
   const double load = 150 / model.kinematics.gear(0).base_radius();
   for (const char* rung : {"quasi-static", "lagged", "modal"}) {
     RollingDynamics dynamics(model, paper_parameters(statics.mean_stiffness, rung));
     dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
-                                     15, load / model.kinematics.contact_ratio(), 1.1 * load, 3e-6),
+                                     15, load / model.kinematics.contact_ratio(), 4 * 1.1 * load,
+                                     3 * statics.transmission_error.maxCoeff()),
                        1);
     dynamics.rest();
-    CHECK(dynamics.static_deflection() == doctest::Approx(statics.transmission_error[0]).epsilon(1e-9));
+    CHECK(dynamics.static_deflection() == relative(statics.transmission_error[0], 1e-9));
   }
 }
 
@@ -475,9 +519,9 @@ TEST_CASE("frozen one-pair and two-pair frequencies: few modes and a lagged resi
   };
   for (int phase : {0, 1}) {
     const double all = frequency(many, "modal", phase);
-    CHECK(frequency(body, "modal", phase) == doctest::Approx(all).epsilon(0.003));
-    CHECK(frequency(body, "lagged", phase) == doctest::Approx(all).epsilon(0.005));
-    CHECK(all == doctest::Approx(phase == 0 ? 2480 : 3040).epsilon(0.01));
+    CHECK(frequency(body, "modal", phase) == relative(all, 0.003));
+    CHECK(frequency(body, "lagged", phase) == relative(all, 0.005));
+    CHECK(all == relative(phase == 0 ? 2480 : 3040, 0.01));
   }
 }
 
@@ -604,7 +648,7 @@ TEST_CASE("a speed is steady when its state repeats: sweeps up and down meet whe
   for (int i = 0; i < 3; ++i) {
     CHECK(up.mesh_frequency[i] == down.mesh_frequency[2 - i]);
     CHECK(up.residual[i] < 1e-6);
-    CHECK(rms(up, i) == doctest::Approx(rms(down, 2 - i)).epsilon(1e-5));
+    CHECK(rms(up, i) == relative(rms(down, 2 - i), 1e-5));
   }
 }
 
@@ -618,10 +662,10 @@ TEST_CASE("at less damping there are two branches at 150 N m and 2400 Hz, and th
   slice.damping.rayleigh_stiffness = 5.5e-6;
   const SweepArtifact up = sweep(body, body, statics, reference, slice, "up", no_report);
   const SweepArtifact down = sweep(body, body, statics, reference, slice, "down", no_report);
-  CHECK(rms(up, 0) == doctest::Approx(1.15e-6).epsilon(0.05));
-  CHECK(rms(down, 15) == doctest::Approx(7.2e-6).epsilon(0.05));
+  CHECK(rms(up, 0) == relative(1.15e-6, 0.05));
+  CHECK(rms(down, 15) == relative(7.2e-6, 0.05));
   REQUIRE(up.jump_frequency.size() == 1);
-  CHECK(up.jump_frequency[0] == doctest::Approx(2790).epsilon(0.01));
+  CHECK(up.jump_frequency[0] == relative(2790, 0.01));
   CHECK(up.jump_width[0] < 1);
   CHECK(down.jump_frequency.size() == 0);
   CHECK(up.mesh_force.row(0).minCoeff() > 0);
@@ -642,7 +686,7 @@ TEST_CASE("time step: second order in the steps per period") {
   const double coarse = std::abs(values[0] - values[1]), fine = std::abs(values[1] - values[2]),
                finest = std::abs(values[2] - values[3]);
   // RMS is a smooth function of the step only up to the kinks where pairs enter: orders between 1.5 and 2.7.
-  CHECK(std::log2(coarse / finest) / 2 == doctest::Approx(2).epsilon(0.3));
+  CHECK(std::log2(coarse / finest) / 2 == relative(2, 0.3));
   CHECK(fine < coarse);
 }
 

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "files/publish.h"
 #include "files/scene.h"
+#include "relative.h"
 
 using namespace whine;
 namespace fs = std::filesystem;
@@ -109,7 +110,7 @@ TEST_CASE("the default scene reads as it stands, in SI") {
   CHECK(s.gears[1].design.teeth == 50);
   CHECK(s.gears[1].total_inertia == 0.0148);
   CHECK(s.gears[0].design.module == 0.003);  // 3.0 / 1000 rounds to the double nearest to 0.003
-  CHECK(s.gears[0].design.pressure_angle == doctest::Approx(20 * std::numbers::pi / 180).epsilon(1e-15));
+  CHECK(s.gears[0].design.pressure_angle == relative(20 * std::numbers::pi / 180, 1e-15));
   CHECK(s.gears[0].design.bore_radius == 0.04);
   CHECK(s.gears[0].material.youngs_modulus == 207e9);
   CHECK(s.gears[0].material.plane_stress);
@@ -121,7 +122,7 @@ TEST_CASE("the default scene reads as it stands, in SI") {
   CHECK(s.operation.frequency_to == 4000);
   CHECK(s.fidelity.integrator == "exact");
   CHECK(s.body.modes == 5);
-  CHECK(s.body.element_size == doctest::Approx(0.0004).epsilon(1e-15));
+  CHECK(s.body.element_size == relative(0.0004, 1e-15));
   CHECK(s.contact.strips == 15);
   CHECK(s.time.min_sample_rate == 250e3);
 }
@@ -133,7 +134,7 @@ TEST_CASE("keys left out take the defaults of the structs") {
   CHECK(s.gears[0].design.addendum == design.addendum);
   CHECK(s.gears[0].design.dedendum == design.dedendum);
   CHECK(s.gears[0].design.rack_tip_radius == design.rack_tip_radius);
-  CHECK(s.damping.undamped_depth == doctest::Approx(Damping{}.undamped_depth).epsilon(1e-15));
+  CHECK(s.damping.undamped_depth == relative(Damping{}.undamped_depth, 1e-15));
   CHECK(s.damping.bearing_ratio == Damping{}.bearing_ratio);
   CHECK(s.fidelity.body == Fidelity{}.body);
   CHECK(s.fidelity.contact == Fidelity{}.contact);
@@ -312,7 +313,7 @@ TEST_CASE("the corner rule is on, off, or an angle") {
   CHECK(rule("true").enabled);
   CHECK(std::isinf(rule("true").largest_angle));
   CHECK_FALSE(rule("false").enabled);
-  CHECK(rule("2.5").largest_angle == doctest::Approx(2.5 * std::numbers::pi / 180).epsilon(1e-15));
+  CHECK(rule("2.5").largest_angle == relative(2.5 * std::numbers::pi / 180, 1e-15));
   CHECK(contains(file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = -1")),
                  "at least 0"));
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "relative.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 
@@ -91,31 +92,31 @@ TEST_CASE("harmonics: known mean and amplitudes come back to 1e-14 of the larges
 
 TEST_CASE("harmonics: Parseval, the RMS of the samples is that of all amplitudes") {
   const Harmonics h = harmonics(sampled(64, 1, known_signal), 31);
-  CHECK(h.rms == doctest::Approx(std::sqrt(0.5 * h.amplitude.squaredNorm())).epsilon(1e-14));
+  CHECK(h.rms == relative(std::sqrt(0.5 * h.amplitude.squaredNorm()), 1e-14));
   double exact = 0;
   for (int k = 1; k <= 12; ++k) exact += 0.5 * known_amplitude(k) * known_amplitude(k);
-  CHECK(h.rms == doctest::Approx(std::sqrt(exact)).epsilon(1e-13));
+  CHECK(h.rms == relative(std::sqrt(exact), 1e-13));
 }
 
 TEST_CASE("harmonics: where the period starts changes nothing") {
   const Harmonics a = harmonics(sampled(128, 1, known_signal), 10);
   const Harmonics b = harmonics(sampled(128, 1, [](double t) { return known_signal(t + 0.3141); }), 10);
   CHECK((a.amplitude - b.amplitude).cwiseAbs().maxCoeff() < 1e-13 * 4e-6);
-  CHECK(b.rms == doctest::Approx(a.rms).epsilon(1e-13));
-  CHECK(b.mean == doctest::Approx(a.mean).epsilon(1e-14));
+  CHECK(b.rms == relative(a.rms, 1e-13));
+  CHECK(b.mean == relative(a.mean, 1e-14));
 }
 
 TEST_CASE("harmonics: several periods give the harmonics of one; a subharmonic counts in the RMS only") {
   const Harmonics one = harmonics(sampled(96, 1, known_signal), 10);
   const Harmonics three = harmonics(sampled(288, 3, known_signal), 10, 3);
   CHECK((one.amplitude - three.amplitude).cwiseAbs().maxCoeff() < 1e-13 * 4e-6);
-  CHECK(three.rms == doctest::Approx(one.rms).epsilon(1e-13));
+  CHECK(three.rms == relative(one.rms, 1e-13));
 
   const auto sub = [](double t) { return 3.0 * std::cos(0.5 * kTwoPi * t) + 4.0 * std::cos(kTwoPi * t); };
   const Harmonics two = harmonics(sampled(128, 2, sub), 5, 2);
-  CHECK(two.amplitude[0] == doctest::Approx(4.0).epsilon(1e-14));
+  CHECK(two.amplitude[0] == relative(4.0, 1e-14));
   CHECK(two.amplitude.tail(4).maxCoeff() < 1e-14);
-  CHECK(two.rms == doctest::Approx(std::sqrt(12.5)).epsilon(1e-14));
+  CHECK(two.rms == relative(std::sqrt(12.5), 1e-14));
 }
 
 TEST_CASE("harmonics: a constant has no oscillation at all") {
@@ -137,14 +138,14 @@ TEST_CASE("harmonics: a record of n + 1/4 periods is wrong by the known amounts,
     CAPTURE(n);
     const int samples = 400 * n + 100;
     const auto sine = [](double t) { return std::sin(kTwoPi * (t - 0.125)); };
-    CHECK(harmonics(sampled(samples, n, sine), 1, n).rms == doctest::Approx(std::sqrt(0.5)).epsilon(1e-13));
+    CHECK(harmonics(sampled(samples, n, sine), 1, n).rms == relative(std::sqrt(0.5), 1e-13));
     const double rms = harmonics(sampled(samples, n + 0.25, sine), 0).rms;
     CHECK(std::abs(1.0 - rms / std::sqrt(0.5) - error) < tolerance);
   }
   // Half a bin off: the line keeps 2/pi of its amplitude (0.6366), here for 20.5 periods at bin 20; the other
   // line's leakage is 1/41 of it.
   const Harmonics half = harmonics(sampled(8192, 20.5, [](double t) { return std::cos(kTwoPi * t); }), 1, 20);
-  CHECK(half.amplitude[0] == doctest::Approx(2.0 / std::numbers::pi).epsilon(1.5 / 41));
+  CHECK(half.amplitude[0] == relative(2.0 / std::numbers::pi, 1.5 / 41));
 }
 
 TEST_CASE("harmonics: records that cannot be answered are refused") {
@@ -186,15 +187,14 @@ TEST_CASE("response: mean, RMS, harmonics, loads and separations of a sweep made
   CHECK(r.model == "finite elements");
   CHECK(r.mesh_frequency == Eigen::VectorXd(Eigen::Vector2d(2000, 1900)));
   // 1e-13: round-off of 64 samples
-  CHECK(r.dte_mean[0] == doctest::Approx(5e-6).epsilon(1e-13));
-  CHECK(r.dte_rms[0] == doctest::Approx(std::sqrt(2.5) * 1e-6).epsilon(1e-13));
-  CHECK(r.dte_rms[1] == doctest::Approx(std::sqrt(12.5) * 1e-6).epsilon(1e-13));
+  CHECK(r.dte_mean[0] == relative(5e-6, 1e-13));
+  CHECK(r.dte_rms[0] == relative(std::sqrt(2.5) * 1e-6, 1e-13));
+  CHECK(r.dte_rms[1] == relative(std::sqrt(12.5) * 1e-6, 1e-13));
   CHECK(std::abs(r.dte_mean[1]) < 1e-19);
   REQUIRE(r.dte_harmonic.cols() == 10);
-  CHECK(r.dte_harmonic(0, 0) == doctest::Approx(2e-6).epsilon(1e-13));
-  CHECK(r.dte_harmonic(0, 2) == doctest::Approx(1e-6).epsilon(1e-13));
-  CHECK(r.dte_harmonic(1, 0) ==
-        doctest::Approx(4e-6).epsilon(1e-13));  // of the mesh frequency, not of its half
+  CHECK(r.dte_harmonic(0, 0) == relative(2e-6, 1e-13));
+  CHECK(r.dte_harmonic(0, 2) == relative(1e-6, 1e-13));
+  CHECK(r.dte_harmonic(1, 0) == relative(4e-6, 1e-13));  // of the mesh frequency, not of its half
   CHECK(r.dte_harmonic(0, 1) < 1e-19);
   CHECK(r.mesh_force_max[0] == 2031);
   CHECK(r.tooth_load_max[0] == 0.75 * 2031);
@@ -217,7 +217,7 @@ TEST_CASE(
   s.period_multiple.conservativeResize(1);
   const ResponseArtifact narrow = response(s);
   CHECK((wide.dte_harmonic.row(0) - narrow.dte_harmonic.row(0)).norm() < 1e-19);
-  CHECK(wide.dte_rms[0] == doctest::Approx(narrow.dte_rms[0]).epsilon(1e-14));
+  CHECK(wide.dte_rms[0] == relative(narrow.dte_rms[0], 1e-14));
   CHECK(wide.separations_per_period[0] == narrow.separations_per_period[0]);
 }
 
@@ -226,7 +226,7 @@ TEST_CASE("response: a motion that is not periodic counts with all that is store
   s.period_multiple[1] = 0;
   const ResponseArtifact r = response(s);
   CHECK(r.period_multiple[1] == 0);
-  CHECK(r.dte_rms[1] == doctest::Approx(std::sqrt(12.5) * 1e-6).epsilon(1e-13));
+  CHECK(r.dte_rms[1] == relative(std::sqrt(12.5) * 1e-6, 1e-13));
   CHECK(r.separation_fraction[1] == 12.0 / 64);
 }
 
