@@ -90,6 +90,11 @@ void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
       stiffness(i + 1, i + 1) = w * w;
     }
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(stiffness, mass);
+    if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[1] > 0))
+      fail(Failure::numerical, "the ", k, " torsional modes of the ", g ? "driven gear" : "driver", ", from ",
+           body.eigenfrequency[torsional[0]], " Hz with the hub fixed, have no frequencies at an inertia of ",
+           parameters_.inertia[g], " kg m2, of which they couple ", mass.row(0).tail(k).squaredNorm(),
+           "; rebuild body.h5");
     for (int i = 1; i <= k; ++i) {  // 0 is the rigid rotation
       Coordinate c;
       c.gear = g;
@@ -132,16 +137,35 @@ constexpr int kPairNodes = 8;  // columns of nodes: kWindowNodes and zeros up to
 static_assert(kFields % kLanes == 0 && kPairNodes % kLanes == 0 && kPairNodes >= kWindowNodes);
 
 // (flank, field) orthonormal: the loads of a flank that its own displacements, and before all those of its neighbours,
-// depend on most. tables: flexibility by offset between teeth, -max..max.
-MatrixXd lagged_fields(const std::vector<MatrixXd>& tables) {
+// depend on most. tables: flexibility of gear g by offset between teeth, -max..max.
+MatrixXd lagged_fields(const std::vector<MatrixXd>& tables, int g) {
   const int max = static_cast<int>(tables.size()) / 2, m = static_cast<int>(tables[max].rows());
-  // What teeth do to each other has rank 4 to 1e-8 of their own flexibility. The weight takes it whole.
+  // What a tooth and all others within the body's offsets do to each other has rank 7 to 9 to 1e-8 of the tooth's own
+  // flexibility (16 to 50 teeth, undamped depths up to 1 m). The weight takes it whole; the fields left over go to
+  // the tooth itself.
   constexpr double kNeighbourWeight = 1e6;
+  // What no field holds follows at once. With 12 fields it is 5e-5 of the whole for 50 teeth, 1e-4 for 16; a body that
+  // leaves ten times that is no tooth that fields were chosen for.
+  constexpr double kMostRemainder = 1e-3;
   MatrixXd importance = tables[max] * tables[max];
   for (int offset = -max; offset <= max; ++offset)
     if (offset != 0) importance += kNeighbourWeight * tables[offset + max] * tables[offset + max].transpose();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(importance);
-  return eigen.eigenvectors().rightCols(std::min(kFields, m));
+  if (eigen.info() != Eigen::Success)
+    fail(Failure::numerical, "the lagged fields of the ", g ? "driven gear" : "driver",
+         " were not found: its ", m, " flank points have a flexibility of norm ", tables[max].norm(),
+         " m/N; rebuild body.h5");
+  const MatrixXd fields = eigen.eigenvectors().rightCols(std::min(kFields, m));
+  const double whole = tables[max].norm();
+  for (int offset = -max; offset <= max; ++offset) {
+    const MatrixXd& r = tables[offset + max];
+    const double rest = (r - fields * (fields.transpose() * r * fields) * fields.transpose()).norm();
+    if (!(rest <= kMostRemainder * whole))
+      fail(Failure::numerical, "the ", fields.cols(), " lagged fields of the ", g ? "driven gear" : "driver",
+           " leave ", rest / whole, " of a tooth's residual flexibility to follow at once (between teeth ",
+           offset, " apart), above ", kMostRemainder, "; rebuild body.h5 with more modes or finer elements");
+  }
+  return fields;
 }
 
 }  // namespace
@@ -169,7 +193,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     const int offsets = model_.gear[g].body().offsets;
     for (int offset = -offsets; offset <= offsets; ++offset)
       known.push_back(rigid ? MatrixXd::Zero(m, m) : model_.gear[g].residual(offset, depth, kept_[g]));
-    fields_[g] = lagged_fields(known);
+    fields_[g] = lagged_fields(known, g);
     coupling_[g] = MatrixXd::Zero(kFields * pairs, kFields * pairs);
     const int own = static_cast<int>(fields_[g].cols());
     for (int i = 0; i < pairs; ++i)
@@ -341,6 +365,10 @@ double RollingDynamics::frozen_frequency(int i) {
   MatrixXd stiffness = touching.transpose() * compliance.ldlt().solve(touching);
   stiffness.diagonal() += frequency_squared_;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(stiffness, Eigen::EigenvaluesOnly);
+  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 0))
+    fail(Failure::numerical, "at mesh phase ", position.mesh.phase, " the pair with ", active.strips.size(),
+         " strips in contact has no natural frequency: least eigenvalue ", eigen.eigenvalues()[0],
+         " rad2/s2 of a stiffness of norm ", stiffness.norm());
   return std::sqrt(eigen.eigenvalues()[0]) / kTwoPi;
 }
 
@@ -348,6 +376,7 @@ HeldMesh RollingDynamics::hold(int i) const {
   const Position& position = positions_[i];
   const MeshPosition& mesh = position.mesh;
   HeldMesh held;
+  held.phase = mesh.phase;
   held.frequency_squared = frequency_squared_;
   held.damping.resize(frequency_squared_.size());
   held.participation.resize(mesh.strips(), frequency_squared_.size());
@@ -362,6 +391,12 @@ HeldMesh RollingDynamics::hold(int i) const {
   mesh.add_to_strips(position.lagged, held.residual);
   held.gap = mesh.gap;
   held.first_strip = mesh.first_strip;
+  for (size_t j = 0; j < mesh.pairs.size(); ++j) {
+    if (!mesh.pairs[j].low_is_edge) held.window_end.push_back(mesh.first_strip[j]);
+    if (!mesh.pairs[j].high_is_edge) held.window_end.push_back(mesh.first_strip[j + 1] - 1);
+  }
+  held.next_corner_gap = mesh.next_corner_gap;
+  held.lost_corner_gap = mesh.lost_corner_gap;
   held.relaxation = relaxation();
   held.newmark = parameters_.fidelity.integrator == "newmark";
   return held;
@@ -579,8 +614,8 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
     period.transmission_error[sample] = error;
     if (error > mesh.lost_corner_gap)
       fail(Failure::numerical, "at mesh phase ", mesh.phase, " the transmission error ", error * 1e6,
-           " micrometres closes the gap of a tip edge that would touch below the involute; lower the torque "
-           "or set "
+           " micrometres closes the gap of ", mesh.lost_corner_gap * 1e6,
+           " micrometres of a tip edge that would touch below the involute; lower the torque or set "
            "corner_contact = false");
     if (error > mesh.next_corner_gap) return false;
   }

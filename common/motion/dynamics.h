@@ -15,6 +15,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "files/schemas.h"
@@ -35,6 +36,7 @@ struct DynamicParameters {
 // The pair held at one phase: z'' + damping z' + frequency_squared z = torque - participation^T p under contact with
 // gap d = gap - participation z + U + local p, relaxation U' + U = residual p.
 struct HeldMesh {
+  double phase = 0;                   // 1: mesh phase
   Eigen::VectorXd frequency_squared;  // (coordinate) rad2 s-2; the first is the rigid rotation, 0
   Eigen::VectorXd damping;            // (coordinate) s-1
   Eigen::VectorXd torque;             // (coordinate) constant force of the torques
@@ -43,13 +45,18 @@ struct HeldMesh {
   Eigen::MatrixXd local, residual;    // (strip, strip) m N-1
   Eigen::VectorXd gap;                // (strip) m
   std::vector<int> first_strip;       // (pair + 1)
-  double relaxation = 0;              // s; 0: the residual flexibility follows at once
+  std::vector<int>
+      window_end;  // strips at an end of their window that is no tip edge: no force may stand there
+  double next_corner_gap = std::numeric_limits<double>::infinity();  // m, see MeshPosition
+  double lost_corner_gap = std::numeric_limits<double>::infinity();  // m
+  double relaxation = 0;  // s; 0: the residual flexibility follows at once
   bool newmark = false;
 };
 
 class RollingDynamics {
  public:
-  // Throws Error(input) if a total inertia is not above what the body's modes carry.
+  // Throws Error(input) if a total inertia is not above what the body's modes carry, Error(numerical) if the modes of a
+  // gear free to turn cannot be found.
   RollingDynamics(const GearMeshModel& model, const DynamicParameters& parameters);
 
   // State at the start of a mesh period; lag fields per pair -reach..reach.
@@ -69,7 +76,8 @@ class RollingDynamics {
     int fallbacks = 0;                      // steps that block pivoting alone could not solve
   };
 
-  // Builds the strips at `steps` phases; keeps nothing of an earlier range.
+  // Builds the strips at `steps` phases; keeps nothing of an earlier range. Throws Error(numerical) if the lagged fields
+  // leave more than 1e-3 of a gear's residual flexibility to follow at once.
   void set_range(const ContactRange& range, int steps);
   // mesh frequency: Hz; steps per period must divide the steps of the range.
   void set_speed(double mesh_frequency, int steps);
@@ -80,7 +88,7 @@ class RollingDynamics {
   // times as much.
   bool march(State& state, Period& period, Ledger* ledger = nullptr);
   // Lowest natural frequency, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
-  // the range): undamped, the residual flexibility follows at once.
+  // the range): undamped, the residual flexibility follows at once. Throws Error(numerical) if there is none.
   double frozen_frequency(int i);
   // The pair at phase i / (steps of the range), to be moved without rolling.
   HeldMesh hold(int i) const;
