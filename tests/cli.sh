@@ -98,6 +98,7 @@ rm -f calibrated.*
 refused "a ring-down without --output or --calibrate" 2 'calibrate is needed' "${ring_down[@]}"
 refused "a ring-down with both" 2 'calibrate' "${stage_impact[@]}" --calibrate 0.05
 refused "a torque step above a half" 3 'torque step of 0.6' "${stage_impact[@]}" --torque-step 0.6
+refused "a ring-down so large that contact comes and goes" 1 'damped oscillations leave [0-9.e-]+ of the decay' "${stage_impact[@]}" --torque-step 0.5
 refused "a damping ratio that no eta gives" 3 'the largest is near' "${ring_down[@]}" --calibrate 0.9
 refused "a contact state that does not occur" 3 "'five' does not occur.*one, two, mean" "${ring_down[@]}" --calibrate 0.05 --contact-state five
 at_torque=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --output x.h5 --torque)
@@ -105,7 +106,7 @@ for torque in ten nan inf 0x10 '' '100 ' 1e999; do
   refused "a torque of '$torque', which is no finite number" 2 "torque.*'$torque'" "${at_torque[@]}" "$torque"; done
 refused "a torque below zero" 3 'torque' "${at_torque[@]}" -5
 refused "a torque whose contact leaves the flanks" 1 '400000 N m contact leaves the flanks: window [0-9.]+ mm' "${at_torque[@]}" 400000
-for stage in static sweep; do
+for stage in static sweep impact; do
   mkdir -p line; sed 's/^contact = .*/contact = "line"/' out/scene/params/$stage.toml > line/$stage.toml; done
 line_static=("$bin/gear-static" --params line/static.toml "${pair[@]}" --torque 100 --output line/static.h5)
 if "${line_static[@]}" --next-rung > said 2>&1 && grep -q 'strips change, elsewhere' said; then ok "gear-static --next-rung"; else
@@ -122,6 +123,7 @@ refused "a sweep on a static result of another contact" 3 'was made with contact
 refused "a sweep whose dampers come from another contact" 3 'line/static.h5: was made with contact = "line"' \
   $(sweep scene up | sed 's|--reference-static out/scene/T100|--reference-static line|')
 refused "a sweep with one line per pair" 3 'not available in sweeps' $(sweep scene up | sed 's|out/scene/params|line|')
+refused "a ring-down with one line per pair" 3 'not available in ring-downs' "${stage_impact[@]//out\/scene\/params/line}"
 rm -rf line
 sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else

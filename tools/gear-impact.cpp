@@ -44,8 +44,9 @@ void print_calibration(const whine::ImpactArtifact& a, double ratio, const std::
 
 void body(int argc, char** argv) {
   CLI::App app{"Natural frequency and damping of the held pair by ring-down", "gear-impact"};
-  std::string params, driver, driven, statics, reference, output, step_word = "0.01", ratio_word,
-                                                                  state = "two";
+  whine::ImpactPlan plan;
+  std::string params, driver, driven, statics, reference, output, step_word = whine::text(plan.torque_step),
+                                                                  ratio_word, state = "two";
   app.add_option("--params", params, "slice of the scene: out/<scene>/params/impact.toml")->required();
   app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
   app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
@@ -65,7 +66,6 @@ void body(int argc, char** argv) {
   if (output.empty() && ratio_word.empty())
     whine::fail(whine::Failure::usage, "--output or --calibrate is needed; see --help");
 
-  whine::ImpactPlan plan;
   plan.torque_step = whine::number_option("--torque-step", step_word);
   const whine::ImpactSlice slice = whine::read_impact_slice(params);
   for (const std::string& file : {statics, reference}) {

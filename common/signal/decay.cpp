@@ -37,10 +37,16 @@ Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step) {
   for (Eigen::Index j = 0; j <= pencil; ++j) hankel.col(j) = samples.segment(j, n - pencil);
   const Eigen::BDCSVD<MatrixXd> svd(hankel, Eigen::ComputeThinV);
   const VectorXd& sigma = svd.singularValues();
+  if (svd.info() != Eigen::Success || !sigma.allFinite())
+    fail(Failure::numerical, "the decay of ", n, " samples with a norm of ", norm, " has no singular values");
   const auto roots = std::min<Eigen::Index>(kMostRoots, (sigma.array() > kNoise * sigma[0]).count());
   const MatrixXd rows = svd.matrixV().leftCols(roots);
   const MatrixXd shift = rows.topRows(pencil).colPivHouseholderQr().solve(rows.bottomRows(pencil));
-  const VectorXcd z = Eigen::EigenSolver<MatrixXd>(shift, false).eigenvalues();
+  const Eigen::EigenSolver<MatrixXd> eigen(shift, false);
+  if (eigen.info() != Eigen::Success)
+    fail(Failure::numerical, "the ", roots, " roots of the decay of ", n,
+         " samples were not found: the shift between its rows has a norm of ", shift.norm());
+  const VectorXcd z = eigen.eigenvalues();
 
   MatrixXcd powers(n, roots);
   powers.row(0).setOnes();
