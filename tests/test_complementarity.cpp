@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "peer/strip_problems.h"
+#include "relative.h"
 
 using namespace whine;
 using Eigen::MatrixXd;
