@@ -494,6 +494,35 @@ TEST_CASE(
   CHECK(steps < 60);
 }
 
+TEST_CASE("line contact: followed from a start nearby or far, d is 0 within round-off where there is force") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int quick = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 1 + trial % 4;
+    const Lines lines = random_lines(n, random);
+    const VectorXd e = VectorXd::NullaryExpr(n, [&] { return 4e-6 * uniform(random); });
+    VectorXd force = VectorXd::Zero(n), d(n);
+    solve_line_contact(lines.c, lines.law, e, force, d);
+    for (double off : {1e-9, 1e-3, 0.3, 3.0}) {
+      VectorXd near = force;
+      for (double& f : near) f *= 1 + off * uniform(random);
+      const Certificate certificate = solve_line_contact(lines.c, lines.law, e, near, d);
+      quick += off == 1e-9 && certificate.factorisations == 1;
+      CHECK((near - force).cwiseAbs().maxCoeff() < 1e-11 * (1 + force.maxCoeff()));
+      CHECK(certificate.residual < 1e-13);
+      for (int i = 0; i < n; ++i) {
+        const double own = near[i] > 0 ? lines.law[i].at(near[i]).indentation : 0;
+        const double gap = e[i] + own + lines.c.row(i).dot(near);
+        const double size = std::abs(e[i]) + own + lines.c.row(i).cwiseAbs().dot(near);
+        CHECK(std::abs(gap - d[i]) < 1e-14 * size);
+        CHECK((near[i] > 0 ? std::abs(gap) : -gap) < 1e-14 * size);
+      }
+    }
+  }
+  CHECK(quick > 150);  // the others carry nothing, or four
+}
+
 TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be solved is refused") {
   std::mt19937 random(3);
   const Lines lines = random_lines(2, random);

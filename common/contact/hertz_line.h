@@ -54,9 +54,7 @@ class HertzLine {
       edge_.offset = 0.5 * distance * distance / radius;
       edge_.energy = on(inside_, edge_from_).energy - on(edge_, edge_from_).energy;
     }
-    const double widest = std::exp(constant_ - 1 - kLeastSlope);
-    const double inside = inside_.force(widest) / coefficient_;
-    largest_force_ = inside < edge_from_ ? inside : std::max(edge_from_, edge_.force(widest) / coefficient_);
+    largest_force_ = force(std::exp(constant_ - 1 - kLeastSlope));
   }
 
   // force: N, any; one root, one logarithm. Zero force gives zero indentation within 1e-28 m and a finite slope,
@@ -73,6 +71,11 @@ class HertzLine {
   double width(double force) const {
     return force > 0 ? (force <= edge_from_ ? inside_ : edge_).width(coefficient_ * force) : 0.0;
   }
+  // N; width: m, >= 0. What `width` undoes.
+  double force(double width) const {
+    const double inside = inside_.force(width) / coefficient_;
+    return inside < edge_from_ ? inside : std::max(edge_from_, edge_.force(width) / coefficient_);
+  }
   // m, from the edge to the middle of the pressure where the contact ends at one: w^2 (psi + w / R) / (8 C F).
   double centroid(double force) const {
     const double cf = coefficient_ * force, w = edge_.width(cf);
@@ -81,6 +84,7 @@ class HertzLine {
   // True where the contact ends at a tip edge.
   bool at_edge(double force) const { return force > edge_from_; }
   double largest_force() const { return largest_force_; }  // N
+  double coefficient() const { return coefficient_; }      // m N-1: C; the slope changes by less than C / F
 
  private:
   struct Branch {  // C F = linear w + square w^2

@@ -59,6 +59,99 @@ int list(const std::array<bool, kMostPairs>& in, Eigen::Index n, std::array<int,
   return count;
 }
 
+// d of the pairs that carry, without a look at the others.
+template <int n>
+bool follow(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+            const Eigen::Ref<const VectorXd>& e, const int* carrying, double* f, Certificate& certificate) {
+  constexpr int kMostSteps = 6;
+  for (int step = 0; step < kMostSteps; ++step) {
+    double tangent[n][n], change[n], tolerance[n];
+    for (int i = 0; i < n; ++i) {
+      const int row = carrying[i];
+      const HertzLine::Point own = law[row].at(f[i]);
+      double d = own.indentation + e[row], size = std::abs(own.indentation) + std::abs(e[row]);
+      for (int j = 0; j < n; ++j) {
+        tangent[i][j] = c(row, carrying[j]);
+        d += tangent[i][j] * f[j];
+        size += std::abs(tangent[i][j]) * f[j];
+      }
+      tangent[i][i] += own.slope;
+      change[i] = -d;
+      tolerance[i] = kRoundOff * size;
+    }
+    for (int k = 0; k < n; ++k) {
+      if (!(tangent[k][k] > 0)) return false;
+      const double reciprocal = 1 / tangent[k][k];
+      for (int i = k + 1; i < n; ++i) {
+        const double factor = tangent[i][k] * reciprocal;
+        for (int j = k + 1; j < n; ++j) tangent[i][j] -= factor * tangent[k][j];
+        change[i] -= factor * change[k];
+      }
+      tangent[k][k] = reciprocal;
+    }
+    bool met = true;
+    certificate.residual = 0;
+    for (int i = n - 1; i >= 0; --i) {
+      for (int j = i + 1; j < n; ++j) change[i] -= tangent[i][j] * change[j];
+      change[i] *= tangent[i][i];
+      const double next = f[i] + change[i];
+      if (!(next > 0)) return false;
+      const double left = 0.5 * law[carrying[i]].coefficient() * change[i] * change[i] / std::min(f[i], next);
+      met = met && left <= tolerance[i];
+      certificate.residual = std::max(certificate.residual, left);
+      f[i] = next;
+    }
+    certificate.iterations = certificate.factorisations = step + 1;
+    if (met) return true;
+  }
+  return false;
+}
+
+// The solution if it carries where the start does; otherwise false, and the start is as it was.
+bool follow_start(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                  const Eigen::Ref<const VectorXd>& e, Eigen::Ref<VectorXd> force, Eigen::Ref<VectorXd> d,
+                  Certificate& certificate) {
+  constexpr int kMostFollowed = 3;
+  const int n = static_cast<int>(e.size());
+  int carrying[kMostFollowed], count = 0;
+  double f[kMostFollowed];
+  for (int i = 0; i < n; ++i) {
+    if (!(force[i] > 0)) continue;
+    if (count == kMostFollowed || !std::isfinite(force[i])) return false;
+    f[count] = force[i];
+    carrying[count++] = i;
+  }
+  if (count == 1   ? !follow<1>(c, law, e, carrying, f, certificate)
+      : count == 2 ? !follow<2>(c, law, e, carrying, f, certificate)
+      : count == 3 ? !follow<3>(c, law, e, carrying, f, certificate)
+                   : true)
+    return false;
+  double scale = 0, least_gap = std::numeric_limits<double>::infinity();
+  certificate.least_force = f[0];
+  for (int i = 0, k = 0; i < n; ++i) {
+    scale = std::max(scale, std::abs(e[i]));
+    d[i] = 0;
+    if (k < count && carrying[k] == i) {
+      certificate.least_force = std::min(certificate.least_force, f[k++]);
+      continue;
+    }
+    double size = std::abs(e[i]);
+    d[i] = e[i];
+    for (int j = 0; j < count; ++j) {
+      d[i] += c(i, carrying[j]) * f[j];
+      size += std::abs(c(i, carrying[j])) * f[j];
+    }
+    if (!(d[i] >= -kRoundOff * size)) return false;
+    certificate.degenerate += std::abs(d[i]) <= kRoundOff * size;
+    least_gap = std::min(least_gap, d[i]);
+    certificate.residual = std::max(certificate.residual, -d[i]);
+  }
+  for (int i = 0, k = 0; i < n; ++i) force[i] = k < count && carrying[k] == i ? f[k++] : 0;
+  certificate.least_gap = count < n ? least_gap : 0;
+  certificate.residual /= scale;
+  return true;
+}
+
 }  // namespace
 
 Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
@@ -67,6 +160,7 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
   const Eigen::Index n = e.size();
   if (n > kMostPairs)
     fail(Failure::numerical, "line contact: ", n, " pairs, at most ", kMostPairs, " are foreseen");
+  if (Certificate followed; follow_start(c, law, e, force, d, followed)) return followed;
   if (!e.allFinite() || !c.allFinite()) fail(Failure::numerical, "line contact: a number is not finite");
   Certificate certificate;
   PairVector f(n);

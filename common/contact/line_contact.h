@@ -4,7 +4,9 @@
 // value of the strictly convex energy 1/2 F C F + sum of the laws' energies + e . F over F >= 0. Newton's method on
 // the pairs that carry force, cut where a force would fall below zero and by Armijo's rule where the energy would not
 // fall; a pair comes in only at the least energy of the others, so that no set of pairs comes back (as in Lawson and
-// Hanson, Solving Least Squares Problems, 1974, chapter 23). No memory is taken.
+// Hanson, Solving Least Squares Problems, 1974, chapter 23). Up to three pairs that carry at the start are first followed
+// by themselves by plain Newton steps, each of n laws and an n x n elimination: enough while no pair comes or goes, and
+// the last step needs no look back, for the slope of a law changes by less than C / F. No memory is taken.
 #pragma once
 #include <Eigen/Core>
 #include <span>
@@ -21,7 +23,8 @@ using PairMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMos
 // c: (pair, pair) m N-1; law: (pair); e: (pair) m; force: (pair) N, start and result; d: (pair) m, result. Values of
 // force that are not above 0 are no start. Beyond HertzLine::largest_force the law is a straight line, and whoever
 // uses the result asks require_hertz_range. Certificate as ComplementaritySolver's: gap tolerance the round-off of
-// each pair's own terms; forces are never negative; `factorisations` counts Newton steps. Throws
+// each pair's own terms; forces are never negative; `factorisations` counts Newton steps; where the start is followed, d
+// of a pair with force is 0 and the residual is the bound of the last step's error, below that tolerance. Throws
 // Error(numerical) for more than kMostPairs pairs, a number that is not finite, a C that is not semidefinite where it
 // is tried, an energy that does not fall within 30 halvings of a step, no convergence within 200 steps, or by
 // require_residual.

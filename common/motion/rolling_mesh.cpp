@@ -83,6 +83,7 @@ GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& dri
       corner(mesh.corner) {}
 
 VectorXd MeshPosition::to_strips(const Eigen::Ref<const VectorXd>& at_nodes) const {
+  if (!law.empty()) return at_nodes;
   VectorXd out(strips());
   for (size_t j = 0; j < pairs.size(); ++j)
     out.segment(first_strip[j], pairs[j].size()).noalias() =
@@ -91,6 +92,7 @@ VectorXd MeshPosition::to_strips(const Eigen::Ref<const VectorXd>& at_nodes) con
 }
 
 VectorXd MeshPosition::to_nodes(const Eigen::Ref<const VectorXd>& on_strips) const {
+  if (!law.empty()) return on_strips;
   VectorXd out(nodes());
   for (size_t j = 0; j < pairs.size(); ++j)
     out.segment<kWindowNodes>(j * kWindowNodes).noalias() =
@@ -99,6 +101,10 @@ VectorXd MeshPosition::to_nodes(const Eigen::Ref<const VectorXd>& on_strips) con
 }
 
 void MeshPosition::add_to_strips(const MatrixXd& at_nodes, MatrixXd& a) const {
+  if (!law.empty()) {
+    a += at_nodes;
+    return;
+  }
   Eigen::Matrix<double, Eigen::Dynamic, kWindowNodes> half;
   for (size_t i = 0; i < pairs.size(); ++i)
     for (size_t j = 0; j < pairs.size(); ++j) {
@@ -185,6 +191,7 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Conta
 
 MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& position, double depth) {
   MatrixXd a = MatrixXd::Zero(position.strips(), position.strips());
+  if (!position.law.empty()) return a;
   for (size_t j = 0; j < position.pairs.size(); ++j) {
     const int first = position.first_strip[j], n = position.pairs[j].size();
     a.block(first, first, n, n) = half_plane_compliance(position.pairs[j], model.gear[0].half_plane(),
@@ -193,19 +200,30 @@ MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& positi
   return a;
 }
 
-LinePosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
+MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
                                 double pair_force) {
   const GearPair& gears = model.kinematics;
-  LinePosition position;
-  position.reach = pairs_in_reach(model, phase, corner_gap);
-  const int n = position.reach.size();
+  MeshPosition position;
+  position.phase = phase;
+  position.nodes_per_pair = 1;
+  const PairsInReach reach = pairs_in_reach(model, phase, corner_gap);
+  position.next_corner_gap = reach.next_corner_gap;
+  position.lost_corner_gap = reach.lost_corner_gap;
+  const int n = reach.size();
+  position.first_strip = {0};
   position.gap.resize(n);
   for (int g = 0; g < 2; ++g) {
-    position.lever[g].resize(n);
+    position.strip_lever[g].resize(n);
     position.table_weights[g].resize(n, model.gear[g].table_size());
   }
   for (int j = 0; j < n; ++j) {
-    const PairContact& contact = position.reach.contact[j];
+    const PairContact& contact = reach.contact[j];
+    PairStrips line;
+    line.pair = reach.pair[j];
+    line.contact = contact;
+    line.gap = VectorXd::Constant(1, contact.gap);
+    position.pairs.push_back(line);
+    position.first_strip.push_back(j + 1);
     position.gap[j] = contact.gap;
     const double tip[2] = {gears.tip_distance(contact, 0), gears.tip_distance(contact, 1)};
     const int near = contact.corner ? contact.tip_gear : tip[0] < tip[1] ? 0 : 1;
@@ -219,11 +237,25 @@ LinePosition make_line_position(const GearMeshModel& model, double phase, double
         law.at_edge(pair_force) ? law.centroid(pair_force) - (contact.corner ? 0 : tip[near]) : 0;
     const FlankGap middle = gears.gap_at(contact, near == 0 ? -inward : inward);
     for (int g = 0; g < 2; ++g) {
-      position.lever[g][j] = contact.lever[g];
+      position.strip_lever[g][j] = contact.lever[g];
       position.table_weights[g].row(j) = model.gear[g].table().weights(middle.roll[g]);
     }
   }
+  position.node_lever = position.strip_lever;
   return position;
+}
+
+void require_line_range(const MeshPosition& position, const Eigen::Ref<const VectorXd>& force) {
+  require_hertz_range(position.law, force);
+  for (size_t j = 0; j < position.pairs.size(); ++j) {
+    const PairContact& contact = position.pairs[j].contact;
+    const double width = position.law[j].width(force[j]);
+    if (width > contact.x_max - contact.x_min)
+      fail(Failure::numerical, "at mesh phase ", position.phase,
+           " contact leaves the flanks: a pair carries ", force[j], " N on a width of ", 1e3 * width,
+           " mm, and its flanks face each other over ", (contact.x_max - contact.x_min) * 1e3,
+           " mm; lower the torque");
+  }
 }
 
 namespace {
@@ -250,11 +282,8 @@ MatrixXd between_nodes(const MatrixXd& weights, const std::vector<int>& pair, in
 MatrixXd body_compliance(const MeshPosition& position, int g, const std::vector<MatrixXd>& tables) {
   std::vector<int> pair;
   for (const PairStrips& strips : position.pairs) pair.push_back(strips.pair);
-  return between_nodes<kWindowNodes>(position.table_weights[g], pair, g, tables);
-}
-
-MatrixXd body_compliance(const LinePosition& position, int g, const std::vector<MatrixXd>& tables) {
-  return between_nodes<1>(position.table_weights[g], position.reach.pair, g, tables);
+  return (position.law.empty() ? between_nodes<kWindowNodes> : between_nodes<1>)(position.table_weights[g],
+                                                                                 pair, g, tables);
 }
 
 Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& approach, double load,
@@ -269,6 +298,15 @@ Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& 
     response = active.inverse * reduced;
     held.stiffness = reduced.dot(response);
     return held;
+  });
+}
+
+Equilibrium equilibrium(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& gap,
+                        const VectorXd& approach, double load, double start) {
+  VectorXd d(gap.size());
+  return equilibrium(gap, approach, load, start, [&](const VectorXd& e, VectorXd& force) {
+    const Certificate certificate = solve_line_contact(c, law, e, force, d);
+    return HeldContact{certificate, line_contact_stiffness(c, law, approach, force)};
   });
 }
 

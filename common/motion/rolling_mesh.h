@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "contact/complementarity.h"
@@ -72,10 +73,13 @@ struct PairsInReach {
 // corner_gap: m, tip edges with a larger gap than this are left out.
 PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap);
 
-// All that contact needs at one phase; strips and nodes of all pairs in one row, pair after pair.
+// All that contact needs at one phase; strips and nodes of all pairs in one row, pair after pair. With one contact line
+// per pair a line stands for a pair's only strip and only node.
 struct MeshPosition {
   double phase = 0;
-  std::vector<PairStrips> pairs;
+  std::vector<PairStrips> pairs;  // of a line: number, kinematics and gap
+  std::vector<HertzLine> law;     // (pair) of lines; empty: strips
+  int nodes_per_pair = kWindowNodes;
   std::vector<int> first_strip;                  // (pair + 1)
   Eigen::VectorXd gap;                           // (strip) m
   std::array<Eigen::VectorXd, 2> strip_lever;    // (strip) m
@@ -87,7 +91,10 @@ struct MeshPosition {
       std::numeric_limits<double>::infinity();  // m, least gap of one that has no flank to touch
 
   int strips() const { return static_cast<int>(gap.size()); }
-  int nodes() const { return static_cast<int>(pairs.size()) * kWindowNodes; }
+  int nodes() const { return static_cast<int>(pairs.size()) * nodes_per_pair; }
+  auto nodes_of(size_t pair) const {  // as rows of a matrix
+    return Eigen::seqN(static_cast<Eigen::Index>(pair) * nodes_per_pair, nodes_per_pair);
+  }
   Eigen::VectorXd to_strips(const Eigen::Ref<const Eigen::VectorXd>& at_nodes) const;
   Eigen::VectorXd to_nodes(const Eigen::Ref<const Eigen::VectorXd>& on_strips) const;
   // Adds L C L^T to a (strip, strip), C (node, node).
@@ -100,30 +107,26 @@ struct MeshPosition {
 
 MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range);
 
-// (strip, strip) m N-1: half-planes of both gears, block diagonal.
+// The same with one contact line per pair. depth: m, of the Hertz laws. The tables are read at the middle of the
+// pressure that pair_force (N) makes, which moves inwards from the touching point where contact ends at a tip edge; held
+// there, whatever force the pair carries.
+MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
+                                double pair_force);
+
+// The pair_force of statics and dynamics under a mean `load` (N): where a contact comes to a tip edge, two pairs share it.
+inline double shared_force(double load) {
+  return 0.5 * load;
+}
+
+// force: (pair) N. Throws Error(numerical) if a pair is beyond what Hertz's law holds for, or wider than its flanks face
+// each other.
+void require_line_range(const MeshPosition& position, const Eigen::Ref<const Eigen::VectorXd>& force);
+
+// (strip, strip) m N-1: half-planes of both gears, block diagonal; of lines 0, their laws are the half-planes.
 Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& position, double depth);
 
 // (node, node) m N-1: tables[offset + max] (flank, flank) of gear g between all nodes.
 Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
-                                const std::vector<Eigen::MatrixXd>& tables);
-
-// The same with one contact line per pair.
-struct LinePosition {
-  PairsInReach reach;
-  Eigen::VectorXd gap;                           // (pair) m
-  std::array<Eigen::VectorXd, 2> lever;          // (pair) m
-  std::array<Eigen::MatrixXd, 2> table_weights;  // (pair, flank) 1: the S of load and reading
-  std::vector<HertzLine> law;                    // (pair)
-};
-
-// depth: m, of the Hertz laws. The tables are read at the middle of the pressure that pair_force (N) makes, which
-// moves inwards from the touching point where contact ends at a tip edge; held there, whatever force the pair carries.
-// So the stiffness of a contact near an edge lacks what the tables change along the flank as the pressure moves.
-LinePosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
-                                double pair_force);
-
-// (pair, pair) m N-1: as body_compliance, between the contact lines.
-Eigen::MatrixXd body_compliance(const LinePosition& position, int g,
                                 const std::vector<Eigen::MatrixXd>& tables);
 
 // Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
@@ -152,5 +155,9 @@ Equilibrium equilibrium(const Eigen::VectorXd& gap, const Eigen::VectorXd& appro
 // The same for d = A p + e.
 Equilibrium equilibrium(const Eigen::MatrixXd& a, const Eigen::VectorXd& gap, const Eigen::VectorXd& approach,
                         double load, double start, ActiveSet& active, ComplementaritySolver& solver);
+
+// The same for lines, d = C p + law(p) + e.
+Equilibrium equilibrium(const Eigen::MatrixXd& c, std::span<const HertzLine> law, const Eigen::VectorXd& gap,
+                        const Eigen::VectorXd& approach, double load, double start);
 
 }  // namespace whine

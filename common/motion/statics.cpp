@@ -81,36 +81,25 @@ ContactRung line_rung(const GearMeshModel& model, const ContactRange& range, dou
   // The half window is Hertz's half-width under the whole load: the laws rise over all of it, and the tables keep what
   // lies deeper.
   const double depth = 3 * range.half_window;
-  // Where a contact comes to a tip edge, two pairs share the load.
-  const double pair_force = 0.5 * load;
-  return [&model, range, load, face_width, depth, pair_force,
+  return [&model, range, load, face_width, depth,
           tables = std::array{compliance_tables(model.gear[0], depth),
                               compliance_tables(model.gear[1], depth)}](double phase, double start) {
-    const LinePosition position = make_line_position(model, phase, range.corner_gap, depth, pair_force);
+    const MeshPosition position =
+        make_line_position(model, phase, range.corner_gap, depth, shared_force(load));
     const MatrixXd c = body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]);
-    const VectorXd approach = position.lever[0] / model.kinematics.gear(0).base_radius();
-    VectorXd d(position.reach.size());
+    const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
     PositionAnswer answer;
-    answer.equilibrium =
-        equilibrium(position.gap, approach, load, start, [&](const VectorXd& e, VectorXd& force) {
-          const Certificate certificate = solve_line_contact(c, position.law, e, force, d);
-          return HeldContact{certificate, line_contact_stiffness(c, position.law, approach, force)};
-        });
-    answer.next_corner_gap = position.reach.next_corner_gap;
-    answer.lost_corner_gap = position.reach.lost_corner_gap;
+    answer.equilibrium = equilibrium(c, position.law, position.gap, approach, load, start);
+    answer.next_corner_gap = position.next_corner_gap;
+    answer.lost_corner_gap = position.lost_corner_gap;
     const VectorXd& force = answer.equilibrium.p;
-    require_hertz_range(position.law, force);
-    for (int j = 0; j < position.reach.size(); ++j) {
-      const PairContact& contact = position.reach.contact[j];
+    require_line_range(position, force);
+    for (size_t j = 0; j < position.pairs.size(); ++j) {
       const double width = position.law[j].width(force[j]);
-      if (width > contact.x_max - contact.x_min)
-        fail(Failure::numerical, "at mesh phase ", phase, " contact leaves the flanks: a pair carries ",
-             force[j], " N on a width of ", 1e3 * width, " mm, and its flanks face each other over ",
-             (contact.x_max - contact.x_min) * 1e3, " mm; lower the torque");
       ContactPatch patch;
       if (force[j] > 0 && !position.law[j].at_edge(force[j]))
         patch = {4 * force[j] / (std::numbers::pi * width * face_width), 0.5 * width};
-      answer.loads.push_back({position.reach.pair[j], force[j], patch});
+      answer.loads.push_back({position.pairs[j].pair, force[j], patch});
     }
     return answer;
   };
