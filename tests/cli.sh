@@ -118,12 +118,15 @@ if "${budget[@]}" > said 2>&1 && "$bin/gear-inspect" budget.h5 > said 2>&1 && gr
   wrong "gear-static --error-budget, with the other choices apart, and its figure" "$(head -n 1 said)"; fi
 rm -f budget.*
 refused "the next rung of the last one" 3 'last rung' "${at_torque[@]}" 100 --next-rung
+refused "a ring-down with one line per pair" 3 'not available in ring-downs' "${stage_impact[@]//out\/scene\/params/line}"
 refused "a sweep on a static result of another contact" 3 'was made with contact = "line", the slice of this stage says "strips"' \
   $(sweep scene up | sed 's|--static out/scene/T100|--static line|')
 refused "a sweep whose dampers come from another contact" 3 'line/static.h5: was made with contact = "line"' \
   $(sweep scene up | sed 's|--reference-static out/scene/T100|--reference-static line|')
-refused "a sweep with one line per pair" 3 'not available in sweeps' $(sweep scene up | sed 's|out/scene/params|line|')
-refused "a ring-down with one line per pair" 3 'not available in ring-downs' "${stage_impact[@]//out\/scene\/params/line}"
+line_sweep="$(sweep scene up | sed 's|out/scene/params|line|; s|--output .*|--output line/sweep.h5|')"
+refused "a sweep with one line per pair from statics on strips" 3 'was made with contact = "strips", the slice of this stage says "line"' $line_sweep
+if ${line_sweep//out\/scene\/T100/line} > said 2>&1 && [ -s line/sweep.h5 ]; then ok "a sweep with one line per pair"; else
+  wrong "a sweep with one line per pair" "$(head -n 1 said)"; fi
 rm -rf line
 sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else

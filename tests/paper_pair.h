@@ -59,8 +59,10 @@ inline double rms(const SweepArtifact& sweep, int row) {
   return std::sqrt((te.array() - te.mean()).square().mean());
 }
 
-inline DynamicParameters paper_parameters(double mean_stiffness, const std::string& body = "modal") {
+inline DynamicParameters paper_parameters(double mean_stiffness, const std::string& body = "modal",
+                                          const std::string& contact = "strips") {
   DynamicParameters p;
+  p.fidelity.contact = contact;
   p.torque = 150;
   p.inertia = {0.0148, 0.0148};
   p.mean_stiffness = mean_stiffness;

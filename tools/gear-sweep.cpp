@@ -35,9 +35,6 @@ void body(int argc, char** argv) {
   whine::parse(app, argc, argv);
 
   const whine::SweepSlice slice = whine::read_sweep_slice(params);
-  if (slice.fidelity.contact != "strips")
-    whine::fail(whine::Failure::input, "contact = \"", slice.fidelity.contact,
-                "\" in [fidelity] is not available in sweeps; set contact = \"strips\"");
   for (const std::string& file : {statics, reference}) {
     whine::require_made_from(file, "driver", driver);
     whine::require_made_from(file, "driven", driven);

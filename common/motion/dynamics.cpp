@@ -171,13 +171,17 @@ MatrixXd lagged_fields(const std::vector<MatrixXd>& tables, int g) {
 }  // namespace
 
 void RollingDynamics::set_range(const ContactRange& range, int steps) {
-  if (range.strips % kLanes != 0)
+  if (!lines() && range.strips % kLanes != 0)
     fail(Failure::numerical, range.strips, " strips in a window are no multiple of ", kLanes);
   const double depth = parameters_.damping.undamped_depth;
+  const double load = parameters_.torque / model_.kinematics.gear(0).base_radius();
   positions_.assign(steps, {});
   reach_ = 1;
   for (int i = 0; i < steps; ++i) {
-    positions_[i].mesh = make_position(model_, static_cast<double>(i) / steps, range);
+    const double phase = static_cast<double>(i) / steps;
+    positions_[i].mesh = lines()
+                             ? make_line_position(model_, phase, range.corner_gap, depth, shared_force(load))
+                             : make_position(model_, phase, range);
     for (const PairStrips& s : positions_[i].mesh.pairs) reach_ = std::max(reach_, std::abs(s.pair));
   }
 
@@ -210,12 +214,10 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
       whole += body_compliance(mesh, g, tables[g]);
       position.field_weight[g] = MatrixXd::Zero(mesh.nodes(), kFields);
       position.field_weight[g].leftCols(fields_[g].cols()) = mesh.table_weights[g] * fields_[g];
-      const auto rows = [&](size_t i) {
-        return position.field_weight[g].middleRows<kWindowNodes>(static_cast<int>(i) * kWindowNodes);
-      };
+      const auto rows = [&](size_t i) { return position.field_weight[g](mesh.nodes_of(i), Eigen::all); };
       for (size_t i = 0; i < mesh.pairs.size(); ++i)
         for (size_t j = 0; j < mesh.pairs.size(); ++j)
-          position.lagged.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes) +=
+          position.lagged(mesh.nodes_of(i), mesh.nodes_of(j)) +=
               rows(i) *
               coupling_[g].block<kFields, kFields>((mesh.pairs[i].pair + reach_) * kFields,
                                                    (mesh.pairs[j].pair + reach_) * kFields) *
@@ -223,9 +225,11 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     }
     position.local = local_compliance(model_, mesh, depth);
     mesh.add_to_strips(whole - position.lagged, position.local);
-    for (const PairStrips& s : mesh.pairs)
+    for (const PairStrips& s : mesh.pairs) {
+      position.slot.push_back(s.pair + reach_);
       position.drift_lever.push_back(s.contact.lever[0] / model_.kinematics.gear(0).base_radius() -
                                      s.contact.lever[1] / model_.kinematics.gear(1).base_radius());
+    }
   }
   step_data_.clear();
   pack();
@@ -234,42 +238,87 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
 // Lays the numbers of each position side by side.
 void RollingDynamics::pack() {
   stream_.clear();
-  const auto place = [this](Eigen::Index count) {
-    const size_t at = stream_.size();
-    stream_.resize(at + static_cast<size_t>(count), 0.0);
-    return at;
-  };
-  const int coordinates = padded(static_cast<int>(coordinates_.size()));
   size_t inner = std::numeric_limits<size_t>::max();  // windows without an edge are all alike
-  for (Position& position : positions_) {
-    const MeshPosition& mesh = position.mesh;
-    const int pairs = static_cast<int>(mesh.pairs.size()), nodes = pairs * kPairNodes;
-    position.gap = place(mesh.strips());
-    std::copy(mesh.gap.begin(), mesh.gap.end(), stream_.begin() + static_cast<std::ptrdiff_t>(position.gap));
-    position.shape = place(nodes * coordinates);
-    for (int j = 0; j < pairs; ++j) {
-      for (int c = 0; c < static_cast<int>(coordinates_.size()); ++c)
+  for (Position& position : positions_)
+    if (lines())
+      pack_lines(position);
+    else
+      pack_strips(position, inner);
+}
+
+namespace {
+
+size_t place(std::vector<double>& stream, Eigen::Index count) {
+  const size_t at = stream.size();
+  stream.resize(at + static_cast<size_t>(count), 0.0);
+  return at;
+}
+
+// Where the numbers of one line stand, all lengths whole lanes.
+struct LineRecord {
+  int coordinates, fields;               // of all pairs
+  static constexpr int kGap = 0;         // m
+  static constexpr int kMost = 1;        // N: beyond it neither Hertz's law nor the flanks hold
+  static constexpr int kShape = kLanes;  // (coordinate)
+  int reading(int g) const { return kShape + coordinates + g * fields; }  // (field of all pairs) m N-1
+  int weight(int g) const { return kShape + coordinates + 2 * fields + g * kFields; }  // (field of its own)
+  int size() const { return weight(2); }
+};
+
+}  // namespace
+
+void RollingDynamics::pack_lines(Position& position) {
+  const MeshPosition& mesh = position.mesh;
+  const LineRecord record{padded(static_cast<int>(coordinates_.size())), kFields * (2 * reach_ + 1)};
+  position.line = place(stream_, static_cast<int>(mesh.pairs.size()) * record.size());
+  for (size_t j = 0; j < mesh.pairs.size(); ++j) {
+    double* at = &stream_[position.line + j * record.size()];
+    const PairContact& contact = mesh.pairs[j].contact;
+    at[LineRecord::kGap] = mesh.gap[j];
+    at[LineRecord::kMost] =
+        std::min(mesh.law[j].largest_force(), mesh.law[j].force(contact.x_max - contact.x_min));
+    const auto row = [at](int offset, Eigen::Index n) {
+      return Eigen::Map<Eigen::RowVectorXd>(at + offset, n);
+    };
+    row(LineRecord::kShape, position.participation.cols()) = position.participation.row(j);
+    for (int g = 0; g < 2; ++g) {
+      const auto weight = position.field_weight[g].row(j);
+      row(record.reading(g), record.fields) =
+          weight * coupling_[g].middleRows<kFields>(position.slot[j] * kFields);
+      row(record.weight(g), kFields) = weight;
+    }
+  }
+}
+
+void RollingDynamics::pack_strips(Position& position, size_t& inner) {
+  const int coordinates = padded(static_cast<int>(coordinates_.size()));
+  const MeshPosition& mesh = position.mesh;
+  const int pairs = static_cast<int>(mesh.pairs.size()), nodes = pairs * kPairNodes;
+  position.gap = place(stream_, mesh.strips());
+  std::copy(mesh.gap.begin(), mesh.gap.end(), stream_.begin() + static_cast<std::ptrdiff_t>(position.gap));
+  position.shape = place(stream_, nodes * coordinates);
+  for (int j = 0; j < pairs; ++j) {
+    for (int c = 0; c < static_cast<int>(coordinates_.size()); ++c)
+      for (int k = 0; k < kWindowNodes; ++k)
+        stream_[position.shape + c * nodes + j * kPairNodes + k] =
+            position.participation(j * kWindowNodes + k, c);
+    const PairStrips& s = mesh.pairs[j];
+    const bool edge = s.low_is_edge || s.high_is_edge;
+    if (edge || inner == std::numeric_limits<size_t>::max()) {
+      const size_t at = place(stream_, s.size() * kPairNodes);
+      for (int k = 0; k < kWindowNodes; ++k)
+        for (int i = 0; i < s.size(); ++i) stream_[at + k * s.size() + i] = s.interpolation(i, k);
+      position.interpolation.push_back(at);
+      if (!edge) inner = at;
+    } else {
+      position.interpolation.push_back(inner);
+    }
+    for (int g = 0; g < 2; ++g) {
+      const size_t at = place(stream_, kPairNodes * kFields);
+      for (int r = 0; r < kFields; ++r)
         for (int k = 0; k < kWindowNodes; ++k)
-          stream_[position.shape + c * nodes + j * kPairNodes + k] =
-              position.participation(j * kWindowNodes + k, c);
-      const PairStrips& s = mesh.pairs[j];
-      const bool edge = s.low_is_edge || s.high_is_edge;
-      if (edge || inner == std::numeric_limits<size_t>::max()) {
-        const size_t at = place(s.size() * kPairNodes);
-        for (int k = 0; k < kWindowNodes; ++k)
-          for (int i = 0; i < s.size(); ++i) stream_[at + k * s.size() + i] = s.interpolation(i, k);
-        position.interpolation.push_back(at);
-        if (!edge) inner = at;
-      } else {
-        position.interpolation.push_back(inner);
-      }
-      for (int g = 0; g < 2; ++g) {
-        const size_t at = place(kPairNodes * kFields);
-        for (int r = 0; r < kFields; ++r)
-          for (int k = 0; k < kWindowNodes; ++k)
-            stream_[at + r * kPairNodes + k] = position.field_weight[g](j * kWindowNodes + k, r);
-        position.field[g].push_back(at);
-      }
+          stream_[at + r * kPairNodes + k] = position.field_weight[g](j * kWindowNodes + k, r);
+      position.field[g].push_back(at);
     }
   }
 }
@@ -281,8 +330,8 @@ MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
     const int g = coordinates_[c].gear;
     for (size_t i = 0; i < mesh.pairs.size(); ++i)
       for (const auto& [column, share] : coordinates_[c].columns)
-        h.col(c).segment<kWindowNodes>(i * kWindowNodes) +=
-            share * mesh.table_weights[g].middleRows<kWindowNodes>(i * kWindowNodes) *
+        h.col(c)(mesh.nodes_of(i)) +=
+            share * mesh.table_weights[g](mesh.nodes_of(i), Eigen::all) *
             model_.gear[g].mode_on_tooth(column, GearMeshModel::tooth(g, mesh.pairs[i].pair));
   }
   return h;
@@ -315,12 +364,15 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   lag_ = lag_step(relaxation(), h);
   damping_ = damping_integrals();
 
-  // Memory stays; so do the active strips of a step at the same phase, as a first guess.
+  // Memory stays; so do the active strips, or the forces, of a step at the same phase, as a first guess.
   const int before = static_cast<int>(step_data_.size());
   if (before != steps) {
     std::vector<Step> other(steps);
     for (int i = 0; i < steps && before > 0; ++i)
-      if (i * before % steps == 0) other[i].active.strips = step_data_[i * before / steps].active.strips;
+      if (i * before % steps == 0) {
+        other[i].active.strips = step_data_[i * before / steps].active.strips;
+        other[i].force = step_data_[i * before / steps].force;
+      }
     step_data_ = std::move(other);
   }
   for (int i = 0; i < steps; ++i) {
@@ -349,19 +401,39 @@ MatrixXd RollingDynamics::static_compliance(const Position& position) const {
   return a;
 }
 
+Equilibrium RollingDynamics::equilibrium_at(const Position& position, const MatrixXd& compliance,
+                                            const VectorXd& offset) {
+  const MeshPosition& mesh = position.mesh;
+  const VectorXd approach = mesh.to_strips(position.participation.col(0));
+  if (lines()) {
+    const Equilibrium e = equilibrium(compliance, mesh.law, offset, approach, torque_force_[0], 0);
+    require_line_range(mesh, e.p);
+    return e;
+  }
+  ActiveSet active;
+  return equilibrium(compliance, offset, approach, torque_force_[0], 0, active, solver_);
+}
+
+// (strip) m: gap with the elastic coordinates where the torques alone put them.
+VectorXd RollingDynamics::elastic_offset(const Position& position) const {
+  return position.mesh.gap -
+         position.mesh.to_strips(position.participation * flexibility().cwiseProduct(torque_force_));
+}
+
 double RollingDynamics::frozen_frequency(int i) {
   const Position& position = positions_[i];
-  const VectorXd offset = position.participation * flexibility().cwiseProduct(torque_force_);
-  ActiveSet active;
-  equilibrium(static_compliance(position), position.mesh.gap - position.mesh.to_strips(offset),
-              position.mesh.to_strips(position.participation.col(0)), torque_force_[0], 0, active, solver_);
+  const VectorXd p = equilibrium_at(position, static_compliance(position), elastic_offset(position)).p;
+  std::vector<int> touch;
+  for (int k = 0; k < p.size(); ++k)
+    if (p[k] > 0) touch.push_back(k);
   // d = 0 on the active strips: p = (A + R)^-1 h z there, and z'' + (w^2 + h^T (A + R)^-1 h) z = 0.
   MatrixXd a = position.local;
   position.mesh.add_to_strips(position.lagged, a);
-  const MatrixXd compliance = a(active.strips, active.strips);
+  for (size_t j = 0; j < position.mesh.law.size(); ++j) a(j, j) += position.mesh.law[j].at(p[j]).slope;
+  const MatrixXd compliance = a(touch, touch);
   MatrixXd h(position.mesh.strips(), position.participation.cols());
   for (int c = 0; c < h.cols(); ++c) h.col(c) = position.mesh.to_strips(position.participation.col(c));
-  const MatrixXd touching = h(active.strips, Eigen::all);
+  const MatrixXd touching = h(touch, Eigen::all);
   MatrixXd stiffness = touching.transpose() * compliance.ldlt().solve(touching);
   stiffness.diagonal() += frequency_squared_;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(stiffness, Eigen::EigenvaluesOnly);
@@ -373,6 +445,10 @@ double RollingDynamics::frozen_frequency(int i) {
 }
 
 HeldMesh RollingDynamics::hold(int i) const {
+  if (lines())
+    fail(Failure::input,
+         "contact = \"line\" in [fidelity] is not available for a pair that is held at a mesh phase ",
+         "(gear-impact); set contact = \"strips\"");
   const Position& position = positions_[i];
   const MeshPosition& mesh = position.mesh;
   HeldMesh held;
@@ -405,27 +481,24 @@ HeldMesh RollingDynamics::hold(int i) const {
 RollingDynamics::State RollingDynamics::rest() {
   const Position& position = positions_[0];
   const MatrixXd a = static_compliance(position);
-  const VectorXd follow = flexibility();
-  const VectorXd offset = position.participation * follow.cwiseProduct(torque_force_);
-  ActiveSet active;
-  const Equilibrium e = equilibrium(a, position.mesh.gap - position.mesh.to_strips(offset),
-                                    position.mesh.to_strips(position.participation.col(0)), torque_force_[0],
-                                    0, active, solver_);
+  const VectorXd offset = elastic_offset(position);
+  const Equilibrium e = equilibrium_at(position, a, offset);
   const VectorXd nodes = position.mesh.to_nodes(e.p);
   State state;
   state.force = torque_force_ - position.participation.transpose() * nodes;
-  state.z = follow.cwiseProduct(state.force);
+  state.z = flexibility().cwiseProduct(state.force);
   state.z[0] = e.x;
   state.v = VectorXd::Zero(state.z.size());
   state.p = e.p;
-  state.d =
-      a * e.p + position.mesh.gap - position.mesh.to_strips(offset + e.x * position.participation.col(0));
+  state.d = a * e.p + offset - position.mesh.to_strips(e.x * position.participation.col(0));
+  for (size_t j = 0; j < position.mesh.law.size(); ++j)
+    if (e.p[j] > 0) state.d[j] += position.mesh.law[j].at(e.p[j]).indentation;
   for (int g = 0; g < 2; ++g) {
     state.load[g] = MatrixXd::Zero(kFields, 2 * reach_ + 1);
     for (size_t j = 0; j < position.mesh.pairs.size(); ++j)
       state.load[g].col(position.mesh.pairs[j].pair + reach_) +=
-          position.field_weight[g].middleRows<kWindowNodes>(j * kWindowNodes).transpose() *
-          nodes.segment<kWindowNodes>(j * kWindowNodes);
+          position.field_weight[g](position.mesh.nodes_of(j), Eigen::all).transpose() *
+          nodes(position.mesh.nodes_of(j));
     state.lag[g] = state.load[g];
   }
   static_deflection_ = error_weight_.dot(state.z);
@@ -468,7 +541,143 @@ void RollingDynamics::advance_tooth(State& state) const {
     }
 }
 
+struct RollingDynamics::StripContact {
+  explicit StripContact(RollingDynamics& of) : dynamics(of), displacement(kFields) {
+    int most_strips = 0;
+    size_t most_pairs = 0;
+    for (const Position& position : of.positions_) {
+      most_strips = std::max(most_strips, position.mesh.strips());
+      most_pairs = std::max(most_pairs, position.mesh.pairs.size());
+    }
+    for (VectorXd* x : {&e, &p, &d}) x->resize(most_strips);
+    nodes.resize(most_pairs * kPairNodes);
+  }
+
+  // Fills p and d. back: (coordinate) -z; lag: (field of all pairs) of one gear after the other; both without new
+  // contact force.
+  Certificate solve(const Position& position, Step& step, const double* back, const double* lag) {
+    const MeshPosition& mesh = position.mesh;
+    const double* stream = dynamics.stream_.data();
+    const int strips = mesh.strips(), present = static_cast<int>(mesh.pairs.size()),
+              rows = present * kPairNodes, of_pair = present > 0 ? strips / present : 0,
+              fields = kFields * (2 * dynamics.reach_ + 1);
+    std::fill(nodes.data(), nodes.data() + rows, 0.0);
+    add_columns(nodes.data(), stream + position.shape, rows, back,
+                padded(static_cast<int>(dynamics.coordinates_.size())), 0, rows);
+    for (int g = 0; g < 2; ++g)
+      for (int j = 0; j < present; ++j) {
+        displacement.setZero();
+        add_columns(displacement.data(), dynamics.coupling_[g].data() + position.slot[j] * kFields, fields,
+                    lag + g * fields, fields, 0, kFields);
+        add_columns(&nodes[j * kPairNodes], stream + position.field[g][j], kPairNodes, displacement.data(),
+                    kFields, 0, kPairNodes);
+      }
+    std::copy(stream + position.gap, stream + position.gap + strips, e.data());
+    for (int j = 0; j < present; ++j)
+      add_columns(&e[j * of_pair], stream + position.interpolation[j], of_pair, &nodes[j * kPairNodes],
+                  kWindowNodes, 0, of_pair);
+    return dynamics.solver_.solve(step.compliance, e.head(strips), step.active, p.head(strips),
+                                  d.head(strips));
+  }
+
+  // N, of pair j. False if force stands on a window's end that is no tip edge.
+  bool carried(const Position& position, int j, double& force) {
+    const PairStrips& pair = position.mesh.pairs[j];
+    const int of_pair = pair.size();
+    const double* own = &p[j * of_pair];
+    if ((!pair.low_is_edge && own[0] > 0) || (!pair.high_is_edge && own[of_pair - 1] > 0)) return false;
+    dot_columns(&nodes[j * kPairNodes], &dynamics.stream_[position.interpolation[j]], of_pair, kPairNodes,
+                own, of_pair);
+    Lanes total{};
+    for (int k = 0; k < of_pair; k += kLanes) total += lanes(own + k);
+    force = sum(total);
+    return true;
+  }
+
+  // After `carried` of all pairs. force: (coordinate) h^T p; load: as lag, of the pairs that are present.
+  void spread(const Position& position, double* force, double* load) const {
+    const double* stream = dynamics.stream_.data();
+    const int present = static_cast<int>(position.mesh.pairs.size()), rows = present * kPairNodes,
+              fields = kFields * (2 * dynamics.reach_ + 1);
+    dot_columns(force, stream + position.shape, rows, padded(static_cast<int>(dynamics.coordinates_.size())),
+                nodes.data(), rows);
+    for (int g = 0; g < 2; ++g)
+      for (int j = 0; j < present; ++j)
+        dot_columns(load + g * fields + position.slot[j] * kFields, stream + position.field[g][j], kPairNodes,
+                    kFields, &nodes[j * kPairNodes], kPairNodes);
+  }
+
+  RollingDynamics& dynamics;
+  VectorXd e, p, d;       // (strip)
+  VectorXd nodes;         // (node) displacements, then forces
+  VectorXd displacement;  // (field)
+};
+
+struct RollingDynamics::LineContact {
+  explicit LineContact(RollingDynamics& of)
+      : dynamics(of),
+        record{padded(static_cast<int>(of.coordinates_.size())), kFields * (2 * of.reach_ + 1)},
+        e(kMostPairs),
+        p(kMostPairs),
+        d(kMostPairs) {}
+
+  // As of strips, all three.
+  Certificate solve(const Position& position, Step& step, const double* back, const double* lag) {
+    const int present = static_cast<int>(position.slot.size());
+    const double* line = dynamics.stream_.data() + position.line;
+    for (int j = 0; j < present; ++j, line += record.size()) {
+      Lanes modal{}, driver{}, driven{};
+      for (int c = 0; c < record.coordinates; c += kLanes)
+        modal += lanes(line + LineRecord::kShape + c) * lanes(back + c);
+      for (int k = 0; k < record.fields; k += kLanes) {
+        driver += lanes(line + record.reading(0) + k) * lanes(lag + k);
+        driven += lanes(line + record.reading(1) + k) * lanes(lag + record.fields + k);
+      }
+      e[j] = line[LineRecord::kGap] + sum(modal + (driver + driven));
+    }
+    if (step.force.size() == present)
+      std::copy(step.force.begin(), step.force.end(), p.data());
+    else
+      p.head(present).setZero();
+    const Certificate certificate = solve_line_contact(step.compliance, position.mesh.law, e.head(present),
+                                                       p.head(present), d.head(present));
+    step.force = p.head(present);
+    return certificate;
+  }
+
+  bool carried(const Position& position, int j, double& force) const {
+    force = p[j];
+    if (!(force <= dynamics.stream_[position.line + j * record.size() + LineRecord::kMost]))
+      require_line_range(position.mesh, p.head(position.mesh.strips()));
+    return true;
+  }
+
+  void spread(const Position& position, double* force, double* load) const {
+    const int present = static_cast<int>(position.slot.size());
+    const double* line = dynamics.stream_.data() + position.line;
+    std::fill(force, force + record.coordinates, 0.0);
+    for (int j = 0; j < present; ++j, line += record.size()) {
+      for (int c = 0; c < record.coordinates; c += kLanes)
+        lanes(force + c) += p[j] * lanes(line + LineRecord::kShape + c);
+      for (int g = 0; g < 2; ++g)
+        for (int k = 0; k < kFields; k += kLanes)
+          lanes(load + g * record.fields + position.slot[j] * kFields + k) =
+              p[j] * lanes(line + record.weight(g) + k);
+    }
+  }
+
+  RollingDynamics& dynamics;
+  LineRecord record;
+  VectorXd e, p, d;  // (pair)
+};
+
 bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
+  return lines() ? march(LineContact(*this), state, period, ledger)
+                 : march(StripContact(*this), state, period, ledger);
+}
+
+template <class Contact>
+bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledger* ledger) {
   const int pairs = 2 * reach_ + 1, own = static_cast<int>(coordinates_.size()), coordinates = padded(own),
             fields = kFields * pairs;
   period.transmission_error.resize(steps_);
@@ -490,7 +699,7 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
                                                                weight = torque, response(coordinates);
   torque.head(own) = torque_force_;
   weight.head(own) = error_weight_;
-  std::array<VectorXd, 2> lag, load;
+  VectorXd lag(2 * fields), load(2 * fields);  // of one gear after the other
   const auto take = [&] {
     z.setZero();
     v.setZero();
@@ -499,8 +708,8 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
     v.head(own) = state.v;
     force.head(own) = state.force;
     for (int g = 0; g < 2; ++g) {
-      lag[g] = state.lag[g].reshaped();
-      load[g] = state.load[g].reshaped();
+      lag.segment(g * fields, fields) = state.lag[g].reshaped();
+      load.segment(g * fields, fields) = state.load[g].reshaped();
     }
   };
   const auto give = [&] {
@@ -508,19 +717,20 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
     state.v = v.head(own);
     state.force = force.head(own);
     for (int g = 0; g < 2; ++g) {
-      state.lag[g].reshaped() = lag[g];
-      state.load[g].reshaped() = load[g];
+      state.lag[g].reshaped() = lag.segment(g * fields, fields);
+      state.load[g].reshaped() = load.segment(g * fields, fields);
     }
   };
   take();
-  int most_strips = 0;
-  size_t most_pairs = 0;
-  for (const Position& position : positions_) {
-    most_strips = std::max(most_strips, position.mesh.strips());
-    most_pairs = std::max(most_pairs, position.mesh.pairs.size());
-  }
-  VectorXd e(most_strips), p(most_strips), d(most_strips);
-  VectorXd nodes(most_pairs * kPairNodes), displacement(kFields);
+  // Stores of lanes may change anything for all that the compiler knows; it need not look these up again.
+  double *const z_at = z.data(), *const v_at = v.data(), *const force_at = force.data(),
+                *const response_at = response.data(), *const lag_at = lag.data(),
+                *const load_at = load.data();
+  const double *const torque_at = torque.data(), *const weight_at = weight.data(),
+                      *const a11 = speed_.a11.data(), *const a12 = speed_.a12.data(),
+                      *const a21 = speed_.a21.data(), *const a22 = speed_.a22.data(),
+                      *const bq = speed_.bq.data(), *const bv = speed_.bv.data();
+  const Lag lag_step = lag_;
 
   std::array<Instant, 2> instants;  // before and after a step, in turn
   if (ledger) fill(instants[0], positions_[0], state);
@@ -534,38 +744,22 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
       if (ledger) rename(instants[(i - 1) % 2]);
     }
     const Position& position = positions_[sample * stride_];
-    const MeshPosition& mesh = position.mesh;
-    Step& step = step_data_[sample];
-    const int strips = mesh.strips(), present = static_cast<int>(mesh.pairs.size()),
-              rows = present * kPairNodes, of_pair = present > 0 ? strips / present : 0;
+    const int present = static_cast<int>(position.slot.size());
 
     // What the step would bring without new contact force.
     for (int c = 0; c < coordinates; c += kLanes) {
-      const Lanes mean = 0.5 * (lanes(&force[c]) + lanes(&torque[c])), z0 = lanes(&z[c]), v0 = lanes(&v[c]);
-      lanes(&z[c]) = lanes(&speed_.a11[c]) * z0 + lanes(&speed_.a12[c]) * v0 + lanes(&speed_.bq[c]) * mean;
-      lanes(&v[c]) = lanes(&speed_.a21[c]) * z0 + lanes(&speed_.a22[c]) * v0 + lanes(&speed_.bv[c]) * mean;
-      lanes(&response[c]) = -lanes(&z[c]);
+      const Lanes mean = 0.5 * (lanes(force_at + c) + lanes(torque_at + c)), z0 = lanes(z_at + c),
+                  v0 = lanes(v_at + c);
+      const Lanes z1 = lanes(a11 + c) * z0 + lanes(a12 + c) * v0 + lanes(bq + c) * mean;
+      lanes(v_at + c) = lanes(a21 + c) * z0 + lanes(a22 + c) * v0 + lanes(bv + c) * mean;
+      lanes(z_at + c) = z1;
+      lanes(response_at + c) = -z1;
     }
-    std::fill(nodes.data(), nodes.data() + rows, 0.0);
-    add_columns(nodes.data(), &stream_[position.shape], rows, response.data(), coordinates, 0, rows);
-    for (int g = 0; g < 2; ++g) {
-      double *moved = lag[g].data(), *old = load[g].data();
-      for (int k = 0; k < fields; k += kLanes)
-        lanes(moved + k) = lag_.decay * lanes(moved + k) + lag_.from_old * lanes(old + k);
-      for (int j = 0; j < present; ++j) {
-        const int slot = (mesh.pairs[j].pair + reach_) * kFields;
-        displacement.setZero();
-        add_columns(displacement.data(), coupling_[g].data() + slot, fields, moved, fields, 0, kFields);
-        add_columns(&nodes[j * kPairNodes], &stream_[position.field[g][j]], kPairNodes, displacement.data(),
-                    kFields, 0, kPairNodes);
-      }
+    for (int k = 0; k < 2 * fields; k += kLanes) {
+      lanes(lag_at + k) = lag_step.decay * lanes(lag_at + k) + lag_step.from_old * lanes(load_at + k);
+      lanes(load_at + k) = Lanes{};
     }
-    std::copy(&stream_[position.gap], &stream_[position.gap] + strips, e.data());
-    for (int j = 0; j < present; ++j)
-      add_columns(&e[j * of_pair], &stream_[position.interpolation[j]], of_pair, &nodes[j * kPairNodes],
-                  kWindowNodes, 0, of_pair);
-    const Certificate certificate =
-        solver_.solve(step.compliance, e.head(strips), step.active, p.head(strips), d.head(strips));
+    const Certificate certificate = contact.solve(position, step_data_[sample], response_at, lag_at);
     period.least_gap = std::min(period.least_gap, certificate.least_gap);
     period.least_force = std::min(period.least_force, certificate.least_force);
     period.fallbacks += certificate.fallback;
@@ -573,56 +767,50 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
     // The new force's own share.
     double drift = 0;
     for (int j = 0; j < present; ++j) {
-      const PairStrips& pair = mesh.pairs[j];
-      const double* own_p = &p[j * of_pair];
-      if ((!pair.low_is_edge && own_p[0] > 0) || (!pair.high_is_edge && own_p[of_pair - 1] > 0)) return false;
-      dot_columns(&nodes[j * kPairNodes], &stream_[position.interpolation[j]], of_pair, kPairNodes, own_p,
-                  of_pair);
-      Lanes total{};
-      for (int k = 0; k < of_pair; k += kLanes) total += lanes(own_p + k);
-      const double carried = sum(total);
-      period.pair_load(pair.pair + reach_, sample) = carried;
+      double carried;
+      if (!contact.carried(position, j, carried)) return false;
+      period.pair_load(position.slot[j], sample) = carried;
       drift += position.drift_lever[j] * carried;
     }
     period.drift_force = std::max(period.drift_force, std::abs(drift));
-    dot_columns(response.data(), &stream_[position.shape], rows, coordinates, nodes.data(), rows);
+    contact.spread(position, response_at, load_at);
     Lanes error_sum{};
     for (int c = 0; c < coordinates; c += kLanes) {
-      const Lanes contact = lanes(&response[c]);
-      lanes(&force[c]) = lanes(&torque[c]) - contact;
-      lanes(&z[c]) -= 0.5 * lanes(&speed_.bq[c]) * contact;
-      lanes(&v[c]) -= 0.5 * lanes(&speed_.bv[c]) * contact;
-      error_sum += lanes(&weight[c]) * lanes(&z[c]);
+      const Lanes push = lanes(response_at + c);
+      const Lanes z1 = lanes(z_at + c) - 0.5 * lanes(bq + c) * push;
+      lanes(force_at + c) = lanes(torque_at + c) - push;
+      lanes(v_at + c) -= 0.5 * lanes(bv + c) * push;
+      lanes(z_at + c) = z1;
+      error_sum += lanes(weight_at + c) * z1;
     }
-    for (int g = 0; g < 2; ++g) {
-      load[g].setZero();
-      for (int j = 0; j < present; ++j)
-        dot_columns(&load[g][(mesh.pairs[j].pair + reach_) * kFields], &stream_[position.field[g][j]],
-                    kPairNodes, kFields, &nodes[j * kPairNodes], kPairNodes);
-      for (int k = 0; k < fields; k += kLanes) lanes(&lag[g][k]) += lag_.from_new * lanes(&load[g][k]);
-    }
+    for (int g = 0; g < 2; ++g)
+      for (int j = 0; j < present; ++j) {
+        const int own_fields = g * fields + position.slot[j] * kFields;
+        for (int k = own_fields; k < own_fields + kFields; k += kLanes)
+          lanes(lag_at + k) += lag_step.from_new * lanes(load_at + k);
+      }
 
     if (ledger) {
       give();
-      state.p = p.head(strips);
-      state.d = d.head(strips);
+      state.p = contact.p.head(position.mesh.strips());
+      state.d = contact.d.head(position.mesh.strips());
       fill(instants[i % 2], position, state);
       record_step(instants[(i - 1) % 2], instants[i % 2], balance, *ledger);
     }
 
     const double error = sum(error_sum);
     period.transmission_error[sample] = error;
-    if (error > mesh.lost_corner_gap)
-      fail(Failure::numerical, "at mesh phase ", mesh.phase, " the transmission error ", error * 1e6,
-           " micrometres closes the gap of ", mesh.lost_corner_gap * 1e6,
+    if (error > position.mesh.lost_corner_gap)
+      fail(Failure::numerical, "at mesh phase ", position.mesh.phase, " the transmission error ", error * 1e6,
+           " micrometres closes the gap of ", position.mesh.lost_corner_gap * 1e6,
            " micrometres of a tip edge that would touch below the involute; lower the torque or set "
            "corner_contact = false");
-    if (error > mesh.next_corner_gap) return false;
+    if (error > position.mesh.next_corner_gap) return false;
   }
   give();
   const int strips = positions_[0].mesh.strips();
-  state.p = p.head(strips);
-  state.d = d.head(strips);
+  state.p = contact.p.head(strips);
+  state.d = contact.d.head(strips);
   return true;
 }
 

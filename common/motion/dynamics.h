@@ -10,6 +10,8 @@
 //   mode has the same time, so loads are relaxed instead and U = R (lagged loads). A tooth carries them in a few
 //   fields V of its flank table, those that hold all of R that is worth a memory; R - V V^T R V V^T follows at once.
 // Gap of a strip: d = e - h z + U + A_local p >= 0 with p >= 0, p . d = 0 at the end of each step (Eq. 18).
+// With contact = "line" a pair is one strip on one node, and Hertz's law of its force stands in for the half-planes in
+// A_local p. It is relative to the undamped depth and follows at once, as they do.
 //
 // All that a step streams lies packed by position, in columns of whole lanes; steps allocate nothing.
 #pragma once
@@ -33,7 +35,7 @@ struct DynamicParameters {
   Fidelity fidelity;
 };
 
-// The pair held at one phase: z'' + damping z' + frequency_squared z = torque - participation^T p under contact with
+// The pair held at one phase, contact on strips: z'' + damping z' + frequency_squared z = torque - participation^T p under contact with
 // gap d = gap - participation z + U + local p, relaxation U' + U = residual p.
 struct HeldMesh {
   double phase = 0;                   // 1: mesh phase
@@ -76,8 +78,9 @@ class RollingDynamics {
     int fallbacks = 0;                      // steps that block pivoting alone could not solve
   };
 
-  // Builds the strips at `steps` phases; keeps nothing of an earlier range. Throws Error(numerical) if the lagged fields
-  // leave more than 1e-3 of a gear's residual flexibility to follow at once.
+  // Builds the strips, or the lines, at `steps` phases; keeps nothing of an earlier range. Of a range lines use the
+  // corner gap alone. Throws Error(numerical) if the lagged fields leave more than 1e-3 of a gear's residual flexibility
+  // to follow at once.
   void set_range(const ContactRange& range, int steps);
   // mesh frequency: Hz; steps per period must divide the steps of the range.
   void set_speed(double mesh_frequency, int steps);
@@ -85,12 +88,12 @@ class RollingDynamics {
   State rest();
   // Marches one mesh period and renames teeth, so that the state can be compared with the one before.
   // False if contact wanted more than the range holds; the state is then spoiled. With a ledger a step costs several
-  // times as much.
+  // times as much. Throws Error(numerical) if a line carries more than Hertz's law or its flanks hold.
   bool march(State& state, Period& period, Ledger* ledger = nullptr);
   // Lowest natural frequency, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
   // the range): undamped, the residual flexibility follows at once. Throws Error(numerical) if there is none.
   double frozen_frequency(int i);
-  // The pair at phase i / (steps of the range), to be moved without rolling.
+  // The pair at phase i / (steps of the range), to be moved without rolling. Throws Error(input) for lines.
   HeldMesh hold(int i) const;
   // Renames teeth after a mesh period: what was pair j becomes pair j + 1, doublets turn by one tooth.
   void advance_tooth(State& state) const;
@@ -119,6 +122,7 @@ class RollingDynamics {
   struct Step {                  // one position at one speed
     Eigen::MatrixXd compliance;  // (strip, strip)
     ActiveSet active;
+    PairVector force;  // (pair) N, of lines: what they carried here last; empty: not known
   };
   struct Position {
     MeshPosition mesh;
@@ -127,12 +131,17 @@ class RollingDynamics {
     Eigen::MatrixXd lagged;                       // (node, node): of both gears, when nothing moves
     std::array<Eigen::MatrixXd, 2> field_weight;  // (node, field)
     std::vector<double> drift_lever;              // (pair) 1: a1 / r1 - a2 / r2
+    std::vector<int> slot;                        // (pair) its column in lag and load
     // In stream_: columns of nodes stand 8 a pair, those of fields and coordinates have whole lanes.
     size_t gap = 0;                            // (strip)
     size_t shape = 0;                          // (node, coordinate)
     std::vector<size_t> interpolation;         // per pair (strip of the pair, node of the pair)
     std::array<std::vector<size_t>, 2> field;  // per pair (node of the pair, field)
+    size_t line = 0;                           // of lines: (pair) LineRecord
   };
+  // What a rung of contact does within a step.
+  struct StripContact;
+  struct LineContact;
   struct SpeedCoefficients {  // one number per coordinate, in whole lanes
     Eigen::VectorXd a11, a12, a21, a22, bq, bv;
   };
@@ -160,7 +169,16 @@ class RollingDynamics {
   double relaxation() const {  // s, of the lagged flexibility
     return parameters_.fidelity.body == "quasi-static" ? 0 : parameters_.damping.rayleigh_stiffness;
   }
+  template <class Contact>
+  bool march(Contact contact, State& state, Period& period, Ledger* ledger);
+  bool lines() const { return parameters_.fidelity.contact == "line"; }
+  // At rest; compliance: (strip, strip) of static_compliance; offset: (strip) of elastic_offset.
+  Equilibrium equilibrium_at(const Position& position, const Eigen::MatrixXd& compliance,
+                             const Eigen::VectorXd& offset);
+  Eigen::VectorXd elastic_offset(const Position& position) const;
   void pack();
+  void pack_strips(Position& position, size_t& inner);
+  void pack_lines(Position& position);
   void add_modes(int g, const std::vector<int>& columns);
   Eigen::VectorXd flexibility() const;  // (coordinate) s2: 1 / w^2, 0 for the rigid rotation
   Eigen::MatrixXd static_compliance(const Position& position) const;

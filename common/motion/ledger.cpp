@@ -19,6 +19,20 @@ constexpr double kNode[kPoints] = {0.033765242898423975, 0.16939530676686776, 0.
 constexpr double kWeight[kPoints] = {0.08566224618958487, 0.18038078652406947, 0.23395696728634569,
                                      0.23395696728634569, 0.18038078652406947, 0.08566224618958487};
 
+HertzLine::Point at(const HertzLine& law, double force) {
+  return force > 0 ? law.at(force) : HertzLine::Point{};
+}
+
+double stored(const HertzLine& law, double force) {  // N m
+  return force * at(law, force).indentation - at(law, force).energy;
+}
+
+// N m: what a law stores from one force to another, less the mean force times the change of indentation.
+double bent(const HertzLine& law, double from, double to) {
+  return stored(law, to) - stored(law, from) -
+         0.5 * (from + to) * (at(law, to).indentation - at(law, from).indentation);
+}
+
 // Calls at(t, weight) over (0, step), in panels over which nothing with the given rate (s-1) changes much.
 template <class Function>
 void quadrature(double step, double rate, Function at) {
@@ -66,16 +80,15 @@ void RollingDynamics::fill(Instant& now, const Position& position, const State& 
     now.field[g].resizeLike(state.lag[g]);
     now.field[g].reshaped() = coupling_[g] * state.lag[g].reshaped();
     for (size_t j = 0; j < mesh.pairs.size(); ++j)
-      nodes.segment<kWindowNodes>(j * kWindowNodes) +=
-          position.field_weight[g].middleRows<kWindowNodes>(j * kWindowNodes) *
-          now.field[g].col(mesh.pairs[j].pair + reach_);
+      nodes(mesh.nodes_of(j)) += position.field_weight[g](mesh.nodes_of(j), Eigen::all) *
+                                 now.field[g].col(mesh.pairs[j].pair + reach_);
   }
   now.lagged = mesh.to_strips(nodes);
   nodes = mesh.to_nodes(state.p);
   now.pair_force.resize(state.z.size(), mesh.pairs.size());
   for (size_t j = 0; j < mesh.pairs.size(); ++j)
-    now.pair_force.col(j) = position.participation.middleRows<kWindowNodes>(j * kWindowNodes).transpose() *
-                            nodes.segment<kWindowNodes>(j * kWindowNodes);
+    now.pair_force.col(j) =
+        position.participation(mesh.nodes_of(j), Eigen::all).transpose() * nodes(mesh.nodes_of(j));
 }
 
 // Teeth get the names that they have in the next mesh period.
@@ -90,11 +103,18 @@ void RollingDynamics::rename(Instant& instant) const {
 // the mean forces do on modes, lag and all that follows at once comes term by term; products of an old force with a new
 // shape are the work of the rolling. A pair that a corner rule takes out under load keeps its last geometry for the
 // step, one that it lets in has its first: the gap there is the cutting line.
+//
+// A line's law u(p) with the energy E = integral of u over p stores p u - E. While it is held, mean force times change of
+// u is not the change of what it stores, because it is bent: that difference, mean over the laws of both ends, goes to
+// the switching line, or to the cutting line where a pair is cut. The law's change with the phase is rolling:
+// -(E_n+1 - E_n) at a held force, mean over both forces, and, as in the products above, a quarter of the change of force
+// times the change of u_n+1 - u_n over it.
 void RollingDynamics::record_step(const Instant& before, const Instant& after, double& balance,
                                   Ledger& ledger) const {
   const State &a = before.state, &b = after.state;
   const MeshPosition &old_mesh = before.position->mesh, &new_mesh = after.position->mesh;
   double rolling = 0, switching = 0, cutting = 0;
+  const bool lines = this->lines();
 
   const auto under = [&](const State& loads, const std::array<MatrixXd, 2>& field, int pair) {
     double work = 0;
@@ -112,6 +132,7 @@ void RollingDynamics::record_step(const Instant& before, const Instant& after, d
     size_t j = 0;
     while (j < new_mesh.pairs.size() && new_mesh.pairs[j].pair != pair) ++j;
     if (j == new_mesh.pairs.size()) {
+      if (lines) cutting += bent(old_mesh.law[i], p0[0], 0);
       cutting += 0.5 * (p0.dot(old_mesh.gap(strips(old_mesh, i))) - before.pair_force.col(i).dot(b.z));
       if (std::abs(pair) <= reach_) cutting += 0.5 * under(a, after.field, pair);
       continue;
@@ -120,6 +141,15 @@ void RollingDynamics::record_step(const Instant& before, const Instant& after, d
     const VectorXd p1 = b.p(strips(new_mesh, j));
     old_on_new(strips(new_mesh, j)) = p0;
     new_on_old(strips(old_mesh, i)) = p1;
+    if (lines) {
+      const HertzLine &law0 = old_mesh.law[i], &law1 = new_mesh.law[j];
+      const HertzLine::Point old0 = at(law0, p0[0]), old1 = at(law0, p1[0]), new0 = at(law1, p0[0]),
+                             new1 = at(law1, p1[0]);
+      switching += 0.5 * (bent(law0, p0[0], p1[0]) + bent(law1, p0[0], p1[0]));
+      rolling -= 0.5 * (new0.energy - old0.energy + new1.energy - old1.energy) -
+                 0.25 * (p1[0] - p0[0]) *
+                     (new1.indentation - old1.indentation - (new0.indentation - old0.indentation));
+    }
     switching += 0.5 * (p0.dot(b.d(strips(new_mesh, j))) - p1.dot(a.d(strips(old_mesh, i))));
     rolling -= 0.5 * (p0 + p1).dot(new_mesh.gap(strips(new_mesh, j)) - old_mesh.gap(strips(old_mesh, i)));
     rolling += 0.5 * (p0.dot(after.modal(strips(new_mesh, j))) - p1.dot(before.modal(strips(old_mesh, i))) +
@@ -128,12 +158,16 @@ void RollingDynamics::record_step(const Instant& before, const Instant& after, d
                       under(b, before.field, pair) - under(a, after.field, pair));
   }
   for (size_t j = 0; j < new_mesh.pairs.size(); ++j)
-    if (!met[j])
+    if (!met[j]) {
+      if (lines) cutting += bent(new_mesh.law[j], 0, b.p[j]);
       cutting -= 0.5 * (b.p(strips(new_mesh, j)).dot(new_mesh.gap(strips(new_mesh, j))) -
                         after.pair_force.col(j).dot(a.z) + under(b, before.field, new_mesh.pairs[j].pair));
+    }
   const VectorXd new_local = after.position->local * b.p, old_local = before.position->local * a.p;
   rolling -= 0.5 * (old_on_new.dot(new_local) - new_on_old.dot(old_local));
-  const double local = 0.5 * (b.p.dot(new_local) - a.p.dot(old_local));
+  double local = 0.5 * (b.p.dot(new_local) - a.p.dot(old_local));
+  for (size_t j = 0; j < new_mesh.law.size(); ++j) local += stored(new_mesh.law[j], b.p[j]);
+  for (size_t i = 0; i < old_mesh.law.size(); ++i) local -= stored(old_mesh.law[i], a.p[i]);
 
   // Modes: force = torque - h^T p.
   const double torque = torque_force_.dot(b.z - a.z);

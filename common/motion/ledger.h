@@ -7,13 +7,15 @@ namespace whine {
 // forces p' = (p_n + p_n+1)/2:
 //   d(storage) + modal_damping + lag_damping = torque + rolling + switching + cutting - averaging.
 struct Ledger {
-  double kinetic = 0, modal = 0;   // change of: energy of motion; of the kept modes' springs
-  double residual = 0, local = 0;  // change of: lagged flexibility; half-planes and all that follows at once
-  double torque = 0;               // work of the constant torques on the vibration
+  double kinetic = 0, modal = 0;  // change of: energy of motion; of the kept modes' springs
+  // Change of: lagged flexibility; half-planes, lines' laws and all else that follows at once.
+  double residual = 0, local = 0;
+  double torque = 0;   // work of the constant torques on the vibration
   double rolling = 0;  // of the prescribed rolling: gaps, participation and compliance change with phase
   double modal_damping = 0;  // Rayleigh and bearing dampers of the kept coordinates, by quadrature of v^2
   double lag_damping = 0;    // of the lagged flexibility, by quadrature
-  // The scheme's own: strips that open or close within a step, (p_n d_n+1 - p_n+1 d_n) / 2.
+  // The scheme's own: strips or lines that open or close within a step, (p_n d_n+1 - p_n+1 d_n) / 2, and what the
+  // trapezoid of force over indentation misses of the energy of a line's bent law.
   double switching = 0;
   double cutting = 0;     // pairs that a corner rule takes out, or lets in, while they carry force
   double averaging = 0;   // the scheme's own: mean load times change of the lag, less the exact work

@@ -8,7 +8,7 @@
 
 namespace whine {
 
-// statics: of the same torque; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets
+// statics: of the same torque and contact; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets
 // the bearing dampers. direction: "up" or "down". report(done, total, note) is called after each speed.
 // A speed at which the motion does not become periodic is kept with period_multiple 0. Throws Error(input) for
 // parameters that do not fit, Error(numerical) if contact leaves the flanks.
