@@ -90,19 +90,21 @@ bool follow(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
       tangent[k][k] = reciprocal;
     }
     bool met = true;
-    certificate.residual = 0;
+    double left[n], least[n];  // of d at the next force: what the law's slope can have changed on the way
     for (int i = n - 1; i >= 0; --i) {
       for (int j = i + 1; j < n; ++j) change[i] -= tangent[i][j] * change[j];
       change[i] *= tangent[i][i];
       const double next = f[i] + change[i];
       if (!(next > 0)) return false;
-      const double left = 0.5 * law[carrying[i]].coefficient() * change[i] * change[i] / std::min(f[i], next);
-      met = met && left <= tolerance[i];
-      certificate.residual = std::max(certificate.residual, left);
+      left[i] = 0.5 * law[carrying[i]].coefficient() * change[i] * change[i];
+      least[i] = std::min(f[i], next);
+      met = met && left[i] <= tolerance[i] * least[i];
       f[i] = next;
     }
+    if (!met) continue;
     certificate.iterations = certificate.factorisations = step + 1;
-    if (met) return true;
+    for (int i = 0; i < n; ++i) certificate.residual = std::max(certificate.residual, left[i] / least[i]);
+    return true;
   }
   return false;
 }
