@@ -55,6 +55,7 @@ const BodyArtifact& coarse_body() {
     d.bore_radius = 40e-3;
     BodyDiscretisation discretisation;
     discretisation.element_size = 0.8e-3;
+    discretisation.modes = 5;
     return reduce(make_sector_mesh(d, discretisation), Material{207e9, 0.3, 7600, true},
                   discretisation.modes);
   }();

@@ -121,7 +121,7 @@ TEST_CASE("the default scene reads as it stands, in SI") {
   CHECK(s.operation.torques == std::vector<double>{100, 150, 200, 300});
   CHECK(s.operation.frequency_to == 4000);
   CHECK(s.fidelity.integrator == "exact");
-  CHECK(s.body.modes == 5);
+  CHECK(s.body.modes == 61);
   CHECK(s.body.element_size == relative(0.0004, 1e-15));
   CHECK(s.contact.strips == 15);
   CHECK(s.time.min_sample_rate == 250e3);

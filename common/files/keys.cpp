@@ -148,7 +148,7 @@ std::vector<Key> make_keys() {
     {Part::near_field, "discretisation", "matching_depth_mm", kMillimetre, "1.0", 0, 100, true, "",
      "depth below the flank at which the two are matched; must stay inside the tooth; only with near_field = \"matching\"",
      [](V& v) -> Slot { return &v.body.matching_depth; }},
-    {Part::contact, "discretisation", "strips", kNone, "15", 3, 1001, false, "",
+    {Part::contact, "discretisation", "strips", kNone, "8", 3, 1001, false, "",
      "pressure strips across the contact width at the mean load",
      [](V& v) -> Slot { return &v.contact.strips; }},
     {Part::contact, "discretisation", "positions", kNone, "0", 0, 65536, false, "",

@@ -80,7 +80,7 @@ struct Fidelity {
 };
 
 struct ContactDiscretisation {
-  int strips = 15;    // across the contact width at the mean load
+  int strips = 8;     // across the contact width at the mean load
   int positions = 0;  // mesh positions of the static stage; 0: as steps_per_period, 128 at least
 };
 

@@ -438,7 +438,7 @@ double RollingDynamics::frozen_frequency(int i) {
   stiffness.diagonal() += frequency_squared_;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(stiffness, Eigen::EigenvaluesOnly);
   if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 0))
-    fail(Failure::numerical, "at mesh phase ", position.mesh.phase, " the pair with ", active.strips.size(),
+    fail(Failure::numerical, "at mesh phase ", position.mesh.phase, " the pair with ", touch.size(),
          " strips in contact has no natural frequency: least eigenvalue ", eigen.eigenvalues()[0],
          " rad2/s2 of a stiffness of norm ", stiffness.norm());
   return std::sqrt(eigen.eigenvalues()[0]) / kTwoPi;
