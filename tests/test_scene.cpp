@@ -123,7 +123,7 @@ TEST_CASE("the default scene reads as it stands, in SI") {
   CHECK(s.fidelity.integrator == "exact");
   CHECK(s.body.modes == 61);
   CHECK(s.body.element_size == relative(0.0004, 1e-15));
-  CHECK(s.contact.strips == 15);
+  CHECK(s.contact.strips == 8);
   CHECK(s.time.min_sample_rate == 250e3);
 }
 
@@ -322,7 +322,7 @@ TEST_CASE("slices depend on values, not on comments, order, spelling or defaults
   const SceneFile file;
   const Scene plain = file.read(kScene);
   const std::string dressed =
-      "# comment\n[discretisation]\nstrips = 15\nelement_mm = 0.40\n[operation]\nmesh_frequency_Hz = { step "
+      "# comment\n[discretisation]\nstrips = 8\nelement_mm = 0.40\n[operation]\nmesh_frequency_Hz = { step "
       "= 20.0, to = 4e3, from = 600 }\n"
       "torque_Nm = [100.0, 150]\n[[mesh]]\ncentre_distance_mm = 150.0 # c\ndriven = \"wheel\"\ndriver = "
       "'pinion'\n"
@@ -416,7 +416,7 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(statics.mesh.corner.enabled);
   CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
   CHECK(statics.fidelity.contact == "strips");
-  CHECK(statics.contact.strips == 15);
+  CHECK(statics.contact.strips == 8);
   CHECK(statics.driver_body == body_hash(body_slice(s, "pinion")));
   CHECK(statics.driven_body == body_hash(body_slice(s, "wheel")));
   CHECK(statics.driver_body ==
