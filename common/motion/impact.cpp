@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -157,6 +158,13 @@ class HeldPair {
   double damping_ratio(const std::vector<int>& phases, double rayleigh_stiffness) const {
     double sum = 0;
     for (int i : phases) sum += decay(at(i, rayleigh_stiffness)).second.root.damping_ratio;
+    return sum / static_cast<double>(phases.size());
+  }
+
+  // The same by eigenvalues of the frozen contact.
+  double frozen_damping_ratio(const std::vector<int>& phases, double rayleigh_stiffness) const {
+    double sum = 0;
+    for (int i : phases) sum += frozen_root(at(i, rayleigh_stiffness)).damping_ratio;
     return sum / static_cast<double>(phases.size());
   }
 
@@ -350,11 +358,14 @@ DampedRoot frozen_root(const HeldMesh& mesh) {
     fail(Failure::numerical, "at mesh phase ", mesh.phase, " the ", system.rows(),
          " eigenvalues of the held pair were not found: its matrix has a norm of ", system.norm(), " 1/s");
   const Eigen::VectorXcd roots = eigen.eigenvalues();
+  // The slowest by its modulus: a high mode near critical damping has a small imaginary part, too.
   DampedRoot lowest;
+  double least_modulus = std::numeric_limits<double>::infinity();
   for (const std::complex<double>& s : roots) {
-    if (!(s.imag() > kReal * std::abs(s))) continue;
-    const double frequency = s.imag() / (2 * std::numbers::pi);
-    if (lowest.frequency == 0 || frequency < lowest.frequency) lowest = {frequency, -s.real() / std::abs(s)};
+    const double modulus = std::abs(s);
+    if (!(s.imag() > kReal * modulus) || modulus >= least_modulus) continue;
+    least_modulus = modulus;
+    lowest = {s.imag() / (2 * std::numbers::pi), -s.real() / modulus};
   }
   if (lowest.frequency == 0)
     fail(Failure::numerical, "no eigenvalue of the held pair oscillates: it is damped above critical");
@@ -377,15 +388,17 @@ ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
   const HeldPair pair(driver, driven, statics, mean_stiffness, slice, plan);
   const std::vector<int> phases = pair.phases_of(contact_state);
   const auto excess = [&](double eta) { return pair.damping_ratio(phases, eta) - damping_ratio; };
-  double low = 0, below = excess(low);
+  // Bracketed by eigenvalues: with hardly any damping the higher modes never leave a decay.
+  const auto frozen = [&](double eta) { return pair.frozen_damping_ratio(phases, eta) - damping_ratio; };
+  double low = 0, below = frozen(low);
   if (below > 0)
     fail(Failure::input, "bearings and mass-proportional damping alone give a damping ratio of ",
          below + damping_ratio, " in the contact state '", contact_state, "', above ", damping_ratio,
          "; lower bearing_ratio or rayleigh_mass_per_s");
   // All of the compliance relaxing, the ratio is half of eta w; it is less for the undamped part.
-  double high = damping_ratio / (std::numbers::pi * pair.mean_frequency()), above = excess(high);
+  double high = damping_ratio / (std::numbers::pi * pair.mean_frequency()), above = frozen(high);
   while (above < 0) {
-    const double next = excess(2 * high);
+    const double next = frozen(2 * high);
     if (!(next > above))
       fail(Failure::input, "no rayleigh_stiffness_s gives a damping ratio of ", damping_ratio,
            " in the contact state '", contact_state, "': the largest is near ", above + damping_ratio,
@@ -395,6 +408,7 @@ ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
     high *= 2;
     above = next;
   }
+  while ((above = excess(high)) < 0) high *= 1.01;  // the decay's own ratio is a little off the eigenvalue's
   // Regula falsi, Illinois: an end that stays counts half.
   double eta = high, off = above;
   for (int side = 0, i = 0; std::abs(off) > 1e-7 * damping_ratio; ++i) {
