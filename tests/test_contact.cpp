@@ -102,15 +102,16 @@ TEST_CASE("Hertz line contact: 12 to 50 strips across, any place of the grid") {
   const HalfPlaneSurface surface(strain_steel(), width);
   for (int across : {12, 25, 50}) {
     double least = 1e300, largest = 0;
-    for (double shift : {0.0, 0.13, 0.31, 0.5, 0.77}) {
+    for (double shift = 0; shift < 1; shift += 1.0 / 16) {
       const double h = 2 * a_hertz / across;
       const int n = static_cast<int>(1.3 * across) + 2;
       MatrixXd a(n, n);
       VectorXd gap(n);
       for (int i = 0; i < n; ++i) {
         const double x = (i - 0.5 * (n - 1) + shift) * h;
-        gap[i] = 0.5 * x * x / radius;
-        for (int j = 0; j < n; ++j) a(i, j) = 2 * under_strip(surface, (i - j) * h, 0.5 * h, 1e-3);
+        gap[i] = 0.5 * (x * x + h * h / 12) / radius;  // mean over the strip
+        for (int j = 0; j < n; ++j)
+          a(i, j) = 2 * surface.mean_over_strip((i - j) * h, 0.5 * h, 0.5 * h, 1e-3);
       }
       // Approach that Hertz says carries this force: both bodies' centre displacement, from the exact line
       // integral g = asinh(l) - ... less the constant between a Hertz load's and a line load's depth point.
@@ -120,13 +121,13 @@ TEST_CASE("Hertz line contact: 12 to 50 strips across, any place of the grid") {
       const double sum = s.p.sum();
       least = std::min(least, sum);
       largest = std::max(largest, sum);
-      CHECK(sum == relative(force, across == 12 ? 1.5e-3 : 5e-4));
-      CHECK(s.p.maxCoeff() / (h * width) == relative(486.338e6, across == 12 ? 8e-3 : 3e-3));
+      CHECK(sum == relative(force, 0.17 / (across * across)));
+      CHECK(s.p.maxCoeff() / (h * width) == relative(486.338e6, 0.5 / (across * across)));
       CHECK(complementarity_residual(a, gap.array() - approach, s.p) < 1e-17);
     }
-    // A load that varies with the place of the grid would be an excitation at the strip-passing frequency;
-    // windows therefore move with the contact point. What is left falls with the square of the strip.
-    CHECK((largest - least) / force < 0.2 / (across * across));
+    // Strips are open or closed as a whole, so the load varies with the place of the grid: an excitation at the strip-
+    // passing frequency, had windows not moved with the contact point. It falls with the square of the strip.
+    CHECK((largest - least) / force < 0.3 / (across * across));
   }
 }
 

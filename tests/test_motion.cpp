@@ -28,8 +28,8 @@ constexpr double kPi = std::numbers::pi;
 }  // namespace
 
 TEST_CASE(
-    "transmission error and tooth loads against an independent finite-element code: 1 % and 2 % of the "
-    "load") {
+    "transmission error and tooth loads against an independent finite-element code: 0.3 %, and "
+    "0.5 % of the load") {
   // Conventional contact, 6-node triangles, 0.05 mm at the contact; its own error is 0.1 %, 0.2-0.5 % at a
   // corner. Its phase is set by the unloaded driven gear: a transmission error moves it by TE / (2 p_b).
   struct Point {
@@ -48,12 +48,12 @@ TEST_CASE(
     const auto between = [&](double a, double b) { return (1 - w) * a + w * b; };
     const double error = between(result.transmission_error[i], result.transmission_error[i + 1]);
     INFO("bore " << point.bore << " phase " << point.phase << ": " << error << " against " << point.error);
-    CHECK(error == relative(point.error, 0.01));
+    CHECK(error == relative(point.error, 0.003));
     const double total = point.torque / 70.4769466e-3;
     CHECK(std::abs(between(result.tooth_load(i, 0), result.tooth_load(i + 1, 0)) - point.following) <
-          0.02 * total);
+          0.005 * total);
     CHECK(std::abs(between(result.tooth_load(i, 1), result.tooth_load(i + 1, 1)) - point.reference) <
-          0.02 * total);
+          0.005 * total);
   }
 }
 
@@ -125,12 +125,12 @@ TEST_CASE("contact pressure and half-width follow Hertz inside the flanks, and a
         REQUIRE_FALSE(pair.contact(phase).corner);
         const double radius = pair.relative_curvature_radius(phase * pair.base_pitch());
         const double a = std::sqrt(4 * force / width * radius / (kPi * modulus));
-        // Strips: 15 across at the mean load, fewer for a pair that carries less: 0.6 %. Beside a free tip
+        // Strips: 8 across at the mean load, fewer for a pair that carries less: 2.1 %, with 15 0.6 %. Beside a free tip
         // edge the tooth is no half-plane: the contact is narrower by 1.3 % of (a / distance)^2, the same with
         // 60 strips, 0.2 mm elements and 48 flank points.
         const PairContact contact = pair.contact(phase);
         const double edge = a / std::min(pair.tip_distance(contact, 0), pair.tip_distance(contact, 1));
-        const double allowed = 0.0075 + 0.014 * edge * edge;
+        const double allowed = 0.022 + 0.014 * edge * edge;
         CHECK(result.contact_half_width(i, j) == relative(a, allowed));
         CHECK(result.contact_pressure(i, j) == relative(2 * force / (kPi * a * width), allowed));
       }
@@ -143,8 +143,8 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
   const ErrorBudgetArtifact budget = error_budget(body, body, paper_statics(128), 150);
   const StaticChanges& errors = budget.refinement;
-  CHECK(errors.entry == "strips, flank table, elements, window");
-  REQUIRE(errors.mean_stiffness_change.size() == 4);
+  CHECK(errors.entry == "strips, flank table, elements, window, positions");
+  REQUIRE(errors.mean_stiffness_change.size() == 5);
   CHECK(errors.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
   CHECK(errors.mean_stiffness_change.cwiseAbs().sum() < 3e-3);
   CHECK(errors.mean_stiffness_change.cwiseAbs().minCoeff() > 0);  // each refinement did change something
@@ -152,7 +152,7 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(errors.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
   // Choices are what a body and a slice made that way answer.
   CHECK(budget.fidelity.contact == "strips");
-  CHECK(budget.choice.entry == "matching at 1 mm, contact line");
+  CHECK(budget.choice.entry == "matching at 1 mm, first-order elements, contact line");
   CHECK(budget.choice_missing == "");
   const double mean = static_transmission(body, body, paper_statics(128), 150).mean_stiffness;
   BodyDiscretisation matching = body.discretisation;
@@ -163,7 +163,7 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
                  1e-9));
   StaticSlice by_line = paper_statics(128);
   by_line.fidelity.contact = "line";
-  CHECK(budget.choice.mean_stiffness_change[1] ==
+  CHECK(budget.choice.mean_stiffness_change[2] ==
         relative(static_transmission(body, body, by_line, 150).mean_stiffness / mean - 1, 1e-9));
 
   StaticSlice line = paper_statics(32);
@@ -172,9 +172,9 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   deep.discretisation.matching_depth = 6e-3;
   const ErrorBudgetArtifact of_line = error_budget(deep, deep, line, 150);
   CHECK(of_line.fidelity.contact == "line");
-  CHECK(of_line.refinement.entry == "flank table, elements");
+  CHECK(of_line.refinement.entry == "flank table, elements, positions");
   CHECK(of_line.refinement.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
-  CHECK(of_line.choice.entry == "contact strips");
+  CHECK(of_line.choice.entry == "first-order elements, contact strips");
   CHECK(of_line.choice_missing.find("matching at 6 mm: matching_depth_mm = 6 leaves the tooth") == 0);
 }
 
@@ -262,20 +262,25 @@ TEST_CASE(
     slice.contact.strips = strips;
     return static_transmission(of, of, slice, 150).transmission_error;
   };
-  const VectorXd coarse = error(body, 15), strips_only = error(body, 30), finest = error(body, 60);
-  const VectorXd refined = error(fine, 30);
+  // Windows hold whole fours of strips: 12 for 8 across at the mean load, then 24, 48 and 96.
+  std::vector<VectorXd> by_strips;
+  for (int strips : {8, 16, 32, 64}) by_strips.push_back(error(body, strips));
+  const VectorXd refined = error(fine, 16);
   const double first = harmonics(refined, 1).amplitude[0];
   const auto ripple = [&](const VectorXd& difference) {  // harmonics 21 to 600, of the first harmonic
     return VectorXd(harmonics(difference, 600).amplitude.tail(580) / first);
   };
-  // Strips pass at harmonics 500 and up, elements at 22, table points at 2 to 100. Found: 5e-5.
-  CHECK(ripple(coarse - refined).maxCoeff() < 1e-4);
-  // Second order in the strips: 1.6e-4 and 0.5e-4 in the root of the sum of squares.
-  CHECK(ripple(coarse - strips_only).norm() > 3 * ripple(strips_only - finest).norm());
-  CHECK(ripple(coarse - strips_only).norm() < 3e-4);
-  // Where a tip begins to carry, too: strips narrow towards the edge. Found: 1.6e-4 and 0.4e-4.
-  CHECK((coarse - finest).cwiseAbs().maxCoeff() < 3e-4 * finest.minCoeff());
-  CHECK((strips_only - finest).cwiseAbs().maxCoeff() < 1e-4 * finest.minCoeff());
+  // Strips pass at harmonics 250 and up, elements at 22, table points at 2 to 100. Found: 7e-5 at the default strips.
+  CHECK(ripple(by_strips[0] - refined).maxCoeff() < 2e-4);
+  // Root of the sum of squares: 3.3e-4, then by the power 1.5 of the strips, since a pressure that ends within a strip ends
+  // with a root; twice that over two doublings.
+  const double coarse = ripple(by_strips[0] - by_strips[1]).norm(),
+               finest = ripple(by_strips[2] - by_strips[3]).norm();
+  CHECK(coarse < 6e-4);
+  CHECK(std::log2(coarse / finest) / 2 > 1.3);
+  // Where a tip begins to carry, too: strips narrow towards the edge.
+  CHECK((by_strips[0] - by_strips[3]).cwiseAbs().maxCoeff() < 5e-4 * by_strips[3].minCoeff());
+  CHECK((by_strips[1] - by_strips[3]).cwiseAbs().maxCoeff() < 3e-4 * by_strips[3].minCoeff());
 }
 
 TEST_CASE(
@@ -318,9 +323,9 @@ TEST_CASE(
     double& worst = at_corner ? corner : elsewhere;
     worst = std::max(worst, std::abs(result.transmission_error[i] / result.transmission_error[128 - i] - 1));
   }
-  CHECK(coarse < 2e-4);  // 1.2e-4
+  CHECK(coarse < 5e-4);  // 2.8e-4, with 15 strips 1.2e-4
   CHECK(fine < 0.4 * coarse);
-  CHECK(elsewhere < 2e-4);
+  CHECK(elsewhere < 5e-4);
   CHECK(corner > 2e-3);
   CHECK(corner < 6e-3);
 }
@@ -494,8 +499,8 @@ TEST_CASE("at rest the modal form gives the static transmission error, whatever 
     for (const char* rung : {"quasi-static", "lagged", "modal"}) {
       RollingDynamics dynamics(model, paper_parameters(statics.mean_stiffness, rung, contact));
       dynamics.set_range(
-          contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), 15,
-                        load / model.kinematics.contact_ratio(), 4 * 1.1 * load,
+          contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+                        slice.contact.strips, load / model.kinematics.contact_ratio(), 4 * 1.1 * load,
                         3 * statics.transmission_error.maxCoeff()),
           1);
       const RollingDynamics::State state = dynamics.rest();

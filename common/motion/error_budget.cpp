@@ -46,8 +46,8 @@ StaticChanges changes(const std::vector<std::pair<std::string, Answer>>& others,
 
 BodyArtifact reduced_again(const BodyArtifact& body, const BodyDiscretisation& discretisation,
                            int flank_points) {
-  return reduce(make_sector_mesh(body.design, discretisation), body.material, discretisation.modes,
-                flank_points);
+  constexpr int kModes = 1;  // statics ask for none
+  return reduce(make_sector_mesh(body.design, discretisation), body.material, kModes, flank_points);
 }
 
 }  // namespace
@@ -90,6 +90,9 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
       return reduced_again(body, second, static_cast<int>(body.flank_position.size()));
     });
   if (strips) refined.emplace_back("window", solve(driver, driven, slice, 2));
+  StaticSlice denser = slice;
+  denser.contact.positions *= 2;
+  refined.emplace_back("positions", solve(driver, driven, denser));
 
   ErrorBudgetArtifact budget;
   set_gears(budget, driver, driven);
@@ -117,6 +120,14 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
       return reduced_again(body, other, static_cast<int>(body.flank_position.size()));
     });
   });
+  if (present.element_order == 2)  // there is no higher order to refine to
+    choose("first-order elements", [&] {
+      return of_bodies([&](const BodyArtifact& body) {
+        BodyDiscretisation first = body.discretisation;
+        first.element_order = 1;
+        return reduced_again(body, first, static_cast<int>(body.flank_position.size()));
+      });
+    });
   StaticSlice other = slice;
   other.fidelity.contact = strips ? "line" : "strips";
   choose("contact " + other.fidelity.contact, [&] { return solve(driver, driven, other); });
