@@ -152,7 +152,7 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(errors.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
   // Choices are what a body and a slice made that way answer.
   CHECK(budget.fidelity.contact == "strips");
-  CHECK(budget.choice.entry == "matching at 1 mm, first-order elements, contact line");
+  CHECK(budget.choice.entry == "matching at 1 mm, order 1, contact line");
   CHECK(budget.choice_missing == "");
   const double mean = static_transmission(body, body, paper_statics(128), 150).mean_stiffness;
   BodyDiscretisation matching = body.discretisation;
@@ -174,7 +174,7 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(of_line.fidelity.contact == "line");
   CHECK(of_line.refinement.entry == "flank table, elements, positions");
   CHECK(of_line.refinement.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
-  CHECK(of_line.choice.entry == "first-order elements, contact strips");
+  CHECK(of_line.choice.entry == "order 1, contact strips");
   CHECK(of_line.choice_missing.find("matching at 6 mm: matching_depth_mm = 6 leaves the tooth") == 0);
 }
 

@@ -65,7 +65,8 @@ Eigen::MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneS
                                       const HalfPlaneSurface& driven, double depth);
 
 // Number of strips and half window for a force per pair (N): `across` strips over the Hertz contact width at
-// `mean_force` or a little more (a multiple of 4 in all), a window for `largest_force`, both with the largest relative curvature radius on the path of contact.
+// `mean_force` or a little more (a multiple of 4 in all), a window for `largest_force`, both with the largest relative
+// curvature radius on the path of contact.
 ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver,
                            const HalfPlaneSurface& driven, int across, double mean_force,
                            double largest_force, double corner_gap);

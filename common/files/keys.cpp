@@ -149,7 +149,7 @@ std::vector<Key> make_keys() {
      "depth below the flank at which the two are matched; must stay inside the tooth; only with near_field = \"matching\"",
      [](V& v) -> Slot { return &v.body.matching_depth; }},
     {Part::contact, "discretisation", "strips", kNone, "8", 3, 1001, false, "",
-     "pressure strips across the contact width at the mean load",
+     "pressure strips across the contact width at the mean load; a window holds whole fours of them",
      [](V& v) -> Slot { return &v.contact.strips; }},
     {Part::contact, "discretisation", "positions", kNone, "0", 0, 65536, false, "",
      "mesh positions of the static stage; 0: as steps_per_period, 128 at least",

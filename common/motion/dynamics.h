@@ -35,8 +35,8 @@ struct DynamicParameters {
   Fidelity fidelity;
 };
 
-// The pair held at one phase, contact on strips: z'' + damping z' + frequency_squared z = torque - participation^T p under contact with
-// gap d = gap - participation z + U + local p, relaxation U' + U = residual p.
+// The pair held at one phase, contact on strips: z'' + damping z' + frequency_squared z = torque - participation^T p
+// under contact with gap d = gap - participation z + U + local p, relaxation U' + U = residual p.
 struct HeldMesh {
   double phase = 0;                   // 1: mesh phase
   Eigen::VectorXd frequency_squared;  // (coordinate) rad2 s-2; the first is the rigid rotation, 0

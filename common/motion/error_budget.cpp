@@ -121,7 +121,7 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
     });
   });
   if (present.element_order == 2)  // there is no higher order to refine to
-    choose("first-order elements", [&] {
+    choose("order 1", [&] {
       return of_bodies([&](const BodyArtifact& body) {
         BodyDiscretisation first = body.discretisation;
         first.element_order = 1;

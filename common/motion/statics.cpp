@@ -105,9 +105,9 @@ ContactRung line_rung(const GearMeshModel& model, const ContactRange& range, dou
   };
 }
 
-// One whole period; false if contact wants more than the range holds.
-bool solve_period(const GearMeshModel& model, const ContactRange& range, double load, int positions,
-                  StaticArtifact& result) {
+// One whole period; where and how contact wants more than the range holds, if it does.
+std::string solve_period(const GearMeshModel& model, const ContactRange& range, double load, int positions,
+                         StaticArtifact& result) {
   const double face_width =
       std::min(model.kinematics.gear(0).design().face_width, model.kinematics.gear(1).design().face_width);
   const ContactRung solve =
@@ -122,12 +122,14 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
     const PositionAnswer answer = solve(phase, start);
     const Equilibrium& e = answer.equilibrium;
     start = e.x;
-    if (answer.leaves_window) return false;
+    if (answer.leaves_window) return text("at mesh phase ", phase, " the pressure reaches the window's end");
     if (e.x > answer.lost_corner_gap)
       fail(Failure::numerical, "at mesh phase ", phase, " the deflection ", e.x * 1e6,
            " micrometres closes the gap of a tip edge that would touch below the involute (gap ",
            answer.lost_corner_gap * 1e6, " micrometres); lower the torque or set corner_contact = false");
-    if (e.x > answer.next_corner_gap) return false;
+    if (e.x > answer.next_corner_gap)
+      return text("at mesh phase ", phase, " the deflection ", e.x * 1e6,
+                  " micrometres closes a tip edge's gap of ", answer.next_corner_gap * 1e6, " micrometres");
     result.mesh_phase[i] = phase;
     result.transmission_error[i] = e.x;
     result.stiffness_secant[i] = load / e.x;
@@ -152,7 +154,7 @@ bool solve_period(const GearMeshModel& model, const ContactRange& range, double 
     result.contact_pressure(i, at.pair - lowest) = at.patch.pressure;
     result.contact_half_width(i, at.pair - lowest) = at.patch.half_width;
   }
-  return true;
+  return "";
 }
 
 }  // namespace
@@ -183,11 +185,12 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
     const ContactRange range = contact_range(
         model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), slice.contact.strips,
         load / model.kinematics.contact_ratio(), largest_force, corner_gap);
-    if (solve_period(model, range, load, positions, result)) break;
+    const std::string beyond = solve_period(model, range, load, positions, result);
+    if (beyond.empty()) break;
     if (attempt == 6)
       fail(Failure::numerical, "at ", torque, " N m contact leaves the flanks: window ",
            range.half_window * 1e3, " mm either side, tip edges up to ", corner_gap * 1e6,
-           " micrometres away; lower the torque");
+           " micrometres away, and still ", beyond, "; lower the torque");
     largest_force *= 1.6;
     corner_gap *= 1.6;
   }

@@ -5,11 +5,11 @@
 
 namespace whine {
 
-// window: the strips' window is this many times as wide as the load alone asks for.
-// The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticArtifact but the
-// harmonics. The tangent stiffness of contact = "line" is off by 0.6 % at most where half the load would reach a tip edge,
-// because the flank tables are read at one place whatever the pair carries (make_line_position). Throws Error(input) for a torque that is not positive, Error(numerical) where no equilibrium
-// within the flanks exists or a tip edge would leave the other's involute.
+// The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticArtifact but the harmonics. window:
+// the strips' window is this many times as wide as the load alone asks for. The tangent stiffness of contact = "line"
+// is off by 0.6 % at most where half the load would reach a tip edge, because the flank tables are read at one place
+// whatever the pair carries (make_line_position). Throws Error(input) for a torque that is not positive,
+// Error(numerical) where no equilibrium within the flanks exists or a tip edge would leave the other's involute.
 StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
                                    const StaticSlice& slice, double torque, double window = 1);
 
