@@ -209,8 +209,8 @@ TEST_CASE("a value outside its range is refused with value and limit") {
   CHECK(file.read(scene_with("step = 20", "step = 0.5")).operation.frequency_step == 0.5);
   CHECK(contains(file.refusal(scene_with("step = 20", "step = 1e-9")), "100000 speeds"));
   CHECK(contains(file.refusal(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
-  CHECK(contains(file.refusal(with_section("[fidelity]\nbody = \"full\"\n")),
-                 "must be one of: rigid, quasi-static, lagged, modal"));
+  CHECK(contains(file.refusal(with_section("[fidelity]\nbody = \"whole\"\n")),
+                 "must be one of: rigid, quasi-static, lagged, modal, full"));
   CHECK(contains(file.refusal(with_section("[fidelity]\ncontact = \"point\"\n")),
                  "must be one of: line, strips"));
   CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == "line");
@@ -357,6 +357,8 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
       {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false, false},
       {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false, false},
       {section("[fidelity]\nmodes = 9\n"), true, true, false, false},
+      {section("[fidelity]\nbody = \"lagged\"\n"), false, false, true, true},
+      {section("[fidelity]\nbody = \"full\"\n"), true, true, true, true},
       {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false, false},
       {mesh_key("corner_contact = false"), false, true, false, false},
       {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false, false},
@@ -382,6 +384,21 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
     CHECK((impact_slice(s) != impact_slice(base)) == change.impact);
     CHECK((sweep_slice(s) != sweep_slice(base)) == change.sweep);
   }
+}
+
+TEST_CASE("body = \"full\" takes every mode, whatever 'modes' says; the ladder ends there") {
+  const SceneFile file;
+  const Scene many = file.read(with_section("[fidelity]\nbody = \"full\"\nmodes = 9\n"));
+  CHECK(many.body.modes == kAllModes);
+  CHECK(body_slice(many, "wheel") ==
+        body_slice(file.read(with_section("[fidelity]\nbody = \"full\"\nmodes = 61\n")), "wheel"));
+  CHECK(read_body_slice(file.path(body_slice(many, "wheel"), "body.toml")).discretisation.modes == kAllModes);
+  std::string ladder, rung = "rigid";
+  for (; !rung.empty(); rung = next_rung("body", rung)) ladder += rung + " ";
+  CHECK(ladder == "rigid quasi-static lagged modal full ");
+  CHECK(next_rung("contact", "line") == "strips");
+  CHECK(next_rung("contact", "strips") == "");
+  CHECK_THROWS_AS(next_rung("contact", "glue"), Error);
 }
 
 TEST_CASE("slices read back bit by bit") {

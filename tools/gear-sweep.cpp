@@ -3,12 +3,16 @@
 // Reads   params (slice of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears, static.h5 of the
 //         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
 // Writes  sweep.h5    transmission error and tooth loads over one orbit at every speed, energy, certificate, jumps
+// With --next-rung: beside sweep.h5, in words, what the same sweep answers on the next rung of contact and on that of body.
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
 // Example: gear-sweep --params out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5
 //            --driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5
 //            --reference-static out/parker2000/T100/static.h5 --direction up --output out/parker2000/T150/up/sweep.h5
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/progress.h"
@@ -17,13 +21,40 @@
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
+#include "motion/next_rung.h"
 #include "motion/sweep.h"
 
 namespace {
 
+std::string in_words(const whine::Change& change) {
+  std::ostringstream out;
+  out << change.largest * 100 << " % at most (" << change.at << " Hz), " << change.rms * 100 << " % RMS";
+  return out.str();
+}
+
+std::string in_words(const Eigen::VectorXd& jumps) {
+  std::ostringstream out;
+  for (Eigen::Index i = 0; i < jumps.size(); ++i) out << (i ? ", " : "") << jumps[i];
+  return jumps.size() > 0 ? out.str() + " Hz" : "none";
+}
+
+void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
+                 const whine::SweepArtifact& there) {
+  const whine::SweepChange change = whine::sweep_change(here, there);
+  const std::string rung =
+      whine::text("gear-sweep: ", next.key, " = \"", next.from, "\" against \"", next.to, "\"");
+  whine::tell(rung, " at ", change.compared, " speeds: RMS of the transmission error off by ",
+              in_words(change.dte_rms), "; its mean by ", in_words(change.dte_mean), "; peak tooth load by ",
+              in_words(change.tooth_load));
+  whine::tell(rung, ": jumps ", in_words(here.jump_frequency), " against ", in_words(there.jump_frequency),
+              "; on different branches at ", change.apart, " speeds, with other periods or none at ",
+              change.uneven);
+}
+
 void body(int argc, char** argv) {
   CLI::App app{"Speed sweep of the dynamic response, with contact solved at every step", "gear-sweep"};
   std::string params, driver, driven, statics, reference, direction, output;
+  bool next_rung = false;
   app.add_option("--params", params, "slice of the scene: out/<scene>/params/sweep.toml")->required();
   app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
   app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
@@ -32,6 +63,8 @@ void body(int argc, char** argv) {
       ->required();
   app.add_option("--direction", direction, "up or down")->required()->check(CLI::IsMember({"up", "down"}));
   app.add_option("--output", output, "sweep.h5 to write")->required();
+  app.add_flag("--next-rung", next_rung,
+               "sweep on the next rung of contact and on that of body as well, and say what they change");
   whine::parse(app, argc, argv);
 
   const whine::SweepSlice slice = whine::read_sweep_slice(params);
@@ -48,14 +81,21 @@ void body(int argc, char** argv) {
                 " N m, but the scene's first torque, which sets the bearing dampers, is ",
                 slice.reference_torque, " N m; give the static.h5 of that torque");
 
-  std::optional<whine::Progress> progress;
+  const whine::BodyArtifact driver_body = whine::read_body(driver), driven_body = whine::read_body(driven);
+  std::vector<whine::NextSweep> next;
+  if (next_rung) next = whine::next_sweeps(driver_body, driven_body, at_torque, at_reference, slice);
+  const auto run = [&](const whine::BodyArtifact& a, const whine::BodyArtifact& b,
+                       const whine::StaticArtifact& at, double mean_stiffness, const whine::SweepSlice& s,
+                       const std::string& name) {
+    std::optional<whine::Progress> progress;
+    return whine::sweep(a, b, at, mean_stiffness, s, direction,
+                        [&](long done, long total, const std::string& note) {
+                          if (!progress) progress.emplace("gear-sweep " + direction + name, total);
+                          progress->update(done, note);
+                        });
+  };
   const whine::SweepArtifact result =
-      whine::sweep(whine::read_body(driver), whine::read_body(driven), at_torque, at_reference.mean_stiffness,
-                   slice, direction, [&](long done, long total, const std::string& note) {
-                     if (!progress) progress.emplace("gear-sweep " + direction, total);
-                     progress->update(done, note);
-                   });
-  progress.reset();
+      run(driver_body, driven_body, at_torque, at_reference.mean_stiffness, slice, "");
 
   whine::Provenance provenance;
   provenance.tool = whine::program_name(argv[0]);
@@ -76,6 +116,12 @@ void body(int argc, char** argv) {
   if (result.backlash_margin <= 0)
     whine::tell("gear-sweep: warning: the motion goes ", -result.backlash_margin * 1e6,
                 " um beyond the backlash; back flanks would touch, which is not modelled");
+  for (const whine::NextSweep& s : next)
+    if (s.missing.empty())
+      tell_change(s, result, run(s.driver, s.driven, s.statics, s.mean_stiffness, s.slice, " " + s.to));
+    else
+      whine::tell("gear-sweep: ", s.key, " = \"", s.from, "\" against \"", s.to,
+                  "\" is not compared: ", s.missing);
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ std::vector<Key> make_keys() {
      },
      "slower, a mesh period takes more than 250000 time steps at the default rate; the static stage is the limit of zero speed"},
 
-    {Part::rung, "fidelity", "body", kNone, "modal", 0, 0, false, "rigid quasi-static lagged modal",
+    {Part::rung, "fidelity", "body", kNone, "modal", 0, 0, false, "rigid quasi-static lagged modal full",
      "what of the elastic body moves by itself",
      [](V& v) -> Slot { return &v.fidelity.body; }},
     {Part::contact_rung, "fidelity", "contact", kNone, "strips", 0, 0, false, "line strips",
@@ -133,7 +133,7 @@ std::vector<Key> make_keys() {
      "time integration: Newmark (Eq. 8), or modal propagators",
      [](V& v) -> Slot { return &v.fidelity.integrator; }},
     {Part::body, "fidelity", "modes", kNone, "61", 1, 100000, false, "",
-     "elastic modes of the whole gear; a doublet is never cut (rounded up)",
+     "elastic modes of the whole gear; a doublet is never cut (rounded up); without meaning to body = \"full\", which takes all (-1 in its artifacts)",
      [](V& v) -> Slot { return &v.body.modes; }},
 
     {Part::body, "discretisation", "element_mm", kMillimetre, "0.4", 0, 100, true, "",
@@ -198,6 +198,16 @@ std::string Key::si_name() const {
 const std::vector<Key>& scene_keys() {
   static const std::vector<Key> keys = make_keys();
   return keys;
+}
+
+std::string next_rung(const std::string& key, const std::string& choice) {
+  for (const Key& candidate : scene_keys()) {
+    if (std::string(candidate.section) != "fidelity" || candidate.name != key) continue;
+    std::istringstream list(candidate.choices);
+    for (std::string word; list >> word;)
+      if (word == choice) return list >> word ? word : "";
+  }
+  fail(Failure::input, key, " = \"", choice, "\" is no rung of [fidelity]");
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {

@@ -541,6 +541,7 @@ Scene read_scene(const std::string& path) {
   scene.operation = values.operation;
   scene.fidelity = values.fidelity;
   scene.body = values.body;
+  if (scene.fidelity.body == "full") scene.body.modes = kAllModes;
   scene.contact = values.contact;
   scene.time = values.time;
   return scene;

@@ -32,11 +32,14 @@ struct Material {
   bool plane_stress = true;   // false: plane strain
 };
 
+// BodyDiscretisation::modes that stands for every mode of the mesh.
+inline constexpr int kAllModes = -1;
+
 // Discretisation of a body: what gear-mesh and gear-reduce need beside the gear itself.
 struct BodyDiscretisation {
   double element_size = 0;  // m on the flank
   int element_order = 2;    // 1 or 2
-  int modes = 61;           // elastic modes of the whole gear; doublets are never cut
+  int modes = 61;           // elastic modes of the whole gear, or kAllModes; doublets are never cut
   std::string near_field =
       "subtraction";             // of the half-plane in the finite elements; or "matching" at a depth
   double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
@@ -74,10 +77,13 @@ struct Operation {
 };
 
 struct Fidelity {
-  std::string body = "modal";        // rigid, quasi-static, lagged, modal
+  std::string body = "modal";        // rigid, quasi-static, lagged, modal, full
   std::string contact = "strips";    // line, strips
   std::string integrator = "exact";  // newmark, exact
 };
+
+// The choice of a key of [fidelity] that stands after `choice` on its ladder, cheapest first; empty after the last.
+std::string next_rung(const std::string& key, const std::string& choice);
 
 struct ContactDiscretisation {
   int strips = 8;     // across the contact width at the mean load

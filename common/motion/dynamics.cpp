@@ -51,8 +51,12 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
     if (rung != "rigid") {
       if (torsional < 0) fail(Failure::input, "the body holds no torsional mode; rebuild body.h5");
       for (int i = 0; i < body.eigenfrequency.size(); ++i)
-        if (rung == "modal" || i == torsional) kept_[g].push_back(i);
+        if (rung == "modal" || full() || i == torsional) kept_[g].push_back(i);
     }
+    if (full() && body.discretisation.modes != kAllModes)
+      fail(Failure::input, "body = \"full\" needs a body with every mode of its mesh, that of the ",
+           g ? "driven gear" : "driver", " holds ", body.eigenfrequency.size(), " modes; rebuild body.h5");
+    first_coordinate_[g] = static_cast<int>(coordinates_.size());
     add_modes(g, kept_[g]);
   }
 
@@ -185,6 +189,19 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     for (const PairStrips& s : positions_[i].mesh.pairs) reach_ = std::max(reach_, std::abs(s.pair));
   }
 
+  // Participation of every coordinate at the nodes of every position, once to look at and once packed for the steps.
+  constexpr double kMostMemory = 12e9;  // bytes
+  double memory = 0;
+  for (const Position& position : positions_)
+    memory += 8.0 * static_cast<double>(coordinates_.size()) *
+              (position.mesh.nodes() + (lines() ? 1.0 : static_cast<double>(kPairNodes)) *
+                                           static_cast<double>(position.mesh.pairs.size()));
+  if (memory > kMostMemory)
+    fail(Failure::input, coordinates_.size(), " coordinates at ", steps, " positions of a mesh period need ",
+         memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; set contact = \"line\", lower min_sample_rate_kHz or raise the lowest speed, or take "
+         "body = \"modal\"");
+
   const int pairs = 2 * reach_ + 1;
   std::array<std::vector<MatrixXd>, 2> tables;  // by offset between teeth, -2 reach..2 reach
   for (int g = 0; g < 2; ++g) {
@@ -197,7 +214,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     const int offsets = model_.gear[g].body().offsets;
     for (int offset = -offsets; offset <= offsets; ++offset)
       known.push_back(rigid ? MatrixXd::Zero(m, m) : model_.gear[g].residual(offset, depth, kept_[g]));
-    fields_[g] = lagged_fields(known, g);
+    fields_[g] = full() ? MatrixXd::Zero(m, kFields) : lagged_fields(known, g);
     coupling_[g] = MatrixXd::Zero(kFields * pairs, kFields * pairs);
     const int own = static_cast<int>(fields_[g].cols());
     for (int i = 0; i < pairs; ++i)
@@ -323,10 +340,28 @@ void RollingDynamics::pack_strips(Position& position, size_t& inner) {
   }
 }
 
+const MatrixXd& RollingDynamics::shape_on_tooth(int g, int tooth) const {
+  const auto [at, fresh] = shape_[g].try_emplace(tooth);
+  if (fresh) {
+    const int count =
+        (g == 0 ? first_coordinate_[1] : static_cast<int>(coordinates_.size())) - first_coordinate_[g];
+    std::map<int, VectorXd> mode;  // of columns that several coordinates share
+    at->second = MatrixXd::Zero(model_.gear[g].table_size(), count);
+    for (int c = 0; c < count; ++c)
+      for (const auto& [column, share] : coordinates_[first_coordinate_[g] + c].columns) {
+        VectorXd& shape = mode[column];
+        if (shape.size() == 0) shape = model_.gear[g].mode_on_tooth(column, tooth);
+        at->second.col(c) += share * shape;
+      }
+  }
+  return at->second;
+}
+
 MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
   MatrixXd h = MatrixXd::Zero(mesh.nodes(), static_cast<int>(coordinates_.size()));
   for (size_t c = 0; c < coordinates_.size(); ++c) {
     for (int g = 0; g < 2; ++g) h.col(c) += coordinates_[c].hub[g] * mesh.node_lever[g];
+    if (full()) continue;
     const int g = coordinates_[c].gear;
     for (size_t i = 0; i < mesh.pairs.size(); ++i)
       for (const auto& [column, share] : coordinates_[c].columns)
@@ -334,6 +369,13 @@ MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
             share * mesh.table_weights[g](mesh.nodes_of(i), Eigen::all) *
             model_.gear[g].mode_on_tooth(column, GearMeshModel::tooth(g, mesh.pairs[i].pair));
   }
+  // Every mode: one product with a matrix that is kept per tooth.
+  for (int g = 0; full() && g < 2; ++g)
+    for (size_t i = 0; i < mesh.pairs.size(); ++i) {
+      const MatrixXd& shape = shape_on_tooth(g, GearMeshModel::tooth(g, mesh.pairs[i].pair));
+      h.middleCols(first_coordinate_[g], shape.cols())(mesh.nodes_of(i), Eigen::all) +=
+          mesh.table_weights[g](mesh.nodes_of(i), Eigen::all) * shape;
+    }
   return h;
 }
 
@@ -420,6 +462,28 @@ VectorXd RollingDynamics::elastic_offset(const Position& position) const {
          position.mesh.to_strips(position.participation * flexibility().cwiseProduct(torque_force_));
 }
 
+// Least w^2 of z'' + (diag(frequency^2) + h^T c^-1 h) z = 0 below the first elastic frequency, without a matrix over the
+// coordinates: elastic ones answer at w^2 by F = sum of h h^T / (frequency^2 - w^2), which leaves
+// w^2 = h_0^T (c + F(w^2))^-1 h_0 of the rigid rotation. The right side falls with w^2.
+double RollingDynamics::condensed_eigenvalue(const MatrixXd& compliance, const MatrixXd& h) const {
+  const Eigen::Index n = h.cols() - 1;
+  const auto elastic = h.rightCols(n);
+  const double pole = frequency_squared_.tail(n).minCoeff();
+  double below = 0, above = pole, at = 0;
+  constexpr int kMost = 100;
+  for (int k = 0; k < kMost; ++k) {
+    const VectorXd response = (frequency_squared_.tail(n).array() - at).inverse();
+    const MatrixXd whole = compliance + elastic * response.asDiagonal() * elastic.transpose();
+    const double next = h.col(0).dot(whole.ldlt().solve(h.col(0)));
+    if (std::abs(next - at) < 1e-13 * at) return next;
+    (next > at ? below : above) = at;
+    at = next > below && next < above ? next : 0.5 * (below + above);
+  }
+  fail(Failure::numerical, "no natural frequency was found below the first elastic one of ",
+       std::sqrt(pole) / kTwoPi, " Hz in ", kMost,
+       " steps; raise total_inertia_kgm2 or set body = \"modal\"");
+}
+
 double RollingDynamics::frozen_frequency(int i) {
   const Position& position = positions_[i];
   const VectorXd p = equilibrium_at(position, static_compliance(position), elastic_offset(position)).p;
@@ -434,6 +498,7 @@ double RollingDynamics::frozen_frequency(int i) {
   MatrixXd h(position.mesh.strips(), position.participation.cols());
   for (int c = 0; c < h.cols(); ++c) h.col(c) = position.mesh.to_strips(position.participation.col(c));
   const MatrixXd touching = h(touch, Eigen::all);
+  if (full()) return std::sqrt(condensed_eigenvalue(compliance, touching)) / kTwoPi;
   MatrixXd stiffness = touching.transpose() * compliance.ldlt().solve(touching);
   stiffness.diagonal() += frequency_squared_;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(stiffness, Eigen::EigenvaluesOnly);

@@ -9,6 +9,8 @@
 // - what the modes leave of the flanks' flexibility relaxes with the Rayleigh time: eta U' + U = R p. Every truncated
 //   mode has the same time, so loads are relaxed instead and U = R (lagged loads). A tooth carries them in a few
 //   fields V of its flank table, those that hold all of R that is worth a memory; R - V V^T R V V^T follows at once.
+// With body = "full" the modes are all that the mesh has and nothing lags. What the half-plane adds to their flexibility
+// between points of a flank, it being no finite element, follows at once: undamped_depth is then without meaning.
 // Gap of a strip: d = e - h z + U + A_local p >= 0 with p >= 0, p . d = 0 at the end of each step (Eq. 18).
 // With contact = "line" a pair is one strip on one node, and Hertz's law of its force stands in for the half-planes in
 // A_local p. It is relative to the undamped depth and follows at once, as they do.
@@ -18,6 +20,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "files/schemas.h"
@@ -57,8 +60,8 @@ struct HeldMesh {
 
 class RollingDynamics {
  public:
-  // Throws Error(input) if a total inertia is not above what the body's modes carry, Error(numerical) if the modes of a
-  // gear free to turn cannot be found.
+  // Throws Error(input) if a total inertia is not above what the body's modes carry or body = "full" finds a body that does
+  // not hold every mode, Error(numerical) if the modes of a gear free to turn cannot be found.
   RollingDynamics(const GearMeshModel& model, const DynamicParameters& parameters);
 
   // State at the start of a mesh period; lag fields per pair -reach..reach.
@@ -79,8 +82,8 @@ class RollingDynamics {
   };
 
   // Builds the strips, or the lines, at `steps` phases; keeps nothing of an earlier range. Of a range lines use the
-  // corner gap alone. Throws Error(numerical) if the lagged fields leave more than 1e-3 of a gear's residual flexibility
-  // to follow at once.
+  // corner gap alone. Throws Error(input) if the coordinates of all steps need more than 12 GB,
+  // Error(numerical) if the lagged fields leave more than 1e-3 of a gear's residual flexibility to follow at once.
   void set_range(const ContactRange& range, int steps);
   // mesh frequency: Hz; steps per period must divide the steps of the range.
   void set_speed(double mesh_frequency, int steps);
@@ -167,10 +170,11 @@ class RollingDynamics {
   void record_step(const Instant& before, const Instant& after, double& balance, Ledger& ledger) const;
   DampingIntegrals damping_integrals() const;
   double relaxation() const {  // s, of the lagged flexibility
-    return parameters_.fidelity.body == "quasi-static" ? 0 : parameters_.damping.rayleigh_stiffness;
+    return full() || parameters_.fidelity.body == "quasi-static" ? 0 : parameters_.damping.rayleigh_stiffness;
   }
   template <class Contact>
   bool march(Contact contact, State& state, Period& period, Ledger* ledger);
+  bool full() const { return parameters_.fidelity.body == "full"; }
   bool lines() const { return parameters_.fidelity.contact == "line"; }
   // At rest; compliance: (strip, strip) of static_compliance; offset: (strip) of elastic_offset.
   Equilibrium equilibrium_at(const Position& position, const Eigen::MatrixXd& compliance,
@@ -180,13 +184,18 @@ class RollingDynamics {
   void pack_strips(Position& position, size_t& inner);
   void pack_lines(Position& position);
   void add_modes(int g, const std::vector<int>& columns);
+  const Eigen::MatrixXd& shape_on_tooth(int g, int tooth) const;
   Eigen::VectorXd flexibility() const;  // (coordinate) s2: 1 / w^2, 0 for the rigid rotation
   Eigen::MatrixXd static_compliance(const Position& position) const;
+  double condensed_eigenvalue(const Eigen::MatrixXd& compliance, const Eigen::MatrixXd& h) const;  // s-2
 
   const GearMeshModel& model_;
   DynamicParameters parameters_;
   std::array<std::vector<int>, 2> kept_;
-  std::vector<Coordinate> coordinates_;
+  std::vector<Coordinate> coordinates_;  // the rigid rotation, then those of gear 0, then those of gear 1
+  std::array<int, 2> first_coordinate_{};
+  // [tooth] (flank, coordinate of the gear) outward displacement per unit, hub at rest
+  mutable std::array<std::map<int, Eigen::MatrixXd>, 2> shape_;
   Eigen::VectorXd error_weight_, torque_force_, frequency_squared_;
   double rigid_frequency_ = 0;  // rad s-1: sqrt(mean stiffness / reduced mass)
   int reach_ = 1, steps_ = 0, stride_ = 1;

@@ -96,6 +96,11 @@ class HeldPair {
     if (slice.fidelity.contact != "strips")
       fail(Failure::input, "contact = \"", slice.fidelity.contact,
            "\" in [fidelity] is not available in ring-downs; set contact = \"strips\"");
+    if (slice.fidelity.body == "full")
+      fail(Failure::input,
+           "body = \"full\" in [fidelity] is not available in ring-downs: the eigenvalues beside the decays "
+           "are those of "
+           "dense matrices; set body = \"modal\"");
     if (plan.phases < 2 || plan.phases % 2)
       fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
     const GearMeshModel model(driver, driven, statics.mesh);

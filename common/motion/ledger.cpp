@@ -41,19 +41,38 @@ void quadrature(double step, double rate, Function at) {
     for (int k = 0; k < kPoints; ++k) at(step * (i + kNode[k]) / panels, step * kWeight[k] / panels);
 }
 
+// The same for what decays at that rate and then changes slowly: panels that grow from it on.
+template <class Function>
+void graded_quadrature(double step, double rate, Function at) {
+  constexpr double kGrowth = 1.5;
+  double from = 0;
+  for (double width = 1 / rate; from < step; width = (kGrowth - 1) * from) {
+    const double to = from + 1.01 * width < step ? from + width : step;
+    for (int k = 0; k < kPoints; ++k) at(from + (to - from) * kNode[k], (to - from) * kWeight[k]);
+    from = to;
+  }
+}
+
 }  // namespace
 
 RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
   DampingIntegrals result;
   const int n = static_cast<int>(coordinates_.size());
   result.speed = result.mixed = result.push = VectorXd::Zero(n);
-  for (int c = 0; c < n; ++c)
-    quadrature(step_, coordinates_[c].frequency + coordinates_[c].damping, [&](double t, double weight) {
-      const Propagator part = exact_propagator(coordinates_[c].frequency, coordinates_[c].damping, t);
+  for (int c = 0; c < n; ++c) {
+    const double frequency = coordinates_[c].frequency, damping = coordinates_[c].damping;
+    const auto add = [&](double t, double weight) {
+      const Propagator part = exact_propagator(frequency, damping, t);
       result.speed[c] += weight * part.a22 * part.a22;
       result.mixed[c] += weight * part.a22 * part.bv;
       result.push[c] += weight * part.bv * part.bv;
-    });
+    };
+    // Every mode of a mesh: most of them are overdamped a thousandfold.
+    if (damping > 4 * frequency)
+      graded_quadrature(step_, frequency + damping, add);
+    else
+      quadrature(step_, frequency + damping, add);
+  }
   const double eta = relaxation();
   if (eta > 0)
     quadrature(step_, 1 / eta, [&](double t, double weight) {

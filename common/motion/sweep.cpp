@@ -83,10 +83,6 @@ class Sweeper {
   RollingDynamics::State state_;
 };
 
-bool differs(double a, double b) {
-  return std::max(a, b) > kJumpRatio * std::min(a, b);
-}
-
 // Between two speeds whose responses differ: follows the branch of the first, with steps that are halved where they leave
 // it, to where it ends - past the second speed too, since a long step leaves a branch early whose basin has become
 // narrow. Nothing if the branch passes through the response at the second speed: a resonance flank, no jump.
@@ -110,7 +106,7 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
     }
     sweeper.state() = branch;
     const double found = sweeper.run(next).rms;
-    if (differs(rms, found)) {
+    if (like_a_jump(rms, found)) {
       step *= 0.5;
       jump = Jump{0.5 * (at + next), std::abs(next - at)};
       continue;
@@ -120,7 +116,7 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
     branch = sweeper.state();
     if (at == to) {
       passed = true;
-      if (!differs(found, to_rms)) {
+      if (!like_a_jump(found, to_rms)) {
         jump.reset();
         break;
       }
@@ -131,6 +127,10 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
 }
 
 }  // namespace
+
+bool like_a_jump(double rms, double other) {
+  return std::max(rms, other) > kJumpRatio * std::min(rms, other);
+}
 
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepSlice& slice, const std::string& direction,
@@ -190,7 +190,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     result.energy_imbalance[i] = l.imbalance / l.throughput;
     result.energy.row(i) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
         l.lag_damping, l.switching, l.cutting, l.averaging;  // kEnergyLines
-    if (i > 0 && differs(steady[i - 1].rms, s.rms))
+    if (i > 0 && like_a_jump(steady[i - 1].rms, s.rms))
       if (const auto jump = find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f,
                                       s.rms, direction == "up" ? speed(speeds - 1) : speed(0)))
         jumps.push_back(*jump);

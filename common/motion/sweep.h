@@ -16,4 +16,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
                     double mean_stiffness, const SweepSlice& slice, const std::string& direction,
                     const std::function<void(long, long, const std::string&)>& report);
 
+// Whether the RMS of the transmission error of two motions differ as much as across a jump.
+bool like_a_jump(double rms, double other);
+
 }  // namespace whine

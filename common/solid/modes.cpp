@@ -1,5 +1,6 @@
 #include "solid/modes.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,37 @@ ComplexModes lowest_modes(const SparseComplex& stiffness, const SparseComplex& m
     modes.residual = std::max(modes.residual, residual);
   }
   return modes;
+}
+
+namespace {
+
+template <class Matrix>
+ComplexModes all_modes_of(const Matrix& stiffness, const Matrix& mass, const std::string& what) {
+  const Eigen::LLT<Matrix> factor(stiffness);
+  if (factor.info() != Eigen::Success) fail(Failure::numerical, what, " is not positive definite");
+  // C = L^-1 M L^-H, C y = y / omega^2, u = omega L^-H y
+  Matrix half = factor.matrixL().solve(mass);
+  const Matrix c = factor.matrixL().solve(half.adjoint().eval());
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(c);
+  const Eigen::Index n = c.rows();
+  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 0))
+    fail(Failure::numerical, what, ": of ", n, " modes the least 1 / omega^2 is ", eigen.eigenvalues()[0],
+         " s2, not above 0; the mesh's mass is wrong, rebuild it");
+  ComplexModes modes;
+  modes.omega_squared = eigen.eigenvalues().reverse().cwiseInverse();
+  half = factor.matrixU().solve(eigen.eigenvectors());
+  modes.shape = half.rowwise().reverse().template cast<std::complex<double>>() *
+                modes.omega_squared.cwiseSqrt().asDiagonal();
+  return modes;
+}
+
+}  // namespace
+
+ComplexModes all_modes(const SparseComplex& stiffness, const SparseComplex& mass, bool real,
+                       const std::string& what) {
+  const Eigen::MatrixXcd k = stiffness, m = mass;
+  return real ? all_modes_of<Eigen::MatrixXd>(k.real(), m.real(), what)
+              : all_modes_of<Eigen::MatrixXcd>(k, m, what);
 }
 
 }  // namespace whine

@@ -23,4 +23,10 @@ struct ComplexModes {
 ComplexModes lowest_modes(const SparseComplex& stiffness, const SparseComplex& mass,
                           const HermitianFactor& factor, int count, const std::string& what);
 
+// Every mode, by a dense eigensolution of the size of the matrices: in memory a few times 16 bytes times size^2, in time
+// some size^3. real: both matrices are real. Eigenvalues of K^-1 M, so that the sum of u u^H / omega^2 is K^-1 to round-off.
+// Throws Error(numerical) if K or M is not positive definite.
+ComplexModes all_modes(const SparseComplex& stiffness, const SparseComplex& mass, bool real,
+                       const std::string& what);
+
 }  // namespace whine

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "solid/flank_table.h"
 #include "solid/half_plane.h"
+#include "solid/mesher.h"
 #include "solid/modes.h"
 #include "solid/sector.h"
 
@@ -21,6 +22,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kDrawnModes = 16;  // modes shown in ParaView; each costs megabytes
+// Unknowns of a harmonic for every mode: ten seconds and 0.2 GB a harmonic at the limit, growing as cube and square.
+constexpr int kMostDense = 1500;
 using Complex = std::complex<double>;
 
 // A side of an element on the boundary of the tooth region, node order counter-clockwise around the region.
@@ -157,6 +160,20 @@ void fix_phase(Eigen::VectorXcd& shape, const SparseReal& outward) {
     value = shape[largest];
   }
   shape *= std::conj(value) / std::abs(value);
+}
+
+// A mesh of the same gear whose modes can all be found, in words.
+std::string coarse_enough(const MeshArtifact& mesh) {
+  BodyDiscretisation coarser = mesh.discretisation;
+  coarser.element_order = 1;
+  for (; coarser.element_size <= mesh.design.module; coarser.element_size *= 1.5) {
+    const MeshArtifact other = make_sector_mesh(mesh.design, coarser);
+    const Eigen::Index size =
+        2 * (other.node_position.rows() - other.bore_node.size() - other.side_node.rows());
+    if (size <= kMostDense)
+      return text("element_order = 1 and element_mm = ", coarser.element_size * 1e3, " make about ", size);
+  }
+  return "not even elements of a module of order 1 are coarse enough";
 }
 
 }  // namespace
@@ -308,7 +325,8 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
 }
 
 BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes, int flank_points) {
-  if (modes < 0) fail(Failure::input, "modes = ", modes, " is below 0");
+  const bool all = modes == kAllModes;
+  if (modes < 0 && !all) fail(Failure::input, "modes = ", modes, " is below 0");
   const bool matching = mesh.discretisation.near_field == "matching";
   const double depth = mesh.discretisation.matching_depth;
   if (!matching && mesh.discretisation.near_field != "subtraction")
@@ -331,6 +349,11 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   const Eigen::VectorXd rotation = rotation_field(mesh.node_position);
   const Eigen::VectorXd momentum = system.mass * rotation;
   const CyclicSector sector(mesh, system);
+  if (all && sector.size() > kMostDense)
+    fail(Failure::input, "body = \"full\" wants all ", static_cast<long>(sector.size()) * teeth, " modes of ",
+         teeth, " sectors with ", sector.size(), " unknowns; at most ", kMostDense,
+         " are found by dense algebra, at four times the memory and eight times the time for twice as many; ",
+         coarse_enough(mesh), "; or set body = \"modal\"");
   const SparseReal outward = FlankReader(mesh).outward(xi);
   // What the loaded tooth is read by in place of its surface.
   const SparseReal below = matching ? FlankReader(mesh).outward_below(xi, depth) : outward;
@@ -356,9 +379,13 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
 
     // No more than these of a harmonic can be among the lowest `modes` of the gear; the torsional one is
     // always sought.
-    const int wanted = n == 0 ? std::max(modes, 4) : sector.single(n) ? modes : (modes + 1) / 2;
+    const int wanted = all                ? sector.size()
+                       : n == 0           ? std::max(modes, 4)
+                       : sector.single(n) ? modes
+                                          : (modes + 1) / 2;
     if (wanted == 0) continue;
-    const ComplexModes lowest = lowest_modes(stiffness, sector.mass(n), factor, wanted, what);
+    const ComplexModes lowest = all ? all_modes(stiffness, sector.mass(n), sector.single(n), what)
+                                    : lowest_modes(stiffness, sector.mass(n), factor, wanted, what);
     for (int k = 0; k < wanted; ++k) {
       KeptMode mode;
       mode.harmonic = n;
@@ -368,6 +395,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
       if (sector.single(n)) mode.sector = mode.sector.real().cast<Complex>().eval();
       mode.flank = outward.cast<Complex>() * mode.sector;
       if (n == 0) mode.coupling = teeth * mode.sector.real().dot(momentum);
+      if (k >= kDrawnModes) mode.sector.resize(0);  // of all modes together: gigabytes
       found.push_back(std::move(mode));
     }
   }
@@ -381,7 +409,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   std::vector<KeptMode> kept;
   int real_modes = 0;
   for (size_t k = 0; k < found.size(); ++k) {
-    if (real_modes >= modes && k != torsional) continue;
+    if (!all && real_modes >= modes && k != torsional) continue;
     real_modes += sector.single(found[k].harmonic) ? 1 : 2;
     kept.push_back(found[k]);
   }

@@ -1,0 +1,116 @@
+#include "motion/next_rung.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "motion/statics.h"
+#include "motion/sweep.h"
+#include "signal/response.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+
+namespace whine {
+
+namespace {
+
+StaticArtifact statics_with(const BodyArtifact& driver, const BodyArtifact& driven,
+                            const StaticArtifact& like, const std::string& contact) {
+  StaticSlice slice;
+  slice.mesh = like.mesh;
+  slice.fidelity = like.fidelity;
+  slice.fidelity.contact = contact;
+  slice.contact = like.contact;
+  return static_transmission(driver, driven, slice, like.torque);
+}
+
+BodyArtifact with_all_modes(const BodyArtifact& body) {
+  return reduce(make_sector_mesh(body.design, body.discretisation), body.material, kAllModes,
+                static_cast<int>(body.flank_position.size()));
+}
+
+void add(Change& change, double relative, double frequency) {
+  change.rms += relative * relative;
+  if (std::abs(relative) <= change.largest) return;
+  change.largest = std::abs(relative);
+  change.at = frequency;
+}
+
+}  // namespace
+
+std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifact& driven,
+                                   const StaticArtifact& statics, const StaticArtifact& reference,
+                                   const SweepSlice& slice) {
+  std::vector<NextSweep> sweeps;
+  std::string reasons;
+  for (const std::string key : {"contact", "body"}) {
+    NextSweep next{key,
+                   key == "contact" ? slice.fidelity.contact : slice.fidelity.body,
+                   "",
+                   driver,
+                   driven,
+                   statics,
+                   reference.mean_stiffness,
+                   slice,
+                   ""};
+    next.to = next_rung(key, next.from);
+    const auto give_reason = [&](const std::string& reason) {
+      reasons += text(reasons.empty() ? "" : "; ", key, " = \"", next.from, "\" ", reason);
+    };
+    if (next.to.empty()) {
+      give_reason("is the last rung of " + key);
+      continue;
+    }
+    (key == "contact" ? next.slice.fidelity.contact : next.slice.fidelity.body) = next.to;
+    if (key == "contact") {
+      next.statics = statics_with(driver, driven, statics, next.to);
+      next.mean_stiffness = reference.torque == statics.torque
+                                ? next.statics.mean_stiffness
+                                : statics_with(driver, driven, reference, next.to).mean_stiffness;
+    } else if (next.to == "full") {
+      try {
+        next.driver = with_all_modes(driver);
+        next.driven = driver.compliance == driven.compliance ? next.driver : with_all_modes(driven);
+      } catch (const Error& error) {
+        if (error.kind() != Failure::input) throw;
+        next.missing = error.what();
+        give_reason("is followed by \"full\": " + next.missing);
+      }
+    }
+    sweeps.push_back(std::move(next));
+  }
+  if (std::all_of(sweeps.begin(), sweeps.end(), [](const NextSweep& s) { return !s.missing.empty(); }))
+    fail(Failure::input, reasons);
+  return sweeps;
+}
+
+SweepChange sweep_change(const SweepArtifact& here, const SweepArtifact& next) {
+  const ResponseArtifact a = response(here), b = response(next);
+  const Eigen::Index speeds = a.mesh_frequency.size();
+  if (b.mesh_frequency.size() != speeds || a.mesh_frequency != b.mesh_frequency)
+    fail(Failure::input, "two sweeps of ", speeds, " and ", b.mesh_frequency.size(),
+         " speeds are not of the same speeds in the same order; they cannot be compared");
+  const auto jumped = [](const ResponseArtifact& r, Eigen::Index i) {
+    return i > 0 && r.jump_frequency.size() > 0 && like_a_jump(r.dte_rms[i - 1], r.dte_rms[i]);
+  };
+  SweepChange change;
+  bool apart = false;
+  for (Eigen::Index i = 0; i < speeds; ++i) {
+    apart = (apart || jumped(a, i) || jumped(b, i)) && like_a_jump(a.dte_rms[i], b.dte_rms[i]);
+    if (a.period_multiple[i] < 1 || a.period_multiple[i] != b.period_multiple[i]) {
+      ++change.uneven;
+    } else if (apart) {
+      ++change.apart;
+    } else {
+      ++change.compared;
+      add(change.dte_rms, a.dte_rms[i] / b.dte_rms[i] - 1, a.mesh_frequency[i]);
+      add(change.dte_mean, a.dte_mean[i] / b.dte_mean[i] - 1, a.mesh_frequency[i]);
+      add(change.tooth_load, a.tooth_load_max[i] / b.tooth_load_max[i] - 1, a.mesh_frequency[i]);
+    }
+  }
+  for (Change* c : {&change.dte_rms, &change.dte_mean, &change.tooth_load})
+    c->rms = change.compared > 0 ? std::sqrt(c->rms / change.compared) : 0;
+  return change;
+}
+
+}  // namespace whine

@@ -1,0 +1,295 @@
+// The ladder of [fidelity]: each rung against the next one, and what says how far they are apart.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "motion/next_rung.h"
+#include "paper_pair.h"
+#include "relative.h"
+#include "solid/sector.h"
+
+using namespace whine;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// 20 teeth on a thin rim, four-node elements as coarse as they get; reduced once per number of modes.
+const BodyArtifact& coarse_body(int modes) {
+  static std::map<int, BodyArtifact> cache;
+  if (!cache.count(modes)) {
+    GearDesign d;
+    d.teeth = 20;
+    d.module = 3e-3;
+    d.pressure_angle = 20 * kPi / 180;
+    d.face_width = 25.4e-3;
+    d.bore_radius = 20e-3;
+    BodyDiscretisation discretisation;
+    discretisation.element_size = 3e-3;
+    discretisation.element_order = 1;
+    discretisation.modes = modes;
+    cache[modes] = reduce(make_sector_mesh(d, discretisation), Material{207e9, 0.3, 7600, true}, modes);
+  }
+  return cache[modes];
+}
+
+StaticSlice coarse_statics(const std::string& contact) {
+  StaticSlice slice = paper_statics(128);
+  slice.mesh.centre_distance = 60e-3;
+  slice.contact.strips = 8;
+  slice.fidelity.contact = contact;
+  return slice;
+}
+
+SweepSlice coarse_sweep(double from, double to, double step, const std::string& body,
+                        const std::string& contact) {
+  SweepSlice slice = paper_sweep(from, to, step);
+  slice.driver_inertia = slice.driven_inertia = 1e-3;
+  slice.damping.rayleigh_stiffness = 4e-6;
+  slice.time.min_sample_rate = 1;
+  slice.fidelity.body = body;
+  slice.fidelity.contact = contact;
+  return slice;
+}
+
+std::string refusal(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    CHECK(error.kind() == Failure::input);
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("every mode: their sum is the flexibility of the mesh, solved for on the whole gear, to 1e-9") {
+  const BodyArtifact& body = coarse_body(kAllModes);
+  const MeshArtifact mesh = make_sector_mesh(body.design, body.discretisation);
+  const WholeGear whole = replicate(mesh);
+  const PlaneSystem full =
+      assemble(whole.node_position, whole.element_node, body.material, body.design.face_width);
+  const int teeth = body.design.teeth;
+  std::vector<int> unknown(static_cast<size_t>(2 * whole.node_position.rows()), 0);
+  for (int j = 0; j < teeth; ++j)
+    for (int i : mesh.bore_node) unknown[2 * whole.node(j, i)] = unknown[2 * whole.node(j, i) + 1] = -1;
+  int size = 0;
+  for (int& u : unknown)
+    if (u == 0) u = size++;
+  CHECK(body.eigenfrequency.size() == size);
+  std::vector<Eigen::Triplet<std::complex<double>>> entries;
+  for (int c = 0; c < full.stiffness.outerSize(); ++c)
+    for (SparseReal::InnerIterator it(full.stiffness, c); it; ++it)
+      if (unknown[it.row()] >= 0 && unknown[c] >= 0)
+        entries.emplace_back(unknown[it.row()], unknown[c], it.value());
+  SparseComplex stiffness(size, size);
+  stiffness.setFromTriplets(entries.begin(), entries.end());
+  HermitianFactor factor(stiffness);
+  factor.factorise(stiffness, "whole gear");
+
+  // Unit normal forces at the table points of tooth 0 as the elements take them, read on all teeth.
+  const MatrixXd outward = MatrixXd(FlankReader(mesh).outward(body.flank_position));
+  const auto on_tooth = [&](int tooth) {  // (unknown, point)
+    const MatrixXd turn = Eigen::Rotation2Dd(2 * kPi * tooth / teeth).toRotationMatrix();
+    Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(size, outward.rows());
+    for (int i = 0; i < mesh.node_position.rows(); ++i)
+      if (const int u = unknown[2 * whole.node(tooth, i)]; u >= 0)
+        result.middleRows(u, 2) +=
+            (turn * outward.middleCols(2 * i, 2).transpose()).cast<std::complex<double>>();
+    return result;
+  };
+  const Eigen::MatrixXcd solution = factor.solve(on_tooth(0));
+  const ElasticGear gear(body);
+  const double norm = (on_tooth(0).transpose() * solution).real().norm();
+  for (int tooth : {0, 1, 2, 7, 10, 19}) {
+    MatrixXd sum = MatrixXd::Zero(outward.rows(), outward.rows());
+    for (int c = 0; c < body.eigenfrequency.size(); ++c) {
+      const double w = 2 * kPi * body.eigenfrequency[c];
+      sum += gear.mode_on_tooth(c, tooth) * gear.mode_on_tooth(c, 0).transpose() / (w * w);
+    }
+    CHECK((sum - (on_tooth(tooth).transpose() * solution).real()).norm() < 1e-9 * norm);
+  }
+  // The lowest are those that the sparse eigensolver finds, in the same order.
+  const BodyArtifact& few = coarse_body(21);
+  for (int c = 0; c < few.eigenfrequency.size(); ++c)
+    CHECK(body.eigenfrequency[c] == relative(few.eigenfrequency[c], 1e-9));
+  CHECK((body.flank_mode.leftCols(21).cwiseAbs() - few.flank_mode.leftCols(21).cwiseAbs()).norm() <
+        1e-6 * few.flank_mode.leftCols(21).norm());
+  for (size_t d = 0; d < body.compliance.size(); ++d) CHECK(body.compliance[d] == few.compliance[d]);
+}
+
+TEST_CASE("every mode: a mesh that is too fine is refused with its numbers and with one that is not") {
+  BodyDiscretisation fine;
+  fine.element_size = 0.4e-3;
+  const MeshArtifact mesh = make_sector_mesh(coarse_body(21).design, fine);
+  const std::string message = refusal([&] { reduce(mesh, coarse_body(21).material, kAllModes); });
+  INFO(message);
+  CHECK(message.find("unknowns; at most 1500 are found") != std::string::npos);
+  CHECK(message.find("element_order = 1 and element_mm = ") != std::string::npos);
+  // Other rungs know no such limit, and "full" does not go without.
+  const BodyArtifact& few = coarse_body(21);
+  const StaticArtifact statics = static_transmission(few, few, coarse_statics("line"), 50);
+  const std::string lacking = refusal([&] {
+    sweep(few, few, statics, statics.mean_stiffness, coarse_sweep(3000, 3000, 1, "full", "line"), "up",
+          no_report);
+  });
+  CHECK(lacking.find("holds " + std::to_string(few.eigenfrequency.size()) + " modes") != std::string::npos);
+}
+
+TEST_CASE("every mode: at rest the static transmission error, on lines and strips") {
+  const BodyArtifact& body = coarse_body(kAllModes);
+  for (const char* contact : {"strips", "line"}) {
+    const StaticArtifact statics = static_transmission(body, body, coarse_statics(contact), 50, 2);
+    const GearMeshModel model(body, body, statics.mesh);
+    const double load = 50 / model.kinematics.gear(0).base_radius();
+    DynamicParameters parameters = paper_parameters(statics.mean_stiffness, "full", contact);
+    parameters.torque = 50;
+    parameters.inertia = {1e-3, 1e-3};
+    RollingDynamics dynamics(model, parameters);
+    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+                                     8, load / model.kinematics.contact_ratio(), 4 * 1.1 * load,
+                                     3 * statics.transmission_error.maxCoeff()),
+                       1);
+    dynamics.rest();
+    CHECK(dynamics.static_deflection() == relative(statics.transmission_error[0], 1e-8));
+  }
+}
+
+TEST_CASE("every mode against 61 modes and a lag on the same mesh, both integrators") {
+  const BodyArtifact &all = coarse_body(kAllModes), &some = coarse_body(61);
+  const StaticArtifact statics = static_transmission(all, all, coarse_statics("line"), 50);
+  for (const double frequency : {2500.0, 4000.0, 6000.0})
+    for (const char* integrator : {"exact", "newmark"}) {
+      SweepSlice slice = coarse_sweep(frequency, frequency, 1, "full", "line");
+      slice.fidelity.integrator = integrator;
+      const SweepArtifact full = sweep(all, all, statics, statics.mean_stiffness, slice, "up", no_report);
+      slice.fidelity.body = "modal";
+      const SweepArtifact modal = sweep(some, some, statics, statics.mean_stiffness, slice, "up", no_report);
+      INFO(frequency << " Hz, " << integrator);
+      CHECK(rms(full, 0) == relative(rms(modal, 0), 0.03));  // 2.1, 0.2, 0.3 %
+      CHECK(rms(full, 0) != rms(modal, 0));
+      const auto peak = [](const SweepArtifact& of) { return of.tooth_load[0].maxCoeff(); };
+      if (frequency < 5000) {
+        CHECK(peak(full) == relative(peak(modal), 0.03));
+      } else {
+        // The largest load is that of a pair that comes in, and the higher the less of the compliance is undamped: 1583 N
+        // at a depth of 0.5 mm, 1882 N at 0.1 mm, 2056 N with every mode; with 512 steps 1598, 1859, 2075 N.
+        slice.damping.undamped_depth = 0.1e-3;
+        const SweepArtifact shallow =
+            sweep(some, some, statics, statics.mean_stiffness, slice, "up", no_report);
+        CHECK(peak(shallow) > 1.1 * peak(modal));
+        CHECK(peak(full) > 1.05 * peak(shallow));
+        CHECK(peak(full) < 1.2 * peak(shallow));
+      }
+      CHECK(full.natural_frequency == relative(modal.natural_frequency, 1e-5));
+      CHECK(full.energy_imbalance[0] < 1e-9);
+    }
+}
+
+TEST_CASE("body rungs: each is nearer to the one with the most modes than the rung below it") {
+  const BodyArtifact& body = paper_body(40e-3, 0.8e-3, 61);
+  StaticSlice statics_slice = paper_statics(128);
+  statics_slice.fidelity.contact = "line";
+  const StaticArtifact statics = static_transmission(body, body, statics_slice, 150);
+  for (const double frequency : {1350.0, 3500.0}) {
+    SweepSlice slice = paper_sweep(frequency, frequency, 1);
+    slice.fidelity.contact = "line";
+    const auto with = [&](const char* rung) {
+      slice.fidelity.body = rung;
+      return rms(sweep(body, body, statics, statics.mean_stiffness, slice, "up", no_report), 0);
+    };
+    const double modal = with("modal"), lagged = std::abs(with("lagged") / modal - 1),
+                 at_once = std::abs(with("quasi-static") / modal - 1),
+                 rigid = std::abs(with("rigid") / modal - 1);
+    CHECK(lagged > 0);
+    CHECK(lagged < 0.03);
+    CHECK(lagged < at_once);
+    CHECK(at_once < 0.5 * rigid);
+  }
+}
+
+TEST_CASE("what the next rung changes: its sweeps are those of a scene one rung up") {
+  const BodyArtifact& body = paper_body();
+  StaticSlice line = paper_statics(128);
+  line.contact.strips = 8;
+  line.fidelity.contact = "line";
+  const StaticArtifact statics = static_transmission(body, body, line, 150),
+                       reference = static_transmission(body, body, line, 100);
+  SweepSlice slice = paper_sweep(1300, 1400, 50);
+  slice.fidelity.contact = "line";
+  slice.fidelity.body = "lagged";
+  const std::vector<NextSweep> next = next_sweeps(body, body, statics, reference, slice);
+  REQUIRE(next.size() == 2);
+  CHECK(next[0].key == "contact");
+  CHECK(next[0].to == "strips");
+  CHECK(next[0].slice.fidelity.contact == "strips");
+  CHECK(next[0].slice.fidelity.body == "lagged");
+  line.fidelity.contact = "strips";
+  CHECK(next[0].statics.transmission_error == static_transmission(body, body, line, 150).transmission_error);
+  CHECK(next[0].mean_stiffness == static_transmission(body, body, line, 100).mean_stiffness);
+  CHECK(next[1].key == "body");
+  CHECK(next[1].to == "modal");
+  CHECK(next[1].slice.fidelity.contact == "line");
+  CHECK(next[1].mean_stiffness == reference.mean_stiffness);
+
+  const SweepArtifact here = sweep(body, body, statics, reference.mean_stiffness, slice, "up", no_report);
+  SweepArtifact there = here;
+  const SweepChange none = sweep_change(here, there);
+  CHECK(none.compared == 3);
+  CHECK(none.apart + none.uneven == 0);
+  CHECK(none.dte_rms.largest == 0);
+  CHECK(none.tooth_load.rms == 0);
+  // One row of three twice as far from its mean, no jump: compared.
+  const VectorXd row = here.transmission_error.row(1);
+  there.transmission_error.row(1) = (2 * (row.array() - row.mean()) + row.mean()).transpose();
+  SweepChange change = sweep_change(here, there);
+  CHECK(change.compared == 3);
+  CHECK(change.dte_rms.largest == relative(0.5, 1e-9));
+  CHECK(change.dte_rms.rms == relative(0.5 / std::sqrt(3), 1e-9));
+  CHECK(change.dte_rms.at == 1350);
+  CHECK(change.dte_mean.largest < 1e-12);
+  // The same across a jump: apart until the two meet again.
+  there.jump_frequency = there.jump_width = VectorXd::Constant(1, 1325);
+  change = sweep_change(here, there);
+  CHECK(change.compared == 2);
+  CHECK(change.apart == 1);
+  CHECK(change.dte_rms.largest == 0);
+  there.period_multiple[2] = 0;
+  CHECK(sweep_change(here, there).uneven == 1);
+  there.mesh_frequency[0] += 1;
+  CHECK_THROWS_AS(sweep_change(here, there), Error);
+}
+
+TEST_CASE("what the next rung changes: after the last one, and where the mesh is too fine for it") {
+  const BodyArtifact& fine = paper_body();
+  const StaticArtifact statics = static_transmission(fine, fine, paper_statics(16), 150);
+  const std::string both =
+      refusal([&] { next_sweeps(fine, fine, statics, statics, paper_sweep(2000, 2000, 1)); });
+  INFO(both);
+  CHECK(both.find("contact = \"strips\" is the last rung of contact") != std::string::npos);
+  CHECK(both.find("body = \"modal\" is followed by \"full\": body = \"full\" wants all ") !=
+        std::string::npos);
+  SweepSlice last = paper_sweep(2000, 2000, 1);
+  last.fidelity.body = "full";
+  CHECK(refusal([&] {
+          next_sweeps(fine, fine, statics, statics, last);
+        }).find("body = \"full\" is the last rung of body") != std::string::npos);
+
+  const BodyArtifact& coarse = coarse_body(61);
+  const StaticArtifact at = static_transmission(coarse, coarse, coarse_statics("strips"), 50);
+  const std::vector<NextSweep> next =
+      next_sweeps(coarse, coarse, at, at, coarse_sweep(4000, 4000, 1, "modal", "strips"));
+  REQUIRE(next.size() == 1);
+  CHECK(next[0].missing == "");
+  CHECK(next[0].driver.eigenfrequency.size() == coarse_body(kAllModes).eigenfrequency.size());
+  CHECK(next[0].driver.eigenfrequency == coarse_body(kAllModes).eigenfrequency);
+}
