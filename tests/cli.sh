@@ -108,6 +108,7 @@ refused "a torque below zero" 3 'torque' "${at_torque[@]}" -5
 refused "a torque whose contact leaves the flanks" 1 '400000 N m contact leaves the flanks: window [0-9.]+ mm' "${at_torque[@]}" 400000
 for stage in static sweep impact; do
   mkdir -p line; sed 's/^contact = .*/contact = "line"/' out/scene/params/$stage.toml > line/$stage.toml; done
+mkdir -p full; for stage in sweep impact; do sed 's/^body = .*/body = "full"/' out/scene/params/$stage.toml > full/$stage.toml; done
 line_static=("$bin/gear-static" --params line/static.toml "${pair[@]}" --torque 100 --output line/static.h5)
 if "${line_static[@]}" --next-rung > said 2>&1 && grep -q 'strips change, elsewhere' said; then ok "gear-static --next-rung"; else
   wrong "gear-static --next-rung" "$(head -n 1 said)"; fi
@@ -127,7 +128,15 @@ line_sweep="$(sweep scene up | sed 's|out/scene/params|line|; s|--output .*|--ou
 refused "a sweep with one line per pair from statics on strips" 3 'was made with contact = "strips", the slice of this stage says "line"' $line_sweep
 if ${line_sweep//out\/scene\/T100/line} > said 2>&1 && [ -s line/sweep.h5 ]; then ok "a sweep with one line per pair"; else
   wrong "a sweep with one line per pair" "$(head -n 1 said)"; fi
-rm -rf line
+sed -i 's/^body = .*/body = "lagged"/' line/sweep.toml
+if ${line_sweep//out\/scene\/T100/line} --next-rung > said 2>&1 && grep -q 'contact = "line" against "strips" at 3 speeds' said &&
+  grep -q 'body = "lagged" against "modal": jumps none against none' said; then ok "gear-sweep --next-rung"; else
+  wrong "gear-sweep --next-rung" "$(head -n 1 said)"; fi
+refused "the next rung of a sweep on the last ones" 3 'contact = "strips" is the last rung of contact; body = "full" is the last rung of body' \
+  $(sweep scene up | sed 's|out/scene/params|full|') --next-rung
+refused "every mode from a body with some" 3 'needs a body with every mode .* holds [0-9]+ modes' $(sweep scene up | sed 's|out/scene/params|full|')
+refused "a ring-down with every mode" 3 'body = "full" .* not available in ring-downs' "${stage_impact[@]//out\/scene\/params/full}"
+rm -rf line full
 sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
   wrong "the table of keys in README.md is up to date" "put the output of $B/bin/gear-scene --keys there: $(head -n 2 said | tr '\n' '|')"; fi
