@@ -13,6 +13,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "memory.h"
 #include "peer/strip_problems.h"
 #include "relative.h"
 
@@ -22,9 +23,8 @@ using Eigen::VectorXd;
 
 // Eigen takes memory by malloc, the standard library by operator new, which calls malloc: counted here for the
 // whole test program. A sanitizer brings its own malloc; the case below then counts nothing and says so.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-#define WHINE_COUNTS_MEMORY 1
-static std::atomic<long> memory_requests{0};
+#ifdef WHINE_COUNTS_MEMORY
+std::atomic<long> memory_requests{0};
 extern "C" void* __libc_malloc(size_t);
 extern "C" void* malloc(size_t size) noexcept {
   memory_requests.fetch_add(1, std::memory_order_relaxed);

@@ -74,4 +74,73 @@ inline void dot_columns(double* result, const double* columns, int stride, int c
   }
 }
 
+// row j . x in lane j; four rows of `length`, a multiple of 4, one after the other.
+inline Lanes dot_rows(const double* rows, int length, const double* x) {
+  const double *r0 = rows, *r1 = r0 + length, *r2 = r1 + length, *r3 = r2 + length;
+  Lanes a{}, b{}, c{}, d{}, a1{}, b1{}, c1{}, d1{};
+  int i = 0;
+  for (; i + 2 * kLanes <= length; i += 2 * kLanes) {
+    const Lanes x0 = lanes(x + i), x1 = lanes(x + i + kLanes);
+    a += lanes(r0 + i) * x0;
+    b += lanes(r1 + i) * x0;
+    c += lanes(r2 + i) * x0;
+    d += lanes(r3 + i) * x0;
+    a1 += lanes(r0 + i + kLanes) * x1;
+    b1 += lanes(r1 + i + kLanes) * x1;
+    c1 += lanes(r2 + i + kLanes) * x1;
+    d1 += lanes(r3 + i + kLanes) * x1;
+  }
+  if (i < length) {
+    const Lanes x0 = lanes(x + i);
+    a += lanes(r0 + i) * x0;
+    b += lanes(r1 + i) * x0;
+    c += lanes(r2 + i) * x0;
+    d += lanes(r3 + i) * x0;
+  }
+  return sums(a + a1, b + b1, c + c1, d + d1);
+}
+
+// y += sum over j of f[j] * row j; rows as above.
+inline void add_rows(double* y, const double* rows, int length, Lanes f) {
+  const double *r0 = rows, *r1 = r0 + length, *r2 = r1 + length, *r3 = r2 + length;
+  const double f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
+  for (int i = 0; i < length; i += kLanes)
+    lanes(y + i) += (f0 * lanes(r0 + i) + f1 * lanes(r1 + i)) + (f2 * lanes(r2 + i) + f3 * lanes(r3 + i));
+}
+
+// y[0..12) += sum over j < count of f[j] * column j, all of y in registers; count even.
+inline void add_columns_of_12(double* y, const double* columns, int stride, const double* f, int count) {
+  Lanes a0 = lanes(y), a1 = lanes(y + 4), a2 = lanes(y + 8), b0{}, b1{}, b2{};
+  const double *c = columns, *d = columns + stride;
+  for (int j = 0; j < count; j += 2, c += 2 * stride, d += 2 * stride) {
+    const double f0 = f[j], f1 = f[j + 1];
+    a0 += f0 * lanes(c);
+    a1 += f0 * lanes(c + 4);
+    a2 += f0 * lanes(c + 8);
+    b0 += f1 * lanes(d);
+    b1 += f1 * lanes(d + 4);
+    b2 += f1 * lanes(d + 8);
+  }
+  lanes(y) = a0 + b0;
+  lanes(y + 4) = a1 + b1;
+  lanes(y + 8) = a2 + b2;
+}
+
+// y[0..8) += sum over j < count of f[j] * column j of 8, one after the other; count a multiple of 4.
+inline void add_columns_of_8(double* y, const double* columns, const double* f, int count) {
+  Lanes a0 = lanes(y), a1 = lanes(y + 4), b0{}, b1{}, c0{}, c1{}, d0{}, d1{};
+  for (int j = 0; j < count; j += 4, columns += 32) {
+    a0 += f[j] * lanes(columns);
+    a1 += f[j] * lanes(columns + 4);
+    b0 += f[j + 1] * lanes(columns + 8);
+    b1 += f[j + 1] * lanes(columns + 12);
+    c0 += f[j + 2] * lanes(columns + 16);
+    c1 += f[j + 2] * lanes(columns + 20);
+    d0 += f[j + 3] * lanes(columns + 24);
+    d1 += f[j + 3] * lanes(columns + 28);
+  }
+  lanes(y) = (a0 + b0) + (c0 + d0);
+  lanes(y + 4) = (a1 + b1) + (c1 + d1);
+}
+
 }  // namespace whine

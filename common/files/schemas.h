@@ -157,7 +157,7 @@ struct ImpactArtifact {
 struct EnergyLine {
   const char *name, *meaning;
 };
-inline constexpr std::array<EnergyLine, 11> kEnergyLines{
+inline constexpr std::array<EnergyLine, 12> kEnergyLines{
     {{"kinetic", "change of the energy of motion"},
      {"modal", "change of the energy in the springs of the kept modes"},
      {"residual", "change of the energy in the lagged flexibility"},
@@ -168,7 +168,8 @@ inline constexpr std::array<EnergyLine, 11> kEnergyLines{
      {"lag_damping", "taken by the Rayleigh damping of the lagged flexibility"},
      {"switching", "work of the scheme itself where strips open or close within a step"},
      {"cutting", "work where a corner rule takes out or lets in a pair that carries force"},
-     {"averaging", "mean load times change of the lag, less the exact work: of the scheme itself"}}};
+     {"averaging", "mean load times change of the lag, less the exact work: of the scheme itself"},
+     {"forgetting", "taken out with the lag of teeth that are no longer followed"}}};
 
 // sweep.h5: rows in order of marching
 struct SweepArtifact {

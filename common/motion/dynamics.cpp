@@ -138,7 +138,24 @@ namespace {
 
 constexpr int kFields = 12;    // per tooth; a multiple of kLanes
 constexpr int kPairNodes = 8;  // columns of nodes: kWindowNodes and zeros up to whole lanes
+constexpr int kShapeRows = 4;  // per pair: what modes are read and loaded through
 static_assert(kFields % kLanes == 0 && kPairNodes % kLanes == 0 && kPairNodes >= kWindowNodes);
+static_assert(kShapeRows == kLanes && kShapeRows <= kWindowNodes && kPairNodes == 8 && kFields == 12);
+
+// (node, shape row) orthonormal: the first Chebyshev polynomials on the Chebyshev points of a window.
+using ShapeBasis = Eigen::Matrix<double, kWindowNodes, kShapeRows>;
+ShapeBasis make_shape_basis() {
+  ShapeBasis basis;
+  for (int k = 0; k < kWindowNodes; ++k)
+    for (int m = 0; m < kShapeRows; ++m)
+      basis(k, m) = std::sqrt((m > 0 ? 2.0 : 1.0) / kWindowNodes) *
+                    std::cos(m * (2 * k + 1) * std::numbers::pi / (2 * kWindowNodes));
+  return basis;
+}
+const ShapeBasis& shape_basis() {
+  static const ShapeBasis basis = make_shape_basis();
+  return basis;
+}
 
 // (flank, field) orthonormal: the loads of a flank that its own displacements, and before all those of its neighbours,
 // depend on most. tables: flexibility of gear g by offset between teeth, -max..max.
@@ -225,6 +242,11 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
   for (Position& position : positions_) {
     const MeshPosition& mesh = position.mesh;
     position.participation = participation(mesh);
+    if (!lines())
+      for (size_t i = 0; i < mesh.pairs.size(); ++i) {
+        auto rows = position.participation.middleRows<kWindowNodes>(i * kWindowNodes);
+        rows = (shape_basis() * (shape_basis().transpose() * rows)).eval();
+      }
     position.lagged = MatrixXd::Zero(mesh.nodes(), mesh.nodes());
     MatrixXd whole = position.lagged;
     for (int g = 0; g < 2; ++g) {
@@ -250,6 +272,59 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
   }
   step_data_.clear();
   pack();
+  turns_.clear();
+  for (int i = 0; i < static_cast<int>(coordinates_.size()); ++i) {
+    const Coordinate& c = coordinates_[i];
+    if (c.turn == 0) continue;
+    if (c.partner < 0)
+      turns_.push_back({i, -1, -1, 0});
+    else if (c.partner > i)
+      turns_.push_back({i, c.partner, std::cos(c.turn), std::sin(c.turn)});
+  }
+  size_workspaces();
+}
+
+void RollingDynamics::size_workspaces() {
+  static_assert(kFields <= kMostFields);
+  const int own = static_cast<int>(coordinates_.size()), coordinates = padded(own),
+            fields = kFields * (2 * reach_ + 1);
+  int strips = kMostPairs, pairs = 1;
+  for (const Position& position : positions_) {
+    strips = std::max(strips, position.mesh.strips());
+    pairs = std::max(pairs, static_cast<int>(position.mesh.pairs.size()));
+  }
+  Workspace& w = work_;
+  for (VectorXd* x : {&w.z, &w.v, &w.force, &w.torque, &w.weight, &w.response}) x->setZero(coordinates);
+  w.torque.head(own) = torque_force_;
+  w.weight.head(own) = error_weight_;
+  for (VectorXd* x : {&w.lag, &w.load}) x->setZero(2 * fields);
+  for (VectorXd* x : {&w.e, &w.p, &w.d}) x->setZero(strips);
+  w.nodes.setZero(pairs * kPairNodes);
+  LedgerWorkspace& l = ledger_work_;
+  for (Instant& instant : l.instants) {
+    for (VectorXd* x : {&instant.z, &instant.v, &instant.force}) x->setZero(coordinates);
+    for (VectorXd* x :
+         {&instant.lag, &instant.load, &instant.field, &instant.moved_load, &instant.forgotten_field})
+      x->setZero(2 * fields);
+    for (VectorXd* x : {&instant.p, &instant.d, &instant.local}) x->setZero(strips);
+    for (VectorXd* x : {&instant.moment, &instant.reading}) x->setZero(pairs * kShapeRows);
+  }
+  for (VectorXd* x : {&l.turned_back, &l.frequency_squared, &l.damping}) x->setZero(coordinates);
+  l.frequency_squared.head(own) = frequency_squared_;
+  for (int i = 0; i < own; ++i) l.damping[i] = coordinates_[i].damping;
+}
+
+RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
+  const MeshPosition& mesh = positions_[i].mesh;
+  StepSizes sizes;
+  sizes.coordinates = padded(static_cast<int>(coordinates_.size()));
+  sizes.pairs = static_cast<int>(mesh.pairs.size());
+  sizes.rows = lines() ? 1 : kShapeRows;
+  sizes.nodes = lines() ? 1 : kPairNodes;
+  sizes.strips = sizes.pairs > 0 ? mesh.strips() / sizes.pairs : 0;
+  sizes.fields = kFields;
+  sizes.teeth = 2 * reach_ + 1;
+  return sizes;
 }
 
 // Lays the numbers of each position side by side.
@@ -307,18 +382,55 @@ void RollingDynamics::pack_lines(Position& position) {
   }
 }
 
+namespace {
+
+// A window's basis in lanes: what a pair's shape rows move its nodes by, and what its nodes' forces are in them.
+struct ShapeLanes {
+  double column[kShapeRows][kPairNodes] = {}, row[kPairNodes][kShapeRows] = {};
+  ShapeLanes() {
+    for (int k = 0; k < kWindowNodes; ++k)
+      for (int m = 0; m < kShapeRows; ++m) column[m][k] = row[k][m] = shape_basis()(k, m);
+  }
+};
+const ShapeLanes kShape;
+
+// result = gap + interpolation nodes; (strip), (strip), (strip, node)
+void interpolate(double* result, const double* gap, const double* interpolation, int strips,
+                 const double* nodes) {
+  static_assert(kWindowNodes == 6);
+  const double f0 = nodes[0], f1 = nodes[1], f2 = nodes[2], f3 = nodes[3], f4 = nodes[4], f5 = nodes[5];
+  for (int i = 0; i < strips; i += kLanes) {
+    const double* c = interpolation + i;
+    lanes(result + i) =
+        (lanes(gap + i) + f0 * lanes(c) + f1 * lanes(c + strips) + f2 * lanes(c + 2 * strips)) +
+        (f3 * lanes(c + 3 * strips) + f4 * lanes(c + 4 * strips) + f5 * lanes(c + 5 * strips));
+  }
+}
+
+Lanes moments_of(const double* nodes) {
+  static_assert(kWindowNodes == 6);
+  return (nodes[0] * lanes(kShape.row[0]) + nodes[1] * lanes(kShape.row[1]) +
+          nodes[2] * lanes(kShape.row[2])) +
+         (nodes[3] * lanes(kShape.row[3]) + nodes[4] * lanes(kShape.row[4]) +
+          nodes[5] * lanes(kShape.row[5]));
+}
+
+}  // namespace
+
 void RollingDynamics::pack_strips(Position& position, size_t& inner) {
   const int coordinates = padded(static_cast<int>(coordinates_.size()));
   const MeshPosition& mesh = position.mesh;
-  const int pairs = static_cast<int>(mesh.pairs.size()), nodes = pairs * kPairNodes;
+  const int pairs = static_cast<int>(mesh.pairs.size());
   position.gap = place(stream_, mesh.strips());
   std::copy(mesh.gap.begin(), mesh.gap.end(), stream_.begin() + static_cast<std::ptrdiff_t>(position.gap));
-  position.shape = place(stream_, nodes * coordinates);
+  position.shape = place(stream_, pairs * kShapeRows * coordinates);
   for (int j = 0; j < pairs; ++j) {
-    for (int c = 0; c < static_cast<int>(coordinates_.size()); ++c)
-      for (int k = 0; k < kWindowNodes; ++k)
-        stream_[position.shape + c * nodes + j * kPairNodes + k] =
-            position.participation(j * kWindowNodes + k, c);
+    const MatrixXd shape =
+        shape_basis().transpose() * position.participation.middleRows<kWindowNodes>(j * kWindowNodes);
+    for (int r = 0; r < kShapeRows; ++r)
+      std::copy(
+          shape.row(r).begin(), shape.row(r).end(),
+          stream_.begin() + static_cast<std::ptrdiff_t>(position.shape + (j * kShapeRows + r) * coordinates));
     const PairStrips& s = mesh.pairs[j];
     const bool edge = s.low_is_edge || s.high_is_edge;
     if (edge || inner == std::numeric_limits<size_t>::max()) {
@@ -390,11 +502,13 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   const int n = static_cast<int>(coordinates_.size());
   for (VectorXd* x : {&speed_.a11, &speed_.a12, &speed_.a21, &speed_.a22, &speed_.bq, &speed_.bv})
     x->setZero(padded(n));
+  const bool newmark = parameters_.fidelity.integrator == "newmark";
+  Propagator a{};  // the halves of a doublet have one
   for (int i = 0; i < n; ++i) {
     const Coordinate& c = coordinates_[i];
-    const Propagator a = parameters_.fidelity.integrator == "newmark"
-                             ? newmark_propagator(c.frequency, c.damping, h)
-                             : exact_propagator(c.frequency, c.damping, h);
+    if (i == 0 || c.frequency != coordinates_[i - 1].frequency || c.damping != coordinates_[i - 1].damping)
+      a = newmark ? newmark_propagator(c.frequency, c.damping, h)
+                  : exact_propagator(c.frequency, c.damping, h);
     speed_.a11[i] = a.a11;
     speed_.a12[i] = a.a12;
     speed_.a21[i] = a.a21;
@@ -402,7 +516,6 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
     speed_.bq[i] = a.bq;
     speed_.bv[i] = a.bv;
   }
-  const VectorXd half_response = 0.5 * speed_.bq.head(n);
   lag_ = lag_step(relaxation(), h);
   damping_ = damping_integrals();
 
@@ -417,14 +530,57 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
       }
     step_data_ = std::move(other);
   }
+  MatrixXd at_nodes;
   for (int i = 0; i < steps; ++i) {
     const Position& position = positions_[i * stride_];
     step_data_[i].active.forget();
     step_data_[i].compliance = position.local;
-    position.mesh.add_to_strips(lag_.from_new * position.lagged + position.participation *
-                                                                      half_response.asDiagonal() *
-                                                                      position.participation.transpose(),
-                                step_data_[i].compliance);
+    at_nodes = lag_.from_new * position.lagged;
+    add_response(position, at_nodes);
+    position.mesh.add_to_strips(at_nodes, step_data_[i].compliance);
+  }
+}
+
+// Adds h (bq / 2) h^T, what the modes give way at the end of a step. at_nodes: (node, node) m N-1.
+void RollingDynamics::add_response(const Position& position, MatrixXd& at_nodes) {
+  const int coordinates = padded(static_cast<int>(coordinates_.size())),
+            present = static_cast<int>(position.slot.size());
+  double *weighted = work_.response.data(), *const bq = speed_.bq.data();
+  if (lines()) {
+    for (int i = 0; i < present; ++i) {
+      const LineRecord record{coordinates, kFields * (2 * reach_ + 1)};
+      const auto row = [&](int j) {
+        return &stream_[position.line + j * record.size() + LineRecord::kShape];
+      };
+      for (int c = 0; c < coordinates; c += kLanes)
+        lanes(weighted + c) = 0.5 * lanes(bq + c) * lanes(row(i) + c);
+      for (int j = 0; j <= i; ++j) {
+        const double add = dot(row(j), weighted, 0, coordinates);
+        at_nodes(i, j) += add;
+        if (i != j) at_nodes(j, i) += add;
+      }
+    }
+    return;
+  }
+  const auto rows = [&](int j) { return &stream_[position.shape + j * kShapeRows * coordinates]; };
+  for (int i = 0; i < present; ++i) {
+    Eigen::Matrix<double, kShapeRows, kShapeRows> share[kMostPairs];
+    for (int r = 0; r < kShapeRows; ++r) {
+      const double* row = rows(i) + r * coordinates;
+      for (int c = 0; c < coordinates; c += kLanes)
+        lanes(weighted + c) = 0.5 * lanes(bq + c) * lanes(row + c);
+      for (int j = 0; j <= i; ++j) {
+        const Lanes dots = dot_rows(rows(j), coordinates, weighted);
+        for (int m = 0; m < kShapeRows; ++m) share[j](r, m) = dots[m];
+      }
+    }
+    for (int j = 0; j <= i; ++j) {
+      const Eigen::Matrix<double, kWindowNodes, kWindowNodes> block =
+          shape_basis() * share[j] * shape_basis().transpose();
+      at_nodes.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes) += block;
+      if (i != j)
+        at_nodes.block<kWindowNodes, kWindowNodes>(j * kWindowNodes, i * kWindowNodes) += block.transpose();
+    }
   }
 }
 
@@ -582,65 +738,100 @@ VectorXd RollingDynamics::difference(const State& a, const State& b) const {
   return both / energy_scale_;
 }
 
-void RollingDynamics::turn_doublets(Eigen::Ref<VectorXd> y) const {
-  for (int i = 0; i < y.size(); ++i) {
-    const Coordinate& c = coordinates_[i];
-    if (c.turn == 0) continue;
-    if (c.partner < 0) {
-      y[i] = -y[i];
-    } else if (c.partner > i) {
+void RollingDynamics::turn_doublets(double* y, int direction) const {
+  for (const Turn& turn : turns_) {
+    if (turn.sine < 0) {
+      y[turn.cosine] = -y[turn.cosine];
+    } else {
       // Z = cosine - i sine turns by exp(i turn).
-      const double cosine = y[i], sine = y[c.partner];
-      y[i] = std::cos(c.turn) * cosine + std::sin(c.turn) * sine;
-      y[c.partner] = std::cos(c.turn) * sine - std::sin(c.turn) * cosine;
+      const double cosine = y[turn.cosine], sine = y[turn.sine], s = direction * turn.s;
+      y[turn.cosine] = turn.c * cosine + s * sine;
+      y[turn.sine] = turn.c * sine - s * cosine;
     }
+  }
+}
+
+void RollingDynamics::advance_fields(double* fields) const {
+  const int of_gear = kFields * (2 * reach_ + 1);
+  for (int g = 0; g < 2; ++g) {
+    double* own = fields + g * of_gear;
+    std::copy_backward(own, own + of_gear - kFields, own + of_gear);
+    std::fill(own, own + kFields,
+              0.0);  // a tooth that comes into reach was unloaded for longer than any lag lasts
   }
 }
 
 void RollingDynamics::advance_tooth(State& state) const {
-  for (VectorXd* y : {&state.z, &state.v, &state.force}) turn_doublets(*y);
+  for (VectorXd* y : {&state.z, &state.v, &state.force}) turn_doublets(y->data());
   for (int g = 0; g < 2; ++g)
     for (MatrixXd* field : {&state.lag[g], &state.load[g]}) {
       for (int j = static_cast<int>(field->cols()) - 1; j > 0; --j) field->col(j) = field->col(j - 1);
-      field->col(0).setZero();  // a tooth that comes into reach was unloaded for longer than any lag lasts
+      field->col(0).setZero();
     }
 }
 
-struct RollingDynamics::StripContact {
-  explicit StripContact(RollingDynamics& of) : dynamics(of), displacement(kFields) {
-    int most_strips = 0;
-    size_t most_pairs = 0;
-    for (const Position& position : of.positions_) {
-      most_strips = std::max(most_strips, position.mesh.strips());
-      most_pairs = std::max(most_pairs, position.mesh.pairs.size());
-    }
-    for (VectorXd* x : {&e, &p, &d}) x->resize(most_strips);
-    nodes.resize(most_pairs * kPairNodes);
-  }
+Lanes RollingDynamics::reading(const Position& position, size_t j, const double* z) const {
+  const int coordinates = padded(static_cast<int>(coordinates_.size()));
+  if (!lines()) return dot_rows(&stream_[position.shape + j * kShapeRows * coordinates], coordinates, z);
+  const LineRecord record{coordinates, kFields * (2 * reach_ + 1)};
+  return Lanes{dot(&stream_[position.line + j * record.size() + LineRecord::kShape], z, 0, coordinates)};
+}
 
-  // Fills p and d. back: (coordinate) -z; lag: (field of all pairs) of one gear after the other; both without new
-  // contact force.
-  Certificate solve(const Position& position, Step& step, const double* back, const double* lag) {
+Lanes RollingDynamics::collect(const Position& position, size_t j, const double* p, double* fields) const {
+  const int coordinates = padded(static_cast<int>(coordinates_.size()));
+  if (lines()) {
+    const LineRecord record{coordinates, kFields * (2 * reach_ + 1)};
+    const double* line = &stream_[position.line + j * record.size()];
+    for (int g = 0; g < 2; ++g)
+      for (int k = 0; k < kFields; k += kLanes)
+        lanes(fields + g * kFields + k) = p[0] * lanes(line + record.weight(g) + k);
+    return Lanes{p[0]};
+  }
+  const int of_pair = position.mesh.pairs[j].size();
+  double nodes[kPairNodes];
+  dot_columns(nodes, &stream_[position.interpolation[j]], of_pair, kPairNodes, p, of_pair);
+  for (int g = 0; g < 2; ++g)
+    dot_columns(fields + g * kFields, &stream_[position.field[g][j]], kPairNodes, kFields, nodes, kPairNodes);
+  return moments_of(nodes);
+}
+
+void RollingDynamics::displace(int g, const double* loads, double* field) const {
+  const int fields = kFields * (2 * reach_ + 1);
+  std::fill(field, field + fields, 0.0);
+  for (int k = 0; k < fields; k += kFields)
+    add_columns_of_12(field + k, coupling_[g].data() + k, fields, loads, fields);
+}
+
+struct RollingDynamics::StripContact {
+  explicit StripContact(RollingDynamics& of)
+      : dynamics(of),
+        coordinates(padded(static_cast<int>(of.coordinates_.size()))),
+        fields(kFields * (2 * of.reach_ + 1)),
+        e(of.work_.e),
+        p(of.work_.p),
+        d(of.work_.d),
+        nodes(of.work_.nodes) {}
+
+  // Fills p and d. z: (coordinate); lag: (field of all pairs) of one gear after the other; both without new contact
+  // force.
+  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
     const MeshPosition& mesh = position.mesh;
     const double* stream = dynamics.stream_.data();
     const int strips = mesh.strips(), present = static_cast<int>(mesh.pairs.size()),
-              rows = present * kPairNodes, of_pair = present > 0 ? strips / present : 0,
-              fields = kFields * (2 * dynamics.reach_ + 1);
-    std::fill(nodes.data(), nodes.data() + rows, 0.0);
-    add_columns(nodes.data(), stream + position.shape, rows, back,
-                padded(static_cast<int>(dynamics.coordinates_.size())), 0, rows);
-    for (int g = 0; g < 2; ++g)
-      for (int j = 0; j < present; ++j) {
-        displacement.setZero();
-        add_columns(displacement.data(), dynamics.coupling_[g].data() + position.slot[j] * kFields, fields,
-                    lag + g * fields, fields, 0, kFields);
-        add_columns(&nodes[j * kPairNodes], stream + position.field[g][j], kPairNodes, displacement.data(),
-                    kFields, 0, kPairNodes);
+              of_pair = present > 0 ? strips / present : 0;
+    for (int j = 0; j < present; ++j) {
+      double moved[kShapeRows], at_node[kPairNodes] = {};
+      lanes(moved) = -dot_rows(stream + position.shape + j * kShapeRows * coordinates, coordinates, z);
+      add_columns_of_8(at_node, kShape.column[0], moved, kShapeRows);
+      for (int g = 0; g < 2; ++g) {
+        double displacement[kFields] = {};
+        add_columns_of_12(displacement, dynamics.coupling_[g].data() + position.slot[j] * kFields, fields,
+                          lag + g * fields, fields);
+        add_columns_of_8(at_node, stream + position.field[g][j], displacement, kFields);
       }
-    std::copy(stream + position.gap, stream + position.gap + strips, e.data());
-    for (int j = 0; j < present; ++j)
-      add_columns(&e[j * of_pair], stream + position.interpolation[j], of_pair, &nodes[j * kPairNodes],
-                  kWindowNodes, 0, of_pair);
+      interpolate(e.data() + j * of_pair, stream + position.gap + j * of_pair,
+                  stream + position.interpolation[j], of_pair, at_node);
+    }
     return dynamics.solver_.solve(step.compliance, e.head(strips), step.active, p.head(strips),
                                   d.head(strips));
   }
@@ -662,43 +853,63 @@ struct RollingDynamics::StripContact {
   // After `carried` of all pairs. force: (coordinate) h^T p; load: as lag, of the pairs that are present.
   void spread(const Position& position, double* force, double* load) const {
     const double* stream = dynamics.stream_.data();
-    const int present = static_cast<int>(position.mesh.pairs.size()), rows = present * kPairNodes,
-              fields = kFields * (2 * dynamics.reach_ + 1);
-    dot_columns(force, stream + position.shape, rows, padded(static_cast<int>(dynamics.coordinates_.size())),
-                nodes.data(), rows);
-    for (int g = 0; g < 2; ++g)
-      for (int j = 0; j < present; ++j)
+    const int present = static_cast<int>(position.mesh.pairs.size());
+    std::fill(force, force + coordinates, 0.0);
+    for (int j = 0; j < present; ++j) {
+      const double* own = &nodes[j * kPairNodes];
+      add_rows(force, stream + position.shape + j * kShapeRows * coordinates, coordinates, moments_of(own));
+      for (int g = 0; g < 2; ++g)
         dot_columns(load + g * fields + position.slot[j] * kFields, stream + position.field[g][j], kPairNodes,
-                    kFields, &nodes[j * kPairNodes], kPairNodes);
+                    kFields, own, kPairNodes);
+    }
   }
 
   RollingDynamics& dynamics;
-  VectorXd e, p, d;       // (strip)
-  VectorXd nodes;         // (node) displacements, then forces
-  VectorXd displacement;  // (field)
+  int coordinates, fields;
+  VectorXd &e, &p, &d;  // (strip)
+  VectorXd& nodes;      // (node) forces
 };
+
+// Strips whose problems are kept.
+struct RollingDynamics::RecordedContact : StripContact {
+  RecordedContact(RollingDynamics& of, std::vector<ContactProblem>& to) : StripContact(of), problems(to) {}
+  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
+    const Certificate certificate = StripContact::solve(position, step, z, lag);
+    problems.push_back({step.compliance, e.head(position.mesh.strips()), step.active});
+    return certificate;
+  }
+  std::vector<ContactProblem>& problems;
+};
+
+std::vector<RollingDynamics::ContactProblem> RollingDynamics::contact_problems(State& state) {
+  std::vector<ContactProblem> problems;
+  Period period;
+  if (lines() || !march(RecordedContact(*this, problems), state, period, nullptr))
+    fail(Failure::numerical, "no period of strips to take contact problems from");
+  return problems;
+}
 
 struct RollingDynamics::LineContact {
   explicit LineContact(RollingDynamics& of)
       : dynamics(of),
         record{padded(static_cast<int>(of.coordinates_.size())), kFields * (2 * of.reach_ + 1)},
-        e(kMostPairs),
-        p(kMostPairs),
-        d(kMostPairs) {}
+        e(of.work_.e),
+        p(of.work_.p),
+        d(of.work_.d) {}
 
   // As of strips, all three.
-  Certificate solve(const Position& position, Step& step, const double* back, const double* lag) {
+  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
     const int present = static_cast<int>(position.slot.size());
     const double* line = dynamics.stream_.data() + position.line;
     for (int j = 0; j < present; ++j, line += record.size()) {
       Lanes modal{}, driver{}, driven{};
       for (int c = 0; c < record.coordinates; c += kLanes)
-        modal += lanes(line + LineRecord::kShape + c) * lanes(back + c);
+        modal += lanes(line + LineRecord::kShape + c) * lanes(z + c);
       for (int k = 0; k < record.fields; k += kLanes) {
         driver += lanes(line + record.reading(0) + k) * lanes(lag + k);
         driven += lanes(line + record.reading(1) + k) * lanes(lag + record.fields + k);
       }
-      e[j] = line[LineRecord::kGap] + sum(modal + (driver + driven));
+      e[j] = line[LineRecord::kGap] + sum((driver + driven) - modal);
     }
     if (step.force.size() == present)
       std::copy(step.force.begin(), step.force.end(), p.data());
@@ -733,8 +944,30 @@ struct RollingDynamics::LineContact {
 
   RollingDynamics& dynamics;
   LineRecord record;
-  VectorXd e, p, d;  // (pair)
+  VectorXd &e, &p, &d;  // (pair)
 };
+
+void RollingDynamics::take(const State& state) {
+  const int own = static_cast<int>(coordinates_.size()), fields = kFields * (2 * reach_ + 1);
+  work_.z.head(own) = state.z;
+  work_.v.head(own) = state.v;
+  work_.force.head(own) = state.force;
+  for (int g = 0; g < 2; ++g) {
+    work_.lag.segment(g * fields, fields) = state.lag[g].reshaped();
+    work_.load.segment(g * fields, fields) = state.load[g].reshaped();
+  }
+}
+
+void RollingDynamics::give(State& state) const {
+  const int own = static_cast<int>(coordinates_.size()), fields = kFields * (2 * reach_ + 1);
+  state.z = work_.z.head(own);
+  state.v = work_.v.head(own);
+  state.force = work_.force.head(own);
+  for (int g = 0; g < 2; ++g) {
+    state.lag[g].reshaped() = work_.lag.segment(g * fields, fields);
+    state.load[g].reshaped() = work_.load.segment(g * fields, fields);
+  }
+}
 
 bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
   return lines() ? march(LineContact(*this), state, period, ledger)
@@ -743,10 +976,10 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
 
 template <class Contact>
 bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledger* ledger) {
-  const int pairs = 2 * reach_ + 1, own = static_cast<int>(coordinates_.size()), coordinates = padded(own),
+  const int pairs = 2 * reach_ + 1, coordinates = padded(static_cast<int>(coordinates_.size())),
             fields = kFields * pairs;
   period.transmission_error.resize(steps_);
-  period.pair_load = MatrixXd::Zero(pairs, steps_);
+  period.pair_load.setZero(pairs, steps_);
   period.drift_force = period.least_gap = period.least_force = 0;
   period.fallbacks = 0;
   for (int g = 0; g < 2; ++g)
@@ -758,54 +991,27 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
         *field = wide;
       }
     }
+  take(state);
 
-  // All vectors of a step, each a whole number of lanes.
-  VectorXd z(coordinates), v(coordinates), force(coordinates), torque = VectorXd::Zero(coordinates),
-                                                               weight = torque, response(coordinates);
-  torque.head(own) = torque_force_;
-  weight.head(own) = error_weight_;
-  VectorXd lag(2 * fields), load(2 * fields);  // of one gear after the other
-  const auto take = [&] {
-    z.setZero();
-    v.setZero();
-    force.setZero();
-    z.head(own) = state.z;
-    v.head(own) = state.v;
-    force.head(own) = state.force;
-    for (int g = 0; g < 2; ++g) {
-      lag.segment(g * fields, fields) = state.lag[g].reshaped();
-      load.segment(g * fields, fields) = state.load[g].reshaped();
-    }
-  };
-  const auto give = [&] {
-    state.z = z.head(own);
-    state.v = v.head(own);
-    state.force = force.head(own);
-    for (int g = 0; g < 2; ++g) {
-      state.lag[g].reshaped() = lag.segment(g * fields, fields);
-      state.load[g].reshaped() = load.segment(g * fields, fields);
-    }
-  };
-  take();
   // Stores of lanes may change anything for all that the compiler knows; it need not look these up again.
-  double *const z_at = z.data(), *const v_at = v.data(), *const force_at = force.data(),
-                *const response_at = response.data(), *const lag_at = lag.data(),
-                *const load_at = load.data();
+  double *const z_at = work_.z.data(), *const v_at = work_.v.data(), *const force_at = work_.force.data(),
+                *const response_at = work_.response.data(), *const lag_at = work_.lag.data(),
+                *const load_at = work_.load.data();
+  const VectorXd &torque = work_.torque, &weight = work_.weight;
   const double *const torque_at = torque.data(), *const weight_at = weight.data(),
                       *const a11 = speed_.a11.data(), *const a12 = speed_.a12.data(),
                       *const a21 = speed_.a21.data(), *const a22 = speed_.a22.data(),
                       *const bq = speed_.bq.data(), *const bv = speed_.bv.data();
   const Lag lag_step = lag_;
 
-  std::array<Instant, 2> instants;  // before and after a step, in turn
-  if (ledger) fill(instants[0], positions_[0], state);
-  double balance = 0;
+  std::array<Instant, 2>& instants = ledger_work_.instants;
+  ledger_work_.balance = 0;
+  if (ledger) fill(instants[0], positions_[0], state.p.data(), state.d.data());
   for (int i = 1; i <= steps_; ++i) {
     const int sample = i == steps_ ? 0 : i;
     if (sample == 0) {
-      give();
-      advance_tooth(state);
-      take();
+      for (double* y : {z_at, v_at, force_at}) turn_doublets(y);
+      for (double* x : {lag_at, load_at}) advance_fields(x);
       if (ledger) rename(instants[(i - 1) % 2]);
     }
     const Position& position = positions_[sample * stride_];
@@ -818,13 +1024,12 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       const Lanes z1 = lanes(a11 + c) * z0 + lanes(a12 + c) * v0 + lanes(bq + c) * mean;
       lanes(v_at + c) = lanes(a21 + c) * z0 + lanes(a22 + c) * v0 + lanes(bv + c) * mean;
       lanes(z_at + c) = z1;
-      lanes(response_at + c) = -z1;
     }
     for (int k = 0; k < 2 * fields; k += kLanes) {
       lanes(lag_at + k) = lag_step.decay * lanes(lag_at + k) + lag_step.from_old * lanes(load_at + k);
       lanes(load_at + k) = Lanes{};
     }
-    const Certificate certificate = contact.solve(position, step_data_[sample], response_at, lag_at);
+    const Certificate certificate = contact.solve(position, step_data_[sample], z_at, lag_at);
     period.least_gap = std::min(period.least_gap, certificate.least_gap);
     period.least_force = std::min(period.least_force, certificate.least_force);
     period.fallbacks += certificate.fallback;
@@ -856,11 +1061,8 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       }
 
     if (ledger) {
-      give();
-      state.p = contact.p.head(position.mesh.strips());
-      state.d = contact.d.head(position.mesh.strips());
-      fill(instants[i % 2], position, state);
-      record_step(instants[(i - 1) % 2], instants[i % 2], balance, *ledger);
+      fill(instants[i % 2], position, contact.p.data(), contact.d.data());
+      record_step(instants[(i - 1) % 2], instants[i % 2], *ledger);
     }
 
     const double error = sum(error_sum);
@@ -872,7 +1074,7 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
            "corner_contact = false");
     if (error > position.mesh.next_corner_gap) return false;
   }
-  give();
+  give(state);
   const int strips = positions_[0].mesh.strips();
   state.p = contact.p.head(strips);
   state.d = contact.d.head(strips);

@@ -7,7 +7,6 @@
 
 namespace whine {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -28,9 +27,12 @@ double stored(const HertzLine& law, double force) {  // N m
 }
 
 // N m: what a law stores from one force to another, less the mean force times the change of indentation.
+double bent(double from, const HertzLine::Point& at_from, double to, const HertzLine::Point& at_to) {
+  return (to * at_to.indentation - at_to.energy) - (from * at_from.indentation - at_from.energy) -
+         0.5 * (from + to) * (at_to.indentation - at_from.indentation);
+}
 double bent(const HertzLine& law, double from, double to) {
-  return stored(law, to) - stored(law, from) -
-         0.5 * (from + to) * (at(law, to).indentation - at(law, from).indentation);
+  return bent(from, at(law, from), to, at(law, to));
 }
 
 // Calls at(t, weight) over (0, step), in panels over which nothing with the given rate (s-1) changes much.
@@ -58,9 +60,13 @@ void graded_quadrature(double step, double rate, Function at) {
 RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
   DampingIntegrals result;
   const int n = static_cast<int>(coordinates_.size());
-  result.speed = result.mixed = result.push = VectorXd::Zero(n);
+  result.speed = result.mixed = result.push = VectorXd::Zero(padded(n));
   for (int c = 0; c < n; ++c) {
     const double frequency = coordinates_[c].frequency, damping = coordinates_[c].damping;
+    if (c > 0 && frequency == coordinates_[c - 1].frequency && damping == coordinates_[c - 1].damping) {
+      for (VectorXd* x : {&result.speed, &result.mixed, &result.push}) (*x)[c] = (*x)[c - 1];
+      continue;
+    }
     const auto add = [&](double t, double weight) {
       const Propagator part = exact_propagator(frequency, damping, t);
       result.speed[c] += weight * part.a22 * part.a22;
@@ -88,34 +94,61 @@ RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
   return result;
 }
 
-void RollingDynamics::fill(Instant& now, const Position& position, const State& state) const {
-  const MeshPosition& mesh = position.mesh;
+// The instant that the workspace holds; p, d: (strip).
+void RollingDynamics::fill(Instant& now, const Position& position, const double* p, const double* d) const {
+  const int strips = position.mesh.strips(), of_gear = static_cast<int>(coupling_[0].rows());
   now.position = &position;
   now.renamed = 0;
-  now.state = state;
-  now.modal = mesh.to_strips(position.participation * state.z);
-  VectorXd nodes = VectorXd::Zero(mesh.nodes());
+  now.forgotten = now.stored_forgotten = 0;
+  now.z = work_.z;
+  now.v = work_.v;
+  now.force = work_.force;
+  now.lag = work_.lag;
+  now.load = work_.load;
   for (int g = 0; g < 2; ++g) {
-    now.field[g].resizeLike(state.lag[g]);
-    now.field[g].reshaped() = coupling_[g] * state.lag[g].reshaped();
-    for (size_t j = 0; j < mesh.pairs.size(); ++j)
-      nodes(mesh.nodes_of(j)) += position.field_weight[g](mesh.nodes_of(j), Eigen::all) *
-                                 now.field[g].col(mesh.pairs[j].pair + reach_);
+    displace(g, &now.lag[g * of_gear], &now.field[g * of_gear]);
+    displace(g, &now.load[g * of_gear], &now.moved_load[g * of_gear]);
   }
-  now.lagged = mesh.to_strips(nodes);
-  nodes = mesh.to_nodes(state.p);
-  now.pair_force.resize(state.z.size(), mesh.pairs.size());
-  for (size_t j = 0; j < mesh.pairs.size(); ++j)
-    now.pair_force.col(j) =
-        position.participation(mesh.nodes_of(j), Eigen::all).transpose() * nodes(mesh.nodes_of(j));
+  std::copy(p, p + strips, now.p.data());
+  std::copy(d, d + strips, now.d.data());
+  std::fill(now.local.data(), now.local.data() + strips, 0.0);
+  if (lines()) now.local.head(strips).noalias() = position.local.lazyProduct(now.p.head(strips));
+  alignas(Lanes) double unused[2 * kMostFields];
+  for (size_t j = 0; j < position.mesh.pairs.size(); ++j) {
+    if (!lines()) {  // from the first strip with force to the last
+      int first = position.mesh.first_strip[j], last = position.mesh.first_strip[j + 1];
+      while (first < last && p[first] == 0) ++first;
+      while (first < last && p[last - 1] == 0) --last;
+      if (first < last)
+        add_columns(now.local.data(), position.local.data() + first * strips, strips, p + first, last - first,
+                    0, strips);
+    }
+    lanes(&now.moment[j * kLanes]) = collect(position, j, p + position.mesh.first_strip[j], unused);
+    lanes(&now.reading[j * kLanes]) = reading(position, j, now.z.data());
+  }
 }
 
-// Teeth get the names that they have in the next mesh period.
-void RollingDynamics::rename(Instant& instant) const {
-  advance_tooth(instant.state);
-  for (int j = 0; j < instant.pair_force.cols(); ++j) turn_doublets(instant.pair_force.col(j));
-  for (int g = 0; g < 2; ++g) instant.field[g].reshaped() = coupling_[g] * instant.state.lag[g].reshaped();
-  instant.renamed = 1;
+// Teeth get the names that they have in the next mesh period. One of each gear is no longer followed.
+void RollingDynamics::rename(Instant& now) const {
+  const int of_gear = static_cast<int>(coupling_[0].rows()), of_tooth = of_gear / (2 * reach_ + 1);
+  for (double* y : {now.z.data(), now.v.data(), now.force.data()}) turn_doublets(y);
+  now.stored_forgotten = -0.5 * now.lag.dot(now.field);
+  now.forgotten = 0;
+  // The load of a tooth that goes under load: a corner rule has then taken its pair out.
+  for (int g = 0; g < 2; ++g) {
+    const int last = (g + 1) * of_gear - of_tooth;
+    now.forgotten += 0.5 * now.load.segment(last, of_tooth).dot(now.field.segment(last, of_tooth));
+  }
+  now.forgotten_field = now.field;
+  for (double* x : {now.lag.data(), now.load.data(), now.forgotten_field.data()}) advance_fields(x);
+  for (int g = 0; g < 2; ++g) {
+    displace(g, &now.lag[g * of_gear], &now.field[g * of_gear]);
+    displace(g, &now.load[g * of_gear], &now.moved_load[g * of_gear]);
+  }
+  now.stored_forgotten += 0.5 * now.lag.dot(now.field);
+  now.forgotten += now.stored_forgotten;
+  now.forgotten_field -= now.field;
+  now.renamed = 1;
 }
 
 // With d = e - h z + U + A p and p . d = 0 at both ends, (p_n + p_n+1)/2 . (d_n+1 - d_n) is the switching line, and what
@@ -128,103 +161,144 @@ void RollingDynamics::rename(Instant& instant) const {
 // the switching line, or to the cutting line where a pair is cut. The law's change with the phase is rolling:
 // -(E_n+1 - E_n) at a held force, mean over both forces, and, as in the products above, a quarter of the change of force
 // times the change of u_n+1 - u_n over it.
-void RollingDynamics::record_step(const Instant& before, const Instant& after, double& balance,
-                                  Ledger& ledger) const {
-  const State &a = before.state, &b = after.state;
-  const MeshPosition &old_mesh = before.position->mesh, &new_mesh = after.position->mesh;
-  double rolling = 0, switching = 0, cutting = 0;
+//
+// Force on modes and on the lag goes through a pair's shape rows and fields: p . h z = moment . reading, p . U = share of p
+// in the fields . their displacement.
+void RollingDynamics::record_step(const Instant& a, const Instant& b, Ledger& ledger) {
+  const MeshPosition &old_mesh = a.position->mesh, &new_mesh = b.position->mesh;
+  const int of_gear = static_cast<int>(coupling_[0].rows()), of_tooth = of_gear / (2 * reach_ + 1),
+            coordinates = static_cast<int>(a.z.size());
+  double rolling = 0, switching = 0, cutting = 0, forgetting = a.forgotten;
   const bool lines = this->lines();
 
-  const auto under = [&](const State& loads, const std::array<MatrixXd, 2>& field, int pair) {
+  const double* old_z = b.z.data();  // of the new instant, in the names of the old position
+  if (a.renamed) {
+    ledger_work_.turned_back = b.z;
+    turn_doublets(ledger_work_.turned_back.data(), -1);
+    old_z = ledger_work_.turned_back.data();
+  }
+  // J: shares of a force in fields (driver's, then driven gear's) on the displacement of a tooth.
+  const auto shares_on = [&](const double* shares, const VectorXd& field, int slot) {
     double work = 0;
-    for (int g = 0; g < 2; ++g) work += loads.load[g].col(pair + reach_).dot(field[g].col(pair + reach_));
+    for (int g = 0; g < 2; ++g)
+      work += dot(shares + g * of_tooth, &field[g * of_gear + slot * of_tooth], 0, of_tooth);
     return work;
   };
-  const auto strips = [](const MeshPosition& mesh, size_t j) {
-    return Eigen::seqN(mesh.first_strip[j], mesh.pairs[j].size());
+  const auto load_on = [&](const VectorXd& load, const VectorXd& field, int slot) {
+    double work = 0;
+    for (int g = 0; g < 2; ++g) {
+      const int at = g * of_gear + slot * of_tooth;
+      work += dot(&load[at], &field[at], 0, of_tooth);
+    }
+    return work;
   };
-  VectorXd old_on_new = VectorXd::Zero(new_mesh.strips()), new_on_old = VectorXd::Zero(old_mesh.strips());
-  std::vector<bool> met(new_mesh.pairs.size(), false);
+  alignas(Lanes) double old_on_new[2 * kMostFields], new_on_old[2 * kMostFields];
+  unsigned met = 0;
   for (size_t i = 0; i < old_mesh.pairs.size(); ++i) {
-    const int pair = old_mesh.pairs[i].pair + before.renamed;
-    const VectorXd p0 = a.p(strips(old_mesh, i));
+    const int pair = old_mesh.pairs[i].pair + a.renamed, slot = pair + reach_, from = old_mesh.first_strip[i];
+    const bool followed = slot <= 2 * reach_;
+    const auto p0 = a.p.segment(from, old_mesh.pairs[i].size());
+    const auto gap0 = old_mesh.gap.segment(from, old_mesh.pairs[i].size());
+    const Lanes moment00 = lanes(&a.moment[i * kLanes]), read_old_new = reading(*a.position, i, old_z);
+    if (a.renamed && followed) forgetting += 0.5 * load_on(a.load, a.forgotten_field, slot);
     size_t j = 0;
     while (j < new_mesh.pairs.size() && new_mesh.pairs[j].pair != pair) ++j;
     if (j == new_mesh.pairs.size()) {
       if (lines) cutting += bent(old_mesh.law[i], p0[0], 0);
-      cutting += 0.5 * (p0.dot(old_mesh.gap(strips(old_mesh, i))) - before.pair_force.col(i).dot(b.z));
-      if (std::abs(pair) <= reach_) cutting += 0.5 * under(a, after.field, pair);
+      cutting += 0.5 * (p0.dot(gap0) - sum(moment00 * read_old_new));
+      if (followed) cutting += 0.5 * load_on(a.load, b.field, slot);
       continue;
     }
-    met[j] = true;
-    const VectorXd p1 = b.p(strips(new_mesh, j));
-    old_on_new(strips(new_mesh, j)) = p0;
-    new_on_old(strips(old_mesh, i)) = p1;
+    met |= 1u << j;
+    const int to = new_mesh.first_strip[j], n = new_mesh.pairs[j].size();
+    const auto p1 = b.p.segment(to, n);
+    const auto gap1 = new_mesh.gap.segment(to, n);
     if (lines) {
       const HertzLine &law0 = old_mesh.law[i], &law1 = new_mesh.law[j];
       const HertzLine::Point old0 = at(law0, p0[0]), old1 = at(law0, p1[0]), new0 = at(law1, p0[0]),
                              new1 = at(law1, p1[0]);
-      switching += 0.5 * (bent(law0, p0[0], p1[0]) + bent(law1, p0[0], p1[0]));
+      switching += 0.5 * (bent(p0[0], old0, p1[0], old1) + bent(p0[0], new0, p1[0], new1));
       rolling -= 0.5 * (new0.energy - old0.energy + new1.energy - old1.energy) -
                  0.25 * (p1[0] - p0[0]) *
                      (new1.indentation - old1.indentation - (new0.indentation - old0.indentation));
     }
-    switching += 0.5 * (p0.dot(b.d(strips(new_mesh, j))) - p1.dot(a.d(strips(old_mesh, i))));
-    rolling -= 0.5 * (p0 + p1).dot(new_mesh.gap(strips(new_mesh, j)) - old_mesh.gap(strips(old_mesh, i)));
-    rolling += 0.5 * (p0.dot(after.modal(strips(new_mesh, j))) - p1.dot(before.modal(strips(old_mesh, i))) +
-                      after.pair_force.col(j).dot(a.z) - before.pair_force.col(i).dot(b.z));
-    rolling -= 0.5 * (p0.dot(after.lagged(strips(new_mesh, j))) - p1.dot(before.lagged(strips(old_mesh, i))) +
-                      under(b, before.field, pair) - under(a, after.field, pair));
+    switching += 0.5 * (p0.dot(b.d.segment(to, n)) - p1.dot(a.d.segment(from, n)));
+    rolling -= 0.5 * ((p0 + p1).dot(gap1 - gap0) + p0.dot(b.local.segment(to, n)) -
+                      p1.dot(a.local.segment(from, n)));
+    const Lanes moment01 = collect(*b.position, j, p0.data(), old_on_new),
+                moment10 = collect(*a.position, i, p1.data(), new_on_old);
+    rolling += 0.5 * sum(moment01 * lanes(&b.reading[j * kLanes]) - moment10 * lanes(&a.reading[i * kLanes]) +
+                         lanes(&b.moment[j * kLanes]) * reading(*b.position, j, a.z.data()) -
+                         moment00 * read_old_new);
+    rolling -= 0.5 * (shares_on(old_on_new, b.field, slot) - shares_on(new_on_old, a.field, slot) +
+                      load_on(b.load, a.field, slot) - load_on(a.load, b.field, slot));
+    if (a.renamed) forgetting += 0.5 * shares_on(new_on_old, a.forgotten_field, slot);
   }
   for (size_t j = 0; j < new_mesh.pairs.size(); ++j)
-    if (!met[j]) {
-      if (lines) cutting += bent(new_mesh.law[j], 0, b.p[j]);
-      cutting -= 0.5 * (b.p(strips(new_mesh, j)).dot(new_mesh.gap(strips(new_mesh, j))) -
-                        after.pair_force.col(j).dot(a.z) + under(b, before.field, new_mesh.pairs[j].pair));
+    if (!(met >> j & 1)) {
+      const int to = new_mesh.first_strip[j], n = new_mesh.pairs[j].size();
+      if (lines) cutting += bent(new_mesh.law[j], 0, b.p[to]);
+      cutting -= 0.5 * (b.p.segment(to, n).dot(new_mesh.gap.segment(to, n)) -
+                        sum(lanes(&b.moment[j * kLanes]) * reading(*b.position, j, a.z.data())) +
+                        load_on(b.load, a.field, new_mesh.pairs[j].pair + reach_));
     }
-  const VectorXd new_local = after.position->local * b.p, old_local = before.position->local * a.p;
-  rolling -= 0.5 * (old_on_new.dot(new_local) - new_on_old.dot(old_local));
-  double local = 0.5 * (b.p.dot(new_local) - a.p.dot(old_local));
-  for (size_t j = 0; j < new_mesh.law.size(); ++j) local += stored(new_mesh.law[j], b.p[j]);
-  for (size_t i = 0; i < old_mesh.law.size(); ++i) local -= stored(old_mesh.law[i], a.p[i]);
+  const auto at_once = [](const Instant& x) {
+    const MeshPosition& mesh = x.position->mesh;
+    double energy = 0.5 * x.p.head(mesh.strips()).dot(x.local.head(mesh.strips()));
+    for (size_t j = 0; j < mesh.law.size(); ++j) energy += stored(mesh.law[j], x.p[j]);
+    return energy;
+  };
+  const double local = at_once(b) - at_once(a);
 
   // Modes: force = torque - h^T p.
-  const double torque = torque_force_.dot(b.z - a.z);
-  double kinetic = 0, modal = 0, modal_damping = 0;
-  for (int c = 0; c < a.z.size(); ++c) {
-    const double w2 = frequency_squared_[c];
-    kinetic += 0.5 * (b.v[c] * b.v[c] - a.v[c] * a.v[c]);
-    modal += 0.5 * w2 * (b.z[c] * b.z[c] - a.z[c] * a.z[c]);
-    if (parameters_.fidelity.integrator == "newmark") {
-      const double v = 0.5 * (a.v[c] + b.v[c]);  // the trapezoidal rule's own velocity
-      modal_damping += coordinates_[c].damping * step_ * v * v;
+  Lanes torque_sum{}, kinetic_sum{}, modal_sum{}, damping_sum{};
+  const bool newmark = parameters_.fidelity.integrator == "newmark";
+  for (int c = 0; c < coordinates; c += kLanes) {
+    const Lanes z0 = lanes(&a.z[c]), z1 = lanes(&b.z[c]), v0 = lanes(&a.v[c]), v1 = lanes(&b.v[c]),
+                w2 = lanes(&ledger_work_.frequency_squared[c]), rate = lanes(&ledger_work_.damping[c]);
+    torque_sum += lanes(&work_.torque[c]) * (z1 - z0);
+    kinetic_sum += v1 * v1 - v0 * v0;
+    modal_sum += w2 * (z1 * z1 - z0 * z0);
+    if (newmark) {
+      const Lanes v = 0.5 * (v0 + v1);  // the trapezoidal rule's own velocity
+      damping_sum += rate * (step_ * v * v);
     } else {
-      const double push = 0.5 * (a.force[c] + b.force[c]) - w2 * a.z[c], v = a.v[c];
-      modal_damping +=
-          coordinates_[c].damping *
-          (damping_.speed[c] * v * v + 2 * damping_.mixed[c] * v * push + damping_.push[c] * push * push);
+      const Lanes push = 0.5 * (lanes(&a.force[c]) + lanes(&b.force[c])) - w2 * z0;
+      damping_sum += rate * (lanes(&damping_.speed[c]) * v0 * v0 + 2 * lanes(&damping_.mixed[c]) * v0 * push +
+                             lanes(&damping_.push[c]) * push * push);
     }
   }
+  const double torque = sum(torque_sum), kinetic = 0.5 * sum(kinetic_sum), modal = 0.5 * sum(modal_sum),
+               modal_damping = sum(damping_sum);
 
   // Lag: eta G' + G = g, energy G R G / 2, dissipation eta G' R G', g linear in the step.
-  double residual = 0, lag_damping = 0, averaging = 0;
-  for (int g = 0; g < 2; ++g) {
-    const auto load0 = a.load[g].reshaped(), load1 = b.load[g].reshaped();
-    const auto field0 = before.field[g].reshaped(), field1 = after.field[g].reshaped();
-    residual += 0.5 * (b.lag[g].reshaped().dot(field1) - a.lag[g].reshaped().dot(field0));
-    const VectorXd change = load1 - load0, moved_change = coupling_[g] * change;
-    const VectorXd behind = load0 - a.lag[g].reshaped(), moved_behind = coupling_[g] * load0 - field0;
-    double exact = 0.5 * (load0 + load1).dot(moved_change);
-    if (relaxation() > 0) {
-      lag_damping += damping_.decay2 * behind.dot(moved_behind) +
-                     2 * damping_.mixed2 * behind.dot(moved_change) +
-                     damping_.growth2 * change.dot(moved_change);
-      exact = damping_.decay * load0.dot(moved_behind) + damping_.growth * load0.dot(moved_change) +
-              damping_.late_decay * change.dot(moved_behind) +
-              damping_.late_growth * change.dot(moved_change);
-    }
-    averaging += 0.5 * (load0 + load1).dot(field1 - field0) - exact;
+  Lanes stored1{}, stored0{}, mean{}, behind2{}, behind_change{}, change2{}, load_behind{}, load_change{},
+      change_behind{}, mean_change{};
+  for (int k = 0; k < 2 * of_gear; k += kLanes) {
+    const Lanes load0 = lanes(&a.load[k]), load1 = lanes(&b.load[k]), lag0 = lanes(&a.lag[k]),
+                field0 = lanes(&a.field[k]), field1 = lanes(&b.field[k]), moved0 = lanes(&a.moved_load[k]),
+                change = load1 - load0, moved_change = lanes(&b.moved_load[k]) - moved0,
+                behind = load0 - lag0, moved_behind = moved0 - field0;
+    stored1 += lanes(&b.lag[k]) * field1;
+    stored0 += lag0 * field0;
+    mean += (load0 + load1) * (field1 - field0);
+    behind2 += behind * moved_behind;
+    behind_change += behind * moved_change;
+    change2 += change * moved_change;
+    load_behind += load0 * moved_behind;
+    load_change += load0 * moved_change;
+    change_behind += change * moved_behind;
+    mean_change += (load0 + load1) * moved_change;
   }
+  double lag_damping = 0, exact = 0.5 * sum(mean_change);
+  if (relaxation() > 0) {
+    lag_damping = damping_.decay2 * sum(behind2) + 2 * damping_.mixed2 * sum(behind_change) +
+                  damping_.growth2 * sum(change2);
+    exact = damping_.decay * sum(load_behind) + damping_.growth * sum(load_change) +
+            damping_.late_decay * sum(change_behind) + damping_.late_growth * sum(change2);
+  }
+  const double averaging = 0.5 * sum(mean) - exact;
+  const double residual = 0.5 * (sum(stored1) - sum(stored0)) + a.stored_forgotten;
 
   ledger.kinetic += kinetic;
   ledger.modal += modal;
@@ -237,9 +311,11 @@ void RollingDynamics::record_step(const Instant& before, const Instant& after, d
   ledger.switching += switching;
   ledger.cutting += cutting;
   ledger.averaging += averaging;
+  ledger.forgetting += forgetting;
   ledger.throughput += std::abs(torque) + std::abs(rolling);
+  double& balance = ledger_work_.balance;
   balance += kinetic + modal + residual + local + modal_damping + lag_damping - torque - rolling - switching -
-             cutting + averaging;
+             cutting - forgetting + averaging;
   ledger.imbalance = std::max(ledger.imbalance, std::abs(balance));
 }
 

@@ -189,7 +189,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     const Ledger& l = s.ledger;
     result.energy_imbalance[i] = l.imbalance / l.throughput;
     result.energy.row(i) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
-        l.lag_damping, l.switching, l.cutting, l.averaging;  // kEnergyLines
+        l.lag_damping, l.switching, l.cutting, l.averaging, l.forgetting;  // kEnergyLines
     if (i > 0 && like_a_jump(steady[i - 1].rms, s.rms))
       if (const auto jump = find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f,
                                       s.rms, direction == "up" ? speed(speeds - 1) : speed(0)))

@@ -1,13 +1,13 @@
-// Times complementarity, static positions and reductions. Methods take turns within each repeat, so that a slow spell of
+// Times complementarity, static positions, time steps, sweeps and reductions. Methods take turns within each repeat, so that a slow spell of
 // the machine hits all of them; minimum and median over the repeats. What takes seconds is run once, by its CPU time. A
-// time stands beside the error at which it was reached.
+// time stands beside the error at which it was reached. Times are of CPU.
 //
 // Reads   optionally params and two body.h5 for the static position; writes a table on standard output.
 // Example: whine-bench --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
 //            --driven out/parker2000/wheel/body.h5 --torque 150
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -22,12 +22,21 @@
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "motion/rolling_mesh.h"
+#include "rolling.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #if __has_include(<siconos/numerics/lcp_cst.h>)
 #include "../peer/lemke.h"
 #define WHINE_HAS_SICONOS 1
 #endif
+
+// Eigen takes memory by malloc, the standard library by operator new, which calls malloc.
+static std::atomic<long> memory_requests{0};
+extern "C" void* __libc_malloc(size_t);
+extern "C" void* malloc(size_t size) noexcept {
+  memory_requests.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
 
 namespace {
 
@@ -47,9 +56,9 @@ std::vector<Times> take_turns(const std::vector<std::function<void()>>& methods,
   std::vector<std::vector<double>> seconds(methods.size());
   for (int repeat = -1; repeat < kRepeats; ++repeat)  // the first one warms up
     for (size_t m = 0; m < methods.size(); ++m) {
-      const auto start = std::chrono::steady_clock::now();
+      const double start = whine::cpu_now();
       methods[m]();
-      const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double taken = whine::cpu_now() - start;
       if (repeat >= 0) seconds[m].push_back(taken / counts[m]);
     }
   std::vector<Times> times;
@@ -309,6 +318,142 @@ void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifac
               reduction / peer.usage.seconds);
 }
 
+// One speed of one contact; the least times of the repeats, the methods in turn.
+void rolling_steps(whine::RollingRig& rig, double frequency, bool strips, double peak) {
+  using namespace whine;
+  constexpr int kCount = 8;  // periods a turn
+  rig.settle(frequency);
+  const int steps = rig.steps;
+  std::vector<RollingDynamics::ContactProblem> problems;
+  std::vector<ActiveSet> active;
+  double touching = 0, strips_mean = 0;
+  if (strips) {
+    problems = rig.dynamics().contact_problems(rig.state);
+    for (const auto& problem : problems) {
+      active.push_back(problem.active);
+      touching += static_cast<double>(problem.active.strips.size()) / steps;
+      strips_mean += static_cast<double>(problem.offset.size()) / steps;
+    }
+  }
+  StepWork work;
+  for (int i = 0; i < steps; ++i) {  // problem i is that of sample i + 1
+    const int k = strips ? static_cast<int>(problems[(i + steps - 1) % steps].active.strips.size()) : 0;
+    const StepWork one = step_work(rig.sizes(i), k);
+    work.flops += one.flops / steps;
+    work.bytes += one.bytes / steps;
+  }
+
+  Ledger ledger;
+  ComplementaritySolver solver;
+  VectorXd p, d;
+  std::vector<std::function<void()>> methods = {[&] {
+                                                  for (int i = 0; i < kCount; ++i) rig.march(nullptr);
+                                                },
+                                                [&] {
+                                                  for (int i = 0; i < kCount; ++i) rig.march(&ledger);
+                                                }};
+  std::vector<int> counts = {kCount * steps, kCount * steps};
+  if (strips) {
+    methods.push_back([&] {
+      for (int i = 0; i < kCount; ++i)
+        for (size_t k = 0; k < problems.size(); ++k) {
+          p.resize(problems[k].offset.size());
+          d.resize(p.size());
+          solver.solve(problems[k].compliance, problems[k].offset, active[k], p, d);
+        }
+    });
+    counts.push_back(kCount * steps);
+#ifdef WHINE_HAS_SICONOS
+    static Lemke lemke;
+    methods.push_back([&] {
+      for (size_t k = 0; k < problems.size(); k += 8) {
+        RollingDynamics::ContactProblem& problem = problems[k];
+        lemke.solve(problem.compliance, problem.offset, p, d);
+      }
+    });
+    counts.push_back((static_cast<int>(problems.size()) + 7) / 8);
+#endif
+  }
+  const std::vector<Times> times = take_turns(methods, counts);
+  long requests[2];
+  for (int kept : {0, 1}) {
+    const long before = memory_requests;
+    rig.march(kept ? &ledger : nullptr);
+    requests[kept] = memory_requests - before;
+  }
+  std::printf("  %-6s %5.0f %6d %8.0f %8.0f %6.2f", strips ? "strips" : "line", frequency, steps,
+              times[0].least * 1e9, times[1].least * 1e9, times[1].least / times[0].least);
+  std::printf(" %8.0f %8.1f %7.1f %7.1f %6.3f %5ld %ld", work.flops, work.bytes / 1024,
+              work.flops / times[0].least * 1e-9, work.bytes / times[0].least * 1e-9,
+              work.flops / times[0].least / peak, requests[0], requests[1]);
+  if (strips) {
+    std::printf("   %6.0f %5.2f", times[2].least * 1e9, times[2].least / times[0].least);
+    if (times.size() > 3) std::printf(" %8.1f", times[3].least / times[2].least);
+    std::printf("  (%.1f of %.1f strips touch)", touching, strips_mean);
+  }
+  std::printf("\n");
+}
+
+// Figure 5 of P2000 on one core, reading and writing apart.
+void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+                   const whine::StaticArtifact& statics, double mean_stiffness, whine::SweepSlice slice,
+                   double eta, const char* method) {
+  using namespace whine;
+  slice.damping.rayleigh_stiffness = eta;
+  slice.time.steady_state = method;
+  long periods = 0;
+  double imbalance = 0;
+  const double seconds = least_seconds(3, [&] {
+    periods = 0;
+    for (const char* direction : {"up", "down"}) {
+      const SweepArtifact result = sweep(driver, driven, statics, mean_stiffness, slice, direction,
+                                         [](long, long, const std::string&) {});
+      periods += result.periods.sum();
+      imbalance = std::max(imbalance, result.energy_imbalance.maxCoeff());
+    }
+  });
+  std::printf("  %-6s %9.2g  %-11s %7.2f %8ld  %.0e\n", slice.fidelity.contact.c_str(), eta, method, seconds,
+              periods, imbalance);
+}
+
+void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven, whine::StaticSlice slice,
+             whine::SweepSlice sweep_slice, double torque) {
+  using namespace whine;
+  const double peak = peak_flops();
+  std::printf(
+      "Rolling dynamics: %g N m, Rayleigh %g s, %d modes a gear; least of %d repeats in turn; per step\n",
+      torque, sweep_slice.damping.rayleigh_stiffness, static_cast<int>(driver.eigenfrequency.size()),
+      kRepeats);
+  std::printf(
+      "  machine in this run: %.1f Gflop/s of multiply-adds in registers; reads %.0f, %.0f, %.0f GB/s "
+      "from 16 kB, 512 kB, 8 MB\n",
+      peak * 1e-9, load_bandwidth(16u << 10) * 1e-9, load_bandwidth(512u << 10) * 1e-9,
+      load_bandwidth(8u << 20) * 1e-9);
+  std::printf("  %-6s %5s %6s %8s %8s %6s %8s %8s %7s %7s %6s %7s   %s\n", "", "Hz", "steps", "ns", "ledger",
+              "over", "flops", "kB", "Gflop/s", "GB/s", "limit", "mallocs",
+              "its contact problem alone: ns, share, LEMKE's time over it");
+  std::vector<StaticArtifact> at_torque, at_reference;
+  for (const char* contact : {"strips", "line"}) {
+    slice.fidelity.contact = sweep_slice.fidelity.contact = contact;
+    at_torque.push_back(static_transmission(driver, driven, slice, torque));
+    at_reference.push_back(static_transmission(driver, driven, slice, sweep_slice.reference_torque));
+    const GearMeshModel model(driver, driven, slice.mesh);
+    RollingRig rig(model, at_torque.back(), sweep_slice);
+    for (double frequency : {1350.0, 2400.0, 3300.0})
+      rolling_steps(rig, frequency, slice.fidelity.contact == "strips", peak);
+  }
+  std::printf(
+      "Sweeps up and down on one core, %g to %g Hz in steps of %g Hz; CPU without reading and writing\n",
+      sweep_slice.frequency_from, sweep_slice.frequency_to, sweep_slice.frequency_step);
+  std::printf("  %-6s %9s  %-11s %7s %8s  %s\n", "", "Rayleigh s", "", "CPU s", "periods", "ledger");
+  for (size_t c = 0; c < at_torque.size(); ++c)
+    for (double eta : {sweep_slice.damping.rayleigh_stiffness, 5.5e-6})
+      for (const char* method : {"extrapolate", "march"}) {
+        sweep_slice.fidelity.contact = c == 0 ? "strips" : "line";
+        rolling_sweep(driver, driven, at_torque[c], at_reference[c].mean_stiffness, sweep_slice, eta, method);
+      }
+}
+
 void body(int argc, char** argv) {
   CLI::App app{"Times complementarity, static positions and reductions", "whine-bench"};
   std::string params, driver, driven, torque = "150";
@@ -317,6 +462,9 @@ void body(int argc, char** argv) {
   CLI::Option* first = app.add_option("--driver", driver, "body.h5 of the driving gear")->needs(slice);
   CLI::Option* second = app.add_option("--driven", driven, "body.h5 of the driven gear")->needs(first);
   slice->needs(second);
+  std::string sweep_params;
+  app.add_option("--sweep-params", sweep_params, "slice of the scene: out/<scene>/params/sweep.toml")
+      ->needs(slice);
   app.add_option("--torque", torque, "torque on the driver in N m, above 0");
   whine::parse(app, argc, argv);
 
@@ -336,6 +484,7 @@ void body(int argc, char** argv) {
   const whine::StaticSlice read = whine::read_static_slice(params);
   const whine::BodyArtifact driving = whine::read_body(driver), following = whine::read_body(driven);
   static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, params.c_str());
+  if (!sweep_params.empty()) rolling(driving, following, read, whine::read_sweep_slice(sweep_params), load);
   reductions(driving);
   beside_calculix(driving, following, read, load);
 }

@@ -1,0 +1,177 @@
+// Time steps of rolling gears: how long one takes, what it computes and moves, and what the machine could.
+#pragma once
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "contact/lanes.h"
+#include "motion/dynamics.h"
+#include "motion/statics.h"
+#include "motion/sweep.h"
+
+namespace whine {
+
+// s of CPU of this thread.
+inline double cpu_now() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Least CPU s of `repeats` calls.
+template <class Call>
+double least_seconds(int repeats, Call call) {
+  double least = 1e300;
+  for (int i = 0; i < repeats; ++i) {
+    const double start = cpu_now();
+    call();
+    least = std::min(least, cpu_now() - start);
+  }
+  return least;
+}
+
+// Flops per second of fused multiply-adds that stay in registers: ten chains of four lanes.
+inline double peak_flops() {
+  constexpr int kCount = 200000;
+  Lanes a[10];
+  for (int k = 0; k < 10; ++k) a[k] = Lanes{1, 1, 1, 1} * (1 + k);
+  Lanes b = Lanes{1, 1, 1, 1} * 0.999999, c = b * 1e-9;
+  const double seconds = least_seconds(20, [&] {
+    Lanes a0 = a[0], a1 = a[1], a2 = a[2], a3 = a[3], a4 = a[4], a5 = a[5], a6 = a[6], a7 = a[7], a8 = a[8],
+          a9 = a[9];
+    for (int i = 0; i < kCount; ++i) {
+      a0 = a0 * b + c;
+      a1 = a1 * b + c;
+      a2 = a2 * b + c;
+      a3 = a3 * b + c;
+      a4 = a4 * b + c;
+      a5 = a5 * b + c;
+      a6 = a6 * b + c;
+      a7 = a7 * b + c;
+      a8 = a8 * b + c;
+      a9 = a9 * b + c;
+      asm volatile("" : "+x"(a0), "+x"(a1), "+x"(a2), "+x"(a3), "+x"(a4));
+    }
+    a[0] = a0 + a1 + a2 + a3 + a4 + a5 + a6 + a7 + a8 + a9;
+  });
+  volatile double sink = sum(a[0]);
+  (void)sink;
+  return 2.0 * kLanes * 10 * kCount / seconds;
+}
+
+// Bytes per second read in order from a block of that size, again and again.
+inline double load_bandwidth(size_t bytes) {
+  const std::vector<double> block(bytes / sizeof(double), 1.0);
+  const size_t n = block.size() / (8 * kLanes) * 8 * kLanes;
+  const int passes = static_cast<int>(std::max<size_t>(1, (16u << 20) / bytes));
+  Lanes total{};
+  const double seconds = least_seconds(20, [&] {
+    Lanes s[8] = {};
+    for (int pass = 0; pass < passes; ++pass) {
+      const double* x = block.data();
+      Lanes s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{}, s7{};
+      for (size_t i = 0; i < n; i += 8 * kLanes) {
+        s0 += lanes(x + i);
+        s1 += lanes(x + i + 4);
+        s2 += lanes(x + i + 8);
+        s3 += lanes(x + i + 12);
+        s4 += lanes(x + i + 16);
+        s5 += lanes(x + i + 20);
+        s6 += lanes(x + i + 24);
+        s7 += lanes(x + i + 28);
+      }
+      s[pass % 8] += (s0 + s1 + s2 + s3) + (s4 + s5 + s6 + s7);
+      asm volatile("" ::: "memory");
+    }
+    for (const Lanes& one : s) total += one;
+  });
+  volatile double sink = sum(total);
+  (void)sink;
+  return static_cast<double>(n * sizeof(double)) * passes / seconds;
+}
+
+// Work of one step, counted from sizes. n coordinates, T teeth of F fields followed per gear, P pairs of r shape rows, N
+// nodes and S strips each, M = P S, k strips that touch. Flops, a multiply-add as two:
+//   modes          21 n (propagator 12, share of the new force 9)
+//   lag            T F (6 + 4) (both gears)
+//   modes read     2 P r n        and loaded: 2 P r n
+//   lag read       strips: 4 P F (T F + N); lines, which hold the product: 4 P F T
+//   lag loaded     strips: 4 P F N;         lines: 2 P F
+//   strips only: basis 4 P N r, interpolation 2 M (6 + N), contact problem 2 k^2 + 2 M k (inverse; gaps of all strips)
+// Laws and Newton steps of lines, signs and certificates are not counted. Bytes are those of other places in memory at each
+// step: shapes, weights, gaps, interpolation, active columns of A and the inverse of their block; what steps share (modal
+// vectors, coupling of the teeth, 8 (10 n + 2 (T F)^2) bytes) stays in the first caches.
+struct StepWork {
+  double flops = 0, bytes = 0;
+};
+inline StepWork step_work(const RollingDynamics::StepSizes& s, int touching) {
+  const double n = s.coordinates, P = s.pairs, r = s.rows, F = s.fields, T = s.teeth, N = s.nodes,
+               M = P * s.strips, k = touching;
+  StepWork w;
+  w.flops = 21 * n + 10 * T * F + 4 * P * r * n;
+  w.bytes = P * r * n;
+  if (N > 1) {
+    w.flops += 4 * P * F * (T * F + N) + 4 * P * F * N + 4 * P * N * r + 2 * M * (kWindowNodes + N) +
+               2 * k * k + 2 * M * k;
+    w.bytes += 2 * P * N * F + M * N + M + M * k + k * padded(touching);
+  } else {
+    w.flops += 4 * P * F * T + 2 * P * F;
+    w.bytes += P * (2 * T * F + 2 * F + kLanes) + P * P;
+  }
+  w.bytes *= sizeof(double);
+  return w;
+}
+
+// A pair as a sweep sets it up, steady at one speed.
+class RollingRig {
+ public:
+  RollingRig(const GearMeshModel& model, const StaticArtifact& statics, const SweepSlice& slice)
+      : dynamics_(model, parameters(statics, slice)), slice_(slice) {
+    const double load = statics.torque / model.kinematics.gear(0).base_radius();
+    finest_ = slice.time.steps_per_period;
+    while (finest_ * slice.frequency_from < slice.time.min_sample_rate) finest_ *= 2;
+    dynamics_.set_range(
+        contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+                      statics.contact.strips, load / model.kinematics.contact_ratio(), 2.5 * load,
+                      2.5 * statics.transmission_error.maxCoeff()),
+        finest_);
+  }
+  void settle(double frequency) {
+    steps = slice_.time.steps_per_period;
+    while (steps * frequency < slice_.time.min_sample_rate) steps *= 2;
+    dynamics_.set_speed(frequency, steps);
+    state = dynamics_.rest();
+    for (int i = 0; i < 200; ++i) march(nullptr);
+  }
+  void march(Ledger* ledger) {
+    if (!dynamics_.march(state, period, ledger))
+      fail(Failure::numerical, "the contact of the bench leaves its window");
+  }
+  RollingDynamics& dynamics() { return dynamics_; }
+  RollingDynamics::StepSizes sizes(int sample) const {
+    return dynamics_.step_sizes(sample * (finest_ / steps));
+  }
+
+  RollingDynamics::State state;
+  RollingDynamics::Period period;
+  int steps = 0;
+
+ private:
+  static DynamicParameters parameters(const StaticArtifact& statics, const SweepSlice& slice) {
+    DynamicParameters p;
+    p.torque = statics.torque;
+    p.inertia = {slice.driver_inertia, slice.driven_inertia};
+    p.mean_stiffness = statics.mean_stiffness;
+    p.damping = slice.damping;
+    p.fidelity = slice.fidelity;
+    return p;
+  }
+  RollingDynamics dynamics_;
+  const SweepSlice& slice_;
+  int finest_ = 0;
+};
+
+}  // namespace whine
