@@ -36,8 +36,9 @@ CXX := g++
 ARCH := $(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2>/dev/null | grep -w fma),-march=x86-64-v3)
 OPTIMISE := -O2 $(ARCH)
 # Without NDEBUG an assert would put its line number into the program, and a comment would redo results.
+# Hidden: gmsh carries an Eigen without AVX, which would take over exported templates of ours and free what it did not allocate.
 # g++ 12 sees AVX loads beyond the end of Eigen's small vectors that it has itself proved not to happen.
-CXXFLAGS := -std=c++20 -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined,\
+CXXFLAGS := -std=c++20 -fvisibility=hidden -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined,\
   $(OPTIMISE) -DNDEBUG)
 CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed
