@@ -36,6 +36,9 @@ confined CLI/ 'tools/.*\.cpp|common/base/tool\.cpp'
 
 found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/* tools/* | head -3)
 if [ -z "$found" ]; then echo "ok: no date is compiled in"; else echo "FAILED: a date or std::format: $found"; fi
+# gmsh's library has an Eigen of its own, compiled for another processor: a template that a program exports would take its place.
+exported=$(for program in "$B"/bin/gear-* "$B"/bin/whine-*; do nm -D --defined-only "$program" | grep -q Eigen && echo "$program"; done)
+if [ -z "$exported" ]; then echo "ok: programs export nothing of Eigen"; else echo "FAILED: Eigen's symbols are exported by $exported"; fi
 found=$(grep -n -w Approx tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp | grep -v '^tests/relative\.h:' | head -3)
 if [ -z "$found" ]; then echo "ok: tests compare numbers by relative() only"; else echo "FAILED: Approx adds 1 to the scale, use relative(): $found"; fi
 if ! command -v clang-format > /dev/null; then
