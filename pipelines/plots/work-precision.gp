@@ -3,8 +3,8 @@
 set datafile separator tab
 set datafile commentschars "#"
 
-array colour[8] = ["#1f4e9c", "#6fa8dc", "#c8201e", "#1a7f37", "#b06a00", "#8a4fbf", "#444444", "#d147a3"]
-array mark[8] = [7, 6, 5, 9, 11, 13, 4, 8]
+array colour[9] = ["#1f4e9c", "#6fa8dc", "#c8201e", "#1a7f37", "#b06a00", "#8a4fbf", "#444444", "#d147a3", "#00a0a0"]
+array mark[9] = [7, 6, 5, 9, 11, 13, 4, 8, 2]
 
 set multiplot layout 2, 3 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.2 \
   margins screen 0.075, 0.985, 0.09, 0.82 spacing screen 0.085, 0.125
