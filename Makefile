@@ -3,7 +3,7 @@
 #   programs   tools/gear-x.cpp and common/*/*.cpp -> build/bin/gear-x           (this file)
 #   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
 #   stages     scene -> mesh -> body -> static -> sweep -> response              (pipelines/stages.mk)
-#   figures    artifacts -> out/figures                                          (pipelines/figures.mk)
+#   figures    artifacts -> out/figures, out/<scene>/report                      (pipelines/figures.mk)
 #
 # Results depend on the contents of the programs and of the scenes, never on their time stamps alone.
 
@@ -166,7 +166,7 @@ clean: ## remove build/ (programs; results stay valid)
 	rm -rf build
 
 clean-figures: ## remove the figures (seconds to make again)
-	rm -rf out/figures
+	rm -rf out/figures out/*/report
 
 clean-motion: ## remove statics, sweeps and responses of all scenes (minutes); bodies stay
 	rm -rf out/*/T[0-9]*

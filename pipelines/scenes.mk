@@ -7,7 +7,7 @@
 # happens in every run and costs milliseconds: times cannot tell a scene of the same name in another folder, one that
 # went back in time, or a deleted slice. All that it writes keeps its time if its content stays.
 
-# SCENE: the user's scene; out/<its stem>/ is made from it. Without it `static`, `sweep` ... are of the paper's scene.
+# SCENE: the user's scene; out/<its stem>/ is made from it. Without it `static`, `fig05` ... are of the paper's scene.
 scene_stem := $(basename $(notdir $(SCENE)))
 ifneq ($(words $(SCENE)),0)
   $(if $(filter-out 1,$(words $(SCENE))),$(error SCENE=$(SCENE): make cannot handle blanks in a path; rename the file))
@@ -20,8 +20,8 @@ scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),data/scenes/$1.toml)
 
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
-  $(if $(filter mesh reduce static impact calibrate sweep out/bodies/%,$(goals)),$(own_scene)) \
-  $(if $(filter $(figures) figures bench work-precision out/figures/%,$(goals)),$(paper_scene)) \
+  $(if $(filter mesh reduce static impact calibrate sweep $(figures) figures out/bodies/%,$(goals)),$(own_scene)) \
+  $(if $(filter bench work-precision out/figures/%,$(goals)),$(paper_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
 $(foreach s,$(scenes),$(if $(wildcard $(call scene_file,$s)),,\

@@ -143,6 +143,22 @@ make_ -n SCENE=elsewhere/own.toml out/own/T80/static.h5
 expect "SCENE with a torque of its own" "gear-static*1"
 make_ -n SCENE=elsewhere/own.toml out/own/T80/up/response.h5
 expect "a sweep waits for the static at the first torque, too" "gear-spectra*1 gear-static*2 gear-sweep*1"
+rm -f calls; make_ SCENE=elsewhere/own.toml figures error-budget
+drawn() { sed -n 's/^gear-plot //p' calls | sort | tr '\n' ' '; }
+[ "$(drawn)" = "$(printf 'out/own/report/%s ' error-budget fig01 fig05 fig12 fig13)" ] && [ ! -e out/own/T150 ] && ok "figures of SCENE stand in its report, at its own torques" ||
+  wrong "figures of SCENE stand in its report, at its own torques" "$(drawn) $(tail -n 1 "$log")"
+make_ -n SCENE=elsewhere/own.toml figures error-budget
+expect "and are up to date then" ""
+sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml
+make_ -n SCENE=elsewhere/own.toml fig05 fig12
+grep -q 'gear-plot fig05 .* out/own/T600/up/response.h5 out/own/T600/down/response.h5$' "$log" && grep -q 'gear-plot fig12 .* out/own/T600/static.h5 out/own/T90/static.h5 out/own/T80/static.h5$' "$log" &&
+  ok "a frequency response takes the first torque of SCENE, statics take them all" || wrong "a frequency response takes the first torque of SCENE, statics take them all" "$(grep gear-plot "$log")"
+make_ SCENE=elsewhere/own.toml fig12; sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90]/' elsewhere/own.toml
+make_ -n SCENE=elsewhere/own.toml fig12
+expect "a torque that is taken out redraws the curves" "gear-plot*1"
+make_ -n SCENE=elsewhere/own.toml out/own/report/fig12.png
+expect "a figure of SCENE by its path" "gear-plot*1"
+sed -i -E 's/^torque_Nm = .*/torque_Nm = [90]/' elsewhere/own.toml
 make_ -n fig05
 if [ $? != 0 ] && [ "$(grep -c . "$log")" = 2 ] && grep -q '^gear-scene: error: ' "$log"; then ok "a broken scene ends with one line and make's own"
 else wrong "a broken scene ends with one line and make's own" "$(cat "$log")"; fi
