@@ -663,6 +663,27 @@ TEST_CASE("cyclic symmetry: the spectra of all harmonics are the spectrum of the
   CHECK(worst < 1e-10);
 }
 
+TEST_CASE("lowest modes: residuals stay near round-off however small the gear and high its frequencies") {
+  BodyDiscretisation discretisation;
+  discretisation.element_size = 2e-3;
+  discretisation.element_order = 1;
+  const MeshArtifact mesh = make_sector_mesh(gear(13, 3e-3, 8e-3, 0.5), discretisation);
+  const CyclicSector sector(mesh, system_of(mesh));
+  const SparseComplex mass = sector.mass(2);
+  Eigen::VectorXd first;
+  for (const double stiffer : {1.0, 1e4, 1e8}) {  // by 1e4: all lengths a hundredth
+    const SparseComplex stiffness = stiffer * sector.stiffness(2);
+    HermitianFactor factor(stiffness);
+    factor.factorise(stiffness, "test");
+    const ComplexModes modes = lowest_modes(stiffness, mass, factor, 30, "test");
+    INFO("lowest mode at " << std::sqrt(modes.omega_squared[0]) / (2 * kPi) << " Hz, residual "
+                           << modes.residual);
+    CHECK(modes.residual < 1e-11);
+    if (first.size() == 0) first = modes.omega_squared;
+    CHECK((modes.omega_squared / stiffer - first).cwiseAbs().cwiseQuotient(first).maxCoeff() < 1e-11);
+  }
+}
+
 TEST_CASE(
     "sector against full gear: flexibility of the loaded tooth and its neighbours, modes, both orders and "
     "near fields") {
