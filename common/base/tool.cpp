@@ -51,6 +51,23 @@ void one_blas_thread() {
     reinterpret_cast<void (*)(int)>(found)(1);
 }
 
+// A stage that wrote over what it reads would leave nothing to make it from again.
+void require_output_apart(const CLI::App& app) {
+  const CLI::Option* output = app.get_option_no_throw("--output");
+  if (!output || output->count() == 0) return;
+  const std::string place = output->results().back();
+  for (const CLI::Option* option : app.get_options()) {
+    if (option == output) continue;
+    for (const std::string& word : option->results()) {
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(word, ignored) &&
+          std::filesystem::equivalent(word, place, ignored))
+        fail(Failure::usage, "--output ", place, " is the same file as the input ", option->get_name(), " ",
+             word, ", which would be lost; name another file to write");
+    }
+  }
+}
+
 }  // namespace
 
 void parse(CLI::App& app, int argc, char** argv) {
@@ -61,6 +78,7 @@ void parse(CLI::App& app, int argc, char** argv) {
     app.exit(asked, std::cout, std::cerr);
     throw Answered{};
   }
+  require_output_apart(app);
 }
 
 double number_option(const std::string& name, const std::string& word) {

@@ -22,7 +22,8 @@ namespace whine {
 inline constexpr const char* kVersion = "0.1.0";
 
 // Parses the options (adds --version). Prints help or version on standard output and ends the tool with
-// status 0 if asked to; CLI11's errors leave through run_tool with status 2.
+// status 0 if asked to; CLI11's errors leave through run_tool with status 2. Error(usage) if --output is a file that another
+// option names, by whatever path.
 void parse(CLI::App& app, int argc, char** argv);
 
 // The value of an option as a number: decimal, finite, nothing before or after it. Error(usage) names option
