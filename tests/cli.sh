@@ -86,6 +86,22 @@ for program in "$bin"/gear-*; do
   "$program" --version > said 2>&1 && grep -q '[0-9]\.[0-9]' said && ok "$name --version" || wrong "$name --version" "$(head -n 1 said)"
   refused "$name refuses an unknown option" 2 'no-such-option' ${whole[$name]/#gear-/$bin/gear-} --no-such-option
 done
+# Links and other spellings of a path are the same file.
+ln -s pinion/body.h5 out/scene/linked.h5
+while read -r name file; do
+  refused "$name refuses to write over its input $file" 2 "--output .* is the same file as the input" ${whole[$name]%--output*} --output $file
+done << 'CASES'
+gear-scene scene.toml
+gear-mesh out/scene/pinion/body.toml
+gear-reduce ./out/scene/pinion/mesh.h5
+gear-reduce out/scene/pinion/body.toml
+gear-static out/scene/wheel/body.h5
+gear-static out/scene/linked.h5
+gear-impact out/scene/T100/static.h5
+gear-sweep out/scene/../scene/T100/static.h5
+gear-spectra out/scene/T100/up/sweep.h5
+CASES
+rm out/scene/linked.h5
 refused "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
 ring_down=("${stage_impact[@]::${#stage_impact[@]}-2}")
 "${ring_down[@]}" --calibrate 0.05 --contact-state one > said 2> /dev/null
@@ -137,6 +153,25 @@ refused "the next rung of a sweep on the last ones" 3 'contact = "strips" is the
 refused "every mode from a body with some" 3 'needs a body with every mode .* holds [0-9]+ modes' $(sweep scene up | sed 's|out/scene/params|full|')
 refused "a ring-down with every mode" 3 'body = "full" .* not available in ring-downs' "${stage_impact[@]//out\/scene\/params/full}"
 rm -rf line full
+for range in 'from = 3000.0, to = 2000.0, step = 50.0' 'from = 2000.0, to = 3000.0, step = 0.0'; do
+  mkdir -p bad; sed "s/from = .*/$range }/" out/scene/params/sweep.toml > bad/sweep.toml
+  refused "a slice with the speeds $range" 3 'mesh_frequency' $(sweep scene up | sed 's|out/scene/params|bad|'); done
+rm -rf bad
+# --- sweeps that run and say what is out of the ordinary: <claim> | <pattern> | <sed script on the slice>
+while IFS='|' read -r claim pattern script; do
+  mkdir -p said_of; sed -E "$script" out/scene/params/sweep.toml > said_of/sweep.toml
+  $(sweep scene up | sed 's|out/scene/params|said_of|; s|--output .*|--output said_of/sweep.h5|') > /dev/null 2> said
+  status=$?
+  if [ $status = 0 ] && grep -q -E "^gear-sweep: $pattern" said; then ok "$claim"; else wrong "$claim" "status $status: $(tr '\n' '|' < said)"; fi
+  rm -rf said_of
+done << 'CASES'
+a time step too long for the contact|warning: a time step is too long for the contact: 5\.[0-9]+ steps per oscillation|s/^steps_per_period = .*/steps_per_period = 8/; s/^min_sample_rate = .*/min_sample_rate = 0.0/
+a default damping that is not for these gears|warning: rayleigh_stiffness_s = 7.7e-06, the default, .* about 0.8[0-9]* %.*make SCENE=.* calibrate|s/^total_inertia = .*/total_inertia = 1.0/
+a motion that repeats after two mesh periods|at 6000 Hz the motion is subharmonic: it repeats after 2 mesh periods|s/^rayleigh_stiffness = .*/rayleigh_stiffness = 2e-6/; s/from = .*/from = 6000.0, to = 6000.0, step = 100.0 }/
+a motion that never repeats|warning: at 6000 Hz the motion is not periodic after 3000 mesh periods; the state still changes by [0-9.]+ per|s/^rayleigh_stiffness = .*/rayleigh_stiffness = 2e-7/; s/^bearing_ratio = .*/bearing_ratio = 0.0001/; s/from = .*/from = 6000.0, to = 6000.0, step = 100.0 }/
+CASES
+if $(sweep scene up) 2>&1 | grep -q -E 'warning|subharmonic'; then wrong "an ordinary sweep warns of nothing" "$($(sweep scene up) 2>&1)"; else
+  ok "an ordinary sweep warns of nothing"; fi
 sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
   wrong "the table of keys in README.md is up to date" "put the output of $B/bin/gear-scene --keys there: $(head -n 2 said | tr '\n' '|')"; fi

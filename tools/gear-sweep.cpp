@@ -51,6 +51,40 @@ void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
               change.uneven);
 }
 
+// The default eta is that of P2000's pair; on stiffer or lighter gears it damps what nobody meant to damp.
+void tell_damping(const whine::StaticArtifact& statics, const whine::SweepSlice& slice) {
+  const bool damps = slice.fidelity.body != "rigid" && slice.fidelity.body != "quasi-static";
+  const double ratio = whine::stiffness_damping_ratio(statics, slice);
+  if (damps && (ratio < 0.01 || ratio > 0.12) && whine::default_rayleigh_stiffness(slice.damping))
+    whine::tell(
+        "gear-sweep: warning: rayleigh_stiffness_s = ", slice.damping.rayleigh_stiffness,
+        ", the default, is for the gears of P2000; these it gives a damping ratio of about ", ratio * 100,
+        " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` "
+        "prints the value for 7 %");
+}
+
+// Warnings of what a motion is not, and in words what is out of the ordinary.
+void tell_motion(const whine::SweepArtifact& result) {
+  constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
+  const double steps = whine::steps_per_oscillation(result);
+  if (steps < kFewestSteps)
+    whine::tell("gear-sweep: warning: a time step is too long for the contact: ", steps,
+                " steps per oscillation at its natural frequency of ", result.natural_frequency, " Hz, ",
+                kFewestSteps, " are needed to follow it; raise min_sample_rate_kHz or steps_per_period");
+  for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
+    if (result.period_multiple[i] == 0)
+      whine::tell("gear-sweep: warning: at ", result.mesh_frequency[i],
+                  " Hz the motion is not periodic after ", result.periods[i],
+                  " mesh periods; the state still changes by ", result.residual[i], " per period");
+    else if (result.period_multiple[i] > 1)
+      whine::tell("gear-sweep: at ", result.mesh_frequency[i],
+                  " Hz the motion is subharmonic: it repeats after ", result.period_multiple[i],
+                  " mesh periods");
+  if (result.backlash_margin <= 0)
+    whine::tell("gear-sweep: warning: the motion goes ", -result.backlash_margin * 1e6,
+                " um beyond the backlash; back flanks would touch, which is not modelled");
+}
+
 void body(int argc, char** argv) {
   CLI::App app{"Speed sweep of the dynamic response, with contact solved at every step", "gear-sweep"};
   std::string params, driver, driven, statics, reference, direction, output;
@@ -108,14 +142,8 @@ void body(int argc, char** argv) {
   whine::tell("gear-sweep: ", result.torque, " N m ", direction, ", ", result.mesh_frequency.size(),
               " speeds, ", result.periods.sum(), " mesh periods", jumps.empty() ? ", no jump" : jumps, " -> ",
               output);
-  for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
-    if (result.period_multiple[i] == 0)
-      whine::tell("gear-sweep: warning: at ", result.mesh_frequency[i],
-                  " Hz the motion is not periodic after ", result.periods[i],
-                  " mesh periods; the state still changes by ", result.residual[i], " per period");
-  if (result.backlash_margin <= 0)
-    whine::tell("gear-sweep: warning: the motion goes ", -result.backlash_margin * 1e6,
-                " um beyond the backlash; back flanks would touch, which is not modelled");
+  tell_damping(at_torque, slice);
+  tell_motion(result);
   for (const whine::NextSweep& s : next)
     if (s.missing.empty())
       tell_change(s, result, run(s.driver, s.driven, s.statics, s.mean_stiffness, s.slice, " " + s.to));

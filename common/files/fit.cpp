@@ -1,5 +1,7 @@
 #include "files/fit.h"
 
+#include <cstdlib>
+
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/provenance.h"
@@ -40,6 +42,13 @@ void require_contact(const StaticArtifact& statics, const Fidelity& wanted, cons
   if (statics.fidelity.contact == wanted.contact) return;
   fail(Failure::input, path, ": was made with contact = \"", statics.fidelity.contact,
        "\", the slice of this stage says \"", wanted.contact, "\"; ", rebuild_advice(path));
+}
+
+bool default_rayleigh_stiffness(const Damping& damping) {
+  for (const Key& key : scene_keys())
+    if (std::string(key.name) == "rayleigh_stiffness_s")
+      return damping.rayleigh_stiffness == key.to_si(std::strtod(key.fallback, nullptr));
+  return false;
 }
 
 }  // namespace whine

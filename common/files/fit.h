@@ -21,4 +21,7 @@ void require_body(const BodyArtifact& body, const std::string& hash, const std::
 // slice of a later stage says.
 void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path);
 
+// Whether rayleigh_stiffness is what the key table gives scenes that say nothing: a slice does not know which it was.
+bool default_rayleigh_stiffness(const Damping& damping);
+
 }  // namespace whine

@@ -67,6 +67,8 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
       error_weight_[i] += model.kinematics.gear(g).base_radius() * coordinates_[i].hub[g];
     torque_force_[i] = coordinates_[i].torque;
     frequency_squared_[i] = coordinates_[i].frequency * coordinates_[i].frequency;
+    // The factor keeps gears apart that have changed places.
+    pair_stamp_ += (i + 1) * (coordinates_[i].frequency + error_weight_[i]);
   }
 }
 
@@ -706,6 +708,7 @@ RollingDynamics::State RollingDynamics::rest() {
   const Equilibrium e = equilibrium_at(position, a, offset);
   const VectorXd nodes = position.mesh.to_nodes(e.p);
   State state;
+  state.pair = pair_stamp_;
   state.force = torque_force_ - position.participation.transpose() * nodes;
   state.z = flexibility().cwiseProduct(state.force);
   state.z[0] = e.x;
@@ -970,8 +973,18 @@ void RollingDynamics::give(State& state) const {
 }
 
 bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
-  return lines() ? march(LineContact(*this), state, period, ledger)
-                 : march(StripContact(*this), state, period, ledger);
+  if (state.z.size() != frequency_squared_.size() || state.pair != pair_stamp_)
+    fail(Failure::input, "the start state, of ", state.z.size(),
+         " coordinates, is of other gears or modes: ", "these have ", frequency_squared_.size(),
+         "; start from rest or from a state of the same pair");
+  try {
+    return lines() ? march(LineContact(*this), state, period, ledger)
+                   : march(StripContact(*this), state, period, ledger);
+  } catch (const Error& error) {
+    const std::string words = error.what(), start = "at mesh phase ";
+    if (words.rfind(start, 0) == 0) throw;
+    fail(error.kind(), start, phase_, " ", words);
+  }
 }
 
 template <class Contact>
@@ -1016,6 +1029,7 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     }
     const Position& position = positions_[sample * stride_];
     const int present = static_cast<int>(position.slot.size());
+    phase_ = position.mesh.phase;
 
     // What the step would bring without new contact force.
     for (int c = 0; c < coordinates; c += kLanes) {

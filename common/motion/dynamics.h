@@ -76,7 +76,8 @@ class RollingDynamics {
     Eigen::VectorXd force;  // (coordinate) contact and torque at this instant
     Eigen::VectorXd p, d;   // (strip) N, m: at the phase of this instant
     std::array<Eigen::MatrixXd, 2> lag,
-        load;  // (field, pair) N: lagged and present loads of the lagged fields
+        load;         // (field, pair) N: lagged and present loads of the lagged fields
+    double pair = 0;  // stamp of the gears and their modes that this is a state of
   };
   // What one mesh period showed, sampled at each step: sample i at phase i / steps.
   struct Period {
@@ -97,7 +98,9 @@ class RollingDynamics {
   State rest();
   // Marches one mesh period and renames teeth, so that the state can be compared with the one before.
   // False if contact wanted more than the range holds; the state is then spoiled. With a ledger a step of strips costs
-  // three times as much, one of lines five times. Throws Error(numerical) if a line carries more than Hertz's law or its flanks hold.
+  // three times as much, one of lines five times. Throws Error(input) for a state of other gears or modes, Error(numerical),
+  // with the mesh phase, if the contact of a step has no certified solution or a line carries more than Hertz's law or its
+  // flanks hold.
   bool march(State& state, Period& period, Ledger* ledger = nullptr);
   // The contact problem of each step of a period of strips marched from `state`: what march hands to its solver.
   struct ContactProblem {
@@ -266,7 +269,8 @@ class RollingDynamics {
   double step_ = 0;                          // s
   std::array<Eigen::MatrixXd, 2> fields_;    // (flank, field) V, orthonormal
   std::array<Eigen::MatrixXd, 2> coupling_;  // (field x pair, field x pair) m N-1
-  double static_deflection_ = 0, energy_scale_ = 1;
+  double static_deflection_ = 0, energy_scale_ = 1, pair_stamp_ = 0;
+  double phase_ = 0;  // of the step at hand
   std::vector<Turn> turns_;
   Workspace work_;
   LedgerWorkspace ledger_work_;

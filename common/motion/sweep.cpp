@@ -19,6 +19,12 @@ namespace {
 constexpr double kJumpRatio = 1.2;  // change of RMS across a step that may be a jump
 constexpr int kJumpFineness = 64;   // steps of the sweep are halved down to this part: 20 Hz leave 0.3 Hz
 
+int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
+  int steps = time.steps_per_period;
+  while (steps * mesh_frequency < time.min_sample_rate) steps *= 2;
+  return steps;
+}
+
 class Sweeper {
  public:
   Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
@@ -27,15 +33,9 @@ class Sweeper {
     load_ = statics.torque / model.kinematics.gear(0).base_radius();
     largest_force_ = 2.5 * load_;
     corner_gap_ = 2.5 * statics.transmission_error.maxCoeff();
-    finest_ = steps_at(slice.frequency_from);
+    finest_ = steps_at(slice.time, slice.frequency_from);
     set_range();
     state_ = dynamics_.rest();
-  }
-
-  int steps_at(double mesh_frequency) const {
-    int steps = slice_.time.steps_per_period;
-    while (steps * mesh_frequency < slice_.time.min_sample_rate) steps *= 2;
-    return steps;
   }
 
   const RollingDynamics& dynamics() const { return dynamics_; }
@@ -53,9 +53,13 @@ class Sweeper {
   Orbit run(double mesh_frequency) {
     const RollingDynamics::State start = state_;
     for (;;) {
-      dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
-      if (auto orbit = settle(dynamics_, state_, slice_.time.periodicity, slice_.time.steady_state))
-        return *orbit;
+      try {
+        dynamics_.set_speed(mesh_frequency, steps_at(slice_.time, mesh_frequency));
+        if (auto orbit = settle(dynamics_, state_, slice_.time.periodicity, slice_.time.steady_state))
+          return *orbit;
+      } catch (const Error& error) {
+        fail(error.kind(), "at ", mesh_frequency, " Hz, ", error.what());
+      }
       // Contact wanted more than the window or the corner range holds: widen and run this speed again.
       if (++widened_ > 8)
         fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks: forces above ",
@@ -130,6 +134,22 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
 
 bool like_a_jump(double rms, double other) {
   return std::max(rms, other) > kJumpRatio * std::min(rms, other);
+}
+
+double stiffness_damping_ratio(const StaticArtifact& statics, const SweepSlice& slice) {
+  double inverse_mass = 0;
+  for (const auto& [design, inertia] :
+       {std::pair{&statics.driver, slice.driver_inertia}, std::pair{&statics.driven, slice.driven_inertia}}) {
+    const double r = ToothGeometry(*design).base_radius();
+    inverse_mass += r * r / inertia;
+  }
+  return 0.5 * slice.damping.rayleigh_stiffness * std::sqrt(statics.mean_stiffness * inverse_mass);
+}
+
+double steps_per_oscillation(const SweepArtifact& sweep) {
+  double rate = std::numeric_limits<double>::infinity();  // Hz, of time steps
+  for (const double f : sweep.mesh_frequency) rate = std::min(rate, f * steps_at(sweep.time, f));
+  return rate / sweep.natural_frequency;
 }
 
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,

@@ -11,10 +11,18 @@ namespace whine {
 // statics: of the same torque and contact; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets
 // the bearing dampers. direction: "up" or "down". report(done, total, note) is called after each speed.
 // A speed at which the motion does not become periodic is kept with period_multiple 0. Throws Error(input) for
-// parameters that do not fit, Error(numerical) if contact leaves the flanks.
+// parameters that do not fit, Error(numerical), with speed and mesh phase, if contact leaves the flanks or has no certified
+// solution.
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepSlice& slice, const std::string& direction,
                     const std::function<void(long, long, const std::string&)>& report);
+
+// Damping ratio that eta of Eq. 21 alone gives the pair on its mean mesh stiffness k: eta w / 2 with w^2 = k (r1^2 / I1 +
+// r2^2 / I2). An estimate from above: flexibility that follows its load at once is not damped.
+double stiffness_damping_ratio(const StaticArtifact& statics, const SweepSlice& slice);
+
+// Time steps per oscillation at the natural frequency, at the speed with the fewest.
+double steps_per_oscillation(const SweepArtifact& sweep);
 
 // Whether the RMS of the transmission error of two motions differ as much as across a jump.
 bool like_a_jump(double rms, double other);
