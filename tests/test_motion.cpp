@@ -143,7 +143,9 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
   const ErrorBudgetArtifact budget = error_budget(body, body, paper_statics(128), 150);
   const StaticChanges& errors = budget.refinement;
-  CHECK(errors.entry == "strips, flank table, elements, window, positions");
+  CHECK(errors.entry ==
+        "strips 8 to 16, flank table 24 to 48 points, elements 0.8 to 0.4 mm, window 1 to 2, positions 128 "
+        "to 256");
   REQUIRE(errors.mean_stiffness_change.size() == 5);
   CHECK(errors.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
   CHECK(errors.mean_stiffness_change.cwiseAbs().sum() < 3e-3);
@@ -172,7 +174,8 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   deep.discretisation.matching_depth = 6e-3;
   const ErrorBudgetArtifact of_line = error_budget(deep, deep, line, 150);
   CHECK(of_line.fidelity.contact == "line");
-  CHECK(of_line.refinement.entry == "flank table, elements, positions");
+  CHECK(of_line.refinement.entry ==
+        "flank table 24 to 48 points, elements 0.8 to 0.4 mm, positions 32 to 64");
   CHECK(of_line.refinement.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
   CHECK(of_line.choice.entry == "order 1, contact strips");
   CHECK(of_line.choice_missing.find("matching at 6 mm: matching_depth_mm = 6 leaves the tooth") == 0);

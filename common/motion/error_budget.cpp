@@ -44,6 +44,11 @@ StaticChanges changes(const std::vector<std::pair<std::string, Answer>>& others,
   return result;
 }
 
+// "strips 8 to 16": what was refined, from which value of the driver or the pair to which.
+std::string from_to(const char* name, double from, double to, const char* unit = "") {
+  return text(name, " ", from, " to ", to, unit);
+}
+
 BodyArtifact reduced_again(const BodyArtifact& body, const BodyDiscretisation& discretisation,
                            int flank_points) {
   constexpr int kModes = 1;  // statics ask for none
@@ -64,7 +69,8 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   if (strips) {
     StaticSlice finer = slice;
     finer.contact.strips *= 2;
-    refined.emplace_back("strips", solve(driver, driven, finer));
+    refined.emplace_back(from_to("strips", slice.contact.strips, finer.contact.strips),
+                         solve(driver, driven, finer));
   }
   const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
   const auto of_bodies = [&](const std::function<BodyArtifact(const BodyArtifact&)>& change) {
@@ -75,24 +81,28 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
                                const std::function<BodyArtifact(const BodyArtifact&)>& change) {
     refined.emplace_back(name, of_bodies(change));
   };
-  with_bodies("flank table", [](const BodyArtifact& body) {
-    return reduced_again(body, body.discretisation, 2 * static_cast<int>(body.flank_position.size()));
-  });
-  with_bodies("elements", [](const BodyArtifact& body) {
+  const auto flank_points = static_cast<int>(driver.flank_position.size());
+  with_bodies(
+      from_to("flank table", flank_points, 2 * flank_points, " points"), [](const BodyArtifact& body) {
+        return reduced_again(body, body.discretisation, 2 * static_cast<int>(body.flank_position.size()));
+      });
+  const double element = driver.discretisation.element_size * 1e3;
+  with_bodies(from_to("elements", element, 0.5 * element, " mm"), [](const BodyArtifact& body) {
     BodyDiscretisation half = body.discretisation;
     half.element_size *= 0.5;
     return reduced_again(body, half, static_cast<int>(body.flank_position.size()));
   });
   if (driver.discretisation.element_order == 1 || driven.discretisation.element_order == 1)
-    with_bodies("order", [](const BodyArtifact& body) {
+    with_bodies(from_to("order", 1, 2), [](const BodyArtifact& body) {
       BodyDiscretisation second = body.discretisation;
       second.element_order = 2;
       return reduced_again(body, second, static_cast<int>(body.flank_position.size()));
     });
-  if (strips) refined.emplace_back("window", solve(driver, driven, slice, 2));
+  if (strips) refined.emplace_back(from_to("window", 1, 2), solve(driver, driven, slice, 2));
   StaticSlice denser = slice;
   denser.contact.positions *= 2;
-  refined.emplace_back("positions", solve(driver, driven, denser));
+  refined.emplace_back(from_to("positions", slice.contact.positions, denser.contact.positions),
+                       solve(driver, driven, denser));
 
   ErrorBudgetArtifact budget;
   set_gears(budget, driver, driven);

@@ -17,6 +17,7 @@ namespace {
 constexpr double kMicro = 1e6;  // m -> micrometre
 constexpr double kMilli = 1e3;  // m -> mm
 constexpr double kMega = 1e-6;  // N m-1 -> 1e6 N m-1
+constexpr double kPercent = 100;
 constexpr int kShownHarmonics = 10;
 constexpr size_t kMostCurves = 6;  // colours, dashes and marks of the templates
 
@@ -310,29 +311,35 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
 Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
   Figure figure;
   figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
-  figure.notes.push_back(text("each discretisation refined alone; sum of the changes of the mean stiffness ",
-                              shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * 1e3, 3),
-                              " ‰"));
+  figure.notes.push_back(
+      text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
+           shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
   figure.notes.push_back(
       text("contact = ", budget.fidelity.contact, ", near field by ", budget.driver_body.near_field,
            "; beyond the line what another choice changes, which is no error of this one"));
   for (const auto& [name, labels, count, changes] :
        {std::tuple{"changes", "labels", "entries", &budget.refinement},
         std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {
-    FigureBlock block{name, {"entry", "mean_stiffness [per mille]", "peak_to_peak [per mille]"}, {}};
+    FigureBlock block{name, {"entry", "mean_stiffness [%]", "peak_to_peak [%]"}, {}};
     for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
-      block.columns.push_back(text("harmonic_", n, " [per mille of the first]"));
-    std::string words, rest = changes->entry;
+      block.columns.push_back(text("harmonic_", n, " [% of the first]"));
+    std::string words, names, rest = changes->entry;
     for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
-      std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * 1e3,
-                              std::abs(changes->peak_to_peak_change[i]) * 1e3};
+      std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * kPercent,
+                              std::abs(changes->peak_to_peak_change[i]) * kPercent};
       for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
-        row.push_back(std::abs(changes->harmonic_change(i, n)) * 1e3);
+        row.push_back(std::abs(changes->harmonic_change(i, n)) * kPercent);
       block.rows.push_back(row);
       const size_t comma = rest.find(", ");
-      words += "'" + rest.substr(0, comma) + "' ";
+      std::string label = rest.substr(0, comma);
+      names += text(i ? "; " : "", i, " ", label);
+      // The values on a line of their own: '|' to the template.
+      const size_t value = std::min(label.find(" at "), label.find_first_of("0123456789") - 1);
+      if (value < label.size()) label[value] = '|';
+      words += "'" + label + "' ";
       rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
     }
+    block.columns[0] = text("entry [", names, "]");
     figure.blocks.push_back(block);
     figure.words.emplace_back(labels, words);
     figure.numbers.emplace_back(count, static_cast<double>(block.rows.size()));

@@ -44,7 +44,7 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics);
 // rectangular wave.
 Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
 
-// Changes of the static answer by each refinement, as bars, in parts per thousand; apart from them those by another
+// Changes of the static answer by each refinement, as bars, in per cent; apart from them those by another
 // choice of near field or contact.
 Figure error_budget_figure(const ErrorBudgetArtifact& budget);
 

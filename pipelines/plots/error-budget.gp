@@ -13,19 +13,20 @@ set tics out nomirror
 set grid ytics lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set logscale y
 set format y "10^{%L}"
-set ylabel "Change (parts per thousand)"
-set yrange [1e-4:100]
+set ylabel "Change (%)"
+set yrange [1e-5:10]
 set xrange [-0.6:entries + (choices > 0 ? choices + 0.1 : -0.4)]
 set xtics ()
-do for [i = 1:entries] { set xtics add (word(labels, i) i - 1) }
+two_lines(s) = strstrt(s, "|") > 0 ? s[1:strstrt(s, "|") - 1] . "\n{/*0.8 " . s[strstrt(s, "|") + 1:*] . "}" : s
+do for [i = 1:entries] { set xtics add (two_lines(word(labels, i)) i - 1) }
 first_choice = entries + 0.5
-do for [i = 1:choices] { set xtics add (word(choice_labels, i) first_choice + i - 1) }
+do for [i = 1:choices] { set xtics add (two_lines(word(choice_labels, i)) first_choice + i - 1) }
 array colour[7] = ["#1f4e9c", "#c8201e", "#1a7f37", "#6aa84f", "#93c47d", "#b6d7a8", "#d9ead3"]
 array name[7] = ["mean stiffness", "peak to peak", "harmonic 1", "harmonic 2", "harmonic 3", "harmonic 4", "harmonic 5"]
-set key at screen 0.9, screen 0.1 horizontal Left reverse samplen 1.5 maxrows 2
+set key at screen 0.9, screen 0.085 horizontal Left reverse samplen 1.5 maxrows 2
 set style fill solid 0.9 noborder
 set boxwidth 0.1
-floor_value(x) = x < 1e-4 ? 1e-4 : x
+floor_value(x) = x < 1e-5 ? 1e-5 : x
 bars = 'for [k = 1:7] tsv index "[changes]" using ($1 + 0.11 * (k - 4)):(floor_value(column(k + 1))) with boxes' \
   . ' lc rgb colour[k] title name[k]'
 if (choices > 0) {
