@@ -60,7 +60,11 @@ void body(int argc, char** argv) {
   std::string name, output, plots = "pipelines/plots";
   std::vector<std::string> inputs;
   app.add_option("figure", name, "fig01, fig05, fig12, fig13 or error-budget")->required();
-  app.add_option("inputs", inputs, "artifacts, see above")->required();
+  app.add_option("inputs", inputs,
+                 "artifacts. fig01: mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5; fig05: "
+                 "response.h5 up "
+                 "and down; fig12, fig13: static.h5, one per torque; error-budget: error_budget.h5")
+      ->required();
   app.add_option("--output", output, "path of the results without extension")->required();
   app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
   whine::parse(app, argc, argv);

@@ -32,9 +32,9 @@ Eigen::VectorXd mean_and_harmonics(const Eigen::VectorXd& samples) {
   return out;
 }
 
-void tell_change(const std::string& where, const whine::StaticDifference& change) {
+void tell_change(const std::string& where, const whine::StaticDifference& change, int strips) {
   if (change.positions == 0) return;
-  whine::tell("gear-static: strips change, ", where, " (", change.positions,
+  whine::tell("gear-static: ", strips, " strips change, ", where, " (", change.positions,
               " positions): transmission error by ", change.error_largest * 100, " % at most, ",
               change.error_rms * 100, " % RMS; pair loads by ", change.load_largest * 100, " % at most, ",
               change.load_rms * 100, " % RMS of the load");
@@ -87,8 +87,8 @@ void body(int argc, char** argv) {
               result.mean_stiffness * 1e-6, "e6 N/m, transmission error ", te.minCoeff() * 1e6, " to ",
               te.maxCoeff() * 1e6, " um -> ", output);
   if (change) {
-    tell_change("where a pair carries load off the line of action", change->corner);
-    tell_change("elsewhere", change->elsewhere);
+    tell_change("where a pair carries load off the line of action", change->corner, slice.contact.strips);
+    tell_change("elsewhere", change->elsewhere, slice.contact.strips);
   }
   if (slice.mesh.corner.enabled == false)
     whine::tell("gear-static: corner contact is off: only pairs on the line of action carry load");

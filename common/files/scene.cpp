@@ -43,10 +43,15 @@ std::string as_written(const toml::node& node) {
 }
 
 // The file under reading: turns nodes into values and faults into errors with file:line.
+// First line of a slice, before and after the stage that it is for.
+constexpr const char *kSliceStart = "# What ",
+                     *kSliceEnd = " depends on, in SI units; made from a scene by gear-scene.";
+
 class Source {
  public:
   explicit Source(std::string path) : path_(std::move(path)) {
     const std::string bytes = read_bytes(path_, "check the path of the scene");
+    is_slice_ = bytes.rfind(kSliceStart, 0) == 0 && bytes.find(kSliceEnd) < bytes.find('\n');
     try {
       root_ = toml::parse(std::string_view(bytes));
     } catch (const toml::parse_error& error) {
@@ -55,6 +60,7 @@ class Source {
   }
 
   const toml::table& root() const { return root_; }
+  bool is_slice() const { return is_slice_; }
 
   [[noreturn]] void refuse(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
   [[noreturn]] void refuse_line(toml::source_index line, const std::string& what) const {
@@ -75,6 +81,7 @@ class Source {
  private:
   std::string path_;
   toml::table root_;
+  bool is_slice_ = false;
 };
 
 // In a scene keys carry unit suffixes and ranges hold; slices are in SI, written by this program.
@@ -425,9 +432,7 @@ void read_mesh_section(const Source& source, Scene& scene) {
 // Slices are written in the order of the table, one section after the other.
 class SliceText {
  public:
-  explicit SliceText(const std::string& stage) {
-    out_ << "# What " << stage << " depends on, in SI units; made from a scene by gear-scene.\n";
-  }
+  explicit SliceText(const std::string& stage) { out_ << kSliceStart << stage << kSliceEnd << "\n"; }
 
   void add(const std::string& section, const std::string& label, const KeyValues& values,
            const std::set<Part>& parts) {
@@ -436,8 +441,10 @@ class SliceText {
       if (key.section != section || !parts.count(key.part)) continue;
       if (label != last_) out_ << "\n[" << label << "]\n";
       last_ = label;
-      out_ << key.si_name() << " = " << value_of(key.slot(copy));
-      if (std::string(key.unit.si) != "1") out_ << "  # " << key.unit.si;
+      const std::string value = value_of(key.slot(copy));
+      out_ << key.si_name() << " = " << value;
+      if (std::string(key.unit.si) != "1" && value != "true" && value != "false")
+        out_ << "  # " << key.unit.si;
       out_ << "\n";
     }
   }
@@ -504,6 +511,8 @@ const SceneGear& Scene::gear(const std::string& name) const {
 
 Scene read_scene(const std::string& path) {
   const Source source(path);
+  if (source.is_slice())
+    source.refuse("is a slice, which gear-scene cut from a scene for one stage; give the scene itself");
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
   top.refuse_unknown({"gear", "material", "mesh", "damping", "operation", "fidelity", "discretisation"});
   std::vector<std::string> missing;

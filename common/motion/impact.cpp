@@ -390,6 +390,7 @@ ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
                          const std::function<void(long, long)>& report) {
   if (!(damping_ratio > 0 && damping_ratio < 1))
     fail(Failure::input, "a damping ratio of ", damping_ratio, " is outside (0, 1)");
+  report(0, plan.phases);  // the search comes before the phases
   const HeldPair pair(driver, driven, statics, mean_stiffness, slice, plan);
   const std::vector<int> phases = pair.phases_of(contact_state);
   const auto excess = [&](double eta) { return pair.damping_ratio(phases, eta) - damping_ratio; };
