@@ -1,7 +1,7 @@
 // gear-inspect: what an artifact is, from what it was made, its key numbers, and whether its inputs changed.
 //
 // Reads      any artifacts (HDF5); their inputs at the paths recorded in /provenance, relative to the
-//            working folder
+//            working folder; the scene (--scene, or data/scenes/<scene>.toml for out/<scene>/params/...)
 // Writes     nothing; prints on standard output. Exit status 3 if an input has changed or is missing
 // Equations  none
 // Example    gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5
@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/fit.h"
 #include "files/provenance.h"
 #include "files/publish.h"
 #include "files/summary.h"
@@ -24,18 +25,41 @@ void line(const std::string& name, const std::string& words) {
   std::cout << "  " << name << std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') << words << "\n";
 }
 
+// The scene that a slice out/<scene>/params/... was cut from; empty if no file of its name is known.
+std::string scene_of(const std::string& slice) {
+  const std::filesystem::path folder = std::filesystem::path(slice).parent_path();
+  if (folder.filename() != "params") return "";
+  const std::string scene = "data/scenes/" + folder.parent_path().filename().string() + ".toml";
+  return std::filesystem::exists(scene) ? scene : "";
+}
+
+// Whether a slice, which is the file it was, is what its scene says today, in words; clears fresh if not.
+std::string against_scene(const std::string& artifact, const InputRecord& input, std::string scene,
+                          bool& fresh) {
+  if (scene.empty()) scene = scene_of(input.path);
+  const std::string now = scene.empty() ? "" : slice_for(read_scene(scene), input.path);
+  if (now.empty())
+    return text("fresh: the slice is what it was; not compared with a scene",
+                scene.empty() ? ", give --scene" : "");
+  if (sha256(now) == input.sha256) return text("fresh: as the slice and as ", scene);
+  fresh = false;
+  return text("STALE: ", scene, " says otherwise now; ", rebuild_advice(artifact));
+}
+
 // False if an input is not what it was, or not there to tell.
-bool show_origin(const std::string& path, const Origin& origin) {
+bool show_origin(const std::string& path, const Origin& origin, const std::string& scene) {
   line("made by", text(origin.tool, " ", origin.version, ": ", origin.command));
   bool fresh = true;
   for (const InputRecord& input : origin.inputs) {
-    std::string state = "fresh";
+    std::string state = "fresh: the file is what it was";
     if (!std::filesystem::exists(input.path)) {
       state = text("MISSING; ", rebuild_advice(input.path));
       fresh = false;
     } else if (sha256_of_file(input.path) != input.sha256) {
       state = text("STALE; ", rebuild_advice(path));
       fresh = false;
+    } else if (input.role == "params") {
+      state = against_scene(path, input, scene, fresh);
     }
     line("input " + input.role, text(input.path, " (", input.sha256.substr(0, 12), ") ", state));
   }
@@ -48,6 +72,10 @@ int body(int argc, char** argv) {
   CLI::App app{"Says what artifacts are, from what they were made, and whether they are stale",
                "gear-inspect"};
   app.add_option("artifact", paths, "artifacts (HDF5)")->required();
+  std::string scene;
+  app.add_option(
+      "--scene", scene,
+      "compare slices with this scene; default: data/scenes/<scene>.toml of out/<scene>/, if there is one");
   parse(app, argc, argv);
   bool fresh = true;
   for (const std::string& path : paths) {
@@ -55,7 +83,7 @@ int body(int argc, char** argv) {
     std::cout << path << ": " << origin.title << "\n";
     line("schema", text(origin.schema, ", version ", origin.schema_version));
     for (const auto& [name, words] : summary(path, origin.schema)) line(name, words);
-    fresh = show_origin(path, origin) && fresh;
+    fresh = show_origin(path, origin, scene) && fresh;
   }
   return fresh ? 0 : static_cast<int>(Failure::input);
 }

@@ -1,6 +1,7 @@
 #include "files/fit.h"
 
 #include <cstdlib>
+#include <filesystem>
 
 #include "base/error.h"
 #include "files/keys.h"
@@ -42,6 +43,19 @@ void require_contact(const StaticArtifact& statics, const Fidelity& wanted, cons
   if (statics.fidelity.contact == wanted.contact) return;
   fail(Failure::input, path, ": was made with contact = \"", statics.fidelity.contact,
        "\", the slice of this stage says \"", wanted.contact, "\"; ", rebuild_advice(path));
+}
+
+std::string slice_for(const Scene& scene, const std::string& path) {
+  const std::filesystem::path place(path);
+  const std::string name = place.filename().string();
+  if (name == "static.toml") return static_slice(scene);
+  if (name == "impact.toml") return impact_slice(scene);
+  if (name == "sweep.toml") return sweep_slice(scene);
+  for (const SceneGear& gear : scene.gears) {
+    const std::string slice = body_slice(scene, gear.name), folder = place.parent_path().filename().string();
+    if (name == "body.toml" && (folder == body_hash(slice) || folder == gear.name)) return slice;
+  }
+  return "";
 }
 
 bool default_rayleigh_stiffness(const Damping& damping) {

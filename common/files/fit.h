@@ -21,6 +21,10 @@ void require_body(const BodyArtifact& body, const std::string& hash, const std::
 // slice of a later stage says.
 void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path);
 
+// The slice that a scene gives now for the path of an earlier one, .../params/<stage>.toml or .../<gear's hash>/body.toml;
+// empty if none of the scene's slices stands there.
+std::string slice_for(const Scene& scene, const std::string& path);
+
 // Whether rayleigh_stiffness is what the key table gives scenes that say nothing: a slice does not know which it was.
 bool default_rayleigh_stiffness(const Damping& damping);
 

@@ -48,6 +48,23 @@ void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& b
   add(lines, "elements", "order ", body.element_order, ", ", body.element_size * 1e3, " mm on the flank");
 }
 
+std::string near_field(const BodyDiscretisation& body) {
+  return body.near_field == "matching"
+             ? text("matching at ", body.matching_depth * 1e3, " mm below the flank")
+             : body.near_field;
+}
+
+void show_discretisation(Lines& lines, const BodyDiscretisation& driver, const BodyDiscretisation& driven) {
+  const auto elements = [](const BodyDiscretisation& b) {
+    return text("order ", b.element_order, ", ", b.element_size * 1e3, " mm on the flank");
+  };
+  const auto both = [&](const char* name, const std::string& first, const std::string& second) {
+    add(lines, name, first, first == second ? "" : "; driven gear: " + second);
+  };
+  both("elements", elements(driver), elements(driven));
+  both("near field", near_field(driver), near_field(driven));
+}
+
 void show_damping(Lines& lines, const Damping& damping) {
   add(lines, "damping", "eta ", damping.rayleigh_stiffness * 1e6, " us, bearing ratio ",
       damping.bearing_ratio);
@@ -69,9 +86,7 @@ void show(Lines& lines, const BodyArtifact& a) {
   }
   add(lines, "modes", a.eigenfrequency.size(), "; kHz (nodal diameters): ", modes,
       a.eigenfrequency.size() > 8 ? ", ..." : "");
-  const BodyDiscretisation& d = a.discretisation;
-  add(lines, "near field", d.near_field,
-      d.near_field == "matching" ? text(" at ", d.matching_depth * 1e3, " mm below the flank") : "");
+  add(lines, "near field", near_field(a.discretisation));
   add(lines, "flank table", a.flank_position.size(), " points, tooth offsets 0 to ", a.offsets);
   add(lines, "asymmetry", a.asymmetry, ", least eigenvalue ", a.least_eigenvalue * 1e9, " um/kN");
 }
@@ -80,6 +95,11 @@ void show(Lines& lines, const StaticArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", centre distance ",
       a.mesh.centre_distance * 1e3, " mm");
   add(lines, "corner contact", corner_rule(a.mesh));
+  show_discretisation(lines, a.driver_body, a.driven_body);
+  add(lines, "contact", a.fidelity.contact,
+      a.fidelity.contact == "strips"
+          ? text(", ", a.contact.strips, " across the contact width at the mean load")
+          : "");
   add(lines, "contact ratio", a.contact_ratio);
   add(lines, "mean stiffness", a.mean_stiffness * 1e-6, " N/um (secant)");
   if (a.transmission_error.size() > 0) {
@@ -87,6 +107,12 @@ void show(Lines& lines, const StaticArtifact& a) {
     add(lines, "transmission error", te.mean() * 1e6, " um mean, ", (te.maxCoeff() - te.minCoeff()) * 1e6,
         " um peak to peak");
     add(lines, "largest tooth load", a.tooth_load.size() ? a.tooth_load.maxCoeff() * 1e-3 : 0.0, " kN");
+  }
+  if (a.contact_pressure.size() > 0) {
+    Eigen::Index i = 0, j = 0;
+    const double peak = a.contact_pressure.maxCoeff(&i, &j);
+    add(lines, "peak pressure", peak * 1e-6, " MPa inside a flank, half-width there ",
+        a.contact_half_width(i, j) * 1e3, " mm, at mesh phase ", a.mesh_phase[i]);
   }
   add(lines, "certificate", a.mesh_phase.size(), " positions; least gap ", a.least_gap * 1e6,
       " um, least force ", a.least_force, " N, torque residual ", a.torque_residual);
