@@ -20,6 +20,7 @@
 #include "motion/propagator.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
+#include "paper_pair.h"
 #include "signal/spectrum.h"
 #include "solid/elements.h"
 #include "solid/mesher.h"
@@ -192,15 +193,6 @@ double rms(const VectorXd& samples) {
 
 // --- the gears of P2000 with elements of 0.8 mm, whose flank flexibility differs by 0.1 % from finer ones
 
-GearDesign paper_gear() {
-  GearDesign d;
-  d.teeth = 50;
-  d.module = 3e-3;
-  d.pressure_angle = 20 * kPi / 180;
-  d.face_width = 25.4e-3;
-  d.bore_radius = 40e-3;
-  return d;
-}
 const double kBaseRadius = 75e-3 * std::cos(20 * kPi / 180);
 constexpr double kFaceWidth = 25.4e-3, kYoung = 207e9, kPoisson = 0.3;
 

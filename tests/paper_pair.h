@@ -14,22 +14,31 @@
 
 namespace whine {
 
+// The paper's gear, or one of its rack with other teeth.
+inline GearDesign paper_gear(int teeth = 50, double bore = 40e-3) {
+  GearDesign d;
+  d.teeth = teeth;
+  d.module = 3e-3;
+  d.pressure_angle = 20 * std::numbers::pi / 180;
+  d.face_width = 25.4e-3;
+  d.bore_radius = bore;
+  return d;
+}
+
+inline Material paper_steel() {
+  return {207e9, 0.3, 7600, true};
+}
+
 // The paper's gear at the default discretisation but for the number of modes, which statics do not see; reduced once per
 // bore, element size and number of modes.
 inline const BodyArtifact& paper_body(double bore = 40e-3, double element = 0.4e-3, int modes = 5) {
   static std::map<std::tuple<double, double, int>, BodyArtifact> cache;
   const auto key = std::make_tuple(bore, element, modes);
   if (!cache.count(key)) {
-    GearDesign d;
-    d.teeth = 50;
-    d.module = 3e-3;
-    d.pressure_angle = 20 * std::numbers::pi / 180;
-    d.face_width = 25.4e-3;
-    d.bore_radius = bore;
     BodyDiscretisation discretisation;
     discretisation.element_size = element;
     discretisation.modes = modes;
-    cache[key] = reduce(make_sector_mesh(d, discretisation), Material{207e9, 0.3, 7600, true}, modes);
+    cache[key] = reduce(make_sector_mesh(paper_gear(50, bore), discretisation), paper_steel(), modes);
   }
   return cache[key];
 }
@@ -71,6 +80,6 @@ inline DynamicParameters paper_parameters(double mean_stiffness, const std::stri
   return p;
 }
 
-inline void no_report(long, long, const std::string&) {}
+inline constexpr auto no_report = [](auto&&...) {};
 
 }  // namespace whine

@@ -12,6 +12,7 @@
 #include "contact/hertz_line.h"
 #include "contact/line_contact.h"
 #include "contact/strips.h"
+#include "paper_pair.h"
 #include "relative.h"
 
 using namespace whine;
@@ -23,16 +24,6 @@ constexpr double kPi = std::numbers::pi;
 
 Material strain_steel() {
   return {207e9, 0.3, 7600, false};
-}
-
-GearDesign paper_gear() {
-  GearDesign d;
-  d.teeth = 50;
-  d.module = 3e-3;
-  d.pressure_angle = 20 * kPi / 180;
-  d.face_width = 25.4e-3;
-  d.bore_radius = 40e-3;
-  return d;
 }
 
 struct Solved {
@@ -213,9 +204,9 @@ TEST_CASE("window of strips: constant count, exact interpolation of smooth field
 }
 
 TEST_CASE("window of strips between two tip edges: narrow at both, without a step as either comes near") {
-  GearDesign stub = paper_gear();
-  stub.addendum = 0.8;  // tips within the other's involute on both sides
-  const GearPair gears(stub, stub, 0.150);
+  GearDesign short_tooth = paper_gear();
+  short_tooth.addendum = 0.8;  // tips within the other's involute on both sides
+  const GearPair gears(short_tooth, short_tooth, 0.150);
   const PairContact contact = gears.contact(0.1);
   const double low = contact.x_min, high = contact.x_max;
   const auto window = [&](double half) { return make_strips(gears, 0, contact, {half, 32, 1e-5}); };

@@ -7,22 +7,13 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "paper_pair.h"
 #include "relative.h"
 
 using namespace whine;
 
 namespace {
 constexpr double kDegree = std::numbers::pi / 180;
-
-GearDesign paper_gear() {
-  GearDesign d;
-  d.teeth = 50;
-  d.module = 3e-3;
-  d.pressure_angle = 20 * kDegree;
-  d.face_width = 25.4e-3;
-  d.bore_radius = 40e-3;
-  return d;
-}
 
 GearDesign fzg_c(int teeth, double shift, double tip_diameter) {
   GearDesign d;

@@ -2,17 +2,15 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <string>
 
 #include "base/error.h"
 #include "motion/impact.h"
 #include "motion/statics.h"
+#include "paper_pair.h"
 #include "relative.h"
 #include "signal/decay.h"
-#include "solid/mesher.h"
-#include "solid/reduce.h"
 
 using namespace whine;
 using Eigen::MatrixXd;
@@ -47,20 +45,7 @@ HeldMesh lagged_mass() {
 }
 
 const BodyArtifact& coarse_body(int modes = 5) {
-  static std::map<int, BodyArtifact> cache;
-  if (!cache.count(modes)) {
-    GearDesign d;
-    d.teeth = 50;
-    d.module = 3e-3;
-    d.pressure_angle = 20 * kPi / 180;
-    d.face_width = 25.4e-3;
-    d.bore_radius = 40e-3;
-    BodyDiscretisation discretisation;
-    discretisation.element_size = 0.8e-3;
-    discretisation.modes = modes;
-    cache[modes] = reduce(make_sector_mesh(d, discretisation), Material{207e9, 0.3, 7600, true}, modes);
-  }
-  return cache[modes];
+  return paper_body(40e-3, 0.8e-3, modes);
 }
 
 StaticArtifact coarse_statics(double torque, int strips = 15) {
@@ -80,8 +65,6 @@ ImpactSlice coarse_impact() {
   slice.reference_torque = 100;
   return slice;
 }
-
-void no_report(long, long) {}
 
 ImpactArtifact ring(const ImpactSlice& slice, double torque_step = ImpactPlan().torque_step) {
   return impact(coarse_body(), coarse_body(), coarse_statics(150), 463e6, slice, {torque_step, 64},

@@ -26,17 +26,11 @@ constexpr double kPi = std::numbers::pi;
 const BodyArtifact& coarse_body(int modes) {
   static std::map<int, BodyArtifact> cache;
   if (!cache.count(modes)) {
-    GearDesign d;
-    d.teeth = 20;
-    d.module = 3e-3;
-    d.pressure_angle = 20 * kPi / 180;
-    d.face_width = 25.4e-3;
-    d.bore_radius = 20e-3;
     BodyDiscretisation discretisation;
     discretisation.element_size = 3e-3;
     discretisation.element_order = 1;
     discretisation.modes = modes;
-    cache[modes] = reduce(make_sector_mesh(d, discretisation), Material{207e9, 0.3, 7600, true}, modes);
+    cache[modes] = reduce(make_sector_mesh(paper_gear(20, 20e-3), discretisation), paper_steel(), modes);
   }
   return cache[modes];
 }
