@@ -139,6 +139,38 @@ void want_rows(const char* name, Eigen::Index rows, Eigen::Index wanted) {
   if (rows != wanted) fail(Failure::numerical, "result ", name, " has ", rows, " rows, expected ", wanted);
 }
 
+// Left out of finite element sweeps, which have no such part.
+void put_lumped(ArtifactWriter& out, const std::string& model, const LumpedParameters& a) {
+  want_rows("lumped stiffness", a.stiffness.rows(), a.cell_end.size());
+  want_rows("lumped gap", a.gap.rows(), a.cell_end.size());
+  want_rows("lumped gap (columns)", a.gap.cols(), a.stiffness.cols());
+  const std::string at = "/parameters/lumped/";
+  out.put("/parameters/fidelity/model", model, {"1", "name of the lumped model", "", ""});
+  out.put(at + "mass", a.mass, {"kg", "mass of the one degree of freedom", "", "m of Eq. 23"});
+  out.put(at + "damping_ratio", a.damping_ratio,
+          {"1", "damping ratio about the mean stiffness", "", "c / (2 sqrt(mean_stiffness m))"});
+  out.put(at + "damper", a.damper, {"N s m-1", "viscous damper at the mesh", "", "c of Eq. 23"});
+  out.put(at + "damper_acts", a.damper_acts, {"1", "always (Eq. 23), or in contact only", "", ""});
+  out.put(at + "cell_end", a.cell_end,
+          {"1", "mesh phase at which a cell of constant springs ends", "cell", ""});
+  out.put(at + "stiffness", a.stiffness,
+          {"N m-1", "stiffness of the springs", "cell spring", "k(t) of Eq. 23"});
+  out.put(at + "gap", a.gap, {"m", "transmission error at which a spring touches", "cell spring", ""});
+}
+
+void take_lumped(const ArtifactReader& in, SweepArtifact& a) {
+  if (!in.file().has("/parameters/fidelity/model")) return;
+  const std::string at = "/parameters/lumped/";
+  a.model = in.word("/parameters/fidelity/model");
+  a.lumped.mass = in.number(at + "mass");
+  a.lumped.damping_ratio = in.number(at + "damping_ratio");
+  a.lumped.damper = in.number(at + "damper");
+  a.lumped.damper_acts = in.word(at + "damper_acts");
+  a.lumped.cell_end = in.vector(at + "cell_end");
+  a.lumped.stiffness = in.matrix(at + "stiffness", a.lumped.cell_end.size());
+  a.lumped.gap = in.matrix(at + "gap", a.lumped.cell_end.size(), a.lumped.stiffness.cols());
+}
+
 // Node and mode numbers come from a file here, and index arrays later: they are checked once, on reading.
 void want_indices(const ArtifactReader& in, const std::string& name, const Eigen::Ref<const MatrixRMi>& index,
                   Eigen::Index count) {
@@ -567,8 +599,11 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
          kEnergyLines.size());
   want_rows("drift_force", a.drift_force.size(), speeds);
   want_rows("jump_width", a.jump_width.size(), a.jump_frequency.size());
+  const bool lumped = a.lumped.cell_end.size() > 0;
   ArtifactWriter out(path, "sweep", kSweepVersion,
-                     text("Sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), provenance);
+                     text("Sweep ", a.direction, lumped ? ", lumped model " + a.model : "", ": ",
+                          pair_title(a.mesh, a.torque)),
+                     provenance);
   KeyValues values;
   values.mesh = a.mesh;
   values.fidelity = a.fidelity;
@@ -581,6 +616,7 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
   out.parameters("mesh", values, Part::mesh);
   out.parameters("damping", values, Part::damping);
   put_bearings(out, a);
+  if (lumped) put_lumped(out, a.model, a.lumped);
   out.parameters("fidelity", values, Part::rung);
   out.parameters("fidelity", values, Part::contact_rung);
   out.parameters("discretisation", values, Part::contact);
@@ -657,6 +693,7 @@ SweepArtifact read_sweep(const std::string& path) {
   a.driver_inertia = take_inertia(in, "driver");
   a.driven_inertia = take_inertia(in, "driven");
   take_bearings(in, a);
+  take_lumped(in, a);
   a.torque = in.number("/parameters/operation/torque");
   a.direction = in.word("/parameters/operation/direction");
   a.mesh_frequency = in.vector("/mesh_frequency");

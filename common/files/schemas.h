@@ -171,8 +171,23 @@ inline constexpr std::array<EnergyLine, 12> kEnergyLines{
      {"averaging", "mean load times change of the lag, less the exact work: of the scheme itself"},
      {"forgetting", "taken out with the lag of teeth that are no longer followed"}}};
 
+// What a lumped model (Eq. 23) is made of, in place of elastic bodies: m x'' + c x' + sum_i k_i max(x - g_i, 0) = T / r,
+// k_i and g_i constant in each cell of the mesh period.
+struct LumpedParameters {
+  double mass = 0;           // kg
+  double damping_ratio = 0;  // 1: c / 2 sqrt(mean stiffness x mass)
+  double damper = 0;         // N s m-1
+  std::string damper_acts;   // "always" as in Eq. 23, or in "contact" only
+  Eigen::VectorXd cell_end;  // (cell) mesh phase, ascending, last 1
+  MatrixRM stiffness, gap;   // (cell, spring) N m-1, m; one spring for the whole mesh, or one per tooth pair
+};
+
 // sweep.h5: rows in order of marching
 struct SweepArtifact {
+  std::string model =
+      "finite elements";  // or a lumped model's name; then the fields of the bodies say where its
+                          // stiffness comes from, and its damping is that of `lumped` alone
+  LumpedParameters lumped;
   GearDesign driver, driven;
   Material driver_material, driven_material;
   BodyDiscretisation driver_body, driven_body;

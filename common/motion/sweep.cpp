@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
+#include "signal/response.h"
 
 namespace whine {
 
@@ -16,8 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kJumpRatio = 1.2;  // change of RMS across a step that may be a jump
-constexpr int kJumpFineness = 64;   // steps of the sweep are halved down to this part: 20 Hz leave 0.3 Hz
+constexpr int kJumpFineness = 64;  // steps of the sweep are halved down to this part: 20 Hz leave 0.3 Hz
 
 int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   int steps = time.steps_per_period;
@@ -131,10 +131,6 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
 }
 
 }  // namespace
-
-bool like_a_jump(double rms, double other) {
-  return std::max(rms, other) > kJumpRatio * std::min(rms, other);
-}
 
 double stiffness_damping_ratio(const StaticArtifact& statics, const SweepSlice& slice) {
   double inverse_mass = 0;

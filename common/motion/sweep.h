@@ -24,7 +24,4 @@ double stiffness_damping_ratio(const StaticArtifact& statics, const SweepSlice& 
 // Time steps per oscillation at the natural frequency, at the speed with the fewest.
 double steps_per_oscillation(const SweepArtifact& sweep);
 
-// Whether the RMS of the transmission error of two motions differ as much as across a jump.
-bool like_a_jump(double rms, double other);
-
 }  // namespace whine

@@ -48,19 +48,6 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
 // choice of near field or contact.
 Figure error_budget_figure(const ErrorBudgetArtifact& budget);
 
-// The rectangular wave that stands for a mesh stiffness: one level per number of pairs in nominal contact.
-// Levels are read from the curve in the middle of the two zones, switches stand where pairs come and go
-// without load.
-struct RectangularWave {
-  double low = 0, high = 0;             // N m-1
-  double high_begin = 0, high_end = 0;  // phase; begin in [0, 1), end in (begin, begin + 1)
-  double mean() const;                  // N m-1
-  double amplitude(
-      int harmonic) const;        // N m-1, harmonic >= 1: 2 (high - low) |sin(pi n d)| / (pi n), d the share
-  double at(double phase) const;  // N m-1
-};
-RectangularWave rectangular_wave(const StaticArtifact& pair);
-
 // The TSV: '#' lines with title, notes, sources and columns, then the blocks, two empty lines between them.
 std::string tsv(const Figure& figure, const std::vector<std::string>& sources);
 

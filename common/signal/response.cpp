@@ -48,6 +48,11 @@ void require_shapes(const SweepArtifact& s) {
 
 }  // namespace
 
+bool like_a_jump(double rms, double other) {
+  constexpr double kRatio = 1.2;
+  return std::max(rms, other) > kRatio * std::min(rms, other);
+}
+
 ResponseArtifact response(const SweepArtifact& s) {
   require_shapes(s);
   const Eigen::Index speeds = s.mesh_frequency.size();
@@ -65,7 +70,7 @@ ResponseArtifact response(const SweepArtifact& s) {
   ResponseArtifact r;
   r.torque = s.torque;
   r.direction = s.direction;
-  r.model = "finite elements";
+  r.model = s.model;
   r.driver = s.driver;
   r.driven = s.driven;
   r.driver_material = s.driver_material;

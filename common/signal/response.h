@@ -15,4 +15,7 @@ inline constexpr int kResponseHarmonics = 10;
 // arrays whose lengths disagree, values that are not finite, or negative forces.
 ResponseArtifact response(const SweepArtifact& sweep);
 
+// Whether the RMS of the transmission error of two motions differ as much as across a jump: by more than 20 %.
+bool like_a_jump(double rms, double other);
+
 }  // namespace whine

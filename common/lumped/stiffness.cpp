@@ -1,0 +1,199 @@
+#include "lumped/stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "gear/pair.h"
+
+namespace whine {
+namespace {
+
+constexpr double kFarthest =
+    6;  // gaps up to this many times the largest static transmission error have a spring
+
+double wrapped(double phase) {
+  return phase - std::floor(phase);
+}
+
+// Linear between the samples of one period.
+double at_phase(const Eigen::VectorXd& phase, const Eigen::VectorXd& value, double at) {
+  const double p = wrapped(at);
+  const Eigen::Index n = phase.size();
+  Eigen::Index i = n - 1;
+  while (i > 0 && phase[i] > p) --i;
+  const double right = i + 1 < n ? phase[i + 1] : phase[0] + 1.0;
+  const double share = (p - phase[i]) / (right - phase[i]);
+  return (1.0 - share) * value[i] + share * value[(i + 1) % n];
+}
+
+// Ends of `cells` equal cells, the first about phase 0 and therefore in two halves.
+Eigen::VectorXd centred_cells(int cells) {
+  if (cells < 1) fail(Failure::input, "lumped model: ", cells, " cells; 1 is the least");
+  Eigen::VectorXd end(cells + 1);
+  for (int j = 0; j < cells; ++j) end[j] = (j + 0.5) / cells;
+  end[cells] = 1;
+  return end;
+}
+
+// Integral from phase 0 to p, 0 <= p <= 1, of the curve that is linear between values at i / n.
+double integral(const Eigen::VectorXd& values, double p) {
+  const Eigen::Index n = values.size();
+  const double place = p * static_cast<double>(n);
+  const Eigen::Index whole = std::min(n, static_cast<Eigen::Index>(place));
+  double sum = 0;
+  for (Eigen::Index i = 0; i < whole; ++i) sum += 0.5 * (values[i] + values[(i + 1) % n]);
+  const double rest = place - static_cast<double>(whole);
+  if (rest > 0) sum += rest * values[whole] + 0.5 * rest * rest * (values[(whole + 1) % n] - values[whole]);
+  return sum / static_cast<double>(n);
+}
+
+}  // namespace
+
+double RectangularWave::mean() const {
+  return low + (high - low) * (high_end - high_begin);
+}
+
+double RectangularWave::amplitude(int harmonic) const {
+  const double n = std::numbers::pi * harmonic;
+  return 2.0 * std::abs((high - low) * std::sin(n * (high_end - high_begin))) / n;
+}
+
+double RectangularWave::at(double phase) const {
+  return wrapped(phase - high_begin) < high_end - high_begin ? high : low;
+}
+
+RectangularWave rectangular_wave(const StaticArtifact& s) {
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  // A pair j, which touches the pitch point at phase j, is in contact from j + start to j + end.
+  const double start = pair.path_start() / pair.base_pitch(), end = pair.path_end() / pair.base_pitch();
+  const double few = std::floor(end - start);  // pairs in contact where they are fewest
+  RectangularWave wave;
+  // A new pair comes at start (modulo 1), the oldest leaves at end: between them there is one pair more.
+  wave.high_begin = wrapped(start);
+  wave.high_end = wave.high_begin + (end - start - few);
+  const double middle = 0.5 * (wave.high_begin + wave.high_end);
+  wave.high = at_phase(s.mesh_phase, s.stiffness_secant, middle);
+  wave.low = at_phase(s.mesh_phase, s.stiffness_secant, middle + 0.5);
+  return wave;
+}
+
+RectangularWave stated_wave(const RectangularWave& place, double one, double other, double duty) {
+  for (double level : {one, other})
+    if (!(level > 0) || !std::isfinite(level))
+      fail(Failure::input, "lumped model: a stiffness level is ", level, " N/m; both must be above 0");
+  if (!(duty > 0 && duty < 1))
+    fail(Failure::input, "lumped model: the duty, the share of the second level, is ", duty,
+         "; it must be above 0 and below 1");
+  RectangularWave wave;
+  wave.low = one;
+  wave.high = other;
+  const double middle = 0.5 * (place.high_begin + place.high_end);
+  wave.high_begin = wrapped(middle - 0.5 * duty);
+  wave.high_end = wave.high_begin + duty;
+  return wave;
+}
+
+LumpedParameters cells_of(const RectangularWave& wave) {
+  std::vector<double> ends{wrapped(wave.high_begin), wrapped(wave.high_end), 1};
+  std::sort(ends.begin(), ends.end());
+  std::erase(ends, 0.0);
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  LumpedParameters p;
+  p.cell_end = Eigen::Map<Eigen::VectorXd>(ends.data(), static_cast<Eigen::Index>(ends.size()));
+  p.stiffness.resize(p.cell_end.size(), 1);
+  p.gap = MatrixRM::Zero(p.cell_end.size(), 1);
+  for (Eigen::Index c = 0; c < p.cell_end.size(); ++c)
+    p.stiffness(c, 0) = wave.at(0.5 * ((c > 0 ? p.cell_end[c - 1] : 0) + p.cell_end[c]));
+  return p;
+}
+
+LumpedParameters cells_of(const Eigen::VectorXd& values, int cells) {
+  if (values.size() < 2 || !values.allFinite() || !(values.minCoeff() > 0))
+    fail(Failure::input,
+         "lumped model: the stiffness must be given at 2 phases at least and be above 0; its least is ",
+         values.size() > 0 ? values.minCoeff() : 0, " N/m");
+  LumpedParameters p;
+  p.cell_end = centred_cells(cells);
+  p.stiffness.resize(cells + 1, 1);
+  p.gap = MatrixRM::Zero(cells + 1, 1);
+  const double whole = integral(values, 1);
+  for (int j = 1; j < cells; ++j)
+    p.stiffness(j, 0) = (integral(values, p.cell_end[j]) - integral(values, p.cell_end[j - 1])) * cells;
+  p.stiffness(0, 0) = p.stiffness(cells, 0) =
+      (integral(values, p.cell_end[0]) + whole - integral(values, p.cell_end[cells - 1])) * cells;
+  return p;
+}
+
+LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::VectorXi& numbers) {
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double force = s.torque / pair.gear(0).base_radius();
+  const double farthest = kFarthest * s.transmission_error.maxCoeff();
+  // Nothing where this pair cannot touch.
+  const auto gap_at = [&](double own_phase) -> std::optional<double> {
+    // Beyond the tangent points of the base circles there is no contact of these flanks.
+    const double path = own_phase * pair.base_pitch(), tangent = std::tan(pair.working_pressure_angle());
+    if (pair.gear(0).base_radius() * tangent + path <= 0 || pair.gear(1).base_radius() * tangent - path <= 0)
+      return std::nullopt;
+    const PairContact c = pair.contact(own_phase);
+    if (!c.corner) return 0.0;
+    if (!s.mesh.corner.enabled || c.normal_angle > s.mesh.corner.largest_angle || !c.on_flank ||
+        c.gap > farthest)
+      return std::nullopt;
+    return c.gap;
+  };
+
+  // Stiffness against the pair's own phase, at static positions where it carries load.
+  struct Point {
+    double phase, stiffness;
+  };
+  std::vector<Point> points;
+  for (Eigen::Index i = 0; i < s.mesh_phase.size(); ++i) {
+    const double total = s.tooth_load.row(i).sum();
+    for (Eigen::Index n = 0; n < s.pair.size(); ++n) {
+      const double phase = s.mesh_phase[i] + s.pair[n], load = s.tooth_load(i, n);
+      if (!(load > 0)) continue;
+      const auto gap = gap_at(phase);
+      const double deflection = s.transmission_error[i] - gap.value_or(0);
+      if (!gap || !(deflection > 0))
+        fail(Failure::input, "lumped model: pair ", s.pair[n], " carries ", load, " N at phase ",
+             s.mesh_phase[i], " although its gap is not closed there");
+      // The lever arms of a corner differ from the base radius: loads as the torque feels them.
+      points.push_back({phase, load * (force / total) / deflection});
+    }
+  }
+  if (points.empty()) fail(Failure::input, "lumped model: no tooth pair carries load in the static result");
+  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.phase < b.phase; });
+  const auto stiffness_at = [&](double phase) {
+    const auto after = std::lower_bound(points.begin(), points.end(), phase,
+                                        [](const Point& p, double at) { return p.phase < at; });
+    if (after == points.end()) return points.back().stiffness;
+    if (after == points.begin() || after->phase == phase) return after->stiffness;
+    const auto before = after - 1;
+    const double share = (phase - before->phase) / (after->phase - before->phase);
+    return (1 - share) * before->stiffness + share * after->stiffness;
+  };
+
+  // Pair n at mesh phase f in [0, 1] has the phase f + n of its own.
+  int reach = 1;
+  for (double phase = -4; phase <= 4; phase += 1.0 / 256)
+    if (gap_at(phase)) reach = std::max(reach, static_cast<int>(std::ceil(std::max(phase, 1 - phase))));
+  numbers = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
+  LumpedParameters p;
+  p.cell_end = centred_cells(cells);
+  p.stiffness = p.gap = MatrixRM::Zero(cells + 1, numbers.size());
+  for (int j = 0; j <= cells; ++j)
+    for (Eigen::Index n = 0; n < numbers.size(); ++n) {
+      const double phase = static_cast<double>(j) / cells + numbers[n];
+      if (const auto gap = gap_at(phase)) {
+        p.stiffness(j, n) = stiffness_at(phase);
+        p.gap(j, n) = *gap;
+      }
+    }
+  return p;
+}
+
+}  // namespace whine

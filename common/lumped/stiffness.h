@@ -1,0 +1,40 @@
+// k(t) of Eq. 23 from the static mesh stiffness over a mesh period, as springs that are constant in cells of the period.
+//
+// Cells make the motion exact; what they leave out is k(t) within a cell. For N cells that carry the means of the curve
+// the error of the response falls with 1 / N^2.
+#pragma once
+#include "files/schemas.h"
+
+namespace whine {
+
+// The rectangular wave that stands for a mesh stiffness: one level per number of pairs in nominal contact.
+// Levels are read from the curve in the middle of the two zones, switches stand where pairs come and go
+// without load.
+struct RectangularWave {
+  double low = 0, high = 0;             // N m-1
+  double high_begin = 0, high_end = 0;  // phase; begin in [0, 1), end in (begin, begin + 1)
+  double mean() const;                  // N m-1
+  double amplitude(
+      int harmonic) const;        // N m-1, harmonic >= 1: 2 (high - low) |sin(pi n d)| / (pi n), d the share
+  double at(double phase) const;  // N m-1
+};
+RectangularWave rectangular_wave(const StaticArtifact& pair);
+
+// Other levels (N m-1) and another share of the high one, about the same middle. Error(input) unless both are above 0 and
+// the share lies in (0, 1).
+RectangularWave stated_wave(const RectangularWave& place, double one, double other, double duty);
+
+// Cells and springs only; mass and damper are left at 0. One spring without a gap for the whole mesh:
+LumpedParameters cells_of(const RectangularWave& wave);
+// values: (phase) N m-1 at equally spaced phases from 0; each of `cells` cells, the first about phase 0, carries the mean of
+// the curve that is linear between them. Error(input) for values not above 0.
+LumpedParameters cells_of(const Eigen::VectorXd& values, int cells);
+
+// A spring per pair of pair.pair, more where tip edges that do not touch at rest may do so in motion: gap from the flanks'
+// geometry amid each cell, off the line of action too (but for what the corner rule leaves out), stiffness = static load over
+// deflection beyond the gap, carried on unchanged to phases at which the pair is not loaded at rest. With as many cells as
+// static positions the springs at rest have the static transmission error; what loads change in each other's deflection, and
+// Hertz's law beyond the static load, is not in it. numbers: of the pairs, filled. Error(input) if no pair carries load.
+LumpedParameters cells_of_pairs(const StaticArtifact& pair, int cells, Eigen::VectorXi& numbers);
+
+}  // namespace whine

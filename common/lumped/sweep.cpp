@@ -1,0 +1,347 @@
+#include "lumped/sweep.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "gear/pair.h"
+#include "signal/response.h"
+
+namespace whine {
+
+using State = LumpedOscillator::State;
+using Matrix = LumpedOscillator::Matrix;
+
+namespace {
+
+constexpr int kMostMultiple = 8;     // longest subharmonic looked for, in mesh periods
+constexpr int kSubharmonic = 50;     // periods before one is looked for
+constexpr double kClose = 1e-2;      // change per period from which Newton's method is tried
+constexpr double kFarthest = 0.1;    // that it may lead away
+constexpr double kRoundOff = 1e-13;  // of the state
+constexpr int kLongestPause = 64;    // periods of plain marching after a Newton's method that led nowhere
+constexpr int kFollowPeriods = 500;  // where a branch is followed, before it counts as ended
+constexpr double kFinest = 1e-7;     // Hz: steps of that are halved down to this
+
+double modulus(const Matrix& m) {
+  const double half = 0.5 * m.trace(), det = m.determinant(), root = half * half - det;
+  return root > 0 ? std::abs(half) + std::sqrt(root) : std::sqrt(det);
+}
+
+State image(LumpedOscillator& oscillator, State y, int multiple, Matrix* derivative) {
+  if (derivative) derivative->setIdentity();
+  for (int i = 0; i < multiple; ++i) oscillator.march(y, derivative);
+  return y;
+}
+
+// Newton's method on P^multiple(y) = y. False if it does not converge.
+bool solve_orbit(LumpedOscillator& oscillator, LumpedOrbit& orbit, int multiple) {
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 12; ++i) {
+    Matrix derivative;
+    const State change = image(oscillator, orbit.start, multiple, &derivative) - orbit.start;
+    orbit.periods += multiple;
+    orbit.residual = oscillator.size(change) / std::max(1e-300, oscillator.size(orbit.start));
+    orbit.monodromy = derivative;
+    if (!std::isfinite(orbit.residual)) return false;
+    // Rounding of many pieces may leave a little more than that of one.
+    if (orbit.residual < kRoundOff || (orbit.residual < 1e3 * kRoundOff && orbit.residual > 0.5 * last)) {
+      orbit.multiple = multiple;
+      return true;
+    }
+    last = orbit.residual;
+    const Matrix singular = Matrix::Identity() - derivative;
+    if (singular.determinant() == 0) return false;
+    orbit.start += singular.inverse() * change;
+  }
+  return false;
+}
+
+void record(LumpedOscillator& oscillator, LumpedOrbit& orbit) {
+  State y = orbit.start;
+  orbit.record.clear();
+  orbit.ledger = {};
+  double mean = 0, square = 0;
+  const int periods = orbit.multiple > 0 ? orbit.multiple : kMostMultiple;
+  for (int i = 0; i < periods; ++i) {
+    orbit.record.push_back(oscillator.record(y, orbit.ledger));
+    mean += orbit.record.back().mean / periods;
+    square += orbit.record.back().mean_square / periods;
+  }
+  const double off = mean - oscillator.reference();
+  orbit.mean = mean;
+  orbit.rms = std::sqrt(std::max(0.0, square - off * off));
+}
+
+// Follows the branch of an orbit from a speed on, with steps that are halved where they leave it, to where it ends - past
+// the speed `to`, too, since a long step leaves a branch early whose basin has become narrow. Nothing if the branch passes
+// through the response at `to`: a resonance flank, no jump.
+std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const LumpedOrbit& from_orbit, double from,
+                                    double to, double to_rms, double limit, double periodicity,
+                                    bool march_only) {
+  const LumpedJump whole{0.5 * (from + to), std::abs(to - from), false};
+  if (from_orbit.multiple == 0) return whole;
+  LumpedOrbit branch = from_orbit;
+  const double direction = to > from ? 1 : -1;
+  double at = from, step = 0.5 * (to - from), next = at;
+  bool passed = false;
+  while (std::abs(step) >= kFinest) {
+    next = at + step;
+    if (!passed && direction * (next - to) > 0) next = to;
+    if (direction * (next - limit) > 0) return whole;  // the branch outlives the sweep
+    oscillator.set_speed(next);
+    LumpedOrbit found = settle(oscillator, branch.start, periodicity, march_only, kFollowPeriods);
+    if (found.multiple == 0 || like_a_jump(found.rms, branch.rms)) {
+      step *= 0.5;
+      continue;
+    }
+    at = next;
+    branch = std::move(found);
+    if (at == to) {
+      passed = true;
+      if (!like_a_jump(branch.rms, to_rms)) return std::nullopt;
+    }
+  }
+  const double width = std::max(std::abs(next - at), kFinest);
+  if (const auto fold = find_fold(oscillator, branch.start, at, branch.multiple))
+    if (std::abs(fold->mesh_frequency - at) < 1e3 * width)
+      return LumpedJump{fold->mesh_frequency, width, true};
+  return LumpedJump{0.5 * (at + next), width, false};
+}
+
+}  // namespace
+
+double LumpedOrbit::largest_multiplier() const {
+  return modulus(monodromy);
+}
+
+LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double periodicity, bool march_only,
+                   int most_periods) {
+  LumpedOrbit orbit;
+  State y = start;
+  std::deque<State> past{y};
+  int pause = 0, patience = 1;
+  const auto away = [&](const State& a, const State& b) {
+    return oscillator.size(a - b) / std::max(1e-300, oscillator.size(b));
+  };
+  for (int n = 1; n <= most_periods; ++n) {
+    oscillator.march(y);
+    ++orbit.periods;
+    const int known = std::min(static_cast<int>(past.size()), n < kSubharmonic ? 1 : kMostMultiple);
+    for (int m = 1; m <= known; ++m) {
+      const double change = away(y, past[past.size() - m]);
+      bool shorter = false;
+      for (int d = 1; d < m; ++d)
+        shorter = shorter || (m % d == 0 && away(y, past[past.size() - d]) < 100 * periodicity);
+      if (shorter) continue;
+      if (!march_only && change < kClose && pause == 0) {
+        LumpedOrbit tried = orbit;
+        tried.start = y;
+        if (solve_orbit(oscillator, tried, m)) {
+          const double rho = modulus(tried.monodromy), moved = away(tried.start, y);
+          bool primitive = true;
+          for (int d = 1; d < m; ++d)
+            if (m % d == 0 && away(image(oscillator, tried.start, d, nullptr), tried.start) < 1e-6)
+              primitive = false;
+          if (rho < 1 && primitive && moved < kFarthest && moved * (1 - rho) < 10 * change + kRoundOff) {
+            record(oscillator, tried);
+            return tried;
+          }
+        }
+        orbit.periods = tried.periods;
+        pause = patience = std::min(2 * patience, kLongestPause);
+      }
+      if (change < (march_only ? periodicity : std::min(periodicity, 10 * kRoundOff))) {
+        orbit.start = y;
+        orbit.multiple = m;
+        orbit.residual = change;
+        image(oscillator, y, m, &orbit.monodromy);
+        record(oscillator, orbit);
+        return orbit;
+      }
+    }
+    pause = std::max(0, pause - 1);
+    past.push_back(y);
+    if (static_cast<int>(past.size()) > kMostMultiple) past.pop_front();
+  }
+  orbit.start = y;
+  orbit.residual = past.size() > 1 ? away(y, past[past.size() - 2]) : 0;
+  record(oscillator, orbit);
+  return orbit;
+}
+
+std::optional<LumpedFold> find_fold(LumpedOscillator& oscillator, const State& start, double mesh_frequency,
+                                    int multiple) {
+  const double x = oscillator.reference(), v = x * 2 * std::numbers::pi * oscillator.natural_frequency(),
+               f = mesh_frequency;
+  const Eigen::Vector3d unit(x, v, f);
+  // Of unknowns and equations in units of their own size.
+  const auto equations = [&](const Eigen::Vector3d& z) {
+    oscillator.set_speed(z[2] * f);
+    const State y(z[0] * x, z[1] * v);
+    Matrix derivative;
+    const State change = image(oscillator, y, multiple, &derivative) - y;
+    return Eigen::Vector3d(change[0] / x, change[1] / v, (derivative - Matrix::Identity()).determinant());
+  };
+  Eigen::Vector3d z = Eigen::Vector3d(start[0], start[1], mesh_frequency).cwiseQuotient(unit);
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d value = equations(z);
+    Eigen::Matrix3d jacobian;
+    for (int k = 0; k < 3; ++k) {
+      constexpr double kStep = 1e-6;
+      Eigen::Vector3d plus = z, minus = z;
+      plus[k] += kStep;
+      minus[k] -= kStep;
+      jacobian.col(k) = (equations(plus) - equations(minus)) / (2 * kStep);
+    }
+    const Eigen::FullPivLU<Eigen::Matrix3d> lu(jacobian);
+    if (!lu.isInvertible()) return std::nullopt;
+    const Eigen::Vector3d step = lu.solve(value);
+    z -= step;
+    if (!z.allFinite() || !(z[2] > 0)) return std::nullopt;
+    const double size = step.norm();
+    if (size < 1e-12 || (size < 1e-9 && size > 0.5 * last)) {
+      oscillator.set_speed(z[2] * f);
+      return LumpedFold{z[2] * f, State(z[0] * x, z[1] * v)};
+    }
+    last = size;
+  }
+  return std::nullopt;
+}
+
+LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>& speeds, double periodicity,
+                         bool march_only, const std::function<void(long, long, const std::string&)>& report) {
+  LumpedMarch out;
+  State state = oscillator.rest();
+  const long total = static_cast<long>(speeds.size());
+  for (long i = 0; i < total; ++i) {
+    oscillator.set_speed(speeds[i]);
+    out.orbits.push_back(settle(oscillator, state, periodicity, march_only));
+    const LumpedOrbit& orbit = out.orbits.back();
+    state = orbit.start;
+    if (i > 0 && like_a_jump(out.orbits[i - 1].rms, orbit.rms))
+      if (const auto jump = find_jump(oscillator, out.orbits[i - 1], speeds[i - 1], speeds[i], orbit.rms,
+                                      speeds.back(), periodicity, march_only))
+        out.jumps.push_back(*jump);
+    report(i + 1, total, text(speeds[i], " Hz, ", orbit.periods, " periods"));
+  }
+  return out;
+}
+
+SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
+                           const Eigen::VectorXi& numbers, const LumpedOptions& o,
+                           const std::function<void(long, long, const std::string&)>& report) {
+  if (!(o.mass > 0) || !std::isfinite(o.mass))
+    fail(Failure::input, "lumped model: the mass is ", o.mass, " kg; it must be above 0");
+  if (!(o.damping_ratio >= 0) || !std::isfinite(o.damping_ratio))
+    fail(Failure::input, "lumped model: the damping ratio is ", o.damping_ratio, "; it must be 0 or above");
+  const int count =
+      static_cast<int>(std::floor((o.frequency_to - o.frequency_from) / o.frequency_step + 1e-9)) + 1;
+  if (!(o.frequency_from > 0) || !(o.frequency_step > 0) || !(o.frequency_to >= o.frequency_from) ||
+      count < 1)
+    fail(Failure::input, "the speed range from ", o.frequency_from, " to ", o.frequency_to,
+         " Hz in steps of ", o.frequency_step, " Hz is empty");
+
+  const GearPair pair(statics.driver, statics.driven, statics.mesh.centre_distance);
+  const double force = statics.torque / pair.gear(0).base_radius();
+  const int samples = o.time.steps_per_period, steps = o.integrator == "newmark" ? samples : 0;
+  springs.mass = o.mass;
+  springs.damping_ratio = o.damping_ratio;
+  springs.damper_acts = o.damper_acts;
+  springs.damper = 0;
+  const double stiffness = LumpedOscillator(springs, force, samples).mean_stiffness();
+  springs.damper = 2 * o.damping_ratio * std::sqrt(stiffness * o.mass);
+  LumpedOscillator oscillator(springs, force, samples, steps);
+
+  std::vector<double> speeds(count);
+  for (int i = 0; i < count; ++i)
+    speeds[i] = o.frequency_from + (o.direction == "up" ? i : count - 1 - i) * o.frequency_step;
+  const LumpedMarch march =
+      march_speeds(oscillator, speeds, o.time.periodicity, o.time.steady_state == "march", report);
+
+  SweepArtifact a;
+  a.model = o.model;
+  a.lumped = springs;
+  a.driver = statics.driver;
+  a.driven = statics.driven;
+  a.driver_material = statics.driver_material;
+  a.driven_material = statics.driven_material;
+  a.driver_body = statics.driver_body;
+  a.driven_body = statics.driven_body;
+  a.mesh = statics.mesh;
+  a.fidelity.body = "rigid";
+  a.fidelity.contact = statics.fidelity.contact;
+  a.fidelity.integrator = o.integrator;
+  a.contact = statics.contact;
+  a.time = o.time;
+  a.time.min_sample_rate = 0;
+  a.damping = {};
+  a.damping.rayleigh_stiffness = a.damping.bearing_ratio = 0;
+  a.torque = statics.torque;
+  // m = I1 I2 / (I1 r2^2 + I2 r1^2) with equal shares.
+  for (int g = 0; g < 2; ++g)
+    (g == 0 ? a.driver_inertia : a.driven_inertia) = 2 * o.mass * std::pow(pair.gear(g).base_radius(), 2);
+  a.mean_stiffness = stiffness;
+  a.natural_frequency = oscillator.mean_frequency();
+  a.direction = o.direction;
+  a.pair = numbers;
+  a.mesh_frequency = Eigen::Map<const Eigen::VectorXd>(speeds.data(), count);
+  a.periods.resize(count);
+  a.residual.resize(count);
+  a.period_multiple.resize(count);
+  a.energy_imbalance.resize(count);
+  a.energy = MatrixRM::Zero(count, static_cast<Eigen::Index>(kEnergyLines.size()));
+  a.drift_force = Eigen::VectorXd::Zero(count);
+  std::size_t longest = 1;
+  for (const LumpedOrbit& orbit : march.orbits) longest = std::max(longest, orbit.record.size());
+  const auto width = static_cast<Eigen::Index>(longest) * samples;
+  a.transmission_error.resize(count, width);
+  a.mesh_force.resize(count, width);
+  const auto line = [](const std::string& name) {
+    for (std::size_t i = 0; i < kEnergyLines.size(); ++i)
+      if (name == kEnergyLines[i].name) return static_cast<Eigen::Index>(i);
+    fail(Failure::numerical, "the energy ledger has no line ", name);
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < count; ++i) {
+    const LumpedOrbit& orbit = march.orbits[i];
+    a.periods[i] = orbit.periods;
+    a.residual[i] = orbit.residual;
+    a.period_multiple[i] = orbit.multiple;
+    const LumpedLedger& l = orbit.ledger;
+    a.energy_imbalance[i] = l.imbalance() / l.throughput;
+    a.energy(i, line("kinetic")) = l.kinetic;
+    a.energy(i, line("local")) = l.spring;
+    a.energy(i, line("torque")) = l.force;
+    a.energy(i, line("rolling")) = l.switching;
+    a.energy(i, line("modal_damping")) = l.damping;
+    MatrixRM loads(width, numbers.size());
+    for (std::size_t k = 0; k < longest; ++k) {
+      const LumpedRecord& r = orbit.record[k % orbit.record.size()];
+      a.transmission_error.row(i).segment(static_cast<Eigen::Index>(k) * samples, samples) = r.x.transpose();
+      loads.middleRows(static_cast<Eigen::Index>(k) * samples, samples) = r.load;
+      least = std::min(least, r.least);
+      a.least_gap = std::min(a.least_gap, -r.largest_exit);
+    }
+    a.mesh_force.row(i) = loads.rowwise().sum().transpose();
+    a.tooth_load.push_back(std::move(loads));
+  }
+  a.backlash_margin = statics.driver.tooth_thinning + statics.driven.tooth_thinning > 0
+                          ? pair.backlash() + least
+                          : std::numeric_limits<double>::infinity();
+  a.jump_frequency.resize(static_cast<Eigen::Index>(march.jumps.size()));
+  a.jump_width.resize(a.jump_frequency.size());
+  for (std::size_t j = 0; j < march.jumps.size(); ++j) {
+    a.jump_frequency[static_cast<Eigen::Index>(j)] = march.jumps[j].mesh_frequency;
+    a.jump_width[static_cast<Eigen::Index>(j)] = march.jumps[j].width;
+  }
+  return a;
+}
+
+}  // namespace whine

@@ -1,0 +1,71 @@
+// Steady motions of a lumped model, and its speed sweeps in the protocol of the elastic gears: the state is carried from
+// speed to speed and marched, as on a test rig. Once close to an orbit, Newton's method on the period map, whose derivative
+// is exact, takes the rest of the transient, unless the orbit is unstable or far.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/schemas.h"
+#include "lumped/oscillator.h"
+
+namespace whine {
+
+struct LumpedOrbit {
+  LumpedOscillator::State start;  // at phase 0
+  int multiple = 0;               // mesh periods of the orbit; 0: not periodic within the limit
+  int periods = 0;                // run on the way
+  double residual = 0;            // size of the change of the state over the orbit, over that of the state
+  LumpedOscillator::Matrix monodromy = LumpedOscillator::Matrix::Identity();  // over `multiple` periods
+  double mean = 0, rms = 0;           // m: of x, of its oscillating part, from integrals over the pieces
+  std::vector<LumpedRecord> record;   // (period) of the orbit; the last ones marched if not periodic
+  LumpedLedger ledger;                // of these periods
+  double largest_multiplier() const;  // modulus
+};
+
+// Marches from start until the state repeats: to `periodicity`, and far below it by Newton's method unless march_only.
+LumpedOrbit settle(LumpedOscillator& oscillator, const LumpedOscillator::State& start, double periodicity,
+                   bool march_only, int most_periods = 3000);
+
+// Where an orbit of `multiple` periods near start meets its unstable partner and both end: P(y) = y and a multiplier +1,
+// by Newton's method in state and speed. Leaves the oscillator at that speed. Nothing if it does not converge.
+struct LumpedFold {
+  double mesh_frequency;  // Hz
+  LumpedOscillator::State start;
+};
+std::optional<LumpedFold> find_fold(LumpedOscillator& oscillator, const LumpedOscillator::State& start,
+                                    double mesh_frequency, int multiple);
+
+struct LumpedJump {
+  double mesh_frequency, width;  // Hz
+  bool fold;  // located by find_fold; otherwise the middle of the interval in which the branch ends
+};
+struct LumpedMarch {
+  std::vector<LumpedOrbit> orbits;  // (speed)
+  std::vector<LumpedJump> jumps;
+};
+// Through the speeds (Hz) in their order, from rest. A jump is where the branch that was left ends, beyond the speed at
+// which the march left it, too, up to `limit`. report(done, total, note) is called after each speed.
+LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>& speeds, double periodicity,
+                         bool march_only, const std::function<void(long, long, const std::string&)>& report);
+
+struct LumpedOptions {
+  std::string model;                   // its name
+  double mass = 1.4;                   // kg
+  double damping_ratio = 0.08;         // 1: c = 2 ratio sqrt(k_avg m), k_avg the mean of k(t)
+  std::string damper_acts = "always";  // or "contact"
+  std::string integrator = "exact";    // or "newmark"
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
+  TimeDiscretisation time;  // steps_per_period: stored samples, and least Newmark steps
+  std::string direction;    // "up" or "down"
+};
+
+// springs: cells only (lumped/stiffness.h). numbers: of the tooth pairs that they stand for; one spring that stands for
+// all of them is pair 0. Fields of a sweep that only elastic bodies have are empty or 0; its inertias are those of equal
+// shares of the mass. Throws Error(input) for values that make no model, Error(numerical) if a motion cannot be followed.
+SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
+                           const Eigen::VectorXi& numbers, const LumpedOptions& options,
+                           const std::function<void(long, long, const std::string&)>& report);
+
+}  // namespace whine

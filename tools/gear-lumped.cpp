@@ -1,0 +1,181 @@
+// gear-lumped: the one-degree-of-freedom model of Eq. 23 at a series of speeds, each started from the state of the one
+// before.
+//
+// Reads   static.h5 of the torque (gears, mesh stiffness), static.h5 of the reference torque if the rectangular wave is not
+//         to depend on the torque, params (slice of a scene: speeds, samples)
+// Writes  sweep.h5, of the schema of gear-sweep: transmission error, mesh force, energy, jumps
+// Equation: m x'' + c x' + F(t) = T / r, F(t) = k(t) x for x >= 0 and 0 for x < 0 (Eq. 23), integrated exactly from event to
+//         event (or by Newmark's method, Eq. 8); k(t) constant in cells of the mesh period.
+// Example: gear-lumped --model rectangular --static out/parker2000/T150/static.h5
+//            --reference-static out/parker2000/T100/static.h5 --params out/parker2000/params/sweep.toml --direction up
+//            --output out/parker2000/T150/rectangular/up/sweep.h5
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/tool.h"
+#include "files/fit.h"
+#include "files/provenance.h"
+#include "files/scene.h"
+#include "files/schemas.h"
+#include "lumped/stiffness.h"
+#include "lumped/sweep.h"
+
+namespace {
+
+int count_option(const std::string& name, const std::string& word) {
+  const double value = whine::number_option(name, word);
+  if (!(value >= 8 && value <= 65536 && value == std::floor(value)))
+    whine::fail(whine::Failure::usage, name, " is ", word, "; it is a whole number from 8 to 65536");
+  return static_cast<int>(value);
+}
+
+void require_same_pair(const std::string& one, const std::string& other) {
+  for (const char* role : {"driver", "driven"})
+    if (whine::recorded_input(one, role) != whine::recorded_input(other, role))
+      whine::fail(whine::Failure::input, other, ": is of another ", role, " than ", one,
+                  "; give two results of one scene, or ", whine::rebuild_advice(other));
+}
+
+void body(int argc, char** argv) {
+  CLI::App app{"Speed sweep of a lumped model with one degree of freedom (Eq. 23)", "gear-lumped"};
+  whine::LumpedOptions o;
+  std::string statics, reference, params, output, levels, duty, torque, cells, steps, from, to, step;
+  std::string mass = "1.4", damping_ratio = "0.08";
+  app.add_option("--model", o.model,
+                 "k(t): rectangular (two levels), secant or tangent (curve of the statics), pairs (a spring "
+                 "per pair)")
+      ->required()
+      ->check(CLI::IsMember({"rectangular", "secant", "tangent", "pairs"}));
+  app.add_option("--static", statics, "static.h5 of the torque to run")->required();
+  app.add_option("--reference-static", reference,
+                 "static.h5 that the levels of the rectangular wave are read from, instead of --static");
+  app.add_option("--levels", levels,
+                 "other levels of the rectangular wave, N/m: fewer pairs, more pairs (k1,k2)");
+  app.add_option("--duty", duty, "share of the mesh period with the second level, in (0, 1)");
+  app.add_option("--torque", torque, "torque in N m; refused if --static is of another one");
+  app.add_option("--mass", mass, "mass in kg")->capture_default_str();
+  app.add_option("--damping-ratio", damping_ratio, "c / (2 sqrt(mean stiffness x mass))")
+      ->capture_default_str();
+  app.add_option("--damper", o.damper_acts, "always, as in Eq. 23, or in contact only")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"always", "contact"}));
+  app.add_option("--integrator", o.integrator, "exact: from event to event; newmark: Eq. 8")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"exact", "newmark"}));
+  app.add_option("--cells", cells,
+                 "cells of constant stiffness in a period; default: as many as static positions");
+  app.add_option(
+      "--steps", steps,
+      "stored samples per mesh period, and least steps of newmark; default: as --params says, or 128");
+  app.add_option("--params", params,
+                 "slice of the scene with speeds and samples: out/<scene>/params/sweep.toml");
+  app.add_option("--from", from,
+                 "lowest mesh frequency in Hz; with --to and --step in place of those of --params");
+  app.add_option("--to", to, "highest mesh frequency in Hz");
+  app.add_option("--step", step, "step of the mesh frequency in Hz");
+  app.add_option("--direction", o.direction, "up or down")->required()->check(CLI::IsMember({"up", "down"}));
+  app.add_option("--output", output, "sweep.h5 to write")->required();
+  whine::parse(app, argc, argv);
+
+  const auto usage = [](const auto&... words) { whine::fail(whine::Failure::usage, words...); };
+  const bool speeds = !from.empty() || !to.empty() || !step.empty(), stated = !levels.empty();
+  if (speeds && (from.empty() || to.empty() || step.empty())) usage("--from, --to and --step go together");
+  if (!speeds && params.empty()) usage("--params or --from, --to and --step are needed, for the speeds");
+  if (stated != !duty.empty()) usage("--levels and --duty go together");
+  if (stated && o.model != "rectangular")
+    usage("--levels and --duty are of the rectangular model, not of ", o.model);
+  if (stated && !reference.empty())
+    usage("--reference-static gives levels, --levels states them; give one of both");
+  if (!reference.empty() && o.model != "rectangular")
+    usage("--reference-static is of the rectangular model; ", o.model,
+          " takes the stiffness at its own torque");
+  if (!cells.empty() && o.model == "rectangular")
+    usage("--cells: the rectangular model has two levels and no cells");
+  o.mass = whine::number_option("--mass", mass);
+  o.damping_ratio = whine::number_option("--damping-ratio", damping_ratio);
+
+  const whine::StaticArtifact at_torque = whine::read_static(statics);
+  if (!torque.empty() && whine::number_option("--torque", torque) != at_torque.torque)
+    whine::fail(whine::Failure::input, statics, " is at ", at_torque.torque, " N m, --torque says ", torque,
+                "; give the static.h5 of that torque");
+  if (!params.empty()) {
+    const whine::SweepSlice slice = whine::read_sweep_slice(params);
+    whine::require_contact(at_torque, slice.fidelity, statics);
+    o.time = slice.time;
+    o.frequency_from = slice.frequency_from;
+    o.frequency_to = slice.frequency_to;
+    o.frequency_step = slice.frequency_step;
+    if (!reference.empty() && whine::read_static(reference).torque != slice.reference_torque)
+      whine::fail(whine::Failure::input, reference, " is at ", whine::read_static(reference).torque,
+                  " N m, but the scene's first torque is ", slice.reference_torque,
+                  " N m; give the static.h5 of that torque");
+  }
+  if (speeds) {
+    o.frequency_from = whine::number_option("--from", from);
+    o.frequency_to = whine::number_option("--to", to);
+    o.frequency_step = whine::number_option("--step", step);
+  }
+  if (!steps.empty()) o.time.steps_per_period = count_option("--steps", steps);
+
+  const int cell_count =
+      cells.empty() ? static_cast<int>(at_torque.mesh_phase.size()) : count_option("--cells", cells);
+  whine::LumpedParameters springs;
+  Eigen::VectorXi numbers = Eigen::VectorXi::Zero(1);
+  if (o.model == "rectangular") {
+    if (!reference.empty()) require_same_pair(statics, reference);
+    whine::RectangularWave wave =
+        whine::rectangular_wave(reference.empty() ? at_torque : whine::read_static(reference));
+    if (stated) {
+      const size_t comma = levels.find(',');
+      if (comma == std::string::npos)
+        usage("--levels is '", levels, "'; two numbers with a comma between are needed");
+      wave = whine::stated_wave(wave, whine::number_option("--levels", levels.substr(0, comma)),
+                                whine::number_option("--levels", levels.substr(comma + 1)),
+                                whine::number_option("--duty", duty));
+    }
+    springs = whine::cells_of(wave);
+  } else if (o.model == "pairs") {
+    springs = whine::cells_of_pairs(at_torque, cell_count, numbers);
+  } else {
+    springs = whine::cells_of(o.model == "secant" ? at_torque.stiffness_secant : at_torque.stiffness_tangent,
+                              cell_count);
+  }
+
+  std::optional<whine::Progress> progress;
+  const whine::SweepArtifact result = whine::lumped_sweep(
+      at_torque, springs, numbers, o, [&](long done, long total, const std::string& note) {
+        if (!progress) progress.emplace("gear-lumped " + o.model + " " + o.direction, total);
+        progress->update(done, note);
+      });
+
+  whine::Provenance provenance;
+  provenance.tool = whine::program_name(argv[0]);
+  provenance.command = whine::command_line(argc, argv);
+  provenance.inputs = {"static=" + statics};
+  if (!reference.empty()) provenance.inputs.push_back("reference_static=" + reference);
+  if (!params.empty()) provenance.inputs.push_back("params=" + params);
+  whine::write(output, result, provenance);
+  std::string jumps;
+  for (double f : result.jump_frequency) jumps += whine::text(jumps.empty() ? ", jumps at " : ", ", f, " Hz");
+  whine::tell("gear-lumped: ", o.model, ", ", result.torque, " N m ", o.direction, ", mean stiffness ",
+              result.mean_stiffness * 1e-6, "e6 N/m, ", result.mesh_frequency.size(), " speeds, ",
+              result.periods.sum(), " mesh periods", jumps.empty() ? ", no jump" : jumps, " -> ", output);
+  for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
+    if (result.period_multiple[i] == 0)
+      whine::tell("gear-lumped: warning: at ", result.mesh_frequency[i],
+                  " Hz the motion is not periodic after ", result.periods[i],
+                  " mesh periods; the state still changes by ", result.residual[i], " per period");
+  if (result.backlash_margin <= 0)
+    whine::tell("gear-lumped: warning: the motion goes ", -result.backlash_margin * 1e6,
+                " um beyond the backlash; back flanks would touch, which is not modelled");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
