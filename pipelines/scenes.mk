@@ -20,7 +20,7 @@ scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),data/scenes/$1.toml)
 
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
-  $(if $(filter mesh reduce static impact calibrate sweep $(figures) figures out/bodies/%,$(goals)),$(own_scene)) \
+  $(if $(filter mesh reduce static impact calibrate sweep lumped $(figures) figures out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter bench work-precision out/figures/%,$(goals)),$(paper_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 

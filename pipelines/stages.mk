@@ -1,4 +1,5 @@
-# Stages: scene -> mesh.h5 -> body.h5 -> static.h5 -> sweep.h5 -> response.h5, and static.h5 -> impact.h5.
+# Stages: scene -> mesh.h5 -> body.h5 -> static.h5 -> sweep.h5 -> response.h5, static.h5 -> impact.h5, and
+# static.h5 -> sweep.h5 of a lumped model -> response.h5.
 #
 # A stage depends on the slice of the scene that it reads, on the artifacts that it reads, and on the id of its
 # program. Bodies are per distinct gear (out/bodies/<hash>), operating points are targets: the torque stands in the path.
@@ -52,6 +53,25 @@ out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)
 	$(B)/bin/gear-spectra --input $$< --output $$@
 endef
 
+# Lumped models, out/<scene>/T<torque>/<model>/; what stands after a dash is a variant. The rectangular wave is P2000's: the
+# same at all torques.
+lumped_models := rectangular rectangular-fig15 secant tangent pairs
+lumped_options_rectangular = --reference-static $(reference_static)
+# P2000's Fig. 15 shows the upper branch at 2200 Hz and the lower one at 2150 Hz. With the levels of the statics, or those
+# of its Table 1, whose ratio is 1.5, the upper branch ends above 2600 Hz; this ratio of 1.757 at its mean stiffness of
+# 462.1e6 N/m ends it at 2172 Hz.
+lumped_options_rectangular-fig15 = --levels 2.93973e8,5.16658e8 --duty 0.755 --from 600 --to 4000 --step 10
+
+define lumped_rules # scene, torque, model, direction
+out/$1/T$2/$3/$4/sweep.h5: out/$1/params/sweep.toml out/$1/T$2/static.h5 $(if $(filter rectangular,$3),$(reference_static)) \
+    $(call id,gear-lumped) | $(B)/bin/gear-lumped
+	$$(call run,lumped) --model $(firstword $(subst -, ,$3)) --static out/$1/T$2/static.h5 $(lumped_options_$3) \
+	  --params $$< --direction $4 --output $$@
+
+out/$1/T$2/$3/$4/response.h5: out/$1/T$2/$3/$4/sweep.h5 $(call id,gear-spectra) | $(B)/bin/gear-spectra
+	$(B)/bin/gear-spectra --input $$< --output $$@
+endef
+
 # What eta gives the damping ratio DAMPING in the contact state STATE (one, two, mean) at TORQUE.
 DAMPING ?= 0.07
 STATE ?= two
@@ -68,14 +88,15 @@ define scene_rules # scene
 $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
 $(foreach t,$(path_torques) $(calibrated_torque),$(call check_torque,$1,$t))
 $(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))\
-  $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))))
+  $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))\
+    $(foreach m,$(lumped_models),$(eval $(call lumped_rules,$1,$t,$m,$d)))))
 $(call figure_rules,$1)
 endef
 
 $(foreach h,$(sort $(BODIES)),$(eval $(call body_rules,$h)))
 $(foreach s,$(scenes),$(if $(SCENE_$s_GEARS),$(eval $(call scene_rules,$s))))
 
-.PHONY: mesh reduce static impact calibrate sweep
+.PHONY: mesh reduce static impact calibrate sweep lumped
 mesh: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/mesh.h5) ## mesh every gear of SCENE (default: the paper's)
 reduce: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/body.h5) ## modes and flexibility of every gear of SCENE
 static: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/static.h5) ## transmission error and stiffness, all torques of SCENE
@@ -83,3 +104,4 @@ impact: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/impact.h5) ## natural
 calibrate: $(if $(filter calibrate,$(goals)),$(call impact_inputs,$(own_scene),$(TORQUE))) | $(B)/bin/gear-impact ## print the eta that gives a damping ratio: DAMPING=0.07 TORQUE=150 STATE=two
 	@$| $(call impact_options,$(own_scene),$(TORQUE)) --calibrate $(DAMPING) --contact-state $(STATE)
 sweep: $(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$d/response.h5)) ## speed sweeps, all torques of SCENE
+lumped: $(foreach m,$(filter-out %-fig15,$(lumped_models)),$(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$m/$d/response.h5))) ## the same of the lumped models, one degree of freedom

@@ -4,6 +4,9 @@
 //            fig05    response.h5 of the up and of the down sweep
 //            fig12    static.h5, one per torque
 //            fig13    static.h5, one per torque
+//            fig14    response.h5 of a lumped model, up and down, per torque
+//            fig15    sweep.h5 of lumped models, one torque
+//            fig16    as fig14
 //            error-budget    error_budget.h5
 //            <plots>/<figure>.gp, the template
 // Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all
@@ -11,6 +14,9 @@
 //            fig05    RMS of the dynamic transmission error against mesh frequency
 //            fig12    static transmission error (STE)
 //            fig13    mesh stiffness
+//            fig14    RMS and mean of the DTE of a lumped model, rectangular stiffness
+//            fig15    net mesh force of a lumped model
+//            fig16    as fig14, stiffness of the statics at each torque
 //            error-budget    what refining each discretisation alone changes, and what other choices change
 // Equations  k = (T / r_b) / STE
 // Example    gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
@@ -47,9 +53,19 @@ whine::Figure figure_of(const std::string& name, const std::vector<std::string>&
     require_inputs(name, inputs, 1, "error_budget.h5");
     return whine::error_budget_figure(whine::read_error_budget(inputs[0]));
   }
+  if (name == "fig14" || name == "fig16") {
+    std::vector<whine::ResponseArtifact> responses;
+    for (const std::string& path : inputs) responses.push_back(whine::read_response(path));
+    return whine::lumped_response_figure(responses);
+  }
+  if (name == "fig15") {
+    std::vector<whine::SweepArtifact> sweeps;
+    for (const std::string& path : inputs) sweeps.push_back(whine::read_sweep(path));
+    return whine::mesh_force_figure(sweeps);
+  }
   if (name != "fig12" && name != "fig13")
     whine::fail(whine::Failure::usage, "unknown figure '", name,
-                "'; known are fig01, fig05, fig12, fig13, error-budget");
+                "'; known are fig01, fig05, fig12, fig13, fig14, fig15, fig16, error-budget");
   std::vector<whine::StaticArtifact> statics;
   for (const std::string& path : inputs) statics.push_back(whine::read_static(path));
   return name == "fig12" ? whine::transmission_error_figure(statics) : whine::mesh_stiffness_figure(statics);
@@ -59,11 +75,13 @@ void body(int argc, char** argv) {
   CLI::App app{"Draws a figure of the paper from artifacts", "gear-plot"};
   std::string name, output, plots = "pipelines/plots";
   std::vector<std::string> inputs;
-  app.add_option("figure", name, "fig01, fig05, fig12, fig13 or error-budget")->required();
-  app.add_option("inputs", inputs,
-                 "artifacts. fig01: mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5; fig05: "
-                 "response.h5 up "
-                 "and down; fig12, fig13: static.h5, one per torque; error-budget: error_budget.h5")
+  app.add_option("figure", name, "fig01, fig05, fig12 to fig16 or error-budget")->required();
+  app.add_option(
+         "inputs", inputs,
+         "artifacts. fig01: mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5; fig05: "
+         "response.h5 up and down; fig12, fig13: static.h5, one per torque; fig14, fig16: response.h5 of a "
+         "lumped model, up and down, per torque; fig15: sweep.h5 of lumped models; error-budget: "
+         "error_budget.h5")
       ->required();
   app.add_option("--output", output, "path of the results without extension")->required();
   app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();

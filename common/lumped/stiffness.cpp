@@ -180,7 +180,7 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
   // Pair n at mesh phase f in [0, 1] has the phase f + n of its own.
   int reach = 1;
   for (double phase = -4; phase <= 4; phase += 1.0 / 256)
-    if (gap_at(phase)) reach = std::max(reach, static_cast<int>(std::ceil(std::max(phase, 1 - phase))));
+    if (gap_at(phase)) reach = std::max(reach, static_cast<int>(std::floor(std::max(phase, 1 - phase))));
   numbers = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
   LumpedParameters p;
   p.cell_end = centred_cells(cells);
@@ -190,7 +190,9 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
       const double phase = static_cast<double>(j) / cells + numbers[n];
       if (const auto gap = gap_at(phase)) {
         p.stiffness(j, n) = stiffness_at(phase);
-        p.gap(j, n) = *gap;
+        // A pair that the others hold apart at rest, by what they bend of its gears, does not touch at rest.
+        const bool loaded = phase >= points.front().phase && phase <= points.back().phase;
+        p.gap(j, n) = loaded ? *gap : std::max(*gap, at_phase(s.mesh_phase, s.transmission_error, phase));
       }
     }
   return p;

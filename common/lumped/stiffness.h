@@ -30,11 +30,12 @@ LumpedParameters cells_of(const RectangularWave& wave);
 // the curve that is linear between them. Error(input) for values not above 0.
 LumpedParameters cells_of(const Eigen::VectorXd& values, int cells);
 
-// A spring per pair of pair.pair, more where tip edges that do not touch at rest may do so in motion: gap from the flanks'
-// geometry amid each cell, off the line of action too (but for what the corner rule leaves out), stiffness = static load over
-// deflection beyond the gap, carried on unchanged to phases at which the pair is not loaded at rest. With as many cells as
-// static positions the springs at rest have the static transmission error; what loads change in each other's deflection, and
-// Hertz's law beyond the static load, is not in it. numbers: of the pairs, filled. Error(input) if no pair carries load.
+// A spring per tooth pair, those off the line of action included, but for what the corner rule leaves out. Gap: from the
+// flanks' geometry amid each cell; for a pair that is not loaded at rest the static transmission error at least.
+// Stiffness: static load over deflection beyond the gap, carried on unchanged to phases at which the pair is not loaded at
+// rest. With as many cells as static positions the springs at rest have the static transmission error; what loads change
+// in each other's deflection, and Hertz's law beyond the static load, is not in it. numbers: of the pairs, filled.
+// Error(input) if no pair carries load.
 LumpedParameters cells_of_pairs(const StaticArtifact& pair, int cells, Eigen::VectorXi& numbers);
 
 }  // namespace whine

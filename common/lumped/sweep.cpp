@@ -84,7 +84,7 @@ void record(LumpedOscillator& oscillator, LumpedOrbit& orbit) {
 std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const LumpedOrbit& from_orbit, double from,
                                     double to, double to_rms, double limit, double periodicity,
                                     bool march_only) {
-  const LumpedJump whole{0.5 * (from + to), std::abs(to - from), false};
+  const LumpedJump whole{0.5 * (from + to), std::abs(to - from), false, from_orbit.start};
   if (from_orbit.multiple == 0) return whole;
   LumpedOrbit branch = from_orbit;
   const double direction = to > from ? 1 : -1;
@@ -110,8 +110,8 @@ std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const LumpedOr
   const double width = std::max(std::abs(next - at), kFinest);
   if (const auto fold = find_fold(oscillator, branch.start, at, branch.multiple))
     if (std::abs(fold->mesh_frequency - at) < 1e3 * width)
-      return LumpedJump{fold->mesh_frequency, width, true};
-  return LumpedJump{0.5 * (at + next), width, false};
+      return LumpedJump{fold->mesh_frequency, width, true, fold->start};
+  return LumpedJump{0.5 * (at + next), width, false, branch.start};
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ std::optional<LumpedFold> find_fold(LumpedOscillator& oscillator, const LumpedOs
 struct LumpedJump {
   double mesh_frequency, width;  // Hz
   bool fold;  // located by find_fold; otherwise the middle of the interval in which the branch ends
+  LumpedOscillator::State start;  // of the orbit at the fold, or of the last one found on the branch
 };
 struct LumpedMarch {
   std::vector<LumpedOrbit> orbits;  // (speed)

@@ -1,6 +1,7 @@
 #include "plot/figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -372,6 +373,127 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
     labels += text("'", torque_label(s), ", mean ", fixed(s.mean_stiffness * kMega, 1), "' ");
   figure.words = {{"labels", labels},
                   {"rectangle_label", "rectangular wave, mean " + fixed(wave.mean() * kMega, 1)}};
+  return figure;
+}
+
+Figure lumped_response_figure(std::vector<ResponseArtifact> responses) {
+  if (responses.empty()) fail(Failure::input, "figure: no response.h5; an up and a down sweep are the least");
+  std::stable_sort(responses.begin(), responses.end(), [](const auto& a, const auto& b) {
+    return a.torque != b.torque ? a.torque < b.torque : a.direction > b.direction;  // up before down
+  });
+  if (responses.size() > 2 * kMostCurves)
+    fail(Failure::input, "figure: ", responses.size(), " sweeps given; ", kMostCurves,
+         " torques can be told apart");
+  Figure figure;
+  const std::string model = responses[0].model;
+  figure.title = text("One degree of freedom (Eq. 23), mesh stiffness: ", model);
+  double from = responses[0].mesh_frequency[0], to = from, rms = 0, mean = 0;
+  std::string labels, jumps;
+  for (size_t i = 0; i < responses.size(); ++i) {
+    const ResponseArtifact& r = responses[i];
+    const bool up = i % 2 == 0;
+    if (r.model != model || r.model == "finite elements")
+      fail(Failure::input, "figure: sweeps of the models ", model, " and ", r.model,
+           " given; give those of one lumped model");
+    if (r.direction != (up ? "up" : "down") || (!up && r.torque != responses[i - 1].torque) ||
+        (up && i + 1 == responses.size()) || (up && i > 0 && r.torque == responses[i - 1].torque))
+      fail(Failure::input, "figure: at ", r.torque, " N m there is not one sweep up and one down");
+    FigureBlock curve{text(shown(r.torque, 6), " ", r.direction), {}, {}};
+    const FigureBlock branch = branch_block(r);
+    curve.columns = branch.columns;
+    curve.rows = branch.rows;
+    figure.blocks.push_back(curve);
+    FigureBlock arrows{text("jumps ", curve.name),
+                       {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]",
+                        "dte_mean before [µm]", "dte_mean after [µm]"},
+                       {}};
+    for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
+      const Eigen::Index row = row_before(r.mesh_frequency, r.jump_frequency[j]);
+      if (row < 0)
+        fail(Failure::input, "figure: a jump at ", r.jump_frequency[j], " Hz lies outside the sweep");
+      arrows.rows.push_back({r.jump_frequency[j], r.dte_rms[row] * kMicro, r.dte_rms[row + 1] * kMicro,
+                             r.dte_mean[row] * kMicro, r.dte_mean[row + 1] * kMicro});
+      jumps += text(jumps.empty() ? "jumps: " : "; ", shown(r.torque, 6), " N m ", r.direction, " ",
+                    fixed(r.jump_frequency[j], 1), " Hz");
+    }
+    figure.blocks.push_back(arrows);
+    figure.numbers.emplace_back(text("jumps_", r.direction, "_", i / 2 + 1),
+                                static_cast<double>(arrows.rows.size()));
+    from = std::min(from, r.mesh_frequency.minCoeff());
+    to = std::max(to, r.mesh_frequency.maxCoeff());
+    rms = std::max(rms, r.dte_rms.maxCoeff() * kMicro);
+    mean = std::max(mean, r.dte_mean.maxCoeff() * kMicro);
+    if (up) labels += text("'", shown(r.torque, 6), " N m' ");
+  }
+  figure.notes.push_back(jumps.empty() ? "no jumps: one branch at every torque" : jumps);
+  std::string lost;
+  for (size_t i = 0; i < responses.size(); i += 2) {
+    double low = std::numeric_limits<double>::infinity(), high = 0;
+    for (size_t k : {i, i + 1})
+      for (Eigen::Index f = 0; f < responses[k].mesh_frequency.size(); ++f)
+        if (responses[k].separation_fraction[f] > 0) {
+          low = std::min(low, responses[k].mesh_frequency[f]);
+          high = std::max(high, responses[k].mesh_frequency[f]);
+        }
+    lost += text(i > 0 ? "; " : "contact lost at ", shown(responses[i].torque, 6), " N m: ");
+    lost += high > 0 ? text(shown(low, 6), " to ", shown(high, 6), " Hz") : "nowhere";
+  }
+  figure.notes.push_back(lost);
+  figure.numbers.insert(figure.numbers.end(), {{"curves", static_cast<double>(responses.size() / 2)},
+                                               {"natural_frequency", responses[0].natural_frequency},
+                                               {"frequency_from", from},
+                                               {"frequency_to", to},
+                                               {"rms_max", rms},
+                                               {"mean_max", mean}});
+  figure.words = {{"labels", labels}};
+  return figure;
+}
+
+Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps) {
+  // Where P2000's Fig. 15 shows them.
+  constexpr std::array<double, 2> kSpeeds{2200, 2150};
+  if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; 1 is the least");
+  Figure figure;
+  const double torque = sweeps[0].torque;
+  figure.title = text("Net mesh force of one degree of freedom (Eq. 23), rectangular stiffness, ",
+                      shown(torque, 6), " N m");
+  double largest = 0;
+  std::array<std::string, 2> labels;
+  for (size_t s = 0; s < sweeps.size(); ++s) {
+    const SweepArtifact& sweep = sweeps[s];
+    if (sweep.lumped.cell_end.size() == 0)
+      fail(Failure::input, "figure: a sweep of elastic gears given; give those of lumped models");
+    if (sweep.torque != torque)
+      fail(Failure::input, "figure: sweeps at ", torque, " and ", sweep.torque,
+           " N m; give those of one torque");
+    const double low = sweep.lumped.stiffness.minCoeff(), high = sweep.lumped.stiffness.maxCoeff();
+    std::string jumps;
+    for (double f : sweep.jump_frequency) jumps += (jumps.empty() ? ", jump at " : ", ") + fixed(f, 1);
+    figure.notes.push_back(text("levels ", fixed(low * kMega, 1), " and ", fixed(high * kMega, 1),
+                                "e6 N/m (ratio ", fixed(high / low, 3), "), speed ",
+                                sweep.direction == "up" ? "rising" : "falling",
+                                jumps.empty() ? ", no jump" : jumps + " Hz"));
+    for (size_t k = 0; k < kSpeeds.size(); ++k) {
+      Eigen::Index row = 0;
+      (sweep.mesh_frequency.array() - kSpeeds[k]).abs().minCoeff(&row);
+      const Eigen::Index samples = sweep.time.steps_per_period, stored = sweep.mesh_force.cols();
+      FigureBlock block{text(k == 0 ? "upper " : "lower ", s + 1),
+                        {"time [mesh periods]", "mesh_force [N]", "transmission_error [µm]"},
+                        {}};
+      for (Eigen::Index i = 0; i <= 2 * samples; ++i)
+        block.rows.push_back({static_cast<double>(i) / static_cast<double>(samples),
+                              sweep.mesh_force(row, i % stored),
+                              sweep.transmission_error(row, i % stored) * kMicro});
+      figure.blocks.push_back(block);
+      largest = std::max(largest, sweep.mesh_force.row(row).maxCoeff());
+      labels[k] += text("'", fixed(sweep.mesh_frequency[row], 0), " Hz, ratio ", fixed(high / low, 3), "' ");
+    }
+  }
+  const GearPair pair(sweeps[0].driver, sweeps[0].driven, sweeps[0].mesh.centre_distance);
+  figure.numbers = {{"curves", static_cast<double>(sweeps.size())},
+                    {"force_max", largest},
+                    {"static_force", torque / pair.gear(0).base_radius()}};
+  figure.words = {{"labels_upper", labels[0]}, {"labels_lower", labels[1]}};
   return figure;
 }
 

@@ -48,6 +48,14 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
 // choice of near field or contact.
 Figure error_budget_figure(const ErrorBudgetArtifact& budget);
 
+// RMS of the oscillating DTE and its mean against mesh frequency, both directions at each torque (ascending), with jumps.
+// Throws Error(input) unless every torque has one sweep up and one down, all of one lumped model.
+Figure lumped_response_figure(std::vector<ResponseArtifact> responses);
+
+// Net mesh force over two mesh periods of lumped models, at the stored speeds nearest to those at which P2000 shows the
+// upper and the lower branch. Throws Error(input) for sweeps of elastic gears, or of two torques.
+Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps);
+
 // The TSV: '#' lines with title, notes, sources and columns, then the blocks, two empty lines between them.
 std::string tsv(const Figure& figure, const std::vector<std::string>& sources);
 

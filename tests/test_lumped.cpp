@@ -1,0 +1,471 @@
+// The lumped models of Eq. 23 against closed forms (Meissner's equation, free bounce), published-style reference numbers,
+// Newmark's method and finite differences.
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "lumped/oscillator.h"
+#include "lumped/stiffness.h"
+#include "lumped/sweep.h"
+#include "paper_pair.h"
+#include "relative.h"
+#include "signal/response.h"
+
+using namespace whine;
+using State = LumpedOscillator::State;
+using Matrix = LumpedOscillator::Matrix;
+
+namespace {
+
+constexpr double kMass = 1.4, kMean = 462.1e6, kRadius = 0.0704769466;
+constexpr double kLow = 335596523.71,
+                 kHigh = 504267825.43;  // k2 / k1 = (3040 / 2480)^2, mean 462.1e6 at duty 0.75
+
+LumpedParameters wave(double low, double high, double duty, double ratio) {
+  LumpedParameters p = cells_of(RectangularWave{low, high, 0, duty});
+  p.mass = kMass;
+  p.damping_ratio = ratio;
+  p.damper = 2 * ratio * std::sqrt((low + (high - low) * duty) * kMass);
+  p.damper_acts = "always";
+  return p;
+}
+
+LumpedOscillator oscillator(double low, double high, double duty, double ratio, double torque = 150,
+                            int newmark = 0) {
+  return {wave(low, high, duty, ratio), torque / kRadius, 64, newmark};
+}
+
+std::vector<double> speeds(double from, double to, double step) {
+  std::vector<double> out;
+  for (double f = from; step > 0 ? f < to + 0.5 * step : f > to + 0.5 * step; f += step) out.push_back(f);
+  return out;
+}
+
+LumpedOrbit steady(LumpedOscillator& o, double mesh_frequency) {
+  o.set_speed(mesh_frequency);
+  return settle(o, o.rest(), 1e-6, false);
+}
+
+// Ends of the two branches: where a march down and a march up leave theirs.
+std::array<double, 2> folds(LumpedOscillator& o, double from, double to) {
+  std::array<double, 2> found{};
+  for (int up = 0; up < 2; ++up) {
+    const auto list = up ? speeds(from, to, 20) : speeds(to, from, -20);
+    const LumpedMarch march = march_speeds(o, list, 1e-6, false, no_report);
+    REQUIRE(march.jumps.size() == 1);
+    CHECK(march.jumps[0].width < 1e-3);
+    found[up] = march.jumps[0].mesh_frequency;
+  }
+  return found;
+}
+
+// Ends of the upper branch, which there is only with contact loss, by bisection with plain marching alone.
+double end_by_marching(LumpedOscillator& o, double with, double without, const LumpedOrbit& branch) {
+  State state = branch.start;
+  while (std::abs(with - without) > 1e-3) {
+    const double f = 0.5 * (with + without);
+    o.set_speed(f);
+    State y = state;
+    for (int i = 0; i < 6000; ++i) o.march(y);
+    LumpedLedger ledger;
+    State last = y;
+    const bool upper = o.record(last, ledger).separations > 0;
+    (upper ? with : without) = f;
+    if (upper) state = y;
+  }
+  return 0.5 * (with + without);
+}
+
+double slope(const std::vector<double>& step, const std::vector<double>& error) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  const double n = static_cast<double>(step.size());
+  for (size_t i = 0; i < step.size(); ++i) {
+    const double x = std::log(step[i]), y = std::log(error[i]);
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+}  // namespace
+
+TEST_CASE("lumped: trace of the exact monodromy meets 2 at the bounds of Meissner's instability") {
+  LumpedOscillator o = oscillator(kLow, kHigh, 0.75, 0);
+  CHECK(o.natural_frequency() == relative(2891.50600, 1e-8));
+  const auto trace = [&](LumpedOscillator& any, double f) {
+    any.set_speed(f);
+    State y = any.rest();
+    Matrix m = Matrix::Identity();
+    any.march(y, &m);
+    return m;
+  };
+  const double edge[5][2] = {{5549.5652, 6016.2142},
+                             {2794.6650, 2976.3335},
+                             {1883.4157, 1958.1047},
+                             {1430.0199, 1450.5070},
+                             {1149.5595, 1155.9831}},
+               closes[5] = {0.04041, 0.03151, 0.01945, 0.00711, 0.00279};
+  for (int band = 0; band < 5; ++band) {
+    const double width = edge[band][1] - edge[band][0];
+    for (int side = 0; side < 2; ++side) {
+      double in = 0.5 * (edge[band][0] + edge[band][1]), out = edge[band][side] + (side ? 0.3 : -0.3) * width;
+      for (int i = 0; i < 60; ++i) {
+        const double f = 0.5 * (in + out);
+        const Matrix m = trace(o, f);
+        CHECK(m.determinant() == relative(1, 1e-12));
+        (std::abs(m.trace()) > 2 ? in : out) = f;
+      }
+      CHECK(in == relative(edge[band][side], 1e-4 / edge[band][side]));
+    }
+    double unstable = 0, stable = 0.1;
+    while (stable - unstable > 1e-6) {
+      const double ratio = 0.5 * (unstable + stable);
+      LumpedOscillator damped = oscillator(kLow, kHigh, 0.75, ratio);
+      double largest = 0;
+      for (int j = 0; j <= 400; ++j) {
+        LumpedOrbit orbit;
+        orbit.monodromy = trace(damped, edge[band][0] + width * j / 400);
+        largest = std::max(largest, orbit.largest_multiplier());
+      }
+      (largest > 1 ? unstable : stable) = ratio;
+    }
+    CHECK(stable == relative(closes[band], 6e-6 / closes[band]));
+  }
+}
+
+TEST_CASE("lumped: steady states and folds of the rectangular wave at 8 and 7 % damping") {
+  LumpedOscillator o = oscillator(kLow, kHigh, 0.75, 0.08);
+  const double rms[4][2] = {{2000, 1.14249855}, {2400, 1.85201323}, {3200, 1.58850265}, {1350, 2.64137209}};
+  for (const auto& [f, expected] : rms) {
+    const LumpedOrbit orbit = steady(o, f);
+    CHECK(orbit.multiple == 1);
+    CHECK(orbit.residual < 1e-13);
+    CHECK(orbit.rms * 1e6 == relative(expected, 1e-8));
+    // 64 samples of the same orbit.
+    const Eigen::VectorXd x = orbit.record[0].x;
+    CHECK(std::sqrt((x.array() - x.mean()).square().mean()) == relative(orbit.rms, 1e-5));
+  }
+  const auto ends = folds(o, 2500, 2800);
+  const double expected[2][3] = {{2662.046924, 4.527986, 4.662014}, {2679.466389, 3.705375, 4.872935}};
+  for (int up = 0; up < 2; ++up) {
+    CHECK(ends[up] == relative(expected[up][0], 1e-6 / expected[up][0]));
+    // The orbit at the fold itself, where a multiplier is 1.
+    const LumpedMarch march =
+        march_speeds(o, up ? speeds(2600, 2700, 20) : speeds(2800, 2640, -20), 1e-6, false, no_report);
+    REQUIRE(march.jumps.size() == 1);
+    CHECK(march.jumps[0].fold);
+    const auto fold = find_fold(o, march.jumps[0].start, march.jumps[0].mesh_frequency + 1e-4, 1);
+    REQUIRE(fold);
+    CHECK(fold->mesh_frequency == relative(expected[up][0], 1e-6 / expected[up][0]));
+    State end = fold->start;
+    Matrix m = Matrix::Identity();
+    o.march(end, &m);
+    CHECK(o.size(end - fold->start) < 1e-12);
+    CHECK(std::abs((m - Matrix::Identity()).determinant()) < 1e-9);
+    end = fold->start;
+    LumpedLedger ledger;
+    const LumpedRecord r = o.record(end, ledger);
+    const double off = r.mean - o.reference();
+    CHECK(std::sqrt(r.mean_square - off * off) * 1e6 == relative(expected[up][1], 1e-6));
+    CHECK(r.mean * 1e6 == relative(expected[up][2], 1e-6));
+  }
+  LumpedOscillator less = oscillator(kLow, kHigh, 0.75, 0.07);
+  const auto wider = folds(less, 2300, 2800);
+  CHECK(wider[0] == relative(2464.654182, 1e-6 / 2464));
+  CHECK(wider[1] == relative(2638.199272, 1e-6 / 2638));
+}
+
+TEST_CASE("lumped: folds at level ratios 1.6 and 1.7575, the second beside Newmark's method") {
+  const double low = kMean / (0.25 + 0.75 * 1.6);
+  LumpedOscillator o = oscillator(low, 1.6 * low, 0.75, 0.08);
+  const auto ends = folds(o, 2300, 2800);
+  CHECK(ends[0] == relative(2458.77, 0.005 / 2458));
+  CHECK(ends[1] == relative(2605.21, 0.005 / 2605));
+
+  // Levels at which the branches of P2000's Fig. 15 stand where its caption says: upper at 2200, lower at 2150 Hz.
+  LumpedOscillator figure = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08);
+  const auto wide = folds(figure, 2000, 2800);
+  CHECK(wide[0] == relative(2171.615284, 1e-6 / 2171));
+  CHECK(wide[1] == relative(2525.315708, 1e-6 / 2525));
+  // The same by plain marching with Newmark's steps: errors fall with their square.
+  std::vector<double> step, error;
+  for (int steps : {128, 256, 512, 1024}) {
+    LumpedOscillator newmark = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08, 150, steps);
+    const LumpedMarch march = march_speeds(newmark, speeds(2800, 2200, -20), 1e-9, true, no_report);
+    const double end = end_by_marching(newmark, 2200, 2140, march.orbits.back());
+    step.push_back(1.0 / steps);
+    error.push_back(std::abs(end - wide[0]));
+    MESSAGE("upper branch ends by Newmark, ", steps, " steps: ", end, " Hz, exact ", wide[0]);
+  }
+  CHECK(error.back() < 0.1);
+  CHECK(slope(step, error) > 1.7);
+}
+
+TEST_CASE("lumped: motions scale with the torque") {
+  LumpedOscillator one = oscillator(kLow, kHigh, 0.75, 0.07),
+                   seven = oscillator(kLow, kHigh, 0.75, 0.07, 1050);
+  for (double f : {1350.0, 2400.0, 3000.0}) {
+    const LumpedOrbit a = steady(one, f), b = steady(seven, f);
+    CHECK(b.rms == relative(7 * a.rms, 1e-10));
+    CHECK(b.mean == relative(7 * a.mean, 1e-10));
+  }
+  const auto a = folds(one, 2400, 2800), b = folds(seven, 2400, 2800);
+  for (int i = 0; i < 2; ++i) CHECK(b[i] == relative(a[i], 1e-10));
+}
+
+TEST_CASE("lumped: an undamped bounce keeps its energy and its period") {
+  LumpedParameters p = wave(kMean, kMean, 0.5, 0);
+  const double force = 150 / kRadius, rest = force / kMean;
+  LumpedOscillator o(p, force, 16);
+  const auto energy = [&](const State& y) {
+    const double x = std::max(0.0, y[0]);
+    return 0.5 * kMass * y[1] * y[1] + 0.5 * kMean * x * x - force * y[0];
+  };
+  // Amplitude 2 rests about rest; frequency over the natural one: pi / (acos(-1/2) + sqrt(3)).
+  const double ratio = std::numbers::pi / (std::acos(-0.5) + std::sqrt(3.0));
+  CHECK(ratio == relative(0.821021054, 1e-9));
+  o.set_speed(ratio * std::sqrt(kMean / kMass) / (2 * std::numbers::pi));
+  const State start(3 * rest, 0);
+  State y = start;
+  for (int i = 0; i < 1000; ++i) o.march(y);
+  CHECK(o.size(y - start) < 1e-9);
+
+  o.set_speed(1777);  // now events fall anywhere in the period
+  y = start;
+  LumpedLedger ledger;
+  const LumpedRecord r = o.record(y, ledger);
+  CHECK(r.separations >= 1);
+  double largest = 0;
+  for (int i = 0; i < 100000; ++i) {
+    o.march(y);
+    largest = std::max(largest, std::abs(energy(y) - energy(start)));
+  }
+  CHECK(largest / (energy(start) + 0.5 * force * rest) < 1e-10);
+}
+
+TEST_CASE("lumped: works and stored energies balance, with contact loss and without") {
+  LumpedOscillator o = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08);
+  const LumpedMarch march = march_speeds(o, speeds(3400, 2180, -20), 1e-6, false, no_report);
+  int apart = 0;
+  for (const LumpedOrbit& orbit : march.orbits) {
+    CHECK(std::abs(orbit.ledger.imbalance()) < 1e-12 * orbit.ledger.throughput);
+    CHECK(orbit.ledger.damping > 0);
+    apart += orbit.record[0].separations;
+  }
+  CHECK(apart > 20);
+}
+
+TEST_CASE("lumped: the derivative of the period map is that of finite differences") {
+  LumpedParameters base = wave(kLow, kHigh, 0.75, 0.07);
+  LumpedParameters contact = base;
+  contact.damper_acts = "contact";
+  LumpedParameters pairs = base;
+  pairs.stiffness.resize(2, 2);
+  pairs.gap.resize(2, 2);
+  pairs.stiffness << kLow, 0.5 * kLow, 0.7 * kLow, 0.7 * kLow;
+  pairs.gap << 0, 3e-6, 0, 0.5e-6;
+  for (const LumpedParameters& p : {base, contact, pairs})
+    for (int newmark : {0, 256}) {
+      if (newmark > 0 && p.damper_acts == "contact") continue;
+      LumpedOscillator o(p, 150 / kRadius, 64, newmark);
+      o.set_speed(2550);
+      const State y(6 * o.reference(), -1e-3);  // parts within the period
+      State end = y;
+      Matrix m = Matrix::Identity(), differences;
+      o.march(end, &m);
+      const State unit(o.reference(), o.reference() * 2 * std::numbers::pi * o.natural_frequency());
+      for (int k = 0; k < 2; ++k) {
+        State plus = y, minus = y;
+        plus[k] += 1e-6 * unit[k];
+        minus[k] -= 1e-6 * unit[k];
+        o.march(plus);
+        o.march(minus);
+        differences.col(k) = (plus - minus) / (2e-6 * unit[k]);
+      }
+      const Matrix scale = unit.cwiseInverse().asDiagonal() * (m - differences) * unit.asDiagonal();
+      CHECK(scale.cwiseAbs().maxCoeff() < 1e-6);
+      LumpedLedger ledger;
+      end = y;
+      CHECK(o.record(end, ledger).separations > 0);
+    }
+}
+
+TEST_CASE("lumped: a damper in contact only lets a mass bounce with the restitution of half an oscillation") {
+  LumpedParameters p = wave(kMean, kMean, 0.5, 0.07);
+  const double force = 1e-6, natural = std::sqrt(kMean / kMass);
+  const auto leaves = [&](const std::string& acts) {
+    p.damper_acts = acts;
+    LumpedOscillator o(p, force, 16);
+    o.set_speed(natural / (2 * std::numbers::pi) / 0.8);
+    State y(0, 1);
+    o.march(y);
+    CHECK(y[0] < 0);
+    return std::sqrt(y[1] * y[1] - 2 * force / kMass * y[0]);
+  };
+  CHECK(leaves("contact") == relative(std::exp(-std::numbers::pi * 0.07 / std::sqrt(1 - 0.07 * 0.07)), 1e-9));
+  CHECK(leaves("always") < 0.79);
+
+  // Less is damped than by Eq. 23, so that the upper branch is longer.
+  LumpedParameters q = wave(kLow, kHigh, 0.75, 0.08);
+  q.damper_acts = "contact";
+  LumpedOscillator o(q, 150 / kRadius, 64);
+  const auto ends = folds(o, 1800, 2800);
+  CHECK(ends[0] < 2200);
+  CHECK(ends[1] == relative(2679.466389, 3e-3));
+}
+
+TEST_CASE("lumped: Newmark's method is of second order against the exact motion") {
+  const double at[2] = {3200, 2300};  // contact kept; lost
+  for (const double f : at) {
+    std::vector<double> step, error;
+    LumpedOscillator exact = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08);
+    const LumpedMarch march = march_speeds(exact, speeds(3400, f, -20), 1e-6, false, no_report);
+    const State start = march.orbits.back().start;
+    for (int steps : {64, 128, 256, 512, 1024, 2048}) {
+      LumpedOscillator newmark = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08, 150, steps);
+      exact.set_speed(f);
+      newmark.set_speed(f);
+      State a = start, b = start;
+      for (int i = 0; i < 5; ++i) {
+        exact.march(a);
+        newmark.march(b);
+      }
+      step.push_back(1.0 / steps);
+      error.push_back(exact.size(b - a));
+    }
+    const double order = slope(step, error);
+    CHECK(order > 1.9);
+    CHECK(order < 2.3);
+    CHECK(error.back() < 1e-4);
+  }
+}
+
+TEST_CASE("lumped: cells that carry the means of a curve converge with their square") {
+  const int n = 4096;
+  Eigen::VectorXd curve(n);
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * i / n;
+    curve[i] = kMean * (1 + 0.25 * std::cos(t) + 0.1 * std::sin(2 * t));
+  }
+  const auto rms = [&](int cells, int newmark) {
+    LumpedParameters p = cells_of(curve, cells);
+    CHECK(p.cell_end.size() == cells + 1);
+    p.mass = kMass;
+    p.damper = 2 * 0.08 * std::sqrt(kMean * kMass);
+    p.damper_acts = "always";
+    LumpedOscillator o(p, 150 / kRadius, 8, newmark);
+    CHECK(o.mean_stiffness() == relative(kMean, 1e-12));
+    return steady(o, 2500).rms;
+  };
+  const double finest = rms(n, 0);
+  std::vector<double> step, error;
+  for (int cells : {16, 32, 64, 128, 256}) {
+    step.push_back(1.0 / cells);
+    error.push_back(std::abs(rms(cells, 0) / finest - 1));
+  }
+  CHECK(slope(step, error) == relative(2, 0.1));
+  CHECK(error[3] < 1e-3);
+  CHECK(rms(n, n) == relative(finest, 1e-5));
+}
+
+TEST_CASE("lumped: models from a static result") {
+  const StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
+  const double force = 150 / kRadius;
+  // A spring per pair: at rest at the static positions.
+  Eigen::VectorXi numbers;
+  LumpedParameters pairs = cells_of_pairs(s, 128, numbers);
+  REQUIRE(pairs.stiffness.cols() == numbers.size());
+  double worst = 0;
+  for (int i = 0; i < 128; ++i) {
+    double sum = 0;
+    for (Eigen::Index n = 0; n < numbers.size(); ++n)
+      sum += pairs.stiffness(i, n) * std::max(0.0, s.transmission_error[i] - pairs.gap(i, n));
+    worst = std::max(worst, std::abs(sum / force - 1));
+  }
+  CHECK(worst < 1e-9);
+  // The two halves of the cell about phase 0 are one cell with its pairs counted anew.
+  for (Eigen::Index n = 1; n < numbers.size(); ++n)
+    CHECK(std::abs(pairs.gap(128, n - 1) - pairs.gap(0, n)) < 1e-15);
+
+  LumpedOptions o;
+  o.direction = "down";
+  o.frequency_from = 2000;
+  o.frequency_to = 2200;
+  o.frequency_step = 100;
+  for (const std::string model : {"secant", "tangent", "pairs", "rectangular"}) {
+    o.model = model;
+    const LumpedParameters springs =
+        model == "pairs" ? pairs
+        : model == "rectangular"
+            ? cells_of(rectangular_wave(s))
+            : cells_of(model == "secant" ? s.stiffness_secant : s.stiffness_tangent, 128);
+    const SweepArtifact a =
+        lumped_sweep(s, springs, model == "pairs" ? numbers : Eigen::VectorXi::Zero(1).eval(), o, no_report);
+    CHECK(a.mesh_frequency[0] == 2200);
+    CHECK(a.period_multiple.minCoeff() == 1);
+    CHECK(a.residual.maxCoeff() < 1e-12);
+    CHECK(a.energy_imbalance.cwiseAbs().maxCoeff() < 1e-12);
+    CHECK(a.mesh_force.minCoeff() >= 0);
+    if (model == "secant" || model == "pairs") CHECK(a.mean_stiffness == relative(s.mean_stiffness, 1e-4));
+    // The mean force over an orbit is the static one: the mass gains nothing and the damper's mean is 0.
+    CHECK(a.mesh_force.row(0).mean() == relative(force, 2e-3));
+    const ResponseArtifact r = response(a);
+    CHECK(r.model == model);
+    CHECK(r.separation_fraction.maxCoeff() == 0);
+  }
+  // A spring per pair and the whole mesh's secant agree where pairs neither come nor go earlier than at rest.
+  const auto at_rest = [&](const LumpedParameters& p) {
+    LumpedParameters q = p;
+    q.mass = kMass;
+    q.damper_acts = "always";
+    return LumpedOscillator(q, force, 8).rest()[0];
+  };
+  CHECK(at_rest(pairs) == relative(s.transmission_error[0], 1e-9));
+  CHECK(at_rest(cells_of(s.stiffness_secant, 128)) == relative(s.transmission_error[0], 1e-4));
+}
+
+TEST_CASE("lumped: what is no model is refused by name") {
+  const auto message = [](const std::function<void()>& f) -> std::string {
+    try {
+      f();
+    } catch (const Error& e) {
+      CHECK(e.kind() == Failure::input);
+      return e.what();
+    }
+    return "not refused";
+  };
+  const auto says = [&](const std::function<void(LumpedParameters&)>& change, const char* words,
+                        double force = 2000, int newmark = 0) {
+    LumpedParameters p = wave(kLow, kHigh, 0.75, 0.08);
+    change(p);
+    const std::string said = message([&] { LumpedOscillator(p, force, 16, newmark); });
+    CAPTURE(said);
+    CHECK(said.find(words) != std::string::npos);
+  };
+  says([](auto& p) { p.mass = 0; }, "mass is 0 kg");
+  says([](auto& p) { p.mass = NAN; }, "mass is nan");
+  says([](auto& p) { p.damper = -1; }, "damper is -1");
+  says([](auto& p) { p.damper_acts = "never"; }, "'never'");
+  says([](auto& p) { p.damper_acts = "contact"; }, "exact integrator", 2000, 64);
+  says([](auto& p) { p.stiffness(0, 0) = -1; }, "below 0");
+  says([](auto& p) { p.stiffness.setZero(); }, "no spring");
+  says([](auto& p) { p.cell_end[1] = 0.9; }, "ends at phase 0.9");
+  says([](auto& p) { p.cell_end[0] = 1.2; }, "must ascend");
+  says([](auto& p) { p.gap.resize(1, 1); }, "of gaps");
+  says([](auto&) {}, "force is 0 N", 0);
+  const RectangularWave place{kLow, kHigh, 0, 0.75};
+  CHECK(message([&] { stated_wave(place, -1, 1, 0.5); }).find("level is -1") != std::string::npos);
+  CHECK(message([&] { stated_wave(place, 1, 0, 0.5); }).find("level is 0") != std::string::npos);
+  CHECK(message([&] { stated_wave(place, 1, 1, 1); }).find("duty") != std::string::npos);
+  CHECK(message([&] { stated_wave(place, 1, 1, 0); }).find("duty") != std::string::npos);
+  CHECK(message([&] { cells_of(Eigen::VectorXd::Zero(8), 8); }).find("least is 0") != std::string::npos);
+  CHECK(message([&] { cells_of(Eigen::VectorXd::Ones(8), 0); }).find("0 cells") != std::string::npos);
+  LumpedOscillator o = oscillator(kLow, kHigh, 0.75, 0.08);
+  CHECK(message([&] { o.set_speed(0); }).find("frequency is 0 Hz") != std::string::npos);
+}
