@@ -60,7 +60,7 @@ lumped_options_rectangular = --reference-static $(reference_static)
 # P2000's Fig. 15 shows the upper branch at 2200 Hz and the lower one at 2150 Hz. With the levels of the statics, or those
 # of its Table 1, whose ratio is 1.5, the upper branch ends above 2600 Hz; this ratio of 1.757 at its mean stiffness of
 # 462.1e6 N/m ends it at 2172 Hz.
-lumped_options_rectangular-fig15 = --levels 2.93973e8,5.16658e8 --duty 0.755 --from 600 --to 4000 --step 10
+lumped_options_rectangular-fig15 = --levels 2.93973e8,5.16658e8 --duty 0.755 --from 2000 --to 3400 --step 10 --steps 512
 
 define lumped_rules # scene, torque, model, direction
 out/$1/T$2/$3/$4/sweep.h5: out/$1/params/sweep.toml out/$1/T$2/static.h5 $(if $(filter rectangular,$3),$(reference_static)) \

@@ -65,7 +65,7 @@ expect() {
 # change <sed script>: edits the scene
 change() { sed -i -E "$1" $scene; cmp -s $scene scene.original && echo "FAILED: sed '$1' changed nothing"; }
 restore() { cp scene.original $scene; make_ $all; }
-all="figures static sweep"
+all="fig01 fig05 fig12 fig13 static sweep"
 
 make_ -n $all
 expect "everything is missing at first: one body for two gears that are alike" \
@@ -124,6 +124,12 @@ make_ -n out/parker2000/T600/up/response.h5
 expect "a torque that no list names" "gear-spectra*1 gear-static*1 gear-sweep*1"
 make_ -n out/parker2000/T600/impact.h5
 expect "a ring-down at a torque that no list names" "gear-impact*1 gear-static*1"
+make_ -n out/parker2000/T600/secant/up/response.h5
+expect "a lumped model at a torque that no list names" "gear-lumped*1 gear-spectra*1 gear-static*1"
+make_ -n lumped fig15
+expect "lumped models run from the statics, without body or sweep" "gear-lumped*33 gear-plot*1 gear-spectra*32"
+make_ lumped; make_ -n -W out/parker2000/T100/static.h5 out/parker2000/T150/{rectangular,secant}/up/sweep.h5
+expect "the rectangular wave is that of the first torque, the curves are those of their own" "gear-lumped*1"
 rm -f calls; make_ calibrate DAMPING=0.05 TORQUE=600 STATE=one
 [ "$(tr '\n' ' ' < calls)" = "gear-static out/parker2000/T600/static.h5 gear-impact  " ] && ok "calibrate runs the static of its torque first" ||
   wrong "calibrate runs the static of its torque first" "$(cat calls "$log")"

@@ -66,8 +66,9 @@ void body(int argc, char** argv) {
   app.add_option("--integrator", o.integrator, "exact: from event to event; newmark: Eq. 8")
       ->capture_default_str()
       ->check(CLI::IsMember({"exact", "newmark"}));
-  app.add_option("--cells", cells,
-                 "cells of constant stiffness in a period; default: as many as static positions");
+  app.add_option(
+      "--cells", cells,
+      "cells of constant stiffness in a period; default: a multiple of the static positions, 1024 or more");
   app.add_option(
       "--steps", steps,
       "stored samples per mesh period, and least steps of newmark; default: as --params says, or 128");
@@ -121,8 +122,9 @@ void body(int argc, char** argv) {
   }
   if (!steps.empty()) o.time.steps_per_period = count_option("--steps", steps);
 
+  const int positions = static_cast<int>(at_torque.mesh_phase.size());
   const int cell_count =
-      cells.empty() ? static_cast<int>(at_torque.mesh_phase.size()) : count_option("--cells", cells);
+      cells.empty() ? positions * ((1023 + positions) / positions) : count_option("--cells", cells);
   whine::LumpedParameters springs;
   Eigen::VectorXi numbers = Eigen::VectorXi::Zero(1);
   if (o.model == "rectangular") {

@@ -160,9 +160,19 @@ void show(Lines& lines, const ImpactArtifact& a) {
 void show(Lines& lines, const SweepArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.direction, ", ",
       range_of(a.mesh_frequency));
-  add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
-      a.fidelity.integrator);
-  show_damping(lines, a.damping);
+  const LumpedParameters& l = a.lumped;
+  const bool lumped = l.cell_end.size() > 0;
+  if (lumped) {
+    add(lines, "model", a.model, ", one degree of freedom, ", l.cell_end.size(), " cells of ",
+        l.stiffness.cols(), l.stiffness.cols() == 1 ? " spring" : " springs", ", mean stiffness ",
+        a.mean_stiffness * 1e-6, "e6 N/m, mass ", l.mass, " kg, integrator ", a.fidelity.integrator);
+    add(lines, "damping", "ratio ", l.damping_ratio, ", c = ", l.damper, " N s/m, acts ",
+        l.damper_acts == "contact" ? "in contact" : l.damper_acts);
+  } else {
+    add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
+        a.fidelity.integrator);
+    show_damping(lines, a.damping);
+  }
   add(lines, "corner contact", corner_rule(a.mesh));
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0;
@@ -174,17 +184,19 @@ void show(Lines& lines, const SweepArtifact& a) {
     add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
         ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
-    const auto line = [&a](const char* name) {
-      for (size_t i = 0; i < kEnergyLines.size(); ++i)
-        if (std::string(name) == kEnergyLines[i].name)
-          return Eigen::ArrayXd(a.energy.col(static_cast<Eigen::Index>(i)));
-      return Eigen::ArrayXd();
-    };
-    const Eigen::ArrayXd damped = line("modal_damping") + line("lag_damping");
-    add(lines, "energy", "at most ", damped.maxCoeff(),
-        " J damped in the stored periods; of that the scheme's own work, ", "strips that switch ",
-        (line("switching") / damped).abs().maxCoeff() * 100, " %, averaging ",
-        (line("averaging") / damped).abs().maxCoeff() * 100, " %");
+    if (!lumped) {
+      const auto line = [&a](const char* name) {
+        for (size_t i = 0; i < kEnergyLines.size(); ++i)
+          if (std::string(name) == kEnergyLines[i].name)
+            return Eigen::ArrayXd(a.energy.col(static_cast<Eigen::Index>(i)));
+        return Eigen::ArrayXd();
+      };
+      const Eigen::ArrayXd damped = line("modal_damping") + line("lag_damping");
+      add(lines, "energy", "at most ", damped.maxCoeff(),
+          " J damped in the stored periods; of that the scheme's own work, ", "strips that switch ",
+          (line("switching") / damped).abs().maxCoeff() * 100, " %, averaging ",
+          (line("averaging") / damped).abs().maxCoeff() * 100, " %");
+    }
     const Eigen::Index open = (a.period_multiple.array() == 0).count();
     if (open > 0) add(lines, "not periodic", open, " of ", a.period_multiple.size(), " speeds");
     add(lines, "mean speed held by", "at most ", a.drift_force.maxCoeff(), " N from the output");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <tuple>
 
@@ -425,19 +426,32 @@ Figure lumped_response_figure(std::vector<ResponseArtifact> responses) {
     mean = std::max(mean, r.dte_mean.maxCoeff() * kMicro);
     if (up) labels += text("'", shown(r.torque, 6), " N m' ");
   }
-  figure.notes.push_back(jumps.empty() ? "no jumps: one branch at every torque" : jumps);
-  std::string lost;
-  for (size_t i = 0; i < responses.size(); i += 2) {
-    double low = std::numeric_limits<double>::infinity(), high = 0;
+  figure.notes.push_back(jumps.empty() ? "no jumps" : jumps);
+  // Ranges of neighbouring speeds at which either sweep parts.
+  const auto apart = [&](size_t i) {
+    std::map<double, bool> parts;
     for (size_t k : {i, i + 1})
       for (Eigen::Index f = 0; f < responses[k].mesh_frequency.size(); ++f)
-        if (responses[k].separation_fraction[f] > 0) {
-          low = std::min(low, responses[k].mesh_frequency[f]);
-          high = std::max(high, responses[k].mesh_frequency[f]);
-        }
-    lost += text(i > 0 ? "; " : "contact lost at ", shown(responses[i].torque, 6), " N m: ");
-    lost += high > 0 ? text(shown(low, 6), " to ", shown(high, 6), " Hz") : "nowhere";
-  }
+        parts[responses[k].mesh_frequency[f]] |= responses[k].separation_fraction[f] > 0;
+    std::string ranges;
+    for (auto first = parts.begin(); first != parts.end(); ++first) {
+      if (!first->second) continue;
+      auto last = first;
+      while (std::next(last) != parts.end() && std::next(last)->second) ++last;
+      ranges += (ranges.empty() ? "" : ", ") + fixed(first->first, 0);
+      if (last != first) ranges += " to " + fixed(last->first, 0);
+      first = last;
+    }
+    return ranges.empty() ? "nowhere" : ranges + " Hz";
+  };
+  std::string lost = "contact lost at every torque: " + apart(0);
+  for (size_t i = 2; i < responses.size(); i += 2)
+    if (apart(i) != apart(0)) {
+      lost = "contact lost";
+      for (size_t k = 0; k < responses.size(); k += 2)
+        lost += text(k > 0 ? "; " : " ", "at ", shown(responses[k].torque, 6), " N m: ", apart(k));
+      break;
+    }
   figure.notes.push_back(lost);
   figure.numbers.insert(figure.numbers.end(), {{"curves", static_cast<double>(responses.size() / 2)},
                                                {"natural_frequency", responses[0].natural_frequency},

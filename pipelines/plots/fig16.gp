@@ -9,7 +9,7 @@ array colour[6] = ["#1f4e9c", "#c8201e", "#1a7f37", "#8a4fbf", "#b06a00", "#4444
 torque(i) = word(word(labels, i), 1)
 
 set multiplot layout 1, 2 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.075, 0.985, 0.215, 0.815 spacing screen 0.085
+  margins screen 0.09, 0.97, 0.215, 0.835 spacing screen 0.09
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
@@ -43,8 +43,11 @@ set xlabel "Mesh frequency (Hz)\n{/:Bold (a)}"
 set ylabel "RMS of oscillating DTE (µm)"
 set yrange [0 : (rms_max > 0 ? rms_max : 1) * 1.08]
 set key at screen 0.5, screen 0.012 center bottom vertical maxrows 2 samplen 2.5 spacing 1.2 Left reverse
-legend = ', for [i = 1:curves] keyentry with linespoints lt 1 lw 1.8 pt 7 ps 0.8 lc rgb colour[i] title word(labels, i)." rising"' \
-  . ', for [i = 1:curves] keyentry with linespoints lt 1 lw 1.2 pt 6 ps 1.35 lc rgb colour[i] title word(labels, i)." falling"'
+legend = ""
+do for [i = 1:curves] {
+  legend = legend . sprintf(', keyentry with linespoints lt 1 lw 1.8 pt 7 ps 0.8 lc rgb colour[%d] title word(labels, %d)." rising"' \
+    . ', keyentry with linespoints lt 1 lw 1.2 pt 6 ps 1.35 lc rgb colour[%d] title word(labels, %d)." falling"', i, i, i, i)
+}
 eval("plot " . curves_of(2) . rms_arrows . legend)
 
 unset key
