@@ -1,5 +1,5 @@
-// The lumped models of Eq. 23 against closed forms (Meissner's equation, free bounce), published-style reference numbers,
-// Newmark's method and finite differences.
+// The lumped models of Eq. 23 against closed forms (Meissner's equation, free bounce), folds and RMS found by another
+// program with exact pieces, Newmark's method and finite differences.
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
@@ -15,6 +15,7 @@
 #include "lumped/stiffness.h"
 #include "lumped/sweep.h"
 #include "paper_pair.h"
+#include "plot/figures.h"
 #include "relative.h"
 #include "signal/response.h"
 
@@ -428,6 +429,48 @@ TEST_CASE("lumped: models from a static result") {
   };
   CHECK(at_rest(pairs) == relative(s.transmission_error[0], 1e-9));
   CHECK(at_rest(cells_of(s.stiffness_secant, 128)) == relative(s.transmission_error[0], 1e-4));
+}
+
+TEST_CASE("lumped: figures hold the numbers of their sweeps") {
+  const StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
+  const RectangularWave wave = stated_wave(rectangular_wave(s), 2.93973e8, 5.16658e8, 0.755);
+  LumpedOptions o;
+  o.model = "rectangular";
+  o.frequency_from = 2100;
+  o.frequency_to = 2600;
+  o.frequency_step = 50;
+  std::vector<SweepArtifact> sweeps;
+  std::vector<ResponseArtifact> responses;
+  for (const char* direction : {"down", "up"}) {
+    o.direction = direction;
+    sweeps.push_back(lumped_sweep(s, cells_of(wave), Eigen::VectorXi::Zero(1), o, no_report));
+    responses.push_back(response(sweeps.back()));
+  }
+  const Figure forces = mesh_force_figure({sweeps[1]});
+  REQUIRE(forces.blocks.size() == 2);
+  CHECK(forces.blocks[0].name == "upper 1");
+  CHECK(forces.blocks[0].rows.size() == 257);
+  CHECK(forces.blocks[0].rows[128 + 5][1] == relative(sweeps[1].mesh_force(2, 5), 1e-12));  // 2200 Hz
+  CHECK(forces.blocks[1].rows[5][1] == relative(sweeps[1].mesh_force(1, 5), 1e-12));        // 2150 Hz
+  CHECK(forces.notes[0].find("jump at 2525.3 Hz") != std::string::npos);
+
+  const Figure curves = lumped_response_figure(responses);
+  REQUIRE(curves.blocks.size() == 4);
+  CHECK(curves.blocks[0].name == "150 up");
+  CHECK(curves.blocks[0].rows[0][1] == relative(1e6 * responses[1].dte_rms[0], 1e-12));
+  CHECK(curves.blocks[2].name == "150 down");
+  REQUIRE(curves.blocks[3].rows.size() == 1);
+  CHECK(curves.blocks[3].rows[0][0] == relative(2171.615284, 1e-6));
+  REQUIRE(curves.blocks[1].rows.size() == 1);
+  CHECK(curves.blocks[1].rows[0][0] == relative(2525.315708, 1e-6));
+  CHECK(curves.notes[0] == "jumps: 150 N m up 2525.3 Hz; 150 N m down 2171.6 Hz");
+  CHECK_THROWS_AS(lumped_response_figure({responses[0]}), Error);
+  CHECK_THROWS_AS(lumped_response_figure({responses[0], responses[0]}), Error);
+  ResponseArtifact elastic = responses[0];
+  elastic.model = "finite elements";
+  CHECK_THROWS_AS(lumped_response_figure({responses[1], elastic}), Error);
+  CHECK_THROWS_AS(mesh_force_figure({}), Error);
+  CHECK_THROWS_AS(mesh_force_figure({SweepArtifact{}}), Error);
 }
 
 TEST_CASE("lumped: what is no model is refused by name") {

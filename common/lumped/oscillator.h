@@ -10,8 +10,8 @@
 //
 // The force is continuous where a spring touches or parts, so the state's derivatives pass through unchanged, and the
 // derivative of the period map is the product of the pieces' (saltation matrix 1). Only a damper that acts in contact
-// alone steps there; its saltation matrix differs from 1 by the step of c / m (Leine and Nijmeijer, Dynamics and
-// Bifurcations of Non-Smooth Mechanical Systems, 2004, Eq. 7.60).
+// alone steps there; its saltation matrix (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical
+// Systems, 2004) differs from 1 by the step of c / m.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

@@ -225,7 +225,9 @@ LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>
     out.orbits.push_back(settle(oscillator, state, periodicity, march_only));
     const LumpedOrbit& orbit = out.orbits.back();
     state = orbit.start;
-    if (i > 0 && like_a_jump(out.orbits[i - 1].rms, orbit.rms))
+    // The RMS of a motion that does not repeat differs from one stretch of it to the next.
+    const bool compares = i > 0 && (out.orbits[i - 1].multiple > 0 || orbit.multiple > 0);
+    if (compares && like_a_jump(out.orbits[i - 1].rms, orbit.rms))
       if (const auto jump = find_jump(oscillator, out.orbits[i - 1], speeds[i - 1], speeds[i], orbit.rms,
                                       speeds.back(), periodicity, march_only))
         out.jumps.push_back(*jump);

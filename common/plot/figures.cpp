@@ -500,7 +500,8 @@ Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps) {
                               sweep.transmission_error(row, i % stored) * kMicro});
       figure.blocks.push_back(block);
       largest = std::max(largest, sweep.mesh_force.row(row).maxCoeff());
-      labels[k] += text("'", fixed(sweep.mesh_frequency[row], 0), " Hz, ratio ", fixed(high / low, 3), "' ");
+      labels[k] += text("'", fixed(sweep.mesh_frequency[row], 0), " Hz, ratio ", fixed(high / low, 3),
+                        jumps.empty() ? " (no jump)' " : "' ");
     }
   }
   const GearPair pair(sweeps[0].driver, sweeps[0].driven, sweeps[0].mesh.centre_distance);
