@@ -1,7 +1,8 @@
 // gear-plot: a figure of the paper as numbers and as pictures.
 //
 // Reads      fig01    mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5
-//            fig05    response.h5 of the up and of the down sweep
+//            fig05    response.h5 of sweeps up and down, any torques and choices; a panel for each set of choices
+//            fig14-elastic    the same
 //            fig12    static.h5, one per torque
 //            fig13    static.h5, one per torque
 //            error-budget    error_budget.h5
@@ -9,6 +10,7 @@
 // Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all
 //            fig01    the finite element mesh
 //            fig05    RMS of the dynamic transmission error against mesh frequency
+//            fig14-elastic    RMS and mean of the same
 //            fig12    static transmission error (STE)
 //            fig13    mesh stiffness
 //            error-budget    what refining each discretisation alone changes, and what other choices change
@@ -33,25 +35,28 @@ void require_inputs(const std::string& name, const std::vector<std::string>& inp
                 " given");
 }
 
+template <class Artifact>
+std::vector<Artifact> read_all(const std::vector<std::string>& inputs, Artifact (*read)(const std::string&)) {
+  std::vector<Artifact> artifacts;
+  for (const std::string& path : inputs) artifacts.push_back(read(path));
+  return artifacts;
+}
+
 whine::Figure figure_of(const std::string& name, const std::vector<std::string>& inputs) {
   if (name == "fig01") {
     require_inputs(name, inputs, 3, "mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5");
     return whine::mesh_figure(whine::read_mesh(inputs[0]), whine::read_mesh(inputs[1]),
                               whine::read_static(inputs[2]));
   }
-  if (name == "fig05") {
-    require_inputs(name, inputs, 2, "response.h5 of the up and of the down sweep");
-    return whine::response_figure(whine::read_response(inputs[0]), whine::read_response(inputs[1]));
-  }
+  if (name == "fig05" || name == "fig14-elastic") return whine::response_figure(read_all(inputs, whine::read_response));
   if (name == "error-budget") {
     require_inputs(name, inputs, 1, "error_budget.h5");
     return whine::error_budget_figure(whine::read_error_budget(inputs[0]));
   }
   if (name != "fig12" && name != "fig13")
     whine::fail(whine::Failure::usage, "unknown figure '", name,
-                "'; known are fig01, fig05, fig12, fig13, error-budget");
-  std::vector<whine::StaticArtifact> statics;
-  for (const std::string& path : inputs) statics.push_back(whine::read_static(path));
+                "'; known are fig01, fig05, fig12, fig13, fig14-elastic, error-budget");
+  const std::vector<whine::StaticArtifact> statics = read_all(inputs, whine::read_static);
   return name == "fig12" ? whine::transmission_error_figure(statics) : whine::mesh_stiffness_figure(statics);
 }
 
@@ -59,7 +64,7 @@ void body(int argc, char** argv) {
   CLI::App app{"Draws a figure of the paper from artifacts", "gear-plot"};
   std::string name, output, plots = "pipelines/plots";
   std::vector<std::string> inputs;
-  app.add_option("figure", name, "fig01, fig05, fig12, fig13 or error-budget")->required();
+  app.add_option("figure", name, "fig01, fig05, fig12, fig13, fig14-elastic or error-budget")->required();
   app.add_option("inputs", inputs, "artifacts, see above")->required();
   app.add_option("--output", output, "path of the results without extension")->required();
   app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();

@@ -42,6 +42,85 @@ std::string corner_words(const CornerRule& corner) {
   return "corner contact up to " + shown(corner.largest_angle * 180.0 / std::numbers::pi, 4) + "°";
 }
 
+std::string model_of(const ResponseArtifact& r) {
+  return r.model;
+}
+
+std::string model_of(const SweepArtifact&) {
+  return "finite elements";
+}
+
+// All that two sweeps must share to be one experiment, besides the torque.
+template <class Sweep>
+auto choices_of(const Sweep& s) {
+  const auto of_gear = [](const GearDesign& g) {
+    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
+  };
+  return std::tuple(model_of(s), of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
+                    s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
+                    s.damping.rayleigh_stiffness, s.damping.rayleigh_mass, s.damping.bearing_ratio,
+                    s.damping.undamped_depth, s.fidelity.body, s.fidelity.contact, s.fidelity.integrator);
+}
+
+template <class Sweep>
+std::string choice_words(const Sweep& s) {
+  std::string words = "Rayleigh damping η = " + shown(s.damping.rayleigh_stiffness * kMicro, 6) + " µs";
+  if (s.damping.rayleigh_mass != 0) words += ", µ = " + shown(s.damping.rayleigh_mass, 6) + " s⁻¹";
+  if (model_of(s) != "finite elements") words = model_of(s) + ": " + words;
+  return words + text(", undamped to ", shown(s.damping.undamped_depth * kMilli, 4), " mm depth, bearing ratio ",
+                      shown(s.damping.bearing_ratio, 4), "; ", corner_words(s.mesh.corner), "; body ",
+                      s.fidelity.body, ", contact ", s.fidelity.contact, ", integrator ", s.fidelity.integrator);
+}
+
+std::string torque_words(double torque) {
+  return shown(torque, 6) + " N m";
+}
+
+// Sweeps of the same choices, both directions at each torque (ascending).
+template <class Sweep>
+struct ChoicePanel {
+  struct Curve {
+    const Sweep *up = nullptr, *down = nullptr;
+  };
+  std::string choices;
+  std::vector<Curve> curves;
+};
+
+// In the order in which the choices come. Throws Error(input) where a direction is missing or given twice.
+template <class Sweep>
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps) {
+  std::vector<ChoicePanel<Sweep>> panels;
+  std::vector<const Sweep*> first;  // of each panel
+  for (const Sweep& s : sweeps) {
+    if (s.direction != "up" && s.direction != "down")
+      fail(Failure::input, "figure: a sweep of direction '", s.direction, "'; up and down are known");
+    size_t p = 0;
+    while (p < first.size() && choices_of(*first[p]) != choices_of(s)) ++p;
+    if (p == first.size()) {
+      first.push_back(&s);
+      panels.push_back({choice_words(s), {}});
+    }
+    auto& curves = panels[p].curves;
+    const auto torque_of = [](const auto& c) { return (c.up ? c.up : c.down)->torque; };
+    auto at = curves.begin();
+    while (at != curves.end() && torque_of(*at) < s.torque) ++at;
+    if (at == curves.end() || torque_of(*at) != s.torque) at = curves.emplace(at);
+    const Sweep*& place = s.direction == "up" ? at->up : at->down;
+    if (place)
+      fail(Failure::input, "figure: two sweeps ", s.direction, " at ", torque_words(s.torque), " with ",
+           choice_words(s), "; give each once");
+    place = &s;
+  }
+  for (const auto& panel : panels)
+    for (const auto& c : panel.curves)
+      if (!c.up || !c.down)
+        fail(Failure::input, "figure: the sweep ", c.up ? "up" : "down", " at ",
+             torque_words((c.up ? c.up : c.down)->torque), " with ", panel.choices,
+             " has no sweep ", c.up ? "down" : "up",
+             " of the same torque, gears, model, damping, corner rule and fidelity beside it; make both from one scene");
+  return panels;
+}
+
 // The row after which the march crosses f; -1 if it never does.
 Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
   for (Eigen::Index i = 0; i + 1 < frequency.size(); ++i)
@@ -49,8 +128,19 @@ Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
   return -1;
 }
 
-FigureBlock branch_block(const ResponseArtifact& r) {
-  FigureBlock block{r.direction,
+// The row after which the march left the branch that ends at the jump f: the step of the sweep across which the RMS
+// changes like a jump. It may lie before f in the march, because a branch's basin gets narrower than a step; the sweep then
+// followed the branch to f by itself. -1 if the jump lies outside the sweep.
+Eigen::Index row_left(const ResponseArtifact& r, double f) {
+  constexpr double kJumpRatio = 1.2;  // what counts as a jump in sweeps
+  const Eigen::Index last = row_before(r.mesh_frequency, f);
+  for (Eigen::Index i = last; i >= 0; --i)
+    if (std::max(r.dte_rms[i], r.dte_rms[i + 1]) > kJumpRatio * std::min(r.dte_rms[i], r.dte_rms[i + 1])) return i;
+  return last;
+}
+
+FigureBlock branch_block(const std::string& name, const ResponseArtifact& r) {
+  FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
                      "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
                     {}};
@@ -61,7 +151,7 @@ FigureBlock branch_block(const ResponseArtifact& r) {
     // The curve stops at a jump: the arrow shows the step, a line would pretend that there are states
     // between.
     for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j)
-      if (row_before(r.mesh_frequency, r.jump_frequency[j]) == i) {
+      if (row_left(r, r.jump_frequency[j]) == i) {
         block.rows.emplace_back();
         break;
       }
@@ -69,31 +159,42 @@ FigureBlock branch_block(const ResponseArtifact& r) {
   return block;
 }
 
-FigureBlock jump_block(const ResponseArtifact& r) {
-  FigureBlock block{"jumps " + r.direction,
+// In order of frequency. What the RMS and the mean are after a jump is read off the branch on which the march goes on.
+FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
+  FigureBlock block{name,
                     {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
-                     "label row [1]"},
+                     "label row [1]", "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
                     {}};
-  std::vector<Eigen::Index> order(static_cast<size_t>(r.jump_frequency.size()));
-  for (size_t j = 0; j < order.size(); ++j) order[j] = static_cast<Eigen::Index>(j);
-  std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return r.jump_frequency[a] < r.jump_frequency[b]; });
-  // Labels of jumps closer than this would overlap: the next one stands a row lower.
-  const double span = r.mesh_frequency.maxCoeff() - r.mesh_frequency.minCoeff();
-  double previous = -std::numeric_limits<double>::infinity();
-  int row = 0;
-  for (Eigen::Index j : order) {
+  for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
     const double f = r.jump_frequency[j];
-    const Eigen::Index i = row_before(r.mesh_frequency, f);
-    if (i < 0)
+    const Eigen::Index at = row_before(r.mesh_frequency, f), i = row_left(r, f);
+    if (at < 0)
       fail(Failure::input, "response: a jump at ", f, " Hz lies outside the sweep, ",
            r.mesh_frequency.minCoeff(), " to ", r.mesh_frequency.maxCoeff(), " Hz");
-    row = f - previous < 0.03 * span ? row + 1 : 0;
-    previous = f;
-    block.rows.push_back(
-        {f, r.dte_rms[i] * kMicro, r.dte_rms[i + 1] * kMicro, r.jump_width[j], static_cast<double>(row)});
+    const double share = (f - r.mesh_frequency[at]) / (r.mesh_frequency[at + 1] - r.mesh_frequency[at]);
+    const auto after = [&](const Eigen::VectorXd& v) {
+      return (i == at ? v[at + 1] : (1 - share) * v[at] + share * v[at + 1]) * kMicro;
+    };
+    block.rows.push_back({f, r.dte_rms[i] * kMicro, after(r.dte_rms), r.jump_width[j], 0.0,
+                          r.dte_mean[i] * kMicro, after(r.dte_mean), r.mesh_frequency[i]});
   }
+  std::sort(block.rows.begin(), block.rows.end());
   return block;
+}
+
+// Labels of jumps closer than a few widths of a letter would overlap: the next one stands a row lower.
+void set_label_rows(FigureBlock& one, FigureBlock& other, double span) {
+  std::vector<std::vector<double>*> rows;
+  for (FigureBlock* block : {&one, &other})
+    for (auto& row : block->rows) rows.push_back(&row);
+  std::sort(rows.begin(), rows.end(), [](auto a, auto b) { return a->front() < b->front(); });
+  double previous = -std::numeric_limits<double>::infinity();
+  int level = 0;
+  for (auto* row : rows) {
+    level = row->front() - previous < 0.03 * span ? level + 1 : 0;
+    previous = row->front();
+    (*row)[4] = level;
+  }
 }
 
 // ---- statics
@@ -116,7 +217,7 @@ void sort_by_torque(std::vector<StaticArtifact>& statics) {
 }
 
 std::string torque_label(const StaticArtifact& s) {
-  return shown(s.torque, 6) + " N m";
+  return torque_words(s.torque);
 }
 
 // One column per curve, first column the phase; the first point again at phase 1, so that the period closes.
@@ -246,48 +347,68 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
   return figure;
 }
 
-Figure response_figure(const ResponseArtifact& one, const ResponseArtifact& other) {
-  const ResponseArtifact& up = one.direction == "up" ? one : other;
-  const ResponseArtifact& down = one.direction == "up" ? other : one;
-  if (up.direction != "up" || down.direction != "down")
-    fail(Failure::input, "figure: the two response.h5 are sweeps '", one.direction, "' and '",
-         other.direction, "'; give one up and one down");
-  if (up.torque != down.torque)
-    fail(Failure::input, "figure: the up sweep is at ", up.torque, " N m, the down sweep at ", down.torque,
-         " N m; give two of the same torque");
-  if (up.model != down.model || up.damping.rayleigh_stiffness != down.damping.rayleigh_stiffness ||
-      up.damping.rayleigh_mass != down.damping.rayleigh_mass ||
-      up.damping.bearing_ratio != down.damping.bearing_ratio || up.fidelity.body != down.fidelity.body ||
-      up.fidelity.integrator != down.fidelity.integrator ||
-      up.mesh.corner.enabled != down.mesh.corner.enabled ||
-      up.mesh.corner.largest_angle != down.mesh.corner.largest_angle)
-    fail(Failure::input,
-         "figure: the up and the down sweep were computed with different model, damping, corner rule ",
-         "or fidelity; make both from one scene");
-
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
+  if (sweeps.empty()) fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
+  std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps);
   Figure figure;
-  figure.title = text("RMS of the oscillating dynamic transmission error, ", shown(up.torque, 6), " N m");
-  std::string choices =
-      text("Rayleigh damping η = ", shown(up.damping.rayleigh_stiffness * kMicro, 6), " µs");
-  if (up.damping.rayleigh_mass != 0) choices += text(", µ = ", shown(up.damping.rayleigh_mass, 6), " s⁻¹");
-  choices += text(", undamped to ", shown(up.damping.undamped_depth * kMilli, 4), " mm depth; bearing ratio ",
-                  shown(up.damping.bearing_ratio, 4), "; ", corner_words(up.mesh.corner));
-  figure.notes.push_back(choices);
-  figure.notes.push_back(text(up.model, ": body ", up.fidelity.body, ", contact ", up.fidelity.contact,
-                              ", integrator ", up.fidelity.integrator));
-  figure.notes.push_back(
-      text("f_n = ", fixed(up.natural_frequency, 0),
-           " Hz: mean over the mesh period with the contact frozen under the static load"));
-  figure.blocks = {branch_block(up), branch_block(down), jump_block(up), jump_block(down)};
-  figure.numbers = {
-      {"natural_frequency", up.natural_frequency},
-      {"frequency_from", std::min(up.mesh_frequency.minCoeff(), down.mesh_frequency.minCoeff())},
-      {"frequency_to", std::max(up.mesh_frequency.maxCoeff(), down.mesh_frequency.maxCoeff())},
-      {"rms_max", std::max(up.dte_rms.maxCoeff(), down.dte_rms.maxCoeff()) * kMicro},
-      {"jumps_up", static_cast<double>(up.jump_frequency.size())},
-      {"jumps_down", static_cast<double>(down.jump_frequency.size())},
-      {"contact_lost",
-       up.separation_fraction.maxCoeff() > 0 || down.separation_fraction.maxCoeff() > 0 ? 1.0 : 0.0}};
+  std::vector<double> torques;
+  for (const auto& r : sweeps) torques.push_back(r.torque);
+  std::sort(torques.begin(), torques.end());
+  torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
+  figure.title = "Dynamic transmission error against mesh frequency, ";
+  for (size_t i = 0; i < torques.size(); ++i) figure.title += (i ? ", " : "") + shown(torques[i], 6);
+  figure.title += " N m";
+  figure.notes.push_back("f_n: mean natural frequency over the mesh period, contact frozen under the static load");
+  figure.height = panels.size() == 1 ? 1000 : 240 + 600 * static_cast<int>(panels.size());
+  double from = std::numeric_limits<double>::infinity(), to = 0;
+  const auto number = [&](const std::string& name, double value) { figure.numbers.emplace_back(name, value); };
+  for (size_t p = 0; p < panels.size(); ++p) {
+    const std::string letter(1, static_cast<char>('a' + p));
+    const auto& curves = panels[p].curves;
+    if (curves.size() > kMostCurves)
+      fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
+           " curves can be told apart");
+    figure.notes.push_back("(" + letter + ") " + panels[p].choices);
+    figure.words.emplace_back("choices_" + letter, panels[p].choices);
+    std::string labels, jumps;
+    double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;
+    bool lost = false;
+    for (size_t c = 0; c < curves.size(); ++c) {
+      const std::string label = torque_words(curves[c].up->torque);
+      labels += "'" + label + "' ";
+      std::string found;
+      const size_t first_block = figure.blocks.size();
+      for (const ResponseArtifact* r : {curves[c].up, curves[c].down}) {
+        const std::string name = letter + " " + label + " ";
+        figure.blocks.push_back(branch_block(name + r->direction, *r));
+        figure.blocks.push_back(jump_block(name + "jumps " + r->direction, *r));
+        std::string at;
+        for (const auto& row : figure.blocks.back().rows) at += (at.empty() ? "" : ", ") + fixed(row[0], 0);
+        if (!at.empty()) found += (r->direction == "up" ? " rising " : " falling ") + at;
+        number(text("jumps_", r->direction, "_", letter, "_", c + 1),
+               static_cast<double>(r->jump_frequency.size()));
+        from = std::min(from, r->mesh_frequency.minCoeff());
+        to = std::max(to, r->mesh_frequency.maxCoeff());
+        rms = std::max(rms, r->dte_rms.maxCoeff());
+        mean_high = std::max(mean_high, r->dte_mean.maxCoeff());
+        mean_low = std::min(mean_low, r->dte_mean.minCoeff());
+        lost |= r->separation_fraction.maxCoeff() > 0;
+      }
+      set_label_rows(figure.blocks[first_block + 1], figure.blocks[first_block + 3], to - from);
+      jumps += "'" + label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz") + "' ";
+      number(text("natural_frequency_", letter, "_", c + 1), curves[c].up->natural_frequency);
+    }
+    figure.words.emplace_back("labels_" + letter, labels);
+    figure.words.emplace_back("jump_labels_" + letter, jumps);
+    number("curves_" + letter, static_cast<double>(curves.size()));
+    number("rms_max_" + letter, rms * kMicro);
+    number("mean_max_" + letter, mean_high * kMicro);
+    number("mean_min_" + letter, mean_low * kMicro);
+    number("contact_lost_" + letter, lost);
+  }
+  number("panels", static_cast<double>(panels.size()));
+  number("frequency_from", from);
+  number("frequency_to", to);
   return figure;
 }
 

@@ -24,6 +24,7 @@ struct Figure {
   std::vector<FigureBlock> blocks;
   std::vector<std::pair<std::string, double>> numbers;     // variables of the template
   std::vector<std::pair<std::string, std::string>> words;  // string variables of the template
+  int height = 1000;                                       // of the picture beside a width of 1600; also a variable
 };
 
 // The whole pair and a close-up of the teeth in mesh, edges of elements in mm. Driver's centre at the origin,
@@ -31,10 +32,10 @@ struct Figure {
 // touches at the pitch point. Throws Error(input) if the meshes are not those of the static artifact's gears.
 Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& pair);
 
-// RMS of the oscillating DTE against mesh frequency for both directions of the sweep, with jumps. Inputs in
-// either order. Throws Error(input) unless one is an up sweep, the other a down sweep, both of the same
-// torque and choices.
-Figure response_figure(const ResponseArtifact& one, const ResponseArtifact& other);
+// RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
+// choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending).
+// Throws Error(input) unless every sweep up has one sweep down of the same torque and choices.
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps);
 
 // Static transmission error over a mesh period and its spectrum, one curve per torque (ascending). Throws
 // Error(input) for no input or two of the same torque.
