@@ -284,12 +284,10 @@ TEST_CASE("wireframe: the outline is closed, on the outer radius, and moves with
     const Placement at{0.3, Vec2(5, -7)};
     const Strokes outline = Wireframe(ring(order)).outline(at, 1e3);
     REQUIRE(outline.size() == static_cast<size_t>(6 * 2 * order + 1));
-    for (const auto& p : outline)
-      CHECK(std::hypot(p[0] - 5e3, p[1] + 7e3) == relative(2e3, 1e-12));
+    for (const auto& p : outline) CHECK(std::hypot(p[0] - 5e3, p[1] + 7e3) == relative(2e3, 1e-12));
     CHECK(outline.front()[0] == relative(outline.back()[0], 1e-12));
     CHECK(outline.front()[1] == relative(outline.back()[1], 1e-12));
-    CHECK(std::atan2(outline[0][1] + 7e3, outline[0][0] - 5e3) ==
-          relative(kPi / 3 + 0.3, 1e-12));
+    CHECK(std::atan2(outline[0][1] + 7e3, outline[0][0] - 5e3) == relative(kPi / 3 + 0.3, 1e-12));
   }
 }
 

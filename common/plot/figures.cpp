@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <sstream>
 #include <tuple>
 
 #include "base/error.h"
 #include "gear/pair.h"
 #include "plot/wireframe.h"
+#include "signal/spectrum.h"
 
 namespace whine {
 namespace {
@@ -67,9 +71,10 @@ std::string choice_words(const Sweep& s) {
   std::string words = "Rayleigh damping η = " + shown(s.damping.rayleigh_stiffness * kMicro, 6) + " µs";
   if (s.damping.rayleigh_mass != 0) words += ", µ = " + shown(s.damping.rayleigh_mass, 6) + " s⁻¹";
   if (model_of(s) != "finite elements") words = model_of(s) + ": " + words;
-  return words + text(", undamped to ", shown(s.damping.undamped_depth * kMilli, 4), " mm depth, bearing ratio ",
-                      shown(s.damping.bearing_ratio, 4), "; ", corner_words(s.mesh.corner), "; body ",
-                      s.fidelity.body, ", contact ", s.fidelity.contact, ", integrator ", s.fidelity.integrator);
+  return words + text(", undamped to ", shown(s.damping.undamped_depth * kMilli, 4),
+                      " mm depth, bearing ratio ", shown(s.damping.bearing_ratio, 4), "; ",
+                      corner_words(s.mesh.corner), "; body ", s.fidelity.body, ", contact ",
+                      s.fidelity.contact, ", integrator ", s.fidelity.integrator);
 }
 
 std::string torque_words(double torque) {
@@ -115,9 +120,10 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps) {
     for (const auto& c : panel.curves)
       if (!c.up || !c.down)
         fail(Failure::input, "figure: the sweep ", c.up ? "up" : "down", " at ",
-             torque_words((c.up ? c.up : c.down)->torque), " with ", panel.choices,
-             " has no sweep ", c.up ? "down" : "up",
-             " of the same torque, gears, model, damping, corner rule and fidelity beside it; make both from one scene");
+             torque_words((c.up ? c.up : c.down)->torque), " with ", panel.choices, " has no sweep ",
+             c.up ? "down" : "up",
+             " of the same torque, gears, model, damping, corner rule and fidelity beside it; make both from "
+             "one scene");
   return panels;
 }
 
@@ -135,7 +141,8 @@ Eigen::Index row_left(const ResponseArtifact& r, double f) {
   constexpr double kJumpRatio = 1.2;  // what counts as a jump in sweeps
   const Eigen::Index last = row_before(r.mesh_frequency, f);
   for (Eigen::Index i = last; i >= 0; --i)
-    if (std::max(r.dte_rms[i], r.dte_rms[i + 1]) > kJumpRatio * std::min(r.dte_rms[i], r.dte_rms[i + 1])) return i;
+    if (std::max(r.dte_rms[i], r.dte_rms[i + 1]) > kJumpRatio * std::min(r.dte_rms[i], r.dte_rms[i + 1]))
+      return i;
   return last;
 }
 
@@ -161,10 +168,11 @@ FigureBlock branch_block(const std::string& name, const ResponseArtifact& r) {
 
 // In order of frequency. What the RMS and the mean are after a jump is read off the branch on which the march goes on.
 FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
-  FigureBlock block{name,
-                    {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
-                     "label row [1]", "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
-                    {}};
+  FigureBlock block{
+      name,
+      {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]", "label row [1]",
+       "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
+      {}};
   for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
     const double f = r.jump_frequency[j];
     const Eigen::Index at = row_before(r.mesh_frequency, f), i = row_left(r, f);
@@ -195,6 +203,77 @@ void set_label_rows(FigureBlock& one, FigureBlock& other, double span) {
     previous = row->front();
     (*row)[4] = level;
   }
+}
+
+// ---- motions at one speed
+// -------------------------------------------------------------------------------------------
+
+struct Motion {
+  const SweepArtifact* sweep = nullptr;
+  Eigen::Index row = 0;
+  int periods = 1;    // of one orbit, or all that is stored of a motion that is not periodic
+  std::string title;  // which branch of which choices
+
+  Eigen::Index per_period() const { return sweep->time.steps_per_period; }
+  Eigen::VectorXd orbit(const MatrixRM& rows) const {
+    return rows.row(row).head(periods * per_period()).transpose();
+  }
+};
+
+Motion motion_at(const SweepArtifact& s, double frequency) {
+  Motion m;
+  m.sweep = &s;
+  (s.mesh_frequency.array() - frequency).abs().minCoeff(&m.row);
+  if (std::abs(s.mesh_frequency[m.row] - frequency) > 1e-6 * frequency)
+    fail(Failure::input, "figure: the sweep ", s.direction, " at ", torque_words(s.torque),
+         " holds no speed of ", frequency, " Hz; the nearest is ", s.mesh_frequency[m.row], " Hz");
+  m.periods = s.period_multiple[m.row] > 0
+                  ? s.period_multiple[m.row]
+                  : static_cast<int>(s.transmission_error.cols() / s.time.steps_per_period);
+  return m;
+}
+
+std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double frequency) {
+  constexpr double kSameBranch = 0.02;  // of the larger RMS: far above what periodicity leaves open
+  if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; an up and a down sweep are the least");
+  std::vector<Motion> motions;
+  for (const auto& panel : panels_of(sweeps))
+    for (const auto& curve : panel.curves) {
+      Motion up = motion_at(*curve.up, frequency), down = motion_at(*curve.down, frequency);
+      const std::string damping = "η = " + shown(curve.up->damping.rayleigh_stiffness * kMicro, 6) + " µs";
+      const auto rms = [](const Motion& m) { return harmonics(m.orbit(m.sweep->transmission_error), 0).rms; };
+      const double of_up = rms(up), of_down = rms(down);
+      if (std::abs(of_up - of_down) <= kSameBranch * std::max(of_up, of_down)) {
+        up.title = damping + ": no second branch here, speed rising and falling agree";
+        motions.push_back(up);
+        continue;
+      }
+      Motion& upper = of_up > of_down ? up : down;
+      Motion& lower = of_up > of_down ? down : up;
+      upper.title = damping + ": upper branch, speed " + (of_up > of_down ? "rising" : "falling");
+      lower.title = damping + ": lower branch, speed " + (of_up > of_down ? "falling" : "rising");
+      motions.push_back(upper);
+      motions.push_back(lower);
+    }
+  if (motions.size() > kMostCurves)
+    fail(Failure::input, "figure: ", motions.size(), " motions at ", frequency, " Hz; ", kMostCurves,
+         " fit into a figure");
+  return motions;
+}
+
+void set_motion_words(Figure& figure, const std::string& what, const std::vector<Motion>& motions,
+                      double frequency) {
+  figure.title = what + " at a mesh frequency of " + shown(frequency, 6) + " Hz, " +
+                 torque_words(motions[0].sweep->torque);
+  for (const auto& m : motions) {
+    const std::string choices = choice_words(*m.sweep);
+    if (figure.notes.empty() || figure.notes.back() != choices) figure.notes.push_back(choices);
+  }
+  figure.numbers.emplace_back("motions", static_cast<double>(motions.size()));
+}
+
+std::string letter_of(size_t i) {
+  return std::string(1, static_cast<char>('a' + i));
 }
 
 // ---- statics
@@ -348,7 +427,8 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
 }
 
 Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
-  if (sweeps.empty()) fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
+  if (sweeps.empty())
+    fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
   std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps);
   Figure figure;
   std::vector<double> torques;
@@ -358,12 +438,15 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
   figure.title = "Dynamic transmission error against mesh frequency, ";
   for (size_t i = 0; i < torques.size(); ++i) figure.title += (i ? ", " : "") + shown(torques[i], 6);
   figure.title += " N m";
-  figure.notes.push_back("f_n: mean natural frequency over the mesh period, contact frozen under the static load");
+  figure.notes.push_back(
+      "f_n: mean natural frequency over the mesh period, contact frozen under the static load");
   figure.height = panels.size() == 1 ? 1000 : 240 + 600 * static_cast<int>(panels.size());
   double from = std::numeric_limits<double>::infinity(), to = 0;
-  const auto number = [&](const std::string& name, double value) { figure.numbers.emplace_back(name, value); };
+  const auto number = [&](const std::string& name, double value) {
+    figure.numbers.emplace_back(name, value);
+  };
   for (size_t p = 0; p < panels.size(); ++p) {
-    const std::string letter(1, static_cast<char>('a' + p));
+    const std::string letter = letter_of(p);
     const auto& curves = panels[p].curves;
     if (curves.size() > kMostCurves)
       fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
@@ -412,6 +495,123 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
   return figure;
 }
 
+Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency) {
+  constexpr int kShownPeriods = 3;
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency);
+  Figure figure;
+  set_motion_words(figure, "Oscillating dynamic transmission error", motions, mesh_frequency);
+  double time_end = 0, largest = 0, largest_amplitude = 0;
+  for (size_t i = 0; i < motions.size(); ++i) {
+    const Motion& m = motions[i];
+    const Eigen::VectorXd x = m.orbit(m.sweep->transmission_error);
+    const int count = resolved_harmonics(x.size(), kShownHarmonics * m.periods);
+    if (count < 1)
+      fail(Failure::input, "figure: ", x.size(),
+           " samples do not resolve the mesh frequency; raise steps_per_period");
+    const Harmonics h = harmonics(x, count);
+    FigureBlock history{letter_of(i) + " history", {"time [ms]", "oscillating dte [µm]"}, {}};
+    const Eigen::Index shown_samples = std::max(kShownPeriods, m.periods) * m.per_period();
+    for (Eigen::Index n = 0; n <= shown_samples; ++n) {
+      const double value = (x[n % x.size()] - h.mean) * kMicro;
+      history.rows.push_back({1e3 * n / (m.per_period() * mesh_frequency), value});
+      largest = std::max(largest, std::abs(value));
+    }
+    time_end = std::max(time_end, history.rows.back()[0]);
+    FigureBlock spectrum{letter_of(i) + " spectrum", {"frequency [Hz]", "amplitude [µm]"}, {}};
+    for (int k = 1; k <= count; ++k)
+      spectrum.rows.push_back({k * mesh_frequency / m.periods, h.amplitude[k - 1] * kMicro});
+    Eigen::Index strongest = 0;
+    const double amplitude = h.amplitude.maxCoeff(&strongest);
+    largest_amplitude = std::max(largest_amplitude, amplitude * kMicro);
+    figure.words.emplace_back("title_" + letter_of(i), m.title);
+    figure.words.emplace_back(
+        "result_" + letter_of(i),
+        text("RMS ", shown(h.rms * kMicro, 3), " µm, ", shown(50 * std::pow(amplitude / h.rms, 2), 3),
+             " % of its square at ", shown((strongest + 1.0) / m.periods, 3), " × mesh frequency; mean ",
+             shown(h.mean * kMicro, 3), " µm"));
+    figure.blocks.push_back(history);
+    figure.blocks.push_back(spectrum);
+  }
+  for (const auto& [name, value] : {std::pair{"time_end", time_end},
+                                    {"largest", largest},
+                                    {"largest_amplitude", largest_amplitude},
+                                    {"frequency_end", kShownHarmonics * mesh_frequency}})
+    figure.numbers.emplace_back(name, value);
+  return figure;
+}
+
+Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency) {
+  constexpr int kFirstPeriod = -1, kPeriods = 3, kFirstTooth = -2, kLastTooth = 3;
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency);
+  Figure figure;
+  set_motion_words(figure, "Tooth loads", motions, mesh_frequency);
+  figure.height = 200 + 330 * static_cast<int>(motions.size());
+  double largest = 0;
+  const double static_force =
+      motions[0].sweep->torque / ToothGeometry(motions[0].sweep->driver).base_radius();
+  for (size_t i = 0; i < motions.size(); ++i) {
+    const Motion& m = motions[i];
+    const Eigen::Index n = m.per_period();
+    const Eigen::VectorXd force = m.orbit(m.sweep->mesh_force);
+    const MatrixRM& loads = m.sweep->tooth_load[m.row];
+    // Sample k of the shown periods: its place in the orbit, its period, its phase.
+    const auto row_of = [&](Eigen::Index k) {
+      return (k + kPeriods * m.periods * n + kFirstPeriod * n) % force.size();
+    };
+    const auto phase_of = [&](Eigen::Index k) { return kFirstPeriod + static_cast<double>(k) / n; };
+    FigureBlock net{letter_of(i) + " mesh force", {"phase of tooth i [1]", "mesh force [N]"}, {}};
+    FigureBlock lost{letter_of(i) + " contact lost", {"from phase [1]", "to phase [1]"}, {}};
+    for (Eigen::Index k = 0; k <= kPeriods * n; ++k) {
+      const double f = force[row_of(k)];
+      net.rows.push_back({phase_of(k), f});
+      if (f > 0) continue;
+      if (k > 0 && !lost.rows.empty() && force[row_of(k - 1)] == 0)
+        lost.rows.back()[1] = phase_of(k);
+      else
+        lost.rows.push_back({phase_of(k), phase_of(k)});
+    }
+    figure.numbers.emplace_back("lost_" + letter_of(i), static_cast<double>(lost.rows.size()));
+    figure.blocks.push_back(net);
+    figure.blocks.push_back(lost);
+    // Pair j is j places ahead of the reference pair, which touches at the pitch point at the start of a period: the tooth
+    // that does so t periods after tooth i is pair (period - t). Drawn while it carries load, with a sample on either side.
+    for (int t = kFirstTooth; t <= kLastTooth; ++t) {
+      FigureBlock tooth{
+          text(letter_of(i), " tooth i", t < 0 ? "" : "+", t), {"phase of tooth i [1]", "load [N]"}, {}};
+      const auto load_at = [&](Eigen::Index k) {
+        const Eigen::Index j = kFirstPeriod + k / n - t - m.sweep->pair[0];
+        return k >= 0 && k < kPeriods * n && j >= 0 && j < loads.cols() ? loads(row_of(k), j) : 0.0;
+      };
+      for (Eigen::Index k = 0; k < kPeriods * n; ++k)
+        if (load_at(k - 1) > 0 || load_at(k) > 0 || load_at(k + 1) > 0)
+          tooth.rows.push_back({phase_of(k), load_at(k)});
+        else if (!tooth.rows.empty() && !tooth.rows.back().empty())
+          tooth.rows.emplace_back();
+      figure.numbers.emplace_back(text("shown_", letter_of(i), "_", t - kFirstTooth), !tooth.rows.empty());
+      figure.blocks.push_back(tooth);
+    }
+    const Separations apart = separations(force);
+    const double most = loads.topRows(force.size()).maxCoeff();
+    largest = std::max({largest, most, force.maxCoeff()});
+    std::string result =
+        text("largest tooth load ", fixed(most, 0), " N = ", fixed(most / static_force, 2), " T / r_b; ");
+    result += apart.intervals == 0
+                  ? "contact is never lost"
+                  : text("contact lost ", shown(static_cast<double>(apart.intervals) / m.periods, 3),
+                         apart.intervals == m.periods ? " time" : " times", " a mesh period, for ",
+                         fixed(100 * apart.fraction, 1), " % of it");
+    figure.words.emplace_back("title_" + letter_of(i), m.title);
+    figure.words.emplace_back("result_" + letter_of(i), result);
+  }
+  figure.numbers.emplace_back("largest", largest);
+  figure.numbers.emplace_back("static_force", static_force);
+  figure.numbers.emplace_back("phase_from", kFirstPeriod);
+  figure.numbers.emplace_back("phase_to", kFirstPeriod + kPeriods);
+  figure.numbers.emplace_back("first_tooth", kFirstTooth);
+  figure.numbers.emplace_back("last_tooth", kLastTooth);
+  return figure;
+}
+
 Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
   sort_by_torque(statics);
   Figure figure;
@@ -426,6 +626,103 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
   for (const auto& s : statics) labels += text("'", torque_label(s), "' ");
   figure.words = {{"labels", labels}};
   return figure;
+}
+
+Figure natural_frequency_table(std::vector<ImpactArtifact> impacts, const std::string& published) {
+  if (impacts.empty()) fail(Failure::input, "table: no impact.h5 given; 1 is the least");
+  std::sort(impacts.begin(), impacts.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });
+  std::map<std::pair<double, std::string>, double> printed;
+  if (!published.empty()) {
+    std::ifstream file(published);
+    if (!file) fail(Failure::io, published, ": cannot be read; it holds the frequencies to compare with");
+    for (std::string line; std::getline(file, line);) {
+      if (line.empty() || line[0] == '#') continue;
+      std::istringstream words(line);
+      double torque = 0, frequency = 0;
+      std::string state;
+      if (!(words >> torque >> state >> frequency) || !(frequency > 0))
+        fail(Failure::input, published, ": '", line,
+             "' is not a torque in N m, a contact state and a frequency in Hz");
+      printed[{torque, state}] = frequency;
+    }
+  }
+
+  Figure table;
+  table.title = "Natural frequencies by ring-down";
+  const ImpactArtifact& first = impacts[0];
+  table.notes.push_back("Rayleigh damping η = " + shown(first.damping.rayleigh_stiffness * kMicro, 6) +
+                        " µs; " + corner_words(first.mesh.corner));
+  const double ratio = GearPair(first.driver, first.driven, first.mesh.centre_distance).contact_ratio();
+  const double share = ratio - std::floor(ratio);
+  const std::vector<std::string> counts{"one", "two", "three", "four"};
+  const size_t few = static_cast<size_t>(ratio) - 1;
+  if (few + 1 >= counts.size())
+    fail(Failure::input, "table: a contact ratio of ", ratio, "; below ", counts.size(), " is known");
+  table.notes.push_back("phase mean: over the phases of a mesh period; contact ratio mean: " +
+                        fixed(1 - share, 4) + " of it with " + counts[few] + ", " + fixed(share, 4) +
+                        " with " + counts[few + 1] + " pairs, as without load");
+  FigureBlock block{"natural frequencies", {"torque [N m]"}, {}};
+  for (size_t i = 0; i < impacts.size(); ++i) {
+    const ImpactArtifact& a = impacts[i];
+    if (i > 0 && a.torque == impacts[i - 1].torque)
+      fail(Failure::input, "table: two impact.h5 of the same torque, ", torque_words(a.torque),
+           "; give each once");
+    const auto at = [&](const std::string& state) {
+      const auto found = std::find(a.contact_state.begin(), a.contact_state.end(), state);
+      if (found == a.contact_state.end())
+        fail(Failure::input, "table: at ", torque_words(a.torque), " the impact.h5 holds no contact state '",
+             state, "'; with this load no phase has it");
+      return a.natural_frequency[found - a.contact_state.begin()];
+    };
+    const double low = at(counts[few]), high = at(counts[few + 1]);
+    std::vector<double> row{a.torque};
+    for (const auto& [name, state, value] :
+         {std::tuple{counts[few] + (few == 0 ? " pair" : " pairs"), counts[few], low},
+          {counts[few + 1] + " pairs", counts[few + 1], high},
+          {std::string("phase mean"), std::string("mean"), at("mean")},
+          {std::string("contact ratio mean"), std::string("mean"), (1 - share) * low + share * high}}) {
+      if (i == 0) block.columns.push_back(name + " [Hz]");
+      row.push_back(value);
+      if (published.empty()) continue;
+      const auto entry = printed.find({a.torque, state});
+      if (entry == printed.end())
+        fail(Failure::input, published, ": no frequency for ", torque_words(a.torque), ", contact '", state,
+             "'");
+      if (i == 0) {
+        block.columns.push_back(name + ", published [Hz]");
+        block.columns.push_back(name + ", deviation [%]");
+      }
+      row.push_back(entry->second);
+      row.push_back(100 * (value / entry->second - 1));
+    }
+    block.rows.push_back(row);
+  }
+  table.blocks.push_back(block);
+  return table;
+}
+
+std::string natural_frequency_text(const Figure& table) {
+  const FigureBlock& block = table.blocks.at(0);
+  const bool compared = block.columns.size() == 13;
+  std::string out = table.title + "\n";
+  for (const auto& note : table.notes) out += note + "\n";
+  char line[200];
+  std::snprintf(line, sizeof line, "\n%-20s %10s %10s", "contact", "torque N m", "Whine Hz");
+  out += line;
+  if (compared) {
+    std::snprintf(line, sizeof line, " %12s %12s", "published Hz", "deviation %");
+    out += line;
+  }
+  for (size_t c = 1; c < block.columns.size(); c += compared ? 3 : 1)
+    for (const auto& row : block.rows) {
+      const std::string name = block.columns[c].substr(0, block.columns[c].find(" ["));
+      std::snprintf(line, sizeof line, "\n%-20s %10.6g %10.1f", name.c_str(), row[0], row[c]);
+      out += line;
+      if (!compared) continue;
+      std::snprintf(line, sizeof line, " %12.0f %+12.2f", row[c + 1], row[c + 2]);
+      out += line;
+    }
+  return out + "\n";
 }
 
 Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
