@@ -12,6 +12,7 @@ paper := out/$(paper_scene)
 both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))
 
 inputs_fig01 := $(paper)/pinion/mesh.h5 $(paper)/wheel/mesh.h5 $(paper)/T100/static.h5
+inputs_fig03 := $(foreach a,mesh body,$(paper)/pinion/$a.h5 $(paper)/wheel/$a.h5) $(paper)/T150/static.h5
 inputs_fig05 := $(call both_ways,$(paper_scenes),150,response)
 inputs_fig07 := $(call both_ways,$(paper_scenes),100 200 300,response)
 drawn_as_fig07 := fig05
@@ -35,7 +36,7 @@ inputs_table1 := $(foreach t,100 200 300,$(paper)/T$t/impact.h5)
 published_table1 := data/published/parker2000-table1.tsv
 inputs_error-budget := $(paper)/T150/error_budget.h5
 
-paper_figures := fig01 fig05 fig07 fig07-600 fig08 fig09 fig10 fig11 fig12 fig13 fig14-elastic
+paper_figures := fig01 fig03 fig05 fig07 fig07-600 fig08 fig09 fig10 fig11 fig12 fig13 fig14-elastic
 figures := $(paper_figures) error-budget
 figure_inputs := $(sort $(foreach f,$(figures) table1,$(inputs_$f)))
 
@@ -58,6 +59,7 @@ out/figures/table1.tsv out/figures/table1.txt &: $(inputs_table1) $(published_ta
 .PHONY: figures $(figures) table1
 figures: $(paper_figures) table1 ## all figures and tables of the paper that are there so far
 fig01: ## the finite element mesh of the pair
+fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m
 fig05: ## RMS of the dynamic transmission error against mesh frequency, speed up and down, 150 N m
 fig07: ## the same at 100, 200 and 300 N m
 fig07-600: ## the same at 300 and 600 N m

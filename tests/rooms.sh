@@ -9,7 +9,7 @@ declare -A below=(
   [contact]="base files gear solid contact"
   [motion]="base files gear solid contact signal motion"
   [signal]="base files signal"
-  [plot]="base files gear signal plot"
+  [plot]="base files gear solid contact signal motion plot"
 )
 faults=$(for file in common/*/*.h common/*/*.cpp; do
   room=$(basename "$(dirname "$file")")

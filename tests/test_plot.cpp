@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "paper_pair.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
 #include "plot/wireframe.h"
@@ -203,15 +204,15 @@ TEST_CASE(
     "response figure: order of the inputs does not matter, the pen lifts at a jump, the arrow follows the "
     "march") {
   const ResponseArtifact up = some_response("up"), down = some_response("down");
-  const Figure figure = response_figure(down, up);
-  CHECK(tsv(figure, {}) == tsv(response_figure(up, down), {}));
-  const auto& rows = block(figure, "up").rows;
+  const Figure figure = response_figure({down, up});
+  CHECK(tsv(figure, {}) == tsv(response_figure({up, down}), {}));
+  const auto& rows = block(figure, "a 150 N m up").rows;
   REQUIRE(rows.size() == 6);
   CHECK(rows[2][0] == 2200);
   CHECK(rows[3].empty());  // between 2200 and 2300 Hz
   CHECK(rows[4][0] == 2300);
   CHECK(rows[4][1] == relative(4.0, 1e-14));
-  const auto& jump = block(figure, "jumps down").rows.at(0);
+  const auto& jump = block(figure, "a 150 N m jumps down").rows.at(0);
   CHECK(jump[0] == 2250);
   CHECK(jump[1] == relative(2.0, 1e-14));  // falling: 2300 Hz first
   CHECK(jump[2] == relative(3.0, 1e-14));
@@ -223,7 +224,7 @@ TEST_CASE(
   const auto refused = [](auto change) {
     ResponseArtifact up = some_response("up"), down = some_response("down");
     change(up, down);
-    return failure_of([&] { response_figure(up, down); }) == Failure::input;
+    return failure_of([&] { response_figure({up, down}); }) == Failure::input;
   };
   using R = ResponseArtifact;
   CHECK_FALSE(refused([](R&, R&) {}));
@@ -232,6 +233,262 @@ TEST_CASE(
   CHECK(refused([](R& up, R&) { up.damping.rayleigh_stiffness = 1e-6; }));
   CHECK(refused([](R& up, R&) { up.mesh.corner.enabled = false; }));
   CHECK(refused([](R& up, R&) { up.jump_frequency[0] = 5000; }));
+}
+
+TEST_CASE(
+    "response figure: a panel for each set of choices, a curve for each torque, numbers as in the "
+    "artifacts") {
+  std::vector<ResponseArtifact> sweeps;
+  for (double eta : {7.7e-6, 4e-6})
+    for (double torque : {300.0, 100.0})
+      for (const char* direction : {"up", "down"}) {
+        sweeps.push_back(some_response(direction));
+        sweeps.back().torque = torque;
+        sweeps.back().damping.rayleigh_stiffness = eta;
+        sweeps.back().dte_mean *= torque * eta;
+      }
+  const Figure figure = response_figure(sweeps);
+  CHECK(figure.title == "Dynamic transmission error against mesh frequency, 100, 300 N m");
+  CHECK(figure.notes[1].find("(a) Rayleigh damping η = 7.7 µs") == 0);
+  CHECK(figure.notes[2].find("(b) Rayleigh damping η = 4 µs") == 0);
+  const auto& row = block(figure, "b 100 N m down").rows[0];
+  CHECK(row[0] == 2400);
+  CHECK(row[1] == relative(1.0, 1e-14));
+  CHECK(row[2] == relative(100 * 4e-6 * 1e6, 1e-14));
+  for (const auto& [name, value] : figure.words) {
+    if (name == "labels_a") CHECK(value == "'100 N m' '300 N m' ");
+    if (name == "jump_labels_b")
+      CHECK(value ==
+            "'100 N m: jumps rising 2250, falling 2250 Hz' '300 N m: jumps rising 2250, falling 2250 Hz' ");
+  }
+  sweeps.pop_back();
+  CHECK(failure_of([&] { response_figure(sweeps); }) == Failure::input);
+  sweeps.push_back(sweeps[2]);
+  CHECK(failure_of([&] { response_figure(sweeps); }) == Failure::input);
+  CHECK(failure_of([] { response_figure({}); }) == Failure::input);
+}
+
+TEST_CASE("response figure: a curve stops where the sweep left its branch, steps before the branch ends") {
+  ResponseArtifact up = some_response("up"), down = some_response("down");
+  // falling from 2400 Hz: off the branch after 2300, which ends at 2050 Hz
+  down.dte_rms << 5e-6, 6e-6, 1e-6, 1.1e-6, 1.2e-6;
+  down.jump_frequency[0] = 2050;
+  up.jump_frequency.resize(0);
+  up.jump_width.resize(0);
+  const Figure figure = response_figure({up, down});
+  const auto& rows = block(figure, "a 150 N m down").rows;
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[1][0] == 2300);
+  CHECK(rows[2].empty());
+  const auto& jump = block(figure, "a 150 N m jumps down").rows.at(0);
+  CHECK(jump[0] == 2050);
+  CHECK(jump[1] == relative(6.0, 1e-14));
+  CHECK(jump[2] == relative(1.15, 1e-14));  // midway between 2100 and 2000 Hz
+  CHECK(jump[7] == 2300);
+  CHECK(block(figure, "a 150 N m jumps up").rows.empty());
+}
+
+// Sweep at 1000 and 1100 Hz; at 1100 Hz both directions are alike, at 1000 Hz the falling one is `factor` times as large.
+// A tooth carries load(its own phase), of period `multiple` in its amplitude.
+SweepArtifact some_sweep(const std::string& direction, double factor, int multiple = 1) {
+  constexpr int n = 64;
+  SweepArtifact s;
+  s.driver = s.driven = standard_gear();
+  s.mesh.centre_distance = 0.15;
+  s.torque = 150;
+  s.direction = direction;
+  s.time.steps_per_period = n;
+  s.mesh_frequency = Eigen::Vector2d(1000, 1100);
+  if (direction == "down") s.mesh_frequency.reverseInPlace();
+  s.period_multiple = Eigen::Vector2i::Constant(multiple);
+  s.transmission_error.resize(2, n * multiple);
+  s.mesh_force.resize(2, n * multiple);
+  s.pair = Eigen::Vector3i(-1, 0, 1);
+  for (int f = 0; f < 2; ++f) {
+    const double size = direction == "down" && s.mesh_frequency[f] == 1000 ? factor : 1.0;
+    MatrixRM load(n * multiple, 3);
+    for (int k = 0; k < n * multiple; ++k) {
+      const double phase = static_cast<double>(k) / n;
+      s.transmission_error(f, k) =
+          4e-6 + size * 1e-6 *
+                     (std::cos(2 * kPi * phase) + 0.25 * std::sin(4 * kPi * phase) +
+                      (multiple > 1 ? 0.5 * std::cos(2 * kPi * phase / multiple) : 0.0));
+      for (int j = -1; j <= 1; ++j) {
+        const double own = phase - std::floor(phase) + j;
+        load(k, j + 1) = std::abs(own) < 0.4 ? size * 1000 * (1 + own) : 0.0;
+      }
+      s.mesh_force(f, k) = load.row(k).sum();
+    }
+    s.tooth_load.push_back(load);
+  }
+  return s;
+}
+
+std::string word_of(const Figure& figure, const std::string& name) {
+  for (const auto& [key, value] : figure.words)
+    if (key == name) return value;
+  return "";
+}
+
+TEST_CASE("branches at one speed: two columns where up and down differ, one that says so where they agree") {
+  const std::vector<SweepArtifact> sweeps{some_sweep("up", 3), some_sweep("down", 3)};
+  const Figure two = vibration_figure(sweeps, 1000);
+  CHECK(word_of(two, "title_a").find("upper branch, speed falling") != std::string::npos);
+  CHECK(word_of(two, "title_b").find("lower branch, speed rising") != std::string::npos);
+  const auto& rows = block(two, "a history").rows;
+  REQUIRE(rows.size() == 3 * 64 + 1);
+  CHECK(rows.back()[0] == relative(3.0, 1e-14));  // ms
+  for (int k : {0, 5, 70, 192})
+    CHECK(std::abs(rows[k][1] - 3 * (std::cos(2 * kPi * k / 64) + 0.25 * std::sin(4 * kPi * k / 64))) <
+          1e-12);
+  const auto& lines = block(two, "b spectrum").rows;
+  REQUIRE(lines.size() == 10);
+  CHECK(lines[0][1] == relative(1.0, 1e-12));
+  CHECK(lines[1][0] == 2000);
+  CHECK(lines[1][1] == relative(0.25, 1e-12));
+  CHECK(std::abs(lines[2][1]) < 1e-12);
+  // 1 / (1 + 0.25^2) of the square at the mesh frequency
+  CHECK(word_of(two, "result_a").find("94.1 % of its square at 1 × mesh frequency") != std::string::npos);
+
+  const Figure one = vibration_figure(sweeps, 1100);
+  CHECK(word_of(one, "title_a").find("no second branch") != std::string::npos);
+  CHECK(word_of(one, "title_b").empty());
+  CHECK(failure_of([&] { vibration_figure(sweeps, 1050); }) == Failure::input);
+  CHECK(failure_of([&] { vibration_figure({sweeps[0]}, 1000); }) == Failure::input);
+  CHECK(failure_of([&] { tooth_load_figure({}, 1000); }) == Failure::input);
+
+  // the orbit of a subharmonic is drawn whole, its lines stand between the harmonics
+  const Figure sub = vibration_figure({some_sweep("up", 1, 4), some_sweep("down", 1, 4)}, 1000);
+  CHECK(block(sub, "a history").rows.size() == 4 * 64 + 1);
+  CHECK(block(sub, "a spectrum").rows[0][0] == 250);
+  CHECK(block(sub, "a spectrum").rows[0][1] == relative(0.5, 1e-12));
+}
+
+TEST_CASE(
+    "tooth loads: every tooth keeps its own load from period to period, loss of contact where no tooth "
+    "carries") {
+  const Figure figure = tooth_load_figure({some_sweep("up", 3), some_sweep("down", 3)}, 1000);
+  for (int t : {-1, 0, 1, 2}) {
+    CAPTURE(t);
+    const auto& rows = block(figure, text("a tooth i", t < 0 ? "" : "+", t)).rows;
+    CHECK(rows.size() > 20);
+    for (const auto& row : rows) {
+      if (row.empty()) continue;
+      const double own = row[0] - t;
+      CHECK(std::abs(row[1] - (std::abs(own) < 0.4 ? 3000 * (1 + own) : 0.0)) < 1e-9);
+    }
+  }
+  // none within 0.4 of a pitch point: samples 26 to 38 of 64
+  const auto& lost = block(figure, "a contact lost").rows;
+  REQUIRE(lost.size() == 3);
+  CHECK(lost[1][0] == relative(26.0 / 64, 1e-14));
+  CHECK(lost[1][1] == relative(38.0 / 64, 1e-14));
+  CHECK(word_of(figure, "result_a").find("contact lost 1 time a mesh period, for 20.3 % of it") !=
+        std::string::npos);
+}
+
+TEST_CASE("tooth loads of rolling gears pass from period to period without a step") {
+  const BodyArtifact& body = paper_body();
+  const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
+  std::vector<SweepArtifact> sweeps;
+  for (const char* direction : {"up", "down"})
+    sweeps.push_back(sweep(body, body, statics, statics.mean_stiffness, paper_sweep(2400, 2400, 20),
+                           direction, no_report));
+  const Figure figure = tooth_load_figure(sweeps, 2400);
+  std::vector<std::vector<double>> rows;
+  for (const auto& row : block(figure, "a tooth i+0").rows)
+    if (!row.empty()) rows.push_back(row);
+  double largest = 0, step = 1e9;
+  for (size_t k = 1; k < rows.size(); ++k) {
+    largest = std::max(largest, rows[k][1]);
+    if (rows[k][0] == 0) step = std::abs(rows[k][1] - rows[k - 1][1]);
+  }
+  CHECK(rows.front()[0] < -0.8);
+  CHECK(rows.back()[0] > 0.8);
+  CHECK(largest == relative(sweeps[0].tooth_load[0].maxCoeff(), 1e-14));
+  CHECK(step < 0.02 * largest);
+}
+
+TEST_CASE(
+    "contact zone: complementary, the force of the static stage, points of the flanks, Hertz's pressure") {
+  const BodyArtifact& body = paper_body();
+  const StaticArtifact statics = static_transmission(body, body, paper_statics(8), 150);
+  const ContactZone zone = contact_zone(body, body, statics);
+  CHECK(zone.force.sum() == relative(statics.tooth_load(0, 1), 1e-9));
+  CHECK(zone.approach == relative(statics.transmission_error[0], 1e-9));
+  CHECK(zone.force.minCoeff() >= 0);
+  for (int i = 0; i < zone.strips.size(); ++i) {
+    CHECK(zone.separation[i] > -1e-15);
+    if (zone.force[i] > 0) CHECK(std::abs(zone.separation[i]) < 1e-14);
+  }
+  MeshArtifact mesh = make_sector_mesh(body.design, body.discretisation);
+  const Figure figure = contact_zone_figure(mesh, mesh, statics, zone);
+  const GearPair pair(statics.driver, statics.driven, 0.15);
+  const auto& rows = block(figure, "candidate pairs").rows;
+  REQUIRE(rows.size() == static_cast<size_t>(zone.strips.size()));
+  double force = 0, most = 0;
+  for (const auto& row : rows) {
+    CHECK(std::abs(row[2] - row[1] - pair.gap_at(zone.strips.contact, row[0] * 1e-3).gap * 1e6) < 1e-6);
+    force += row[7] * 1e6 * (row[4] - row[3]) * 1e-3 * 25.4e-3;
+    most = std::max(most, row[7]);
+  }
+  CHECK(force == relative(150 / pair.gear(0).base_radius(), 1e-9));
+  double hertz = 0;
+  for (const auto& row : block(figure, "Hertz").rows) hertz = std::max(hertz, row[1]);
+  CHECK(most == relative(hertz, 0.01));
+  CHECK(block(figure, "driver inner region").rows.size() > 100);
+  mesh.design.bore_radius = 0.03;
+  CHECK(failure_of([&] { contact_zone_figure(mesh, mesh, statics, zone); }) == Failure::input);
+}
+
+ImpactArtifact some_impact(double torque) {
+  ImpactArtifact a;
+  a.driver = a.driven = standard_gear();
+  a.mesh.centre_distance = 0.15;
+  a.torque = torque;
+  a.contact_state = {"one", "two", "mean"};
+  a.natural_frequency = Eigen::Vector3d(2500, 3000, 2940) + Eigen::Vector3d::Constant(torque);
+  return a;
+}
+
+TEST_CASE("table of natural frequencies: both means, deviations from what is published, torques ascend") {
+  const auto folder = std::filesystem::temp_directory_path() / text("whine-table-", getpid());
+  std::filesystem::create_directories(folder);
+  const std::string file = folder / "published.tsv", broken = folder / "broken.tsv";
+  std::ofstream(file) << "# a comment\n100\tone\t2600\n100\ttwo\t3000\n100\tmean\t2900\n"
+                         "200\tone\t2700\n200\ttwo\t3200\n200\tmean\t3000\n";
+  std::ofstream(broken) << "100\tone\tfast\n";
+  const Figure table = natural_frequency_table({some_impact(200), some_impact(100)}, file);
+  const auto& rows = table.blocks.at(0).rows;
+  REQUIRE(rows.size() == 2);
+  REQUIRE(rows[0].size() == 13);
+  CHECK(rows[0][0] == 100);
+  CHECK(rows[0][1] == 2600);
+  CHECK(std::abs(rows[0][3]) < 1e-12);
+  CHECK(rows[0][6] == relative(100.0 * (3100.0 / 3000 - 1), 1e-12));
+  CHECK(rows[1][7] == 3140);
+  const double ratio = GearPair(standard_gear(), standard_gear(), 0.15).contact_ratio();
+  CHECK(rows[1][10] == relative(2700 + (ratio - 1) * 500, 1e-12));
+  const std::string words = natural_frequency_text(table);
+  CHECK(words.find("two pairs                   100     3100.0         3000        +3.33\n") !=
+        std::string::npos);
+
+  CHECK(natural_frequency_table({some_impact(100)}, "").blocks[0].rows[0].size() == 5);
+  CHECK(natural_frequency_text(natural_frequency_table({some_impact(100)}, "")).find("published") ==
+        std::string::npos);
+  CHECK(failure_of([] { natural_frequency_table({}, ""); }) == Failure::input);
+  CHECK(failure_of([] {
+          natural_frequency_table({some_impact(100), some_impact(100)}, "");
+        }) == Failure::input);
+  CHECK(failure_of([&] { natural_frequency_table({some_impact(300)}, file); }) == Failure::input);
+  CHECK(failure_of([&] { natural_frequency_table({some_impact(100)}, broken); }) == Failure::input);
+  CHECK(failure_of([&] { natural_frequency_table({some_impact(100)}, folder / "none"); }) == Failure::io);
+  CHECK(failure_of([] {
+          ImpactArtifact a = some_impact(100);
+          a.contact_state[0] = "two";
+          natural_frequency_table({a}, "");
+        }) == Failure::input);
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("error budget: choices stand apart from the errors and in no sum") {

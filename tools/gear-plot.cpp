@@ -1,6 +1,7 @@
 // gear-plot: a figure of the paper as numbers and as pictures.
 //
 // Reads      fig01    mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5
+//            fig03    mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5
 //            fig05    response.h5 of sweeps up and down, any torques and choices; a panel for each set of choices
 //            fig14-elastic    the same
 //            fig08, fig10    sweep.h5 of sweeps up and down of one torque, any choices
@@ -11,6 +12,7 @@
 //            <plots>/<figure>.gp, the template
 // Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all
 //            fig01    the finite element mesh
+//            fig03    the contact zone: candidate pairs, inner and outer region, pressure
 //            fig05    RMS of the dynamic transmission error against mesh frequency
 //            fig14-elastic    RMS and mean of the same
 //            fig08    oscillating dynamic transmission error over time and its spectrum, both branches at one speed
@@ -54,6 +56,14 @@ whine::Figure figure_of(const std::string& name, const std::vector<std::string>&
     return whine::mesh_figure(whine::read_mesh(inputs[0]), whine::read_mesh(inputs[1]),
                               whine::read_static(inputs[2]));
   }
+  if (name == "fig03") {
+    require_inputs(name, inputs, 5,
+                   "mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5");
+    const whine::StaticArtifact pair = whine::read_static(inputs[4]);
+    return whine::contact_zone_figure(
+        whine::read_mesh(inputs[0]), whine::read_mesh(inputs[1]), pair,
+        whine::contact_zone(whine::read_body(inputs[2]), whine::read_body(inputs[3]), pair));
+  }
   if (name == "fig05" || name == "fig14-elastic")
     return whine::response_figure(read_all(inputs, whine::read_response));
   if (name == "fig08" || name == "fig10") {
@@ -68,8 +78,9 @@ whine::Figure figure_of(const std::string& name, const std::vector<std::string>&
     return whine::error_budget_figure(whine::read_error_budget(inputs[0]));
   }
   if (name != "fig12" && name != "fig13")
-    whine::fail(whine::Failure::usage, "unknown figure '", name,
-                "'; known are fig01, fig05, fig08, fig10, fig12, fig13, fig14-elastic, error-budget, table1");
+    whine::fail(
+        whine::Failure::usage, "unknown figure '", name,
+        "'; known are fig01, fig03, fig05, fig08, fig10, fig12, fig13, fig14-elastic, error-budget, table1");
   const std::vector<whine::StaticArtifact> statics = read_all(inputs, whine::read_static);
   return name == "fig12" ? whine::transmission_error_figure(statics) : whine::mesh_stiffness_figure(statics);
 }
@@ -86,7 +97,7 @@ void body(int argc, char** argv) {
   std::vector<std::string> inputs;
   double mesh_frequency = 0;
   app.add_option("figure", name,
-                 "fig01, fig05, fig08, fig10, fig12, fig13, fig14-elastic, error-budget or table1")
+                 "fig01, fig03, fig05, fig08, fig10, fig12, fig13, fig14-elastic, error-budget or table1")
       ->required();
   app.add_option("inputs", inputs, "artifacts, see above")->required();
   app.add_option("--output", output, "path of the results without extension")->required();

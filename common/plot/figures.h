@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/schemas.h"
+#include "motion/statics.h"
 
 namespace whine {
 
@@ -31,6 +32,13 @@ struct Figure {
 // driven gear's above it at the centre distance, both unloaded and turned to mesh phase 0: the reference pair
 // touches at the pitch point. Throws Error(input) if the meshes are not those of the static artifact's gears.
 Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& pair);
+
+// The contact zone of the reference pair at mesh phase 0: the teeth with the region in which the half-plane joins the finite
+// elements, the window of strips with a candidate pair of points in the middle of each (P on the driver, G on the driven gear)
+// on the unloaded flanks, and pressure and separation under load. Lengths along the flank grow to the driver's tip. Throws
+// Error(input) as mesh_figure.
+Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& pair,
+                           const ContactZone& zone);
 
 // RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
 // choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending).
