@@ -57,7 +57,7 @@ out/figures/table1.tsv out/figures/table1.txt &: $(inputs_table1) $(published_ta
 	$(B)/bin/gear-plot table1 --published $(published_table1) --output out/figures/table1 $(inputs_table1)
 
 .PHONY: figures $(figures) table1
-figures: $(paper_figures) table1 ## all figures and tables of the paper that are there so far
+figures: $(paper_figures) out/figures/table1.txt ## all figures and tables of the paper that are there so far
 fig01: ## the finite element mesh of the pair
 fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m
 fig05: ## RMS of the dynamic transmission error against mesh frequency, speed up and down, 150 N m
