@@ -9,7 +9,6 @@ set datafile commentschars "#"
 up_colour = "#1f4e9c"
 down_colour = "#c8201e"
 array torque_colour[6] = ["#1f4e9c", "#c8201e", "#1a7f37", "#8a4fbf", "#b06a00", "#444444"]
-array torque_word[6] = ["blue", "red", "green", "purple", "brown", "grey"]
 grey = "#9a9a9a"
 letters = "a b c d e f g h"
 of(name, letter) = value(name . "_" . letter)
@@ -37,10 +36,10 @@ up_tone = one ? up_colour : "black"
 down_tone = one ? down_colour : "black"
 lost = 0
 do for [p = 1:panels] { lost = lost + of("contact_lost", word(letters, p)) }
-set label 101 "▲ speed rising" at screen 0.16, screen 26 / height tc rgb up_tone
-set label 102 "▽ speed falling" at screen 0.31, screen 26 / height tc rgb down_tone
-set label 103 "dashed: jump" at screen 0.47, screen 26 / height tc rgb "black"
-if (lost > 0) { set label 104 "■ at the foot: speeds at which contact is lost" at screen 0.60, screen 26 / height tc rgb "black" }
+set label 101 "▲ speed rising" at screen 0.06, screen 26 / height tc rgb up_tone
+set label 102 "▽ speed falling" at screen 0.205, screen 26 / height tc rgb down_tone
+set label 103 "dashed: jump; dots: on to the end of the branch" at screen 0.37, screen 26 / height tc rgb "black"
+if (lost > 0) { set label 104 "■ at the foot: contact is lost" at screen 0.752, screen 26 / height tc rgb "black" }
 
 set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
 panel_height = (height - 140) / panels
@@ -90,7 +89,7 @@ do for [p = 1:panels] {
     . ' size screen 0.008, 24 fixed lt 1 lw 2.4 lc rgb "%s" notitle, ', \
     letter, word(of("labels", letter), i), direction, colour(i, direction))
   # With one torque the frequency stands on a leader up to the top, those of neighbours in several rows.
-  label_y(row) = top * (0.99 - 0.20 * row)
+  label_y(row) = top * (0.99 - (panels > 1 ? 0.26 : 0.20) * row)
   named(i, direction, shift) = sprintf('"" index "[%s %s jumps %s]" using 1:(larger($2, $3)):(0):(label_y($5) - larger($2, $3))' \
     . ' with vectors nohead lt 1 lw 1.2 dt (6, 8) lc rgb "%s" notitle, "" index "[%s %s jumps %s]"' \
     . ' using 1:(label_y($5)):(sprintf("jump %%.0f Hz", $1)) with labels rotate by 90 right offset %s font ",15" tc rgb "%s" notitle, ', \

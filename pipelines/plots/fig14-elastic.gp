@@ -16,7 +16,7 @@ set ytics out nomirror
 set mytics 2
 set grid xtics ytics lt 1 lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
-set label 101 "▲ speed rising      ▽ speed falling      dashed: jump" at screen 0.5, screen 26 / height center
+set label 101 "▲ speed rising      ▽ speed falling      dashed: jump; dots: on to the end of the branch" at screen 0.5, screen 26 / height center
 set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
 panel_height = (height - 140) / panels
 do for [p = 1:panels] {
