@@ -1,57 +1,109 @@
-# Figures: of the paper's scene in out/figures/, of SCENE in out/<scene>/report/; a report by its path is of any scene.
+# Figures and tables: the paper's in out/figures/, those of SCENE in out/<scene>/report/; a report by its path is of any scene.
 #
-# A new figure is a line of inputs, one of the paper's torques, a gnuplot template pipelines/plots/figNN.gp and a target
-# with its line of help.
+# A new figure is a line of inputs, the paper's torques, a gnuplot template pipelines/plots/figNN.gp, a name in the list of
+# figures and a target with its line of help. Figures of one kind share a template: drawn_as_figNN names it.
+# options_figNN: operating points, in words of gear-plot.
 
 paper_scene := parker2000
+calibrated_scene := parker2000-calibrated
+paper_scenes := $(paper_scene) $(calibrated_scene)
 
-# inputs_<figure>: $1 scene, $2 torques. What is drawn at one torque takes the first, curves one each; six can be told apart.
-inputs_fig01 = $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/$1/$g/mesh.h5) out/$1/T$(firstword $2)/static.h5
-inputs_fig05 = $(foreach d,up down,out/$1/T$(firstword $2)/$d/response.h5)
-inputs_fig12 = $(foreach t,$(wordlist 1,6,$2),out/$1/T$t/static.h5)
+# $(call both_ways,scenes,torques,artifact): sweeps up and down
+both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))
+# $(call of_gears,scene,artifact): of driver and driven gear
+of_gears = $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/$1/$g/$2.h5)
+# $(call each,torques): those that get a curve each; six can be told apart
+each = $(wordlist 1,6,$1)
+
+# inputs_<figure>: $1 scenes, $2 torques. What is drawn at one torque takes the first.
+inputs_fig01 = $(call of_gears,$1,mesh) out/$1/T$(firstword $2)/static.h5
+inputs_fig03 = $(call of_gears,$1,mesh) $(call of_gears,$1,body) out/$1/T$(firstword $2)/static.h5
+inputs_fig05 = $(call both_ways,$1,$(firstword $2),response)
+inputs_fig07 = $(call both_ways,$1,$(call each,$2),response)
+inputs_fig07-600 = $(inputs_fig07)
+inputs_fig08 = $(call both_ways,$1,$(firstword $2),sweep)
+inputs_fig09 = $(inputs_fig08)
+inputs_fig10 = $(inputs_fig08)
+inputs_fig11 = $(inputs_fig08)
+inputs_fig12 = $(foreach t,$(call each,$2),out/$1/T$t/static.h5)
 inputs_fig13 = $(inputs_fig12)
-inputs_fig14 = $(foreach t,$(wordlist 1,6,$2),$(foreach d,up down,out/$1/T$t/rectangular/$d/response.h5))
+inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,response))
+inputs_fig14-elastic = $(inputs_fig07)
 inputs_fig15 = $(foreach m,rectangular-fig15 rectangular,out/$1/T$(firstword $2)/$m/down/sweep.h5)
-inputs_fig16 = $(foreach t,$(wordlist 1,6,$2),$(foreach d,up down,out/$1/T$t/secant/$d/response.h5))
+inputs_fig16 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/secant,response))
 inputs_error-budget = out/$1/T$(firstword $2)/error_budget.h5
+inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
-paper_torques_fig01 := 100
-paper_torques_fig05 := 150
-paper_torques_fig12 := 100 200 300
-paper_torques_fig13 := 100 200 300
-paper_torques_fig14 := 100 200 300
-paper_torques_fig15 := 150
-paper_torques_fig16 := 100 200 300
-paper_torques_error-budget := 150
+drawn_as = $(or $(drawn_as_$1),$1)
+drawn_as_fig07 := fig05
+drawn_as_fig07-600 := fig05
+drawn_as_fig09 := fig08
+drawn_as_fig11 := fig10
+drawn_as_fig14 := fig16
 
-paper_figures := fig01 fig05 fig12 fig13 fig14 fig15 fig16
+$(foreach f,fig08 fig10,$(eval options_$f := --mesh-frequency 2400))
+$(foreach f,fig09 fig11,$(eval options_$f := --mesh-frequency 1300))
+
+# Where the paper's figures show motions they show them as printed and calibrated; branches at a speed are first those of
+# the scene that has two of them.
+$(foreach f,fig05 fig07 fig07-600 fig14-elastic,$(eval paper_scenes_$f := $(paper_scenes)))
+$(foreach f,fig08 fig09 fig10 fig11,$(eval paper_scenes_$f := $(calibrated_scene) $(paper_scene)))
+$(foreach f,fig03 fig05 fig08 fig09 fig10 fig11 fig15 error-budget,$(eval paper_torques_$f := 150))
+$(foreach f,fig01 fig07 fig12 fig13 fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
+paper_torques_fig07-600 := 300 600
+published_table1 := data/published/parker2000-table1.tsv
+
+report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
+# at the paper's own speeds, torques or levels
+paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
+paper_figures := $(sort $(report_figures) $(paper_only))
 figures := $(paper_figures) error-budget
-inputs_of_paper = $(call inputs_$1,$(paper_scene),$(paper_torques_$1))
-figure_inputs = $(foreach f,$(figures),$(call inputs_of_paper,$f))
+inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
+figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f))
+
+$(if $(SCENE),$(foreach f,$(filter $(paper_only),$(goals)),\
+  $(error $f shows the paper at speeds, torques or levels of its own; for SCENE there are $(report_figures) error-budget table1)))
 
 define figure_rule # figure, path without extension, inputs, what else it depends on
-$2.tsv $2.svg $2.png &: $3 $4 pipelines/plots/$1.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
-	$(B)/bin/gear-plot $1 --output $2 $3
+$2.tsv $2.svg $2.png &: $3 $4 pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $3
+endef
+
+define table_rule # path without extension, inputs, published values, what else it depends on
+$1.tsv $1.txt &: $2 $3 $4 $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+	$(B)/bin/gear-plot table1 $(if $3,--published $3) --output $1 $2
 endef
 
 # The fragment of a scene says its torques: a report depends on the list, too, not only on what stands at each.
 define figure_rules # scene; needs its fragment
-$(foreach f,$(figures),\
-  $(if $(filter $(paper_scene),$1),$(eval $(call figure_rule,$f,out/figures/$f,$(call inputs_of_paper,$f)))) \
+$(if $(filter $(paper_scene),$1),\
+  $(foreach f,$(figures),$(eval $(call figure_rule,$f,out/figures/$f,$(call inputs_of_paper,$f)))) \
+  $(eval $(call table_rule,out/figures/table1,$(call inputs_of_paper,table1),$(published_table1))))
+$(foreach f,$(report_figures) error-budget,\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
+$(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef
 
-# fig14 is drawn as fig16 is.
-$(addprefix out/figures/fig14.,tsv svg png): pipelines/plots/fig16.gp
+figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/figures)
 
-.PHONY: figures $(figures)
-$(figures): %: $$(foreach e,tsv svg png,$$(if $$(SCENE),out/$$(own_scene)/report,out/figures)/%.$$e)
-figures: $(paper_figures) ## all figures of the paper that are there so far, or all of SCENE
+.PHONY: figures $(figures) table1
+$(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
+figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
+fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m (SCENE: its first torque)
 fig05: ## RMS of the dynamic transmission error against mesh frequency, speed up and down, 150 N m (SCENE: its first torque)
+fig07: ## the same at 100, 200 and 300 N m (SCENE: its torques)
+fig07-600: ## the same at 300 and 600 N m
+fig08: ## dynamic transmission error over time and its spectrum, both branches at 2400 Hz, 150 N m
+fig09: ## the same at 1300 Hz
+fig10: ## tooth loads over the mesh phase, both branches at 2400 Hz, 150 N m
+fig11: ## the same at 1300 Hz
 fig12: ## static transmission error over a mesh period and its spectrum
 fig13: ## mesh stiffness over a mesh period and its spectrum
 fig14: ## lumped model, rectangular stiffness: RMS and mean of the transmission error against mesh frequency
+fig14-elastic: ## the same of the elastic pair at 100, 200 and 300 N m (SCENE: its torques)
 fig15: ## lumped model, rectangular stiffness: net mesh force on the upper and the lower branch, 150 N m
 fig16: ## lumped model, stiffness of the statics at each torque: RMS and mean of the transmission error
+table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 200 and 300 N m beside those of the paper (SCENE: its torques)
+	@cat $<
 error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m (SCENE: its first torque)

@@ -320,7 +320,7 @@ refused "a slice in place of a scene" 3 'is a slice, .* give the scene itself' "
 refused "a body's slice in place of a scene" 3 'is a slice, .* give the scene itself' "$bin/gear-scene" --scene out/scene/pinion/body.toml --output x.mk --out x
 if grep -h corner_contact out/scene/params/*.toml | grep -q '#'; then wrong "a slice gives no unit to true" "$(grep corner_contact out/scene/params/*.toml)"; else
   ok "a slice gives no unit to true"; fi
-if "$bin/gear-plot" --help | grep -q 'see above' || ! "$bin/gear-plot" --help | tr -s ' \n' ' ' | grep -q 'fig05: response.h5 up and down'; then wrong "gear-plot --help says what each figure takes" ""; else
+if "$bin/gear-plot" --help | grep -q 'see above' || ! "$bin/gear-plot" --help | tr -s ' \n' ' ' | grep -q 'From response.h5 of sweeps up and down'; then wrong "gear-plot --help says what each figure takes" ""; else
   ok "gear-plot --help says what each figure takes"; fi
 # On a terminal the search of a calibration shows that it is at work.
 if command -v script > /dev/null; then

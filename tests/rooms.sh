@@ -10,7 +10,7 @@ declare -A below=(
   [motion]="base files gear solid contact signal motion"
   [signal]="base files signal"
   [lumped]="base files gear signal lumped"
-  [plot]="base files gear signal lumped plot"
+  [plot]="base files gear solid contact signal lumped motion plot"
 )
 faults=$(for file in common/*/*.h common/*/*.cpp; do
   room=$(basename "$(dirname "$file")")

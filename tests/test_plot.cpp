@@ -1,0 +1,580 @@
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "gear/pair.h"
+#include "paper_pair.h"
+#include "plot/figures.h"
+#include "plot/gnuplot.h"
+#include "plot/wireframe.h"
+#include "relative.h"
+#include "signal/spectrum.h"
+
+using namespace whine;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Failure failure_of(const auto& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    return e.kind();
+  }
+  return static_cast<Failure>(0);
+}
+
+GearDesign standard_gear() {
+  GearDesign g;
+  g.teeth = 50;
+  g.module = 3e-3;
+  g.pressure_angle = 20.0 * kPi / 180.0;
+  g.rack_tip_radius = 0.38;
+  g.face_width = 25.4e-3;
+  g.bore_radius = 40e-3;
+  return g;
+}
+
+// Two levels with rounded steps; what a static stage would give, near enough for the drawing.
+StaticArtifact some_static(double torque) {
+  StaticArtifact s;
+  s.driver = s.driven = standard_gear();
+  s.mesh.centre_distance = 0.15;
+  s.torque = torque;
+  s.contact_ratio = 1.7547;
+  const int n = 128;
+  s.mesh_phase.resize(n);
+  s.stiffness_secant.resize(n);
+  s.transmission_error.resize(n);
+  for (int i = 0; i < n; ++i) {
+    s.mesh_phase[i] = static_cast<double>(i) / n;
+    const double c = -std::cos(2 * kPi * s.mesh_phase[i]);
+    s.stiffness_secant[i] = 450e6 + 80e6 * c + torque * 1e4;
+    s.transmission_error[i] = torque / 0.0704769 / s.stiffness_secant[i];
+  }
+  const Harmonics k = harmonics(s.stiffness_secant, 10), x = harmonics(s.transmission_error, 10);
+  s.stiffness_harmonic.resize(11);
+  s.stiffness_harmonic << k.mean, k.amplitude;
+  s.transmission_error_harmonic.resize(11);
+  s.transmission_error_harmonic << x.mean, x.amplitude;
+  s.mean_stiffness = k.mean;
+  return s;
+}
+
+ResponseArtifact some_response(const std::string& direction) {
+  ResponseArtifact r;
+  r.torque = 150;
+  r.direction = direction;
+  r.model = "finite elements";
+  r.natural_frequency = 2900;
+  const int n = 5;
+  r.mesh_frequency = Eigen::VectorXd::LinSpaced(n, 2000, 2400);
+  if (direction == "down") r.mesh_frequency.reverseInPlace();
+  r.dte_rms = Eigen::VectorXd::LinSpaced(n, 1e-6, 5e-6);
+  r.dte_mean = r.tooth_load_max = r.mesh_force_max = Eigen::VectorXd::Ones(n);
+  r.separation_fraction = r.separations_per_period = Eigen::VectorXd::Zero(n);
+  r.period_multiple = Eigen::VectorXi::Ones(n);
+  r.jump_frequency = Eigen::VectorXd::Constant(1, 2250.0);
+  r.jump_width = Eigen::VectorXd::Constant(1, 1.0);
+  return r;
+}
+
+const FigureBlock& block(const Figure& figure, const std::string& name) {
+  for (const auto& b : figure.blocks)
+    if (b.name == name) return b;
+  FAIL("no block " << name);
+  return figure.blocks.front();
+}
+
+// A ring of 6 "teeth", 2 x 2 four-node or nine-node elements a sector, radii 1 to 2 m.
+MeshArtifact ring(int order) {
+  const int teeth = 6, across = 2 * order + 1;
+  MeshArtifact m;
+  m.design.teeth = teeth;
+  m.design.bore_radius = 1.0;
+  m.discretisation.element_order = order;
+  const auto node = [&](int i, int j) {
+    return i * across + j;
+  };  // i: radius, j: angle, clockwise side first
+  m.node_position.resize(across * across, 2);
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double r = 1.0 + static_cast<double>(i) / (across - 1);
+      const double a = kPi / 2 - kPi / teeth + 2 * kPi / teeth * j / (across - 1);
+      m.node_position.row(node(i, j)) << r * std::cos(a), r * std::sin(a);
+    }
+  m.element_node.resize(4, order == 1 ? 4 : 9);
+  for (int e = 0; e < 4; ++e) {
+    const int i = e / 2 * order, j = e % 2 * order, o = order;
+    m.element_node.row(e).head(4) << node(i, j), node(i + o, j), node(i + o, j + o), node(i, j + o);
+    if (order == 2)
+      m.element_node.row(e).tail(5) << node(i + 1, j), node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1),
+          node(i + 1, j + 1);
+  }
+  m.bore_node.resize(across);
+  m.side_node.resize(across, 2);
+  for (int k = 0; k < across; ++k) {
+    m.bore_node[k] = node(0, k);
+    m.side_node.row(k) << node(k, 0), node(k, across - 1);
+  }
+  return m;
+}
+
+long segments(const Strokes& strokes) {
+  long count = 0;
+  for (size_t i = 1; i < strokes.size(); ++i) count += !strokes[i].empty() && !strokes[i - 1].empty();
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "rectangular wave: switches at the ends of the path of contact, levels in the middle of the zones") {
+  const StaticArtifact s = some_static(100);
+  const RectangularWave wave = rectangular_wave(s);
+  // equal gears: contact ratio 1.7547, both zones centred on the pitch point and half a period from it
+  CHECK(wave.high_end - wave.high_begin == relative(0.7547, 1e-4));
+  CHECK(0.5 * (wave.high_begin + wave.high_end) == relative(0.5, 1e-12));
+  CHECK(wave.low == relative(s.stiffness_secant[0], 1e-12));
+  CHECK(wave.high == relative(s.stiffness_secant[64], 1e-12));
+  CHECK(wave.at(0.0) == wave.low);
+  CHECK(wave.at(0.99) == wave.low);
+  CHECK(wave.at(0.5) == wave.high);
+  CHECK(wave.at(-0.5) == wave.high);
+}
+
+TEST_CASE("rectangular wave: its spectrum is that of its samples, and Parseval holds") {
+  const RectangularWave wave{345e6, 508e6, 0.1226, 0.8774};
+  const int n = 1 << 14;
+  Eigen::VectorXd k(n);
+  for (int i = 0; i < n; ++i) k[i] = wave.at((i + 0.5) / n);
+  const Harmonics sampled = harmonics(k, 10);
+  // a step between two samples is misplaced by half a sample at most: 2 (high - low) / n per step
+  const double tolerance = 4 * (wave.high - wave.low) / n;
+  CHECK(std::abs(sampled.mean - wave.mean()) < tolerance);
+  for (int h = 1; h <= 10; ++h) CHECK(std::abs(sampled.amplitude[h - 1] - wave.amplitude(h)) < tolerance);
+  double power = 0;
+  for (int h = 1; h <= 20000; ++h) power += 0.5 * wave.amplitude(h) * wave.amplitude(h);
+  const double d = wave.high_end - wave.high_begin, step = wave.high - wave.low;
+  // the tail beyond h falls as 1 / (pi^2 h): 1e-4 of the sum is ten times that
+  CHECK(power == relative(d * (1 - d) * step * step, 1e-4));
+}
+
+TEST_CASE("statics figures: torques ascend, the period closes, units are micrometre and 1e6 N/m") {
+  const StaticArtifact low = some_static(100), high = some_static(300);
+  const Figure te = transmission_error_figure({high, low});
+  const FigureBlock& curve = block(te, "transmission_error");
+  REQUIRE(curve.rows.size() == 129);
+  CHECK(curve.rows.back()[0] == 1.0);
+  CHECK(curve.rows.back()[1] == curve.rows.front()[1]);
+  CHECK(curve.rows[0][1] == low.transmission_error[0] * 1e6);
+  CHECK(curve.rows[0][2] == high.transmission_error[0] * 1e6);
+  CHECK(block(te, "transmission_error harmonics").rows.size() == 10);
+
+  const Figure k = mesh_stiffness_figure({low, high});
+  CHECK(block(k, "mesh_stiffness").rows[3][1] == low.stiffness_secant[3] * 1e-6);
+  CHECK(block(k, "rectangular wave").rows.size() == 6);
+  CHECK(block(k, "rectangular wave harmonics").rows[0][1] == rectangular_wave(low).amplitude(1) * 1e-6);
+}
+
+TEST_CASE(
+    "statics figures: no input, a torque twice, different phases, more curves than colours are refused") {
+  CHECK(failure_of([] { transmission_error_figure({}); }) == Failure::input);
+  CHECK(failure_of([] { mesh_stiffness_figure({some_static(100), some_static(100)}); }) == Failure::input);
+  CHECK(failure_of([] {
+          StaticArtifact other = some_static(200);
+          other.mesh_phase[5] += 1e-3;
+          transmission_error_figure({some_static(100), other});
+        }) == Failure::input);
+  CHECK(failure_of([] {
+          std::vector<StaticArtifact> many;
+          for (int i = 1; i <= 7; ++i) many.push_back(some_static(100 * i));
+          transmission_error_figure(many);
+        }) == Failure::input);
+}
+
+TEST_CASE(
+    "response figure: order of the inputs does not matter, the pen lifts at a jump, the arrow follows the "
+    "march") {
+  const ResponseArtifact up = some_response("up"), down = some_response("down");
+  const Figure figure = response_figure({down, up});
+  CHECK(tsv(figure, {}) == tsv(response_figure({up, down}), {}));
+  const auto& rows = block(figure, "a 150 N m up").rows;
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[2][0] == 2200);
+  CHECK(rows[3].empty());  // between 2200 and 2300 Hz
+  CHECK(rows[4][0] == 2300);
+  CHECK(rows[4][1] == relative(4.0, 1e-14));
+  const auto& jump = block(figure, "a 150 N m jumps down").rows.at(0);
+  CHECK(jump[0] == 2250);
+  CHECK(jump[1] == relative(2.0, 1e-14));  // falling: 2300 Hz first
+  CHECK(jump[2] == relative(3.0, 1e-14));
+}
+
+TEST_CASE(
+    "response figure: two of one direction, other torques, other choices, a jump outside the sweep are "
+    "refused") {
+  const auto refused = [](auto change) {
+    ResponseArtifact up = some_response("up"), down = some_response("down");
+    change(up, down);
+    return failure_of([&] { response_figure({up, down}); }) == Failure::input;
+  };
+  using R = ResponseArtifact;
+  CHECK_FALSE(refused([](R&, R&) {}));
+  CHECK(refused([](R&, R& down) { down.direction = "up"; }));
+  CHECK(refused([](R& up, R&) { up.torque = 200; }));
+  CHECK(refused([](R& up, R&) { up.damping.rayleigh_stiffness = 1e-6; }));
+  CHECK(refused([](R& up, R&) { up.mesh.corner.enabled = false; }));
+  CHECK(refused([](R& up, R&) { up.jump_frequency[0] = 5000; }));
+}
+
+TEST_CASE(
+    "response figure: a panel for each set of choices, a curve for each torque, numbers as in the "
+    "artifacts") {
+  std::vector<ResponseArtifact> sweeps;
+  for (double eta : {7.7e-6, 4e-6})
+    for (double torque : {300.0, 100.0})
+      for (const char* direction : {"up", "down"}) {
+        sweeps.push_back(some_response(direction));
+        sweeps.back().torque = torque;
+        sweeps.back().damping.rayleigh_stiffness = eta;
+        sweeps.back().dte_mean *= torque * eta;
+      }
+  const Figure figure = response_figure(sweeps);
+  CHECK(figure.title == "Dynamic transmission error against mesh frequency, 100, 300 N m");
+  CHECK(figure.notes[1].find("(a) Rayleigh damping η = 7.7 µs") == 0);
+  CHECK(figure.notes[2].find("(b) Rayleigh damping η = 4 µs") == 0);
+  const auto& row = block(figure, "b 100 N m down").rows[0];
+  CHECK(row[0] == 2400);
+  CHECK(row[1] == relative(1.0, 1e-14));
+  CHECK(row[2] == relative(100 * 4e-6 * 1e6, 1e-14));
+  for (const auto& [name, value] : figure.words) {
+    if (name == "labels_a") CHECK(value == "'100 N m' '300 N m' ");
+    if (name == "jump_labels_b")
+      CHECK(value ==
+            "'100 N m: jumps rising 2250, falling 2250 Hz' '300 N m: jumps rising 2250, falling 2250 Hz' ");
+  }
+  sweeps.pop_back();
+  CHECK(failure_of([&] { response_figure(sweeps); }) == Failure::input);
+  sweeps.push_back(sweeps[2]);
+  CHECK(failure_of([&] { response_figure(sweeps); }) == Failure::input);
+  CHECK(failure_of([] { response_figure({}); }) == Failure::input);
+}
+
+TEST_CASE("response figure: a curve stops where the sweep left its branch, steps before the branch ends") {
+  ResponseArtifact up = some_response("up"), down = some_response("down");
+  // falling from 2400 Hz: off the branch after 2300, which ends at 2050 Hz
+  down.dte_rms << 5e-6, 6e-6, 1e-6, 1.1e-6, 1.2e-6;
+  down.jump_frequency[0] = 2050;
+  up.jump_frequency.resize(0);
+  up.jump_width.resize(0);
+  const Figure figure = response_figure({up, down});
+  const auto& rows = block(figure, "a 150 N m down").rows;
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[1][0] == 2300);
+  CHECK(rows[2].empty());
+  const auto& jump = block(figure, "a 150 N m jumps down").rows.at(0);
+  CHECK(jump[0] == 2050);
+  CHECK(jump[1] == relative(6.0, 1e-14));
+  CHECK(jump[2] == relative(1.15, 1e-14));  // midway between 2100 and 2000 Hz
+  CHECK(jump[7] == 2300);
+  CHECK(block(figure, "a 150 N m jumps up").rows.empty());
+}
+
+// Sweep at 1000 and 1100 Hz; at 1100 Hz both directions are alike, at 1000 Hz the falling one is `factor` times as large.
+// A tooth carries load(its own phase), of period `multiple` in its amplitude.
+SweepArtifact some_sweep(const std::string& direction, double factor, int multiple = 1) {
+  constexpr int n = 64;
+  SweepArtifact s;
+  s.driver = s.driven = standard_gear();
+  s.mesh.centre_distance = 0.15;
+  s.torque = 150;
+  s.direction = direction;
+  s.time.steps_per_period = n;
+  s.mesh_frequency = Eigen::Vector2d(1000, 1100);
+  if (direction == "down") s.mesh_frequency.reverseInPlace();
+  s.period_multiple = Eigen::Vector2i::Constant(multiple);
+  s.transmission_error.resize(2, n * multiple);
+  s.mesh_force.resize(2, n * multiple);
+  s.pair = Eigen::Vector3i(-1, 0, 1);
+  for (int f = 0; f < 2; ++f) {
+    const double size = direction == "down" && s.mesh_frequency[f] == 1000 ? factor : 1.0;
+    MatrixRM load(n * multiple, 3);
+    for (int k = 0; k < n * multiple; ++k) {
+      const double phase = static_cast<double>(k) / n;
+      s.transmission_error(f, k) =
+          4e-6 + size * 1e-6 *
+                     (std::cos(2 * kPi * phase) + 0.25 * std::sin(4 * kPi * phase) +
+                      (multiple > 1 ? 0.5 * std::cos(2 * kPi * phase / multiple) : 0.0));
+      for (int j = -1; j <= 1; ++j) {
+        const double own = phase - std::floor(phase) + j;
+        load(k, j + 1) = std::abs(own) < 0.4 ? size * 1000 * (1 + own) : 0.0;
+      }
+      s.mesh_force(f, k) = load.row(k).sum();
+    }
+    s.tooth_load.push_back(load);
+  }
+  return s;
+}
+
+std::string word_of(const Figure& figure, const std::string& name) {
+  for (const auto& [key, value] : figure.words)
+    if (key == name) return value;
+  return "";
+}
+
+TEST_CASE("branches at one speed: two columns where up and down differ, one that says so where they agree") {
+  const std::vector<SweepArtifact> sweeps{some_sweep("up", 3), some_sweep("down", 3)};
+  const Figure two = vibration_figure(sweeps, 1000);
+  CHECK(word_of(two, "title_a").find("upper branch, speed falling") != std::string::npos);
+  CHECK(word_of(two, "title_b").find("lower branch, speed rising") != std::string::npos);
+  const auto& rows = block(two, "a history").rows;
+  REQUIRE(rows.size() == 3 * 64 + 1);
+  CHECK(rows.back()[0] == relative(3.0, 1e-14));  // ms
+  for (int k : {0, 5, 70, 192})
+    CHECK(std::abs(rows[k][1] - 3 * (std::cos(2 * kPi * k / 64) + 0.25 * std::sin(4 * kPi * k / 64))) <
+          1e-12);
+  const auto& lines = block(two, "b spectrum").rows;
+  REQUIRE(lines.size() == 10);
+  CHECK(lines[0][1] == relative(1.0, 1e-12));
+  CHECK(lines[1][0] == 2000);
+  CHECK(lines[1][1] == relative(0.25, 1e-12));
+  CHECK(std::abs(lines[2][1]) < 1e-12);
+  // 1 / (1 + 0.25^2) of the square at the mesh frequency
+  CHECK(word_of(two, "result_a").find("94.1 % of its square at 1 × mesh frequency") != std::string::npos);
+
+  const Figure one = vibration_figure(sweeps, 1100);
+  CHECK(word_of(one, "title_a").find("no second branch") != std::string::npos);
+  CHECK(word_of(one, "title_b").empty());
+  CHECK(failure_of([&] { vibration_figure(sweeps, 1050); }) == Failure::input);
+  CHECK(failure_of([&] { vibration_figure({sweeps[0]}, 1000); }) == Failure::input);
+  CHECK(failure_of([&] { tooth_load_figure({}, 1000); }) == Failure::input);
+
+  // the orbit of a subharmonic is drawn whole, its lines stand between the harmonics
+  const Figure sub = vibration_figure({some_sweep("up", 1, 4), some_sweep("down", 1, 4)}, 1000);
+  CHECK(block(sub, "a history").rows.size() == 4 * 64 + 1);
+  CHECK(block(sub, "a spectrum").rows[0][0] == 250);
+  CHECK(block(sub, "a spectrum").rows[0][1] == relative(0.5, 1e-12));
+}
+
+TEST_CASE(
+    "tooth loads: every tooth keeps its own load from period to period, loss of contact where no tooth "
+    "carries") {
+  const Figure figure = tooth_load_figure({some_sweep("up", 3), some_sweep("down", 3)}, 1000);
+  for (int t : {-1, 0, 1, 2}) {
+    CAPTURE(t);
+    const auto& rows = block(figure, text("a tooth i", t < 0 ? "" : "+", t)).rows;
+    CHECK(rows.size() > 20);
+    for (const auto& row : rows) {
+      if (row.empty()) continue;
+      const double own = row[0] - t;
+      CHECK(std::abs(row[1] - (std::abs(own) < 0.4 ? 3000 * (1 + own) : 0.0)) < 1e-9);
+    }
+  }
+  // none within 0.4 of a pitch point: samples 26 to 38 of 64
+  const auto& lost = block(figure, "a contact lost").rows;
+  REQUIRE(lost.size() == 3);
+  CHECK(lost[1][0] == relative(26.0 / 64, 1e-14));
+  CHECK(lost[1][1] == relative(38.0 / 64, 1e-14));
+  CHECK(word_of(figure, "result_a").find("contact lost 1 time a mesh period, for 20.3 % of it") !=
+        std::string::npos);
+}
+
+TEST_CASE("tooth loads of rolling gears pass from period to period without a step") {
+  const BodyArtifact& body = paper_body();
+  const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
+  std::vector<SweepArtifact> sweeps;
+  for (const char* direction : {"up", "down"})
+    sweeps.push_back(sweep(body, body, statics, statics.mean_stiffness, paper_sweep(2400, 2400, 20),
+                           direction, no_report));
+  const Figure figure = tooth_load_figure(sweeps, 2400);
+  std::vector<std::vector<double>> rows;
+  for (const auto& row : block(figure, "a tooth i+0").rows)
+    if (!row.empty()) rows.push_back(row);
+  double largest = 0, step = 1e9;
+  for (size_t k = 1; k < rows.size(); ++k) {
+    largest = std::max(largest, rows[k][1]);
+    if (rows[k][0] == 0) step = std::abs(rows[k][1] - rows[k - 1][1]);
+  }
+  CHECK(rows.front()[0] < -0.8);
+  CHECK(rows.back()[0] > 0.8);
+  CHECK(largest == relative(sweeps[0].tooth_load[0].maxCoeff(), 1e-14));
+  CHECK(step < 0.02 * largest);
+}
+
+TEST_CASE(
+    "contact zone: complementary, the force of the static stage, points of the flanks, Hertz's pressure") {
+  const BodyArtifact& body = paper_body();
+  const StaticArtifact statics = static_transmission(body, body, paper_statics(8), 150);
+  const ContactZone zone = contact_zone(body, body, statics);
+  CHECK(zone.force.sum() == relative(statics.tooth_load(0, 1), 1e-9));
+  CHECK(zone.approach == relative(statics.transmission_error[0], 1e-9));
+  CHECK(zone.force.minCoeff() >= 0);
+  for (int i = 0; i < zone.strips.size(); ++i) {
+    CHECK(zone.separation[i] > -1e-15);
+    if (zone.force[i] > 0) CHECK(std::abs(zone.separation[i]) < 1e-14);
+  }
+  MeshArtifact mesh = make_sector_mesh(body.design, body.discretisation);
+  const Figure figure = contact_zone_figure(mesh, mesh, statics, zone);
+  const GearPair pair(statics.driver, statics.driven, 0.15);
+  const auto& rows = block(figure, "candidate pairs").rows;
+  REQUIRE(rows.size() == static_cast<size_t>(zone.strips.size()));
+  double force = 0, most = 0;
+  for (const auto& row : rows) {
+    CHECK(std::abs(row[2] - row[1] - pair.gap_at(zone.strips.contact, row[0] * 1e-3).gap * 1e6) < 1e-6);
+    force += row[7] * 1e6 * (row[4] - row[3]) * 1e-3 * 25.4e-3;
+    most = std::max(most, row[7]);
+  }
+  CHECK(force == relative(150 / pair.gear(0).base_radius(), 1e-9));
+  double hertz = 0;
+  for (const auto& row : block(figure, "Hertz").rows) hertz = std::max(hertz, row[1]);
+  CHECK(most == relative(hertz, 0.01));
+  CHECK(block(figure, "driver inner region").rows.size() > 100);
+  mesh.design.bore_radius = 0.03;
+  CHECK(failure_of([&] { contact_zone_figure(mesh, mesh, statics, zone); }) == Failure::input);
+}
+
+ImpactArtifact some_impact(double torque) {
+  ImpactArtifact a;
+  a.driver = a.driven = standard_gear();
+  a.mesh.centre_distance = 0.15;
+  a.torque = torque;
+  a.contact_state = {"one", "two", "mean"};
+  a.natural_frequency = Eigen::Vector3d(2500, 3000, 2940) + Eigen::Vector3d::Constant(torque);
+  return a;
+}
+
+TEST_CASE("table of natural frequencies: both means, deviations from what is published, torques ascend") {
+  const auto folder = std::filesystem::temp_directory_path() / text("whine-table-", getpid());
+  std::filesystem::create_directories(folder);
+  const std::string file = folder / "published.tsv", broken = folder / "broken.tsv";
+  std::ofstream(file) << "# a comment\n100\tone\t2600\n100\ttwo\t3000\n100\tmean\t2900\n"
+                         "200\tone\t2700\n200\ttwo\t3200\n200\tmean\t3000\n";
+  std::ofstream(broken) << "100\tone\tfast\n";
+  const Figure table = natural_frequency_table({some_impact(200), some_impact(100)}, file);
+  const auto& rows = table.blocks.at(0).rows;
+  REQUIRE(rows.size() == 2);
+  REQUIRE(rows[0].size() == 13);
+  CHECK(rows[0][0] == 100);
+  CHECK(rows[0][1] == 2600);
+  CHECK(std::abs(rows[0][3]) < 1e-12);
+  CHECK(rows[0][6] == relative(100.0 * (3100.0 / 3000 - 1), 1e-12));
+  CHECK(rows[1][7] == 3140);
+  const double ratio = GearPair(standard_gear(), standard_gear(), 0.15).contact_ratio();
+  CHECK(rows[1][10] == relative(2700 + (ratio - 1) * 500, 1e-12));
+  const std::string words = natural_frequency_text(table);
+  CHECK(words.find("two pairs                   100     3100.0         3000        +3.33\n") !=
+        std::string::npos);
+
+  CHECK(natural_frequency_table({some_impact(100)}, "").blocks[0].rows[0].size() == 5);
+  CHECK(natural_frequency_text(natural_frequency_table({some_impact(100)}, "")).find("published") ==
+        std::string::npos);
+  CHECK(failure_of([] { natural_frequency_table({}, ""); }) == Failure::input);
+  CHECK(failure_of([] {
+          natural_frequency_table({some_impact(100), some_impact(100)}, "");
+        }) == Failure::input);
+  CHECK(failure_of([&] { natural_frequency_table({some_impact(300)}, file); }) == Failure::input);
+  CHECK(failure_of([&] { natural_frequency_table({some_impact(100)}, broken); }) == Failure::input);
+  CHECK(failure_of([&] { natural_frequency_table({some_impact(100)}, folder / "none"); }) == Failure::io);
+  CHECK(failure_of([] {
+          ImpactArtifact a = some_impact(100);
+          a.contact_state[0] = "two";
+          natural_frequency_table({a}, "");
+        }) == Failure::input);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("error budget: choices stand apart from the errors and in no sum") {
+  ErrorBudgetArtifact budget;
+  budget.torque = 150;
+  budget.refinement = {"strips, flank table", Eigen::Vector2d(1e-4, -2e-4), Eigen::Vector2d(3e-4, 1e-4),
+                       MatrixRM::Constant(2, 5, -1e-4)};
+  budget.choice = {"matching at 1 mm", Eigen::VectorXd::Constant(1, -7e-3),
+                   Eigen::VectorXd::Constant(1, 0.01), MatrixRM::Constant(1, 5, 2e-3)};
+  const Figure figure = error_budget_figure(budget);
+  CHECK(figure.notes[0].find("mean stiffness 0.3 ‰") != std::string::npos);
+  REQUIRE(block(figure, "changes").rows.size() == 2);
+  REQUIRE(block(figure, "choices").rows.size() == 1);
+  CHECK(block(figure, "changes").rows[1][1] == relative(0.2, 1e-14));
+  CHECK(block(figure, "choices").rows[0][1] == relative(7, 1e-14));
+  const auto word = [&](const std::string& name) {
+    for (const auto& [key, value] : figure.words)
+      if (key == name) return value;
+    return std::string();
+  };
+  CHECK(word("labels") == "'strips' 'flank table' ");
+  CHECK(word("choice_labels") == "'matching at 1 mm' ");
+  budget.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), MatrixRM(0, 5)};
+  CHECK(block(error_budget_figure(budget), "choices").rows.empty());
+}
+
+TEST_CASE(
+    "tsv: blocks stand two empty lines apart under their names; a value that is not finite is refused") {
+  Figure figure;
+  figure.title = "Title";
+  figure.blocks = {{"a", {"x [m]", "y [N]"}, {{1, 2}, {}, {3, 0.1}}}, {"b", {"x [m]"}, {{5}}}};
+  CHECK(tsv(figure, {"out/x.h5"}) ==
+        "# Title\n# from out/x.h5\n\n\n# [a]\n# x [m]\ty [N]\n1\t2\n\n3\t0.1\n\n\n# [b]\n# x [m]\n5\n");
+  figure.blocks[1].rows[0][0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(failure_of([&] { tsv(figure, {}); }) == Failure::numerical);
+}
+
+TEST_CASE("wireframe: every edge of the ring is drawn once, with or without mid nodes") {
+  // 2 x 2 elements a sector, 6 sectors: 3 arcs of 2 edges and 2 radii of 2 edges a sector.
+  const Placement at;
+  CHECK(segments(Wireframe(ring(1)).whole(at, 1.0)) == 6 * (3 * 2 + 2 * 2));
+  CHECK(segments(Wireframe(ring(2)).whole(at, 1.0)) == 6 * (3 * 2 + 2 * 2));
+  CHECK(segments(Wireframe(ring(2)).window(at, 1.0, Vec2::Zero(), 10.0)) == 2 * 6 * (3 * 2 + 2 * 2));
+  CHECK(segments(Wireframe(ring(1)).window(at, 1.0, Vec2(50, 50), 1.0)) == 0);
+}
+
+TEST_CASE("wireframe: the outline is closed, on the outer radius, and moves with its placement") {
+  for (int order : {1, 2}) {
+    CAPTURE(order);
+    const Placement at{0.3, Vec2(5, -7)};
+    const Strokes outline = Wireframe(ring(order)).outline(at, 1e3);
+    REQUIRE(outline.size() == static_cast<size_t>(6 * 2 * order + 1));
+    for (const auto& p : outline) CHECK(std::hypot(p[0] - 5e3, p[1] + 7e3) == relative(2e3, 1e-12));
+    CHECK(outline.front()[0] == relative(outline.back()[0], 1e-12));
+    CHECK(outline.front()[1] == relative(outline.back()[1], 1e-12));
+    CHECK(std::atan2(outline[0][1] + 7e3, outline[0][0] - 5e3) == relative(kPi / 3 + 0.3, 1e-12));
+  }
+}
+
+TEST_CASE("mesh figure: meshes of other gears than the pair's are refused") {
+  const MeshArtifact mesh = ring(2);
+  CHECK(failure_of([&] { mesh_figure(mesh, mesh, some_static(100)); }) == Failure::input);
+}
+
+TEST_CASE(
+    "draw: both pictures, the same bytes twice; a wrong or missing template is one error with its reason") {
+  const auto folder = std::filesystem::temp_directory_path() / text("whine-plot-", getpid());
+  std::filesystem::create_directories(folder);
+  const std::string table = folder / "t.tsv", good = folder / "good.gp", bad = folder / "bad.gp";
+  Figure figure;
+  figure.title = "A \"title\" with `marks`, µ and \\";
+  figure.blocks = {{"a", {"x [m]", "y [N]"}, {{1, 2}, {3, 4}}}};
+  figure.numbers = {{"three", 3.0}};
+  std::ofstream(table) << tsv(figure, {});
+  std::ofstream(good) << "set title title noenhanced\nset datafile separator tab\n"
+                         "plot [0:three] tsv index \"[a]\" using 1:2 with lines\n";
+  std::ofstream(bad) << "plot nothing_here\n";
+  for (Picture picture : {Picture::svg, Picture::png}) {
+    const std::string bytes = draw(figure, table, good, picture);
+    CHECK(bytes.size() > 1000);
+    CHECK(bytes == draw(figure, table, good, picture));
+    CHECK(failure_of([&] { draw(figure, table, bad, picture); }) == Failure::numerical);
+  }
+  CHECK(draw(figure, table, good, Picture::svg).find("A \"title\" with `marks`, µ and \\") !=
+        std::string::npos);
+  CHECK_THROWS_WITH_AS(draw(figure, table, bad, Picture::svg), doctest::Contains("nothing_here"), Error);
+  CHECK(failure_of([&] { draw(figure, table, folder / "none.gp", Picture::svg); }) == Failure::io);
+  std::filesystem::remove_all(folder);
+}

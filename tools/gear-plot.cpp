@@ -1,27 +1,14 @@
 // gear-plot: a figure of the paper as numbers and as pictures.
 //
-// Reads      fig01    mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5
-//            fig05    response.h5 of the up and of the down sweep
-//            fig12    static.h5, one per torque
-//            fig13    static.h5, one per torque
-//            fig14    response.h5 of a lumped model, up and down, per torque
-//            fig15    sweep.h5 of lumped models, one torque
-//            fig16    as fig14
-//            error-budget    error_budget.h5
-//            <plots>/<figure>.gp, the template
-// Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all
-//            fig01    the finite element mesh
-//            fig05    RMS of the dynamic transmission error against mesh frequency
-//            fig12    static transmission error (STE)
-//            fig13    mesh stiffness
-//            fig14    RMS and mean of the DTE of a lumped model, rectangular stiffness
-//            fig15    net mesh force of a lumped model
-//            fig16    as fig14, stiffness of the statics at each torque
-//            error-budget    what refining each discretisation alone changes, and what other choices change
+// Reads      artifacts, which ones `gear-plot --help` says for each figure; table1 besides --published FILE, frequencies to
+//            compare with; <plots>/<figure>.gp, the template
+// Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all; for table1 <output>.tsv and, to read,
+//            <output>.txt
 // Equations  k = (T / r_b) / STE
 // Example    gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
 //                      out/parker2000/T150/down/response.h5
 #include <CLI/CLI.hpp>
+#include <map>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -32,64 +19,138 @@
 
 namespace {
 
-void require_inputs(const std::string& name, const std::vector<std::string>& inputs, size_t count,
-                    const char* what) {
-  if (inputs.size() != count)
-    whine::fail(whine::Failure::usage, name, " needs ", count, " inputs, ", what, "; ", inputs.size(),
-                " given");
+using Paths = std::vector<std::string>;
+
+struct Drawing {
+  const char* shows;
+  const char* inputs;
+  size_t count;  // of inputs; 0: any number
+  whine::Figure (*draw)(const Paths& inputs, double mesh_frequency);
+};
+
+template <class Artifact>
+std::vector<Artifact> read_all(const Paths& inputs, Artifact (*read)(const std::string&)) {
+  std::vector<Artifact> artifacts;
+  for (const std::string& path : inputs) artifacts.push_back(read(path));
+  return artifacts;
 }
 
-whine::Figure figure_of(const std::string& name, const std::vector<std::string>& inputs) {
-  if (name == "fig01") {
-    require_inputs(name, inputs, 3, "mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5");
-    return whine::mesh_figure(whine::read_mesh(inputs[0]), whine::read_mesh(inputs[1]),
-                              whine::read_static(inputs[2]));
-  }
-  if (name == "fig05") {
-    require_inputs(name, inputs, 2, "response.h5 of the up and of the down sweep");
-    return whine::response_figure(whine::read_response(inputs[0]), whine::read_response(inputs[1]));
-  }
-  if (name == "error-budget") {
-    require_inputs(name, inputs, 1, "error_budget.h5");
-    return whine::error_budget_figure(whine::read_error_budget(inputs[0]));
-  }
-  if (name == "fig14" || name == "fig16") {
-    std::vector<whine::ResponseArtifact> responses;
-    for (const std::string& path : inputs) responses.push_back(whine::read_response(path));
-    return whine::lumped_response_figure(responses);
-  }
-  if (name == "fig15") {
-    std::vector<whine::SweepArtifact> sweeps;
-    for (const std::string& path : inputs) sweeps.push_back(whine::read_sweep(path));
-    return whine::mesh_force_figure(sweeps);
-  }
-  if (name != "fig12" && name != "fig13")
-    whine::fail(whine::Failure::usage, "unknown figure '", name,
-                "'; known are fig01, fig05, fig12, fig13, fig14, fig15, fig16, error-budget");
-  std::vector<whine::StaticArtifact> statics;
-  for (const std::string& path : inputs) statics.push_back(whine::read_static(path));
-  return name == "fig12" ? whine::transmission_error_figure(statics) : whine::mesh_stiffness_figure(statics);
+const std::map<std::string, Drawing>& drawings() {
+  static const std::map<std::string, Drawing> all{
+      {"fig01",
+       {"finite element mesh", "mesh.h5 of driver and driven gear, static.h5", 3,
+        [](const Paths& in, double) {
+          return whine::mesh_figure(whine::read_mesh(in[0]), whine::read_mesh(in[1]),
+                                    whine::read_static(in[2]));
+        }}},
+      {"fig03",
+       {"contact zone: candidate pairs, inner and outer region, pressure",
+        "mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5", 5,
+        [](const Paths& in, double) {
+          const whine::StaticArtifact pair = whine::read_static(in[4]);
+          return whine::contact_zone_figure(
+              whine::read_mesh(in[0]), whine::read_mesh(in[1]), pair,
+              whine::contact_zone(whine::read_body(in[2]), whine::read_body(in[3]), pair));
+        }}},
+      {"fig05",
+       {"RMS of the dynamic transmission error against mesh frequency",
+        "response.h5 of sweeps up and down, any torques; a panel for each set of choices", 0,
+        [](const Paths& in, double) { return whine::response_figure(read_all(in, whine::read_response)); }}},
+      {"fig08",
+       {"dynamic transmission error over time and its spectrum, both branches at one speed",
+        "sweep.h5 of sweeps up and down of one torque, any choices", 0,
+        [](const Paths& in, double f) {
+          return whine::vibration_figure(read_all(in, whine::read_sweep), f);
+        }}},
+      {"fig10",
+       {"tooth loads over the mesh phase, both branches at one speed", "as fig08", 0,
+        [](const Paths& in, double f) {
+          return whine::tooth_load_figure(read_all(in, whine::read_sweep), f);
+        }}},
+      {"fig12",
+       {"static transmission error and its spectrum", "static.h5, one per torque", 0,
+        [](const Paths& in, double) {
+          return whine::transmission_error_figure(read_all(in, whine::read_static));
+        }}},
+      {"fig13",
+       {"mesh stiffness and its spectrum", "as fig12", 0,
+        [](const Paths& in, double) {
+          return whine::mesh_stiffness_figure(read_all(in, whine::read_static));
+        }}},
+      {"fig14-elastic",
+       {"RMS and mean of the dynamic transmission error against mesh frequency", "as fig05", 0,
+        [](const Paths& in, double) { return whine::response_figure(read_all(in, whine::read_response)); }}},
+      {"fig15",
+       {"net mesh force of a lumped model", "sweep.h5 of lumped models at one torque", 0,
+        [](const Paths& in, double) { return whine::mesh_force_figure(read_all(in, whine::read_sweep)); }}},
+      {"fig16",
+       {"RMS and mean of the transmission error of a lumped model",
+        "response.h5 of one lumped model, up and down, per torque", 0,
+        [](const Paths& in, double) {
+          return whine::lumped_response_figure(read_all(in, whine::read_response));
+        }}},
+      {"error-budget",
+       {"what refining each discretisation alone changes, and what other choices change", "error_budget.h5",
+        1,
+        [](const Paths& in, double) { return whine::error_budget_figure(whine::read_error_budget(in[0])); }}},
+  };
+  return all;
+}
+
+constexpr const char* kTable = "table1";
+
+std::string known() {
+  std::string names;
+  for (const auto& [name, drawing] : drawings()) names += name + ", ";
+  return names + kTable;
+}
+
+std::string footer() {
+  std::string lines = "Figures, and the artifacts that they are drawn from:\n";
+  for (const auto& [name, drawing] : drawings())
+    lines += "  " + name + ": " + drawing.shows + ". From " + drawing.inputs + "\n";
+  return lines + "  " + kTable + ": natural frequencies, as a table. From impact.h5, one per torque\n";
+}
+
+whine::Figure figure_of(const std::string& name, const Paths& inputs, double mesh_frequency) {
+  const auto found = drawings().find(name);
+  if (found == drawings().end())
+    whine::fail(whine::Failure::usage, "unknown figure '", name, "'; known are ", known());
+  const Drawing& drawing = found->second;
+  if (drawing.count != 0 && inputs.size() != drawing.count)
+    whine::fail(whine::Failure::usage, name, " needs ", drawing.count, " inputs, ", drawing.inputs, "; ",
+                inputs.size(), " given");
+  if ((name == "fig08" || name == "fig10") && !(mesh_frequency > 0))
+    whine::fail(whine::Failure::usage, name, " needs --mesh-frequency, in Hz, above 0");
+  return drawing.draw(inputs, mesh_frequency);
 }
 
 void body(int argc, char** argv) {
   CLI::App app{"Draws a figure of the paper from artifacts", "gear-plot"};
-  std::string name, output, plots = "pipelines/plots";
-  std::vector<std::string> inputs;
-  app.add_option("figure", name, "fig01, fig05, fig12 to fig16 or error-budget")->required();
-  app.add_option(
-         "inputs", inputs,
-         "artifacts. fig01: mesh.h5 of the driver, mesh.h5 of the driven gear, static.h5; fig05: "
-         "response.h5 up and down; fig12, fig13: static.h5, one per torque; fig14, fig16: response.h5 of a "
-         "lumped model, up and down, per torque; fig15: sweep.h5 of lumped models; error-budget: "
-         "error_budget.h5")
-      ->required();
+  std::string name, output, published, plots = "pipelines/plots";
+  Paths inputs;
+  double mesh_frequency = 0;
+  app.add_option("figure", name, known())->required();
+  app.add_option("inputs", inputs, "artifacts, for each figure below")->required();
   app.add_option("--output", output, "path of the results without extension")->required();
+  app.add_option("--mesh-frequency", mesh_frequency, "speed of fig08 and fig10 in Hz, one of the sweeps'");
+  app.add_option("--published", published, "file of frequencies that table1 compares with");
   app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
+  app.footer(footer());
   whine::parse(app, argc, argv);
 
-  const whine::Figure figure = figure_of(name, inputs);
-  std::vector<std::string> sources;
+  Paths sources;
   for (const std::string& path : inputs) sources.push_back(whine::recorded_path(path));
+  if (name == kTable) {
+    const whine::Figure table =
+        whine::natural_frequency_table(read_all(inputs, whine::read_impact), published);
+    const std::string words = whine::natural_frequency_text(table);
+    whine::publish(output + ".tsv", whine::tsv(table, sources));
+    whine::publish(output + ".txt", words);
+    whine::tell("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
+    return;
+  }
+  const whine::Figure figure = figure_of(name, inputs, mesh_frequency);
   const std::string table = output + ".tsv", recipe = plots + "/" + name + ".gp";
   whine::publish(table, whine::tsv(figure, sources));
   whine::publish(output + ".svg", whine::draw(figure, table, recipe, whine::Picture::svg));

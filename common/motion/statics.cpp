@@ -41,28 +41,48 @@ struct PositionAnswer {
 // A rung of contact at one load: the equilibrium at a phase, looked for from `start` (m).
 using ContactRung = std::function<PositionAnswer(double phase, double start)>;
 
+struct StripsAnswer {
+  MeshPosition position;
+  MatrixXd compliance;  // (strip, strip) m N-1
+  VectorXd approach;    // (strip) 1
+  Equilibrium equilibrium;
+};
+
+constexpr double kStripsDepth = 1e-3;  // m: statics do not depend on it, near field and far field cancel it
+
+StripsAnswer solve_strips(const GearMeshModel& model, const ContactRange& range, double load,
+                          const std::array<std::vector<MatrixXd>, 2>& tables, double phase, double start,
+                          ComplementaritySolver& solver) {
+  StripsAnswer s;
+  s.position = make_position(model, phase, range);
+  MatrixXd& a = s.compliance = local_compliance(model, s.position, kStripsDepth);
+  s.position.add_to_strips(
+      body_compliance(s.position, 0, tables[0]) + body_compliance(s.position, 1, tables[1]), a);
+  // A contact that happens to end on a sound part of a broken table would look right.
+  const double least =
+      a.allFinite() ? a.ldlt().vectorD().minCoeff() : std::numeric_limits<double>::quiet_NaN();
+  if (!(least > 0))
+    fail(Failure::numerical, "at mesh phase ", phase, " the compliance of ", s.position.strips(),
+         " strips is not positive definite: pivot ", least,
+         " m/N; the body's table is wrong, rebuild body.h5");
+  s.approach = s.position.strip_lever[0] / model.kinematics.gear(0).base_radius();
+  ActiveSet active;
+  s.equilibrium = equilibrium(a, s.position.gap, s.approach, load, start, active, solver);
+  return s;
+}
+
+std::array<std::vector<MatrixXd>, 2> strips_tables(const GearMeshModel& model) {
+  return {compliance_tables(model.gear[0], kStripsDepth), compliance_tables(model.gear[1], kStripsDepth)};
+}
+
 ContactRung strips_rung(const GearMeshModel& model, const ContactRange& range, double load,
                         double face_width) {
-  constexpr double kDepth = 1e-3;  // m: statics do not depend on it, near field and far field cancel it
-  return [&model, range, load, face_width,
-          tables =
-              std::array{compliance_tables(model.gear[0], kDepth), compliance_tables(model.gear[1], kDepth)},
-          solver = ComplementaritySolver()](double phase, double start) mutable {
-    const MeshPosition position = make_position(model, phase, range);
-    MatrixXd a = local_compliance(model, position, kDepth);
-    position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
-                           a);
-    // A contact that happens to end on a sound part of a broken table would look right.
-    const double least =
-        a.allFinite() ? a.ldlt().vectorD().minCoeff() : std::numeric_limits<double>::quiet_NaN();
-    if (!(least > 0))
-      fail(Failure::numerical, "at mesh phase ", phase, " the compliance of ", position.strips(),
-           " strips is not positive definite: pivot ", least,
-           " m/N; the body's table is wrong, rebuild body.h5");
-    const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
-    ActiveSet active;
+  return [&model, range, load, face_width, tables = strips_tables(model), solver = ComplementaritySolver()](
+             double phase, double start) mutable {
+    const StripsAnswer s = solve_strips(model, range, load, tables, phase, start, solver);
+    const MeshPosition& position = s.position;
     PositionAnswer answer;
-    answer.equilibrium = equilibrium(a, position.gap, approach, load, start, active, solver);
+    answer.equilibrium = s.equilibrium;
     answer.next_corner_gap = position.next_corner_gap;
     answer.lost_corner_gap = position.lost_corner_gap;
     const VectorXd& p = answer.equilibrium.p;
@@ -103,6 +123,17 @@ ContactRung line_rung(const GearMeshModel& model, const ContactRange& range, dou
     }
     return answer;
   };
+}
+
+constexpr int kWidenings = 6;
+constexpr double kWidening = 1.6;
+
+// How far contact is looked for under a load; widening: 1 unless contact has left it.
+ContactRange static_range(const GearMeshModel& model, int strips, double load, double window,
+                          double widening) {
+  return contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), strips,
+                       load / model.kinematics.contact_ratio(), 1.1 * load * window * window * widening,
+                       (1e-6 + 8e-9 * load) * widening);
 }
 
 // One whole period; where and how contact wants more than the range holds, if it does.
@@ -180,25 +211,45 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
        {&result.mesh_phase, &result.transmission_error, &result.stiffness_secant, &result.stiffness_tangent})
     v->resize(positions);
 
-  double largest_force = 1.1 * load * window * window, corner_gap = 1e-6 + 8e-9 * load;
+  double widening = 1;
   for (int attempt = 0;; ++attempt) {
-    const ContactRange range = contact_range(
-        model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), slice.contact.strips,
-        load / model.kinematics.contact_ratio(), largest_force, corner_gap);
+    const ContactRange range = static_range(model, slice.contact.strips, load, window, widening);
     const std::string beyond = solve_period(model, range, load, positions, result);
     if (beyond.empty()) break;
-    if (attempt == 6)
+    if (attempt == kWidenings)
       fail(Failure::numerical, "at ", torque, " N m contact leaves the flanks: window ",
-           range.half_window * 1e3, " mm either side, tip edges up to ", corner_gap * 1e6,
+           range.half_window * 1e3, " mm either side, tip edges up to ", range.corner_gap * 1e6,
            " micrometres away, and still ", beyond, "; lower the torque");
-    largest_force *= 1.6;
-    corner_gap *= 1.6;
+    widening *= kWidening;
   }
   result.mean_stiffness = result.stiffness_secant.mean();
   result.backlash_margin = driver.design.tooth_thinning + driven.design.tooth_thinning > 0
                                ? model.kinematics.backlash() + result.transmission_error.minCoeff()
                                : std::numeric_limits<double>::infinity();
   return result;
+}
+
+ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
+                         const StaticArtifact& statics) {
+  const GearMeshModel model(driver, driven, statics.mesh);
+  const double load = statics.torque / model.kinematics.gear(0).base_radius();
+  const auto tables = strips_tables(model);
+  ComplementaritySolver solver;
+  double widening = 1;
+  for (int attempt = 0; attempt < kWidenings; ++attempt, widening *= kWidening) {
+    const ContactRange range = static_range(model, statics.contact.strips, load, 1, widening);
+    const StripsAnswer s = solve_strips(model, range, load, tables, 0.0, 0.0, solver);
+    const Equilibrium& e = s.equilibrium;
+    if (s.position.reaches_window_end(e.p) || e.x > s.position.next_corner_gap) continue;
+    const VectorXd separation = s.compliance * e.p + s.position.gap - e.x * s.approach;
+    for (size_t j = 0; j < s.position.pairs.size(); ++j)
+      if (s.position.pairs[j].pair == 0) {
+        const auto own = Eigen::seqN(s.position.first_strip[j], s.position.pairs[j].size());
+        return {s.position.pairs[j], e.p(own), separation(own), e.x};
+      }
+  }
+  fail(Failure::numerical, "at mesh phase 0 and ", statics.torque,
+       " N m contact leaves the flanks; lower the torque");
 }
 
 }  // namespace whine

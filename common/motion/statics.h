@@ -13,4 +13,17 @@ namespace whine {
 StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
                                    const StaticSlice& slice, double torque, double window = 1);
 
+// One pair's strips in static equilibrium.
+struct ContactZone {
+  PairStrips strips;
+  Eigen::VectorXd force;       // (strip) N
+  Eigen::VectorXd separation;  // (strip) m, of the loaded flanks (d of Eq. 18)
+  double approach = 0;         // m: the transmission error at this phase
+};
+
+// Of the reference pair at mesh phase 0, with the strips of `statics`, whose contact may also be lines: its equilibrium is
+// solved again. Throws as static_transmission.
+ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
+                         const StaticArtifact& statics);
+
 }  // namespace whine

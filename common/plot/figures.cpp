@@ -1,18 +1,24 @@
 #include "plot/figures.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <sstream>
 #include <tuple>
 
 #include "base/error.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
+#include "motion/sweep.h"
 #include "plot/wireframe.h"
+#include "signal/response.h"
+#include "signal/spectrum.h"
 
 namespace whine {
 namespace {
@@ -46,6 +52,87 @@ std::string corner_words(const CornerRule& corner) {
   return "corner contact up to " + shown(corner.largest_angle * 180.0 / std::numbers::pi, 4) + "°";
 }
 
+std::string model_of(const ResponseArtifact& r) {
+  return r.model;
+}
+
+std::string model_of(const SweepArtifact& s) {
+  return s.model;
+}
+
+// All that two sweeps must share to be one experiment, besides the torque.
+template <class Sweep>
+auto choices_of(const Sweep& s) {
+  const auto of_gear = [](const GearDesign& g) {
+    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
+  };
+  return std::tuple(model_of(s), of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
+                    s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
+                    s.damping.rayleigh_stiffness, s.damping.rayleigh_mass, s.damping.bearing_ratio,
+                    s.damping.undamped_depth, s.fidelity.body, s.fidelity.contact, s.fidelity.integrator);
+}
+
+template <class Sweep>
+std::string choice_words(const Sweep& s) {
+  std::string words = "Rayleigh damping η = " + shown(s.damping.rayleigh_stiffness * kMicro, 6) + " µs";
+  if (s.damping.rayleigh_mass != 0) words += ", µ = " + shown(s.damping.rayleigh_mass, 6) + " s⁻¹";
+  if (model_of(s) != "finite elements") words = model_of(s) + ": " + words;
+  return words + text(", undamped to ", shown(s.damping.undamped_depth * kMilli, 4),
+                      " mm depth, bearing ratio ", shown(s.damping.bearing_ratio, 4), "; ",
+                      corner_words(s.mesh.corner), "; body ", s.fidelity.body, ", contact ",
+                      s.fidelity.contact, ", integrator ", s.fidelity.integrator);
+}
+
+std::string torque_words(double torque) {
+  return shown(torque, 6) + " N m";
+}
+
+// Sweeps of the same choices, both directions at each torque (ascending).
+template <class Sweep>
+struct ChoicePanel {
+  struct Curve {
+    const Sweep *up = nullptr, *down = nullptr;
+  };
+  std::string choices;
+  std::vector<Curve> curves;
+};
+
+// In the order in which the choices come. Throws Error(input) where a direction is missing or given twice.
+template <class Sweep>
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps) {
+  std::vector<ChoicePanel<Sweep>> panels;
+  std::vector<const Sweep*> first;  // of each panel
+  for (const Sweep& s : sweeps) {
+    if (s.direction != "up" && s.direction != "down")
+      fail(Failure::input, "figure: a sweep of direction '", s.direction, "'; up and down are known");
+    size_t p = 0;
+    while (p < first.size() && choices_of(*first[p]) != choices_of(s)) ++p;
+    if (p == first.size()) {
+      first.push_back(&s);
+      panels.push_back({choice_words(s), {}});
+    }
+    auto& curves = panels[p].curves;
+    const auto torque_of = [](const auto& c) { return (c.up ? c.up : c.down)->torque; };
+    auto at = curves.begin();
+    while (at != curves.end() && torque_of(*at) < s.torque) ++at;
+    if (at == curves.end() || torque_of(*at) != s.torque) at = curves.emplace(at);
+    const Sweep*& place = s.direction == "up" ? at->up : at->down;
+    if (place)
+      fail(Failure::input, "figure: two sweeps ", s.direction, " at ", torque_words(s.torque), " with ",
+           choice_words(s), "; give each once");
+    place = &s;
+  }
+  for (const auto& panel : panels)
+    for (const auto& c : panel.curves)
+      if (!c.up || !c.down)
+        fail(Failure::input, "figure: the sweep ", c.up ? "up" : "down", " at ",
+             torque_words((c.up ? c.up : c.down)->torque), " with ", panel.choices, " has no sweep ",
+             c.up ? "down" : "up",
+             " of the same torque, gears, model, damping, corner rule and fidelity beside it; make both from "
+             "one scene");
+  return panels;
+}
+
 // The row after which the march crosses f; -1 if it never does.
 Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
   for (Eigen::Index i = 0; i + 1 < frequency.size(); ++i)
@@ -53,8 +140,18 @@ Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
   return -1;
 }
 
-FigureBlock branch_block(const ResponseArtifact& r) {
-  FigureBlock block{r.direction,
+// The row after which the march left the branch that ends at the jump f: the step of the sweep across which the RMS
+// changes like a jump. It may lie before f in the march, because a branch's basin gets narrower than a step; the sweep then
+// followed the branch to f by itself. -1 if the jump lies outside the sweep.
+Eigen::Index row_left(const ResponseArtifact& r, double f) {
+  const Eigen::Index last = row_before(r.mesh_frequency, f);
+  for (Eigen::Index i = last; i >= 0; --i)
+    if (like_a_jump(r.dte_rms[i], r.dte_rms[i + 1])) return i;
+  return last;
+}
+
+FigureBlock branch_block(const std::string& name, const ResponseArtifact& r) {
+  FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
                      "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
                     {}};
@@ -65,7 +162,7 @@ FigureBlock branch_block(const ResponseArtifact& r) {
     // The curve stops at a jump: the arrow shows the step, a line would pretend that there are states
     // between.
     for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j)
-      if (row_before(r.mesh_frequency, r.jump_frequency[j]) == i) {
+      if (row_left(r, r.jump_frequency[j]) == i) {
         block.rows.emplace_back();
         break;
       }
@@ -73,31 +170,114 @@ FigureBlock branch_block(const ResponseArtifact& r) {
   return block;
 }
 
-FigureBlock jump_block(const ResponseArtifact& r) {
-  FigureBlock block{"jumps " + r.direction,
-                    {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
-                     "label row [1]"},
-                    {}};
-  std::vector<Eigen::Index> order(static_cast<size_t>(r.jump_frequency.size()));
-  for (size_t j = 0; j < order.size(); ++j) order[j] = static_cast<Eigen::Index>(j);
-  std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return r.jump_frequency[a] < r.jump_frequency[b]; });
-  // Labels of jumps closer than this would overlap: the next one stands a row lower.
-  const double span = r.mesh_frequency.maxCoeff() - r.mesh_frequency.minCoeff();
-  double previous = -std::numeric_limits<double>::infinity();
-  int row = 0;
-  for (Eigen::Index j : order) {
+// In order of frequency. What the RMS and the mean are after a jump is read off the branch on which the march goes on.
+FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
+  FigureBlock block{
+      name,
+      {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]", "label row [1]",
+       "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
+      {}};
+  for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
     const double f = r.jump_frequency[j];
-    const Eigen::Index i = row_before(r.mesh_frequency, f);
-    if (i < 0)
+    const Eigen::Index at = row_before(r.mesh_frequency, f), i = row_left(r, f);
+    if (at < 0)
       fail(Failure::input, "response: a jump at ", f, " Hz lies outside the sweep, ",
            r.mesh_frequency.minCoeff(), " to ", r.mesh_frequency.maxCoeff(), " Hz");
-    row = f - previous < 0.03 * span ? row + 1 : 0;
-    previous = f;
-    block.rows.push_back(
-        {f, r.dte_rms[i] * kMicro, r.dte_rms[i + 1] * kMicro, r.jump_width[j], static_cast<double>(row)});
+    const double share = (f - r.mesh_frequency[at]) / (r.mesh_frequency[at + 1] - r.mesh_frequency[at]);
+    const auto after = [&](const Eigen::VectorXd& v) {
+      return (i == at ? v[at + 1] : (1 - share) * v[at] + share * v[at + 1]) * kMicro;
+    };
+    block.rows.push_back({f, r.dte_rms[i] * kMicro, after(r.dte_rms), r.jump_width[j], 0.0,
+                          r.dte_mean[i] * kMicro, after(r.dte_mean), r.mesh_frequency[i]});
   }
+  std::sort(block.rows.begin(), block.rows.end());
   return block;
+}
+
+// Labels of jumps closer than a few widths of a letter would overlap: the next one stands a row lower.
+void set_label_rows(FigureBlock& one, FigureBlock& other, double span) {
+  std::vector<std::vector<double>*> rows;
+  for (FigureBlock* block : {&one, &other})
+    for (auto& row : block->rows) rows.push_back(&row);
+  std::sort(rows.begin(), rows.end(), [](auto a, auto b) { return a->front() < b->front(); });
+  double previous = -std::numeric_limits<double>::infinity();
+  int level = 0;
+  for (auto* row : rows) {
+    level = row->front() - previous < 0.03 * span ? level + 1 : 0;
+    previous = row->front();
+    (*row)[4] = level;
+  }
+}
+
+// ---- motions at one speed
+// -------------------------------------------------------------------------------------------
+
+struct Motion {
+  const SweepArtifact* sweep = nullptr;
+  Eigen::Index row = 0;
+  int periods = 1;    // of one orbit, or all that is stored of a motion that is not periodic
+  std::string title;  // which branch of which choices
+
+  Eigen::Index per_period() const { return sweep->time.steps_per_period; }
+  Eigen::VectorXd orbit(const MatrixRM& rows) const {
+    return rows.row(row).head(periods * per_period()).transpose();
+  }
+};
+
+Motion motion_at(const SweepArtifact& s, double frequency) {
+  Motion m;
+  m.sweep = &s;
+  (s.mesh_frequency.array() - frequency).abs().minCoeff(&m.row);
+  if (std::abs(s.mesh_frequency[m.row] - frequency) > 1e-6 * frequency)
+    fail(Failure::input, "figure: the sweep ", s.direction, " at ", torque_words(s.torque),
+         " holds no speed of ", frequency, " Hz; the nearest is ", s.mesh_frequency[m.row], " Hz");
+  m.periods = s.period_multiple[m.row] > 0
+                  ? s.period_multiple[m.row]
+                  : static_cast<int>(s.transmission_error.cols() / s.time.steps_per_period);
+  return m;
+}
+
+std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double frequency) {
+  constexpr double kSameBranch = 0.02;  // of the larger RMS: far above what periodicity leaves open
+  if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; an up and a down sweep are the least");
+  std::vector<Motion> motions;
+  for (const auto& panel : panels_of(sweeps))
+    for (const auto& curve : panel.curves) {
+      Motion up = motion_at(*curve.up, frequency), down = motion_at(*curve.down, frequency);
+      const std::string damping = "η = " + shown(curve.up->damping.rayleigh_stiffness * kMicro, 6) + " µs";
+      const auto rms = [](const Motion& m) { return harmonics(m.orbit(m.sweep->transmission_error), 0).rms; };
+      const double of_up = rms(up), of_down = rms(down);
+      if (std::abs(of_up - of_down) <= kSameBranch * std::max(of_up, of_down)) {
+        up.title = damping + ": no second branch here, speed rising and falling agree";
+        motions.push_back(up);
+        continue;
+      }
+      Motion& upper = of_up > of_down ? up : down;
+      Motion& lower = of_up > of_down ? down : up;
+      upper.title = damping + ": upper branch, speed " + (of_up > of_down ? "rising" : "falling");
+      lower.title = damping + ": lower branch, speed " + (of_up > of_down ? "falling" : "rising");
+      motions.push_back(upper);
+      motions.push_back(lower);
+    }
+  if (motions.size() > kMostCurves)
+    fail(Failure::input, "figure: ", motions.size(), " motions at ", frequency, " Hz; ", kMostCurves,
+         " fit into a figure");
+  return motions;
+}
+
+void set_motion_words(Figure& figure, const std::string& what, const std::vector<Motion>& motions,
+                      double frequency) {
+  figure.title = what + " at a mesh frequency of " + shown(frequency, 6) + " Hz, " +
+                 torque_words(motions[0].sweep->torque);
+  for (const auto& m : motions) {
+    const std::string choices = choice_words(*m.sweep);
+    if (figure.notes.empty() || figure.notes.back() != choices) figure.notes.push_back(choices);
+  }
+  figure.numbers.emplace_back("motions", static_cast<double>(motions.size()));
+}
+
+std::string letter_of(size_t i) {
+  return std::string(1, static_cast<char>('a' + i));
 }
 
 // ---- statics
@@ -120,7 +300,7 @@ void sort_by_torque(std::vector<StaticArtifact>& statics) {
 }
 
 std::string torque_label(const StaticArtifact& s) {
-  return shown(s.torque, 6) + " N m";
+  return torque_words(s.torque);
 }
 
 // One column per curve, first column the phase; the first point again at phase 1, so that the period closes.
@@ -175,6 +355,36 @@ void require_same_gear(const char* role, const GearDesign& mesh, const GearDesig
          " m); give driver, driven, static in this order");
 }
 
+// Phase 0: the flank point of roll angle tan(alpha_w) stands on the line of centres. Seen from its own
+// centre the driven gear is the same construction, turned by half a turn.
+Placement placed(const GearPair& pair, int g) {
+  const Vec2 p = pair.gear(g).flank_point(std::tan(pair.working_pressure_angle()));
+  Placement at;
+  at.angle = 0.5 * std::numbers::pi - std::atan2(p.y(), p.x()) + (g == 1 ? std::numbers::pi : 0.0);
+  at.centre = Vec2(0.0, g == 1 ? pair.centre_distance() : 0.0);
+  return at;
+}
+
+Vec2 moved(const Vec2& p, const Placement& at) {
+  return at.centre + Eigen::Rotation2Dd(at.angle) * p;
+}
+
+// Closed outlines of the elements of tooth 0 in which the half-plane field is subtracted.
+Strokes tooth_elements(const MeshArtifact& mesh, const Placement& at, double scale) {
+  Strokes rows;
+  const int sides = mesh.element_node.cols() == 9 ? 2 : 1;
+  for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e) {
+    if (mesh.element_region[e] != 1) continue;
+    for (int k = 0; k <= 4 * sides; ++k) {
+      const int corner = k / sides % 4, node = mesh.element_node(e, k % sides ? 4 + corner : corner);
+      const Vec2 p = moved(mesh.node_position.row(node).transpose(), at) * scale;
+      rows.push_back({p.x(), p.y()});
+    }
+    rows.emplace_back();
+  }
+  return rows;
+}
+
 }  // namespace
 
 Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s) {
@@ -183,15 +393,6 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
   const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
   const double alpha = pair.working_pressure_angle();
 
-  // Phase 0: the flank point of roll angle tan(alpha_w) stands on the line of centres. Seen from its own
-  // centre the driven gear is the same construction, turned by half a turn.
-  const auto placed = [&](int g) {
-    const Vec2 p = pair.gear(g).flank_point(std::tan(alpha));
-    Placement at;
-    at.angle = 0.5 * std::numbers::pi - std::atan2(p.y(), p.x()) + (g == 1 ? std::numbers::pi : 0.0);
-    at.centre = Vec2(0.0, g == 1 ? s.mesh.centre_distance : 0.0);
-    return at;
-  };
   const Vec2 pitch_point(0.0, pair.gear(0).base_radius() / std::cos(alpha));
   const double pitch = std::numbers::pi * s.driver.module;
   const double half_window = 1.45 * pitch;
@@ -203,7 +404,7 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
     const MeshArtifact& mesh = g == 0 ? driver : driven;
     const std::string name = g == 0 ? "driver" : "driven";
     const Wireframe wire(mesh);
-    const Placement at = placed(g);
+    const Placement at = placed(pair, g);
     const std::vector<std::string> columns{"x [mm]", "y [mm]"};
     figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli)});
     figure.blocks.push_back({name + " bore", columns, wire.bore(at, kMilli)});
@@ -239,48 +440,298 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
   return figure;
 }
 
-Figure response_figure(const ResponseArtifact& one, const ResponseArtifact& other) {
-  const ResponseArtifact& up = one.direction == "up" ? one : other;
-  const ResponseArtifact& down = one.direction == "up" ? other : one;
-  if (up.direction != "up" || down.direction != "down")
-    fail(Failure::input, "figure: the two response.h5 are sweeps '", one.direction, "' and '",
-         other.direction, "'; give one up and one down");
-  if (up.torque != down.torque)
-    fail(Failure::input, "figure: the up sweep is at ", up.torque, " N m, the down sweep at ", down.torque,
-         " N m; give two of the same torque");
-  if (up.model != down.model || up.damping.rayleigh_stiffness != down.damping.rayleigh_stiffness ||
-      up.damping.rayleigh_mass != down.damping.rayleigh_mass ||
-      up.damping.bearing_ratio != down.damping.bearing_ratio || up.fidelity.body != down.fidelity.body ||
-      up.fidelity.integrator != down.fidelity.integrator ||
-      up.mesh.corner.enabled != down.mesh.corner.enabled ||
-      up.mesh.corner.largest_angle != down.mesh.corner.largest_angle)
-    fail(Failure::input,
-         "figure: the up and the down sweep were computed with different model, damping, corner rule ",
-         "or fidelity; make both from one scene");
+Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s,
+                           const ContactZone& zone) {
+  require_same_gear("driver", driver.design, s.driver);
+  require_same_gear("driven gear", driven.design, s.driven);
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double alpha = pair.working_pressure_angle();
+  const PairStrips& strips = zone.strips;
+  const Vec2 touch(0.0, pair.gear(0).base_radius() / std::cos(alpha));
+  // Out of the driver's flank along the line of action; along the flank to the driver's tip.
+  const Vec2 normal(-std::cos(alpha), std::sin(alpha)), tangent(std::sin(alpha), std::cos(alpha));
+  const double half_window = 2 * s.driver.module;
 
   Figure figure;
-  figure.title = text("RMS of the oscillating dynamic transmission error, ", shown(up.torque, 6), " N m");
-  std::string choices =
-      text("Rayleigh damping η = ", shown(up.damping.rayleigh_stiffness * kMicro, 6), " µs");
-  if (up.damping.rayleigh_mass != 0) choices += text(", µ = ", shown(up.damping.rayleigh_mass, 6), " s⁻¹");
-  choices += text(", undamped to ", shown(up.damping.undamped_depth * kMilli, 4), " mm depth; bearing ratio ",
-                  shown(up.damping.bearing_ratio, 4), "; ", corner_words(up.mesh.corner));
-  figure.notes.push_back(choices);
-  figure.notes.push_back(text(up.model, ": body ", up.fidelity.body, ", contact ", up.fidelity.contact,
-                              ", integrator ", up.fidelity.integrator));
+  figure.title = text("Contact zone of the reference pair at the pitch point, ", torque_words(s.torque));
+  for (int g = 0; g < 2; ++g) {
+    const MeshArtifact& mesh = g == 0 ? driver : driven;
+    const std::string name = g == 0 ? "driver" : "driven";
+    const Wireframe wire(mesh);
+    const Placement at = placed(pair, g);
+    const std::vector<std::string> columns{"x [mm]", "y [mm]"};
+    figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli)});
+    figure.blocks.push_back({name + " teeth", columns, wire.window(at, kMilli, touch, half_window)});
+    const BodyDiscretisation& body = g == 0 ? s.driver_body : s.driven_body;
+    FigureBlock inner{name + " inner region", columns, {}};
+    if (body.near_field == "matching") {
+      const ToothGeometry& tooth = pair.gear(g);
+      for (double t = 0; t <= 1.0001; t += 0.02) {
+        const double roll = tooth.form_roll_angle() + t * (tooth.tip_roll_angle() - tooth.form_roll_angle());
+        const Vec2 p =
+            moved(tooth.flank_point(roll) - body.matching_depth * tooth.flank_normal(roll), at) * kMilli;
+        inner.rows.push_back({p.x(), p.y()});
+      }
+    } else {
+      inner.rows = tooth_elements(mesh, at, kMilli);
+    }
+    figure.blocks.push_back(inner);
+  }
+  FigureBlock action{"line of action", {"x [mm]", "y [mm]"}, {}};
+  for (double side : {-1.0, 1.0}) {
+    const Vec2 p = (touch + side * half_window * normal) * kMilli;
+    action.rows.push_back({p.x(), p.y()});
+  }
+  figure.blocks.push_back(action);
+
+  const auto on_flanks = [&](double x) {
+    const FlankGap at = pair.gap_at(strips.contact, x);
+    std::array<Vec2, 2> local;  // along the flank, out of the driver
+    for (int g = 0; g < 2; ++g) {
+      const Vec2 p = moved(pair.gear(g).flank_point(at.roll[g]), placed(pair, g)) - touch;
+      local[g] = Vec2(p.dot(tangent), p.dot(normal));
+    }
+    return local;
+  };
+  FigureBlock flanks{"flanks", {"along flank [mm]", "driver [µm]", "driven [µm]"}, {}};
+  const Eigen::Index n = strips.size();
+  const double reach = 0.5 * (strips.border[n] - strips.border[0]);
+  for (int k = -60; k <= 60; ++k) {
+    const double x = std::clamp(reach * 1.3 * k / 60, strips.contact.x_min, strips.contact.x_max);
+    const auto local = on_flanks(x);
+    flanks.rows.push_back({x * kMilli, local[0].y() * kMicro, local[1].y() * kMicro});
+  }
+  FigureBlock candidates{
+      "candidate pairs",
+      {"along flank [mm]", "P on driver [µm]", "G on driven gear [µm]", "strip from [mm]", "strip to [mm]",
+       "gap of strip [µm]", "separation under load [µm]", "pressure [MPa]"},
+      {}};
+  const double face_width = std::min(s.driver.face_width, s.driven.face_width);
+  for (int i = 0; i < n; ++i) {
+    const auto local = on_flanks(strips.middle(i));
+    candidates.rows.push_back({strips.middle(i) * kMilli, local[0].y() * kMicro, local[1].y() * kMicro,
+                               strips.border[i] * kMilli, strips.border[i + 1] * kMilli,
+                               strips.gap[i] * kMicro, zone.separation[i] * kMicro,
+                               1e-6 * zone.force[i] / (strips.width(i) * face_width)});
+  }
+  // Hertz's line contact (Johnson, Contact Mechanics, 4.2c) of the same force.
+  const double force = zone.force.sum();
+  const double compliance = HalfPlaneSurface(s.driver_material, face_width).coefficient() +
+                            HalfPlaneSurface(s.driven_material, face_width).coefficient();
+  const double half_width = std::sqrt(2 * pair.relative_curvature_radius(0.0) * force * compliance);
+  const double peak = 2 * force / (std::numbers::pi * half_width * face_width);
+  FigureBlock hertz{"Hertz", {"along flank [mm]", "pressure [MPa]"}, {}};
+  for (int k = 0; k <= 120; ++k) {
+    const double x = -std::cos(std::numbers::pi * k / 120);
+    hertz.rows.push_back({x * half_width * kMilli, 1e-6 * peak * std::sqrt(std::max(0.0, 1 - x * x))});
+  }
+  figure.blocks.insert(figure.blocks.end(), {flanks, candidates, hertz});
+
+  figure.notes.push_back(pair_words(s));
+  const std::string inner =
+      s.driver_body.near_field == "matching"
+          ? "matched to the finite elements at " + shown(s.driver_body.matching_depth * kMilli, 4) +
+                " mm depth"
+          : "the half-plane's field is subtracted there, finite elements carry the smooth rest";
+  figure.notes.push_back("inner region: " + inner + "; outer region: finite elements");
+  figure.notes.push_back(text(n, " strips in the window; tooth force ", fixed(force, 0),
+                              " N; approach of the gears ", shown(zone.approach * kMicro, 4),
+                              " µm; Hertz: half-width ", shown(half_width * kMicro, 4), " µm, peak ",
+                              shown(peak * 1e-6, 4), " MPa"));
+  figure.numbers = {{"matching", s.driver_body.near_field == "matching"},
+                    {"touch_y", touch.y() * kMilli},
+                    {"half_window", half_window * kMilli},
+                    {"reach", 1.3 * reach * kMilli},
+                    {"peak", peak * 1e-6},
+                    {"strips", static_cast<double>(n)}};
+  return figure;
+}
+
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
+  if (sweeps.empty())
+    fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
+  std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps);
+  Figure figure;
+  std::vector<double> torques;
+  for (const auto& r : sweeps) torques.push_back(r.torque);
+  std::sort(torques.begin(), torques.end());
+  torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
+  figure.title = "Dynamic transmission error against mesh frequency, ";
+  for (size_t i = 0; i < torques.size(); ++i) figure.title += (i ? ", " : "") + shown(torques[i], 6);
+  figure.title += " N m";
   figure.notes.push_back(
-      text("f_n = ", fixed(up.natural_frequency, 0),
-           " Hz: mean over the mesh period with the contact frozen under the static load"));
-  figure.blocks = {branch_block(up), branch_block(down), jump_block(up), jump_block(down)};
-  figure.numbers = {
-      {"natural_frequency", up.natural_frequency},
-      {"frequency_from", std::min(up.mesh_frequency.minCoeff(), down.mesh_frequency.minCoeff())},
-      {"frequency_to", std::max(up.mesh_frequency.maxCoeff(), down.mesh_frequency.maxCoeff())},
-      {"rms_max", std::max(up.dte_rms.maxCoeff(), down.dte_rms.maxCoeff()) * kMicro},
-      {"jumps_up", static_cast<double>(up.jump_frequency.size())},
-      {"jumps_down", static_cast<double>(down.jump_frequency.size())},
-      {"contact_lost",
-       up.separation_fraction.maxCoeff() > 0 || down.separation_fraction.maxCoeff() > 0 ? 1.0 : 0.0}};
+      "f_n: mean natural frequency over the mesh period, contact frozen under the static load");
+  figure.height = panels.size() == 1 ? 1000 : 240 + 600 * static_cast<int>(panels.size());
+  double from = std::numeric_limits<double>::infinity(), to = 0;
+  const auto number = [&](const std::string& name, double value) {
+    figure.numbers.emplace_back(name, value);
+  };
+  for (size_t p = 0; p < panels.size(); ++p) {
+    const std::string letter = letter_of(p);
+    const auto& curves = panels[p].curves;
+    if (curves.size() > kMostCurves)
+      fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
+           " curves can be told apart");
+    figure.notes.push_back("(" + letter + ") " + panels[p].choices);
+    figure.words.emplace_back("choices_" + letter, panels[p].choices);
+    std::string labels, jumps;
+    double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;
+    bool lost = false;
+    for (size_t c = 0; c < curves.size(); ++c) {
+      const std::string label = torque_words(curves[c].up->torque);
+      labels += "'" + label + "' ";
+      std::string found;
+      const size_t first_block = figure.blocks.size();
+      for (const ResponseArtifact* r : {curves[c].up, curves[c].down}) {
+        const std::string name = letter + " " + label + " ";
+        figure.blocks.push_back(branch_block(name + r->direction, *r));
+        figure.blocks.push_back(jump_block(name + "jumps " + r->direction, *r));
+        std::string at;
+        for (const auto& row : figure.blocks.back().rows) at += (at.empty() ? "" : ", ") + fixed(row[0], 0);
+        if (!at.empty())
+          found +=
+              (found.empty() ? " " : ", ") + std::string(r->direction == "up" ? "rising " : "falling ") + at;
+        number(text("jumps_", r->direction, "_", letter, "_", c + 1),
+               static_cast<double>(r->jump_frequency.size()));
+        from = std::min(from, r->mesh_frequency.minCoeff());
+        to = std::max(to, r->mesh_frequency.maxCoeff());
+        rms = std::max(rms, r->dte_rms.maxCoeff());
+        mean_high = std::max(mean_high, r->dte_mean.maxCoeff());
+        mean_low = std::min(mean_low, r->dte_mean.minCoeff());
+        lost |= r->separation_fraction.maxCoeff() > 0;
+      }
+      set_label_rows(figure.blocks[first_block + 1], figure.blocks[first_block + 3], to - from);
+      jumps += "'" + label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz") + "' ";
+      number(text("natural_frequency_", letter, "_", c + 1), curves[c].up->natural_frequency);
+    }
+    figure.words.emplace_back("labels_" + letter, labels);
+    figure.words.emplace_back("jump_labels_" + letter, jumps);
+    number("curves_" + letter, static_cast<double>(curves.size()));
+    number("rms_max_" + letter, rms * kMicro);
+    number("mean_max_" + letter, mean_high * kMicro);
+    number("mean_min_" + letter, mean_low * kMicro);
+    number("contact_lost_" + letter, lost);
+  }
+  number("panels", static_cast<double>(panels.size()));
+  number("frequency_from", from);
+  number("frequency_to", to);
+  return figure;
+}
+
+Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency) {
+  constexpr int kShownPeriods = 3;
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency);
+  Figure figure;
+  set_motion_words(figure, "Oscillating dynamic transmission error", motions, mesh_frequency);
+  double time_end = 0, largest = 0, largest_amplitude = 0;
+  for (size_t i = 0; i < motions.size(); ++i) {
+    const Motion& m = motions[i];
+    const Eigen::VectorXd x = m.orbit(m.sweep->transmission_error);
+    const int count = resolved_harmonics(x.size(), kShownHarmonics * m.periods);
+    if (count < 1)
+      fail(Failure::input, "figure: ", x.size(),
+           " samples do not resolve the mesh frequency; raise steps_per_period");
+    const Harmonics h = harmonics(x, count);
+    FigureBlock history{letter_of(i) + " history", {"time [ms]", "oscillating dte [µm]"}, {}};
+    const Eigen::Index shown_samples = std::max(kShownPeriods, m.periods) * m.per_period();
+    for (Eigen::Index n = 0; n <= shown_samples; ++n) {
+      const double value = (x[n % x.size()] - h.mean) * kMicro;
+      history.rows.push_back({1e3 * n / (m.per_period() * mesh_frequency), value});
+      largest = std::max(largest, std::abs(value));
+    }
+    time_end = std::max(time_end, history.rows.back()[0]);
+    FigureBlock spectrum{letter_of(i) + " spectrum", {"frequency [Hz]", "amplitude [µm]"}, {}};
+    for (int k = 1; k <= count; ++k)
+      spectrum.rows.push_back({k * mesh_frequency / m.periods, h.amplitude[k - 1] * kMicro});
+    Eigen::Index strongest = 0;
+    const double amplitude = h.amplitude.maxCoeff(&strongest);
+    largest_amplitude = std::max(largest_amplitude, amplitude * kMicro);
+    figure.words.emplace_back("title_" + letter_of(i), m.title);
+    figure.words.emplace_back(
+        "result_" + letter_of(i),
+        text("RMS ", shown(h.rms * kMicro, 3), " µm, ", shown(50 * std::pow(amplitude / h.rms, 2), 3),
+             " % of its square at ", shown((strongest + 1.0) / m.periods, 3), " × mesh frequency; mean ",
+             shown(h.mean * kMicro, 3), " µm"));
+    figure.blocks.push_back(history);
+    figure.blocks.push_back(spectrum);
+  }
+  for (const auto& [name, value] : {std::pair{"time_end", time_end},
+                                    {"largest", largest},
+                                    {"largest_amplitude", largest_amplitude},
+                                    {"frequency_end", kShownHarmonics * mesh_frequency}})
+    figure.numbers.emplace_back(name, value);
+  return figure;
+}
+
+Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency) {
+  constexpr int kFirstPeriod = -1, kPeriods = 3, kFirstTooth = -2, kLastTooth = 3;
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency);
+  Figure figure;
+  set_motion_words(figure, "Tooth loads", motions, mesh_frequency);
+  figure.height = 200 + 330 * static_cast<int>(motions.size());
+  double largest = 0;
+  const double static_force =
+      motions[0].sweep->torque / ToothGeometry(motions[0].sweep->driver).base_radius();
+  for (size_t i = 0; i < motions.size(); ++i) {
+    const Motion& m = motions[i];
+    const Eigen::Index n = m.per_period();
+    const Eigen::VectorXd force = m.orbit(m.sweep->mesh_force);
+    const MatrixRM& loads = m.sweep->tooth_load[m.row];
+    // Sample k of the shown periods: its place in the orbit, its period, its phase.
+    const auto row_of = [&](Eigen::Index k) {
+      return (k + kPeriods * m.periods * n + kFirstPeriod * n) % force.size();
+    };
+    const auto phase_of = [&](Eigen::Index k) { return kFirstPeriod + static_cast<double>(k) / n; };
+    FigureBlock net{letter_of(i) + " mesh force", {"phase of tooth i [1]", "mesh force [N]"}, {}};
+    FigureBlock lost{letter_of(i) + " contact lost", {"from phase [1]", "to phase [1]"}, {}};
+    for (Eigen::Index k = 0; k <= kPeriods * n; ++k) {
+      const double f = force[row_of(k)];
+      net.rows.push_back({phase_of(k), f});
+      if (f > 0) continue;
+      if (k > 0 && !lost.rows.empty() && force[row_of(k - 1)] == 0)
+        lost.rows.back()[1] = phase_of(k);
+      else
+        lost.rows.push_back({phase_of(k), phase_of(k)});
+    }
+    figure.numbers.emplace_back("lost_" + letter_of(i), static_cast<double>(lost.rows.size()));
+    figure.blocks.push_back(net);
+    figure.blocks.push_back(lost);
+    // Pair j is j places ahead of the reference pair, which touches at the pitch point at the start of a period: the tooth
+    // that does so t periods after tooth i is pair (period - t). Drawn while it carries load, with a sample on either side.
+    for (int t = kFirstTooth; t <= kLastTooth; ++t) {
+      FigureBlock tooth{
+          text(letter_of(i), " tooth i", t < 0 ? "" : "+", t), {"phase of tooth i [1]", "load [N]"}, {}};
+      const auto load_at = [&](Eigen::Index k) {
+        const Eigen::Index j = kFirstPeriod + k / n - t - m.sweep->pair[0];
+        return k >= 0 && k < kPeriods * n && j >= 0 && j < loads.cols() ? loads(row_of(k), j) : 0.0;
+      };
+      for (Eigen::Index k = 0; k < kPeriods * n; ++k)
+        if (load_at(k - 1) > 0 || load_at(k) > 0 || load_at(k + 1) > 0)
+          tooth.rows.push_back({phase_of(k), load_at(k)});
+        else if (!tooth.rows.empty() && !tooth.rows.back().empty())
+          tooth.rows.emplace_back();
+      figure.numbers.emplace_back(text("shown_", letter_of(i), "_", t - kFirstTooth), !tooth.rows.empty());
+      figure.blocks.push_back(tooth);
+    }
+    const Separations apart = separations(force);
+    const double most = loads.topRows(force.size()).maxCoeff();
+    largest = std::max({largest, most, force.maxCoeff()});
+    std::string result =
+        text("largest tooth load ", fixed(most, 0), " N = ", fixed(most / static_force, 2), " T / r_b; ");
+    result += apart.intervals == 0
+                  ? "contact is never lost"
+                  : text("contact lost ", shown(static_cast<double>(apart.intervals) / m.periods, 3),
+                         apart.intervals == m.periods ? " time" : " times", " a mesh period, for ",
+                         fixed(100 * apart.fraction, 1), " % of it");
+    figure.words.emplace_back("title_" + letter_of(i), m.title);
+    figure.words.emplace_back("result_" + letter_of(i), result);
+  }
+  figure.numbers.emplace_back("largest", largest);
+  figure.numbers.emplace_back("static_force", static_force);
+  figure.numbers.emplace_back("phase_from", kFirstPeriod);
+  figure.numbers.emplace_back("phase_to", kFirstPeriod + kPeriods);
+  figure.numbers.emplace_back("first_tooth", kFirstTooth);
+  figure.numbers.emplace_back("last_tooth", kLastTooth);
   return figure;
 }
 
@@ -298,6 +749,103 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
   for (const auto& s : statics) labels += text("'", torque_label(s), "' ");
   figure.words = {{"labels", labels}};
   return figure;
+}
+
+Figure natural_frequency_table(std::vector<ImpactArtifact> impacts, const std::string& published) {
+  if (impacts.empty()) fail(Failure::input, "table: no impact.h5 given; 1 is the least");
+  std::sort(impacts.begin(), impacts.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });
+  std::map<std::pair<double, std::string>, double> printed;
+  if (!published.empty()) {
+    std::ifstream file(published);
+    if (!file) fail(Failure::io, published, ": cannot be read; it holds the frequencies to compare with");
+    for (std::string line; std::getline(file, line);) {
+      if (line.empty() || line[0] == '#') continue;
+      std::istringstream words(line);
+      double torque = 0, frequency = 0;
+      std::string state;
+      if (!(words >> torque >> state >> frequency) || !(frequency > 0))
+        fail(Failure::input, published, ": '", line,
+             "' is not a torque in N m, a contact state and a frequency in Hz");
+      printed[{torque, state}] = frequency;
+    }
+  }
+
+  Figure table;
+  table.title = "Natural frequencies by ring-down";
+  const ImpactArtifact& first = impacts[0];
+  table.notes.push_back("Rayleigh damping η = " + shown(first.damping.rayleigh_stiffness * kMicro, 6) +
+                        " µs; " + corner_words(first.mesh.corner));
+  const double ratio = GearPair(first.driver, first.driven, first.mesh.centre_distance).contact_ratio();
+  const double share = ratio - std::floor(ratio);
+  const std::vector<std::string> counts{"one", "two", "three", "four"};
+  const size_t few = static_cast<size_t>(ratio) - 1;
+  if (few + 1 >= counts.size())
+    fail(Failure::input, "table: a contact ratio of ", ratio, "; below ", counts.size(), " is known");
+  table.notes.push_back("phase mean: over the phases of a mesh period; contact ratio mean: " +
+                        fixed(1 - share, 4) + " of it with " + counts[few] + ", " + fixed(share, 4) +
+                        " with " + counts[few + 1] + " pairs, as without load");
+  FigureBlock block{"natural frequencies", {"torque [N m]"}, {}};
+  for (size_t i = 0; i < impacts.size(); ++i) {
+    const ImpactArtifact& a = impacts[i];
+    if (i > 0 && a.torque == impacts[i - 1].torque)
+      fail(Failure::input, "table: two impact.h5 of the same torque, ", torque_words(a.torque),
+           "; give each once");
+    const auto at = [&](const std::string& state) {
+      const auto found = std::find(a.contact_state.begin(), a.contact_state.end(), state);
+      if (found == a.contact_state.end())
+        fail(Failure::input, "table: at ", torque_words(a.torque), " the impact.h5 holds no contact state '",
+             state, "'; with this load no phase has it");
+      return a.natural_frequency[found - a.contact_state.begin()];
+    };
+    const double low = at(counts[few]), high = at(counts[few + 1]);
+    std::vector<double> row{a.torque};
+    for (const auto& [name, state, value] :
+         {std::tuple{counts[few] + (few == 0 ? " pair" : " pairs"), counts[few], low},
+          {counts[few + 1] + " pairs", counts[few + 1], high},
+          {std::string("phase mean"), std::string("mean"), at("mean")},
+          {std::string("contact ratio mean"), std::string("mean"), (1 - share) * low + share * high}}) {
+      if (i == 0) block.columns.push_back(name + " [Hz]");
+      row.push_back(value);
+      if (published.empty()) continue;
+      const auto entry = printed.find({a.torque, state});
+      if (entry == printed.end())
+        fail(Failure::input, published, ": no frequency for ", torque_words(a.torque), ", contact '", state,
+             "'");
+      if (i == 0) {
+        block.columns.push_back(name + ", published [Hz]");
+        block.columns.push_back(name + ", deviation [%]");
+      }
+      row.push_back(entry->second);
+      row.push_back(100 * (value / entry->second - 1));
+    }
+    block.rows.push_back(row);
+  }
+  table.blocks.push_back(block);
+  return table;
+}
+
+std::string natural_frequency_text(const Figure& table) {
+  const FigureBlock& block = table.blocks.at(0);
+  const bool compared = block.columns.size() == 13;
+  std::string out = table.title + "\n";
+  for (const auto& note : table.notes) out += note + "\n";
+  char line[200];
+  std::snprintf(line, sizeof line, "\n%-20s %10s %10s", "contact", "torque N m", "Whine Hz");
+  out += line;
+  if (compared) {
+    std::snprintf(line, sizeof line, " %12s %12s", "published Hz", "deviation %");
+    out += line;
+  }
+  for (size_t c = 1; c < block.columns.size(); c += compared ? 3 : 1)
+    for (const auto& row : block.rows) {
+      const std::string name = block.columns[c].substr(0, block.columns[c].find(" ["));
+      std::snprintf(line, sizeof line, "\n%-20s %10.6g %10.1f", name.c_str(), row[0], row[c]);
+      out += line;
+      if (!compared) continue;
+      std::snprintf(line, sizeof line, " %12.0f %+12.2f", row[c + 1], row[c + 2]);
+      out += line;
+    }
+  return out + "\n";
 }
 
 Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
@@ -399,17 +947,14 @@ Figure lumped_response_figure(std::vector<ResponseArtifact> responses) {
     if (r.direction != (up ? "up" : "down") || (!up && r.torque != responses[i - 1].torque) ||
         (up && i + 1 == responses.size()) || (up && i > 0 && r.torque == responses[i - 1].torque))
       fail(Failure::input, "figure: at ", r.torque, " N m there is not one sweep up and one down");
-    FigureBlock curve{text(shown(r.torque, 6), " ", r.direction), {}, {}};
-    const FigureBlock branch = branch_block(r);
-    curve.columns = branch.columns;
-    curve.rows = branch.rows;
+    const FigureBlock curve = branch_block(text(shown(r.torque, 6), " ", r.direction), r);
     figure.blocks.push_back(curve);
     FigureBlock arrows{text("jumps ", curve.name),
                        {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]",
                         "dte_mean before [µm]", "dte_mean after [µm]"},
                        {}};
     for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
-      const Eigen::Index row = row_before(r.mesh_frequency, r.jump_frequency[j]);
+      const Eigen::Index row = row_left(r, r.jump_frequency[j]);
       if (row < 0)
         fail(Failure::input, "figure: a jump at ", r.jump_frequency[j], " Hz lies outside the sweep");
       arrows.rows.push_back({r.jump_frequency[j], r.dte_rms[row] * kMicro, r.dte_rms[row + 1] * kMicro,

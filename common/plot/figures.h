@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/schemas.h"
+#include "motion/statics.h"
 
 namespace whine {
 
@@ -24,6 +25,7 @@ struct Figure {
   std::vector<FigureBlock> blocks;
   std::vector<std::pair<std::string, double>> numbers;     // variables of the template
   std::vector<std::pair<std::string, std::string>> words;  // string variables of the template
+  int height = 1000;  // of the picture beside a width of 1600; also a variable
 };
 
 // The whole pair and a close-up of the teeth in mesh, edges of elements in mm. Driver's centre at the origin,
@@ -31,10 +33,26 @@ struct Figure {
 // touches at the pitch point. Throws Error(input) if the meshes are not those of the static artifact's gears.
 Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& pair);
 
-// RMS of the oscillating DTE against mesh frequency for both directions of the sweep, with jumps. Inputs in
-// either order. Throws Error(input) unless one is an up sweep, the other a down sweep, both of the same
-// torque and choices.
-Figure response_figure(const ResponseArtifact& one, const ResponseArtifact& other);
+// The contact zone of the reference pair at mesh phase 0: the teeth with the region in which the half-plane joins the finite
+// elements, the window of strips with a candidate pair of points in the middle of each (P on the driver, G on the driven gear)
+// on the unloaded flanks, and pressure and separation under load. Lengths along the flank grow to the driver's tip. Throws
+// Error(input) as mesh_figure.
+Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& pair,
+                           const ContactZone& zone);
+
+// RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
+// choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending).
+// Throws Error(input) unless every sweep up has one sweep down of the same torque and choices.
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps);
+
+// The steady motions at one mesh frequency (Hz): a column each, for each set of choices the upper branch and the lower one
+// where the sweeps up and down differ there, by RMS, else the only one; then its title says so. Oscillating DTE over time
+// and its spectrum. Throws Error(input) as response_figure, and for a frequency that is not a speed of every sweep.
+Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency);
+
+// The same motions: loads of successive teeth and the mesh force over the phase of tooth i, with the phases at which contact
+// is lost (every tooth without force).
+Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency);
 
 // Static transmission error over a mesh period and its spectrum, one curve per torque (ascending). Throws
 // Error(input) for no input or two of the same torque.
@@ -43,6 +61,16 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics);
 // Mesh stiffness k = (T / r_b1) / transmission error over a mesh period and its spectrum, with the
 // rectangular wave.
 Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
+
+// Natural frequencies by ring-down with few and with many pairs in contact and on the mean, a row for each torque
+// (ascending). The mean stands there twice: over the phases of a mesh period, and over the two states, weighted by the
+// shares of the period that the contact ratio gives them. published: a file of lines "torque <tab> contact <tab>
+// frequency" in N m and Hz, contact one, two, .. or mean; deviations from it in percent; "" for none. Throws Error(input)
+// for no artifact, two of one torque, or a state or a published value that is missing; Error(io) if the file cannot be read.
+Figure natural_frequency_table(std::vector<ImpactArtifact> impacts, const std::string& published);
+
+// The same as lines for a terminal.
+std::string natural_frequency_text(const Figure& table);
 
 // Changes of the static answer by each refinement, as bars, in per cent; apart from them those by another
 // choice of near field or contact.

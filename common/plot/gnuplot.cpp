@@ -30,7 +30,8 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
   std::string script = "set encoding utf8; ";
   // A point of pngcairo is 4/3 of its pixels, one of svg is one pixel: the scale makes both pictures alike.
   script += picture == Picture::png ? "set terminal pngcairo" : "set terminal svg fontscale 1.333";
-  script += " size 1600,1000 font 'DejaVu Sans,18' enhanced background '#ffffff'; ";
+  script += text(" size 1600,", figure.height, " font 'DejaVu Sans,18' enhanced background '#ffffff'; ");
+  script += text("height = real(", figure.height, "); ");
   script += text("tsv = ", quoted(tsv_path), "; title = ", quoted(figure.title), "; ");
   for (size_t i = 0; i < figure.notes.size(); ++i)
     script += text("note", i + 1, " = ", quoted(figure.notes[i]), "; ");
