@@ -101,7 +101,7 @@ class RollingDynamics {
   State rest();
   // Marches one mesh period and renames teeth, so that the state can be compared with the one before.
   // False if contact wanted more than the range holds; the state is then spoiled. With a ledger a step of strips costs
-  // two and a half times as much, one of lines five times. Throws Error(numerical) if a line carries more than Hertz's law or its flanks hold.
+  // three times as much, one of lines five times. Throws Error(numerical) if a line carries more than Hertz's law or its flanks hold.
   bool march(State& state, Period& period, Ledger* ledger = nullptr);
   // The contact problem of each step of a period of strips marched from `state`: what march hands to its solver.
   struct ContactProblem {
