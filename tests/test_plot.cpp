@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "lumped/stiffness.h"
 #include "paper_pair.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
@@ -499,18 +500,18 @@ TEST_CASE("error budget: choices stand apart from the errors and in no sum") {
   budget.choice = {"matching at 1 mm", Eigen::VectorXd::Constant(1, -7e-3),
                    Eigen::VectorXd::Constant(1, 0.01), MatrixRM::Constant(1, 5, 2e-3)};
   const Figure figure = error_budget_figure(budget);
-  CHECK(figure.notes[0].find("mean stiffness 0.3 ‰") != std::string::npos);
+  CHECK(figure.notes[0].find("mean stiffness 0.03 %") != std::string::npos);
   REQUIRE(block(figure, "changes").rows.size() == 2);
   REQUIRE(block(figure, "choices").rows.size() == 1);
-  CHECK(block(figure, "changes").rows[1][1] == relative(0.2, 1e-14));
-  CHECK(block(figure, "choices").rows[0][1] == relative(7, 1e-14));
+  CHECK(block(figure, "changes").rows[1][1] == relative(0.02, 1e-14));
+  CHECK(block(figure, "choices").rows[0][1] == relative(0.7, 1e-14));
   const auto word = [&](const std::string& name) {
     for (const auto& [key, value] : figure.words)
       if (key == name) return value;
     return std::string();
   };
   CHECK(word("labels") == "'strips' 'flank table' ");
-  CHECK(word("choice_labels") == "'matching at 1 mm' ");
+  CHECK(word("choice_labels") == "'matching|at 1 mm' ");
   budget.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), MatrixRM(0, 5)};
   CHECK(block(error_budget_figure(budget), "choices").rows.empty());
 }

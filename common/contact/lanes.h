@@ -43,9 +43,14 @@ inline double sum(Lanes a) {
 }
 
 inline double dot(const double* x, const double* y, int first, int last) {
-  Lanes total{};
-  for (int i = first; i < last; i += kLanes) total += lanes(x + i) * lanes(y + i);
-  return sum(total);
+  Lanes total{}, other{};
+  int i = first;
+  for (; i + kLanes < last; i += 2 * kLanes) {
+    total += lanes(x + i) * lanes(y + i);
+    other += lanes(x + i + kLanes) * lanes(y + i + kLanes);
+  }
+  if (i < last) total += lanes(x + i) * lanes(y + i);
+  return sum(total + other);
 }
 
 // The sums of four vectors, one in each lane.
@@ -74,38 +79,48 @@ inline void dot_columns(double* result, const double* columns, int stride, int c
   }
 }
 
-// row j . x in lane j; four rows of `length`, a multiple of 4, one after the other.
+// Four rows of `length`, a multiple of 4, that stand side by side: four numbers of each in turn. Row j . x in lane j.
 inline Lanes dot_rows(const double* rows, int length, const double* x) {
-  const double *r0 = rows, *r1 = r0 + length, *r2 = r1 + length, *r3 = r2 + length;
   Lanes a{}, b{}, c{}, d{}, a1{}, b1{}, c1{}, d1{};
   int i = 0;
-  for (; i + 2 * kLanes <= length; i += 2 * kLanes) {
+  for (; i + 2 * kLanes <= length; i += 2 * kLanes, rows += 8 * kLanes) {
     const Lanes x0 = lanes(x + i), x1 = lanes(x + i + kLanes);
-    a += lanes(r0 + i) * x0;
-    b += lanes(r1 + i) * x0;
-    c += lanes(r2 + i) * x0;
-    d += lanes(r3 + i) * x0;
-    a1 += lanes(r0 + i + kLanes) * x1;
-    b1 += lanes(r1 + i + kLanes) * x1;
-    c1 += lanes(r2 + i + kLanes) * x1;
-    d1 += lanes(r3 + i + kLanes) * x1;
+    a += lanes(rows) * x0;
+    b += lanes(rows + kLanes) * x0;
+    c += lanes(rows + 2 * kLanes) * x0;
+    d += lanes(rows + 3 * kLanes) * x0;
+    a1 += lanes(rows + 4 * kLanes) * x1;
+    b1 += lanes(rows + 5 * kLanes) * x1;
+    c1 += lanes(rows + 6 * kLanes) * x1;
+    d1 += lanes(rows + 7 * kLanes) * x1;
   }
   if (i < length) {
     const Lanes x0 = lanes(x + i);
-    a += lanes(r0 + i) * x0;
-    b += lanes(r1 + i) * x0;
-    c += lanes(r2 + i) * x0;
-    d += lanes(r3 + i) * x0;
+    a += lanes(rows) * x0;
+    b += lanes(rows + kLanes) * x0;
+    c += lanes(rows + 2 * kLanes) * x0;
+    d += lanes(rows + 3 * kLanes) * x0;
   }
   return sums(a + a1, b + b1, c + c1, d + d1);
 }
 
-// y += sum over j of f[j] * row j; rows as above.
-inline void add_rows(double* y, const double* rows, int length, Lanes f) {
-  const double *r0 = rows, *r1 = r0 + length, *r2 = r1 + length, *r3 = r2 + length;
-  const double f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
-  for (int i = 0; i < length; i += kLanes)
-    lanes(y + i) += (f0 * lanes(r0 + i) + f1 * lanes(r1 + i)) + (f2 * lanes(r2 + i) + f3 * lanes(r3 + i));
+// The same of two blocks of rows; result: (block).
+inline void dot_rows_twice(const double* first, const double* second, int length, const double* x,
+                           Lanes* result) {
+  Lanes a{}, b{}, c{}, d{}, a1{}, b1{}, c1{}, d1{};
+  for (int i = 0; i < length; i += kLanes, first += 4 * kLanes, second += 4 * kLanes) {
+    const Lanes right = lanes(x + i);
+    a += lanes(first) * right;
+    b += lanes(first + kLanes) * right;
+    c += lanes(first + 2 * kLanes) * right;
+    d += lanes(first + 3 * kLanes) * right;
+    a1 += lanes(second) * right;
+    b1 += lanes(second + kLanes) * right;
+    c1 += lanes(second + 2 * kLanes) * right;
+    d1 += lanes(second + 3 * kLanes) * right;
+  }
+  result[0] = sums(a, b, c, d);
+  result[1] = sums(a1, b1, c1, d1);
 }
 
 // y[0..12) += sum over j < count of f[j] * column j, all of y in registers; count even.

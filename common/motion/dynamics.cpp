@@ -19,7 +19,13 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 }
 
 RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParameters& parameters)
-    : model_(model), parameters_(parameters) {
+    : model_(model),
+      parameters_(parameters),
+      full_(parameters.fidelity.body == "full"),
+      lines_(parameters.fidelity.contact == "line"),
+      newmark_(parameters.fidelity.integrator == "newmark"),
+      relaxation_(
+          full_ || parameters.fidelity.body == "quasi-static" ? 0 : parameters.damping.rayleigh_stiffness) {
   const std::string& rung = parameters.fidelity.body;
   double inverse_mass = 0;
   for (int g = 0; g < 2; ++g) {
@@ -138,37 +144,17 @@ double RollingDynamics::bearing_damper(int g) const {
 
 namespace {
 
-constexpr int kFields = 12;    // per tooth; a multiple of kLanes
-constexpr int kPairNodes = 8;  // columns of nodes: kWindowNodes and zeros up to whole lanes
-constexpr int kShapeRows = 4;  // per pair: what modes are read and loaded through
-static_assert(kFields % kLanes == 0 && kPairNodes % kLanes == 0 && kPairNodes >= kWindowNodes);
-static_assert(kShapeRows == kLanes && kShapeRows <= kWindowNodes && kPairNodes == 8 && kFields == 12);
-
-// (node, shape row) orthonormal: the first Chebyshev polynomials on the Chebyshev points of a window.
-using ShapeBasis = Eigen::Matrix<double, kWindowNodes, kShapeRows>;
-ShapeBasis make_shape_basis() {
-  ShapeBasis basis;
-  for (int k = 0; k < kWindowNodes; ++k)
-    for (int m = 0; m < kShapeRows; ++m)
-      basis(k, m) = std::sqrt((m > 0 ? 2.0 : 1.0) / kWindowNodes) *
-                    std::cos(m * (2 * k + 1) * std::numbers::pi / (2 * kWindowNodes));
-  return basis;
-}
-const ShapeBasis& shape_basis() {
-  static const ShapeBasis basis = make_shape_basis();
-  return basis;
-}
-
 // (flank, field) orthonormal: the loads of a flank that its own displacements, and before all those of its neighbours,
-// depend on most. tables: flexibility of gear g by offset between teeth, -max..max.
-MatrixXd lagged_fields(const std::vector<MatrixXd>& tables, int g) {
+// depend on most, those that neighbours depend on first, `shared` of them. tables: flexibility of gear g by offset between
+// teeth, -max..max.
+MatrixXd lagged_fields(const std::vector<MatrixXd>& tables, int g, int most, int shared) {
   const int max = static_cast<int>(tables.size()) / 2, m = static_cast<int>(tables[max].rows());
   // What a tooth and all others within the body's offsets do to each other has rank 7 to 9 to 1e-8 of the tooth's own
   // flexibility (16 to 50 teeth, undamped depths up to 1 m). The weight takes it whole; the fields left over go to
   // the tooth itself.
   constexpr double kNeighbourWeight = 1e6;
   // What no field holds follows at once. With 12 fields it is 5e-5 of the whole for 50 teeth, 1e-4 for 16; a body that
-  // leaves ten times that is no tooth that fields were chosen for.
+  // leaves ten times that is no tooth that fields were chosen for. Between teeth the 8 shared fields leave 6e-7.
   constexpr double kMostRemainder = 1e-3;
   MatrixXd importance = tables[max] * tables[max];
   for (int offset = -max; offset <= max; ++offset)
@@ -178,13 +164,15 @@ MatrixXd lagged_fields(const std::vector<MatrixXd>& tables, int g) {
     fail(Failure::numerical, "the lagged fields of the ", g ? "driven gear" : "driver",
          " were not found: its ", m, " flank points have a flexibility of norm ", tables[max].norm(),
          " m/N; rebuild body.h5");
-  const MatrixXd fields = eigen.eigenvectors().rightCols(std::min(kFields, m));
+  const MatrixXd fields = eigen.eigenvectors().rightCols(std::min(most, m)).rowwise().reverse();
   const double whole = tables[max].norm();
   for (int offset = -max; offset <= max; ++offset) {
     const MatrixXd& r = tables[offset + max];
-    const double rest = (r - fields * (fields.transpose() * r * fields) * fields.transpose()).norm();
+    const auto held =
+        fields.leftCols(offset == 0 ? fields.cols() : std::min<Eigen::Index>(shared, fields.cols()));
+    const double rest = (r - held * (held.transpose() * r * held) * held.transpose()).norm();
     if (!(rest <= kMostRemainder * whole))
-      fail(Failure::numerical, "the ", fields.cols(), " lagged fields of the ", g ? "driven gear" : "driver",
+      fail(Failure::numerical, "the ", held.cols(), " lagged fields of the ", g ? "driven gear" : "driver",
            " leave ", rest / whole, " of a tooth's residual flexibility to follow at once (between teeth ",
            offset, " apart), above ", kMostRemainder, "; rebuild body.h5 with more modes or finer elements");
   }
@@ -221,7 +209,6 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
          " are allowed; set contact = \"line\", lower min_sample_rate_kHz or raise the lowest speed, or take "
          "body = \"modal\"");
 
-  const int pairs = 2 * reach_ + 1;
   std::array<std::vector<MatrixXd>, 2> tables;  // by offset between teeth, -2 reach..2 reach
   for (int g = 0; g < 2; ++g) {
     const int m = model_.gear[g].table_size();
@@ -233,13 +220,17 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     const int offsets = model_.gear[g].body().offsets;
     for (int offset = -offsets; offset <= offsets; ++offset)
       known.push_back(rigid ? MatrixXd::Zero(m, m) : model_.gear[g].residual(offset, depth, kept_[g]));
-    fields_[g] = full() ? MatrixXd::Zero(m, kFields) : lagged_fields(known, g);
-    coupling_[g] = MatrixXd::Zero(kFields * pairs, kFields * pairs);
-    const int own = static_cast<int>(fields_[g].cols());
-    for (int i = 0; i < pairs; ++i)
-      for (int j = 0; j < pairs; ++j)
-        coupling_[g].block(i * kFields, j * kFields, own, own) =
-            fields_[g].transpose() * tables[g][GearMeshModel::tooth(g, i - j) + 2 * reach_] * fields_[g];
+    fields_[g] = full() ? MatrixXd::Zero(m, kFields) : lagged_fields(known, g, kFields, kSharedFields);
+    coupling_[g].clear();
+    for (int offset = -2 * reach_; offset <= 2 * reach_; ++offset) {
+      const int n = offset == 0 ? kFields : kSharedFields,
+                own = std::min(n, static_cast<int>(fields_[g].cols()));
+      const auto fields = fields_[g].leftCols(own);
+      MatrixXd block = MatrixXd::Zero(n, n);
+      block.topLeftCorner(own, own) =
+          fields.transpose() * tables[g][GearMeshModel::tooth(g, offset) + 2 * reach_] * fields;
+      coupling_[g].push_back(block);
+    }
   }
   for (Position& position : positions_) {
     const MeshPosition& mesh = position.mesh;
@@ -255,21 +246,32 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
       whole += body_compliance(mesh, g, tables[g]);
       position.field_weight[g] = MatrixXd::Zero(mesh.nodes(), kFields);
       position.field_weight[g].leftCols(fields_[g].cols()) = mesh.table_weights[g] * fields_[g];
-      const auto rows = [&](size_t i) { return position.field_weight[g](mesh.nodes_of(i), Eigen::all); };
       for (size_t i = 0; i < mesh.pairs.size(); ++i)
-        for (size_t j = 0; j < mesh.pairs.size(); ++j)
-          position.lagged(mesh.nodes_of(i), mesh.nodes_of(j)) +=
-              rows(i) *
-              coupling_[g].block<kFields, kFields>((mesh.pairs[i].pair + reach_) * kFields,
-                                                   (mesh.pairs[j].pair + reach_) * kFields) *
-              rows(j).transpose();
+        for (size_t j = 0; j < mesh.pairs.size(); ++j) {
+          const MatrixXd& block = coupling(g, mesh.pairs[i].pair - mesh.pairs[j].pair);
+          const auto rows = [&](size_t pair) {
+            return position.field_weight[g](mesh.nodes_of(pair), Eigen::seqN(0, block.cols()));
+          };
+          position.lagged(mesh.nodes_of(i), mesh.nodes_of(j)) += rows(i) * block * rows(j).transpose();
+        }
     }
     position.local = local_compliance(model_, mesh, depth);
     mesh.add_to_strips(whole - position.lagged, position.local);
-    for (const PairStrips& s : mesh.pairs) {
-      position.slot.push_back(s.pair + reach_);
-      position.drift_lever.push_back(s.contact.lever[0] / model_.kinematics.gear(0).base_radius() -
-                                     s.contact.lever[1] / model_.kinematics.gear(1).base_radius());
+    if (mesh.pairs.size() > kMostPairs)
+      fail(Failure::numerical, "at mesh phase ", mesh.phase, " ", mesh.pairs.size(),
+           " pairs are in reach, at most ", kMostPairs, " are foreseen");
+    Frame& frame = position.frame;
+    frame.present = static_cast<int>(mesh.pairs.size());
+    frame.of_pair = frame.present > 0 ? mesh.strips() / frame.present : 0;
+    frame.next_corner_gap = mesh.next_corner_gap;
+    frame.lost_corner_gap = mesh.lost_corner_gap;
+    for (int j = 0; j < frame.present; ++j) {
+      const PairStrips& s = mesh.pairs[j];
+      frame.pair[j].slot = s.pair + reach_;
+      frame.pair[j].low_is_edge = s.low_is_edge;
+      frame.pair[j].high_is_edge = s.high_is_edge;
+      frame.pair[j].drift_lever = s.contact.lever[0] / model_.kinematics.gear(0).base_radius() -
+                                  s.contact.lever[1] / model_.kinematics.gear(1).base_radius();
     }
   }
   step_data_.clear();
@@ -284,174 +286,6 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
       turns_.push_back({i, c.partner, std::cos(c.turn), std::sin(c.turn)});
   }
   size_workspaces();
-}
-
-void RollingDynamics::size_workspaces() {
-  static_assert(kFields <= kMostFields);
-  const int own = static_cast<int>(coordinates_.size()), coordinates = padded(own),
-            fields = kFields * (2 * reach_ + 1);
-  int strips = kMostPairs, pairs = 1;
-  for (const Position& position : positions_) {
-    strips = std::max(strips, position.mesh.strips());
-    pairs = std::max(pairs, static_cast<int>(position.mesh.pairs.size()));
-  }
-  Workspace& w = work_;
-  for (VectorXd* x : {&w.z, &w.v, &w.force, &w.torque, &w.weight, &w.response}) x->setZero(coordinates);
-  w.torque.head(own) = torque_force_;
-  w.weight.head(own) = error_weight_;
-  for (VectorXd* x : {&w.lag, &w.load}) x->setZero(2 * fields);
-  for (VectorXd* x : {&w.e, &w.p, &w.d}) x->setZero(strips);
-  w.nodes.setZero(pairs * kPairNodes);
-  LedgerWorkspace& l = ledger_work_;
-  for (Instant& instant : l.instants) {
-    for (VectorXd* x : {&instant.z, &instant.v, &instant.force}) x->setZero(coordinates);
-    for (VectorXd* x :
-         {&instant.lag, &instant.load, &instant.field, &instant.moved_load, &instant.forgotten_field})
-      x->setZero(2 * fields);
-    for (VectorXd* x : {&instant.p, &instant.d, &instant.local}) x->setZero(strips);
-    for (VectorXd* x : {&instant.moment, &instant.reading}) x->setZero(pairs * kShapeRows);
-  }
-  for (VectorXd* x : {&l.turned_back, &l.frequency_squared, &l.damping}) x->setZero(coordinates);
-  l.frequency_squared.head(own) = frequency_squared_;
-  for (int i = 0; i < own; ++i) l.damping[i] = coordinates_[i].damping;
-}
-
-RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
-  const MeshPosition& mesh = positions_[i].mesh;
-  StepSizes sizes;
-  sizes.coordinates = padded(static_cast<int>(coordinates_.size()));
-  sizes.pairs = static_cast<int>(mesh.pairs.size());
-  sizes.rows = lines() ? 1 : kShapeRows;
-  sizes.nodes = lines() ? 1 : kPairNodes;
-  sizes.strips = sizes.pairs > 0 ? mesh.strips() / sizes.pairs : 0;
-  sizes.fields = kFields;
-  sizes.teeth = 2 * reach_ + 1;
-  return sizes;
-}
-
-// Lays the numbers of each position side by side.
-void RollingDynamics::pack() {
-  stream_.clear();
-  size_t inner = std::numeric_limits<size_t>::max();  // windows without an edge are all alike
-  for (Position& position : positions_)
-    if (lines())
-      pack_lines(position);
-    else
-      pack_strips(position, inner);
-}
-
-namespace {
-
-size_t place(std::vector<double>& stream, Eigen::Index count) {
-  const size_t at = stream.size();
-  stream.resize(at + static_cast<size_t>(count), 0.0);
-  return at;
-}
-
-// Where the numbers of one line stand, all lengths whole lanes.
-struct LineRecord {
-  int coordinates, fields;               // of all pairs
-  static constexpr int kGap = 0;         // m
-  static constexpr int kMost = 1;        // N: beyond it neither Hertz's law nor the flanks hold
-  static constexpr int kShape = kLanes;  // (coordinate)
-  int reading(int g) const { return kShape + coordinates + g * fields; }  // (field of all pairs) m N-1
-  int weight(int g) const { return kShape + coordinates + 2 * fields + g * kFields; }  // (field of its own)
-  int size() const { return weight(2); }
-};
-
-}  // namespace
-
-void RollingDynamics::pack_lines(Position& position) {
-  const MeshPosition& mesh = position.mesh;
-  const LineRecord record{padded(static_cast<int>(coordinates_.size())), kFields * (2 * reach_ + 1)};
-  position.line = place(stream_, static_cast<int>(mesh.pairs.size()) * record.size());
-  for (size_t j = 0; j < mesh.pairs.size(); ++j) {
-    double* at = &stream_[position.line + j * record.size()];
-    const PairContact& contact = mesh.pairs[j].contact;
-    at[LineRecord::kGap] = mesh.gap[j];
-    at[LineRecord::kMost] =
-        std::min(mesh.law[j].largest_force(), mesh.law[j].force(contact.x_max - contact.x_min));
-    const auto row = [at](int offset, Eigen::Index n) {
-      return Eigen::Map<Eigen::RowVectorXd>(at + offset, n);
-    };
-    row(LineRecord::kShape, position.participation.cols()) = position.participation.row(j);
-    for (int g = 0; g < 2; ++g) {
-      const auto weight = position.field_weight[g].row(j);
-      row(record.reading(g), record.fields) =
-          weight * coupling_[g].middleRows<kFields>(position.slot[j] * kFields);
-      row(record.weight(g), kFields) = weight;
-    }
-  }
-}
-
-namespace {
-
-// A window's basis in lanes: what a pair's shape rows move its nodes by, and what its nodes' forces are in them.
-struct ShapeLanes {
-  double column[kShapeRows][kPairNodes] = {}, row[kPairNodes][kShapeRows] = {};
-  ShapeLanes() {
-    for (int k = 0; k < kWindowNodes; ++k)
-      for (int m = 0; m < kShapeRows; ++m) column[m][k] = row[k][m] = shape_basis()(k, m);
-  }
-};
-const ShapeLanes kShape;
-
-// result = gap + interpolation nodes; (strip), (strip), (strip, node)
-void interpolate(double* result, const double* gap, const double* interpolation, int strips,
-                 const double* nodes) {
-  static_assert(kWindowNodes == 6);
-  const double f0 = nodes[0], f1 = nodes[1], f2 = nodes[2], f3 = nodes[3], f4 = nodes[4], f5 = nodes[5];
-  for (int i = 0; i < strips; i += kLanes) {
-    const double* c = interpolation + i;
-    lanes(result + i) =
-        (lanes(gap + i) + f0 * lanes(c) + f1 * lanes(c + strips) + f2 * lanes(c + 2 * strips)) +
-        (f3 * lanes(c + 3 * strips) + f4 * lanes(c + 4 * strips) + f5 * lanes(c + 5 * strips));
-  }
-}
-
-Lanes moments_of(const double* nodes) {
-  static_assert(kWindowNodes == 6);
-  return (nodes[0] * lanes(kShape.row[0]) + nodes[1] * lanes(kShape.row[1]) +
-          nodes[2] * lanes(kShape.row[2])) +
-         (nodes[3] * lanes(kShape.row[3]) + nodes[4] * lanes(kShape.row[4]) +
-          nodes[5] * lanes(kShape.row[5]));
-}
-
-}  // namespace
-
-void RollingDynamics::pack_strips(Position& position, size_t& inner) {
-  const int coordinates = padded(static_cast<int>(coordinates_.size()));
-  const MeshPosition& mesh = position.mesh;
-  const int pairs = static_cast<int>(mesh.pairs.size());
-  position.gap = place(stream_, mesh.strips());
-  std::copy(mesh.gap.begin(), mesh.gap.end(), stream_.begin() + static_cast<std::ptrdiff_t>(position.gap));
-  position.shape = place(stream_, pairs * kShapeRows * coordinates);
-  for (int j = 0; j < pairs; ++j) {
-    const MatrixXd shape =
-        shape_basis().transpose() * position.participation.middleRows<kWindowNodes>(j * kWindowNodes);
-    for (int r = 0; r < kShapeRows; ++r)
-      std::copy(
-          shape.row(r).begin(), shape.row(r).end(),
-          stream_.begin() + static_cast<std::ptrdiff_t>(position.shape + (j * kShapeRows + r) * coordinates));
-    const PairStrips& s = mesh.pairs[j];
-    const bool edge = s.low_is_edge || s.high_is_edge;
-    if (edge || inner == std::numeric_limits<size_t>::max()) {
-      const size_t at = place(stream_, s.size() * kPairNodes);
-      for (int k = 0; k < kWindowNodes; ++k)
-        for (int i = 0; i < s.size(); ++i) stream_[at + k * s.size() + i] = s.interpolation(i, k);
-      position.interpolation.push_back(at);
-      if (!edge) inner = at;
-    } else {
-      position.interpolation.push_back(inner);
-    }
-    for (int g = 0; g < 2; ++g) {
-      const size_t at = place(stream_, kPairNodes * kFields);
-      for (int r = 0; r < kFields; ++r)
-        for (int k = 0; k < kWindowNodes; ++k)
-          stream_[at + r * kPairNodes + k] = position.field_weight[g](j * kWindowNodes + k, r);
-      position.field[g].push_back(at);
-    }
-  }
 }
 
 const MatrixXd& RollingDynamics::shape_on_tooth(int g, int tooth) const {
@@ -502,21 +336,20 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   stride_ = finest / steps;
   const double h = step_ = 1 / (mesh_frequency * steps);
   const int n = static_cast<int>(coordinates_.size());
-  for (VectorXd* x : {&speed_.a11, &speed_.a12, &speed_.a21, &speed_.a22, &speed_.bq, &speed_.bv})
-    x->setZero(padded(n));
-  const bool newmark = parameters_.fidelity.integrator == "newmark";
+  speed_.number.setZero(SpeedCoefficients::kCount * padded(n));
   Propagator a{};  // the halves of a doublet have one
   for (int i = 0; i < n; ++i) {
     const Coordinate& c = coordinates_[i];
     if (i == 0 || c.frequency != coordinates_[i - 1].frequency || c.damping != coordinates_[i - 1].damping)
-      a = newmark ? newmark_propagator(c.frequency, c.damping, h)
-                  : exact_propagator(c.frequency, c.damping, h);
-    speed_.a11[i] = a.a11;
-    speed_.a12[i] = a.a12;
-    speed_.a21[i] = a.a21;
-    speed_.a22[i] = a.a22;
-    speed_.bq[i] = a.bq;
-    speed_.bv[i] = a.bv;
+      a = newmark_ ? newmark_propagator(c.frequency, c.damping, h)
+                   : exact_propagator(c.frequency, c.damping, h);
+    speed_.at(SpeedCoefficients::a11, i) = a.a11;
+    speed_.at(SpeedCoefficients::a12, i) = a.a12;
+    speed_.at(SpeedCoefficients::a21, i) = a.a21;
+    speed_.at(SpeedCoefficients::a22, i) = a.a22;
+    speed_.at(SpeedCoefficients::bq, i) = a.bq;
+    speed_.at(SpeedCoefficients::torque, i) = torque_force_[i];
+    speed_.at(SpeedCoefficients::weight, i) = error_weight_[i];
   }
   lag_ = lag_step(relaxation(), h);
   damping_ = damping_integrals();
@@ -540,49 +373,6 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
     at_nodes = lag_.from_new * position.lagged;
     add_response(position, at_nodes);
     position.mesh.add_to_strips(at_nodes, step_data_[i].compliance);
-  }
-}
-
-// Adds h (bq / 2) h^T, what the modes give way at the end of a step. at_nodes: (node, node) m N-1.
-void RollingDynamics::add_response(const Position& position, MatrixXd& at_nodes) {
-  const int coordinates = padded(static_cast<int>(coordinates_.size())),
-            present = static_cast<int>(position.slot.size());
-  double *weighted = work_.response.data(), *const bq = speed_.bq.data();
-  if (lines()) {
-    for (int i = 0; i < present; ++i) {
-      const LineRecord record{coordinates, kFields * (2 * reach_ + 1)};
-      const auto row = [&](int j) {
-        return &stream_[position.line + j * record.size() + LineRecord::kShape];
-      };
-      for (int c = 0; c < coordinates; c += kLanes)
-        lanes(weighted + c) = 0.5 * lanes(bq + c) * lanes(row(i) + c);
-      for (int j = 0; j <= i; ++j) {
-        const double add = dot(row(j), weighted, 0, coordinates);
-        at_nodes(i, j) += add;
-        if (i != j) at_nodes(j, i) += add;
-      }
-    }
-    return;
-  }
-  const auto rows = [&](int j) { return &stream_[position.shape + j * kShapeRows * coordinates]; };
-  for (int i = 0; i < present; ++i) {
-    Eigen::Matrix<double, kShapeRows, kShapeRows> share[kMostPairs];
-    for (int r = 0; r < kShapeRows; ++r) {
-      const double* row = rows(i) + r * coordinates;
-      for (int c = 0; c < coordinates; c += kLanes)
-        lanes(weighted + c) = 0.5 * lanes(bq + c) * lanes(row + c);
-      for (int j = 0; j <= i; ++j) {
-        const Lanes dots = dot_rows(rows(j), coordinates, weighted);
-        for (int m = 0; m < kShapeRows; ++m) share[j](r, m) = dots[m];
-      }
-    }
-    for (int j = 0; j <= i; ++j) {
-      const Eigen::Matrix<double, kWindowNodes, kWindowNodes> block =
-          shape_basis() * share[j] * shape_basis().transpose();
-      at_nodes.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes) += block;
-      if (i != j)
-        at_nodes.block<kWindowNodes, kWindowNodes>(j * kWindowNodes, i * kWindowNodes) += block.transpose();
-    }
   }
 }
 
@@ -697,7 +487,7 @@ HeldMesh RollingDynamics::hold(int i) const {
   held.next_corner_gap = mesh.next_corner_gap;
   held.lost_corner_gap = mesh.lost_corner_gap;
   held.relaxation = relaxation();
-  held.newmark = parameters_.fidelity.integrator == "newmark";
+  held.newmark = newmark_;
   return held;
 }
 
@@ -739,360 +529,6 @@ VectorXd RollingDynamics::difference(const State& a, const State& b) const {
   both << (a.z - b.z).cwiseProduct(frequency_squared_.cwiseSqrt()), a.v - b.v;
   both[0] = rigid_frequency_ * (a.z[0] - b.z[0]);
   return both / energy_scale_;
-}
-
-void RollingDynamics::turn_doublets(double* y, int direction) const {
-  for (const Turn& turn : turns_) {
-    if (turn.sine < 0) {
-      y[turn.cosine] = -y[turn.cosine];
-    } else {
-      // Z = cosine - i sine turns by exp(i turn).
-      const double cosine = y[turn.cosine], sine = y[turn.sine], s = direction * turn.s;
-      y[turn.cosine] = turn.c * cosine + s * sine;
-      y[turn.sine] = turn.c * sine - s * cosine;
-    }
-  }
-}
-
-void RollingDynamics::advance_fields(double* fields) const {
-  const int of_gear = kFields * (2 * reach_ + 1);
-  for (int g = 0; g < 2; ++g) {
-    double* own = fields + g * of_gear;
-    std::copy_backward(own, own + of_gear - kFields, own + of_gear);
-    std::fill(own, own + kFields,
-              0.0);  // a tooth that comes into reach was unloaded for longer than any lag lasts
-  }
-}
-
-void RollingDynamics::advance_tooth(State& state) const {
-  for (VectorXd* y : {&state.z, &state.v, &state.force}) turn_doublets(y->data());
-  for (int g = 0; g < 2; ++g)
-    for (MatrixXd* field : {&state.lag[g], &state.load[g]}) {
-      for (int j = static_cast<int>(field->cols()) - 1; j > 0; --j) field->col(j) = field->col(j - 1);
-      field->col(0).setZero();
-    }
-}
-
-Lanes RollingDynamics::reading(const Position& position, size_t j, const double* z) const {
-  const int coordinates = padded(static_cast<int>(coordinates_.size()));
-  if (!lines()) return dot_rows(&stream_[position.shape + j * kShapeRows * coordinates], coordinates, z);
-  const LineRecord record{coordinates, kFields * (2 * reach_ + 1)};
-  return Lanes{dot(&stream_[position.line + j * record.size() + LineRecord::kShape], z, 0, coordinates)};
-}
-
-Lanes RollingDynamics::collect(const Position& position, size_t j, const double* p, double* fields) const {
-  const int coordinates = padded(static_cast<int>(coordinates_.size()));
-  if (lines()) {
-    const LineRecord record{coordinates, kFields * (2 * reach_ + 1)};
-    const double* line = &stream_[position.line + j * record.size()];
-    for (int g = 0; g < 2; ++g)
-      for (int k = 0; k < kFields; k += kLanes)
-        lanes(fields + g * kFields + k) = p[0] * lanes(line + record.weight(g) + k);
-    return Lanes{p[0]};
-  }
-  const int of_pair = position.mesh.pairs[j].size();
-  double nodes[kPairNodes];
-  dot_columns(nodes, &stream_[position.interpolation[j]], of_pair, kPairNodes, p, of_pair);
-  for (int g = 0; g < 2; ++g)
-    dot_columns(fields + g * kFields, &stream_[position.field[g][j]], kPairNodes, kFields, nodes, kPairNodes);
-  return moments_of(nodes);
-}
-
-void RollingDynamics::displace(int g, const double* loads, double* field) const {
-  const int fields = kFields * (2 * reach_ + 1);
-  std::fill(field, field + fields, 0.0);
-  for (int k = 0; k < fields; k += kFields)
-    add_columns_of_12(field + k, coupling_[g].data() + k, fields, loads, fields);
-}
-
-struct RollingDynamics::StripContact {
-  explicit StripContact(RollingDynamics& of)
-      : dynamics(of),
-        coordinates(padded(static_cast<int>(of.coordinates_.size()))),
-        fields(kFields * (2 * of.reach_ + 1)),
-        e(of.work_.e),
-        p(of.work_.p),
-        d(of.work_.d),
-        nodes(of.work_.nodes) {}
-
-  // Fills p and d. z: (coordinate); lag: (field of all pairs) of one gear after the other; both without new contact
-  // force.
-  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
-    const MeshPosition& mesh = position.mesh;
-    const double* stream = dynamics.stream_.data();
-    const int strips = mesh.strips(), present = static_cast<int>(mesh.pairs.size()),
-              of_pair = present > 0 ? strips / present : 0;
-    for (int j = 0; j < present; ++j) {
-      double moved[kShapeRows], at_node[kPairNodes] = {};
-      lanes(moved) = -dot_rows(stream + position.shape + j * kShapeRows * coordinates, coordinates, z);
-      add_columns_of_8(at_node, kShape.column[0], moved, kShapeRows);
-      for (int g = 0; g < 2; ++g) {
-        double displacement[kFields] = {};
-        add_columns_of_12(displacement, dynamics.coupling_[g].data() + position.slot[j] * kFields, fields,
-                          lag + g * fields, fields);
-        add_columns_of_8(at_node, stream + position.field[g][j], displacement, kFields);
-      }
-      interpolate(e.data() + j * of_pair, stream + position.gap + j * of_pair,
-                  stream + position.interpolation[j], of_pair, at_node);
-    }
-    return dynamics.solver_.solve(step.compliance, e.head(strips), step.active, p.head(strips),
-                                  d.head(strips));
-  }
-
-  // N, of pair j. False if force stands on a window's end that is no tip edge.
-  bool carried(const Position& position, int j, double& force) {
-    const PairStrips& pair = position.mesh.pairs[j];
-    const int of_pair = pair.size();
-    const double* own = &p[j * of_pair];
-    if ((!pair.low_is_edge && own[0] > 0) || (!pair.high_is_edge && own[of_pair - 1] > 0)) return false;
-    dot_columns(&nodes[j * kPairNodes], &dynamics.stream_[position.interpolation[j]], of_pair, kPairNodes,
-                own, of_pair);
-    Lanes total{};
-    for (int k = 0; k < of_pair; k += kLanes) total += lanes(own + k);
-    force = sum(total);
-    return true;
-  }
-
-  // After `carried` of all pairs. force: (coordinate) h^T p; load: as lag, of the pairs that are present.
-  void spread(const Position& position, double* force, double* load) const {
-    const double* stream = dynamics.stream_.data();
-    const int present = static_cast<int>(position.mesh.pairs.size());
-    std::fill(force, force + coordinates, 0.0);
-    for (int j = 0; j < present; ++j) {
-      const double* own = &nodes[j * kPairNodes];
-      add_rows(force, stream + position.shape + j * kShapeRows * coordinates, coordinates, moments_of(own));
-      for (int g = 0; g < 2; ++g)
-        dot_columns(load + g * fields + position.slot[j] * kFields, stream + position.field[g][j], kPairNodes,
-                    kFields, own, kPairNodes);
-    }
-  }
-
-  RollingDynamics& dynamics;
-  int coordinates, fields;
-  VectorXd &e, &p, &d;  // (strip)
-  VectorXd& nodes;      // (node) forces
-};
-
-// Strips whose problems are kept.
-struct RollingDynamics::RecordedContact : StripContact {
-  RecordedContact(RollingDynamics& of, std::vector<ContactProblem>& to) : StripContact(of), problems(to) {}
-  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
-    const Certificate certificate = StripContact::solve(position, step, z, lag);
-    problems.push_back({step.compliance, e.head(position.mesh.strips()), step.active});
-    return certificate;
-  }
-  std::vector<ContactProblem>& problems;
-};
-
-std::vector<RollingDynamics::ContactProblem> RollingDynamics::contact_problems(State& state) {
-  std::vector<ContactProblem> problems;
-  Period period;
-  if (lines() || !march(RecordedContact(*this, problems), state, period, nullptr))
-    fail(Failure::numerical, "no period of strips to take contact problems from");
-  return problems;
-}
-
-struct RollingDynamics::LineContact {
-  explicit LineContact(RollingDynamics& of)
-      : dynamics(of),
-        record{padded(static_cast<int>(of.coordinates_.size())), kFields * (2 * of.reach_ + 1)},
-        e(of.work_.e),
-        p(of.work_.p),
-        d(of.work_.d) {}
-
-  // As of strips, all three.
-  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
-    const int present = static_cast<int>(position.slot.size());
-    const double* line = dynamics.stream_.data() + position.line;
-    for (int j = 0; j < present; ++j, line += record.size()) {
-      Lanes modal{}, driver{}, driven{};
-      for (int c = 0; c < record.coordinates; c += kLanes)
-        modal += lanes(line + LineRecord::kShape + c) * lanes(z + c);
-      for (int k = 0; k < record.fields; k += kLanes) {
-        driver += lanes(line + record.reading(0) + k) * lanes(lag + k);
-        driven += lanes(line + record.reading(1) + k) * lanes(lag + record.fields + k);
-      }
-      e[j] = line[LineRecord::kGap] + sum((driver + driven) - modal);
-    }
-    if (step.force.size() == present)
-      std::copy(step.force.begin(), step.force.end(), p.data());
-    else
-      p.head(present).setZero();
-    const Certificate certificate = solve_line_contact(step.compliance, position.mesh.law, e.head(present),
-                                                       p.head(present), d.head(present));
-    step.force = p.head(present);
-    return certificate;
-  }
-
-  bool carried(const Position& position, int j, double& force) const {
-    force = p[j];
-    if (!(force <= dynamics.stream_[position.line + j * record.size() + LineRecord::kMost]))
-      require_line_range(position.mesh, p.head(position.mesh.strips()));
-    return true;
-  }
-
-  void spread(const Position& position, double* force, double* load) const {
-    const int present = static_cast<int>(position.slot.size());
-    const double* line = dynamics.stream_.data() + position.line;
-    std::fill(force, force + record.coordinates, 0.0);
-    for (int j = 0; j < present; ++j, line += record.size()) {
-      for (int c = 0; c < record.coordinates; c += kLanes)
-        lanes(force + c) += p[j] * lanes(line + LineRecord::kShape + c);
-      for (int g = 0; g < 2; ++g)
-        for (int k = 0; k < kFields; k += kLanes)
-          lanes(load + g * record.fields + position.slot[j] * kFields + k) =
-              p[j] * lanes(line + record.weight(g) + k);
-    }
-  }
-
-  RollingDynamics& dynamics;
-  LineRecord record;
-  VectorXd &e, &p, &d;  // (pair)
-};
-
-void RollingDynamics::take(const State& state) {
-  const int own = static_cast<int>(coordinates_.size()), fields = kFields * (2 * reach_ + 1);
-  work_.z.head(own) = state.z;
-  work_.v.head(own) = state.v;
-  work_.force.head(own) = state.force;
-  for (int g = 0; g < 2; ++g) {
-    work_.lag.segment(g * fields, fields) = state.lag[g].reshaped();
-    work_.load.segment(g * fields, fields) = state.load[g].reshaped();
-  }
-}
-
-void RollingDynamics::give(State& state) const {
-  const int own = static_cast<int>(coordinates_.size()), fields = kFields * (2 * reach_ + 1);
-  state.z = work_.z.head(own);
-  state.v = work_.v.head(own);
-  state.force = work_.force.head(own);
-  for (int g = 0; g < 2; ++g) {
-    state.lag[g].reshaped() = work_.lag.segment(g * fields, fields);
-    state.load[g].reshaped() = work_.load.segment(g * fields, fields);
-  }
-}
-
-bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
-  if (state.z.size() != frequency_squared_.size() || state.pair != pair_stamp_)
-    fail(Failure::input, "the start state, of ", state.z.size(),
-         " coordinates, is of other gears or modes: ", "these have ", frequency_squared_.size(),
-         "; start from rest or from a state of the same pair");
-  try {
-    return lines() ? march(LineContact(*this), state, period, ledger)
-                   : march(StripContact(*this), state, period, ledger);
-  } catch (const Error& error) {
-    const std::string words = error.what(), start = "at mesh phase ";
-    if (words.rfind(start, 0) == 0) throw;
-    fail(error.kind(), start, phase_, " ", words);
-  }
-}
-
-template <class Contact>
-bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledger* ledger) {
-  const int pairs = 2 * reach_ + 1, coordinates = padded(static_cast<int>(coordinates_.size())),
-            fields = kFields * pairs;
-  period.transmission_error.resize(steps_);
-  period.pair_load.setZero(pairs, steps_);
-  period.drift_force = period.least_gap = period.least_force = 0;
-  period.fallbacks = 0;
-  for (int g = 0; g < 2; ++g)
-    if (state.lag[g].cols() < pairs) {  // the range grew: more teeth are followed
-      const int more = (pairs - static_cast<int>(state.lag[g].cols())) / 2;
-      for (MatrixXd* field : {&state.lag[g], &state.load[g]}) {
-        MatrixXd wide = MatrixXd::Zero(field->rows(), pairs);
-        wide.middleCols(more, field->cols()) = *field;
-        *field = wide;
-      }
-    }
-  take(state);
-
-  // Stores of lanes may change anything for all that the compiler knows; it need not look these up again.
-  double *const z_at = work_.z.data(), *const v_at = work_.v.data(), *const force_at = work_.force.data(),
-                *const response_at = work_.response.data(), *const lag_at = work_.lag.data(),
-                *const load_at = work_.load.data();
-  const VectorXd &torque = work_.torque, &weight = work_.weight;
-  const double *const torque_at = torque.data(), *const weight_at = weight.data(),
-                      *const a11 = speed_.a11.data(), *const a12 = speed_.a12.data(),
-                      *const a21 = speed_.a21.data(), *const a22 = speed_.a22.data(),
-                      *const bq = speed_.bq.data(), *const bv = speed_.bv.data();
-  const Lag lag_step = lag_;
-
-  std::array<Instant, 2>& instants = ledger_work_.instants;
-  ledger_work_.balance = 0;
-  if (ledger) fill(instants[0], positions_[0], state.p.data(), state.d.data());
-  for (int i = 1; i <= steps_; ++i) {
-    const int sample = i == steps_ ? 0 : i;
-    if (sample == 0) {
-      for (double* y : {z_at, v_at, force_at}) turn_doublets(y);
-      for (double* x : {lag_at, load_at}) advance_fields(x);
-      if (ledger) rename(instants[(i - 1) % 2]);
-    }
-    const Position& position = positions_[sample * stride_];
-    const int present = static_cast<int>(position.slot.size());
-    phase_ = position.mesh.phase;
-
-    // What the step would bring without new contact force.
-    for (int c = 0; c < coordinates; c += kLanes) {
-      const Lanes mean = 0.5 * (lanes(force_at + c) + lanes(torque_at + c)), z0 = lanes(z_at + c),
-                  v0 = lanes(v_at + c);
-      const Lanes z1 = lanes(a11 + c) * z0 + lanes(a12 + c) * v0 + lanes(bq + c) * mean;
-      lanes(v_at + c) = lanes(a21 + c) * z0 + lanes(a22 + c) * v0 + lanes(bv + c) * mean;
-      lanes(z_at + c) = z1;
-    }
-    for (int k = 0; k < 2 * fields; k += kLanes) {
-      lanes(lag_at + k) = lag_step.decay * lanes(lag_at + k) + lag_step.from_old * lanes(load_at + k);
-      lanes(load_at + k) = Lanes{};
-    }
-    const Certificate certificate = contact.solve(position, step_data_[sample], z_at, lag_at);
-    period.least_gap = std::min(period.least_gap, certificate.least_gap);
-    period.least_force = std::min(period.least_force, certificate.least_force);
-    period.fallbacks += certificate.fallback;
-
-    // The new force's own share.
-    double drift = 0;
-    for (int j = 0; j < present; ++j) {
-      double carried;
-      if (!contact.carried(position, j, carried)) return false;
-      period.pair_load(position.slot[j], sample) = carried;
-      drift += position.drift_lever[j] * carried;
-    }
-    period.drift_force = std::max(period.drift_force, std::abs(drift));
-    contact.spread(position, response_at, load_at);
-    Lanes error_sum{};
-    for (int c = 0; c < coordinates; c += kLanes) {
-      const Lanes push = lanes(response_at + c);
-      const Lanes z1 = lanes(z_at + c) - 0.5 * lanes(bq + c) * push;
-      lanes(force_at + c) = lanes(torque_at + c) - push;
-      lanes(v_at + c) -= 0.5 * lanes(bv + c) * push;
-      lanes(z_at + c) = z1;
-      error_sum += lanes(weight_at + c) * z1;
-    }
-    for (int g = 0; g < 2; ++g)
-      for (int j = 0; j < present; ++j) {
-        const int own_fields = g * fields + position.slot[j] * kFields;
-        for (int k = own_fields; k < own_fields + kFields; k += kLanes)
-          lanes(lag_at + k) += lag_step.from_new * lanes(load_at + k);
-      }
-
-    if (ledger) {
-      fill(instants[i % 2], position, contact.p.data(), contact.d.data());
-      record_step(instants[(i - 1) % 2], instants[i % 2], *ledger);
-    }
-
-    const double error = sum(error_sum);
-    period.transmission_error[sample] = error;
-    if (error > position.mesh.lost_corner_gap)
-      fail(Failure::numerical, "at mesh phase ", position.mesh.phase, " the transmission error ", error * 1e6,
-           " micrometres closes the gap of ", position.mesh.lost_corner_gap * 1e6,
-           " micrometres of a tip edge that would touch below the involute; lower the torque or set "
-           "corner_contact = false");
-    if (error > position.mesh.next_corner_gap) return false;
-  }
-  give(state);
-  const int strips = positions_[0].mesh.strips();
-  state.p = contact.p.head(strips);
-  state.d = contact.d.head(strips);
-  return true;
 }
 
 }  // namespace whine

@@ -8,7 +8,8 @@
 //   diagonalised with it: M0 = [[I, gamma^T], [gamma, 1]], K0 = diag(0, w^2);
 // - what the modes leave of the flanks' flexibility relaxes with the Rayleigh time: eta U' + U = R p. Every truncated
 //   mode has the same time, so loads are relaxed instead and U = R (lagged loads). A tooth carries them in a few
-//   fields V of its flank table, those that hold all of R that is worth a memory; R - V V^T R V V^T follows at once.
+//   fields V of its flank table, those that hold all of R that is worth a memory, and gets from other teeth what the first
+//   few of them hold; R - V V^T R V V^T follows at once.
 // With body = "full" the modes are all that the mesh has and nothing lags. What the half-plane adds to their flexibility
 // between points of a flank, it being no finite element, follows at once: undamped_depth is then without meaning.
 // Gap of a strip: d = e - h z + U + A_local p >= 0 with p >= 0, p . d = 0 at the end of each step (Eq. 18).
@@ -21,6 +22,9 @@
 //
 // All that a step streams lies packed by position, in rows and columns of whole lanes; neither steps nor periods
 // allocate memory, with a ledger or without, once a range, a speed and a state have been seen.
+//
+// dynamics.cpp says what is marched: coordinates, positions, speeds, states at rest. march.cpp marches it, and alone knows
+// how the numbers of a step lie in memory. ledger.cpp keeps the books.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -117,6 +121,7 @@ class RollingDynamics {
     int nodes = 0;        // of a pair
     int strips = 0;       // of a pair
     int fields = 0;       // lagged, of one tooth
+    int shared = 0;       // of them, those that other teeth depend on
     int teeth = 0;        // whose lag is followed, per gear
   };
   StepSizes step_sizes(int i) const;
@@ -154,39 +159,67 @@ class RollingDynamics {
     ActiveSet active;
     PairVector force;  // (pair) N, of lines: what they carried here last; empty: not known
   };
+  // What a step looks up of its position, side by side. Places in stream_, where columns of nodes stand 8 a pair and rows
+  // of coordinates have whole lanes.
+  struct Frame {
+    struct Pair {
+      double drift_lever = 0;    // 1: a1 / r1 - a2 / r2
+      size_t interpolation = 0;  // (strip of the pair, node of the pair)
+      size_t field = 0;          // of strips: per gear (node of the pair, field)
+      int slot = 0;              // its column in lag and load
+      bool low_is_edge = false, high_is_edge = false;
+    };
+    int present = 0, of_pair = 0;  // pairs; strips of a pair
+    size_t gap = 0;                // (strip)
+    size_t shape = 0;              // (pair, coordinate, shape row), four coordinates side by side
+    size_t line = 0;               // of lines: (pair) LineRecord
+    double next_corner_gap = 0, lost_corner_gap = 0;
+    std::array<Pair, kMostPairs> pair;
+  };
   struct Position {
     MeshPosition mesh;
     Eigen::MatrixXd local;                        // (strip, strip): all that follows at once
     Eigen::MatrixXd participation;                // (node, coordinate)
     Eigen::MatrixXd lagged;                       // (node, node): of both gears, when nothing moves
     std::array<Eigen::MatrixXd, 2> field_weight;  // (node, field)
-    std::vector<double> drift_lever;              // (pair) 1: a1 / r1 - a2 / r2
-    std::vector<int> slot;                        // (pair) its column in lag and load
-    // In stream_: columns of nodes stand 8 a pair, rows of coordinates have whole lanes.
-    size_t gap = 0;                            // (strip)
-    size_t shape = 0;                          // (pair, shape row, coordinate)
-    std::vector<size_t> interpolation;         // per pair (strip of the pair, node of the pair)
-    std::array<std::vector<size_t>, 2> field;  // per pair (node of the pair, field)
-    size_t line = 0;                           // of lines: (pair) LineRecord
+    Frame frame;
   };
+  struct LineRecord;
+  struct ShapeLanes;
+  static const ShapeLanes kShape;
   // What a rung of contact does within a step.
   struct StripContact;
   struct LineContact;
   struct RecordedContact;
-  struct SpeedCoefficients {  // one number per coordinate, in whole lanes
-    Eigen::VectorXd a11, a12, a21, a22, bq, bv;
+  // Four coordinates in turn, so that a step runs down one array: what it takes them on with, and what they count for.
+  struct SpeedCoefficients {
+    enum Of { a11, a12, a21, a22, bq, torque, weight, kCount };  // bv is a12 in either propagator
+    Eigen::VectorXd number;
+    double& at(Of of, int coordinate) {
+      return number[(coordinate / kLanes * kCount + of) * kLanes + coordinate % kLanes];
+    }
   };
-  static constexpr int kMostFields = 16;  // per tooth
+  static constexpr int kFields = 12;       // lagged, per tooth
+  static constexpr int kSharedFields = 8;  // the first of them: what teeth of a gear do to each other
+  static constexpr int kPairNodes = 8;     // columns of nodes: kWindowNodes and zeros up to whole lanes
+  static constexpr int kShapeRows = 4;     // per pair: what modes are read and loaded through
+  static_assert(kFields == 12 && kSharedFields == 8 && kPairNodes == 8 && kPairNodes >= kWindowNodes);
+  static_assert(kShapeRows == kLanes && kShapeRows <= kWindowNodes);
+  // (node, shape row) orthonormal: the first Chebyshev polynomials on the Chebyshev points of a window.
+  using ShapeBasis = Eigen::Matrix<double, kWindowNodes, kShapeRows>;
+  static const ShapeBasis& shape_basis();
   struct Turn {  // of a doublet, or of a single mode that changes its sign (sine < 0), per tooth
     int cosine, sine;
     double c, s;
   };
   // Vectors of a march, sized by the range; coordinates in whole lanes, fields of one gear after the other.
   struct Workspace {
-    Eigen::VectorXd z, v, force, torque, weight, response;  // (coordinate)
-    Eigen::VectorXd lag, load;                              // (field of all pairs of both gears)
-    Eigen::VectorXd e, p, d;                                // (strip)
-    Eigen::VectorXd nodes;                                  // (node of all pairs)
+    Eigen::VectorXd z, v, force, torque, response;  // (coordinate)
+    Eigen::VectorXd lag,
+        load;  // (field of all pairs of both gears) N: without and with the new load; the new load
+    Eigen::VectorXd field, moved_load;  // as lag, m: displacement that lagged, and present, loads cause
+    Eigen::VectorXd e, p, d;            // (strip)
+    Eigen::VectorXd nodes;              // (node of all pairs)
   };
   // What the ledger keeps of an instant, in the order of mesh.pairs.
   struct Instant {
@@ -200,6 +233,7 @@ class RollingDynamics {
     double forgotten = 0;               // J: that, and the work of loads that went with it
     Eigen::VectorXd p, d, local;        // (strip) N, m, m: local p
     Eigen::VectorXd moment, reading;    // (pair, shape row): of p on modes; of z
+    double at_once = 0;                 // J: stored by half-planes, laws and all else that follows at once
   };
   struct LedgerWorkspace {
     std::array<Instant, 2> instants;  // before and after a step, in turn
@@ -214,7 +248,8 @@ class RollingDynamics {
            growth2 = 0;  // of (a, b): load - lag = a (load0 - lag0) + b (load1 - load0)
     double decay = 0, growth = 0, late_decay = 0, late_growth = 0;  // of a, b, t a, t b
   };
-  void fill(Instant& now, const Position& position, const double* p, const double* d) const;
+  void fill(Instant& now, const Instant* before, const Position& position, const double* p,
+            const double* d) const;
   void rename(Instant& instant) const;
   void record_step(const Instant& before, const Instant& after, Ledger& ledger);
   void take(const State& state);
@@ -226,17 +261,21 @@ class RollingDynamics {
   Lanes reading(const Position& position, size_t j, const double* z) const;
   // Shares of p (strip of the pair) in shape rows, and in fields (driver's, then driven gear's).
   Lanes collect(const Position& position, size_t j, const double* p, double* fields) const;
-  void displace(int g, const double* loads, double* field) const;  // field = coupling loads, of one gear
+  // field (of a tooth) += coupling loads (of a tooth), offset pairs away.
+  void add_displacement(int g, int offset, const double* loads, double* field) const;
+  void displace(int g, const double* loads, double* field) const;  // field = coupling loads, all of one gear
   DampingIntegrals damping_integrals() const;
-  double relaxation() const {  // s, of the lagged flexibility
-    return full() || parameters_.fidelity.body == "quasi-static" ? 0 : parameters_.damping.rayleigh_stiffness;
-  }
+  double relaxation() const { return relaxation_; }
+  template <int kRows>
+  struct Modes;
   template <class Contact>
   bool march(Contact contact, State& state, Period& period, Ledger* ledger);
-  bool full() const { return parameters_.fidelity.body == "full"; }
+  const Eigen::MatrixXd& coupling(int g, int offset) const { return coupling_[g][offset + 2 * reach_]; }
+  int all_fields() const { return kFields * (2 * reach_ + 1); }  // of one gear
+  bool full() const { return full_; }
   void size_workspaces();
   void add_response(const Position& position, Eigen::MatrixXd& at_nodes);
-  bool lines() const { return parameters_.fidelity.contact == "line"; }
+  bool lines() const { return lines_; }
   // At rest; compliance: (strip, strip) of static_compliance; offset: (strip) of elastic_offset.
   Equilibrium equilibrium_at(const Position& position, const Eigen::MatrixXd& compliance,
                              const Eigen::VectorXd& offset);
@@ -252,6 +291,8 @@ class RollingDynamics {
 
   const GearMeshModel& model_;
   DynamicParameters parameters_;
+  bool full_, lines_, newmark_;  // of the fidelity
+  double relaxation_;            // s, of the lagged flexibility
   std::array<std::vector<int>, 2> kept_;
   std::vector<Coordinate> coordinates_;  // the rigid rotation, then those of gear 0, then those of gear 1
   std::array<int, 2> first_coordinate_{};
@@ -266,11 +307,12 @@ class RollingDynamics {
   SpeedCoefficients speed_;
   DampingIntegrals damping_;
   Lag lag_{};
-  double step_ = 0;                          // s
-  std::array<Eigen::MatrixXd, 2> fields_;    // (flank, field) V, orthonormal
-  std::array<Eigen::MatrixXd, 2> coupling_;  // (field x pair, field x pair) m N-1
+  double step_ = 0;                        // s
+  std::array<Eigen::MatrixXd, 2> fields_;  // (flank, field) V, orthonormal
+  // By offset between pairs, -2 reach..2 reach: (field, field) m N-1, of neighbours in the shared fields.
+  std::array<std::vector<Eigen::MatrixXd>, 2> coupling_;
   double static_deflection_ = 0, energy_scale_ = 1, pair_stamp_ = 0;
-  double phase_ = 0;  // of the step at hand
+  int sample_ = 0;  // of the step at hand
   std::vector<Turn> turns_;
   Workspace work_;
   LedgerWorkspace ledger_work_;

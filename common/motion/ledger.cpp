@@ -94,9 +94,11 @@ RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
   return result;
 }
 
-// The instant that the workspace holds; p, d: (strip).
-void RollingDynamics::fill(Instant& now, const Position& position, const double* p, const double* d) const {
-  const int strips = position.mesh.strips(), of_gear = static_cast<int>(coupling_[0].rows());
+// The instant that the workspace holds; p, d: (strip). What lagged loads displace goes on from the instant before as the lag
+// itself does; without one it is computed anew.
+void RollingDynamics::fill(Instant& now, const Instant* before, const Position& position, const double* p,
+                           const double* d) const {
+  const int strips = position.mesh.strips(), of_gear = all_fields();
   now.position = &position;
   now.renamed = 0;
   now.forgotten = now.stored_forgotten = 0;
@@ -105,15 +107,17 @@ void RollingDynamics::fill(Instant& now, const Position& position, const double*
   now.force = work_.force;
   now.lag = work_.lag;
   now.load = work_.load;
-  for (int g = 0; g < 2; ++g) {
-    displace(g, &now.lag[g * of_gear], &now.field[g * of_gear]);
-    displace(g, &now.load[g * of_gear], &now.moved_load[g * of_gear]);
-  }
+  for (int g = 0; g < 2; ++g) displace(g, &now.load[g * of_gear], &now.moved_load[g * of_gear]);
+  for (int k = 0; before && k < 2 * of_gear; k += kLanes)
+    lanes(&now.field[k]) = lag_.decay * lanes(&before->field[k]) +
+                           lag_.from_old * lanes(&before->moved_load[k]) +
+                           lag_.from_new * lanes(&now.moved_load[k]);
+  for (int g = 0; !before && g < 2; ++g) displace(g, &now.lag[g * of_gear], &now.field[g * of_gear]);
   std::copy(p, p + strips, now.p.data());
   std::copy(d, d + strips, now.d.data());
   std::fill(now.local.data(), now.local.data() + strips, 0.0);
   if (lines()) now.local.head(strips).noalias() = position.local.lazyProduct(now.p.head(strips));
-  alignas(Lanes) double unused[2 * kMostFields];
+  alignas(Lanes) double unused[2 * kFields];
   for (size_t j = 0; j < position.mesh.pairs.size(); ++j) {
     if (!lines()) {  // from the first strip with force to the last
       int first = position.mesh.first_strip[j], last = position.mesh.first_strip[j + 1];
@@ -126,11 +130,13 @@ void RollingDynamics::fill(Instant& now, const Position& position, const double*
     lanes(&now.moment[j * kLanes]) = collect(position, j, p + position.mesh.first_strip[j], unused);
     lanes(&now.reading[j * kLanes]) = reading(position, j, now.z.data());
   }
+  now.at_once = 0.5 * now.p.head(strips).dot(now.local.head(strips));
+  for (size_t j = 0; j < position.mesh.law.size(); ++j) now.at_once += stored(position.mesh.law[j], p[j]);
 }
 
 // Teeth get the names that they have in the next mesh period. One of each gear is no longer followed.
 void RollingDynamics::rename(Instant& now) const {
-  const int of_gear = static_cast<int>(coupling_[0].rows()), of_tooth = of_gear / (2 * reach_ + 1);
+  const int of_gear = all_fields(), of_tooth = kFields;
   for (double* y : {now.z.data(), now.v.data(), now.force.data()}) turn_doublets(y);
   now.stored_forgotten = -0.5 * now.lag.dot(now.field);
   now.forgotten = 0;
@@ -166,8 +172,7 @@ void RollingDynamics::rename(Instant& now) const {
 // in the fields . their displacement.
 void RollingDynamics::record_step(const Instant& a, const Instant& b, Ledger& ledger) {
   const MeshPosition &old_mesh = a.position->mesh, &new_mesh = b.position->mesh;
-  const int of_gear = static_cast<int>(coupling_[0].rows()), of_tooth = of_gear / (2 * reach_ + 1),
-            coordinates = static_cast<int>(a.z.size());
+  const int of_gear = all_fields(), of_tooth = kFields, coordinates = static_cast<int>(a.z.size());
   double rolling = 0, switching = 0, cutting = 0, forgetting = a.forgotten;
   const bool lines = this->lines();
 
@@ -192,24 +197,28 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, Ledger& le
     }
     return work;
   };
-  alignas(Lanes) double old_on_new[2 * kMostFields], new_on_old[2 * kMostFields];
+  alignas(Lanes) double old_on_new[2 * kFields], new_on_old[2 * kFields];
   unsigned met = 0;
   for (size_t i = 0; i < old_mesh.pairs.size(); ++i) {
     const int pair = old_mesh.pairs[i].pair + a.renamed, slot = pair + reach_, from = old_mesh.first_strip[i];
     const bool followed = slot <= 2 * reach_;
     const auto p0 = a.p.segment(from, old_mesh.pairs[i].size());
     const auto gap0 = old_mesh.gap.segment(from, old_mesh.pairs[i].size());
-    const Lanes moment00 = lanes(&a.moment[i * kLanes]), read_old_new = reading(*a.position, i, old_z);
-    if (a.renamed && followed) forgetting += 0.5 * load_on(a.load, a.forgotten_field, slot);
     size_t j = 0;
     while (j < new_mesh.pairs.size() && new_mesh.pairs[j].pair != pair) ++j;
+    if (j < new_mesh.pairs.size()) {
+      met |= 1u << j;
+      const int to = new_mesh.first_strip[j];
+      if (p0.isZero(0) && b.p.segment(to, new_mesh.pairs[j].size()).isZero(0)) continue;  // no force, no work
+    }
+    const Lanes moment00 = lanes(&a.moment[i * kLanes]), read_old_new = reading(*a.position, i, old_z);
+    if (a.renamed && followed) forgetting += 0.5 * load_on(a.load, a.forgotten_field, slot);
     if (j == new_mesh.pairs.size()) {
       if (lines) cutting += bent(old_mesh.law[i], p0[0], 0);
       cutting += 0.5 * (p0.dot(gap0) - sum(moment00 * read_old_new));
       if (followed) cutting += 0.5 * load_on(a.load, b.field, slot);
       continue;
     }
-    met |= 1u << j;
     const int to = new_mesh.first_strip[j], n = new_mesh.pairs[j].size();
     const auto p1 = b.p.segment(to, n);
     const auto gap1 = new_mesh.gap.segment(to, n);
@@ -242,24 +251,17 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, Ledger& le
                         sum(lanes(&b.moment[j * kLanes]) * reading(*b.position, j, a.z.data())) +
                         load_on(b.load, a.field, new_mesh.pairs[j].pair + reach_));
     }
-  const auto at_once = [](const Instant& x) {
-    const MeshPosition& mesh = x.position->mesh;
-    double energy = 0.5 * x.p.head(mesh.strips()).dot(x.local.head(mesh.strips()));
-    for (size_t j = 0; j < mesh.law.size(); ++j) energy += stored(mesh.law[j], x.p[j]);
-    return energy;
-  };
-  const double local = at_once(b) - at_once(a);
+  const double local = b.at_once - a.at_once;
 
   // Modes: force = torque - h^T p.
   Lanes torque_sum{}, kinetic_sum{}, modal_sum{}, damping_sum{};
-  const bool newmark = parameters_.fidelity.integrator == "newmark";
   for (int c = 0; c < coordinates; c += kLanes) {
     const Lanes z0 = lanes(&a.z[c]), z1 = lanes(&b.z[c]), v0 = lanes(&a.v[c]), v1 = lanes(&b.v[c]),
                 w2 = lanes(&ledger_work_.frequency_squared[c]), rate = lanes(&ledger_work_.damping[c]);
     torque_sum += lanes(&work_.torque[c]) * (z1 - z0);
     kinetic_sum += v1 * v1 - v0 * v0;
     modal_sum += w2 * (z1 * z1 - z0 * z0);
-    if (newmark) {
+    if (newmark_) {
       const Lanes v = 0.5 * (v0 + v1);  // the trapezoidal rule's own velocity
       damping_sum += rate * (step_ * v * v);
     } else {

@@ -340,7 +340,8 @@ void rolling_steps(whine::RollingRig& rig, double frequency, bool strips, double
   StepWork work;
   for (int i = 0; i < steps; ++i) {  // problem i is that of sample i + 1
     const int k = strips ? static_cast<int>(problems[(i + steps - 1) % steps].active.strips.size()) : 0;
-    const StepWork one = step_work(rig.sizes(i), k);
+    const int loaded = static_cast<int>((rig.period.pair_load.col(i).array() > 0).count());
+    const StepWork one = step_work(rig.sizes(i), loaded, k);
     work.flops += one.flops / steps;
     work.bytes += one.bytes / steps;
   }

@@ -93,32 +93,34 @@ inline double load_bandwidth(size_t bytes) {
   return static_cast<double>(n * sizeof(double)) * passes / seconds;
 }
 
-// Work of one step, counted from sizes. n coordinates, T teeth of F fields followed per gear, P pairs of r shape rows, N
-// nodes and S strips each, M = P S, k strips that touch. Flops, a multiply-add as two:
-//   modes          21 n (propagator 12, share of the new force 9)
-//   lag            T F (6 + 4) (both gears)
-//   modes read     2 P r n        and loaded: 2 P r n
-//   lag read       strips: 4 P F (T F + N); lines, which hold the product: 4 P F T
-//   lag loaded     strips: 4 P F N;         lines: 2 P F
-//   strips only: basis 4 P N r, interpolation 2 M (6 + N), contact problem 2 k^2 + 2 M k (inverse; gaps of all strips)
+// Work of one step, counted from sizes. n coordinates, T teeth of F fields (S of them shared by neighbours) followed per gear,
+// P pairs of r shape rows, N nodes and s strips each, L of them with force, M = P s, k strips that touch. Flops, a
+// multiply-add as two:
+//   modes          19 n (propagator 12, share of the new force 7)
+//   lag            6 T F + 4 P F (both gears)
+//   modes read     2 P r n        and loaded: 2 L r n
+//   lag read       strips: 4 P F N + 6 P F;                        lines, which hold the product: 4 P F T
+//   lag loaded     strips: 4 L F N + 4 L (F^2 + (P - 1) S^2);      lines: 2 L F
+//   strips only: basis 2 (P + L) N r, interpolation 2 s (6 P + N L), contact problem 2 k^2 + 2 M k (inverse; gaps of all
+//   strips)
 // Laws and Newton steps of lines, signs and certificates are not counted. Bytes are those of other places in memory at each
 // step: shapes, weights, gaps, interpolation, active columns of A and the inverse of their block; what steps share (modal
-// vectors, coupling of the teeth, 8 (10 n + 2 (T F)^2) bytes) stays in the first caches.
+// vectors and fields) stays in the first caches.
 struct StepWork {
   double flops = 0, bytes = 0;
 };
-inline StepWork step_work(const RollingDynamics::StepSizes& s, int touching) {
-  const double n = s.coordinates, P = s.pairs, r = s.rows, F = s.fields, T = s.teeth, N = s.nodes,
-               M = P * s.strips, k = touching;
+inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int touching) {
+  const double n = s.coordinates, P = s.pairs, L = loaded, r = s.rows, F = s.fields, S = s.shared,
+               T = s.teeth, N = s.nodes, M = P * s.strips, k = touching;
   StepWork w;
-  w.flops = 21 * n + 10 * T * F + 4 * P * r * n;
+  w.flops = 19 * n + 6 * T * F + 4 * P * F + 2 * (P + L) * r * n;
   w.bytes = P * r * n;
   if (N > 1) {
-    w.flops += 4 * P * F * (T * F + N) + 4 * P * F * N + 4 * P * N * r + 2 * M * (kWindowNodes + N) +
-               2 * k * k + 2 * M * k;
+    w.flops += 4 * P * F * N + 6 * P * F + 4 * L * F * N + 4 * L * (F * F + (P - 1) * S * S) +
+               2 * (P + L) * N * r + 2 * s.strips * (kWindowNodes * P + N * L) + 2 * k * k + 2 * M * k;
     w.bytes += 2 * P * N * F + M * N + M + M * k + k * padded(touching);
   } else {
-    w.flops += 4 * P * F * T + 2 * P * F;
+    w.flops += 4 * P * F * T + 2 * L * F;
     w.bytes += P * (2 * T * F + 2 * F + kLanes) + P * P;
   }
   w.bytes *= sizeof(double);
