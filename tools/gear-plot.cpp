@@ -5,6 +5,8 @@
 //            fig12    static.h5, one per torque
 //            fig13    static.h5, one per torque
 //            error-budget    error_budget.h5
+//            jump-map    jump_map.h5, one per torque and corner rule
+//            sensitivity    jump_map.h5 of the scene, then of each variant
 //            <plots>/<figure>.gp, the template
 // Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all
 //            fig01    the finite element mesh
@@ -12,6 +14,8 @@
 //            fig12    static transmission error (STE)
 //            fig13    mesh stiffness
 //            error-budget    what refining each discretisation alone changes, and what other choices change
+//            jump-map    two branches, contact loss and tooth loads against torque, damping and corner rule
+//            sensitivity    what each variant of a scene changes
 // Equations  k = (T / r_b) / STE
 // Example    gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
 //                      out/parker2000/T150/down/response.h5
@@ -23,6 +27,7 @@
 #include "files/schemas.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
+#include "plot/map_figures.h"
 
 namespace {
 
@@ -47,9 +52,18 @@ whine::Figure figure_of(const std::string& name, const std::vector<std::string>&
     require_inputs(name, inputs, 1, "error_budget.h5");
     return whine::error_budget_figure(whine::read_error_budget(inputs[0]));
   }
+  if (name == "jump-map" || name == "sensitivity") {
+    if (inputs.empty()) require_inputs(name, inputs, 1, "one jump_map.h5 at least");
+    std::vector<whine::JumpMapArtifact> maps;
+    for (const std::string& path : inputs) maps.push_back(whine::read_jump_map(path));
+    if (name == "jump-map") return whine::jump_map_figure(maps);
+    const whine::JumpMapArtifact base = maps.front();
+    maps.erase(maps.begin());
+    return whine::sensitivity_figure(base, maps);
+  }
   if (name != "fig12" && name != "fig13")
     whine::fail(whine::Failure::usage, "unknown figure '", name,
-                "'; known are fig01, fig05, fig12, fig13, error-budget");
+                "'; known are fig01, fig05, fig12, fig13, error-budget, jump-map, sensitivity");
   std::vector<whine::StaticArtifact> statics;
   for (const std::string& path : inputs) statics.push_back(whine::read_static(path));
   return name == "fig12" ? whine::transmission_error_figure(statics) : whine::mesh_stiffness_figure(statics);
@@ -59,7 +73,8 @@ void body(int argc, char** argv) {
   CLI::App app{"Draws a figure of the paper from artifacts", "gear-plot"};
   std::string name, output, plots = "pipelines/plots";
   std::vector<std::string> inputs;
-  app.add_option("figure", name, "fig01, fig05, fig12, fig13 or error-budget")->required();
+  app.add_option("figure", name, "fig01, fig05, fig12, fig13, error-budget, jump-map or sensitivity")
+      ->required();
   app.add_option("inputs", inputs, "artifacts, see above")->required();
   app.add_option("--output", output, "path of the results without extension")->required();
   app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();

@@ -627,6 +627,17 @@ std::string sweep_slice(const Scene& scene) {
   return out.text();
 }
 
+std::string map_slice(const Scene& scene) {
+  KeyValues values = motion_values(scene);
+  values.damping.rayleigh_stiffness = 0;
+  SliceText out("a map of jumps");
+  add_inertia_and_damping(out, scene, values);
+  out.add("operation", "operation", values, {Part::load});
+  out.add("fidelity", "fidelity", values, {Part::rung, Part::contact_rung});
+  out.add("discretisation", "discretisation", values, {Part::time});
+  return out.text();
+}
+
 std::string body_hash(const std::string& slice) {
   return sha256(slice).substr(0, 16);
 }
@@ -674,17 +685,22 @@ ImpactSlice read_impact_slice(const std::string& path) {
   return out;
 }
 
-SweepSlice read_sweep_slice(const std::string& path) {
+SweepSlice read_map_slice(const std::string& path) {
   SweepSlice out;
   static_cast<ImpactSlice&>(out) = read_impact_slice(path);
-  const Source source(path);
   KeyValues values;
-  read_slice_section(source, "operation", "operation", {Part::operation}, values);
-  read_slice_section(source, "discretisation", "discretisation", {Part::time}, values);
+  read_slice_section(Source(path), "discretisation", "discretisation", {Part::time}, values);
+  out.time = values.time;
+  return out;
+}
+
+SweepSlice read_sweep_slice(const std::string& path) {
+  SweepSlice out = read_map_slice(path);
+  KeyValues values;
+  read_slice_section(Source(path), "operation", "operation", {Part::operation}, values);
   out.frequency_from = values.operation.frequency_from;
   out.frequency_to = values.operation.frequency_to;
   out.frequency_step = values.operation.frequency_step;
-  out.time = values.time;
   return out;
 }
 

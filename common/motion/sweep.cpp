@@ -83,6 +83,15 @@ class Sweeper {
   RollingDynamics::State state_;
 };
 
+BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
+  BranchPoint point{mesh_frequency, orbit.rms, 0, false};
+  for (const RollingDynamics::Period& period : orbit.record) {
+    point.tooth_load_max = std::max(point.tooth_load_max, period.pair_load.maxCoeff());
+    point.parted = point.parted || !(period.pair_load.colwise().sum().minCoeff() > 0);
+  }
+  return point;
+}
+
 // Between two speeds whose responses differ: follows the branch of the first, with steps that are halved where they leave
 // it, to where it ends - past the second speed too, since a long step leaves a branch early whose basin has become
 // narrow. Nothing if the branch passes through the response at the second speed: a resonance flank, no jump.
@@ -90,12 +99,14 @@ struct Jump {
   double frequency, width;
 };
 std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& before, double from,
-                              double from_rms, double to, double to_rms, double limit) {
+                              double from_rms, double to, double to_rms, double limit,
+                              std::vector<BranchPoint>* left_early) {
   const RollingDynamics::State after = sweeper.state();
   RollingDynamics::State branch = before;
   double at = from, rms = from_rms, step = 0.5 * (to - from);
   const double direction = to > from ? 1 : -1, finest = std::abs(to - from) / kJumpFineness;
   std::optional<Jump> jump;
+  std::vector<BranchPoint> points;
   for (bool passed = false; std::abs(step) >= finest;) {
     // Speeds of the sweep are met, so that the branch can be compared there.
     double next = at + step;
@@ -105,7 +116,8 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
       break;
     }
     sweeper.state() = branch;
-    const double found = sweeper.run(next).rms;
+    const Orbit orbit = sweeper.run(next);
+    const double found = orbit.rms;
     if (like_a_jump(rms, found)) {
       step *= 0.5;
       jump = Jump{0.5 * (at + next), std::abs(next - at)};
@@ -114,6 +126,7 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
     at = next;
     rms = found;
     branch = sweeper.state();
+    points.push_back(branch_point(next, orbit));
     if (at == to) {
       passed = true;
       if (!like_a_jump(found, to_rms)) {
@@ -123,6 +136,7 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
     }
   }
   sweeper.state() = after;
+  if (jump && left_early) left_early->insert(left_early->end(), points.begin(), points.end());
   return jump;
 }
 
@@ -134,7 +148,8 @@ bool like_a_jump(double rms, double other) {
 
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepSlice& slice, const std::string& direction,
-                    const std::function<void(long, long, const std::string&)>& report) {
+                    const std::function<void(long, long, const std::string&)>& report,
+                    std::vector<BranchPoint>* left_early) {
   const int speeds = static_cast<int>(std::floor(
                          (slice.frequency_to - slice.frequency_from) / slice.frequency_step + 1e-9)) +
                      1;
@@ -192,7 +207,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
         l.lag_damping, l.switching, l.cutting, l.averaging, l.forgetting;  // kEnergyLines
     if (i > 0 && like_a_jump(steady[i - 1].rms, s.rms))
       if (const auto jump = find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f,
-                                      s.rms, direction == "up" ? speed(speeds - 1) : speed(0)))
+                                      s.rms, direction == "up" ? speed(speeds - 1) : speed(0), left_early))
         jumps.push_back(*jump);
     report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
   }
