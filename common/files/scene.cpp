@@ -359,7 +359,7 @@ void read_gears(const Source& source, Scene& scene) {
     // These would be mixed up with the folders of parameters, reports and torques beside the gear's own.
     const bool torque_like =
         name.size() > 1 && name[0] == 'T' && std::isdigit(static_cast<unsigned char>(name[1]));
-    if (name == "params" || name == "report" || torque_like) {
+    if (name == "params" || name == "report" || name == "variants" || torque_like) {
       source.refuse(*table, text("[gear.", name, "]: a gear cannot be called '", name,
                                  "', a folder of results is; choose another name"));
     }

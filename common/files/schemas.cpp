@@ -843,6 +843,8 @@ void write(const std::string& path, const JumpMapArtifact& a, const Provenance& 
     }
   want_rows("peak_tooth_load", a.peak_tooth_load.rows(), cases);
   want_rows("tooth_load", a.tooth_load.rows(), a.load_frequency > 0 ? cases : 0);
+  want_rows("held_load_there", a.held_load_there.rows(), a.load_frequency > 0 ? cases : 0);
+  want_rows("held_tooth_load", a.held_tooth_load.rows(), cases);
   want_rows("dte_rms_there", a.dte_rms_there.rows(), a.load_frequency > 0 ? cases : 0);
   for (const auto& [name, size] :
        {std::pair{"jump_case", a.jump_case.size()}, std::pair{"jump_direction", a.jump_direction.size()},
@@ -886,12 +888,17 @@ void write(const std::string& path, const JumpMapArtifact& a, const Provenance& 
   out.put("/peak_tooth_load", a.peak_tooth_load,
           {"N", "largest normal force of one tooth pair at any speed; directions up, down", "case direction",
            ""});
+  out.put("/held_tooth_load", a.held_tooth_load,
+          {"N", "largest normal force of one tooth pair held for 1/64 of a mesh period; directions up, down",
+           "case direction", ""});
   out.put("/load_frequency", a.load_frequency,
-          {"Hz", "speed of tooth_load and dte_rms_there; 0: none was asked for", "", ""});
+          {"Hz", "speed of tooth_load, held_load_there and dte_rms_there; 0: none was asked for", "", ""});
   if (a.load_frequency > 0) {
     out.put("/tooth_load", a.tooth_load,
             {"N", "largest normal force of one tooth pair at load_frequency; directions up, down",
              "case direction", ""});
+    out.put("/held_load_there", a.held_load_there,
+            {"N", "the same held for 1/64 of a mesh period", "case direction", ""});
     out.put(
         "/dte_rms_there", a.dte_rms_there,
         {"m", "RMS of the transmission error at load_frequency; directions up, down", "case direction", ""});
@@ -940,9 +947,11 @@ JumpMapArtifact read_jump_map(const std::string& path) {
   for (const CaseVector& v : kCaseVectors) a.*v.values = in.vector(text("/", v.name), cases);
   for (const CaseCount& v : kCaseCounts) a.*v.values = in.whole_vector(text("/", v.name), cases);
   a.peak_tooth_load = in.matrix("/peak_tooth_load", cases, 2);
+  a.held_tooth_load = in.matrix("/held_tooth_load", cases, 2);
   a.load_frequency = in.number("/load_frequency");
   if (a.load_frequency > 0) {
     a.tooth_load = in.matrix("/tooth_load", cases, 2);
+    a.held_load_there = in.matrix("/held_load_there", cases, 2);
     a.dte_rms_there = in.matrix("/dte_rms_there", cases, 2);
   }
   a.jump_frequency = in.vector("/jump_frequency");

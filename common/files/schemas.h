@@ -259,9 +259,12 @@ struct JumpMapArtifact {
   Eigen::VectorXd loss_from, loss_to;  // (case) Hz: speeds that lose contact, on any branch; 0 without
   Eigen::VectorXd excitation;          // (case) first harmonic / mean stiffness / (2 damping ratio)
   MatrixRM peak_tooth_load;            // (case, direction) N: largest of all speeds
-  double load_frequency = 0;           // Hz: the one speed of the next two; 0: none was asked for
-  MatrixRM tooth_load, dte_rms_there;  // (case, direction) N, m
-  Eigen::VectorXi unsteady;            // (case) speeds and directions at which no steady motion was found
+  // (case, direction) N: the same held for 1/64 of a mesh period: without the spike of a pair that comes into contact at
+  // once, whose height depends on the time step
+  MatrixRM held_tooth_load;
+  double load_frequency = 0;  // Hz: the one speed of the next three; 0: none was asked for
+  MatrixRM tooth_load, held_load_there, dte_rms_there;  // (case, direction) N, N, m
+  Eigen::VectorXi unsteady;  // (case) speeds and directions at which no steady motion was found
   Eigen::VectorXi jump_case, jump_direction;   // (jump)
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
   Eigen::VectorXd mesh_frequency;              // (speed) Hz

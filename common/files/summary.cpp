@@ -197,7 +197,8 @@ void show(Lines& lines, const JumpMapArtifact& a) {
         two ? text(a.branches_from[i], a.open_below[i] ? " or less" : "", " to ", a.branches_to[i], " Hz")
             : "",
         lost ? text(", contact lost from ", a.loss_from[i], " to ", a.loss_to[i], " Hz") : ", contact kept",
-        ", peak tooth load ", a.peak_tooth_load.row(i).maxCoeff() * 1e-3, " kN");
+        ", peak tooth load ", a.peak_tooth_load.row(i).maxCoeff() * 1e-3, " kN, held ",
+        a.held_tooth_load.row(i).maxCoeff() * 1e-3, " kN");
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <tuple>
 
 #include "base/error.h"
 #include "gear/pair.h"
@@ -72,9 +71,9 @@ End nearest_to(const std::vector<End>& jumps, double frequency) {
   });
 }
 
-// Peak load and RMS at f between the points of a branch that a sweep had left before; nothing if they do not reach that
-// far. Points stand half a step of the sweep apart or less.
-std::optional<std::pair<double, double>> between(std::vector<BranchPoint> points, double f) {
+// The branch at f between points of it that a sweep had left before; nothing if they do not reach that far. Points stand
+// half a step of the sweep apart or less.
+std::optional<BranchPoint> between(std::vector<BranchPoint> points, double f) {
   std::sort(points.begin(), points.end(),
             [](const BranchPoint& a, const BranchPoint& b) { return a.mesh_frequency < b.mesh_frequency; });
   for (size_t i = 1; i < points.size(); ++i) {
@@ -82,8 +81,9 @@ std::optional<std::pair<double, double>> between(std::vector<BranchPoint> points
     if (f < a.mesh_frequency || f > b.mesh_frequency || like_a_jump(a.dte_rms, b.dte_rms)) continue;
     const double width = b.mesh_frequency - a.mesh_frequency,
                  share = width > 0 ? (f - a.mesh_frequency) / width : 0;
-    return std::pair{a.tooth_load_max + share * (b.tooth_load_max - a.tooth_load_max),
-                     a.dte_rms + share * (b.dte_rms - a.dte_rms)};
+    const auto at = [&](double BranchPoint::*value) { return a.*value + share * (b.*value - a.*value); };
+    return BranchPoint{f, at(&BranchPoint::dte_rms), at(&BranchPoint::tooth_load_max),
+                       at(&BranchPoint::held_load), a.parted || b.parted};
   }
   return std::nullopt;
 }
@@ -196,10 +196,12 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
   for (Eigen::VectorXi* v : {&result.two_branches, &result.open_below, &result.unsteady})
     *v = Eigen::VectorXi::Zero(n);
   result.peak_tooth_load.resize(n, 2);
+  result.held_tooth_load.resize(n, 2);
   Eigen::Index load_row = -1;
   if (plan.load_frequency > 0) {
     (speed.array() - plan.load_frequency).abs().minCoeff(&load_row);
     result.tooth_load.resize(n, 2);
+    result.held_load_there.resize(n, 2);
     result.dte_rms_there.resize(n, 2);
   }
   for (int d = 0; d < 2; ++d)
@@ -230,26 +232,36 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
     };
     for (int d = 0; d < 2; ++d) {
       std::vector<BranchPoint> beyond;
-      const ResponseArtifact r = response(sweep(
+      const SweepArtifact swept = sweep(
           driver, driven, rest, bearing_stiffness, own, d == 0 ? "up" : "down",
-          [](long, long, const std::string&) {}, &beyond));
+          [](long, long, const std::string&) {}, &beyond);
+      const ResponseArtifact r = response(swept);
+      VectorXd held(speed.size());
+      for (Eigen::Index i = 0; i < speed.size(); ++i)
+        held[i] = held_load(swept.tooth_load[i], slice.time.steps_per_period);
       const auto ascending = [&](const VectorXd& row) { return d == 0 ? row : VectorXd(row.reverse()); };
       result.dte_rms[d].row(c) = ascending(r.dte_rms).transpose();
       result.tooth_load_max[d].row(c) = ascending(r.tooth_load_max).transpose();
       result.separation_fraction[d].row(c) = ascending(r.separation_fraction).transpose();
       result.peak_tooth_load(c, d) = r.tooth_load_max.maxCoeff();
+      result.held_tooth_load(c, d) = held.maxCoeff();
       for (Eigen::Index i = 0; i < speed.size(); ++i)
         if (result.separation_fraction[d](c, i) > 0) note_loss(speed[i]);
       for (const BranchPoint& point : beyond) {
         result.peak_tooth_load(c, d) = std::max(result.peak_tooth_load(c, d), point.tooth_load_max);
+        result.held_tooth_load(c, d) = std::max(result.held_tooth_load(c, d), point.held_load);
         if (point.parted) note_loss(point.mesh_frequency);
       }
       result.unsteady[c] += static_cast<int>((r.period_multiple.array() == 0).count());
       if (load_row >= 0) {
         result.tooth_load(c, d) = result.tooth_load_max[d](c, load_row);
         result.dte_rms_there(c, d) = result.dte_rms[d](c, load_row);
-        if (const auto found = between(beyond, plan.load_frequency))
-          std::tie(result.tooth_load(c, d), result.dte_rms_there(c, d)) = *found;
+        result.held_load_there(c, d) = ascending(held)[load_row];
+        if (const auto found = between(beyond, plan.load_frequency)) {
+          result.tooth_load(c, d) = found->tooth_load_max;
+          result.held_load_there(c, d) = found->held_load;
+          result.dte_rms_there(c, d) = found->dte_rms;
+        }
       }
       for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
         jump_case.push_back(static_cast<int>(c));

@@ -84,9 +84,11 @@ class Sweeper {
 };
 
 BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
-  BranchPoint point{mesh_frequency, orbit.rms, 0, false};
+  BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
   for (const RollingDynamics::Period& period : orbit.record) {
     point.tooth_load_max = std::max(point.tooth_load_max, period.pair_load.maxCoeff());
+    point.held_load = std::max(
+        point.held_load, held_load(period.pair_load.transpose(), static_cast<int>(period.pair_load.cols())));
     point.parted = point.parted || !(period.pair_load.colwise().sum().minCoeff() > 0);
   }
   return point;
@@ -141,6 +143,15 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
 }
 
 }  // namespace
+
+double held_load(const Eigen::Ref<const MatrixRM>& load, int samples) {
+  const Eigen::Index window = samples / 64 + 1;
+  double held = 0;
+  for (Eigen::Index pair = 0; pair < load.cols(); ++pair)
+    for (Eigen::Index i = 0; i + window <= load.rows(); ++i)
+      held = std::max(held, load.col(pair).segment(i, window).minCoeff());
+  return held;
+}
 
 bool like_a_jump(double rms, double other) {
   return std::max(rms, other) > kJumpRatio * std::min(rms, other);

@@ -14,6 +14,7 @@ struct BranchPoint {
   double mesh_frequency = 0;  // Hz
   double dte_rms = 0;         // m
   double tooth_load_max = 0;  // N
+  double held_load = 0;       // N, see held_load()
   bool parted = false;        // contact is lost during the period
 };
 
@@ -26,6 +27,10 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
                     double mean_stiffness, const SweepSlice& slice, const std::string& direction,
                     const std::function<void(long, long, const std::string&)>& report,
                     std::vector<BranchPoint>* left_early = nullptr);
+
+// Largest load (N) that one pair carries through 1/64 of a mesh period without a break; load: (sample, pair), whole periods
+// of `samples`.
+double held_load(const Eigen::Ref<const MatrixRM>& load, int samples);
 
 // Whether the RMS of the transmission error of two motions differ as much as across a jump.
 bool like_a_jump(double rms, double other);

@@ -7,13 +7,13 @@
 namespace whine {
 
 // One panel per corner rule or lumped model: torque against damping ratio, with the cells that have two branches or lose
-// contact, and lines of the largest tooth load. For the pair of P2000 its printed statements stand beside. Throws Error(input)
+// contact, and lines of the largest tooth load (held for 1/64 of a mesh period). For the pair of P2000 its printed statements stand beside. Throws Error(input)
 // for no map, for two of the same torque and panel, and unless all have the same damping ratios and gears and each panel
 // the same torques.
 Figure jump_map_figure(std::vector<JumpMapArtifact> maps);
 
 // What each variant changes against the base, in the last case of the maps: mean
-// stiffness, natural frequencies, ends of the branches, peak tooth load. Every case stands in the table. Throws Error(input)
+// stiffness, natural frequencies, ends of the branches, tooth load (held). Every case stands in the table. Throws Error(input)
 // for no variant, one that differs in torque or cases, or one in which no key differs.
 Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMapArtifact>& variants);
 

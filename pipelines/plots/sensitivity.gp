@@ -11,7 +11,7 @@ set yrange [variants - 0.4:-0.6]
 set xtics font ",13"
 set ytics scale 0 noenhanced font ",13"
 array column_of[6] = [2, 3, 4, 5, 6, 7]
-array name[6] = ["mean stiffness (%)", "f, one pair (Hz)", "f, two pairs (Hz)", "branches from (Hz)", "branches to (Hz)", "peak tooth load (%)"]
+array name[6] = ["mean stiffness (%)", "f, one pair (Hz)", "f, two pairs (Hz)", "branches from (Hz)", "branches to (Hz)", "tooth load (%)"]
 left = 0.255
 width = (0.99 - left) / 6
 set tmargin at screen 0.84
