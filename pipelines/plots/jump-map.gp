@@ -32,20 +32,20 @@ set tics out nomirror front
 set logscale y
 set xrange [ratio_from:ratio_to]
 set yrange [torque_from:torque_to]
-set xlabel "Damping ratio, two pairs in contact (%)"
+set xlabel "Damping ratio, two pairs in contact (%)" offset 0, 0.6 font ",15"
 set ytics (20, 50, 100, 150, 200, 300, 450, 600, 1000, 2000, 5000)
 set style fill solid 1.0 border rgb "#ffffff"
-left = 0.07
+left = 0.085
 width = (0.99 - left) / panels
 set tmargin at screen 0.875
-set bmargin at screen 0.40
+set bmargin at screen 0.42
 class(p, n) = sprintf("tsv index '[panel%d]' using ($7 == %d ? $1 : NaN):2:3:4:5:6 with boxxyerror lc rgb %s notitle", \
   p, n, n == 2 ? "two_colour" : n == 1 ? "lost_colour" : "kept_colour")
 do for [p = 1:int(panels)] {
   set lmargin at screen left + (p - 1) * width
   set rmargin at screen left + p * width - 0.015
   set label 1 value(sprintf("panel%d", p)) at graph 0.5, graph 1.045 center
-  if (p == 1) { set ylabel "Torque (N m)" } else { unset ylabel; set format y "" }
+  if (p == 1) { set ylabel "Torque (N m)" offset 1, 0 } else { unset ylabel; set format y "" }
   drawn = class(p, 0) . ", " . class(p, 1) . ", " . class(p, 2)
   if (lines > 0) {
     drawn = drawn . sprintf(", $load%d using 1:(10**$2) with lines lw 2 lc rgb line_colour notitle", p)
@@ -82,6 +82,6 @@ if (printed > 0) {
   set label 15 "" at 0.785, 0.301 point pt 13 ps 2.2 lc rgb "#000000"
   set label 16 "P2000: jump printed at 7 %" at 0.797, 0.301 left font ",16"
 }
-do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.255 - 0.032 * (n - 1) left noenhanced font ",13.5" }
+do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.258 - 0.0285 * (n - 1) left noenhanced font ",13" }
 plot NaN notitle
 unset multiplot
