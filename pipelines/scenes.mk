@@ -23,7 +23,7 @@ VARIANTS ?= bore35:bore_radius_mm=35 bore45:bore_radius_mm=45 dedendum120:dedend
   fillet25:rack_tip_radius=0.25 fillet45:rack_tip_radius=0.45 poisson27:poisson_ratio=0.27 poisson33:poisson_ratio=0.33 \
   strain:plane=strain inertia139:total_inertia_kgm2=0.0139 inertia157:total_inertia_kgm2=0.0157 \
   mass955:rayleigh_mass_per_s=955 depth025:undamped_depth_mm=0.25 depth100:undamped_depth_mm=1.0 \
-  corner_1deg:corner_contact=1 corner_off:corner_contact=false
+  corner_1deg:corner_contact=1 corner_off:corner_contact=false corner_off_mass955:corner_contact=false,rayleigh_mass_per_s=955
 variant_scenes := $(foreach v,$(VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v)))
 variant_file = out/$(own_scene)/variants/$1.toml
 

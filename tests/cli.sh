@@ -88,7 +88,7 @@ for program in "$bin"/gear-*; do
   "$program" --version > said 2>&1 && grep -q '[0-9]\.[0-9]' said && ok "$name --version" || wrong "$name --version" "$(head -n 1 said)"
   refused "$name refuses an unknown option" 2 'no-such-option' ${whole[$name]/#gear-/$bin/gear-} --no-such-option
 done
-refused "a map without a damping" 3 'no case' "${stage_map[@]/0.05,0.1/}"
+refused "a map without a damping" 3 'no case' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")
 refused "a map with a damping ratio that is no number" 2 "damping-ratio.*'much'" "${stage_map[@]/0.05,0.1/much}"
 refused "a map with a corner rule that is none" 2 "corner-contact.*'sometimes'" "${stage_map[@]/false/sometimes}"
 refused "a map with an angle beyond a right one" 2 'corner-contact is 91.* 0 to 90' "${stage_map[@]/false/91}"

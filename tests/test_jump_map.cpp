@@ -255,7 +255,7 @@ TEST_CASE("the map's figure says what its data say") {
              "from 100 to 600 N m"));
   CHECK(says(figure, "contact is lost at every torque with: no corner contact; P2000"));
   CHECK(says(figure, "single samples reach 1.25 times as much"));
-  CHECK(says(figure, "no corner contact: 2.4 and 2.4 kN"));
+  CHECK(says(figure, "P2000 prints 3.00 and 4.85; corner contact 2.4; no corner contact 2.4 and 2.4"));
   // First harmonic 0.1 of the mean; loss ends between 7 and 9 % at one torque, between 5 and 7 % at two.
   CHECK(says(figure, "above 1.67 (median of 3 limits"));
   CHECK(figure.blocks[0].rows.size() == 11);

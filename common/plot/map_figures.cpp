@@ -186,8 +186,7 @@ std::string loads_in_words(const JumpMapArtifact& a, Index c) {
   const double up = a.held_load_there(c, 0) * 1e-3, down = a.held_load_there(c, 1) * 1e-3;
   const bool both =
       a.two_branches[c] && a.branches_from[c] < a.load_frequency && a.load_frequency < a.branches_to[c];
-  return both ? text(rounded(up, 2), " and ", rounded(down, 2), " kN")
-              : text(rounded(up, 2), " kN on one branch");
+  return both ? text(rounded(up, 2), " and ", rounded(down, 2)) : rounded(up, 2);
 }
 
 }  // namespace
@@ -224,15 +223,17 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
   figure.notes.push_back(
       text("contact is lost at every torque with: ", everywhere.empty() ? "none of these" : everywhere,
            paper ? "; P2000 prints jumps at 100 to 300 and 600 N m (diamonds)" : ""));
-  std::string loads;
+  std::string loads = paper ? "P2000 prints 3.00 and 4.85" : "";
+  bool known = false;
   for (const Panel& panel : panels)
     for (const JumpMapArtifact* a : panel.second)
-      if (a->load_frequency > 0 && a->torque == 150)
-        loads += text(loads.empty() ? "" : "; ", panel.first, ": ", loads_in_words(*a, at));
-  if (!loads.empty())
-    figure.notes.push_back(text("tooth load at 150 N m, ", rounded(ratio * 100, 2), " %, ",
-                                maps[0].load_frequency, " Hz: ", loads,
-                                paper ? "; P2000 prints 3.00 and 4.85 kN" : ""));
+      if (a->load_frequency > 0 && a->torque == 150) {
+        loads += text(loads.empty() ? "" : "; ", panel.first, " ", loads_in_words(*a, at));
+        known = true;
+      }
+  if (known)
+    figure.notes.push_back(text("tooth loads in kN at 150 N m, ", rounded(ratio * 100, 2), " %, ",
+                                maps[0].load_frequency, " Hz: ", loads));
   double spike = 1;
   std::string where = panels[0].first;
   for (const Panel& panel : panels)
@@ -290,6 +291,8 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
                     {"ratio_to", extent.back()[3]},
                     {"torque_from", extent.front()[4]},
                     {"torque_to", extent.back()[5]},
+                    {"first_ratio", extent.front()[0]},
+                    {"last_ratio", extent.back()[0]},
                     {"notes", static_cast<double>(figure.notes.size())},
                     {"lines", panels[0].second.size() > 1 && maps[0].damping_ratio.size() > 1 ? 1.0 : 0.0},
                     {"largest", largest}};
@@ -343,12 +346,13 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
       rounded(base.one_pair_frequency, 0), " Hz (one pair) and ", rounded(base.two_pair_frequency, 0),
       " Hz (two), ", branch_words(base, shown), ", tooth load up to ", rounded(load(base, shown) * 1e-3, 2),
       " kN; eta ", rounded(base.rayleigh_stiffness[shown] * 1e6, 2), "e-6 s"));
-  figure.notes.push_back(text(
-      "each variant is damped to the same ratio by its own eta, as the damping is measured; × : one branch; "
-      "the table has them at the base's eta, too; contact = ",
-      base.fidelity.contact, ", steps of ",
-      rounded(base.mesh_frequency.size() > 1 ? base.mesh_frequency[1] - base.mesh_frequency[0] : 0, 1),
-      " Hz"));
+  figure.notes.push_back(
+      text("each variant has an eta of its own for the same ratio; ×: one branch; △: goes on below the least "
+           "speed; "
+           "in the table also at one eta; contact = ",
+           base.fidelity.contact, ", steps of ",
+           rounded(base.mesh_frequency.size() > 1 ? base.mesh_frequency[1] - base.mesh_frequency[0] : 0, 1),
+           " Hz"));
   for (Index c = cases; c-- > 0;) {
     FigureBlock block{
         c == shown ? "changes"
@@ -378,6 +382,11 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
     figure.words.emplace_back(text("label", i + 1), rows[i].label);
   }
   figure.numbers = {{"variants", static_cast<double>(rows.size())}};
+  for (size_t column = 1; column <= 6; ++column) {
+    double reach = 0;
+    for (const auto& row : figure.blocks[0].rows) reach = std::max(reach, std::abs(row[column]));
+    figure.numbers.emplace_back(text("reach", column), reach > 0 ? reach : 1);
+  }
   return figure;
 }
 

@@ -1,7 +1,7 @@
 # Map of jumps: torque against damping ratio, one panel per corner rule; cells by what happens in them, lines of the largest
 # tooth load.
 # Variables from gear-plot: tsv, title, note1.., notes, panels, panel1.., printed, lines, largest, ratio_from, ratio_to,
-# torque_from, torque_to.
+# torque_from, torque_to, first_ratio, last_ratio.
 set datafile separator whitespace
 set datafile commentschars "#"
 
@@ -49,9 +49,11 @@ do for [p = 1:int(panels)] {
   drawn = class(p, 0) . ", " . class(p, 1) . ", " . class(p, 2)
   if (lines > 0) {
     drawn = drawn . sprintf(", $load%d using 1:(10**$2) with lines lw 2 lc rgb line_colour notitle", p)
-    # A label where the line begins; the lines of a level are parted by blank lines.
-    drawn = drawn . sprintf(", $load%d using ($0 == 0 ? $1 : NaN):(10**$2):(sprintf('%%g', $3)) with labels offset -1.2, 0.1" \
-      . " font ',14' tc rgb line_colour notitle", p)
+    # Labels where the lines end at the first and the last damping ratio: elsewhere they crowd.
+    drawn = drawn . sprintf(", $load%d using ($1 < first_ratio + 1e-6 ? $1 : NaN):(10**$2):(sprintf('%%g', $3)) with labels" \
+      . " offset 1.1, 0.45 font ',13' tc rgb line_colour notitle", p)
+    drawn = drawn . sprintf(", $load%d using ($1 > last_ratio - 1e-6 ? $1 : NaN):(10**$2):(sprintf('%%g', $3)) with labels" \
+      . " offset 0.9, 0.45 font ',13' tc rgb line_colour notitle", p)
   }
   if (printed > 0) { drawn = drawn . ", tsv index '[printed]' using 1:2 with points pt 13 ps 2.2 lc rgb '#000000' notitle" }
   eval("plot " . drawn)
