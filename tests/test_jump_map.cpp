@@ -264,6 +264,9 @@ TEST_CASE("the map's figure says what its data say") {
     if (!a.mesh.corner.enabled && a.torque == 600) a.loss_to.setZero();
   figure = jump_map_figure(maps);
   CHECK(says(figure, "contact is lost at every torque with: none of these"));
+  std::vector<JumpMapArtifact> split = maps;
+  for (JumpMapArtifact& a : split) a.damping.rayleigh_mass = 1337;
+  CHECK(says(jump_map_figure(split), "no corner contact, mu 1337 1/s: two branches"));
   for (JumpMapArtifact& a : maps) a.driver.teeth = 40;
   CHECK(!says(jump_map_figure(maps), "P2000"));
   maps.push_back(maps[0]);

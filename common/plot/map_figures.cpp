@@ -22,9 +22,13 @@ std::string rounded(double value, int decimals) {
 std::string panel_name(const JumpMapArtifact& a) {
   if (a.model != "finite elements") return a.model;
   const CornerRule& corner = a.mesh.corner;
-  if (!corner.enabled) return "no corner contact";
-  if (std::isinf(corner.largest_angle)) return "corner contact";
-  return "corner contact up to " + rounded(corner.largest_angle * 180 / std::numbers::pi, 3) + "°";
+  const std::string rule =
+      !corner.enabled ? "no corner contact"
+      : std::isinf(corner.largest_angle)
+          ? "corner contact"
+          : "corner contact up to " + rounded(corner.largest_angle * 180 / std::numbers::pi, 3) + "°";
+  return a.damping.rayleigh_mass > 0 ? text(rule, ", mu ", rounded(a.damping.rayleigh_mass, 0), " 1/s")
+                                     : rule;
 }
 
 // P2000, section 2.1; the gears it leaves open are the scene's.

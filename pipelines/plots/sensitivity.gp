@@ -8,19 +8,19 @@ set tics out nomirror
 set grid xtics lt 1 lc rgb "#e4e4e4" lw 1
 set style fill solid 0.9 noborder
 set yrange [variants - 0.4:-0.6]
-set xtics font ",13"
+set xtics font ",11.5"
 array column_of[6] = [2, 3, 4, 5, 6, 7]
 array name[6] = ["mean stiffness (%)", "f, one pair (Hz)", "f, two pairs (Hz)", "branches from (Hz)", "branches to (Hz)", "tooth load (%)"]
-left = 0.255
+left = 0.33
 width = (0.99 - left) / 6
 set tmargin at screen 0.875
 set bmargin at screen 0.12
 do for [k = 1:6] {
   set lmargin at screen left + (k - 1) * width
   set rmargin at screen left + k * width - 0.02
-  set xlabel name[k] font ",15"
+  set xlabel name[k] font ",12.5"
   unset ytics
-  if (k == 1) { set ytics nomirror scale 0 noenhanced font ",13" (""  0); do for [i = 1:int(variants)] { set ytics add (value(sprintf("label%d", i)) i - 1) } }
+  if (k == 1) { set ytics nomirror scale 0 noenhanced font ",12" ("" 0); do for [i = 1:int(variants)] { set ytics add (value(sprintf("label%d", i)) i - 1) } }
   reach = 1.12 * value(sprintf("reach%d", k))
   set xrange [-reach:reach]
   set xtics autofreq
