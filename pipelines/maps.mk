@@ -36,21 +36,21 @@ sensitivity_cases := --rayleigh-stiffness $(SENSITIVITY_FACTOR) --damping-ratio 
 plan_branches := $(sensitivity_cases) --step $(SENSITIVITY_STEP)
 plan_branches_fine := $(sensitivity_cases) --step $(fine_step)
 
-# Options in files of their own, replaced if they change: so that other options redo what they made.
+# Options in files of their own, per scene, replaced if they change: so that other options redo what they made.
 plans := jump_map jump_map_fine branches branches_fine
-$(plans:%=$(B)/plans/%): $(B)/plans/%: FORCE
+$(plans:%=$(B)/plans/$(own_scene)/%): $(B)/plans/$(own_scene)/%: FORCE
 	+@mkdir -p $(@D); echo '$(plan_$*)' | $(call replace_if_changed,$@)
 
 jump_map_inputs = out/$1/params/map.toml out/$1/params/static.toml $(pair_bodies) $(call id,gear-jump-map)
 jump_map_options = --params out/$1/params/map.toml --static-params out/$1/params/static.toml $(pair_options)
 
 define jump_map_rules # scene, torque, corner rule, plan
-out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(jump_map_inputs) $(B)/plans/$4 | $(B)/bin/gear-jump-map
+out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(jump_map_inputs) $(B)/plans/$(own_scene)/$4 | $(B)/bin/gear-jump-map
 	$$(call run,jump-map) $(jump_map_options) --torque $2 --corner-contact $3 $(plan_$4) --output $$@
 endef
 
 define branches_rules # scene, torque, plan
-out/$1/T$2/$3.h5: $(jump_map_inputs) $(B)/plans/$3 | $(B)/bin/gear-jump-map
+out/$1/T$2/$3.h5: $(jump_map_inputs) $(B)/plans/$(own_scene)/$3 | $(B)/bin/gear-jump-map
 	$$(call run,jump-map) $(jump_map_options) --torque $2 $(plan_$3) --output $$@
 endef
 
