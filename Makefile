@@ -110,7 +110,7 @@ replace_if_changed = { cat > $1.new; if cmp -s $1.new $1; then rm $1.new; else m
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
 
-include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk pipelines/bench.mk
+include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk
 
 # --- packages -------------------------------------------------------------------------------------------------
 
@@ -155,7 +155,7 @@ check-format: ## fail if clang-format would change a source
 .PHONY: help clean clean-figures clean-motion clean-out
 help: ## print this list
 	@echo 'Whine: gear whine from elastic teeth that touch, part and touch again. Targets:'
-	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk pipelines/bench.mk Makefile
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk Makefile
 	@echo 'Any artifact is a target, at any torque in N m; the scene stands in its path:'
 	@echo '  make out/parker2000/T600/up/response.h5'
 	@echo '  make SCENE=path/to/scene.toml sweep'

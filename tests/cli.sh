@@ -45,10 +45,12 @@ stage_impact=("$bin/gear-impact" --params out/scene/params/impact.toml $measured
 stage_spectra=("$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output out/scene/T100/up/response.h5)
 lumped() { echo "$bin/gear-lumped --model $1 --static out/scene/T100/static.h5 --params out/scene/params/sweep.toml --direction up \
   --output out/scene/T100/$1/up/sweep.h5"; }
+stage_map=("$bin/gear-jump-map" --params out/scene/params/map.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
+  --contact line --corner-contact false --damping-ratio 0.05,0.1 --from 2700 --to 2900 --step 100 --loads-at 2800 --output out/scene/T100/jump_map_false.h5)
 stage_plot=("$bin/gear-plot" fig12 --plots "$plots" --output fig12 out/scene/T100/static.h5)
 chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
-    $(static scene 100) && "${stage_impact[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_plot[@]}"
+    $(static scene 100) && "${stage_impact[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_plot[@]}"
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
@@ -61,7 +63,7 @@ if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
   wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
 if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
   wrong "no artifact holds a path of the machine" "$found"; fi
-for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5; do
+for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5; do
   if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
@@ -81,7 +83,7 @@ done
 # --- the command line
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
   [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
-  [gear-plot]="${stage_plot[*]}" [gear-inspect]="gear-inspect out/scene/T100/static.h5")
+  [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-inspect]="gear-inspect out/scene/T100/static.h5")
 for program in "$bin"/gear-*; do
   name=$(basename "$program")
   "$program" --help > said 2>&1 && grep -q -- --help said && ok "$name --help" || wrong "$name --help" "$(head -n 1 said)"
@@ -104,6 +106,24 @@ gear-sweep out/scene/../scene/T100/static.h5
 gear-spectra out/scene/T100/up/sweep.h5
 CASES
 rm out/scene/linked.h5
+refused "a map without a damping" 3 'no case' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")
+refused "a map with a damping ratio that is no number" 2 "damping-ratio.*'much'" "${stage_map[@]/0.05,0.1/much}"
+refused "a map with a corner rule that is none" 2 "corner-contact.*'sometimes'" "${stage_map[@]/false/sometimes}"
+refused "a map with an angle beyond a right one" 2 'corner-contact is 91.* 0 to 90' "${stage_map[@]/false/91}"
+refused "a map whose loads are wanted outside its speeds" 3 'wanted at 2400 Hz, but the speeds run from 2700' "${stage_map[@]/2800/2400}"
+"$bin/gear-scene" --scene scene.toml --set bore_radius_mm=35 --set corner_contact=false --variant scene_variant.toml > said 2>&1
+[ "$(grep -c -E '^(bore_radius_mm = 35|corner_contact = false)$' scene_variant.toml)" = 2 ] && ok "gear-scene --set writes a variant" ||
+  wrong "gear-scene --set writes a variant" "$(head -n 1 said)"
+refused "a change of a key that no scene has" 2 "bore_radius_mm" "$bin/gear-scene" --scene scene.toml --set bore_radius=35 --variant scene_x.toml
+refused "a change without a variant to write" 2 'variant' "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=35
+"$bin/gear-scene" --scene scene.toml --set bore_radius_mm=90 --variant scene_wide.toml > said 2>&1
+refused "a variant that cannot be" 3 'scene_wide.toml.*bore' "$bin/gear-scene" --scene scene_wide.toml --output wide.mk --out out
+"$bin/gear-plot" jump-map --plots "$plots" --output map out/scene/T100/jump_map_false.h5 > said 2>&1 && grep -q 'no corner contact' map.svg &&
+  ok "a map of one torque is drawn" || wrong "a map of one torque is drawn" "$(head -n 1 said)"
+rm -f map.* scene_variant.toml scene_wide.toml
+refused "a map of the same torque and rule twice" 3 'two maps of 100 N m' "$bin/gear-plot" jump-map --plots "$plots" --output map \
+  out/scene/T100/jump_map_false.h5 out/scene/T100/jump_map_false.h5
+refused "the sensitivity to nothing" 3 'one variant' "$bin/gear-plot" sensitivity --plots "$plots" --output map out/scene/T100/jump_map_false.h5
 refused "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
 ring_down=("${stage_impact[@]::${#stage_impact[@]}-2}")
 "${ring_down[@]}" --calibrate 0.05 --contact-state one > said 2> /dev/null

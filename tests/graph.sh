@@ -52,7 +52,7 @@ scene=data/scenes/parker2000.toml
 cp $scene scene.original
 
 # stages: what the last make says that it would run or has run, as "program output" in order of the alphabet
-shown() { sed -n 's|.*bin/\(gear-[a-z]*\) .*--output \([^ ]*\).*|\1 \2|p' <(sed ':a;/\\$/{N;s/\\\n//;ba}' "$log") | sort; }
+shown() { sed -n 's|.*bin/\(gear-[a-z-]*\) .*--output \([^ ]*\).*|\1 \2|p' <(sed ':a;/\\$/{N;s/\\\n//;ba}' "$log") | sort; }
 # programs only, each once
 programs() { shown | cut -d' ' -f1 | uniq -c | awk '{printf "%s%s*%s", s, $2, $1; s=" "}'; }
 
@@ -118,6 +118,40 @@ change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n $all
 expect "speeds redo the sweeps" "gear-lumped*14 gear-plot*11 gear-spectra*22 gear-sweep*10"; restore
 change 's/^like = "pinion"/&\nprofile_shift = 0.1/; s/^centre_distance_mm = .*/centre_distance_mm = 150.4/'; make_ -n mesh
 expect "a gear that differs gets a body of its own" "gear-mesh*1"; restore
+
+# --- maps and variants
+make_ -n jump-map
+expect "a map of jumps: one artifact per torque and corner rule, no body, no static" "gear-jump-map*24 gear-plot*1"
+make_ jump-map; make_ -n jump-map
+expect "a map is up to date" ""
+change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/; s/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n jump-map
+expect "damping and speeds of the scene redo no map" ""; restore
+change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; make_ -n jump-map
+expect "inertia redoes the maps" "gear-jump-map*24 gear-plot*1"; restore; make_ jump-map
+rm out/parker2000/T300/jump_map_1.h5; make_ -n jump-map
+expect "one artifact that is missing, and the figure" "gear-jump-map*1 gear-plot*1"
+make_ jump-map; make_ -n JUMP_MAP=fine jump-map
+expect "a fine map stands beside the coarse one" "gear-jump-map*48 gear-plot*1"
+make_ -n JUMP_MAP_TORQUES='150 700' JUMP_MAP_CORNERS=2 jump-map
+expect "torques and corner rules of one's own" "gear-jump-map*2 gear-plot*1"
+make_ -n JUMP_MAP_STEP=25 jump-map
+expect "another step redoes the maps" "gear-jump-map*24 gear-plot*1"
+make_ -n JUMP_MAP=finer jump-map
+grep -q 'JUMP_MAP=finer: it is coarse or fine' "$log" && ok "a fineness that is none is refused" || wrong "JUMP_MAP=finer is refused" "$(tail -n 1 "$log")"
+make_ -n sensitivity
+expect "sensitivity: bodies of the variants whose gears differ, a map of each" "gear-jump-map*18 gear-mesh*9 gear-plot*1 gear-reduce*9"
+make_ sensitivity; make_ -n sensitivity
+expect "sensitivity is up to date" ""
+change '1i # a comment'; make_ -n sensitivity
+expect "a comment in the scene redoes no variant" ""; restore
+change 's/^dedendum = 1.25/dedendum = 1.22/'; make_ -n sensitivity
+expect "another dedendum redoes all but the two variants that set their own" "gear-jump-map*16 gear-mesh*8 gear-plot*1 gear-reduce*8"; restore
+make_ sensitivity; make_ -n VARIANTS='bore35:bore_radius_mm=35 both:bore_radius_mm=35,dedendum=1.3' sensitivity
+expect "variants of one's own, one of two keys" "gear-jump-map*1 gear-mesh*1 gear-plot*1 gear-reduce*1"
+make_ -n VARIANTS='bad:bore_radius=35' sensitivity
+grep -q "did you mean 'bore_radius_mm'" "$log" && ok "a variant of a key that is none is refused" || wrong "a bad variant is refused" "$(tail -n 1 "$log")"
+make_ -n LAUNCH='srun -n1' JUMP_MAP_STEP=10 jump-map
+[ "$(grep -c '^srun -n1 build.*/bin/gear-jump-map ' "$log")" = 24 ] && ok "LAUNCH carries the maps" || wrong "LAUNCH carries the maps" "$(tail -n 1 "$log")"
 
 # --- any torque, other scenes
 make_ -n out/parker2000/T700/up/response.h5

@@ -16,6 +16,7 @@
 #include "files/schemas.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
+#include "plot/map_figures.h"
 
 namespace {
 
@@ -93,6 +94,18 @@ const std::map<std::string, Drawing>& drawings() {
        {"what refining each discretisation alone changes, and what other choices change", "error_budget.h5",
         1,
         [](const Paths& in, double) { return whine::error_budget_figure(whine::read_error_budget(in[0])); }}},
+      {"jump-map",
+       {"two branches, contact loss and tooth loads against torque, damping and corner rule",
+        "jump_map.h5, one per torque and corner rule", 0,
+        [](const Paths& in, double) { return whine::jump_map_figure(read_all(in, whine::read_jump_map)); }}},
+      {"sensitivity",
+       {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0,
+        [](const Paths& in, double) {
+          std::vector<whine::JumpMapArtifact> maps = read_all(in, whine::read_jump_map);
+          const whine::JumpMapArtifact base = maps.front();
+          maps.erase(maps.begin());
+          return whine::sensitivity_figure(base, maps);
+        }}},
   };
   return all;
 }

@@ -1,13 +1,15 @@
 // gear-scene: checks a scene and cuts it into the parts that the stages depend on.
 //
 // Reads      a scene (TOML)
-// Writes     <out>/<scene>/params/{static,impact,sweep}.toml    slices in SI, replaced only if they change
+// Writes     <out>/<scene>/params/{static,impact,sweep,map}.toml    slices in SI, replaced only if they change
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
+//            --variant: a scene with the changes of --set, and nothing else
 //            --keys: prints the table of scene keys
 // Equations  none; units to SI as the key table says
 // Example    gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out
+//            gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant out/parker2000/variants/bore35.toml
 //            gear-scene --keys
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -22,6 +24,7 @@
 #include "base/tool.h"
 #include "files/publish.h"
 #include "files/scene.h"
+#include "files/variant.h"
 #include "gear/pair.h"
 
 namespace {
@@ -70,21 +73,31 @@ void check_geometry(const Scene& scene, const std::string& path) {
 }
 
 void body(int argc, char** argv) {
-  std::string path, output, folder = "out";
+  std::string path, output, variant, folder = "out";
+  std::vector<std::string> changes;
   bool keys = false;
   CLI::App app{"Checks a scene and cuts it into the parts that the stages depend on", "gear-scene"};
   auto* scene_option = app.add_option("--scene", path, "scene file (TOML)");
   auto* output_option = app.add_option("--output", output, "make fragment to write");
   app.add_option("--out", folder, "folder of the artifacts")->capture_default_str();
   auto* keys_option = app.add_flag("--keys", keys, "print the table of scene keys and end");
-  scene_option->needs(output_option)->excludes(keys_option);
-  output_option->needs(scene_option);
+  auto* variant_option = app.add_option("--variant", variant, "scene to write with the changes of --set");
+  auto* set_option = app.add_option("--set", changes, "key=value, any number of times");
+  scene_option->excludes(keys_option);
+  output_option->needs(scene_option)->excludes(variant_option);
+  variant_option->needs(scene_option)->needs(set_option);
+  set_option->needs(variant_option);
   parse(app, argc, argv);
   if (keys) {
     std::cout << scene_key_table();
     return;
   }
-  if (path.empty()) fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
+  if (!variant.empty()) {
+    publish_if_changed(variant, scene_variant(path, changes));
+    return;
+  }
+  if (path.empty() || output.empty())
+    fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
 
   // 1. The whole scene is checked before anything is written.
   const std::string stem = checked_stem(path);
@@ -107,6 +120,7 @@ void body(int argc, char** argv) {
   publish_if_changed(home + "/params/static.toml", static_slice(scene));
   publish_if_changed(home + "/params/impact.toml", impact_slice(scene));
   publish_if_changed(home + "/params/sweep.toml", sweep_slice(scene));
+  publish_if_changed(home + "/params/map.toml", map_slice(scene));
 
   // 3. The fragment, always written: make compares its time with the scene's.
   std::ostringstream out;

@@ -366,7 +366,7 @@ void read_gears(const Source& source, Scene& scene) {
     // These would be mixed up with the folders of parameters, reports and torques beside the gear's own.
     const bool torque_like =
         name.size() > 1 && name[0] == 'T' && std::isdigit(static_cast<unsigned char>(name[1]));
-    if (name == "params" || name == "report" || torque_like) {
+    if (name == "params" || name == "report" || name == "variants" || torque_like) {
       source.refuse(*table, text("[gear.", name, "]: a gear cannot be called '", name,
                                  "', a folder of results is; choose another name"));
     }
@@ -636,6 +636,17 @@ std::string sweep_slice(const Scene& scene) {
   return out.text();
 }
 
+std::string map_slice(const Scene& scene) {
+  KeyValues values = motion_values(scene);
+  values.damping.rayleigh_stiffness = 0;
+  SliceText out("a map of jumps");
+  add_inertia_and_damping(out, scene, values);
+  out.add("operation", "operation", values, {Part::load});
+  out.add("fidelity", "fidelity", values, {Part::rung, Part::contact_rung});
+  out.add("discretisation", "discretisation", values, {Part::time});
+  return out.text();
+}
+
 std::string body_hash(const std::string& slice) {
   return sha256(slice).substr(0, 16);
 }
@@ -683,17 +694,22 @@ ImpactSlice read_impact_slice(const std::string& path) {
   return out;
 }
 
-SweepSlice read_sweep_slice(const std::string& path) {
+SweepSlice read_map_slice(const std::string& path) {
   SweepSlice out;
   static_cast<ImpactSlice&>(out) = read_impact_slice(path);
-  const Source source(path);
   KeyValues values;
-  read_slice_section(source, "operation", "operation", {Part::operation}, values);
-  read_slice_section(source, "discretisation", "discretisation", {Part::time}, values);
+  read_slice_section(Source(path), "discretisation", "discretisation", {Part::time}, values);
+  out.time = values.time;
+  return out;
+}
+
+SweepSlice read_sweep_slice(const std::string& path) {
+  SweepSlice out = read_map_slice(path);
+  KeyValues values;
+  read_slice_section(Source(path), "operation", "operation", {Part::operation}, values);
   out.frequency_from = values.operation.frequency_from;
   out.frequency_to = values.operation.frequency_to;
   out.frequency_step = values.operation.frequency_step;
-  out.time = values.time;
   return out;
 }
 

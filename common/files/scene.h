@@ -147,6 +147,9 @@ struct SweepSlice : ImpactSlice {
   TimeDiscretisation time;
 };
 
+// For gear-jump-map: a sweep whose speeds and Rayleigh stiffness factor the map chooses; both are 0.
+SweepSlice read_map_slice(const std::string& path);
+
 // Canonical text of a slice: TOML in SI, keys in a fixed order, numbers with all digits. Depends on values
 // only, not on comments, order or defaults left out. Errors: Error(input) for a gear that does not exist.
 std::string body_slice(const Scene& scene, const std::string& gear);
@@ -154,6 +157,7 @@ std::string body_slice(const BodySlice& values);
 std::string static_slice(const Scene& scene);
 std::string impact_slice(const Scene& scene);
 std::string sweep_slice(const Scene& scene);
+std::string map_slice(const Scene& scene);
 
 // First 16 hexadecimal digits of the SHA-256 of a body slice: the folder out/bodies/<hash>/.
 std::string body_hash(const std::string& slice);

@@ -1,7 +1,9 @@
 #include "files/schemas.h"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 #include "files/artifact.h"
@@ -12,7 +14,7 @@ namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
 constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 3, kErrorBudgetVersion = 2,
-              kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3;
+              kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -822,6 +824,241 @@ ResponseArtifact read_response(const std::string& path) {
   a.jump_width = in.vector("/jump_width", a.jump_frequency.size());
   a.period_multiple = in.whole_vector("/period_multiple", speeds);
   return a;
+}
+
+namespace {
+
+// Datasets of a map that have one row per case; in this order in the file.
+struct CaseVector {
+  const char *name, *units, *meaning, *equation;
+  Eigen::VectorXd JumpMapArtifact::*values;
+};
+const CaseVector kCaseVectors[] = {
+    {"rayleigh_stiffness", "s", "Rayleigh stiffness factor eta", "Eq. 21",
+     &JumpMapArtifact::rayleigh_stiffness},
+    {"damping_ratio", "1", "damping ratio of two pairs with their contact frozen under the static load", "",
+     &JumpMapArtifact::damping_ratio},
+    {"branches_from", "Hz", "least speed with two motions; 0: none", "", &JumpMapArtifact::branches_from},
+    {"branches_to", "Hz", "largest speed with two motions; 0: none", "", &JumpMapArtifact::branches_to},
+    {"loss_from", "Hz", "least speed at which contact is lost on any branch; 0: none", "",
+     &JumpMapArtifact::loss_from},
+    {"loss_to", "Hz", "largest speed at which contact is lost on any branch; 0: none", "",
+     &JumpMapArtifact::loss_to},
+    {"excitation", "1",
+     "first harmonic of the secant mesh stiffness over its mean, over twice the damping ratio",
+     "k1 / k0 / (2 zeta)", &JumpMapArtifact::excitation}};
+struct CaseCount {
+  const char *name, *meaning;
+  Eigen::VectorXi JumpMapArtifact::*values;
+};
+const CaseCount kCaseCounts[] = {
+    {"two_branches", "1: speeds with two motions were found", &JumpMapArtifact::two_branches},
+    {"open_below", "1: the speeds with two motions go on below the least speed",
+     &JumpMapArtifact::open_below},
+    {"unsteady", "speeds and directions at which no steady motion was found", &JumpMapArtifact::unsteady}};
+struct CaseCurve {
+  const char *name, *units, *meaning;
+  std::array<MatrixRM, 2> JumpMapArtifact::*values;
+};
+const CaseCurve kCaseCurves[] = {
+    {"dte_rms", "m", "RMS of the oscillating part of the dynamic transmission error",
+     &JumpMapArtifact::dte_rms},
+    {"tooth_load_max", "N", "largest normal force of one tooth pair", &JumpMapArtifact::tooth_load_max},
+    {"separation_fraction", "1", "share of the period without force", &JumpMapArtifact::separation_fraction}};
+const char* const kDirections[] = {"up", "down"};
+
+}  // namespace
+
+void write(const std::string& path, const JumpMapArtifact& a, const Provenance& provenance) {
+  const Eigen::Index cases = a.damping_ratio.size(), speeds = a.mesh_frequency.size();
+  for (const CaseVector& v : kCaseVectors) want_rows(v.name, (a.*v.values).size(), cases);
+  for (const CaseCount& v : kCaseCounts) want_rows(v.name, (a.*v.values).size(), cases);
+  for (const CaseCurve& v : kCaseCurves)
+    for (const MatrixRM& curve : a.*v.values) {
+      want_rows(v.name, curve.rows(), cases);
+      want_rows(text(v.name, " (columns)").c_str(), curve.cols(), speeds);
+    }
+  want_rows("peak_tooth_load", a.peak_tooth_load.rows(), cases);
+  want_rows("tooth_load", a.tooth_load.rows(), a.load_frequency > 0 ? cases : 0);
+  want_rows("held_load_there", a.held_load_there.rows(), a.load_frequency > 0 ? cases : 0);
+  want_rows("held_tooth_load", a.held_tooth_load.rows(), cases);
+  want_rows("dte_rms_there", a.dte_rms_there.rows(), a.load_frequency > 0 ? cases : 0);
+  for (const auto& [name, size] :
+       {std::pair{"jump_case", a.jump_case.size()}, std::pair{"jump_direction", a.jump_direction.size()},
+        std::pair{"jump_width", a.jump_width.size()}})
+    want_rows(name, size, a.jump_frequency.size());
+  ArtifactWriter out(path, "jump_map", kJumpMapVersion,
+                     "Jumps against damping: " + pair_title(a.mesh, a.torque), provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
+  values.contact = a.contact;
+  values.time = a.time;
+  values.damping = a.damping;
+  put_pair(out, a);
+  put_inertia(out, "driver", a.driver_inertia);
+  put_inertia(out, "driven", a.driven_inertia);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("fidelity", values, Part::rung);
+  out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("discretisation", values, Part::contact);
+  out.parameters("discretisation", values, Part::time);
+  out.parameters("damping", values, Part::damping);
+  out.put("/parameters/damping/mean_stiffness", a.bearing_stiffness,
+          {"N m-1", "mean secant stiffness that sets the bearing dampers", "", ""});
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/parameters/fidelity/model", a.model,
+          {"1", "finite elements, or the name of a lumped model", "", ""});
+  out.put("/mean_stiffness", a.mean_stiffness,
+          {"N m-1", "mean of the secant stiffness over a mesh period", "", ""});
+  out.put("/first_harmonic", a.first_harmonic,
+          {"N m-1", "amplitude of the first harmonic of the secant stiffness", "", ""});
+  out.put("/one_pair_frequency", a.one_pair_frequency,
+          {"Hz", "natural frequency with one pair, contact frozen, undamped; 0: one pair never carries all",
+           "", ""});
+  out.put("/two_pair_frequency", a.two_pair_frequency,
+          {"Hz", "natural frequency with two pairs, contact frozen, undamped", "", ""});
+  for (const CaseVector& v : kCaseVectors)
+    out.put(text("/", v.name), a.*v.values, {v.units, v.meaning, "case", v.equation});
+  for (const CaseCount& v : kCaseCounts)
+    out.put(text("/", v.name), a.*v.values, {"1", v.meaning, "case", ""});
+  out.put("/peak_tooth_load", a.peak_tooth_load,
+          {"N", "largest normal force of one tooth pair at any speed; directions up, down", "case direction",
+           ""});
+  out.put("/held_tooth_load", a.held_tooth_load,
+          {"N", "largest normal force of one tooth pair held for 1/64 of a mesh period; directions up, down",
+           "case direction", ""});
+  out.put("/load_frequency", a.load_frequency,
+          {"Hz", "speed of tooth_load, held_load_there and dte_rms_there; 0: none was asked for", "", ""});
+  if (a.load_frequency > 0) {
+    out.put("/tooth_load", a.tooth_load,
+            {"N", "largest normal force of one tooth pair at load_frequency; directions up, down",
+             "case direction", ""});
+    out.put("/held_load_there", a.held_load_there,
+            {"N", "the same held for 1/64 of a mesh period", "case direction", ""});
+    out.put(
+        "/dte_rms_there", a.dte_rms_there,
+        {"m", "RMS of the transmission error at load_frequency; directions up, down", "case direction", ""});
+  }
+  out.put("/jump_case", a.jump_case, {"1", "case in which the response jumps, counted from 0", "jump", ""});
+  out.put("/jump_direction", a.jump_direction, {"1", "0: speed rising, 1: falling", "jump", ""});
+  out.put("/jump_frequency", a.jump_frequency,
+          {"Hz", "middle of the interval in which the response jumps", "jump", ""});
+  out.put("/jump_width", a.jump_width,
+          {"Hz", "width of the interval in which the response jumps", "jump", ""});
+  out.put("/mesh_frequency", a.mesh_frequency, {"Hz", "mesh frequency, ascending", kSpeed, ""});
+  for (int d = 0; d < 2; ++d)
+    for (const CaseCurve& v : kCaseCurves)
+      out.put(
+          text("/", kDirections[d], "/", v.name), (a.*v.values)[d],
+          {v.units, text(v.meaning, ", speed ", d == 0 ? "rising" : "falling"), "case mesh_frequency", ""});
+  out.publish();
+}
+
+JumpMapArtifact read_jump_map(const std::string& path) {
+  const ArtifactReader in(path, "jump_map", kJumpMapVersion);
+  JumpMapArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("fidelity", values, Part::rung);
+  in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("discretisation", values, Part::contact);
+  in.parameters("discretisation", values, Part::time);
+  in.parameters("damping", values, Part::damping);
+  take_pair(in, a);
+  a.driver_inertia = take_inertia(in, "driver");
+  a.driven_inertia = take_inertia(in, "driven");
+  a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
+  a.contact = values.contact;
+  a.time = values.time;
+  a.damping = values.damping;
+  a.bearing_stiffness = in.number("/parameters/damping/mean_stiffness");
+  a.torque = in.number("/parameters/operation/torque");
+  a.model = in.word("/parameters/fidelity/model");
+  a.mean_stiffness = in.number("/mean_stiffness");
+  a.first_harmonic = in.number("/first_harmonic");
+  a.one_pair_frequency = in.number("/one_pair_frequency");
+  a.two_pair_frequency = in.number("/two_pair_frequency");
+  const Eigen::Index cases = in.vector("/damping_ratio").size();
+  for (const CaseVector& v : kCaseVectors) a.*v.values = in.vector(text("/", v.name), cases);
+  for (const CaseCount& v : kCaseCounts) a.*v.values = in.whole_vector(text("/", v.name), cases);
+  a.peak_tooth_load = in.matrix("/peak_tooth_load", cases, 2);
+  a.held_tooth_load = in.matrix("/held_tooth_load", cases, 2);
+  a.load_frequency = in.number("/load_frequency");
+  if (a.load_frequency > 0) {
+    a.tooth_load = in.matrix("/tooth_load", cases, 2);
+    a.held_load_there = in.matrix("/held_load_there", cases, 2);
+    a.dte_rms_there = in.matrix("/dte_rms_there", cases, 2);
+  }
+  a.jump_frequency = in.vector("/jump_frequency");
+  const Eigen::Index jumps = a.jump_frequency.size();
+  a.jump_width = in.vector("/jump_width", jumps);
+  a.jump_case = in.whole_vector("/jump_case", jumps);
+  a.jump_direction = in.whole_vector("/jump_direction", jumps);
+  if (jumps > 0 && (a.jump_case.minCoeff() < 0 || a.jump_case.maxCoeff() >= cases))
+    in.file().refuse(text("dataset /jump_case names a case outside 0 to ", cases - 1));
+  a.mesh_frequency = in.vector("/mesh_frequency");
+  for (int d = 0; d < 2; ++d)
+    for (const CaseCurve& v : kCaseCurves)
+      (a.*v.values)[d] = in.matrix(text("/", kDirections[d], "/", v.name), cases, a.mesh_frequency.size());
+  return a;
+}
+
+std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to) {
+  const auto filled = [](const JumpMapArtifact& a, bool driver) {
+    KeyValues values;
+    values.design = driver ? a.driver : a.driven;
+    values.material = driver ? a.driver_material : a.driven_material;
+    values.total_inertia = driver ? a.driver_inertia : a.driven_inertia;
+    values.body = driver ? a.driver_body : a.driven_body;
+    values.mesh = a.mesh;
+    values.fidelity = a.fidelity;
+    values.contact = a.contact;
+    values.time = a.time;
+    values.damping = a.damping;
+    return values;
+  };
+  const auto shown = [](const Parameter& parameter, const Key& key) {
+    if (const auto* number = std::get_if<double>(&parameter.value)) {
+      char buffer[32];
+      std::snprintf(buffer, sizeof buffer, "%.6g", *number * key.unit.divide / key.unit.multiply);
+      return std::string(buffer);
+    }
+    return std::visit([](const auto& value) { return text(value); }, parameter.value);
+  };
+  const auto corner = [](const CornerRule& rule) {
+    if (!rule.enabled) return std::string("false");
+    return std::isinf(rule.largest_angle) ? std::string("true")
+                                          : text(rule.largest_angle * 180 / std::numbers::pi);
+  };
+  const auto changes = [&](bool driver) {
+    const KeyValues old = filled(from, driver), fresh = filled(to, driver);
+    std::string out;
+    for (const Key& key : scene_keys()) {
+      if (key.part == Part::title || key.part == Part::reference || key.part == Part::load ||
+          key.part == Part::operation)
+        continue;
+      std::string a, b;
+      if (std::string(key.name) == "corner_contact") {
+        a = corner(old.mesh.corner);
+        b = corner(fresh.mesh.corner);
+      } else {
+        const auto value_of = [&](const KeyValues& values) {
+          for (const Parameter& parameter : parameters_of(values, key.part))
+            if (parameter.name == key.si_name()) return shown(parameter, key);
+          return std::string();
+        };
+        a = value_of(old);
+        b = value_of(fresh);
+      }
+      if (a != b) out += text(out.empty() ? "" : ", ", key.name, " ", a, " → ", b);
+    }
+    return out;
+  };
+  const std::string driver = changes(true), driven = changes(false);
+  if (driver == driven) return driver;
+  return text("driver: ", driver, "; driven: ", driven);
 }
 
 }  // namespace whine

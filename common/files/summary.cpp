@@ -224,6 +224,22 @@ void show(Lines& lines, const ResponseArtifact& a) {
   add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
 }
 
+void show(Lines& lines, const JumpMapArtifact& a) {
+  add(lines, "operating point", a.torque, " N m, ", range_of(a.mesh_frequency));
+  add(lines, "model", a.model);
+  add(lines, "stiffness", "mean ", a.mean_stiffness * 1e-6, " N/um, first harmonic ",
+      a.first_harmonic / a.mean_stiffness * 100, " % of it");
+  for (Eigen::Index i = 0; i < a.damping_ratio.size(); ++i) {
+    const bool two = a.two_branches[i], lost = a.loss_to[i] > 0;
+    add(lines, text(a.damping_ratio[i] * 100, " %"), two ? "two branches from " : "one branch",
+        two ? text(a.branches_from[i], a.open_below[i] ? " or less" : "", " to ", a.branches_to[i], " Hz")
+            : "",
+        lost ? text(", contact lost from ", a.loss_from[i], " to ", a.loss_to[i], " Hz") : ", contact kept",
+        ", peak tooth load ", a.peak_tooth_load.row(i).maxCoeff() * 1e-3, " kN, held ",
+        a.held_tooth_load.row(i).maxCoeff() * 1e-3, " kN");
+  }
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> summary(const std::string& path, const std::string& schema) {
@@ -242,6 +258,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_sweep(path));
   } else if (schema == "whine/response") {
     show(lines, read_response(path));
+  } else if (schema == "whine/jump_map") {
+    show(lines, read_jump_map(path));
   } else {
     add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
   }

@@ -92,7 +92,7 @@ class HeldPair {
  public:
   HeldPair(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
            double mean_stiffness, const ImpactSlice& slice, const ImpactPlan& plan)
-      : plan_(plan), lagged_(slice.fidelity.body != "quasi-static") {
+      : plan_(plan) {
     if (slice.fidelity.contact != "strips")
       fail(Failure::input, "contact = \"", slice.fidelity.contact,
            "\" in [fidelity] is not available in ring-downs; set contact = \"strips\"");
@@ -175,6 +175,13 @@ class HeldPair {
 
   double mean_frequency() const { return blank_.phase_undamped_frequency.mean(); }
 
+  std::vector<HeldState> states() const {
+    std::vector<HeldState> states;
+    for (const auto& [pairs, phase] : state_phase_)
+      states.push_back({in_words(pairs), blank_.phase_undamped_frequency[phase], meshes_[phase]});
+    return states;
+  }
+
   ImpactArtifact run(double rayleigh_stiffness, const std::function<void(long, long)>& report) const {
     ImpactArtifact result = blank_;
     result.damping.rayleigh_stiffness = rayleigh_stiffness;
@@ -224,10 +231,7 @@ class HeldPair {
 
  private:
   HeldMesh at(int i, double rayleigh_stiffness) const {
-    HeldMesh mesh = meshes_[i];
-    mesh.damping += rayleigh_stiffness * mesh.frequency_squared;  // Eq. 21
-    mesh.relaxation = lagged_ ? rayleigh_stiffness : 0;
-    return mesh;
+    return with_rayleigh_stiffness(meshes_[i], rayleigh_stiffness, blank_.fidelity.body);
   }
 
   std::pair<RingDown, Decay> decay(const HeldMesh& mesh) const {
@@ -262,7 +266,6 @@ class HeldPair {
 
   ImpactPlan plan_;
   double step_ = 0;
-  bool lagged_;
   ImpactArtifact blank_;  // all that does not depend on the Rayleigh stiffness factor
   std::vector<HeldMesh> meshes_;
   std::map<int, int> state_phase_;  // loaded pairs -> phase
@@ -375,6 +378,20 @@ DampedRoot frozen_root(const HeldMesh& mesh) {
   if (lowest.frequency == 0)
     fail(Failure::numerical, "no eigenvalue of the held pair oscillates: it is damped above critical");
   return lowest;
+}
+
+HeldMesh with_rayleigh_stiffness(HeldMesh mesh, double eta, const std::string& body) {
+  mesh.damping += eta * mesh.frequency_squared;  // Eq. 21
+  mesh.relaxation = body == "quasi-static" ? 0 : eta;
+  return mesh;
+}
+
+std::vector<HeldState> held_states(const BodyArtifact& driver, const BodyArtifact& driven,
+                                   const StaticArtifact& statics, double mean_stiffness,
+                                   const ImpactSlice& slice, int phases) {
+  ImpactPlan plan;
+  plan.phases = phases;
+  return HeldPair(driver, driven, statics, mean_stiffness, slice, plan).states();
 }
 
 ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,

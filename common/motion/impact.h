@@ -35,6 +35,20 @@ RingDown ring_down(const HeldMesh& mesh, double torque_step, double step, int sa
 // touch. Throws Error(numerical) if none oscillates, or if the contact has no stiffness.
 DampedRoot frozen_root(const HeldMesh& mesh);
 
+// The pair held amid each contact state, fewest loaded pairs first, without Rayleigh stiffness damping.
+struct HeldState {
+  std::string contact_state;      // as in ImpactArtifact, without the mean
+  double undamped_frequency = 0;  // Hz, contact frozen
+  HeldMesh mesh;
+};
+// phases: even, at which states are looked for. Other arguments and errors as impact().
+std::vector<HeldState> held_states(const BodyArtifact& driver, const BodyArtifact& driven,
+                                   const StaticArtifact& statics, double mean_stiffness,
+                                   const ImpactSlice& slice, int phases);
+
+// The same with eta (s) of Eq. 21. body: the rung of [fidelity].
+HeldMesh with_rayleigh_stiffness(HeldMesh mesh, double eta, const std::string& body);
+
 // statics: of the same torque; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets the
 // bearing dampers. report(done, total) is called after each phase. Errors as ring_down and fit_decay; Error(input)
 // for a contact rung other than strips, Error(numerical) if damped exponentials leave more than 1e-5 of a decay.

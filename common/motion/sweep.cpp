@@ -87,6 +87,17 @@ class Sweeper {
   RollingDynamics::State state_;
 };
 
+BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
+  BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
+  for (const RollingDynamics::Period& period : orbit.record) {
+    point.tooth_load_max = std::max(point.tooth_load_max, period.pair_load.maxCoeff());
+    point.held_load = std::max(
+        point.held_load, held_load(period.pair_load.transpose(), static_cast<int>(period.pair_load.cols())));
+    point.parted = point.parted || !(period.pair_load.colwise().sum().minCoeff() > 0);
+  }
+  return point;
+}
+
 // Between two speeds whose responses differ: follows the branch of the first, with steps that are halved where they leave
 // it, to where it ends - past the second speed too, since a long step leaves a branch early whose basin has become
 // narrow. Nothing if the branch passes through the response at the second speed: a resonance flank, no jump.
@@ -94,12 +105,14 @@ struct Jump {
   double frequency, width;
 };
 std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& before, double from,
-                              double from_rms, double to, double to_rms, double limit) {
+                              double from_rms, double to, double to_rms, double limit,
+                              std::vector<BranchPoint>* left_early) {
   const RollingDynamics::State after = sweeper.state();
   RollingDynamics::State branch = before;
   double at = from, rms = from_rms, step = 0.5 * (to - from);
   const double direction = to > from ? 1 : -1, finest = std::abs(to - from) / kJumpFineness;
   std::optional<Jump> jump;
+  std::vector<BranchPoint> points;
   for (bool passed = false; std::abs(step) >= finest;) {
     // Speeds of the sweep are met, so that the branch can be compared there.
     double next = at + step;
@@ -109,7 +122,8 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
       break;
     }
     sweeper.state() = branch;
-    const double found = sweeper.run(next).rms;
+    const Orbit orbit = sweeper.run(next);
+    const double found = orbit.rms;
     if (like_a_jump(rms, found)) {
       step *= 0.5;
       jump = Jump{0.5 * (at + next), std::abs(next - at)};
@@ -118,6 +132,7 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
     at = next;
     rms = found;
     branch = sweeper.state();
+    points.push_back(branch_point(next, orbit));
     if (at == to) {
       passed = true;
       if (!like_a_jump(found, to_rms)) {
@@ -127,6 +142,7 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& be
     }
   }
   sweeper.state() = after;
+  if (jump && left_early) left_early->insert(left_early->end(), points.begin(), points.end());
   return jump;
 }
 
@@ -148,9 +164,19 @@ double steps_per_oscillation(const SweepArtifact& sweep) {
   return rate / sweep.natural_frequency;
 }
 
+double held_load(const Eigen::Ref<const MatrixRM>& load, int samples) {
+  const Eigen::Index window = samples / 64 + 1;
+  double held = 0;
+  for (Eigen::Index pair = 0; pair < load.cols(); ++pair)
+    for (Eigen::Index i = 0; i + window <= load.rows(); ++i)
+      held = std::max(held, load.col(pair).segment(i, window).minCoeff());
+  return held;
+}
+
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepSlice& slice, const std::string& direction,
-                    const std::function<void(long, long, const std::string&)>& report) {
+                    const std::function<void(long, long, const std::string&)>& report,
+                    std::vector<BranchPoint>* left_early) {
   const int speeds = static_cast<int>(std::floor(
                          (slice.frequency_to - slice.frequency_from) / slice.frequency_step + 1e-9)) +
                      1;
@@ -208,7 +234,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
         l.lag_damping, l.switching, l.cutting, l.averaging, l.forgetting;  // kEnergyLines
     if (i > 0 && like_a_jump(steady[i - 1].rms, s.rms))
       if (const auto jump = find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f,
-                                      s.rms, direction == "up" ? speed(speeds - 1) : speed(0)))
+                                      s.rms, direction == "up" ? speed(speeds - 1) : speed(0), left_early))
         jumps.push_back(*jump);
     report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
   }

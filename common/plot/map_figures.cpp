@@ -1,0 +1,397 @@
+#include "plot/map_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+std::string rounded(double value, int decimals) {
+  const double scale = std::pow(10, decimals);
+  return text(std::round(value * scale) / scale);
+}
+
+std::string panel_name(const JumpMapArtifact& a) {
+  if (a.model != "finite elements") return a.model;
+  const CornerRule& corner = a.mesh.corner;
+  const std::string rule =
+      !corner.enabled ? "no corner contact"
+      : std::isinf(corner.largest_angle)
+          ? "corner contact"
+          : "corner contact up to " + rounded(corner.largest_angle * 180 / std::numbers::pi, 3) + "°";
+  return a.damping.rayleigh_mass > 0 ? text(rule, ", mu ", rounded(a.damping.rayleigh_mass, 0), " 1/s")
+                                     : rule;
+}
+
+// P2000, section 2.1; the gears it leaves open are the scene's.
+bool pair_of_paper(const JumpMapArtifact& a) {
+  const auto close = [](double x, double y) { return std::abs(x - y) < 1e-9; };
+  return a.driver.teeth == 50 && a.driven.teeth == 50 && close(a.driver.module, 3e-3) &&
+         close(a.driver.face_width, 25.4e-3) && close(a.mesh.centre_distance, 0.15) &&
+         close(a.driver_material.youngs_modulus, 207e9);
+}
+constexpr double kPaperRatio = 0.07;
+const double kPaperTorques[] = {100, 150, 200, 300, 600};  // at which P2000 prints or draws jumps, N m
+
+bool lost(const JumpMapArtifact& a, Index c) {
+  return a.loss_to[c] > 0;
+}
+
+// The case of a ratio; -1 if the map has none within 1e-4 of it.
+Index case_of(const JumpMapArtifact& a, double ratio) {
+  for (Index c = 0; c < a.damping_ratio.size(); ++c)
+    if (std::abs(a.damping_ratio[c] - ratio) < 1e-4 * ratio) return c;
+  return -1;
+}
+
+// "20 to 600", "100, 150", "none" of those that hold.
+std::string torques_where(const std::vector<const JumpMapArtifact*>& panel,
+                          const std::function<bool(const JumpMapArtifact&)>& holds) {
+  std::string list;
+  size_t count = 0;
+  for (const JumpMapArtifact* a : panel)
+    if (holds(*a)) {
+      list += text(list.empty() ? "" : ", ", a->torque);
+      ++count;
+    }
+  if (count == 0) return "no torque";
+  if (count == panel.size())
+    return text("every torque from ", panel[0]->torque, " to ", panel.back()->torque, " N m");
+  return list + " N m";
+}
+
+// Damping ratio at which contact loss ends, between the cases beside; 0 if the map does not show it.
+double ratio_of_loss(const JumpMapArtifact& a) {
+  std::vector<Index> order(a.damping_ratio.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](Index i, Index j) { return a.damping_ratio[i] < a.damping_ratio[j]; });
+  for (size_t i = order.size(); i-- > 1;)
+    if (lost(a, order[i - 1]) && !lost(a, order[i]))
+      return 0.5 * (a.damping_ratio[order[i - 1]] + a.damping_ratio[order[i]]);
+  return 0;
+}
+
+// Edges of cells about their middles: between neighbours, and as far beyond the ends.
+std::vector<double> edges(const std::vector<double>& middle) {
+  std::vector<double> edge(middle.size() + 1);
+  for (size_t i = 1; i < middle.size(); ++i) edge[i] = 0.5 * (middle[i - 1] + middle[i]);
+  const size_t n = middle.size();
+  edge[0] = n > 1 ? 2 * middle[0] - edge[1] : middle[0] - 0.5;
+  edge[n] = n > 1 ? 2 * middle[n - 1] - edge[n - 1] : middle[0] + 0.5;
+  return edge;
+}
+
+using Panel = std::pair<std::string, std::vector<const JumpMapArtifact*>>;
+
+std::vector<Panel> panels_of(const std::vector<JumpMapArtifact>& maps) {
+  std::vector<Panel> panels;
+  for (const JumpMapArtifact& a : maps) {
+    if (a.damping_ratio.size() != maps[0].damping_ratio.size() ||
+        !((a.damping_ratio - maps[0].damping_ratio).cwiseAbs().maxCoeff() <
+          1e-4 * maps[0].damping_ratio.minCoeff()))
+      fail(Failure::input, "the maps of ", maps[0].torque, " and ", a.torque,
+           " N m have other damping ratios; make all of them again");
+    const std::string name = panel_name(a);
+    auto panel = std::find_if(panels.begin(), panels.end(), [&](const Panel& p) { return p.first == name; });
+    if (panel == panels.end()) panel = panels.insert(panels.end(), {name, {}});
+    for (const JumpMapArtifact* other : panel->second)
+      if (other->torque == a.torque) fail(Failure::input, "two maps of ", a.torque, " N m with ", name);
+    panel->second.push_back(&a);
+  }
+  for (Panel& panel : panels) {
+    std::sort(panel.second.begin(), panel.second.end(),
+              [](const JumpMapArtifact* a, const JumpMapArtifact* b) { return a->torque < b->torque; });
+    const auto same = [](const JumpMapArtifact* a, const JumpMapArtifact* b) {
+      return a->torque == b->torque;
+    };
+    if (!std::equal(panel.second.begin(), panel.second.end(), panels[0].second.begin(),
+                    panels[0].second.end(), same))
+      fail(Failure::input, "the panels '", panels[0].first, "' and '", panel.first,
+           "' have other torques; give one map per torque and rule");
+  }
+  return panels;
+}
+
+FigureBlock cells(const std::string& name, const std::vector<const JumpMapArtifact*>& maps) {
+  FigureBlock block{name,
+                    {"damping_ratio [%]",
+                     "torque [N m]",
+                     "ratio_low [%]",
+                     "ratio_high [%]",
+                     "torque_low [N m]",
+                     "torque_high [N m]",
+                     "class [0 contact kept, 1 lost, 2 two branches]",
+                     "held_tooth_load [kN]",
+                     "branches_from [Hz]",
+                     "branches_to [Hz]",
+                     "open_below [1]",
+                     "loss_from [Hz]",
+                     "loss_to [Hz]",
+                     "held_there_up [kN]",
+                     "held_there_down [kN]",
+                     "sampled_there_up [kN]",
+                     "sampled_there_down [kN]",
+                     "sampled_peak_up [kN]",
+                     "sampled_peak_down [kN]",
+                     "rayleigh_stiffness [1e-6 s]",
+                     "first_harmonic_over_mean [1]",
+                     "excitation [1]",
+                     "unsteady [1]"},
+                    {}};
+  std::vector<double> ratio, torque;
+  for (double r : maps[0]->damping_ratio) ratio.push_back(r * 100);
+  for (const JumpMapArtifact* a : maps) torque.push_back(std::log10(a->torque));
+  const std::vector<double> x = edges(ratio), y = edges(torque);
+  for (size_t t = 0; t < maps.size(); ++t) {
+    const JumpMapArtifact& a = *maps[t];
+    if (t > 0) block.rows.emplace_back();
+    for (Index c = 0; c < a.damping_ratio.size(); ++c) {
+      const bool at = a.load_frequency > 0;
+      block.rows.push_back({ratio[c],
+                            a.torque,
+                            x[c],
+                            x[c + 1],
+                            std::pow(10, y[t]),
+                            std::pow(10, y[t + 1]),
+                            a.two_branches[c] ? 2.0
+                            : lost(a, c)      ? 1.0
+                                              : 0.0,
+                            a.held_tooth_load.row(c).maxCoeff() * 1e-3,
+                            a.branches_from[c],
+                            a.branches_to[c],
+                            static_cast<double>(a.open_below[c]),
+                            a.loss_from[c],
+                            a.loss_to[c],
+                            at ? a.held_load_there(c, 0) * 1e-3 : 0,
+                            at ? a.held_load_there(c, 1) * 1e-3 : 0,
+                            at ? a.tooth_load(c, 0) * 1e-3 : 0,
+                            at ? a.tooth_load(c, 1) * 1e-3 : 0,
+                            a.peak_tooth_load(c, 0) * 1e-3,
+                            a.peak_tooth_load(c, 1) * 1e-3,
+                            a.rayleigh_stiffness[c] * 1e6,
+                            a.first_harmonic / a.mean_stiffness,
+                            a.excitation[c],
+                            static_cast<double>(a.unsteady[c])});
+    }
+  }
+  return block;
+}
+
+std::string loads_in_words(const JumpMapArtifact& a, Index c) {
+  const double up = a.held_load_there(c, 0) * 1e-3, down = a.held_load_there(c, 1) * 1e-3;
+  const bool both =
+      a.two_branches[c] && a.branches_from[c] < a.load_frequency && a.load_frequency < a.branches_to[c];
+  return both ? text(rounded(up, 2), " and ", rounded(down, 2)) : rounded(up, 2);
+}
+
+}  // namespace
+
+Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
+  if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
+  // Cases ascend on the axis.
+  for (const JumpMapArtifact& a : maps)
+    for (Index c = 1; c < a.damping_ratio.size(); ++c)
+      if (!(a.damping_ratio[c] > a.damping_ratio[c - 1]))
+        fail(Failure::input, "the damping ratios of the map at ", a.torque,
+             " N m do not ascend: ", a.damping_ratio[c - 1], ", then ", a.damping_ratio[c]);
+  const std::vector<Panel> panels = panels_of(maps);
+  const bool paper = pair_of_paper(maps[0]);
+  Figure figure;
+  figure.title = "Jumps, contact loss and tooth loads of the primary resonance";
+
+  // Which choices lose contact at every torque, and what the teeth then carry.
+  const double ratio = case_of(maps[0], kPaperRatio) >= 0
+                           ? kPaperRatio
+                           : maps[0].damping_ratio[maps[0].damping_ratio.size() / 2];
+  const Index at = case_of(maps[0], ratio);
+  std::string everywhere;
+  for (const Panel& panel : panels)
+    if (std::all_of(panel.second.begin(), panel.second.end(),
+                    [&](const JumpMapArtifact* a) { return lost(*a, at); }))
+      everywhere += text(everywhere.empty() ? "" : "; ", panel.first);
+  for (const Panel& panel : panels)
+    figure.notes.push_back(
+        text("at ", rounded(ratio * 100, 2), " %, ", panel.first, ": two branches at ",
+             torques_where(panel.second, [&](const JumpMapArtifact& a) { return a.two_branches[at] == 1; }),
+             ", contact lost at ",
+             torques_where(panel.second, [&](const JumpMapArtifact& a) { return lost(a, at); })));
+  figure.notes.push_back(
+      text("contact is lost at every torque with: ", everywhere.empty() ? "none of these" : everywhere,
+           paper ? "; P2000 prints jumps at 100 to 300 and 600 N m (diamonds)" : ""));
+  std::string loads = paper ? "P2000 prints 3.00 and 4.85" : "";
+  bool known = false;
+  for (const Panel& panel : panels)
+    for (const JumpMapArtifact* a : panel.second)
+      if (a->load_frequency > 0 && a->torque == 150) {
+        loads += text(loads.empty() ? "" : "; ", panel.first, " ", loads_in_words(*a, at));
+        known = true;
+      }
+  if (known)
+    figure.notes.push_back(text("tooth loads in kN at 150 N m, ", rounded(ratio * 100, 2), " %, ",
+                                maps[0].load_frequency, " Hz: ", loads));
+  double spike = 1;
+  std::string where = panels[0].first;
+  for (const Panel& panel : panels)
+    for (const JumpMapArtifact* a : panel.second)
+      if (const double ratio_of = (a->peak_tooth_load.array() / a->held_tooth_load.array()).maxCoeff();
+          ratio_of > spike) {
+        spike = ratio_of;
+        where = panel.first;
+      }
+  figure.notes.push_back(text("tooth loads are held for 1/64 of a mesh period; single samples reach ",
+                              rounded(spike, 2), " times as much (", where,
+                              "): spikes at entry, as high as the time step lets them"));
+  std::vector<double> needed;
+  double least_lost = 1e300, most_kept = 0;
+  for (const JumpMapArtifact& a : maps) {
+    const double share = a.first_harmonic / a.mean_stiffness;
+    if (const double edge = ratio_of_loss(a); edge > 0) needed.push_back(share / edge);
+    for (Index c = 0; c < a.damping_ratio.size(); ++c)
+      if (lost(a, c))
+        least_lost = std::min(least_lost, share / a.damping_ratio[c]);
+      else
+        most_kept = std::max(most_kept, share / a.damping_ratio[c]);
+  }
+  if (!needed.empty()) {
+    std::sort(needed.begin(), needed.end());
+    figure.notes.push_back(text("loss needs (first harmonic / mean of the stiffness) / damping ratio above ",
+                                rounded(needed[needed.size() / 2], 2), " (median of ", needed.size(),
+                                " limits, ", rounded(needed.front(), 2), " to ", rounded(needed.back(), 2),
+                                "); no cell below ", rounded(least_lost, 2), " loses contact, none above ",
+                                rounded(most_kept, 2), " keeps it"));
+  }
+  const JumpMapArtifact& first = maps[0];
+  figure.notes.push_back(
+      text(first.mesh_frequency.size(), " speeds from ", rounded(first.mesh_frequency[0], 0), " to ",
+           rounded(first.mesh_frequency[first.mesh_frequency.size() - 1], 0),
+           " Hz, up and down; contact = ", first.fidelity.contact, ", body = ", first.fidelity.body,
+           "; lines: largest tooth load of these speeds, any branch"));
+
+  double largest = 0;
+  for (size_t p = 0; p < panels.size(); ++p) {
+    figure.blocks.push_back(cells(text("panel", p + 1), panels[p].second));
+    figure.words.emplace_back(text("panel", p + 1), panels[p].first);
+    for (const JumpMapArtifact* a : panels[p].second)
+      largest = std::max(largest, a->held_tooth_load.maxCoeff() * 1e-3);
+  }
+  if (paper) {
+    FigureBlock printed{"printed", {"damping_ratio [%]", "torque [N m]"}, {}};
+    for (double torque : kPaperTorques) printed.rows.push_back({kPaperRatio * 100, torque});
+    figure.blocks.push_back(printed);
+  }
+  const auto& extent = figure.blocks[0].rows;
+  figure.numbers = {{"panels", static_cast<double>(panels.size())},
+                    {"printed", paper ? 1.0 : 0.0},
+                    {"ratio_from", extent.front()[2]},
+                    {"ratio_to", extent.back()[3]},
+                    {"torque_from", extent.front()[4]},
+                    {"torque_to", extent.back()[5]},
+                    {"first_ratio", extent.front()[0]},
+                    {"last_ratio", extent.back()[0]},
+                    {"notes", static_cast<double>(figure.notes.size())},
+                    {"lines", panels[0].second.size() > 1 && maps[0].damping_ratio.size() > 1 ? 1.0 : 0.0},
+                    {"largest", largest}};
+  return figure;
+}
+
+Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMapArtifact>& variants) {
+  if (variants.empty())
+    fail(Failure::input, "sensitivity needs the map of one variant at least beside the base's");
+  const Index cases = base.damping_ratio.size(), shown = cases - 1;
+  struct Row {
+    std::string label, key;
+    const JumpMapArtifact* map;
+  };
+  std::vector<Row> rows;
+  for (const JumpMapArtifact& v : variants) {
+    if (v.torque != base.torque || v.damping_ratio.size() != cases)
+      fail(Failure::input, "a variant at ", v.torque, " N m with ", v.damping_ratio.size(),
+           " cases stands beside a base at ", base.torque, " N m with ", cases, "; make all of them again");
+    const std::string label = changed_keys(base, v);
+    if (label.empty())
+      fail(Failure::input, "a variant has the same keys as the base; its change changes nothing");
+    rows.push_back({label, label.substr(0, label.find(' ')), &v});
+  }
+  // What moves the end of the upper branch most stands on top; a branch that is gone moves it most of all.
+  const auto effect = [&](const JumpMapArtifact& v) {
+    if (v.two_branches[shown] != base.two_branches[shown])
+      return 1e9 +
+             std::abs(v.held_tooth_load.row(shown).maxCoeff() - base.held_tooth_load.row(shown).maxCoeff());
+    return std::abs(v.branches_from[shown] - base.branches_from[shown]) +
+           1e-6 * std::abs(v.mean_stiffness - base.mean_stiffness);
+  };
+  std::map<std::string, double> of_key;
+  for (const Row& row : rows) of_key[row.key] = std::max(of_key[row.key], effect(*row.map));
+  std::stable_sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
+    return of_key[a.key] != of_key[b.key] ? of_key[a.key] > of_key[b.key] : a.key < b.key;
+  });
+
+  const auto load = [](const JumpMapArtifact& a, Index c) { return a.held_tooth_load.row(c).maxCoeff(); };
+  Figure figure;
+  figure.title = text("What inputs are worth at ", base.torque, " N m, ",
+                      rounded(base.damping_ratio[shown] * 100, 2), " % damping with two pairs in contact");
+  const auto branch_words = [&](const JumpMapArtifact& a, Index c) {
+    return a.two_branches[c]
+               ? text("two branches from ", rounded(a.branches_from[c], 0),
+                      a.open_below[c] ? " Hz or less to " : " to ", rounded(a.branches_to[c], 0), " Hz")
+               : std::string("one branch");
+  };
+  figure.notes.push_back(text(
+      "base: mean stiffness ", rounded(base.mean_stiffness * 1e-6, 1), "e6 N/m, natural frequencies ",
+      rounded(base.one_pair_frequency, 0), " Hz (one pair) and ", rounded(base.two_pair_frequency, 0),
+      " Hz (two), ", branch_words(base, shown), ", tooth load up to ", rounded(load(base, shown) * 1e-3, 2),
+      " kN; eta ", rounded(base.rayleigh_stiffness[shown] * 1e6, 2), "e-6 s"));
+  figure.notes.push_back(
+      text("each variant has an eta of its own for the same ratio; ×: one branch; △: goes on below the least "
+           "speed; "
+           "in the table also at one eta; contact = ",
+           base.fidelity.contact, ", steps of ",
+           rounded(base.mesh_frequency.size() > 1 ? base.mesh_frequency[1] - base.mesh_frequency[0] : 0, 1),
+           " Hz"));
+  for (Index c = cases; c-- > 0;) {
+    FigureBlock block{
+        c == shown ? "changes"
+                   : text("changes at eta ", rounded(base.rayleigh_stiffness[c] * 1e6, 3), "e-6 s"),
+        {"variant", "mean_stiffness [%]", "one_pair_frequency [Hz]", "two_pair_frequency [Hz]",
+         "branches_from [Hz]", "branches_to [Hz]", "held_tooth_load [%]", "two_branches [1]",
+         "open_below [1]", "damping_ratio [%]", "rayleigh_stiffness [1e-6 s]", "branches_from, itself [Hz]",
+         "branches_to, itself [Hz]", "held_tooth_load, itself [kN]", "sampled peak up, itself [kN]",
+         "sampled peak down, itself [kN]"},
+        {}};
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const JumpMapArtifact& v = *rows[i].map;
+      const bool both = v.two_branches[c] && base.two_branches[c];
+      block.rows.push_back(
+          {static_cast<double>(i), (v.mean_stiffness / base.mean_stiffness - 1) * 100,
+           v.one_pair_frequency - base.one_pair_frequency, v.two_pair_frequency - base.two_pair_frequency,
+           both ? v.branches_from[c] - base.branches_from[c] : 0,
+           both ? v.branches_to[c] - base.branches_to[c] : 0, (load(v, c) / load(base, c) - 1) * 100,
+           static_cast<double>(v.two_branches[c]), static_cast<double>(v.open_below[c]),
+           v.damping_ratio[c] * 100, v.rayleigh_stiffness[c] * 1e6, v.branches_from[c], v.branches_to[c],
+           load(v, c) * 1e-3, v.peak_tooth_load(c, 0) * 1e-3, v.peak_tooth_load(c, 1) * 1e-3});
+    }
+    figure.blocks.push_back(block);
+  }
+  for (size_t i = 0; i < rows.size(); ++i) {
+    figure.notes.push_back(text("variant ", i, ": ", rows[i].label));
+    figure.words.emplace_back(text("label", i + 1), rows[i].label);
+  }
+  figure.numbers = {{"variants", static_cast<double>(rows.size())}};
+  for (size_t column = 1; column <= 6; ++column) {
+    double reach = 0;
+    for (const auto& row : figure.blocks[0].rows) reach = std::max(reach, std::abs(row[column]));
+    figure.numbers.emplace_back(text("reach", column), reach > 0 ? reach : 1);
+  }
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,20 @@
+// Figures of what a scene's open choices are worth: maps of jumps, and the sensitivity to each input.
+#pragma once
+#include <vector>
+
+#include "plot/figures.h"
+
+namespace whine {
+
+// One panel per corner rule or lumped model: torque against damping ratio, with the cells that have two branches or lose
+// contact, and lines of the largest tooth load (held for 1/64 of a mesh period). For the pair of P2000 its printed statements stand beside. Throws Error(input)
+// for no map, for two of the same torque and panel, and unless all have the same damping ratios and gears and each panel
+// the same torques.
+Figure jump_map_figure(std::vector<JumpMapArtifact> maps);
+
+// What each variant changes against the base, in the last case of the maps: mean
+// stiffness, natural frequencies, ends of the branches, tooth load (held). Every case stands in the table. Throws Error(input)
+// for no variant, one that differs in torque or cases, or one in which no key differs.
+Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMapArtifact>& variants);
+
+}  // namespace whine

@@ -1,0 +1,82 @@
+# What the choices that P2000 does not state are worth: maps of jumps, and the sensitivity of the answers to each input.
+#
+#   make jump-map                    coarse; JUMP_MAP=fine beside it. One artifact per torque and corner rule:
+#                                    out/S/T150/jump_map_false.h5, jump_map_1.h5 (degrees), jump_map_true.h5; fine: ..._fine.h5
+#   make sensitivity                 coarse; SENSITIVITY=fine beside it. One artifact per variant of the scene:
+#                                    out/S-bore35/T150/branches.h5; pipelines/scenes.mk lists the variants
+#   make SCENE=x.toml jump-map       of a scene of yours, figures in out/x/report/
+#
+# A lumped model joins as another artifact of the same schema, by its name instead of a corner rule.
+
+# Torques in N m, corner rules as in a scene, damping ratios with two pairs in contact, steps of the speeds in Hz.
+JUMP_MAP_TORQUES ?= 20 50 100 150 200 300 450 600
+JUMP_MAP_CORNERS ?= false 1 true
+JUMP_MAP_RATIOS ?= 0.03 0.035 0.04 0.045 0.05 0.055 0.06 0.065 0.07 0.075 0.08 0.09 0.10
+JUMP_MAP_STEP ?= 50
+fine_torques := 20 35 50 75 100 125 150 175 200 250 300 350 400 450 500 600
+fine_ratios := 0.025 0.03 0.035 0.04 0.045 0.05 0.055 0.06 0.065 0.07 0.075 0.08 0.085 0.09 0.095 0.10
+fine_step := 20
+# The speed in Hz at which loads are stored apart: that of P2000's Figures 8 and 10.
+JUMP_MAP_LOADS_AT ?= $(if $(SCENE),,2400)
+# P2000's damping is measured, so variants are compared at one ratio; the factor is one with two branches. First line of
+# the cases: the factor as it is.
+SENSITIVITY_FACTOR ?= 5.5e-6
+SENSITIVITY_RATIO ?= 0.05
+SENSITIVITY_STEP ?= 50
+
+$(foreach v,JUMP_MAP SENSITIVITY,$(if $(filter-out coarse fine,$($v)),$(error $v=$($v): it is coarse or fine)))
+fineness = $(if $(filter fine,$($1)),_fine)
+
+blank :=
+comma_list = $(subst $(blank) $(blank),$(,),$(strip $1))
+loads_at = $(if $(JUMP_MAP_LOADS_AT),--loads-at $(JUMP_MAP_LOADS_AT))
+plan_jump_map := --damping-ratio $(call comma_list,$(JUMP_MAP_RATIOS)) --step $(JUMP_MAP_STEP) $(loads_at)
+plan_jump_map_fine := --damping-ratio $(call comma_list,$(fine_ratios)) --step $(fine_step) $(loads_at)
+sensitivity_cases := --rayleigh-stiffness $(SENSITIVITY_FACTOR) --damping-ratio $(SENSITIVITY_RATIO) $(loads_at)
+plan_branches := $(sensitivity_cases) --step $(SENSITIVITY_STEP)
+plan_branches_fine := $(sensitivity_cases) --step $(fine_step)
+
+# Options in files of their own, per scene, replaced if they change: so that other options redo what they made.
+plans := jump_map jump_map_fine branches branches_fine
+$(plans:%=$(B)/plans/$(own_scene)/%): $(B)/plans/$(own_scene)/%: FORCE
+	+@mkdir -p $(@D); echo '$(plan_$*)' | $(call replace_if_changed,$@)
+
+jump_map_inputs = out/$1/params/map.toml out/$1/params/static.toml $(pair_bodies) $(call id,gear-jump-map)
+jump_map_options = --params out/$1/params/map.toml --static-params out/$1/params/static.toml $(pair_options)
+
+define jump_map_rules # scene, torque, corner rule, plan
+out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(jump_map_inputs) $(B)/plans/$(own_scene)/$4 | $(B)/bin/gear-jump-map
+	$$(call run,jump-map) $(jump_map_options) --torque $2 --corner-contact $3 $(plan_$4) --output $$@
+endef
+
+define branches_rules # scene, torque, plan
+out/$1/T$2/$3.h5: $(jump_map_inputs) $(B)/plans/$(own_scene)/$3 | $(B)/bin/gear-jump-map
+	$$(call run,jump-map) $(jump_map_options) --torque $2 $(plan_$3) --output $$@
+endef
+
+map_torques := $(if $(call fineness,JUMP_MAP),$(fine_torques),$(JUMP_MAP_TORQUES))
+map_plan := jump_map$(call fineness,JUMP_MAP)
+branches_plan := branches$(call fineness,SENSITIVITY)
+$(if $(SCENE_$(own_scene)_GEARS),\
+  $(foreach c,$(JUMP_MAP_CORNERS),$(foreach t,$(sort $(map_torques) $(call torques,$(own_scene))),\
+    $(eval $(call jump_map_rules,$(own_scene),$t,$c,$(map_plan))))))
+$(foreach s,$(filter $(own_scene) $(variant_scenes),$(scenes)),$(if $(SCENE_$s_GEARS),\
+  $(eval $(call branches_rules,$s,$(TORQUE),$(branches_plan)))))
+
+map_folder := $(if $(SCENE),out/$(own_scene)/report,out/figures)
+map_figure := $(map_folder)/jump-map$(subst _,-,$(call fineness,JUMP_MAP))
+sensitivity_figure := $(map_folder)/sensitivity$(subst _,-,$(call fineness,SENSITIVITY))
+map_artifacts := $(foreach c,$(JUMP_MAP_CORNERS),$(foreach t,$(map_torques),out/$(own_scene)/T$t/$(subst jump_map,jump_map_$c,$(map_plan)).h5))
+sensitivity_artifacts := $(foreach s,$(own_scene) $(variant_scenes),out/$s/T$(TORQUE)/$(branches_plan).h5)
+
+define map_figure_rules # figure, path without extension, artifacts
+$2.tsv $2.svg $2.png &: $3 pipelines/plots/$1.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+	@mkdir -p $(map_folder)
+	$(B)/bin/gear-plot $1 --output $2 $3
+endef
+$(eval $(call map_figure_rules,jump-map,$(map_figure),$(map_artifacts)))
+$(eval $(call map_figure_rules,sensitivity,$(sensitivity_figure),$(sensitivity_artifacts)))
+
+.PHONY: jump-map sensitivity
+jump-map: $(foreach e,tsv svg png,$(map_figure).$e) ## two branches, contact loss, tooth loads against torque, damping, corner rule; JUMP_MAP=fine
+sensitivity: $(foreach e,tsv svg png,$(sensitivity_figure).$e) ## what each input that the paper does not state changes; SENSITIVITY=fine

@@ -1,0 +1,328 @@
+// Maps of jumps: their branches against separate sweeps, their damping ratios against ring-downs; variants of scenes; what
+// the figures say in words.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "files/variant.h"
+#include "motion/impact.h"
+#include "motion/jump_map.h"
+#include "paper_pair.h"
+#include "plot/map_figures.h"
+#include "relative.h"
+
+using namespace whine;
+
+namespace {
+
+const BodyArtifact& coarse() {
+  return paper_body(40e-3, 0.8e-3);
+}
+
+SweepSlice motion() {
+  SweepSlice slice = paper_sweep(0, 0, 0);
+  slice.damping.rayleigh_stiffness = 0;
+  slice.fidelity.contact = "line";
+  slice.reference_torque = 150;
+  return slice;
+}
+
+StaticSlice rest() {
+  StaticSlice slice = paper_statics(128);
+  slice.fidelity.contact = "line";
+  return slice;
+}
+
+JumpMapPlan plan(double from, double to, double step) {
+  JumpMapPlan plan;
+  plan.from = from;
+  plan.to = to;
+  plan.step = step;
+  return plan;
+}
+
+JumpMapArtifact small_map(double torque, bool corner, std::vector<double> ratios, double lost_below) {
+  JumpMapArtifact a;
+  a.driver = a.driven = coarse().design;
+  a.driver_material = a.driven_material = {207e9, 0.3, 7600, true};
+  a.driver_body = a.driven_body = coarse().discretisation;
+  a.driver_inertia = a.driven_inertia = 0.0148;
+  a.mesh = paper_statics(128).mesh;
+  a.mesh.corner.enabled = corner;
+  a.torque = torque;
+  a.bearing_stiffness = a.mean_stiffness = 460e6;
+  a.first_harmonic = 0.1 * a.mean_stiffness;
+  a.one_pair_frequency = 2480;
+  a.two_pair_frequency = 3040;
+  const auto n = static_cast<Eigen::Index>(ratios.size());
+  a.damping_ratio = Eigen::Map<Eigen::VectorXd>(ratios.data(), n);
+  a.rayleigh_stiffness = a.damping_ratio * 1.1e-4;
+  a.excitation = 0.05 * a.damping_ratio.cwiseInverse();
+  a.two_branches = (a.damping_ratio.array() < 0.5 * lost_below).cast<int>();
+  a.open_below = a.unsteady = Eigen::VectorXi::Zero(n);
+  a.branches_from = 1900 * a.two_branches.cast<double>();
+  a.branches_to = 2800 * a.two_branches.cast<double>();
+  a.loss_to = 3000 * (a.damping_ratio.array() < lost_below).cast<double>();
+  a.loss_from = 0.9 * a.loss_to;
+  a.peak_tooth_load = MatrixRM::Constant(n, 2, 40 * torque);
+  a.held_tooth_load = MatrixRM::Constant(n, 2, 32 * torque);
+  a.mesh_frequency = Eigen::VectorXd{{2000, 2400, 2800}};
+  a.load_frequency = 2400;
+  a.tooth_load = MatrixRM::Constant(n, 2, 20 * torque);
+  a.held_load_there = MatrixRM::Constant(n, 2, 16 * torque);
+  a.dte_rms_there = MatrixRM::Constant(n, 2, 1e-6);
+  for (int d = 0; d < 2; ++d) {
+    a.dte_rms[d] = MatrixRM::Constant(n, 3, 1e-6);
+    a.tooth_load_max[d] = MatrixRM::Constant(n, 3, 40 * torque);
+    a.separation_fraction[d] = MatrixRM::Zero(n, 3);
+  }
+  a.jump_case = a.jump_direction = Eigen::VectorXi::Zero(1);
+  a.jump_frequency = Eigen::VectorXd::Constant(1, 2800);
+  a.jump_width = Eigen::VectorXd::Constant(1, 0.3);
+  return a;
+}
+
+bool says(const Figure& figure, const std::string& words) {
+  for (const std::string& note : figure.notes)
+    if (note.find(words) != std::string::npos) return true;
+  return false;
+}
+
+// What `run` throws, kind and words.
+template <class Run>
+std::pair<int, std::string> thrown(Run run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return {static_cast<int>(error.kind()), error.what()};
+  }
+  return {0, ""};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a map's branches are the jumps of separate sweeps, its loads theirs, its damping that of a ring-down") {
+  JumpMapPlan cases = plan(1700, 3000, 100);
+  cases.rayleigh_stiffness = {5.5e-6};
+  cases.damping_ratio = {0.10};
+  cases.load_frequency = 2400;
+  long reports = 0;
+  const JumpMapArtifact map = jump_map(coarse(), coarse(), rest(), 150, motion(), cases,
+                                       [&](long done, long total, const std::string&) {
+                                         CHECK(done == ++reports);
+                                         CHECK(total == 4);
+                                       });
+  CHECK(reports == 4);
+  REQUIRE(map.mesh_frequency.size() == 14);
+  const StaticArtifact statics = static_transmission(coarse(), coarse(), rest(), 150);
+  SweepSlice slice = motion();
+  slice.frequency_from = 1700;
+  slice.frequency_to = 3000;
+  slice.frequency_step = 100;
+  slice.damping.rayleigh_stiffness = 5.5e-6;
+  for (const std::string direction : {"up", "down"}) {
+    const SweepArtifact alone =
+        sweep(coarse(), coarse(), statics, statics.mean_stiffness, slice, direction, no_report);
+    REQUIRE(alone.jump_frequency.size() == 1);
+    const int d = direction == "up" ? 0 : 1;
+    CHECK((d == 0 ? map.branches_to : map.branches_from)[0] == alone.jump_frequency[0]);
+    const int row = d == 0 ? 7 : 6;  // 2400 Hz
+    REQUIRE(alone.mesh_frequency[row] == 2400);
+    CHECK(map.tooth_load(0, d) == alone.tooth_load[row].maxCoeff());
+    CHECK(map.held_load_there(0, d) == held_load(alone.tooth_load[row], 128));
+    CHECK(map.held_load_there(0, d) == relative(map.tooth_load(0, d), 2e-2));
+    CHECK(map.dte_rms_there(0, d) == relative(rms(alone, row), 1e-12));
+  }
+  CHECK(map.two_branches[0] == 1);
+  CHECK(map.open_below[0] == 0);
+  CHECK(map.peak_tooth_load(0, 1) > 1.3 * map.tooth_load(0, 0));
+  CHECK(map.loss_to[0] > map.branches_to[0]);  // contact parts above the jump, on the one branch there is
+  CHECK(map.two_branches[1] == 0);
+  CHECK(map.loss_to[1] == 0);
+  CHECK(map.excitation[0] ==
+        relative(map.first_harmonic / map.mean_stiffness / (2 * map.damping_ratio[0]), 1e-12));
+  // Where the branches go on below the least speed.
+  JumpMapPlan cut = plan(2200, 2900, 100);
+  cut.rayleigh_stiffness = {5.5e-6};
+  const JumpMapArtifact open = jump_map(coarse(), coarse(), rest(), 150, motion(), cut, no_report);
+  CHECK(open.two_branches[0] == 1);
+  CHECK(open.open_below[0] == 1);
+  CHECK(open.branches_from[0] == 2200);
+  CHECK(std::abs(open.branches_to[0] - map.branches_to[0]) < 2);
+
+  StaticSlice on_strips = rest();
+  on_strips.fidelity.contact = "strips";
+  const StaticArtifact held = static_transmission(coarse(), coarse(), on_strips, 150);
+  ImpactPlan impact_plan;
+  impact_plan.phases = 16;
+  for (int c = 0; c < 2; ++c) {
+    ImpactSlice ring = motion();
+    ring.fidelity.contact = "strips";
+    ring.damping.rayleigh_stiffness = map.rayleigh_stiffness[c];
+    const ImpactArtifact decay =
+        impact(coarse(), coarse(), held, map.bearing_stiffness, ring, impact_plan, [](long, long) {});
+    for (size_t s = 0; s < decay.contact_state.size(); ++s)
+      if (decay.contact_state[s] == "two") {
+        CHECK(map.damping_ratio[c] == relative(decay.damping_ratio[static_cast<Eigen::Index>(s)], 5e-3));
+        CHECK(map.two_pair_frequency ==
+              relative(decay.undamped_frequency[static_cast<Eigen::Index>(s)], 1e-3));
+      }
+  }
+  CHECK(map.damping_ratio[1] == relative(0.10, 1e-8));
+}
+
+TEST_CASE("a held load leaves out what lasts no longer than 1/64 of a period, in one pair as in the other") {
+  MatrixRM load = MatrixRM::Constant(128, 2, 10);
+  load.col(1).setConstant(5);
+  load(40, 1) = load(41, 1) = 100;
+  CHECK(held_load(load, 128) == 10);
+  load(42, 1) = 50;
+  CHECK(held_load(load, 128) == 50);
+  load(127, 0) = load(126, 0) = 200;  // whatever stands at the ends
+  CHECK(held_load(load, 128) == 50);
+  CHECK(held_load(load.topRows(64), 64) == 100);  // two samples of 64 are as long
+}
+
+TEST_CASE("maps that cannot be are refused with what, value and limit") {
+  const auto refused = [&](const JumpMapPlan& p, const std::string& words, double torque = 150) {
+    const auto [kind, said] =
+        thrown([&] { jump_map(coarse(), coarse(), rest(), torque, motion(), p, no_report); });
+    INFO(said);
+    CHECK(kind == static_cast<int>(Failure::input));
+    CHECK(said.find(words) != std::string::npos);
+  };
+  JumpMapPlan p = plan(2000, 2200, 100);
+  refused(p, "no case");
+  p.damping_ratio = {-0.05};
+  refused(p, "damping ratio of -0.05");
+  p.damping_ratio = {0.001};
+  refused(p, "alone give a damping ratio of 0.00");
+  p.damping_ratio = {0.9};
+  refused(p, "no rayleigh_stiffness_s gives a damping ratio of 0.9");
+  p.damping_ratio = {0.05};
+  p.load_frequency = 2400;
+  refused(p, "wanted at 2400 Hz, but the speeds run from 2000 to 2200 Hz");
+  p.load_frequency = 0;
+  p.step = 0;
+  refused(p, "a step of 0 Hz");
+  p.step = 100;
+  p.to = 1900;
+  refused(p, "from 2000 to 1900 Hz");
+  p.to = 2200;
+  refused(p, "torque", -5);
+}
+
+TEST_CASE("a map that was written reads back, and tells what differs from another") {
+  const JumpMapArtifact a = small_map(150, true, {0.04, 0.06}, 0.05);
+  const std::string path = (std::filesystem::temp_directory_path() / "whine_jump_map.h5").string();
+  write(path, a, {"test", "test", {}});
+  JumpMapArtifact b = read_jump_map(path);
+  std::filesystem::remove(path);
+  CHECK(a.damping_ratio == b.damping_ratio);
+  CHECK(a.two_branches == b.two_branches);
+  CHECK(a.tooth_load == b.tooth_load);
+  CHECK(a.held_load_there == b.held_load_there);
+  CHECK(a.held_tooth_load == b.held_tooth_load);
+  CHECK(a.separation_fraction[1] == b.separation_fraction[1]);
+  CHECK(a.jump_frequency == b.jump_frequency);
+  CHECK(a.driver.bore_radius == b.driver.bore_radius);
+  CHECK(changed_keys(a, b).empty());
+  b.driver.bore_radius = b.driven.bore_radius = 35e-3;
+  CHECK(changed_keys(a, b) == "bore_radius_mm 40 → 35");
+  b.driven.bore_radius = 40e-3;
+  CHECK(changed_keys(a, b) == "driver: bore_radius_mm 40 → 35; driven: ");
+  b.driver.bore_radius = 40e-3;
+  b.mesh.corner.enabled = false;
+  CHECK(changed_keys(a, b) == "corner_contact true → false");
+}
+
+TEST_CASE("the map's figure says what its data say") {
+  std::vector<JumpMapArtifact> maps;
+  for (const double torque : {100.0, 150.0, 600.0}) {
+    maps.push_back(small_map(torque, true, {0.05, 0.07, 0.09}, torque < 150 ? 0.08 : 0.06));
+    maps.push_back(small_map(torque, false, {0.05, 0.07, 0.09}, 0.15));
+  }
+  Figure figure = jump_map_figure(maps);
+  CHECK(says(figure, "at 7 %, corner contact: two branches at no torque, contact lost at 100 N m"));
+  CHECK(says(figure,
+             "at 7 %, no corner contact: two branches at every torque from 100 to 600 N m, contact lost at "
+             "every torque "
+             "from 100 to 600 N m"));
+  CHECK(says(figure, "contact is lost at every torque with: no corner contact; P2000"));
+  CHECK(says(figure, "single samples reach 1.25 times as much"));
+  CHECK(says(figure, "P2000 prints 3.00 and 4.85; corner contact 2.4; no corner contact 2.4 and 2.4"));
+  // First harmonic 0.1 of the mean; loss ends between 7 and 9 % at one torque, between 5 and 7 % at two.
+  CHECK(says(figure, "above 1.67 (median of 3 limits"));
+  CHECK(figure.blocks[0].rows.size() == 11);
+  CHECK(figure.blocks[1].rows[0][6] == 2);
+  for (JumpMapArtifact& a : maps)
+    if (!a.mesh.corner.enabled && a.torque == 600) a.loss_to.setZero();
+  figure = jump_map_figure(maps);
+  CHECK(says(figure, "contact is lost at every torque with: none of these"));
+  std::vector<JumpMapArtifact> split = maps;
+  for (JumpMapArtifact& a : split) a.damping.rayleigh_mass = 1337;
+  CHECK(says(jump_map_figure(split), "no corner contact, mu 1337 1/s: two branches"));
+  for (JumpMapArtifact& a : maps) a.driver.teeth = 40;
+  CHECK(!says(jump_map_figure(maps), "P2000"));
+  maps.push_back(maps[0]);
+  CHECK(thrown([&] { jump_map_figure(maps); }).second.find("two maps of 100 N m") != std::string::npos);
+  maps.back() = small_map(300, true, {0.05, 0.07, 0.09}, 0.1);
+  CHECK(thrown([&] { jump_map_figure(maps); }).second.find("have other torques") != std::string::npos);
+  maps.back() = small_map(300, true, {0.05, 0.07, 0.08}, 0.1);
+  CHECK(thrown([&] { jump_map_figure(maps); }).second.find("other damping ratios") != std::string::npos);
+}
+
+TEST_CASE("sensitivity: changes against the base, rows of one key together") {
+  const JumpMapArtifact base = small_map(150, true, {0.05}, 0.2);
+  JumpMapArtifact bore = base, stiff = base, corner = base;
+  bore.driver.bore_radius = bore.driven.bore_radius = 35e-3;
+  bore.mean_stiffness = 437e6;
+  bore.branches_from[0] = 1850;
+  stiff.driver_material.poisson_ratio = stiff.driven_material.poisson_ratio = 0.27;
+  stiff.two_pair_frequency = 3050;
+  corner.mesh.corner.enabled = false;
+  corner.two_branches[0] = 0;
+  const Figure figure = sensitivity_figure(base, {stiff, bore, corner});
+  const auto& rows = figure.blocks[0].rows;
+  REQUIRE(rows.size() == 3);
+  CHECK(says(figure, "variant 0: corner_contact true → false"));
+  CHECK(says(figure, "variant 1: bore_radius_mm 40 → 35"));
+  CHECK(rows[0][7] == 0);
+  CHECK(rows[1][1] == relative(-5.0, 1e-9));
+  CHECK(rows[1][4] == -50);
+  CHECK(rows[2][3] == 10);
+  CHECK(thrown([&] { sensitivity_figure(base, {base}); }).second.find("same keys") != std::string::npos);
+  CHECK(thrown([&] { sensitivity_figure(base, {}); }).second.find("one variant") != std::string::npos);
+}
+
+TEST_CASE("a variant of a scene has the changed keys and nothing else changed") {
+  const std::string path = "data/scenes/parker2000.toml";
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string variant = (folder / "whine_variant.toml").string();
+  std::ofstream(variant) << scene_variant(
+      path, {"bore_radius_mm=35", "plane=strain", "corner_contact=false", "steps_per_period=256"});
+  const Scene from = read_scene(path), to = read_scene(variant);
+  std::filesystem::remove(variant);
+  for (const char* gear : {"pinion", "wheel"}) {
+    CHECK(to.gear(gear).design.bore_radius == 0.035);
+    CHECK(to.gear(gear).design.dedendum == from.gear(gear).design.dedendum);
+    CHECK(!to.gear(gear).material.plane_stress);
+  }
+  CHECK(!to.mesh.corner.enabled);
+  CHECK(to.time.steps_per_period == 256);
+  CHECK(to.operation.torques == from.operation.torques);
+  CHECK(to.damping.rayleigh_stiffness == from.damping.rayleigh_stiffness);
+  std::ofstream(variant) << scene_variant(path, {"strips=8"});
+  CHECK(static_slice(read_scene(variant)) == static_slice(from));
+  CHECK(sweep_slice(read_scene(variant)) == sweep_slice(from));
+  std::filesystem::remove(variant);
+  const auto refused = [&](const char* change) { return thrown([&] { scene_variant(path, {change}); }); };
+  CHECK(refused("bore_radius=35").second.find("did you mean 'bore_radius_mm'") != std::string::npos);
+  CHECK(refused("bore_radius_mm").first == static_cast<int>(Failure::usage));
+  CHECK(refused("=3").first == static_cast<int>(Failure::usage));
+}

@@ -1,0 +1,118 @@
+// gear-jump-map: where the primary resonance has two branches, and what the teeth then carry, for a series of dampings.
+//
+// Reads   params (slice of a scene: damping, inertia, fidelity, time), static-params (slice: mesh, contact), body.h5 of both
+//         gears
+// Writes  jump_map.h5    per damping: ends of the branches, speeds that lose contact, tooth loads, jumps; the responses
+// Equations: as gear-static and gear-sweep; damping ratios are those of the slowest eigenvalue with two pairs in contact
+// and the contact frozen under the static load (Eq. 21 for eta).
+// Example: gear-jump-map --params out/parker2000/params/map.toml --static-params out/parker2000/params/static.toml
+//            --driver out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 150
+//            --corner-contact false --damping-ratio 0.05,0.07 --loads-at 2400 --output out/parker2000/T150/jump_map_false.h5
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/tool.h"
+#include "files/fit.h"
+#include "files/scene.h"
+#include "files/schemas.h"
+#include "motion/jump_map.h"
+
+namespace {
+
+std::vector<double> numbers(const std::string& name, const std::vector<std::string>& words) {
+  std::vector<double> values;
+  for (const std::string& word : words) values.push_back(whine::number_option(name, word));
+  return values;
+}
+
+double above_zero(const std::string& name, const std::string& word) {
+  const double value = whine::number_option(name, word);
+  if (!(value > 0)) whine::fail(whine::Failure::usage, name, " is ", value, " Hz; it must be above 0");
+  return value;
+}
+
+whine::CornerRule corner_rule(const std::string& word) {
+  if (word == "true" || word == "false") return {word == "true", std::numeric_limits<double>::infinity()};
+  const double degrees = whine::number_option("--corner-contact", word);
+  if (!(degrees >= 0 && degrees <= 90))
+    whine::fail(whine::Failure::usage, "--corner-contact is ", degrees,
+                "; it must be true, false or an angle from 0 to 90 degrees");
+  return {true, degrees * std::numbers::pi / 180};
+}
+
+void body(int argc, char** argv) {
+  CLI::App app{"Jumps, contact loss and tooth loads of the primary resonance against damping",
+               "gear-jump-map"};
+  whine::JumpMapPlan plan;
+  std::string params, static_params, driver, driven, output, torque_word, corner, contact, from, to, at,
+      step = whine::text(plan.step);
+  std::vector<std::string> ratios, factors;
+  app.add_option("--params", params, "slice of the scene: out/<scene>/params/map.toml")->required();
+  app.add_option("--static-params", static_params, "slice of the scene: out/<scene>/params/static.toml")
+      ->required();
+  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
+  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
+  app.add_option("--torque", torque_word, "torque on the driver in N m, above 0")->required();
+  app.add_option("--corner-contact", corner, "true, false or degrees, instead of the scene's");
+  app.add_option("--contact", contact, "line or strips, instead of the scene's")
+      ->check(CLI::IsMember({"line", "strips"}));
+  app.add_option("--damping-ratio", ratios, "ratios with two pairs in contact, to find the eta of Eq. 21 for")
+      ->delimiter(',');
+  app.add_option("--rayleigh-stiffness", factors, "etas of Eq. 21 in s, as they are; cases before the ratios")
+      ->delimiter(',');
+  app.add_option("--from", from, "least speed in Hz (default: 0.57 of the rigid gears' frequency)");
+  app.add_option("--to", to, "largest speed in Hz (default: 1.2 of it)");
+  app.add_option("--step", step, "step of the speeds in Hz")->capture_default_str();
+  app.add_option("--loads-at", at, "speed in Hz whose tooth loads are stored apart; speeds fall on it");
+  app.add_option("--output", output, "jump_map.h5 to write")->required();
+  whine::parse(app, argc, argv);
+
+  plan.damping_ratio = numbers("--damping-ratio", ratios);
+  plan.rayleigh_stiffness = numbers("--rayleigh-stiffness", factors);
+  plan.step = above_zero("--step", step);
+  if (!from.empty()) plan.from = above_zero("--from", from);
+  if (!to.empty()) plan.to = above_zero("--to", to);
+  if (!at.empty()) plan.load_frequency = above_zero("--loads-at", at);
+  const double torque = whine::number_option("--torque", torque_word);
+  whine::SweepSlice slice = whine::read_map_slice(params);
+  whine::StaticSlice statics = whine::read_static_slice(static_params);
+  if (!corner.empty()) statics.mesh.corner = corner_rule(corner);
+  if (!contact.empty()) statics.fidelity.contact = slice.fidelity.contact = contact;
+  const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
+  whine::require_body(first, statics.driver_body, "driver", driver);
+  whine::require_body(second, statics.driven_body, "driven", driven);
+
+  std::optional<whine::Progress> progress;
+  const whine::JumpMapArtifact result = whine::jump_map(first, second, statics, torque, slice, plan,
+                                                        [&](long done, long total, const std::string& note) {
+                                                          if (!progress)
+                                                            progress.emplace("gear-jump-map", total);
+                                                          progress->update(done, note);
+                                                        });
+  progress.reset();
+  whine::Provenance provenance;
+  provenance.tool = whine::program_name(argv[0]);
+  provenance.command = whine::command_line(argc, argv);
+  provenance.inputs = {"params=" + params, "static_params=" + static_params, "driver=" + driver,
+                       "driven=" + driven};
+  whine::write(output, result, provenance);
+  whine::tell("gear-jump-map: ", torque, " N m, ", result.two_branches.sum(), " of ",
+              result.two_branches.size(), " dampings with two branches, ",
+              (result.loss_to.array() > 0).count(), " with contact loss -> ", output);
+  if (result.unsteady.sum() > 0)
+    whine::tell("gear-jump-map: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
+                2 * result.two_branches.size() * result.mesh_frequency.size(),
+                "; their last periods are taken");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
