@@ -22,7 +22,7 @@ path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
   $(if $(filter mesh reduce static impact calibrate sweep lumped out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scenes))) \
-  $(if $(filter out/figures/%,$(goals)),$(paper_scenes)) \
+  $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter bench work-precision,$(goals)),$(paper_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
