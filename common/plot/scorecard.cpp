@@ -47,11 +47,12 @@ std::string printed_text(const Claim& c) {
   if (c.scale == Scale::statement || c.scale == Scale::incomparable ||
       c.tolerance < 1e-6 * std::abs(c.printed))
     return value;
-  return value + " ± " + digits(c.tolerance, 3);
+  return value + " ± " + digits(c.tolerance);
 }
 
 std::string deviation_text(const Claim& c, const Finding& f) {
-  if (c.scale == Scale::statement || std::isnan(f.value) || std::isnan(c.printed) || c.printed == 0)
+  if (c.scale == Scale::statement || std::isnan(f.value) || std::isnan(c.printed) || c.printed == 0 ||
+      std::abs(f.value - c.printed) < 1e-9 * std::abs(c.printed))
     return "";
   std::ostringstream out;
   out << std::showpos << std::fixed << std::setprecision(1) << 100 * (f.value / c.printed - 1) << " %";
