@@ -197,10 +197,10 @@ mkdir -p card/s
 "$bin/gear-scorecard" --files > files
 while read -r file; do mkdir -p "card/s/$(dirname "$file")"; cp out/scene/T100/up/response.h5 "card/s/$file"; done < files
 card=("$bin/gear-scorecard" --output card/x $(sed 's|^|card/s/|' files))
-refused "a scorecard from an artifact of another kind" 3 'card/s/T100/impact.h5' "${card[@]}"
-cp out/scene/T100/impact.h5 card/s/T100/impact.h5
-refused "a scorecard from a sweep that is not that of its path" 3 'card/s/T100/rectangular/down/response.h5: is the sweep up of finite elements' "${card[@]}"
-refused "a scorecard from part of a scene" 3 'T100/rectangular/down/response.h5 of s is missing' "${card[@]:0:4}"
+refused "a scorecard from a sweep that is not that of its path" 3 'card/s/T100/down/response.h5: is the sweep up of finite elements' "${card[@]}"
+cp out/scene/T100/static.h5 card/s/T100/down/response.h5
+refused "a scorecard from an artifact of another kind" 3 'card/s/T100/down/response.h5' "${card[@]}"
+refused "a scorecard from part of a scene" 3 'T100/impact.h5 of s is missing; make it with: make out/s/T100/impact.h5' "${card[@]:0:4}"
 refused "a scorecard from a file that no claim reads" 3 'card/s/T100/mesh.h5: no claim reads it' "${card[@]}" card/s/T100/mesh.h5
 refused "a scorecard without artifacts" 2 'artifacts of a scene are needed' "$bin/gear-scorecard" --output card/x
 rm -rf card files
