@@ -486,13 +486,10 @@ Finding torque_independent(const SceneAnswers& s) {
   }
   if (first.empty()) {
     const Branches low = s.branches(100, "rectangular"), high = s.branches(300, "rectangular");
-    return {
-        kNone,
-        text(
-            "no jumps; the whole response is: RMS over torque at 300 N m against 100 N m differs by ",
-            digits(((high.up.dte_rms / 3 - low.up.dte_rms).array() / low.up.dte_rms.array()).abs().maxCoeff(),
-                   2),
-            " of itself at most")};
+    const double off =
+        ((high.up.dte_rms / 3 - low.up.dte_rms).array() / low.up.dte_rms.array()).abs().maxCoeff();
+    return {kNone, text("no jumps; RMS over torque is the same at 100 and 300 N m ",
+                        off < 1e-12 ? "to round-off" : "to " + digits(off, 2) + " of itself")};
   }
   return {largest <= 1 ? 1.0 : 0.0,
           text("jumps at the three torques differ by ", digits(largest, 3), " Hz at most")};
