@@ -59,10 +59,21 @@ paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 figures := $(paper_figures) error-budget
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
-figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f))
+
+# What gear-scorecard --files lists, of both scenes of the paper.
+scorecard_files := $(foreach t,100 150 200 300 600,T$t/static.h5 T$t/up/response.h5 T$t/down/response.h5) \
+  $(foreach t,100 150 200 300,T$t/impact.h5 T$t/rectangular/up/response.h5 T$t/rectangular/down/response.h5) \
+  $(foreach t,100 200 300,T$t/secant/up/response.h5 T$t/secant/down/response.h5) \
+  T150/up/sweep.h5 T150/down/sweep.h5 T150/rectangular/up/sweep.h5
+inputs_scorecard := $(foreach s,$(paper_scenes),$(scorecard_files:%=out/$s/%))
+
+figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inputs_scorecard)
 
 $(if $(SCENE),$(foreach f,$(filter $(paper_only),$(goals)),\
   $(error $f shows the paper at speeds, torques or levels of its own; for SCENE there are $(report_figures) error-budget table1)))
+
+$(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
+	$(B)/bin/gear-scorecard --output out/figures/scorecard $(inputs_scorecard)
 
 define figure_rule # figure, path without extension, inputs, what else it depends on
 $2.tsv $2.svg $2.png &: $3 $4 pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
@@ -86,7 +97,7 @@ endef
 
 figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/figures)
 
-.PHONY: figures $(figures) table1
+.PHONY: figures $(figures) table1 scorecard
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
@@ -105,5 +116,7 @@ fig14-elastic: ## the same of the elastic pair at 100, 200 and 300 N m (SCENE: i
 fig15: ## lumped model, rectangular stiffness: net mesh force on the upper and the lower branch, 150 N m
 fig16: ## lumped model, stiffness of the statics at each torque: RMS and mean of the transmission error
 table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 200 and 300 N m beside those of the paper (SCENE: its torques)
+	@cat $<
+scorecard: out/figures/scorecard.txt ## every number and statement of the paper, its value here in both scenes, whether it agrees
 	@cat $<
 error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m (SCENE: its first torque)

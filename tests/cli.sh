@@ -83,7 +83,8 @@ done
 # --- the command line
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
   [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
-  [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-inspect]="gear-inspect out/scene/T100/static.h5")
+  [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --output x out/scene/T100/static.h5"
+  [gear-inspect]="gear-inspect out/scene/T100/static.h5")
 for program in "$bin"/gear-*; do
   name=$(basename "$program")
   "$program" --help > said 2>&1 && grep -q -- --help said && ok "$name --help" || wrong "$name --help" "$(head -n 1 said)"
@@ -198,6 +199,32 @@ sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" >
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
   wrong "the table of keys in README.md is up to date" "put the output of $B/bin/gear-scene --keys there: $(head -n 2 said | tr '\n' '|')"; fi
 rm -f keys
+
+# --- the scorecard
+sed '1,/^<!-- gear-scorecard -->$/d; /^<!-- end of scorecard -->$/,$d' "$readme" > card
+if [ -s card ] && sed -n '3,$p' card | awk -F ' [|] ' '{ print $1 " | " $2 " | " $3 " | " $4 " | " $5 " |" }' | diff - <("$bin/gear-scorecard" --claims) > said
+then ok "the scorecard in README.md holds every claim with its printed value"; else
+  wrong "the scorecard in README.md holds every claim with its printed value" "put out/figures/scorecard.md there: $(head -n 2 said | tr '\n' '|')"; fi
+# columns 6 and 7: a verdict for each scene
+for scene in 6:parker2000 7:parker2000-calibrated; do
+  counts=$(sed -n '3,$p' card | awk -F ' [|] ' -v column="${scene%%:*}" '{ v = $column
+    if (v ~ /agrees$/) a++; else if (v ~ /differs$/) d++; else if (v ~ /cannot be compared$/) c++; else bad++ }
+    END { print a + 0 " agree, " d + 0 " differ, " c + 0 " cannot be compared" (bad ? ", " bad " rows without a verdict" : "") }')
+  claim="the bottom line of ${scene#*:} on README.md's first screen is that of its table"
+  if sed -n '1,60p' "$readme" | grep -F "| \`${scene#*:}\` |" | sed 's/ ([^)]*)//g' | grep -q -F "$counts"; then ok "$claim"; else wrong "$claim" "the table says $counts"; fi
+done
+rm -f card
+mkdir -p card/s
+"$bin/gear-scorecard" --files > files
+while read -r file; do mkdir -p "card/s/$(dirname "$file")"; cp out/scene/T100/up/response.h5 "card/s/$file"; done < files
+card=("$bin/gear-scorecard" --output card/x $(sed 's|^|card/s/|' files))
+refused "a scorecard from a sweep that is not that of its path" 3 'card/s/T100/down/response.h5: is the sweep up of finite elements' "${card[@]}"
+cp out/scene/T100/static.h5 card/s/T100/down/response.h5
+refused "a scorecard from an artifact of another kind" 3 'card/s/T100/down/response.h5' "${card[@]}"
+refused "a scorecard from part of a scene" 3 'T100/impact.h5 of s is missing; make it with: make out/s/T100/impact.h5' "${card[@]:0:4}"
+refused "a scorecard from a file that no claim reads" 3 'card/s/T100/mesh.h5: no claim reads it' "${card[@]}" card/s/T100/mesh.h5
+refused "a scorecard without artifacts" 2 'artifacts of a scene are needed' "$bin/gear-scorecard" --output card/x
+rm -rf card files
 
 # --- lumped models
 for model in rectangular secant tangent; do

@@ -31,6 +31,13 @@ else
   wrong "a comment in a source leaves the id of its program" "$(tail -n 1 "$log")"
 fi
 
+# --- what the scorecard reads, from the real program
+wanted=$("$B/bin/gear-scorecard" --files | sed 's|^|out/parker2000/|; p; s|^out/parker2000/|out/parker2000-calibrated/|' | sort)
+given=$(make $sanitize -n out/figures/scorecard.txt 2> /dev/null | sed ':a;/\\$/{N;s/\\\n//;ba}' |
+  sed -n 's|.*bin/gear-scorecard --output out/figures/scorecard ||p' | tr ' ' '\n' | sort)
+if [ -n "$wanted" ] && [ "$wanted" = "$given" ]; then ok "make scorecard gives gear-scorecard the files that it lists, of both scenes"; else
+  wrong "make scorecard gives gear-scorecard the files that it lists, of both scenes" "$(diff <(echo "$wanted") <(echo "$given") | head -3 | tr '\n' ' ')"; fi
+
 # --- stand-ins
 for program in "$B"/bin/gear-*; do
   case $program in */gear-scene) continue ;; esac
@@ -45,7 +52,7 @@ done
 echo "$name $output" >> calls
 [ "${FAIL:-}" != "$output" ] || exit 1
 mkdir -p "$(dirname "$output")"
-case $name in gear-plot) touch "$output".tsv "$output".svg "$output".png "$output".txt ;; *) echo "$name" > "$output" ;; esac
+case $name in gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
 SCRIPT
 done
 scene=data/scenes/parker2000.toml

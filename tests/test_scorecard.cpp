@@ -1,0 +1,274 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "base/error.h"
+#include "paper_pair.h"
+#include "plot/scorecard.h"
+#include "relative.h"
+
+using namespace whine;
+
+namespace {
+
+const double kNone = std::numeric_limits<double>::quiet_NaN();
+
+const Claim& claim(const std::string& id) {
+  for (const Claim& c : paper_claims())
+    if (c.id == id) return c;
+  FAIL("there is no claim ", id);
+  return paper_claims().front();
+}
+
+std::string message_of(const auto& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    return (e.kind() == Failure::input ? "input: " : "another kind: ") + std::string(e.what());
+  }
+  return "nothing";
+}
+
+Verdict verdict_at(Scale scale, double printed, double tolerance, double value) {
+  Claim c;
+  c.scale = scale;
+  c.printed = printed;
+  c.tolerance = tolerance;
+  return verdict(c, {value, ""});
+}
+
+// Speeds of 20 Hz; RMS 1 µm and a pure first harmonic unless changed.
+ResponseArtifact flat_response(double torque, const std::string& direction) {
+  ResponseArtifact r;
+  r.torque = torque;
+  r.direction = direction;
+  r.model = "finite elements";
+  r.natural_frequency = 2900;
+  const Eigen::Index n = 171;
+  r.mesh_frequency = Eigen::VectorXd::LinSpaced(n, 600, 4000);
+  if (direction == "down") r.mesh_frequency.reverseInPlace();
+  r.dte_rms = Eigen::VectorXd::Constant(n, 1e-6);
+  r.dte_mean = Eigen::VectorXd::Constant(n, 5e-6);
+  r.dte_harmonic = MatrixRM::Zero(n, 10);
+  r.dte_harmonic.col(0) = r.dte_rms * std::numbers::sqrt2;
+  r.tooth_load_max = Eigen::VectorXd::Constant(n, 3000);
+  r.mesh_force_max = Eigen::VectorXd::Constant(n, 4000);
+  r.separation_fraction = r.separations_per_period = Eigen::VectorXd::Zero(n);
+  r.period_multiple = Eigen::VectorXi::Ones(n);
+  return r;
+}
+
+Eigen::Index row_of(const ResponseArtifact& r, double f) {
+  Eigen::Index row;
+  (r.mesh_frequency.array() - f).abs().minCoeff(&row);
+  return row;
+}
+
+// One branch at 150 N m.
+SceneAnswers flat_answers() {
+  SceneAnswers s;
+  s.name = "flat";
+  StaticArtifact& statics = s.statics["T150/static.h5"];
+  statics.driver = statics.driven = paper_gear();
+  statics.contact_ratio = 1.7547;
+  statics.stiffness_harmonic = Eigen::Vector3d(460e6, 46e6, 1e6);
+  statics.mean_stiffness = 460e6;
+  for (const char* direction : {"up", "down"})
+    s.responses[std::string("T150/") + direction + "/response.h5"] = flat_response(150, direction);
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("scorecard: every claim says where, what, in which unit and what decides; ids are unique") {
+  std::set<std::string> ids;
+  for (const Claim& c : paper_claims()) {
+    CAPTURE(c.id);
+    CHECK(ids.insert(c.id).second);
+    for (const std::string& words : {c.id, c.place, c.text, c.unit, c.basis}) {
+      CHECK_FALSE(words.empty());
+      CHECK(words.find_first_of("|\t\n") == std::string::npos);  // cells of tables
+    }
+    CHECK(c.id.find(' ') == std::string::npos);
+    CHECK(c.find);
+    if (c.scale == Scale::statement) {
+      CHECK(c.unit == "yes/no");
+      CHECK(c.printed == 1);
+      CHECK(c.tolerance == 0);
+    } else if (c.scale != Scale::incomparable) {
+      CHECK(std::isfinite(c.printed));
+      CHECK(c.tolerance >= 0);
+    }
+  }
+}
+
+TEST_CASE("scorecard: the frequencies of Table 1 are those of data/published") {
+  std::ifstream file("data/published/parker2000-table1.tsv");
+  std::string line;
+  int rows = 0;
+  while (std::getline(file, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream words(line);
+    std::string torque, state;
+    double printed = 0;
+    words >> torque >> state >> printed;
+    CAPTURE(line);
+    CHECK(claim("table1-" + state + "-" + torque).printed == printed);
+    ++rows;
+  }
+  CHECK(rows == 9);
+}
+
+TEST_CASE("scorecard: verdicts at the edges of the tolerance") {
+  CHECK(verdict_at(Scale::number, 2480, 20, 2500) == Verdict::agrees);
+  CHECK(verdict_at(Scale::number, 2480, 20, 2460) == Verdict::agrees);
+  CHECK(verdict_at(Scale::number, 2480, 20, 2500.001) == Verdict::differs);
+  CHECK(verdict_at(Scale::number, 2480, 20, 2459.999) == Verdict::differs);
+  CHECK(verdict_at(Scale::number, 2, 0, 2) == Verdict::agrees);
+  CHECK(verdict_at(Scale::number, 2, 0, 1) == Verdict::differs);
+  CHECK(verdict_at(Scale::given, 50, 0, 49) == Verdict::differs);
+  CHECK(verdict_at(Scale::statement, 1, 0, 1) == Verdict::agrees);
+  CHECK(verdict_at(Scale::statement, 1, 0, 0) == Verdict::differs);
+  // a state that does not exist
+  CHECK(verdict_at(Scale::number, 4850, 242.5, kNone) == Verdict::differs);
+  CHECK(verdict_at(Scale::statement, 1, 0, kNone) == Verdict::differs);
+  CHECK(verdict_at(Scale::incomparable, kNone, 0, kNone) == Verdict::incomparable);
+  CHECK(verdict_at(Scale::incomparable, 20, 0, 20) == Verdict::incomparable);
+}
+
+TEST_CASE("scorecard: one branch: what the paper says of the upper one has no value, with the reason") {
+  const SceneAnswers s = flat_answers();
+  CHECK(claim("branches-2400").find(s).value == 0);
+  CHECK(claim("jumps-150").find(s).value == 0);
+  CHECK(claim("jumps-150").find(s).note.find("first harmonic of k 10 %") != std::string::npos);
+  CHECK(std::isnan(claim("load-upper-tooth").find(s).value));
+  CHECK(std::isnan(claim("upper-two-losses-1300").find(s).value));
+  CHECK(claim("load-lower-tooth").find(s).value == 3000);
+  CHECK(claim("load-lower-net").find(s).value == 4000);
+  CHECK(claim("lower-keeps-contact-1350").find(s).value == 1);
+  CHECK(std::isnan(claim("resonance-1").find(s).value));
+}
+
+TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
+  SceneAnswers s = flat_answers();
+  ResponseArtifact& down = s.responses["T150/down/response.h5"];
+  ResponseArtifact& up = s.responses["T150/up/response.h5"];
+  const Eigen::Index primary = row_of(down, 2400), secondary = row_of(down, 1300);
+  down.dte_rms[primary] = 7e-6;
+  down.dte_harmonic(primary, 0) = 0.96 * 7e-6 * std::numbers::sqrt2;
+  down.tooth_load_max[primary] = 4500;
+  down.separation_fraction[primary] = 0.3;
+  down.separations_per_period[primary] = 1;
+  down.dte_rms[secondary] = 4e-6;
+  down.dte_harmonic(secondary, 1) = 0.94 * 4e-6 * std::numbers::sqrt2;
+  down.separation_fraction[secondary] = 0.2;
+  down.separations_per_period[secondary] = 2;
+  down.jump_frequency = Eigen::VectorXd::Constant(1, 1290);
+  up.jump_frequency = Eigen::VectorXd::Constant(1, 2410);
+  up.dte_rms[row_of(up, 2820)] = 3e-6;
+
+  CHECK(claim("branches-2400").find(s).value == 1);
+  CHECK(claim("branches-2500").find(s).value == 0);
+  CHECK(claim("jumps-150").find(s).value == 1);
+  CHECK(claim("softening").find(s).value == 1);
+  CHECK(claim("load-upper-tooth").find(s).value == 4500);
+  CHECK(claim("load-increase-tooth").find(s).value == relative(50, 1e-12));
+  CHECK(claim("upper-loses-contact-2400").find(s).value == 1);
+  CHECK(claim("upper-two-losses-1300").find(s).value == 2);
+  CHECK(claim("upper-harmonic-1").find(s).value == 1);
+  CHECK(claim("upper-harmonic-2").find(s).value == 0);
+  CHECK(claim("lower-keeps-contact-2400").find(s).value == 1);
+  CHECK(claim("resonance-1").find(s).value == relative(2820.0 / 2900, 1e-12));
+  // 1350 Hz lies between two speeds: the lower one is taken on both sweeps
+  CHECK(claim("lower-keeps-contact-1350").find(s).note.find("1340 Hz") != std::string::npos);
+
+  up.separation_fraction[row_of(up, 2400)] = 0.1;
+  CHECK(claim("lower-keeps-contact-2400").find(s).value == 0);
+}
+
+TEST_CASE("scorecard: shares of harmonics and the tolerance of the increase are what decides the verdict") {
+  SceneAnswers s = flat_answers();
+  ResponseArtifact& down = s.responses["T150/down/response.h5"];
+  const Eigen::Index primary = row_of(down, 2400);
+  down.dte_rms[primary] = 2e-6;
+  const Claim& increase = claim("load-increase-tooth");
+  down.tooth_load_max[primary] = 1.700 * 3000;
+  CHECK(verdict(increase, increase.find(s)) == Verdict::agrees);
+  down.tooth_load_max[primary] = 1.702 * 3000;
+  CHECK(verdict(increase, increase.find(s)) == Verdict::differs);
+  const Claim& harmonic = claim("upper-harmonic-1");
+  for (double share : {0.949, 0.951}) {
+    down.dte_harmonic(primary, 0) = share * 2e-6 * std::numbers::sqrt2;
+    CHECK(verdict(harmonic, harmonic.find(s)) == (share > 0.95 ? Verdict::agrees : Verdict::differs));
+  }
+}
+
+TEST_CASE("scorecard: the bottom line counts what the rows say, in every rendering") {
+  const auto always = [](double value) {
+    return [=](const SceneAnswers&) { return Finding{value, "a note"}; };
+  };
+  std::vector<Claim> claims(4);
+  claims[0] = {"a", "1", "agrees", Scale::number, "Hz", 100, 1, "why", always(100.5)};
+  claims[1] = {"b", "1", "taken over", Scale::given, "1", 50, 0, "why", always(50)};
+  claims[2] = {"c", "2", "differs", Scale::statement, "yes/no", 1, 0, "why", always(kNone)};
+  claims[3] = {"d", "3", "rig", Scale::incomparable, "yes/no", kNone, 0, "why", always(kNone)};
+  SceneAnswers scene;
+  scene.name = "x";
+  const Scorecard card = score(claims, {scene});
+  REQUIRE(bottom_line(card).size() == 1);
+  const std::string line = bottom_line(card)[0];
+  CHECK(line == "x: 2 agree (1 of them given or fitted), 1 differ, 1 cannot be compared");
+  CHECK(scorecard_text(card).find(line) != std::string::npos);
+  CHECK(scorecard_tsv(card, {"out/x/T100/static.h5"}).find("# " + line + "\n# from out/x/T100/static.h5\n") !=
+        std::string::npos);
+  const std::string table = scorecard_markdown(card);
+  CHECK(table.find("| 100 Hz ± 1 | why | 100.5 Hz (+0.5 %): agrees |  |\n") != std::string::npos);
+  CHECK(table.find("| yes | why | none: differs | a note |\n") != std::string::npos);
+  CHECK(table.find("| why | cannot be compared | a note |\n") != std::string::npos);
+  // the rows that the README is checked against are those of the table, without the scenes
+  std::istringstream rows(claims_markdown(claims));
+  std::string row;
+  while (std::getline(rows, row)) CHECK(table.find(row) != std::string::npos);
+}
+
+TEST_CASE("scorecard: artifacts that are missing, foreign or given twice are refused by name") {
+  const std::vector<std::string> files = scorecard_files();
+  CHECK(std::set<std::string>(files.begin(), files.end()).size() == files.size());
+  std::vector<std::string> paths;
+  for (const std::string& f : files) paths.push_back("out/x/" + f);
+  const auto said = [](const std::vector<std::string>& given) {
+    return message_of([&] { read_answers(given); });
+  };
+  std::vector<std::string> fewer = paths;
+  fewer.erase(std::find(fewer.begin(), fewer.end(), "out/x/T200/impact.h5"));
+  CHECK(said(fewer) ==
+        "input: scorecard: T200/impact.h5 of x is missing; make it with: make out/x/T200/impact.h5");
+  std::vector<std::string> more = paths;
+  more.push_back("out/x/T120/static.h5");
+  CHECK(said(more).rfind("input: out/x/T120/static.h5: no claim reads it", 0) == 0);
+  more.back() = "elsewhere/x/T200/impact.h5";
+  CHECK(said(more).rfind("input: elsewhere/x/T200/impact.h5: T200/impact.h5 of x is given twice", 0) == 0);
+  // what a claim asks for and memory does not hold
+  const SceneAnswers nothing{"y", {}, {}, {}, {}};
+  CHECK(message_of([&] { claim("table1-one-300").find(nothing); }).find("T300/impact.h5 of y is missing") !=
+        std::string::npos);
+}
+
+TEST_CASE("scorecard: no claim reads an artifact that is not on the list of files") {
+  // Artifacts without content: whatever a claim does with them, it asks for one of the list first.
+  const std::vector<std::string> files = scorecard_files();
+  for (const Claim& c : paper_claims()) {
+    CAPTURE(c.id);
+    const std::string said = message_of([&] { c.find(SceneAnswers{"y", {}, {}, {}, {}}); });
+    if (said == "nothing") continue;  // reads none
+    const size_t begin = said.find("scorecard: ") + 11;
+    const std::string file = said.substr(begin, said.find(" of y") - begin);
+    CHECK(std::find(files.begin(), files.end(), file) != files.end());
+  }
+}

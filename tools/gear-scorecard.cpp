@@ -1,0 +1,50 @@
+// gear-scorecard: what P2000 prints, claim by claim, beside what scenes answer.
+//
+// Reads      the artifacts that `gear-scorecard --files` lists, of each scene
+// Writes     <output>.tsv, <output>.md, <output>.txt: every claim with its value in each scene, its deviation and its verdict,
+//            for programs, for the README and for a terminal
+// Example    gear-scorecard --output out/figures/scorecard out/parker2000/T100/static.h5 ...
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/publish.h"
+#include "plot/scorecard.h"
+
+namespace {
+
+void body(int argc, char** argv) {
+  CLI::App app{"What P2000 prints beside what scenes answer", "gear-scorecard"};
+  std::string output;
+  std::vector<std::string> inputs;
+  bool files = false, claims = false;
+  app.add_option("inputs", inputs, "artifacts: <scene>/<file> for each file that --files lists");
+  app.add_option("--output", output, "path of the results without extension");
+  app.add_flag("--files", files, "print which artifacts of a scene are read");
+  app.add_flag("--claims", claims,
+               "print the claims as rows of a table: id, place, text, printed value, what decides");
+  whine::parse(app, argc, argv);
+
+  if (files)
+    for (const std::string& file : whine::scorecard_files()) std::puts(file.c_str());
+  if (claims) std::fputs(whine::claims_markdown(whine::paper_claims()).c_str(), stdout);
+  if (files || claims) return;
+  if (output.empty()) whine::fail(whine::Failure::usage, "--output is needed");
+  if (inputs.empty())
+    whine::fail(whine::Failure::usage, "artifacts of a scene are needed; --files lists them");
+
+  const whine::Scorecard card = whine::score(whine::paper_claims(), whine::read_answers(inputs));
+  std::vector<std::string> sources;
+  for (const std::string& path : inputs) sources.push_back(whine::recorded_path(path));
+  whine::publish(output + ".tsv", whine::scorecard_tsv(card, sources));
+  whine::publish(output + ".md", whine::scorecard_markdown(card));
+  whine::publish(output + ".txt", whine::scorecard_text(card));
+  for (const std::string& line : whine::bottom_line(card)) whine::tell("gear-scorecard: ", line);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
