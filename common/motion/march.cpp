@@ -651,6 +651,11 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
     fail(Failure::input, "the start state, of ", state.z.size(),
          " coordinates, is of other gears or modes: ", "these have ", frequency_squared_.size(),
          "; start from rest or from a state of the same pair");
+  if (ledger && state.p.size() != positions_[0].mesh.strips())
+    fail(Failure::input,
+         "the ledger needs the contact forces of the start state at each strip: it has those of ",
+         state.p.size(), " strips, the range has ", positions_[0].mesh.strips(),
+         "; march a period without a ledger first");
   try {
     return lines() ? march(LineContact(*this), state, period, ledger)
                    : march(StripContact(*this), state, period, ledger);

@@ -22,8 +22,8 @@ struct Orbit {
 // the start of a mesh period on the orbit. method "march": plain marching, as a rig would. "extrapolate": once the motion
 // is close, reduced rank extrapolation (Sidi, Vector Extrapolation Methods with Applications, SIAM 2017, ch. 2) takes
 // the slow multipliers out. It is used only where the multipliers that it sees lie inside the unit circle, and counts only
-// if marching on comes closer still: an unstable orbit is left again. Empty if contact wanted more than the range of the dynamics holds; the state is then
-// spoiled.
+// if marching on comes closer still: an unstable orbit is left again. Empty if contact wanted more than the range of the
+// dynamics holds; the state is then spoiled.
 std::optional<Orbit> settle(RollingDynamics& dynamics, RollingDynamics::State& state, double periodicity,
                             const std::string& method);
 
