@@ -33,8 +33,9 @@ Matrix3d exponential(double w, double c, double h) {
 TEST_CASE(
     "exact propagator equals the matrix exponential: under-, critically, overdamped, rigid, tiny steps") {
   for (double w : {0.0, 100.0, 1e5, 6e6})
-    for (double ratio : {0.0, 0.07, 1.0, 3.0, 24.0})
+    for (double ratio : {0.0, 0.07, 1.0, 3.0, 24.0, 5e4})
       for (double h : {1e-9, 2e-6, 4e-6}) {
+        if (ratio > 100 && w > 100) continue;  // the matrix exponential has no digits left there
         const double c = w > 0 ? 2 * ratio * w : 100 * ratio;
         const Propagator p = exact_propagator(w, c, h);
         const Matrix3d e = exponential(w, c, h);

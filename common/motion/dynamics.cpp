@@ -524,6 +524,8 @@ RollingDynamics::State RollingDynamics::rest() {
 }
 
 VectorXd RollingDynamics::difference(const State& a, const State& b) const {
+  if (!(energy_scale_ > 0))
+    fail(Failure::input, "states are compared on the scale of rest(); call it once after set_range()");
   const Eigen::Index n = a.z.size();
   VectorXd both(2 * n);
   both << (a.z - b.z).cwiseProduct(frequency_squared_.cwiseSqrt()), a.v - b.v;

@@ -311,7 +311,7 @@ class RollingDynamics {
   std::array<Eigen::MatrixXd, 2> fields_;  // (flank, field) V, orthonormal
   // By offset between pairs, -2 reach..2 reach: (field, field) m N-1, of neighbours in the shared fields.
   std::array<std::vector<Eigen::MatrixXd>, 2> coupling_;
-  double static_deflection_ = 0, energy_scale_ = 1, pair_stamp_ = 0;
+  double static_deflection_ = 0, energy_scale_ = 0, pair_stamp_ = 0;
   int sample_ = 0;  // of the step at hand
   std::vector<Turn> turns_;
   Workspace work_;

@@ -26,7 +26,8 @@ double unit_response(double w, double c, double h) {
 
 Propagator exact_propagator(double w, double c, double h) {
   const double s = 0.5 * c, discriminant = w * w - s * s;
-  double cosine, sine;  // e^-sh cos rh, e^-sh sin(rh) / r
+  double cosine, sine;   // e^-sh cos rh, e^-sh sin(rh) / r
+  double response = -1;  // displacement after h under a unit force; below 0: from the others
   if (std::abs(discriminant) * h * h < 1e-12) {
     cosine = std::exp(-s * h);
     sine = h * cosine;
@@ -39,6 +40,8 @@ Propagator exact_propagator(double w, double c, double h) {
                  slow = w * w / fast;  // slow = s - r without cancellation
     cosine = 0.5 * (std::exp(-slow * h) + std::exp(-fast * h));
     sine = (std::exp(-slow * h) - std::exp(-fast * h)) / (2 * r);
+    // (1 - a11) / w^2 would cancel where w h is small however large c h is.
+    if (slow > 0) response = (std::expm1(-fast * h) / fast - std::expm1(-slow * h) / slow) / (2 * r);
   }
   Propagator p;
   p.a11 = cosine + s * sine;
@@ -47,6 +50,8 @@ Propagator exact_propagator(double w, double c, double h) {
   p.a22 = cosine - s * sine;
   if (w * h < 0.1 && c * h < 0.5)
     p.bq = unit_response(w, c, h);
+  else if (response >= 0)
+    p.bq = response;
   else
     p.bq = w > 0 ? (1 - p.a11) / (w * w) : (h - sine) / c;
   p.bv = sine;
