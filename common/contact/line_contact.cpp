@@ -59,41 +59,63 @@ int list(const std::array<bool, kMostPairs>& in, Eigen::Index n, std::array<int,
   return count;
 }
 
+// tangent x = x in place. False where it is not positive definite.
+template <int n>
+bool solve_in_place(double (&tangent)[n][n], double (&x)[n]) {
+  if constexpr (n == 2) {  // one division
+    const double determinant = tangent[0][0] * tangent[1][1] - tangent[0][1] * tangent[1][0];
+    if (!(tangent[0][0] > 0 && determinant > 0)) return false;
+    const double reciprocal = 1 / determinant, x0 = x[0];
+    x[0] = (tangent[1][1] * x0 - tangent[0][1] * x[1]) * reciprocal;
+    x[1] = (tangent[0][0] * x[1] - tangent[1][0] * x0) * reciprocal;
+    return true;
+  }
+  for (int k = 0; k < n; ++k) {
+    if (!(tangent[k][k] > 0)) return false;
+    const double reciprocal = 1 / tangent[k][k];
+    for (int i = k + 1; i < n; ++i) {
+      const double factor = tangent[i][k] * reciprocal;
+      for (int j = k + 1; j < n; ++j) tangent[i][j] -= factor * tangent[k][j];
+      x[i] -= factor * x[k];
+    }
+    tangent[k][k] = reciprocal;
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    for (int j = i + 1; j < n; ++j) x[i] -= tangent[i][j] * x[j];
+    x[i] *= tangent[i][i];
+  }
+  return true;
+}
+
 // d of the pairs that carry, without a look at the others.
 template <int n>
 bool follow(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
             const Eigen::Ref<const VectorXd>& e, const int* carrying, double* f, Certificate& certificate) {
   constexpr int kMostSteps = 6;
+  double shared[n][n], gap[n];
+  for (int i = 0; i < n; ++i) {
+    gap[i] = e[carrying[i]];
+    for (int j = 0; j < n; ++j) shared[i][j] = c(carrying[i], carrying[j]);
+  }
   for (int step = 0; step < kMostSteps; ++step) {
     double tangent[n][n], change[n], tolerance[n];
     for (int i = 0; i < n; ++i) {
-      const int row = carrying[i];
-      const HertzLine::Point own = law[row].at(f[i]);
-      double d = own.indentation + e[row], size = std::abs(own.indentation) + std::abs(e[row]);
+      const HertzLine::Point own = law[carrying[i]].at(f[i]);
+      double d = own.indentation, size = std::abs(own.indentation) + std::abs(gap[i]);
       for (int j = 0; j < n; ++j) {
-        tangent[i][j] = c(row, carrying[j]);
+        tangent[i][j] = shared[i][j];
         d += tangent[i][j] * f[j];
         size += std::abs(tangent[i][j]) * f[j];
       }
+      d += gap[i];  // last, for it is known last
       tangent[i][i] += own.slope;
       change[i] = -d;
       tolerance[i] = kRoundOff * size;
     }
-    for (int k = 0; k < n; ++k) {
-      if (!(tangent[k][k] > 0)) return false;
-      const double reciprocal = 1 / tangent[k][k];
-      for (int i = k + 1; i < n; ++i) {
-        const double factor = tangent[i][k] * reciprocal;
-        for (int j = k + 1; j < n; ++j) tangent[i][j] -= factor * tangent[k][j];
-        change[i] -= factor * change[k];
-      }
-      tangent[k][k] = reciprocal;
-    }
+    if (!solve_in_place(tangent, change)) return false;
     bool met = true;
     double left[n], least[n];  // of d at the next force: what the law's slope can have changed on the way
-    for (int i = n - 1; i >= 0; --i) {
-      for (int j = i + 1; j < n; ++j) change[i] -= tangent[i][j] * change[j];
-      change[i] *= tangent[i][i];
+    for (int i = 0; i < n; ++i) {
       const double next = f[i] + change[i];
       if (!(next > 0)) return false;
       left[i] = 0.5 * law[carrying[i]].coefficient() * change[i] * change[i];
