@@ -184,6 +184,7 @@ class RollingDynamics {
     std::array<Eigen::MatrixXd, 2> field_weight;  // (node, field)
     Frame frame;
   };
+  using Stream = std::vector<double, Eigen::aligned_allocator<double>>;  // lanes in one cache line
   struct LineRecord;
   struct ShapeLanes;
   static const ShapeLanes kShape;
@@ -309,7 +310,7 @@ class RollingDynamics {
   double rigid_frequency_ = 0;  // rad s-1: sqrt(mean stiffness / reduced mass)
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;
-  std::vector<double> stream_;
+  Stream stream_;
   std::vector<Step> step_data_;
   SpeedCoefficients speed_;
   DampingIntegrals damping_;

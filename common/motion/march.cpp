@@ -90,7 +90,8 @@ void RollingDynamics::pack() {
 
 namespace {
 
-size_t place(std::vector<double>& stream, Eigen::Index count) {
+template <class Stream>
+size_t place(Stream& stream, Eigen::Index count) {
   const size_t at = stream.size();
   stream.resize(at + static_cast<size_t>(count), 0.0);
   return at;
@@ -518,9 +519,12 @@ struct RollingDynamics::StripContact {
 
   void rename() { followed = 0; }
 
-  // Reads what lag there is before `solve` sees the position, and says which rows it wants read of the modes. lag: (field of
+  // Has what `read_ahead` and `solve` are going to look up brought near.
+  void fetch_ahead(const Position&, const Step&, LiveTeeth) const {}
+
+  // All that can be known of a position before its modes are: its lag, and a start; and which rows of the modes to read. lag: (field of
   // all pairs) of one gear after the other, without new contact force; no tooth but the live ones has any.
-  void read_ahead(const Position&, const double*, LiveTeeth, ModalReading& modal) { modal.count = 0; }
+  void read_ahead(const Position&, Step&, const double*, LiveTeeth, ModalReading& modal) { modal.count = 0; }
 
   // Fills p and d. z: (coordinate), modal: the rows of read_ahead, and lag as there; all without new contact force.
   Certificate solve(const Position& position, Step& step, const double* z, const ModalReading&,
@@ -659,8 +663,21 @@ struct RollingDynamics::LineContact {
 
   void rename() {}
 
+  void fetch_ahead(const Position& position, const Step& step, LiveTeeth live) const {
+    const double* line = dynamics.stream_.data() + position.frame.line;
+    for (int j = 0; j < position.frame.present; ++j, line += record.size()) {
+      fetch(line, sizeof(double));
+      for (int g = 0; g < 2; ++g)
+        fetch(line + record.reading(g) + live.first * kFields,
+              (live.last - live.first) * kFields * sizeof(double));
+    }
+    fetch(position.mesh.law.data(), position.frame.present * sizeof(HertzLine));
+    fetch(step.compliance.data(), sizeof(double));
+  }
+
   // As of strips, all four.
-  void read_ahead(const Position& position, const double* lag, LiveTeeth live, ModalReading& modal) {
+  void read_ahead(const Position& position, Step& step, const double* lag, LiveTeeth live,
+                  ModalReading& modal) {
     const double* line = dynamics.stream_.data() + position.frame.line;
     modal.count = position.frame.present;
     for (int j = 0; j < modal.count; ++j, line += record.size()) {
@@ -673,15 +690,16 @@ struct RollingDynamics::LineContact {
       }
       e[j] = line[LineRecord::kGap] + sum(driver + driven);
     }
+    if (step.force.size() != modal.count) step.force.setZero(modal.count);
+    start.look(step.compliance, position.mesh.law, step.force);
   }
 
   Certificate solve(const Position& position, Step& step, const double*, const ModalReading& modal,
                     const double*) {
     const int present = position.frame.present;
     for (int j = 0; j < present; ++j) e[j] -= modal.moved[j];
-    if (step.force.size() != present) step.force.setZero(present);
-    const Certificate certificate =
-        solve_line_contact(step.compliance, position.mesh.law, e.head(present), step.force, d.head(present));
+    const Certificate certificate = solve_line_contact(step.compliance, position.mesh.law, e.head(present),
+                                                       start, step.force, d.head(present));
     for (int j = 0; j < present; ++j) p[j] = step.force[j];
     return certificate;
   }
@@ -709,6 +727,7 @@ struct RollingDynamics::LineContact {
 
   RollingDynamics& dynamics;
   LineRecord record;
+  LineStart start;
   VectorXd &e, &p, &d;  // (pair)
 };
 
@@ -768,8 +787,8 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     }
   take(state);
 
-  const Modes<Contact::kRows> modes{coordinates, work_.z.data(), work_.v.data(), work_.force.data(),
-                                    speed_.number.data(), hub_lanes_};
+  const Modes<Contact::kRows> modes{coordinates,        work_.z.data(),       work_.v.data(),
+                                    work_.force.data(), speed_.number.data(), hub_lanes_};
   // Stores of lanes may change anything for all that the compiler knows; it need not look these up again.
   double *const lag_at = work_.lag.data(), *const load_at = work_.load.data();
   const Lag lag_step = lag_;
@@ -805,7 +824,7 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     if (!propagated) {
       modes.propagate();
       relax();
-      contact.read_ahead(position, lag_at, live, modal);
+      contact.read_ahead(position, step_data_[sample], lag_at, live, modal);
       modes.read(modal);
     }
     const Certificate certificate = contact.solve(position, step_data_[sample], modes.z, modal, lag_at);
@@ -833,7 +852,8 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     double error;
     if (propagated) {
       relax();
-      contact.read_ahead(positions_[(i + 1) * stride_], lag_at, live, modal);
+      contact.read_ahead(positions_[(i + 1) * stride_], step_data_[i + 1], lag_at, live, modal);
+      if (i + 2 < steps_) contact.fetch_ahead(positions_[(i + 2) * stride_], step_data_[i + 2], live);
       error = modes.push_and_propagate(on_modes, modal, work_.response.data());
     } else {
       error = modes.push(on_modes);
