@@ -20,12 +20,6 @@ inline Lanes& lanes(double* x) {
   return *reinterpret_cast<Lanes*>(x);
 }
 
-// Asks for memory that is soon read, so that it is near by then.
-inline void fetch(const void* from, size_t bytes) {
-  constexpr size_t kLine = 64;
-  for (size_t at = 0; at < bytes; at += kLine) __builtin_prefetch(static_cast<const char*>(from) + at);
-}
-
 // y[first..last) += sum over j < count of f[j] * column j; first and last multiples of 4.
 inline void add_columns(double* y, const double* columns, int stride, const double* f, int count, int first,
                         int last) {

@@ -121,12 +121,12 @@ bool follow_start(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine
   const int n = static_cast<int>(e.size()), count = start.count;
   const int* carrying = start.carrying;
   const double* f = start.force;
-  if (count < 0 || (count == 1 && !follow<1>(c, law, e, start, certificate)) ||
+  if (count <= 0 || (count == 1 && !follow<1>(c, law, e, start, certificate)) ||
       (count == 2 && !follow<2>(c, law, e, start, certificate)) ||
       (count == 3 && !follow<3>(c, law, e, start, certificate)))
     return false;
   double scale = 0, least_gap = std::numeric_limits<double>::infinity();
-  certificate.least_force = count > 0 ? f[0] : 0;
+  certificate.least_force = f[0];
   for (int i = 0, k = 0; i < n; ++i) {
     scale = std::max(scale, std::abs(e[i]));
     d[i] = 0;

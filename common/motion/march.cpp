@@ -364,20 +364,23 @@ struct RollingDynamics::LiveTeeth {
 // Teeth whose lag the others' round-off swallows have none from here on.
 RollingDynamics::LiveTeeth RollingDynamics::live_teeth() {
   constexpr double kForgotten = 0x1p-80;
-  const double* const of[] = {work_.lag.data(), work_.load.data()};
-  const int fields = all_fields();
-  double largest = 0;
-  for (const double* x : of)
-    for (int k = 0; k < 2 * fields; ++k) largest = std::max(largest, std::abs(x[k]));
+  const int teeth = 2 * reach_ + 1;
+  const auto size = [&](int tooth) {
+    double sum = 0;
+    for (const VectorXd* x : {&work_.lag, &work_.load})
+      for (int g = 0; g < 2; ++g)
+        sum += x->segment<kFields>(g * all_fields() + tooth * kFields).cwiseAbs().sum();
+    return sum;
+  };
+  double all = 0;
+  for (int tooth = 0; tooth < teeth; ++tooth) all += size(tooth);
   LiveTeeth live;
-  for (int k = 0; k < 2 * fields; ++k)
-    if (std::max(std::abs(of[0][k]), std::abs(of[1][k])) > kForgotten * largest)
-      live.add(k % fields / kFields);
-  for (double* x : {work_.lag.data(), work_.load.data()})
-    for (int k = 0; k < 2 * fields; ++k) {
-      const int tooth = k % fields / kFields;
-      if (tooth < live.first || tooth >= live.last) x[k] = 0;
-    }
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    if (!(size(tooth) <= kForgotten * all)) live.add(tooth);
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    if (tooth < live.first || tooth >= live.last)
+      for (VectorXd* x : {&work_.lag, &work_.load})
+        for (int g = 0; g < 2; ++g) x->segment<kFields>(g * all_fields() + tooth * kFields).setZero();
   return live;
 }
 
@@ -519,9 +522,6 @@ struct RollingDynamics::StripContact {
 
   void rename() { followed = 0; }
 
-  // Has what `read_ahead` and `solve` are going to look up brought near.
-  void fetch_ahead(const Position&, const Step&, LiveTeeth) const {}
-
   // All that can be known of a position before its modes are: its lag, and a start; and which rows of the modes to read. lag: (field of
   // all pairs) of one gear after the other, without new contact force; no tooth but the live ones has any.
   void read_ahead(const Position&, Step&, const double*, LiveTeeth, ModalReading& modal) { modal.count = 0; }
@@ -662,18 +662,6 @@ struct RollingDynamics::LineContact {
         d(of.work_.d) {}
 
   void rename() {}
-
-  void fetch_ahead(const Position& position, const Step& step, LiveTeeth live) const {
-    const double* line = dynamics.stream_.data() + position.frame.line;
-    for (int j = 0; j < position.frame.present; ++j, line += record.size()) {
-      fetch(line, sizeof(double));
-      for (int g = 0; g < 2; ++g)
-        fetch(line + record.reading(g) + live.first * kFields,
-              (live.last - live.first) * kFields * sizeof(double));
-    }
-    fetch(position.mesh.law.data(), position.frame.present * sizeof(HertzLine));
-    fetch(step.compliance.data(), sizeof(double));
-  }
 
   // As of strips, all four.
   void read_ahead(const Position& position, Step& step, const double* lag, LiveTeeth live,
@@ -853,7 +841,6 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     if (propagated) {
       relax();
       contact.read_ahead(positions_[(i + 1) * stride_], step_data_[i + 1], lag_at, live, modal);
-      if (i + 2 < steps_) contact.fetch_ahead(positions_[(i + 2) * stride_], step_data_[i + 2], live);
       error = modes.push_and_propagate(on_modes, modal, work_.response.data());
     } else {
       error = modes.push(on_modes);
