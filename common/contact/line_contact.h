@@ -5,7 +5,7 @@
 // the pairs that carry force, cut where a force would fall below zero and by Armijo's rule where the energy would not
 // fall; a pair comes in only at the least energy of the others, so that no set of pairs comes back (as in Lawson and
 // Hanson, Solving Least Squares Problems, 1974, chapter 23). Up to three pairs that carry at the start are first followed
-// by themselves by plain Newton steps, each of n laws and an n x n elimination: enough while no pair comes or goes, and
+// by themselves by plain Newton steps, each of n laws and an n x n inverse: enough while no pair comes or goes, and
 // the last step needs no look back, for the slope of a law changes by less than C / F. No memory is taken.
 #pragma once
 #include <Eigen/Core>
