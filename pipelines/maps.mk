@@ -6,11 +6,14 @@
 #                                    out/S-bore35/T150/branches.h5; pipelines/scenes.mk lists the variants
 #   make SCENE=x.toml jump-map       of a scene of yours, figures in out/x/report/
 #
-# A lumped model joins as another artifact of the same schema, by its name instead of a corner rule.
+# Lumped models are artifacts of the same schema, by their name instead of a corner rule: out/S/T150/jump_map_secant.h5,
+# jump_map_secant-contact.h5 (damper in contact only). They have a figure of their own, jump-map-lumped, beside the elastic pair.
 
 # Torques in N m, corner rules as in a scene, damping ratios with two pairs in contact, steps of the speeds in Hz.
 JUMP_MAP_TORQUES ?= 20 50 100 150 200 300 450 600
 JUMP_MAP_CORNERS ?= false 1 true
+# Lumped models, those of `make lumped`; -contact: the damper acts in contact only. Their ratios are about the mean stiffness.
+JUMP_MAP_MODELS ?= rectangular secant tangent pairs rectangular-contact secant-contact tangent-contact pairs-contact
 JUMP_MAP_RATIOS ?= 0.03 0.035 0.04 0.045 0.05 0.055 0.06 0.065 0.07 0.075 0.08 0.09 0.10
 JUMP_MAP_STEP ?= 50
 fine_torques := 20 35 50 75 100 125 150 175 200 250 300 350 400 450 500 600
@@ -49,6 +52,14 @@ out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(jump_map_inputs) $(B)/plans/$(
 	$$(call run,jump-map) $(jump_map_options) --torque $2 --corner-contact $3 $(plan_$4) --output $$@
 endef
 
+lumped_map_inputs = out/$1/params/map.toml out/$1/T$2/static.h5 $(if $(filter rectangular%,$3),$(reference_static)) $(call id,gear-lumped)
+
+define lumped_map_rules # scene, torque, model, plan
+out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(lumped_map_inputs) $(B)/plans/$(own_scene)/$4 | $(B)/bin/gear-lumped
+	$$(call run,lumped) --map --model $(firstword $(subst -, ,$3)) $(if $(filter %-contact,$3),--damper contact) --params $$< \
+	  --static out/$1/T$2/static.h5 $(lumped_options_$(firstword $(subst -, ,$3))) $(plan_$4) --output $$@
+endef
+
 define branches_rules # scene, torque, plan
 out/$1/T$2/$3.h5: $(jump_map_inputs) $(B)/plans/$(own_scene)/$3 | $(B)/bin/gear-jump-map
 	$$(call run,jump-map) $(jump_map_options) --torque $2 $(plan_$3) --output $$@
@@ -60,13 +71,21 @@ branches_plan := branches$(call fineness,SENSITIVITY)
 $(if $(SCENE_$(own_scene)_GEARS),\
   $(foreach c,$(JUMP_MAP_CORNERS),$(foreach t,$(sort $(map_torques) $(call torques,$(own_scene))),\
     $(eval $(call jump_map_rules,$(own_scene),$t,$c,$(map_plan))))))
+# Statics at torques that nothing else asks for.
+$(if $(SCENE_$(own_scene)_GEARS),\
+  $(foreach t,$(filter-out $(call torques,$(own_scene)),$(map_torques)),$(eval $(call static_rules,$(own_scene),$t)))\
+  $(foreach m,$(JUMP_MAP_MODELS),$(foreach t,$(sort $(map_torques) $(call torques,$(own_scene))),\
+    $(eval $(call lumped_map_rules,$(own_scene),$t,$m,$(map_plan))))))
 $(foreach s,$(filter $(own_scene) $(variant_scenes),$(scenes)),$(if $(SCENE_$s_GEARS),\
   $(eval $(call branches_rules,$s,$(TORQUE),$(branches_plan)))))
 
 map_folder := $(if $(SCENE),out/$(own_scene)/report,out/figures)
 map_figure := $(map_folder)/jump-map$(subst _,-,$(call fineness,JUMP_MAP))
+lumped_map_figure := $(map_folder)/jump-map-lumped$(subst _,-,$(call fineness,JUMP_MAP))
 sensitivity_figure := $(map_folder)/sensitivity$(subst _,-,$(call fineness,SENSITIVITY))
-map_artifacts := $(foreach c,$(JUMP_MAP_CORNERS),$(foreach t,$(map_torques),out/$(own_scene)/T$t/$(subst jump_map,jump_map_$c,$(map_plan)).h5))
+maps_of = $(foreach c,$1,$(foreach t,$(map_torques),out/$(own_scene)/T$t/$(subst jump_map,jump_map_$c,$(map_plan)).h5))
+map_artifacts := $(call maps_of,$(JUMP_MAP_CORNERS))
+lumped_map_artifacts := $(call maps_of,$(JUMP_MAP_MODELS))
 sensitivity_artifacts := $(foreach s,$(own_scene) $(variant_scenes),out/$s/T$(TORQUE)/$(branches_plan).h5)
 
 define map_figure_rules # figure, path without extension, artifacts
@@ -75,8 +94,9 @@ $2.tsv $2.svg $2.png &: $3 pipelines/plots/$1.gp $(call id,gear-plot) | $(B)/bin
 	$(B)/bin/gear-plot $1 --output $2 $3
 endef
 $(eval $(call map_figure_rules,jump-map,$(map_figure),$(map_artifacts)))
+$(if $(JUMP_MAP_MODELS),$(eval $(call map_figure_rules,jump-map-lumped,$(lumped_map_figure),$(map_artifacts) $(lumped_map_artifacts))))
 $(eval $(call map_figure_rules,sensitivity,$(sensitivity_figure),$(sensitivity_artifacts)))
 
 .PHONY: jump-map sensitivity
-jump-map: $(foreach e,tsv svg png,$(map_figure).$e) ## two branches, contact loss, tooth loads against torque, damping, corner rule; JUMP_MAP=fine
+jump-map: $(foreach f,$(map_figure) $(if $(JUMP_MAP_MODELS),$(lumped_map_figure)),$(foreach e,tsv svg png,$f.$e)) ## two branches, contact loss, tooth loads against torque, damping, corner rule, lumped model; JUMP_MAP=fine
 sensitivity: $(foreach e,tsv svg png,$(sensitivity_figure).$e) ## what each input that the paper does not state changes; SENSITIVITY=fine

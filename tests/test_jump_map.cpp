@@ -277,6 +277,50 @@ TEST_CASE("the map's figure says what its data say") {
   CHECK(thrown([&] { jump_map_figure(maps); }).second.find("other damping ratios") != std::string::npos);
 }
 
+TEST_CASE("the figure of lumped models tells which keep contact, and how they agree with the elastic pair") {
+  std::vector<JumpMapArtifact> maps;
+  for (const double torque : {100.0, 200.0, 300.0}) {
+    JumpMapArtifact elastic = small_map(torque, true, {0.06, 0.08, 0.10}, torque < 150 ? 0.09 : 0.07);
+    maps.push_back(elastic);
+    maps.push_back(small_map(torque, false, {0.06, 0.08, 0.10}, 0.15));  // another corner rule: left out
+    JumpMapArtifact secant = elastic;
+    secant.model = "secant";
+    if (torque == 300) secant.loss_to.setZero();  // one cell of nine differs
+    maps.push_back(secant);
+    secant.model = "rectangular-contact";
+    secant.loss_to.setConstant(3000);
+    secant.two_branches.setOnes();
+    maps.push_back(secant);
+  }
+  Figure figure = lumped_jump_map_figure(maps);
+  for (const std::string& note : figure.notes) INFO(note);
+  CHECK(figure.blocks.size() == 3);
+  CHECK(says(figure,
+             "at 8 %, elastic pair, corner contact: two branches at no torque, contact lost at 100 N m"));
+  CHECK(says(figure,
+             "two branches at every torque: rectangular, damper in contact; contact lost at every "
+             "torque: rectangular, damper in contact"));
+  CHECK(says(figure, "(Figure 16): elastic pair, corner contact; secant"));
+  CHECK(says(figure, "as that figure shows: elastic pair, corner contact at 8 %; secant at 8 %"));
+  // Lost in 4 cells of 9 of the elastic pair, 3 of secant, 9 of the other; two branches in 0, 0 and 9.
+  CHECK(says(figure, "secant 89/100; rectangular, damper in contact 44/0"));
+  // First harmonic 0.1 of the mean: 8 % lost at most for the pair, 6 % kept by secant.
+  CHECK(says(figure,
+             "elastic pair, corner contact 1.25/1.25; secant 1.25/1.67; rectangular, damper in contact 1/-"));
+  for (JumpMapArtifact& a : maps) a.driver.teeth = 40;
+  CHECK(!says(lumped_jump_map_figure(maps), "second model"));
+  std::erase_if(maps, [](const JumpMapArtifact& a) { return a.model == "finite elements"; });
+  figure = lumped_jump_map_figure(maps);
+  CHECK(figure.blocks.size() == 2);
+  CHECK(!says(figure, "as the elastic pair does"));
+  maps.push_back(maps[0]);
+  CHECK(thrown([&] { lumped_jump_map_figure(maps); }).second.find("two maps of 100 N m") !=
+        std::string::npos);
+  CHECK(thrown([&] {
+          lumped_jump_map_figure({small_map(100, true, {0.05}, 0.1)});
+        }).second.find("one of their artifacts") != std::string::npos);
+}
+
 TEST_CASE("sensitivity: changes against the base, rows of one key together") {
   const JumpMapArtifact base = small_map(150, true, {0.05}, 0.2);
   JumpMapArtifact bore = base, stiff = base, corner = base;

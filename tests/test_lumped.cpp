@@ -512,3 +512,75 @@ TEST_CASE("lumped: what is no model is refused by name") {
   LumpedOscillator o = oscillator(kLow, kHigh, 0.75, 0.08);
   CHECK(message([&] { o.set_speed(0); }).find("frequency is 0 Hz") != std::string::npos);
 }
+
+TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that model say") {
+  StaticArtifact statics;
+  statics.driver = statics.driven = paper_body(40e-3, 0.8e-3).design;
+  statics.mesh = paper_statics(128).mesh;
+  statics.torque = 150;
+  statics.mesh_phase = Eigen::VectorXd::LinSpaced(8, 0, 0.875);
+  statics.stiffness_secant = Eigen::VectorXd::Constant(8, kMean);
+  LumpedOptions o;
+  o.model = "rectangular";
+  o.mass = kMass;
+  o.time.steps_per_period = 128;
+  MapSpeeds range;
+  range.from = 2200;
+  range.to = 3000;
+  range.step = 40;
+  range.load_frequency = 2640;
+  const LumpedParameters springs = wave(kLow, kHigh, 0.75, 0.07);
+  const Eigen::VectorXi numbers = Eigen::VectorXi::Zero(1);
+  long reports = 0;
+  const JumpMapArtifact map = lumped_jump_map(statics, springs, numbers, o, range, {0.07, 0.2},
+                                              [&](long done, long total, const std::string&) {
+                                                CHECK(done == ++reports);
+                                                CHECK(total == 4);
+                                              });
+  CHECK(reports == 4);
+  CHECK(map.model == "rectangular");
+  // Folds at 7 % from another program, see above; at 20 % contact is kept.
+  CHECK(map.branches_from[0] == relative(2464.654182, 1e-8));
+  CHECK(map.branches_to[0] == relative(2638.199272, 1e-8));
+  CHECK(map.two_branches[1] == 0);
+  CHECK(map.loss_to[1] == 0);
+  // Fourier: 2 (k2 - k1) sin(pi d) / pi.
+  CHECK(map.first_harmonic ==
+        relative(2 * (kHigh - kLow) * std::sin(0.75 * std::numbers::pi) / std::numbers::pi, 1e-9));
+  CHECK(map.mean_stiffness == relative(kMean, 1e-6));
+  o.frequency_from = 2200;
+  o.frequency_to = 3000;
+  o.frequency_step = 40;
+  o.damping_ratio = 0.07;
+  for (const std::string direction : {"up", "down"}) {
+    o.direction = direction;
+    const SweepArtifact alone = lumped_sweep(statics, springs, numbers, o, no_report);
+    REQUIRE(alone.jump_frequency.size() == 1);
+    const int d = direction == "up" ? 0 : 1;
+    CHECK((d == 0 ? map.branches_to : map.branches_from)[0] == alone.jump_frequency[0]);
+    for (Eigen::Index i = 0; i < alone.mesh_frequency.size(); ++i) {
+      const Eigen::Index row = d == 0 ? i : alone.mesh_frequency.size() - 1 - i;
+      REQUIRE(map.mesh_frequency[row] == relative(alone.mesh_frequency[i], 1e-12));
+      CHECK(map.dte_rms[d](0, row) == relative(rms(alone, i), 1e-12));
+      CHECK(map.tooth_load_max[d](0, row) == alone.tooth_load[i].maxCoeff());
+    }
+  }
+  o.damper_acts = "contact";
+  CHECK(lumped_jump_map(statics, springs, numbers, o, range, {0.07}, no_report).model ==
+        "rectangular-contact");
+  const auto refused = [&](const MapSpeeds& speeds, const std::vector<double>& ratios, const char* words) {
+    std::string said;
+    try {
+      lumped_jump_map(statics, springs, numbers, o, speeds, ratios, no_report);
+    } catch (const Error& error) {
+      CHECK(error.kind() == Failure::input);
+      said = error.what();
+    }
+    INFO(said);
+    CHECK(said.find(words) != std::string::npos);
+  };
+  refused(range, {}, "no case");
+  refused(range, {0.07, 1.5}, "damping ratio of 1.5");
+  range.load_frequency = 3200;
+  refused(range, {0.07}, "wanted at 3200 Hz");
+}

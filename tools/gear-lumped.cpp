@@ -3,7 +3,8 @@
 //
 // Reads   static.h5 of the torque (gears, mesh stiffness), static.h5 of the reference torque if the rectangular wave is not
 //         to depend on the torque, params (slice of a scene: speeds, samples)
-// Writes  sweep.h5, of the schema of gear-sweep: transmission error, mesh force, energy, jumps
+// Writes  sweep.h5, of the schema of gear-sweep: transmission error, mesh force, energy, jumps; with --map jump_map.h5, of
+//         that of gear-jump-map: branches, contact loss and loads for a series of damping ratios
 // Equation: m x'' + c x' + F(t) = T / r, F(t) = k(t) x for x >= 0 and 0 for x < 0 (Eq. 23), integrated exactly from event to
 //         event (or by Newmark's method, Eq. 8); k(t) constant in cells of the mesh period.
 // Example: gear-lumped --model rectangular --static out/parker2000/T150/static.h5
@@ -44,7 +45,9 @@ void body(int argc, char** argv) {
   CLI::App app{"Speed sweep of a lumped model with one degree of freedom (Eq. 23)", "gear-lumped"};
   whine::LumpedOptions o;
   std::string statics, reference, params, output, levels, duty, torque, cells, steps, from, to, step;
-  std::string mass = "1.4", damping_ratio = "0.08";
+  std::string mass = "1.4", at;
+  std::vector<std::string> ratios{"0.08"};
+  bool map = false;
   app.add_option("--model", o.model,
                  "k(t): rectangular (two levels), secant or tangent (curve of the statics), pairs (a spring "
                  "per pair)")
@@ -58,7 +61,8 @@ void body(int argc, char** argv) {
   app.add_option("--duty", duty, "share of the mesh period with the second level, in (0, 1)");
   app.add_option("--torque", torque, "torque in N m; refused if --static is of another one");
   app.add_option("--mass", mass, "mass in kg")->capture_default_str();
-  app.add_option("--damping-ratio", damping_ratio, "c / (2 sqrt(mean stiffness x mass))")
+  app.add_option("--damping-ratio", ratios, "c / (2 sqrt(mean stiffness x mass)); with --map several")
+      ->delimiter(',')
       ->capture_default_str();
   app.add_option("--damper", o.damper_acts, "always, as in Eq. 23, or in contact only")
       ->capture_default_str()
@@ -78,14 +82,24 @@ void body(int argc, char** argv) {
                  "lowest mesh frequency in Hz; with --to and --step in place of those of --params");
   app.add_option("--to", to, "highest mesh frequency in Hz");
   app.add_option("--step", step, "step of the mesh frequency in Hz");
-  app.add_option("--direction", o.direction, "up or down")->required()->check(CLI::IsMember({"up", "down"}));
-  app.add_option("--output", output, "sweep.h5 to write")->required();
+  app.add_option("--direction", o.direction, "up or down")->check(CLI::IsMember({"up", "down"}));
+  app.add_flag("--map", map,
+               "a map of jumps over the damping ratios instead of one sweep; --params is then "
+               "out/<scene>/params/map.toml, each of --from, --to and --step has a default");
+  app.add_option("--loads-at", at, "with --map: speed in Hz whose loads are stored apart; speeds fall on it");
+  app.add_option("--output", output, "sweep.h5 to write, with --map jump_map.h5")->required();
   whine::parse(app, argc, argv);
 
   const auto usage = [](const auto&... words) { whine::fail(whine::Failure::usage, words...); };
   const bool speeds = !from.empty() || !to.empty() || !step.empty(), stated = !levels.empty();
-  if (speeds && (from.empty() || to.empty() || step.empty())) usage("--from, --to and --step go together");
-  if (!speeds && params.empty()) usage("--params or --from, --to and --step are needed, for the speeds");
+  if (map != o.direction.empty()) usage("--direction is needed for a sweep, and not taken by --map");
+  if (!map && ratios.size() > 1)
+    usage("--damping-ratio: a sweep has one, ", ratios.size(), " are given; --map takes several");
+  if (!map && !at.empty()) usage("--loads-at goes with --map");
+  if (!map && speeds && (from.empty() || to.empty() || step.empty()))
+    usage("--from, --to and --step go together");
+  if (!map && !speeds && params.empty())
+    usage("--params or --from, --to and --step are needed, for the speeds");
   if (stated != !duty.empty()) usage("--levels and --duty go together");
   if (stated && o.model != "rectangular")
     usage("--levels and --duty are of the rectangular model, not of ", o.model);
@@ -97,14 +111,27 @@ void body(int argc, char** argv) {
   if (!cells.empty() && o.model == "rectangular")
     usage("--cells: the rectangular model has two levels and no cells");
   o.mass = whine::number_option("--mass", mass);
-  o.damping_ratio = whine::number_option("--damping-ratio", damping_ratio);
+  std::vector<double> damping_ratio;
+  for (const std::string& word : ratios)
+    damping_ratio.push_back(whine::number_option("--damping-ratio", word));
+  o.damping_ratio = damping_ratio.front();
+  whine::MapSpeeds map_speeds;
+  if (map)
+    for (const auto& [name, word, value] :
+         {std::tuple{"--from", &from, &map_speeds.from}, std::tuple{"--to", &to, &map_speeds.to},
+          std::tuple{"--step", &step, &map_speeds.step},
+          std::tuple{"--loads-at", &at, &map_speeds.load_frequency}}) {
+      if (word->empty()) continue;
+      *value = whine::number_option(name, *word);
+      if (!(*value > 0)) usage(name, " is ", *value, " Hz; it must be above 0");
+    }
 
   const whine::StaticArtifact at_torque = whine::read_static(statics);
   if (!torque.empty() && whine::number_option("--torque", torque) != at_torque.torque)
     whine::fail(whine::Failure::input, statics, " is at ", at_torque.torque, " N m, --torque says ", torque,
                 "; give the static.h5 of that torque");
   if (!params.empty()) {
-    const whine::SweepSlice slice = whine::read_sweep_slice(params);
+    const whine::SweepSlice slice = map ? whine::read_map_slice(params) : whine::read_sweep_slice(params);
     whine::require_contact(at_torque, slice.fidelity, statics);
     o.time = slice.time;
     o.frequency_from = slice.frequency_from;
@@ -115,7 +142,7 @@ void body(int argc, char** argv) {
                   " N m, but the scene's first torque is ", slice.reference_torque,
                   " N m; give the static.h5 of that torque");
   }
-  if (speeds) {
+  if (!map && speeds) {
     o.frequency_from = whine::number_option("--from", from);
     o.frequency_to = whine::number_option("--to", to);
     o.frequency_step = whine::number_option("--step", step);
@@ -148,18 +175,31 @@ void body(int argc, char** argv) {
   }
 
   std::optional<whine::Progress> progress;
-  const whine::SweepArtifact result = whine::lumped_sweep(
-      at_torque, springs, numbers, o, [&](long done, long total, const std::string& note) {
-        if (!progress) progress.emplace("gear-lumped " + o.model + " " + o.direction, total);
-        progress->update(done, note);
-      });
-
+  const auto report = [&](long done, long total, const std::string& note) {
+    if (!progress) progress.emplace("gear-lumped " + o.model + " " + (map ? "map" : o.direction), total);
+    progress->update(done, note);
+  };
   whine::Provenance provenance;
   provenance.tool = whine::program_name(argv[0]);
   provenance.command = whine::command_line(argc, argv);
   provenance.inputs = {"static=" + statics};
   if (!reference.empty()) provenance.inputs.push_back("reference_static=" + reference);
   if (!params.empty()) provenance.inputs.push_back("params=" + params);
+  if (map) {
+    const whine::JumpMapArtifact result =
+        whine::lumped_jump_map(at_torque, springs, numbers, o, map_speeds, damping_ratio, report);
+    progress.reset();
+    whine::write(output, result, provenance);
+    whine::tell("gear-lumped: ", result.model, ", ", result.torque, " N m, ", result.two_branches.sum(),
+                " of ", result.two_branches.size(), " dampings with two branches, ",
+                (result.loss_to.array() > 0).count(), " with contact loss -> ", output);
+    if (result.unsteady.sum() > 0)
+      whine::tell("gear-lumped: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
+                  2 * result.two_branches.size() * result.mesh_frequency.size(),
+                  "; their last periods are taken");
+    return;
+  }
+  const whine::SweepArtifact result = whine::lumped_sweep(at_torque, springs, numbers, o, report);
   whine::write(output, result, provenance);
   std::string jumps;
   for (double f : result.jump_frequency) jumps += whine::text(jumps.empty() ? ", jumps at " : ", ", f, " Hz");

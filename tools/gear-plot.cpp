@@ -98,6 +98,12 @@ const std::map<std::string, Drawing>& drawings() {
        {"two branches, contact loss and tooth loads against torque, damping and corner rule",
         "jump_map.h5, one per torque and corner rule", 0,
         [](const Paths& in, double) { return whine::jump_map_figure(read_all(in, whine::read_jump_map)); }}},
+      {"jump-map-lumped",
+       {"the same of lumped models, and in how much they agree with the elastic pair",
+        "jump_map.h5 of lumped models and of the elastic pair, one per torque and model or corner rule", 0,
+        [](const Paths& in, double) {
+          return whine::lumped_jump_map_figure(read_all(in, whine::read_jump_map));
+        }}},
       {"sensitivity",
        {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0,
         [](const Paths& in, double) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -90,14 +91,19 @@ LumpedOscillator::LumpedOscillator(const LumpedParameters& p, double force, int 
     return std::pair{0.0, 0.0};
   };
   before = 0;
+  std::complex<double> harmonic = 0;
+  const auto turn = [](double phase) { return std::polar(1.0, -2 * std::numbers::pi * phase); };
   for (Eigen::Index c = 0; c < cells; ++c) {
     const auto [x, k] = rest_under(sorted_springs(c), force);
     if (!(x > 0))
       fail(Failure::input, "lumped model: at rest x is ", x, " m in cell ", c + 1, "; it must be above 0");
     stiffness_ += force / x * (p.cell_end[c] - before);
-    mean_frequency_ += std::sqrt(k / p.mass) / (2 * std::numbers::pi) * (p.cell_end[c] - before);
+    harmonic += force / x * (turn(before) - turn(p.cell_end[c]));
+    cell_frequency_.push_back(std::sqrt(k / p.mass) / (2 * std::numbers::pi));
+    mean_frequency_ += cell_frequency_.back() * (p.cell_end[c] - before);
     before = p.cell_end[c];
   }
+  first_harmonic_ = std::abs(harmonic) / std::numbers::pi;
   length_ = force / stiffness_;
   rate_ = std::sqrt(stiffness_ / p.mass);
   frequency_ = rate_ / (2 * std::numbers::pi);
@@ -453,6 +459,13 @@ LumpedRecord LumpedOscillator::record(State& state, LumpedLedger& ledger) {
   out.least *= length_;
   out.largest_exit *= length_;
   return out;
+}
+
+double LumpedOscillator::frequency_at(double phase) const {
+  const double wrapped = phase - std::floor(phase);
+  std::size_t c = 0;
+  while (c + 1 < cells_.size() && cells_[c].end <= wrapped) ++c;
+  return cell_frequency_[c];
 }
 
 LumpedOscillator::State LumpedOscillator::rest() const {

@@ -71,6 +71,10 @@ class LumpedOscillator {
   double mean_frequency() const {
     return mean_frequency_;
   }  // Hz: mean of the same of each cell, springs as at rest
+  double first_harmonic() const {
+    return first_harmonic_;
+  }                                         // N m-1: amplitude, of F / x, x at rest in each cell
+  double frequency_at(double phase) const;  // Hz: of the springs that touch at rest in the cell of the phase
 
  private:
   // x from low to high touches the same springs: x'' + d x' + k x = b (in units of length_, 1 / rate_ and F).
@@ -111,8 +115,9 @@ class LumpedOscillator {
   LumpedParameters parameters_;
   double force_;
   int samples_, newmark_steps_;
-  double stiffness_ = 0, length_ = 0, rate_ = 0, frequency_ = 0, mean_frequency_ = 0;
-  double period_ = 0;  // of the mesh, in units of 1 / rate_
+  double stiffness_ = 0, length_ = 0, rate_ = 0, frequency_ = 0, mean_frequency_ = 0, first_harmonic_ = 0;
+  std::vector<double> cell_frequency_;  // Hz, springs as at rest
+  double period_ = 0;                   // of the mesh, in units of 1 / rate_
   std::vector<Cell> cells_;
   std::vector<Piece> marching_, recording_;
 };

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "lumped/stiffness.h"
 #include "signal/response.h"
 
 namespace whine {
@@ -78,22 +79,37 @@ void record(LumpedOscillator& oscillator, LumpedOrbit& orbit) {
   orbit.rms = std::sqrt(std::max(0.0, square - off * off));
 }
 
+BranchPoint branch_point(double mesh_frequency, const LumpedOrbit& orbit) {
+  BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
+  for (const LumpedRecord& period : orbit.record) {
+    point.tooth_load_max = std::max(point.tooth_load_max, period.load.maxCoeff());
+    point.held_load = std::max(point.held_load, held_load(period.load, static_cast<int>(period.load.rows())));
+    point.parted = point.parted || !(period.load.rowwise().sum().minCoeff() > 0);
+  }
+  return point;
+}
+
 // Follows the branch of an orbit from a speed on, with steps that are halved where they leave it, to where it ends - past
 // the speed `to`, too, since a long step leaves a branch early whose basin has become narrow. Nothing if the branch passes
 // through the response at `to`: a resonance flank, no jump.
 std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const LumpedOrbit& from_orbit, double from,
                                     double to, double to_rms, double limit, double periodicity,
-                                    bool march_only) {
+                                    bool march_only, std::vector<BranchPoint>& left_early) {
   const LumpedJump whole{0.5 * (from + to), std::abs(to - from), false, from_orbit.start};
   if (from_orbit.multiple == 0) return whole;
   LumpedOrbit branch = from_orbit;
+  std::vector<BranchPoint> points;
+  const auto keep = [&] { left_early.insert(left_early.end(), points.begin(), points.end()); };
   const double direction = to > from ? 1 : -1;
   double at = from, step = 0.5 * (to - from), next = at;
   bool passed = false;
   while (std::abs(step) >= kFinest) {
     next = at + step;
     if (!passed && direction * (next - to) > 0) next = to;
-    if (direction * (next - limit) > 0) return whole;  // the branch outlives the sweep
+    if (direction * (next - limit) > 0) {  // the branch outlives the sweep
+      keep();
+      return whole;
+    }
     oscillator.set_speed(next);
     LumpedOrbit found = settle(oscillator, branch.start, periodicity, march_only, kFollowPeriods);
     if (found.multiple == 0 || like_a_jump(found.rms, branch.rms)) {
@@ -102,11 +118,13 @@ std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const LumpedOr
     }
     at = next;
     branch = std::move(found);
+    points.push_back(branch_point(at, branch));
     if (at == to) {
       passed = true;
       if (!like_a_jump(branch.rms, to_rms)) return std::nullopt;
     }
   }
+  keep();
   const double width = std::max(std::abs(next - at), kFinest);
   if (const auto fold = find_fold(oscillator, branch.start, at, branch.multiple))
     if (std::abs(fold->mesh_frequency - at) < 1e3 * width)
@@ -229,7 +247,7 @@ LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>
     const bool compares = i > 0 && (out.orbits[i - 1].multiple > 0 || orbit.multiple > 0);
     if (compares && like_a_jump(out.orbits[i - 1].rms, orbit.rms))
       if (const auto jump = find_jump(oscillator, out.orbits[i - 1], speeds[i - 1], speeds[i], orbit.rms,
-                                      speeds.back(), periodicity, march_only))
+                                      speeds.back(), periodicity, march_only, out.left_early))
         out.jumps.push_back(*jump);
     report(i + 1, total, text(speeds[i], " Hz, ", orbit.periods, " periods"));
   }
@@ -238,7 +256,8 @@ LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>
 
 SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
                            const Eigen::VectorXi& numbers, const LumpedOptions& o,
-                           const std::function<void(long, long, const std::string&)>& report) {
+                           const std::function<void(long, long, const std::string&)>& report,
+                           std::vector<BranchPoint>* left_early) {
   if (!(o.mass > 0) || !std::isfinite(o.mass))
     fail(Failure::input, "lumped model: the mass is ", o.mass, " kg; it must be above 0");
   if (!(o.damping_ratio >= 0) || !std::isfinite(o.damping_ratio))
@@ -266,6 +285,8 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
     speeds[i] = o.frequency_from + (o.direction == "up" ? i : count - 1 - i) * o.frequency_step;
   const LumpedMarch march =
       march_speeds(oscillator, speeds, o.time.periodicity, o.time.steady_state == "march", report);
+
+  if (left_early) *left_early = march.left_early;
 
   SweepArtifact a;
   a.model = o.model;
@@ -344,6 +365,63 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
     a.jump_width[static_cast<Eigen::Index>(j)] = march.jumps[j].width;
   }
   return a;
+}
+
+JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters springs,
+                                const Eigen::VectorXi& numbers, LumpedOptions options,
+                                const MapSpeeds& speeds, const std::vector<double>& damping_ratio,
+                                const std::function<void(long, long, const std::string&)>& report) {
+  if (damping_ratio.empty()) fail(Failure::input, "no case: give one damping ratio at least");
+  for (double ratio : damping_ratio)
+    if (!(ratio > 0 && ratio < 1))
+      fail(Failure::input, "a damping ratio of ", ratio, "; it must be above 0 and below 1");
+  springs.mass = options.mass;
+  springs.damper = 0;
+  springs.damper_acts = options.damper_acts;
+  const GearPair pair(statics.driver, statics.driven, statics.mesh.centre_distance);
+  const LumpedOscillator at_rest(springs, statics.torque / pair.gear(0).base_radius(),
+                                 options.time.steps_per_period);
+  const Eigen::VectorXd speed = map_speeds(speeds, at_rest.natural_frequency());
+  options.frequency_from = speed[0];
+  options.frequency_to = speed[speed.size() - 1];
+  options.frequency_step = speeds.step;
+
+  JumpMapArtifact map;
+  map.model = options.model + (options.damper_acts == "contact" ? "-contact" : "");
+  map.driver = statics.driver;
+  map.driven = statics.driven;
+  map.driver_material = statics.driver_material;
+  map.driven_material = statics.driven_material;
+  map.driver_body = statics.driver_body;
+  map.driven_body = statics.driven_body;
+  map.mesh = statics.mesh;
+  map.contact = statics.contact;
+  map.torque = statics.torque;
+  map.mean_stiffness = at_rest.mean_stiffness();
+  map.first_harmonic = at_rest.first_harmonic();
+  const RectangularWave zones = rectangular_wave(statics);
+  const double middle = 0.5 * (zones.high_begin + zones.high_end);
+  map.two_pair_frequency = at_rest.frequency_at(middle);
+  map.one_pair_frequency = at_rest.frequency_at(middle + 0.5);
+  const auto n = static_cast<Eigen::Index>(damping_ratio.size());
+  start_cases(map, n, speed, speeds.load_frequency);
+  for (Eigen::Index c = 0; c < n; ++c) {
+    options.damping_ratio = map.damping_ratio[c] = damping_ratio[c];
+    map.excitation[c] = map.first_harmonic / map.mean_stiffness / (2 * damping_ratio[c]);
+    add_case(map, c, speeds.step, [&](const std::string& direction, std::vector<BranchPoint>& beyond) {
+      options.direction = direction;
+      const SweepArtifact swept = lumped_sweep(
+          statics, springs, numbers, options, [](long, long, const std::string&) {}, &beyond);
+      map.driver_inertia = swept.driver_inertia;
+      map.driven_inertia = swept.driven_inertia;
+      map.fidelity = swept.fidelity;
+      map.time = swept.time;
+      map.damping = swept.damping;
+      report(2 * c + (direction == "up" ? 1 : 2), 2 * n, text("damping ratio ", damping_ratio[c]));
+      return swept;
+    });
+  }
+  return map;
 }
 
 }  // namespace whine

@@ -9,6 +9,7 @@
 
 #include "files/schemas.h"
 #include "lumped/oscillator.h"
+#include "signal/branches.h"
 
 namespace whine {
 
@@ -45,6 +46,7 @@ struct LumpedJump {
 struct LumpedMarch {
   std::vector<LumpedOrbit> orbits;  // (speed)
   std::vector<LumpedJump> jumps;
+  std::vector<BranchPoint> left_early;  // motions on the way to the ends of branches
 };
 // Through the speeds (Hz) in their order, from rest. A jump is where the branch that was left ends, beyond the speed at
 // which the march left it, too, up to `limit`. report(done, total, note) is called after each speed.
@@ -63,10 +65,21 @@ struct LumpedOptions {
 };
 
 // springs: cells only (lumped/stiffness.h). numbers: of the tooth pairs that they stand for; one spring that stands for
-// all of them is pair 0. Fields of a sweep that only elastic bodies have are empty or 0; its inertias are those of equal
+// all of them is pair 0. left_early: takes the motions on the way to the ends of branches, if given. Fields of a sweep that only elastic bodies have are empty or 0; its inertias are those of equal
 // shares of the mass. Throws Error(input) for values that make no model, Error(numerical) if a motion cannot be followed.
 SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
                            const Eigen::VectorXi& numbers, const LumpedOptions& options,
-                           const std::function<void(long, long, const std::string&)>& report);
+                           const std::function<void(long, long, const std::string&)>& report,
+                           std::vector<BranchPoint>* left_early = nullptr);
+
+// A map of jumps of the same model at the torque of the statics: a case per damping ratio, which is options' own, about the
+// mean stiffness; its speeds and direction are not read. The map's model is that of options, with "-contact" if the damper
+// acts in contact only; mean, first harmonic and frequencies are those of the springs that touch at rest. Loads are those
+// of the whole mesh where one spring stands for it. Throws Error(input) for no case or a ratio outside (0, 1), and as
+// map_speeds and lumped_sweep.
+JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters springs,
+                                const Eigen::VectorXi& numbers, LumpedOptions options,
+                                const MapSpeeds& speeds, const std::vector<double>& damping_ratio,
+                                const std::function<void(long, long, const std::string&)>& report);
 
 }  // namespace whine

@@ -6,21 +6,20 @@
 #include <vector>
 
 #include "files/schemas.h"
+#include "signal/branches.h"
 
 namespace whine {
 
-struct JumpMapPlan {
+struct JumpMapPlan : MapSpeeds {
   // Cases: first these Rayleigh stiffness factors (s) as they are, then those factors that give these damping ratios with
   // two pairs in contact and the contact frozen.
   std::vector<double> rayleigh_stiffness, damping_ratio;
-  double from = 0, to = 0;  // Hz; 0: 0.57 and 1.2 of the frequency of the mean stiffness between rigid gears
-  double step = 50;         // Hz
-  double load_frequency = 0;  // Hz, a speed whose loads are stored apart; speeds fall on it. 0: none
 };
 
 // statics: mesh with its corner rule, contact; both it and slice say which contact. torque: N m. slice: as read_map_slice
-// gives it; its reference torque sets the bearing dampers, with the corner rule of the map. report(done, total, note) is
-// called after each sweep. Peak loads, loads at load_frequency and contact loss count what a branch does beyond the speed at
+// gives it; its reference torque sets the bearing dampers, with the corner rule of the map. The natural frequency of the
+// default speeds is that of the mean stiffness between rigid gears. report(done, total, note) is called after each sweep.
+// Peak loads, loads at load_frequency and contact loss count what a branch does beyond the speed at
 // which the sweep left it; between such motions loads at load_frequency are interpolated. Ends of branches are the jumps of the sweeps, as sweep() finds them; where the motions differ
 // without a jump, the last speeds at which they do. Throws Error(input) for no case, a factor or ratio that is not
 // positive, a ratio that bearings and mass-proportional damping exceed or no factor gives, an empty range of speeds or

@@ -164,15 +164,6 @@ double steps_per_oscillation(const SweepArtifact& sweep) {
   return rate / sweep.natural_frequency;
 }
 
-double held_load(const Eigen::Ref<const MatrixRM>& load, int samples) {
-  const Eigen::Index window = samples / 64 + 1;
-  double held = 0;
-  for (Eigen::Index pair = 0; pair < load.cols(); ++pair)
-    for (Eigen::Index i = 0; i + window <= load.rows(); ++i)
-      held = std::max(held, load.col(pair).segment(i, window).minCoeff());
-  return held;
-}
-
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepSlice& slice, const std::string& direction,
                     const std::function<void(long, long, const std::string&)>& report,

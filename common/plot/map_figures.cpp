@@ -19,8 +19,17 @@ std::string rounded(double value, int decimals) {
   return text(std::round(value * scale) / scale);
 }
 
+bool elastic(const JumpMapArtifact& a) {
+  return a.model == "finite elements";
+}
+
+// "secant" of "secant-contact", whose damper acts in contact only.
+std::string base_model(const JumpMapArtifact& a) {
+  return a.model.substr(0, a.model.find('-'));
+}
+
 std::string panel_name(const JumpMapArtifact& a) {
-  if (a.model != "finite elements") return a.model;
+  if (!elastic(a)) return base_model(a) + (a.model == base_model(a) ? "" : ", damper in contact");
   const CornerRule& corner = a.mesh.corner;
   const std::string rule =
       !corner.enabled ? "no corner contact"
@@ -38,7 +47,7 @@ bool pair_of_paper(const JumpMapArtifact& a) {
          close(a.driver.face_width, 25.4e-3) && close(a.mesh.centre_distance, 0.15) &&
          close(a.driver_material.youngs_modulus, 207e9);
 }
-constexpr double kPaperRatio = 0.07;
+constexpr double kPaperRatio = 0.07, kPaperLumpedRatio = 0.08;
 const double kPaperTorques[] = {100, 150, 200, 300, 600};  // at which P2000 prints or draws jumps, N m
 
 bool lost(const JumpMapArtifact& a, Index c) {
@@ -78,6 +87,24 @@ double ratio_of_loss(const JumpMapArtifact& a) {
     if (lost(a, order[i - 1]) && !lost(a, order[i]))
       return 0.5 * (a.damping_ratio[order[i - 1]] + a.damping_ratio[order[i]]);
   return 0;
+}
+
+// (first harmonic / mean of the stiffness) / damping ratio: the least that loses contact, the most that keeps it.
+struct Needed {
+  double least_lost = 1e300, most_kept = 0;
+};
+
+Needed needed_for_loss(const std::vector<const JumpMapArtifact*>& maps) {
+  Needed needed;
+  for (const JumpMapArtifact* a : maps)
+    for (Index c = 0; c < a->damping_ratio.size(); ++c) {
+      const double times = a->first_harmonic / a->mean_stiffness / a->damping_ratio[c];
+      if (lost(*a, c))
+        needed.least_lost = std::min(needed.least_lost, times);
+      else
+        needed.most_kept = std::max(needed.most_kept, times);
+    }
+  return needed;
 }
 
 // Edges of cells about their middles: between neighbours, and as far beyond the ends.
@@ -193,16 +220,41 @@ std::string loads_in_words(const JumpMapArtifact& a, Index c) {
   return both ? text(rounded(up, 2), " and ", rounded(down, 2)) : rounded(up, 2);
 }
 
-}  // namespace
-
-Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
-  if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
-  // Cases ascend on the axis.
+// Cases ascend on the axis.
+void require_ascending(const std::vector<JumpMapArtifact>& maps) {
   for (const JumpMapArtifact& a : maps)
     for (Index c = 1; c < a.damping_ratio.size(); ++c)
       if (!(a.damping_ratio[c] > a.damping_ratio[c - 1]))
         fail(Failure::input, "the damping ratios of the map at ", a.torque,
              " N m do not ascend: ", a.damping_ratio[c - 1], ", then ", a.damping_ratio[c]);
+}
+
+bool same_corner(const JumpMapArtifact& a, const JumpMapArtifact& b) {
+  const CornerRule &x = a.mesh.corner, &y = b.mesh.corner;
+  return x.enabled == y.enabled && (!x.enabled || x.largest_angle == y.largest_angle);
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
+  return all.empty() ? "none" : all;
+}
+
+// Share of the cells, in percent, in which two maps answer alike.
+double alike(const Panel& one, const Panel& other,
+             const std::function<bool(const JumpMapArtifact&, Index)>& answer) {
+  double same = 0, cells = 0;
+  for (size_t t = 0; t < one.second.size(); ++t)
+    for (Index c = 0; c < one.second[t]->damping_ratio.size(); ++c, ++cells)
+      same += answer(*one.second[t], c) == answer(*other.second[t], c);
+  return 100 * same / cells;
+}
+
+}  // namespace
+
+Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
+  if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
+  require_ascending(maps);
   const std::vector<Panel> panels = panels_of(maps);
   const bool paper = pair_of_paper(maps[0]);
   Figure figure;
@@ -251,16 +303,13 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
                               rounded(spike, 2), " times as much (", where,
                               "): spikes at entry, as high as the time step lets them"));
   std::vector<double> needed;
-  double least_lost = 1e300, most_kept = 0;
+  std::vector<const JumpMapArtifact*> all;
   for (const JumpMapArtifact& a : maps) {
-    const double share = a.first_harmonic / a.mean_stiffness;
-    if (const double edge = ratio_of_loss(a); edge > 0) needed.push_back(share / edge);
-    for (Index c = 0; c < a.damping_ratio.size(); ++c)
-      if (lost(a, c))
-        least_lost = std::min(least_lost, share / a.damping_ratio[c]);
-      else
-        most_kept = std::max(most_kept, share / a.damping_ratio[c]);
+    all.push_back(&a);
+    if (const double edge = ratio_of_loss(a); edge > 0)
+      needed.push_back(a.first_harmonic / a.mean_stiffness / edge);
   }
+  const auto [least_lost, most_kept] = needed_for_loss(all);
   if (!needed.empty()) {
     std::sort(needed.begin(), needed.end());
     figure.notes.push_back(text("loss needs (first harmonic / mean of the stiffness) / damping ratio above ",
@@ -300,6 +349,128 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
                     {"notes", static_cast<double>(figure.notes.size())},
                     {"lines", panels[0].second.size() > 1 && maps[0].damping_ratio.size() > 1 ? 1.0 : 0.0},
                     {"largest", largest}};
+  return figure;
+}
+
+Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps) {
+  const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !elastic(a); });
+  if (lumped == maps.end())
+    fail(Failure::input, "a map of lumped models needs one of their artifacts at least");
+  // The elastic pair beside them has the corner rule of the statics that they are made from.
+  const JumpMapArtifact reference = *lumped;
+  std::erase_if(maps, [&](const JumpMapArtifact& a) { return elastic(a) && !same_corner(a, reference); });
+  std::stable_partition(maps.begin(), maps.end(), elastic);
+  require_ascending(maps);
+  std::vector<Panel> panels = panels_of(maps);
+  const bool beside = elastic(*panels[0].second[0]), paper = pair_of_paper(maps[0]);
+  if (beside) panels[0].first = "elastic pair, " + panels[0].first;
+
+  Figure figure;
+  figure.title = "Jumps and contact loss of lumped models";
+  figure.height = 1250;
+  const double ratio = case_of(maps[0], kPaperLumpedRatio) >= 0
+                           ? kPaperLumpedRatio
+                           : maps[0].damping_ratio[maps[0].damping_ratio.size() / 2];
+  const Index at = case_of(maps[0], ratio);
+  const std::string percent = text(rounded(ratio * 100, 2), " %");
+  const auto two = [](const JumpMapArtifact& a, Index c) { return a.two_branches[c] == 1; };
+
+  std::vector<std::string> jumping, losing, thresholds, agreement;
+  for (const Panel& panel : panels) {
+    const auto everywhere = [&](const auto& holds) {
+      return std::all_of(panel.second.begin(), panel.second.end(),
+                         [&](const JumpMapArtifact* a) { return holds(*a, at); });
+    };
+    figure.notes.push_back(
+        text("at ", percent, ", ", panel.first, ": two branches at ",
+             torques_where(panel.second, [&](const JumpMapArtifact& a) { return two(a, at); }),
+             ", contact lost at ",
+             torques_where(panel.second, [&](const JumpMapArtifact& a) { return lost(a, at); })));
+    if (everywhere(two)) jumping.push_back(panel.first);
+    if (everywhere(lost)) losing.push_back(panel.first);
+    const auto [least_lost, most_kept] = needed_for_loss(panel.second);
+    thresholds.push_back(text(panel.first, " ", least_lost < 1e300 ? rounded(least_lost, 2) : "-", "/",
+                              most_kept > 0 ? rounded(most_kept, 2) : "-"));
+    if (beside && &panel != &panels[0])
+      agreement.push_back(text(panel.first, " ", rounded(alike(panels[0], panel, lost), 0), "/",
+                               rounded(alike(panels[0], panel, two), 0)));
+  }
+  figure.notes.push_back(text("at ", percent, " two branches at every torque: ", joined(jumping, "; "),
+                              "; contact lost at every torque: ", joined(losing, "; ")));
+
+  // P2000's Figure 16: contact is lost at 100 N m, kept at 200 and 300 N m.
+  const auto at_torque = [](const Panel& panel, double torque) -> const JumpMapArtifact* {
+    for (const JumpMapArtifact* a : panel.second)
+      if (a->torque == torque) return a;
+    return nullptr;
+  };
+  if (paper && at_torque(panels[0], 100) && at_torque(panels[0], 200) && at_torque(panels[0], 300)) {
+    std::vector<std::string> failing;
+    for (const Panel& panel : panels) {
+      std::vector<std::string> ratios;
+      for (Index c = 0; c < maps[0].damping_ratio.size(); ++c)
+        if (lost(*at_torque(panel, 100), c) && !lost(*at_torque(panel, 200), c) &&
+            !lost(*at_torque(panel, 300), c))
+          ratios.push_back(rounded(100 * maps[0].damping_ratio[c], 2));
+      if (!ratios.empty()) failing.push_back(text(panel.first, " at ", joined(ratios, ", "), " %"));
+    }
+    const auto low_only = [&](const Panel& panel) {
+      return !lost(*at_torque(panel, 200), at) && !lost(*at_torque(panel, 300), at) &&
+             std::any_of(panel.second.begin(), panel.second.end(),
+                         [&](const JumpMapArtifact* a) { return a->torque < 200 && lost(*a, at); });
+    };
+    std::vector<std::string> low;
+    for (const Panel& panel : panels)
+      if (low_only(panel)) low.push_back(panel.first);
+    figure.notes.push_back(text("at ", percent,
+                                " contact lost at low torque only, kept at 200 and 300 N m, as P2000 says of "
+                                "its second model (Figure 16): ",
+                                joined(low, "; ")));
+    figure.notes.push_back(
+        text("lost at 100, kept at 200 and 300 N m, as that figure shows: ", joined(failing, "; ")));
+  }
+  if (beside)
+    figure.notes.push_back(
+        text("cells (%) in which a model answers as the elastic pair does at that damping ratio, "
+             "contact lost / two branches: ",
+             joined(agreement, "; ")));
+  figure.notes.push_back(text(
+      "(first harmonic / mean of the stiffness) / damping ratio, lowest that loses contact / highest that "
+      "keeps it: ",
+      joined(thresholds, "; ")));
+  figure.notes.push_back(text(
+      "damping ratios: lumped models c / 2 sqrt(mean stiffness x mass), as P2000's 8 %",
+      beside ? "; elastic pair: with two pairs in contact" : "", "; ", reference.mesh_frequency.size(),
+      " speeds, steps of ",
+      rounded(
+          reference.mesh_frequency.size() > 1 ? reference.mesh_frequency[1] - reference.mesh_frequency[0] : 0,
+          1),
+      " Hz, up and down"));
+
+  // A column per model, below it the same with the damper in contact only.
+  std::vector<std::string> columns;
+  for (const Panel& panel : panels)
+    if (const std::string base = base_model(*panel.second[0]);
+        std::find(columns.begin(), columns.end(), base) == columns.end())
+      columns.push_back(base);
+  for (size_t p = 0; p < panels.size(); ++p) {
+    const JumpMapArtifact& a = *panels[p].second[0];
+    const std::string name = text("panel", p + 1);
+    figure.blocks.push_back(cells(name, panels[p].second));
+    figure.words.emplace_back(name, panels[p].first);
+    figure.numbers.emplace_back(
+        text("column", p + 1),
+        static_cast<double>(std::find(columns.begin(), columns.end(), base_model(a)) - columns.begin()));
+    figure.numbers.emplace_back(text("row", p + 1), a.model == base_model(a) ? 0 : 1);
+  }
+  const auto& extent = figure.blocks[0].rows;
+  for (const auto& [name, value] :
+       {std::pair{"panels", static_cast<double>(panels.size())},
+        std::pair{"columns", static_cast<double>(columns.size())}, std::pair{"ratio_from", extent.front()[2]},
+        std::pair{"ratio_to", extent.back()[3]}, std::pair{"torque_from", extent.front()[4]},
+        std::pair{"torque_to", extent.back()[5]}, std::pair{"marked", 100 * ratio},
+        std::pair{"notes", static_cast<double>(figure.notes.size())}})
+    figure.numbers.emplace_back(name, value);
   return figure;
 }
 

@@ -12,6 +12,12 @@ namespace whine {
 // the same torques.
 Figure jump_map_figure(std::vector<JumpMapArtifact> maps);
 
+// The same of lumped models, a column each, with the damper always on above and in contact only below; beside them the elastic
+// pair, of whose maps those with the corner rule of the lumped models' statics are taken. In words: which models jump at every
+// torque at P2000's lumped damping, which lose contact at low torque only, in how many cells they answer as the elastic pair,
+// what decides. Throws Error(input) without a lumped model, else as jump_map_figure.
+Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps);
+
 // What each variant changes against the base, in the last case of the maps: mean
 // stiffness, natural frequencies, ends of the branches, tooth load (held). Every case stands in the table. Throws Error(input)
 // for no variant, one that differs in torque or cases, or one in which no key differs.

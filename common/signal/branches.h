@@ -1,0 +1,45 @@
+// What sweeps up and down say of the two branches of a resonance: where both are, where contact is lost on either, what the
+// teeth carry. A map of jumps is a series of such cases at one torque, of elastic gears or of a lumped model.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "files/schemas.h"
+
+namespace whine {
+
+// A motion on a branch that the sweep had left too early, met on the way to the branch's end.
+struct BranchPoint {
+  double mesh_frequency = 0;  // Hz
+  double dte_rms = 0;         // m
+  double tooth_load_max = 0;  // N
+  double held_load = 0;       // N, see held_load()
+  bool parted = false;        // contact is lost during the period
+};
+
+// Largest load (N) that one pair carries through 1/64 of a mesh period without a break; load: (sample, pair), whole periods
+// of `samples`.
+double held_load(const Eigen::Ref<const MatrixRM>& load, int samples);
+
+struct MapSpeeds {
+  double from = 0, to = 0;    // Hz; 0: 0.57 and 1.2 of the natural frequency
+  double step = 50;           // Hz
+  double load_frequency = 0;  // Hz, a speed whose loads are stored apart; speeds fall on it. 0: none
+};
+
+// Mesh frequencies in Hz, ascending. natural_frequency: Hz, for the default range. Throws Error(input) for an empty range,
+// one without load_frequency, a step that is not above 0.
+Eigen::VectorXd map_speeds(const MapSpeeds& speeds, double natural_frequency);
+
+// Sizes what a map holds per case; all values of no case yet. load_frequency: Hz, one of the speeds, or 0.
+void start_cases(JumpMapArtifact& map, Eigen::Index cases, const Eigen::VectorXd& speeds,
+                 double load_frequency);
+
+// Fills in what the two sweeps of case c say: ends of branches, contact loss, loads, jumps, responses. sweep(direction, beyond)
+// goes through the speeds of the map, first "up", then "down", and adds to beyond the motions on branches past the speed
+// at which it left them. step: Hz, between the speeds.
+void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
+              const std::function<SweepArtifact(const std::string&, std::vector<BranchPoint>&)>& sweep);
+
+}  // namespace whine
