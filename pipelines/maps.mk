@@ -57,7 +57,7 @@ lumped_map_inputs = out/$1/params/map.toml out/$1/T$2/static.h5 $(if $(filter re
 define lumped_map_rules # scene, torque, model, plan
 out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(lumped_map_inputs) $(B)/plans/$(own_scene)/$4 | $(B)/bin/gear-lumped
 	$$(call run,lumped) --map --model $(firstword $(subst -, ,$3)) $(if $(filter %-contact,$3),--damper contact) --params $$< \
-	  --static out/$1/T$2/static.h5 $(lumped_options_$(firstword $(subst -, ,$3))) $(plan_$4) --output $$@
+	  --static out/$1/T$2/static.h5 $(lumped_mass) $(lumped_options_$(firstword $(subst -, ,$3))) $(plan_$4) --output $$@
 endef
 
 define branches_rules # scene, torque, plan

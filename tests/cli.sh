@@ -235,7 +235,7 @@ done
 rm -f lumped.h5
 # The exact folds of Eq. 23 at 150 N m do not depend on the torque; here they come out of the programs.
 levels=(--levels 335596523.71,504267825.43 --duty 0.75)
-folds=($(lumped rectangular) "${levels[@]}" --from 2600 --to 2740 --step 20)
+folds=($(lumped rectangular) --mass 1.4 "${levels[@]}" --from 2600 --to 2740 --step 20)
 "${folds[@]}" > said 2>&1; "${folds[@]/#up/down}" >> said 2>&1
 if grep -q 'up, .* jumps at 2679.466' said && grep -q 'down, .* jumps at 2662.046' said; then ok "gear-lumped: folds of the rectangular wave, expected 2679.466 and 2662.046 Hz"; else
   wrong "gear-lumped: folds of the rectangular wave, expected 2679.466 and 2662.046 Hz" "$(grep -o 'jumps at.*->' said | tr '\n' ' ')"; fi
@@ -249,6 +249,7 @@ refused "a level that is not above 0" 3 'level is -1 N/m' $(lumped rectangular) 
 refused "a level that is no number" 2 "levels.*'many'" $(lumped rectangular) --levels 1e8,many --duty 0.5
 refused "one level" 2 'two numbers' $(lumped rectangular) --levels 1e8 --duty 0.5
 for duty in 0 1 1.5; do refused "a duty of $duty" 3 "duty.* is $duty;" $(lumped rectangular) --levels 1e8,2e8 --duty $duty; done
+refused "a damping ratio in per cent" 3 'damping ratio is 8' $(lumped pairs) --damping-ratio 8
 refused "a mass of zero" 3 'mass is 0 kg' $(lumped pairs) --mass 0
 refused "a damping ratio below zero" 3 'damping ratio is -0.1' $(lumped pairs) --damping-ratio=-0.1
 refused "a torque that static.h5 does not hold" 3 'is at 100 N m, --torque says 150' $(lumped pairs) --torque 150

@@ -395,6 +395,7 @@ TEST_CASE("lumped: models from a static result") {
     CHECK(std::abs(pairs.gap(128, n - 1) - pairs.gap(0, n)) < 1e-15);
 
   LumpedOptions o;
+  o.mass = 1.4;
   o.direction = "down";
   o.frequency_from = 2000;
   o.frequency_to = 2200;
@@ -435,6 +436,7 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   const StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
   const RectangularWave wave = stated_wave(rectangular_wave(s), 2.93973e8, 5.16658e8, 0.755);
   LumpedOptions o;
+  o.mass = 1.4;
   o.model = "rectangular";
   o.frequency_from = 2100;
   o.frequency_to = 2600;

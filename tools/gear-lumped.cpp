@@ -45,7 +45,7 @@ void body(int argc, char** argv) {
   CLI::App app{"Speed sweep of a lumped model with one degree of freedom (Eq. 23)", "gear-lumped"};
   whine::LumpedOptions o;
   std::string statics, reference, params, output, levels, duty, torque, cells, steps, from, to, step;
-  std::string mass = "1.4", at;
+  std::string mass, at;
   std::vector<std::string> ratios{"0.08"};
   bool map = false;
   app.add_option("--model", o.model,
@@ -60,7 +60,7 @@ void body(int argc, char** argv) {
                  "other levels of the rectangular wave, N/m: fewer pairs, more pairs (k1,k2)");
   app.add_option("--duty", duty, "share of the mesh period with the second level, in (0, 1)");
   app.add_option("--torque", torque, "torque in N m; refused if --static is of another one");
-  app.add_option("--mass", mass, "mass in kg")->capture_default_str();
+  app.add_option("--mass", mass, "mass in kg; default: I1 I2 / (I1 r2^2 + I2 r1^2) of the gears of --params");
   app.add_option("--damping-ratio", ratios, "c / (2 sqrt(mean stiffness x mass)); with --map several")
       ->delimiter(',')
       ->capture_default_str();
@@ -110,7 +110,7 @@ void body(int argc, char** argv) {
           " takes the stiffness at its own torque");
   if (!cells.empty() && o.model == "rectangular")
     usage("--cells: the rectangular model has two levels and no cells");
-  o.mass = whine::number_option("--mass", mass);
+  if (mass.empty() && params.empty()) usage("--mass is needed without --params, which has the inertias");
   std::vector<double> damping_ratio;
   for (const std::string& word : ratios)
     damping_ratio.push_back(whine::number_option("--damping-ratio", word));
@@ -134,6 +134,7 @@ void body(int argc, char** argv) {
     const whine::SweepSlice slice = map ? whine::read_map_slice(params) : whine::read_sweep_slice(params);
     whine::require_contact(at_torque, slice.fidelity, statics);
     o.time = slice.time;
+    o.mass = whine::reduced_mass(at_torque, slice.driver_inertia, slice.driven_inertia);
     o.frequency_from = slice.frequency_from;
     o.frequency_to = slice.frequency_to;
     o.frequency_step = slice.frequency_step;
@@ -147,6 +148,7 @@ void body(int argc, char** argv) {
     o.frequency_to = whine::number_option("--to", to);
     o.frequency_step = whine::number_option("--step", step);
   }
+  if (!mass.empty()) o.mass = whine::number_option("--mass", mass);
   if (!steps.empty()) o.time.steps_per_period = count_option("--steps", steps);
 
   const int positions = static_cast<int>(at_torque.mesh_phase.size());
@@ -204,8 +206,10 @@ void body(int argc, char** argv) {
   std::string jumps;
   for (double f : result.jump_frequency) jumps += whine::text(jumps.empty() ? ", jumps at " : ", ", f, " Hz");
   whine::tell("gear-lumped: ", o.model, ", ", result.torque, " N m ", o.direction, ", mean stiffness ",
-              result.mean_stiffness * 1e-6, "e6 N/m, ", result.mesh_frequency.size(), " speeds, ",
-              result.periods.sum(), " mesh periods", jumps.empty() ? ", no jump" : jumps, " -> ", output);
+              result.mean_stiffness * 1e-6, "e6 N/m, mass ", o.mass, " kg, natural frequency ",
+              result.natural_frequency, " Hz, damping ratio ", o.damping_ratio, ", ",
+              result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods",
+              jumps.empty() ? ", no jump" : jumps, " -> ", output);
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
     if (result.period_multiple[i] == 0)
       whine::tell("gear-lumped: warning: at ", result.mesh_frequency[i],

@@ -9,6 +9,7 @@
 //            --driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5
 //            --reference-static out/parker2000/T100/static.h5 --direction up --output out/parker2000/T150/up/sweep.h5
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -80,6 +81,10 @@ void tell_motion(const whine::SweepArtifact& result) {
       whine::tell("gear-sweep: at ", result.mesh_frequency[i],
                   " Hz the motion is subharmonic: it repeats after ", result.period_multiple[i],
                   " mesh periods");
+  const double least = result.transmission_error.minCoeff();
+  if (least < 0 && !std::isfinite(result.backlash_margin))
+    whine::tell("gear-sweep: the teeth swing ", std::round(-least * 1e7) / 10,
+                " um apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
   if (result.backlash_margin <= 0)
     whine::tell("gear-sweep: warning: the motion goes ", -result.backlash_margin * 1e6,
                 " um beyond the backlash; back flanks would touch, which is not modelled");

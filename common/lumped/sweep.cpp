@@ -254,14 +254,21 @@ LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>
   return out;
 }
 
+double reduced_mass(const StaticArtifact& statics, double driver_inertia, double driven_inertia) {
+  const double r1 = ToothGeometry(statics.driver).base_radius(),
+               r2 = ToothGeometry(statics.driven).base_radius();
+  return driver_inertia * driven_inertia / (driver_inertia * r2 * r2 + driven_inertia * r1 * r1);
+}
+
 SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
                            const Eigen::VectorXi& numbers, const LumpedOptions& o,
                            const std::function<void(long, long, const std::string&)>& report,
                            std::vector<BranchPoint>* left_early) {
   if (!(o.mass > 0) || !std::isfinite(o.mass))
     fail(Failure::input, "lumped model: the mass is ", o.mass, " kg; it must be above 0");
-  if (!(o.damping_ratio >= 0) || !std::isfinite(o.damping_ratio))
-    fail(Failure::input, "lumped model: the damping ratio is ", o.damping_ratio, "; it must be 0 or above");
+  if (!(o.damping_ratio >= 0 && o.damping_ratio < 1))
+    fail(Failure::input, "lumped model: the damping ratio is ", o.damping_ratio,
+         "; it must be 0 or above and below 1 (0.08 for 8 %)");
   const int count =
       static_cast<int>(std::floor((o.frequency_to - o.frequency_from) / o.frequency_step + 1e-9)) + 1;
   if (!(o.frequency_from > 0) || !(o.frequency_step > 0) || !(o.frequency_to >= o.frequency_from) ||

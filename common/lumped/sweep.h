@@ -53,9 +53,13 @@ struct LumpedMarch {
 LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>& speeds, double periodicity,
                          bool march_only, const std::function<void(long, long, const std::string&)>& report);
 
+// kg, of the relative rotation of two gears on their line of action: I1 I2 / (I1 r2^2 + I2 r1^2), r base radii, inertias in
+// kg m2.
+double reduced_mass(const StaticArtifact& statics, double driver_inertia, double driven_inertia);
+
 struct LumpedOptions {
   std::string model;                   // its name
-  double mass = 1.4;                   // kg
+  double mass = 0;                     // kg
   double damping_ratio = 0.08;         // 1: c = 2 ratio sqrt(k_avg m), k_avg the mean of k(t)
   std::string damper_acts = "always";  // or "contact"
   std::string integrator = "exact";    // or "newmark"

@@ -17,11 +17,16 @@ using Eigen::VectorXd;
 
 namespace {
 
+constexpr int kMostSteps = 65536;  // per mesh period, as of steps_per_period
 constexpr int kJumpFineness = 64;  // steps of the sweep are halved down to this part: 20 Hz leave 0.3 Hz
 
 int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   int steps = time.steps_per_period;
   while (steps * mesh_frequency < time.min_sample_rate) steps *= 2;
+  if (steps > kMostSteps)
+    fail(Failure::input, "at ", mesh_frequency, " Hz min_sample_rate_kHz = ", time.min_sample_rate * 1e-3,
+         " needs ", steps, " steps per mesh period, ", kMostSteps,
+         " at most; raise the lowest mesh_frequency_Hz, or lower min_sample_rate_kHz");
   return steps;
 }
 
