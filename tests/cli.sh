@@ -239,6 +239,19 @@ folds=($(lumped rectangular) --mass 1.4 "${levels[@]}" --from 2600 --to 2740 --s
 "${folds[@]}" > said 2>&1; "${folds[@]/#up/down}" >> said 2>&1
 if grep -q 'up, .* jumps at 2679.466' said && grep -q 'down, .* jumps at 2662.046' said; then ok "gear-lumped: folds of the rectangular wave, expected 2679.466 and 2662.046 Hz"; else
   wrong "gear-lumped: folds of the rectangular wave, expected 2679.466 and 2662.046 Hz" "$(grep -o 'jumps at.*->' said | tr '\n' ' ')"; fi
+lumped_map=("$bin/gear-lumped" --map --model secant --damper contact --static out/scene/T100/static.h5 --params out/scene/params/map.toml
+  --damping-ratio 0.05,0.1 --from 2700 --to 2900 --step 100 --loads-at 2800 --output lumped_map.h5)
+if "${lumped_map[@]}" > said 2>&1 && "$bin/gear-inspect" lumped_map.h5 > said 2>&1 && grep -q 'secant-contact' said &&
+  "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map lumped_map.h5 > said 2>&1 && grep -q 'secant, damper in contact' map.svg; then
+  ok "gear-lumped --map, and its figure"; else wrong "gear-lumped --map, and its figure" "$(tail -n 1 said)"; fi
+refused "a map of lumped models without one" 3 'one of their artifacts' "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map out/scene/T100/jump_map_false.h5
+refused "a direction for a map" 2 'not taken by --map' "${lumped_map[@]}" --direction up
+refused "neither a direction nor a map" 2 '--direction is needed' $(lumped pairs | sed 's/--direction up//')
+refused "two damping ratios for one sweep" 2 '2 are given; --map takes several' $(lumped pairs) --damping-ratio 0.05,0.1
+refused "loads at a speed of a sweep" 2 'loads-at goes with --map' $(lumped pairs) --loads-at 2400
+refused "a map with a step of zero" 2 'step is 0 Hz' "${lumped_map[@]/#100/0}"
+refused "a map of an undamped model" 3 'damping ratio of 0;' "${lumped_map[@]/#0.05,0.1/0}"
+rm -f lumped_map.h5 map.*
 refused "a lumped model that is none" 2 'cubic' $(lumped pairs) --model cubic
 refused "a lumped sweep without speeds" 2 '--params or --from, --to and --step are needed' $(lumped pairs | sed 's/--params [^ ]*//')
 refused "a lumped sweep with half a range" 2 'go together' $(lumped pairs) --from 1000

@@ -128,21 +128,26 @@ expect "a gear that differs gets a body of its own" "gear-mesh*1"; restore
 
 # --- maps and variants
 make_ -n jump-map
-expect "a map of jumps: one artifact per torque and corner rule, no body, no static" "gear-jump-map*24 gear-plot*1"
+expect "a map of jumps: one artifact per torque and corner rule or lumped model, statics for these, no body" \
+  "gear-jump-map*24 gear-lumped*64 gear-plot*2 gear-static*3"
 make_ jump-map; make_ -n jump-map
 expect "a map is up to date" ""
 change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/; s/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n jump-map
 expect "damping and speeds of the scene redo no map" ""; restore
 change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; make_ -n jump-map
-expect "inertia redoes the maps" "gear-jump-map*24 gear-plot*1"; restore; make_ jump-map
+expect "inertia redoes the maps" "gear-jump-map*24 gear-lumped*64 gear-plot*2"; restore; make_ jump-map
 rm out/parker2000/T300/jump_map_1.h5; make_ -n jump-map
-expect "one artifact that is missing, and the figure" "gear-jump-map*1 gear-plot*1"
+expect "one artifact that is missing, and the figures" "gear-jump-map*1 gear-plot*2"
+make_ jump-map; rm out/parker2000/T300/jump_map_secant-contact.h5; make_ -n jump-map
+expect "one of a lumped model that is missing, and its figure" "gear-lumped*1 gear-plot*1"
 make_ jump-map; make_ -n JUMP_MAP=fine jump-map
-expect "a fine map stands beside the coarse one" "gear-jump-map*48 gear-plot*1"
+expect "a fine map stands beside the coarse one" "gear-jump-map*48 gear-lumped*128 gear-plot*2 gear-static*8"
 make_ -n JUMP_MAP_TORQUES='150 700' JUMP_MAP_CORNERS=2 jump-map
-expect "torques and corner rules of one's own" "gear-jump-map*2 gear-plot*1"
+expect "torques and corner rules of one's own" "gear-jump-map*2 gear-lumped*8 gear-plot*2 gear-static*1"
 make_ -n JUMP_MAP_STEP=25 jump-map
-expect "another step redoes the maps" "gear-jump-map*24 gear-plot*1"
+expect "another step redoes the maps" "gear-jump-map*24 gear-lumped*64 gear-plot*2"
+make_ -n JUMP_MAP_MODELS= JUMP_MAP_STEP=30 jump-map
+expect "a map without lumped models" "gear-jump-map*24 gear-plot*1"
 make_ -n JUMP_MAP=finer jump-map
 grep -q 'JUMP_MAP=finer: it is coarse or fine' "$log" && ok "a fineness that is none is refused" || wrong "JUMP_MAP=finer is refused" "$(tail -n 1 "$log")"
 make_ -n sensitivity
@@ -158,7 +163,7 @@ expect "variants of one's own, one of two keys" "gear-jump-map*1 gear-mesh*1 gea
 make_ -n VARIANTS='bad:bore_radius=35' sensitivity
 grep -q "did you mean 'bore_radius_mm'" "$log" && ok "a variant of a key that is none is refused" || wrong "a bad variant is refused" "$(tail -n 1 "$log")"
 make_ -n LAUNCH='srun -n1' JUMP_MAP_STEP=10 jump-map
-[ "$(grep -c '^srun -n1 build.*/bin/gear-jump-map ' "$log")" = 24 ] && ok "LAUNCH carries the maps" || wrong "LAUNCH carries the maps" "$(tail -n 1 "$log")"
+[ "$(grep -c '^srun -n1 build.*/bin/gear-jump-map ' "$log")" = 24 ] && [ "$(grep -c '^srun -n1 build.*/bin/gear-lumped --map ' "$log")" = 64 ] && ok "LAUNCH carries the maps" || wrong "LAUNCH carries the maps" "$(tail -n 1 "$log")"
 
 # --- any torque, other scenes
 make_ -n out/parker2000/T700/up/response.h5

@@ -836,8 +836,10 @@ struct CaseVector {
 const CaseVector kCaseVectors[] = {
     {"rayleigh_stiffness", "s", "Rayleigh stiffness factor eta", "Eq. 21",
      &JumpMapArtifact::rayleigh_stiffness},
-    {"damping_ratio", "1", "damping ratio of two pairs with their contact frozen under the static load", "",
-     &JumpMapArtifact::damping_ratio},
+    {"damping_ratio", "1",
+     "damping ratio of two pairs with their contact frozen under the static load; of a lumped model about "
+     "its mean stiffness",
+     "", &JumpMapArtifact::damping_ratio},
     {"branches_from", "Hz", "least speed with two motions; 0: none", "", &JumpMapArtifact::branches_from},
     {"branches_to", "Hz", "largest speed with two motions; 0: none", "", &JumpMapArtifact::branches_to},
     {"loss_from", "Hz", "least speed at which contact is lost on any branch; 0: none", "",

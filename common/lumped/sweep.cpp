@@ -409,7 +409,8 @@ JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters 
   const RectangularWave zones = rectangular_wave(statics);
   const double middle = 0.5 * (zones.high_begin + zones.high_end);
   map.two_pair_frequency = at_rest.frequency_at(middle);
-  map.one_pair_frequency = at_rest.frequency_at(middle + 0.5);
+  if (((statics.tooth_load.array() > 0).rowwise().count() == 1).any())
+    map.one_pair_frequency = at_rest.frequency_at(middle + 0.5);
   const auto n = static_cast<Eigen::Index>(damping_ratio.size());
   start_cases(map, n, speed, speeds.load_frequency);
   for (Eigen::Index c = 0; c < n; ++c) {

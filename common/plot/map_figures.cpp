@@ -375,69 +375,66 @@ Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps) {
   const std::string percent = text(rounded(ratio * 100, 2), " %");
   const auto two = [](const JumpMapArtifact& a, Index c) { return a.two_branches[c] == 1; };
 
-  std::vector<std::string> jumping, losing, thresholds, agreement;
-  for (const Panel& panel : panels) {
-    const auto everywhere = [&](const auto& holds) {
-      return std::all_of(panel.second.begin(), panel.second.end(),
-                         [&](const JumpMapArtifact* a) { return holds(*a, at); });
-    };
-    figure.notes.push_back(
-        text("at ", percent, ", ", panel.first, ": two branches at ",
-             torques_where(panel.second, [&](const JumpMapArtifact& a) { return two(a, at); }),
-             ", contact lost at ",
-             torques_where(panel.second, [&](const JumpMapArtifact& a) { return lost(a, at); })));
-    if (everywhere(two)) jumping.push_back(panel.first);
-    if (everywhere(lost)) losing.push_back(panel.first);
-    const auto [least_lost, most_kept] = needed_for_loss(panel.second);
-    thresholds.push_back(text(panel.first, " ", least_lost < 1e300 ? rounded(least_lost, 2) : "-", "/",
-                              most_kept > 0 ? rounded(most_kept, 2) : "-"));
-    if (beside && &panel != &panels[0])
-      agreement.push_back(text(panel.first, " ", rounded(alike(panels[0], panel, lost), 0), "/",
-                               rounded(alike(panels[0], panel, two), 0)));
-  }
-  figure.notes.push_back(text("at ", percent, " two branches at every torque: ", joined(jumping, "; "),
-                              "; contact lost at every torque: ", joined(losing, "; ")));
-
   // P2000's Figure 16: contact is lost at 100 N m, kept at 200 and 300 N m.
   const auto at_torque = [](const Panel& panel, double torque) -> const JumpMapArtifact* {
     for (const JumpMapArtifact* a : panel.second)
       if (a->torque == torque) return a;
     return nullptr;
   };
-  if (paper && at_torque(panels[0], 100) && at_torque(panels[0], 200) && at_torque(panels[0], 300)) {
-    std::vector<std::string> failing;
-    for (const Panel& panel : panels) {
+  const bool second_model =
+      paper && at_torque(panels[0], 100) && at_torque(panels[0], 200) && at_torque(panels[0], 300);
+  std::vector<std::string> jumping, losing, low;
+  for (const Panel& panel : panels) {
+    const auto everywhere = [&](const auto& holds) {
+      return std::all_of(panel.second.begin(), panel.second.end(),
+                         [&](const JumpMapArtifact* a) { return holds(*a, at); });
+    };
+    if (everywhere(two)) jumping.push_back(panel.first);
+    if (everywhere(lost)) losing.push_back(panel.first);
+    const auto [least_lost, most_kept] = needed_for_loss(panel.second);
+    std::string said = text(
+        panel.first, ": at ", percent, " two branches at ",
+        torques_where(panel.second, [&](const JumpMapArtifact& a) { return two(a, at); }),
+        ", contact lost at ",
+        torques_where(panel.second, [&](const JumpMapArtifact& a) { return lost(a, at); }), "; (a) ",
+        least_lost < 1e300 ? rounded(least_lost, 2) : "-", "/", most_kept > 0 ? rounded(most_kept, 2) : "-");
+    if (beside && &panel != &panels[0])
+      said += text("; (b) ", rounded(alike(panels[0], panel, lost), 0), "/",
+                   rounded(alike(panels[0], panel, two), 0), " %");
+    if (second_model) {
+      const JumpMapArtifact &a100 = *at_torque(panel, 100), &a200 = *at_torque(panel, 200),
+                            &a300 = *at_torque(panel, 300);
       std::vector<std::string> ratios;
       for (Index c = 0; c < maps[0].damping_ratio.size(); ++c)
-        if (lost(*at_torque(panel, 100), c) && !lost(*at_torque(panel, 200), c) &&
-            !lost(*at_torque(panel, 300), c))
+        if (lost(a100, c) && !lost(a200, c) && !lost(a300, c))
           ratios.push_back(rounded(100 * maps[0].damping_ratio[c], 2));
-      if (!ratios.empty()) failing.push_back(text(panel.first, " at ", joined(ratios, ", "), " %"));
+      said += text("; (c) ", joined(ratios, ", "), ratios.empty() ? "" : " %");
+      if (!lost(a200, at) && !lost(a300, at) &&
+          std::any_of(panel.second.begin(), panel.second.end(),
+                      [&](const JumpMapArtifact* a) { return a->torque < 200 && lost(*a, at); }))
+        low.push_back(panel.first);
     }
-    const auto low_only = [&](const Panel& panel) {
-      return !lost(*at_torque(panel, 200), at) && !lost(*at_torque(panel, 300), at) &&
-             std::any_of(panel.second.begin(), panel.second.end(),
-                         [&](const JumpMapArtifact* a) { return a->torque < 200 && lost(*a, at); });
-    };
-    std::vector<std::string> low;
-    for (const Panel& panel : panels)
-      if (low_only(panel)) low.push_back(panel.first);
-    figure.notes.push_back(text("at ", percent,
-                                " contact lost at low torque only, kept at 200 and 300 N m, as P2000 says of "
-                                "its second model (Figure 16): ",
-                                joined(low, "; ")));
-    figure.notes.push_back(
-        text("lost at 100, kept at 200 and 300 N m, as that figure shows: ", joined(failing, "; ")));
+    figure.notes.push_back(said);
   }
+  figure.notes.push_back(text("at ", percent, " two branches at every torque: ", joined(jumping, "; "),
+                              "; contact lost at every torque: ", joined(losing, "; ")));
+  if (second_model)
+    figure.notes.push_back(
+        text("at ", percent, " lost at low torque only, kept at 200 and 300 N m: ", joined(low, "; ")));
+  figure.notes.push_back(
+      "(a) (first harmonic / mean of the stiffness) / damping ratio: lowest that loses contact / highest "
+      "that "
+      "keeps it");
   if (beside)
     figure.notes.push_back(
-        text("cells (%) in which a model answers as the elastic pair does at that damping ratio, "
-             "contact lost / two branches: ",
-             joined(agreement, "; ")));
-  figure.notes.push_back(text(
-      "(first harmonic / mean of the stiffness) / damping ratio, lowest that loses contact / highest that "
-      "keeps it: ",
-      joined(thresholds, "; ")));
+        "(b) cells in which the model answers as the elastic pair at that damping ratio: contact lost or "
+        "kept / "
+        "two branches or not");
+  if (second_model)
+    figure.notes.push_back(
+        "(c) damping ratios at which contact is lost at 100 N m, kept at 200 and 300 N m, as of P2000's "
+        "second "
+        "lumped model (Figure 16)");
   figure.notes.push_back(text(
       "damping ratios: lumped models c / 2 sqrt(mean stiffness x mass), as P2000's 8 %",
       beside ? "; elastic pair: with two pairs in contact" : "", "; ", reference.mesh_frequency.size(),

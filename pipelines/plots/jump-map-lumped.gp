@@ -15,7 +15,8 @@ set tics out nomirror front
 set logscale y
 set xrange [ratio_from:ratio_to]
 set yrange [torque_from:torque_to]
-set xtics 2 font ",13"
+set xtics 2 font ",13" offset 0, 0.5
+set ytics font ",13"
 set ytics (20, 50, 100, 150, 200, 300, 450, 600, 1000, 2000, 5000)
 set style fill solid 1.0 border rgb "#ffffff"
 left = 0.07
@@ -27,14 +28,14 @@ do for [p = 1:int(panels)] {
   row = value(sprintf("row%d", p))
   set lmargin at screen left + column * width
   set rmargin at screen left + (column + 1) * width - 0.012
-  set tmargin at screen 0.915 - row * 0.285
-  set bmargin at screen 0.705 - row * 0.285
-  set label 1 value(sprintf("panel%d", p)) at graph 0.5, graph 1.07 center font ",14"
+  set tmargin at screen 0.92 - row * 0.29
+  set bmargin at screen 0.715 - row * 0.29
+  set label 1 value(sprintf("panel%d", p)) at graph 0.5, graph 1.06 center font (row > 0 ? ",12" : ",14")
   set arrow 1 from marked, graph 0 to marked, graph 1 nohead dt 2 lw 1.5 lc rgb "#606060" front
   # Numbers of torques where nothing stands to the left of a panel.
   bare = column == 0 || (row == 1 && column == 1)
-  if (bare) { set ylabel "Torque (N m)" offset 1, 0 font ",14"; set format y "%g" } else { unset ylabel; set format y "" }
-  set xlabel "Damping ratio (%)" offset 0, 0.5 font ",14"
+  if (bare) { set ylabel "Torque (N m)" offset 0, 0 font ",14"; set format y "%g" } else { unset ylabel; set format y "" }
+  set xlabel "Damping ratio (%)" offset 0, 1.3 font ",14"
   eval("plot " . class(p, 0) . ", " . class(p, 1) . ", " . class(p, 2))
 }
 # The legend and the answers in words below the panels.
@@ -51,11 +52,11 @@ set tmargin at screen 1
 set bmargin at screen 0
 set xrange [0:1]
 set yrange [0:1]
-mark(n, colour, words) = sprintf("set object %d rectangle from %g, 0.343 to %g, 0.359 fc rgb '%s' fs solid border rgb '#808080';" \
-  . " set label %d '%s' at %g, 0.351 left font ',15'", n, 0.07 + 0.16 * (n - 1), 0.09 + 0.16 * (n - 1), colour, 10 + n, words, 0.097 + 0.16 * (n - 1))
+mark(n, colour, words) = sprintf("set object %d rectangle from %g, 0.345 to %g, 0.361 fc rgb '%s' fs solid border rgb '#808080';" \
+  . " set label %d '%s' at %g, 0.353 left font ',15'", n, 0.07 + 0.16 * (n - 1), 0.09 + 0.16 * (n - 1), colour, 10 + n, words, 0.097 + 0.16 * (n - 1))
 eval(mark(1, kept_colour, "contact kept"))
 eval(mark(2, lost_colour, "lost, one branch"))
 eval(mark(3, two_colour, "two branches"))
-do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.322 - 0.0205 * (n - 1) left noenhanced font ",12" }
+do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.322 - 0.0205 * (n - 1) left noenhanced font ",11" }
 plot NaN notitle
 unset multiplot
