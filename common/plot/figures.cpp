@@ -145,12 +145,9 @@ Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
 // followed the branch to f by itself. -1 if the jump lies outside the sweep.
 Eigen::Index row_left(const ResponseArtifact& r, double f) {
   const Eigen::Index last = row_before(r.mesh_frequency, f);
-  constexpr Eigen::Index kEarly = 4;  // steps of the sweep
-  const auto change = [&](Eigen::Index i) { return std::abs(std::log(r.dte_rms[i + 1] / r.dte_rms[i])); };
-  Eigen::Index largest = last;
-  for (Eigen::Index i = last; i >= 0 && i > last - kEarly; --i)
-    if (like_a_jump(r.dte_rms[i], r.dte_rms[i + 1]) && change(i) > change(largest)) largest = i;
-  return largest;
+  for (Eigen::Index i = last; i >= 0; --i)
+    if (like_a_jump(r.dte_rms[i], r.dte_rms[i + 1])) return i;
+  return last;
 }
 
 FigureBlock branch_block(const std::string& name, const ResponseArtifact& r) {
