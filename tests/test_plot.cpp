@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "failure_of.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
 #include "paper_pair.h"
@@ -22,15 +23,6 @@ using namespace whine;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-Failure failure_of(const auto& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    return e.kind();
-  }
-  return static_cast<Failure>(0);
-}
 
 GearDesign standard_gear() {
   GearDesign g;

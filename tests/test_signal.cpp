@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "failure_of.h"
 #include "relative.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
@@ -31,15 +32,6 @@ double known_signal(double t) {
   double x = 4e-6;
   for (int k = 1; k <= 12; ++k) x += known_amplitude(k) * std::cos(kTwoPi * k * t + 0.7 * k * k);
   return x;
-}
-
-Failure failure_of(const auto& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    return e.kind();
-  }
-  return static_cast<Failure>(0);
 }
 
 SweepArtifact small_sweep() {

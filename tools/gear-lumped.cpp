@@ -130,6 +130,7 @@ void body(int argc, char** argv) {
   if (!torque.empty() && whine::number_option("--torque", torque) != at_torque.torque)
     whine::fail(whine::Failure::input, statics, " is at ", at_torque.torque, " N m, --torque says ", torque,
                 "; give the static.h5 of that torque");
+  const whine::StaticArtifact at_reference = reference.empty() ? at_torque : whine::read_static(reference);
   if (!params.empty()) {
     const whine::SweepSlice slice = map ? whine::read_map_slice(params) : whine::read_sweep_slice(params);
     whine::require_contact(at_torque, slice.fidelity, statics);
@@ -138,8 +139,8 @@ void body(int argc, char** argv) {
     o.frequency_from = slice.frequency_from;
     o.frequency_to = slice.frequency_to;
     o.frequency_step = slice.frequency_step;
-    if (!reference.empty() && whine::read_static(reference).torque != slice.reference_torque)
-      whine::fail(whine::Failure::input, reference, " is at ", whine::read_static(reference).torque,
+    if (!reference.empty() && at_reference.torque != slice.reference_torque)
+      whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
                   " N m, but the scene's first torque is ", slice.reference_torque,
                   " N m; give the static.h5 of that torque");
   }
@@ -158,8 +159,7 @@ void body(int argc, char** argv) {
   Eigen::VectorXi numbers = Eigen::VectorXi::Zero(1);
   if (o.model == "rectangular") {
     if (!reference.empty()) require_same_pair(statics, reference);
-    whine::RectangularWave wave =
-        whine::rectangular_wave(reference.empty() ? at_torque : whine::read_static(reference));
+    whine::RectangularWave wave = whine::rectangular_wave(at_reference);
     if (stated) {
       const size_t comma = levels.find(',');
       if (comma == std::string::npos)

@@ -42,11 +42,11 @@ std::string as_written(const toml::node& node) {
   return word.size() > 60 ? word.substr(0, 57) + "..." : word;
 }
 
-// The file under reading: turns nodes into values and faults into errors with file:line.
 // First line of a slice, before and after the stage that it is for.
 constexpr const char *kSliceStart = "# What ",
                      *kSliceEnd = " depends on, in SI units; made from a scene by gear-scene.";
 
+// The file under reading: turns nodes into values and faults into errors with file:line.
 class Source {
  public:
   explicit Source(std::string path) : path_(std::move(path)) {

@@ -20,11 +20,11 @@ struct JumpMapPlan : MapSpeeds {
 // gives it; its reference torque sets the bearing dampers, with the corner rule of the map. The natural frequency of the
 // default speeds is that of the mean stiffness between rigid gears. report(done, total, note) is called after each sweep.
 // Peak loads, loads at load_frequency and contact loss count what a branch does beyond the speed at
-// which the sweep left it; between such motions loads at load_frequency are interpolated. Ends of branches are the jumps of the sweeps, as sweep() finds them; where the motions differ
-// without a jump, the last speeds at which they do. Throws Error(input) for no case, a factor or ratio that is not
-// positive, a ratio that bearings and mass-proportional damping exceed or no factor gives, an empty range of speeds or
-// one without load_frequency, a pair that is never in contact with two pairs; other errors as static_transmission,
-// held_states and sweep.
+// which the sweep left it; between such motions loads at load_frequency are interpolated. Ends of branches are the
+// jumps of the sweeps, as sweep() finds them; where the motions differ without a jump, the last speeds at which they
+// do. Throws Error(input) for no case, a factor or ratio that is not positive, a ratio that bearings and
+// mass-proportional damping exceed or no factor gives, an empty range of speeds or one without load_frequency, a pair
+// that is never in contact with two pairs; other errors as static_transmission, held_states and sweep.
 JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven, const StaticSlice& statics,
                          double torque, const SweepSlice& slice, const JumpMapPlan& plan,
                          const std::function<void(long, long, const std::string&)>& report);

@@ -7,9 +7,9 @@
 namespace whine {
 
 // One panel per corner rule or lumped model: torque against damping ratio, with the cells that have two branches or lose
-// contact, and lines of the largest tooth load (held for 1/64 of a mesh period). For the pair of P2000 its printed statements stand beside. Throws Error(input)
-// for no map, for two of the same torque and panel, and unless all have the same damping ratios and gears and each panel
-// the same torques.
+// contact, and lines of the largest tooth load (held for 1/64 of a mesh period). For the pair of P2000 its printed
+// statements stand beside. Throws Error(input) for no map, for two of the same torque and panel, and unless all have
+// the same damping ratios and gears and each panel the same torques.
 Figure jump_map_figure(std::vector<JumpMapArtifact> maps);
 
 // The same of lumped models, a column each, with the damper always on above and in contact only below; beside them the elastic

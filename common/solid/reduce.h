@@ -29,7 +29,8 @@ constexpr int kOffsets = 3;
 
 // modes: elastic modes of the whole gear to keep, 0 or more, or kAllModes; the first torsional zero-diameter mode is always
 // among them. The near field is that of mesh.discretisation. Throws Error(input) for a matching depth whose points are
-// not all inside the tooth and for kAllModes of a mesh that is too fine for dense algebra, Error(numerical) if a factorisation, an eigensolution or a table does not pass its check.
+// not all inside the tooth and for kAllModes of a mesh that is too fine for dense algebra, Error(numerical) if a
+// factorisation, an eigensolution or a table does not pass its check.
 BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes,
                     int flank_points = kFlankPoints);
 

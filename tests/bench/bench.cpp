@@ -1,6 +1,6 @@
-// Times complementarity, static positions, time steps, sweeps and reductions. Methods take turns within each repeat, so that a slow spell of
-// the machine hits all of them; minimum and median over the repeats. What takes seconds is run once, by its CPU time. A
-// time stands beside the error at which it was reached. Times are of CPU.
+// Times complementarity, static positions, time steps, sweeps and reductions. Methods take turns within each repeat,
+// so that a slow spell of the machine hits all of them; minimum and median over the repeats. What takes seconds is
+// run once, by its CPU time. A time stands beside the error at which it was reached. Times are of CPU.
 //
 // Reads   optionally params and two body.h5 for the static position; writes a table on standard output.
 // Example: whine-bench --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
