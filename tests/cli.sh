@@ -265,7 +265,7 @@ refused "a lumped sweep with no speed in its range" 3 'from 2000 to 1000 Hz' $(l
 refused "levels without their duty" 2 'go together' $(lumped rectangular) --levels 1e8,2e8
 refused "levels of another model" 2 'not of secant' $(lumped secant) "${levels[@]}"
 refused "a level that is not above 0" 3 'level is -1 N/m' $(lumped rectangular) --levels=-1,2e8 --duty 0.5
-refused "a level that no tooth has" 3 'level is 0.001 N/m; it must be above 4[0-9]+ N/m, at which the static load' $(lumped rectangular) --levels 1e-3,2e8 --duty 0.5
+refused "a level that no tooth has" 3 'level is 0.001 N/m; it must be above 4[0-9.]+ N/m, at which the static load' $(lumped rectangular) --levels 1e-3,2e8 --duty 0.5
 refused "levels in the wrong order" 3 'second stiffness level is 100000000 N/m; .* must not be below the first' $(lumped rectangular) --levels 2e8,1e8 --duty 0.5
 refused "Hertz's law of a curve" 2 'hertz is of the model pairs, not of secant' $(lumped secant) --hertz
 refused "a whole scene in place of the slice of a lumped model" 3 'scene.toml: is a whole scene; .* out/scene/params/lumped.toml \(make SCENE=scene.toml ' \
