@@ -112,6 +112,12 @@ $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 
 include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk
 
+# Figures of P2000 that are none of ours, and what is of its scenes only.
+$(foreach f,$(filter-out figures $(figures),$(filter fig%,$(goals))),\
+  $(error $f: there is no such figure; there are $(figures) and table1 (Figures 2, 4 and 6 of P2000 are a sketch and measurements)))
+$(if $(SCENE),$(if $(filter scorecard out/figures/scorecard%,$(goals)),\
+  $(error scorecard: it is what P2000 prints beside its own two scenes, $(paper_scenes); leave SCENE out)))
+
 # --- packages -------------------------------------------------------------------------------------------------
 
 packages := g++ pkgconf libgmsh-dev libsuitesparse-dev libeigen3-dev libhdf5-dev libfftw3-dev \

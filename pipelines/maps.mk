@@ -9,14 +9,15 @@
 # Lumped models are artifacts of the same schema, by their name instead of a corner rule: out/S/T150/jump_map_secant.h5,
 # jump_map_secant-contact.h5 (damper in contact only). They have a figure of their own, jump-map-lumped, beside the elastic pair.
 
-# Torques in N m, corner rules as in a scene, damping ratios with two pairs in contact, steps of the speeds in Hz.
-JUMP_MAP_TORQUES ?= 20 50 100 150 200 300 450 600
+# Torques in N m (of a scene of yours: those that it lists), corner rules as in a scene (none, up to an angle, full), damping
+# ratios with two pairs in contact, steps of the speeds in Hz.
+JUMP_MAP_TORQUES ?= $(if $(SCENE),$(SCENE_$(own_scene)_TORQUES),20 50 100 150 200 300 450 600)
 JUMP_MAP_CORNERS ?= false 1 true
 # Lumped models, those of `make lumped`; -contact: the damper acts in contact only. Their ratios are about the mean stiffness.
 JUMP_MAP_MODELS ?= rectangular secant tangent pairs rectangular-contact secant-contact tangent-contact pairs-contact
 JUMP_MAP_RATIOS ?= 0.03 0.035 0.04 0.045 0.05 0.055 0.06 0.065 0.07 0.075 0.08 0.09 0.10
 JUMP_MAP_STEP ?= 50
-fine_torques := 20 35 50 75 100 125 150 175 200 250 300 350 400 450 500 600
+fine_torques := $(if $(SCENE),$(JUMP_MAP_TORQUES),20 35 50 75 100 125 150 175 200 250 300 350 400 450 500 600)
 fine_ratios := 0.025 0.03 0.035 0.04 0.045 0.05 0.055 0.06 0.065 0.07 0.075 0.08 0.085 0.09 0.095 0.10
 fine_step := 20
 # The speed in Hz at which loads are stored apart: that of P2000's Figures 8 and 10.
@@ -39,10 +40,8 @@ sensitivity_cases := --rayleigh-stiffness $(SENSITIVITY_FACTOR) --damping-ratio 
 plan_branches := $(sensitivity_cases) --step $(SENSITIVITY_STEP)
 plan_branches_fine := $(sensitivity_cases) --step $(fine_step)
 
-# Options in files of their own, per scene, replaced if they change: so that other options redo what they made.
 plans := jump_map jump_map_fine branches branches_fine
-$(plans:%=$(B)/plans/$(own_scene)/%): $(B)/plans/$(own_scene)/%: FORCE
-	+@mkdir -p $(@D); echo '$(plan_$*)' | $(call replace_if_changed,$@)
+$(foreach p,$(plans),$(eval $(call plan_rule,$(B)/plans/$(own_scene)/$p,$(plan_$p))))
 
 jump_map_inputs = out/$1/params/map.toml out/$1/params/static.toml $(pair_bodies) $(call id,gear-jump-map)
 jump_map_options = --params out/$1/params/map.toml --static-params out/$1/params/static.toml $(pair_options)
@@ -52,12 +51,16 @@ out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(jump_map_inputs) $(B)/plans/$(
 	$$(call run,jump-map) $(jump_map_options) --torque $2 --corner-contact $3 $(plan_$4) --output $$@
 endef
 
-lumped_map_inputs = out/$1/params/map.toml out/$1/T$2/static.h5 $(if $(filter rectangular%,$3),$(reference_static)) $(call id,gear-lumped)
+lumped_map_options = --model $(firstword $(subst -, ,$2)) $(if $(filter %-contact,$2),--damper contact) $(lumped_mass) $(lumped_options_$(patsubst %-contact,%,$2))
+lumped_map_plan = $(B)/plans/$1/$3_$2
+$(foreach m,$(JUMP_MAP_MODELS),$(foreach p,jump_map jump_map_fine,$(eval $(call plan_rule,$(call lumped_map_plan,$(own_scene),$m,$p),\
+  $(call lumped_map_options,$(own_scene),$m) $(plan_$p)))))
+
+lumped_map_inputs = out/$1/params/lumped_map.toml out/$1/T$2/static.h5 $(if $(filter rectangular%,$3),$(reference_static)) $(call id,gear-lumped)
 
 define lumped_map_rules # scene, torque, model, plan
-out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(lumped_map_inputs) $(B)/plans/$(own_scene)/$4 | $(B)/bin/gear-lumped
-	$$(call run,lumped) --map --model $(firstword $(subst -, ,$3)) $(if $(filter %-contact,$3),--damper contact) --params $$< \
-	  --static out/$1/T$2/static.h5 $(lumped_mass) $(lumped_options_$(firstword $(subst -, ,$3))) $(plan_$4) --output $$@
+out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(lumped_map_inputs) $(call lumped_map_plan,$1,$3,$4) | $(B)/bin/gear-lumped
+	$$(call run,lumped) --map $(call lumped_map_options,$1,$3) --params $$< --static out/$1/T$2/static.h5 $(plan_$4) --output $$@
 endef
 
 define branches_rules # scene, torque, plan

@@ -53,9 +53,17 @@ out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)
 	$(B)/bin/gear-spectra --input $$< --output $$@
 endef
 
+# Options that stand in the makefiles, in files of their own that are replaced if they change: so that other options redo
+# what they made. $(call plan_rule,file,options)
+define plan_rule
+$1: FORCE
+	+@mkdir -p $$(@D); echo '$(strip $2)' | $$(call replace_if_changed,$$@)
+endef
+
 # Lumped models, out/<scene>/T<torque>/<model>/; what stands after a dash is a variant. The rectangular wave is P2000's: the
 # same at all torques.
-lumped_models := rectangular rectangular-fig15 secant tangent pairs
+lumped_models := rectangular rectangular-fig15 secant tangent pairs pairs-hertz
+lumped_options_pairs-hertz = --hertz
 lumped_options_rectangular = --reference-static $(reference_static)
 # P2000's Fig. 15 shows the upper branch at 2200 Hz and the lower one at 2150 Hz. With the levels of the statics, or those
 # of its Table 1, whose ratio is 1.5, the upper branch ends above 2600 Hz; this ratio of 1.757 at its mean stiffness of
@@ -65,11 +73,13 @@ lumped_options_rectangular-fig15 = --levels 2.93973e8,5.16658e8 --duty 0.755 --f
 # P2000's mass goes with the secant stiffness of its pair, the inertia of its scenes with the elastic body.
 lumped_mass = $(if $(filter $(paper_scenes),$1),--mass 1.4)
 
+lumped_plan = --model $(firstword $(subst -, ,$3)) $(lumped_mass) $(lumped_options_$3)
+lumped_plan_file = $(B)/plans/$1/lumped_$3
+
 define lumped_rules # scene, torque, model, direction
-out/$1/T$2/$3/$4/sweep.h5: out/$1/params/sweep.toml out/$1/T$2/static.h5 $(if $(filter rectangular,$3),$(reference_static)) \
-    $(call id,gear-lumped) | $(B)/bin/gear-lumped
-	$$(call run,lumped) --model $(firstword $(subst -, ,$3)) --static out/$1/T$2/static.h5 $(lumped_mass) $(lumped_options_$3) \
-	  --params $$< --direction $4 --output $$@
+out/$1/T$2/$3/$4/sweep.h5: out/$1/params/lumped.toml out/$1/T$2/static.h5 $(if $(filter rectangular,$3),$(reference_static)) \
+    $(lumped_plan_file) $(call id,gear-lumped) | $(B)/bin/gear-lumped
+	$$(call run,lumped) $(lumped_plan) --static out/$1/T$2/static.h5 --params $$< --direction $4 --output $$@
 
 out/$1/T$2/$3/$4/response.h5: out/$1/T$2/$3/$4/sweep.h5 $(call id,gear-spectra) | $(B)/bin/gear-spectra
 	$(B)/bin/gear-spectra --input $$< --output $$@
@@ -90,6 +100,7 @@ check_torque = $(if $(filter-out $2,$(shell printf %g '$2' 2>/dev/null || echo n
 define scene_rules # scene
 $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
 $(foreach t,$(path_torques) $(calibrated_torque),$(call check_torque,$1,$t))
+$(foreach m,$(lumped_models),$(eval $(call plan_rule,$(call lumped_plan_file,$1,,$m),$(call lumped_plan,$1,,$m))))
 $(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))\
   $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))\
     $(foreach m,$(lumped_models),$(eval $(call lumped_rules,$1,$t,$m,$d)))))

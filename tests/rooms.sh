@@ -9,7 +9,7 @@ declare -A below=(
   [contact]="base files gear solid contact"
   [motion]="base files gear solid contact signal motion"
   [signal]="base files signal"
-  [lumped]="base files gear signal lumped"
+  [lumped]="base files gear solid contact signal lumped"
   [plot]="base files gear solid contact signal lumped motion plot"
 )
 faults=$(for file in common/*/*.h common/*/*.cpp; do

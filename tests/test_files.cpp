@@ -757,6 +757,12 @@ TEST_CASE("the number of an option is decimal, finite and the whole word") {
   }
 }
 
+TEST_CASE("only what lies below out/ has a make target") {
+  CHECK(rebuild_advice("out/s/T150/static.h5") == "rebuild it with: make out/s/T150/static.h5");
+  CHECK(rebuild_advice("results/static.h5").find("make results") == std::string::npos);
+  CHECK(rebuild_advice("results/static.h5").find("below out/ only") != std::string::npos);
+}
+
 TEST_CASE("an artifact of another schema or version is refused with what it is and how to rebuild it") {
   Folder folder;
   write("out/static.h5", small_static(), kMade);

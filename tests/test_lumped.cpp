@@ -432,9 +432,115 @@ TEST_CASE("lumped: models from a static result") {
   CHECK(at_rest(cells_of(s.stiffness_secant, 128)) == relative(s.transmission_error[0], 1e-4));
 }
 
+TEST_CASE(
+    "lumped: pairs under Hertz's law, as a polygon, against Runge and Kutta's method on the law itself") {
+  const int cells = 128;
+  const StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(cells), 150);
+  const double force = 150 / kRadius;
+  Eigen::VectorXi pair_numbers, spring_numbers;
+  const LumpedParameters linear = cells_of_pairs(s, cells, pair_numbers);
+
+  // The law of each pair in each cell, from loads and deflections of the linear springs at rest; a pair that is not loaded
+  // there has that of the nearest of its phases at which it is.
+  const Eigen::Index pairs = pair_numbers.size();
+  MatrixRM rest = MatrixRM::Zero(cells + 1, pairs);
+  std::vector<std::array<double, 2>> loaded;  // own phase, load
+  for (int j = 0; j < cells; ++j)
+    for (Eigen::Index n = 0; n < pairs; ++n) {
+      rest(j, n) = linear.stiffness(j, n) * (s.transmission_error[j] - linear.gap(j, n));
+      if (rest(j, n) > 1e-9 * force) loaded.push_back({double(j) / cells + pair_numbers[n], rest(j, n)});
+    }
+  for (int j = 0; j <= cells; ++j)
+    for (Eigen::Index n = 0; n < pairs; ++n) {
+      const double phase = double(j) / cells + pair_numbers[n];
+      if (j < cells && rest(j, n) > 1e-9 * force) continue;
+      rest(j, n) = (*std::min_element(loaded.begin(), loaded.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a[0] - phase) < std::abs(b[0] - phase);
+      }))[1];
+    }
+  // Of each pair of surfaces in plane stress: Johnson (1985), Eq. (5.57) and its constants apart.
+  const double coefficient = 2 * 2 / (std::numbers::pi * 207e9 * 0.0254);
+  const auto law = [&](int cell, Eigen::Index n, double x) {
+    const double k = linear.stiffness(cell, n), deflection = x - linear.gap(cell, n);
+    if (k == 0 || deflection <= 0) return 0.0;
+    double low = 0, high = 4 * k * deflection;
+    for (int i = 0; i < 60; ++i) {
+      const double f = 0.5 * (low + high);
+      (f * (1 / k + 0.5 * coefficient * std::log(rest(cell, n) / f)) < deflection ? low : high) = f;
+    }
+    return 0.5 * (low + high);
+  };
+
+  const double mesh_frequency = 2400, damper = 2 * 0.07 * std::sqrt(kMean * kMass);
+  const State start(2.2 * s.transmission_error[0], 0);
+  // x at 64 samples of two periods, marched by the oscillator
+  const auto polygon = [&](int chords) {
+    LumpedParameters p = cells_of_pairs(s, cells, spring_numbers, chords);
+    p.mass = kMass;
+    p.damper = damper;
+    p.damper_acts = "always";
+    LumpedOscillator o(p, force, 32);
+    CHECK(o.rest()[0] == relative(s.transmission_error[0], 1e-9));
+    o.set_speed(mesh_frequency);
+    State y = start;
+    LumpedLedger ledger;
+    Eigen::VectorXd x(64);
+    double least = 1;
+    for (int period = 0; period < 2; ++period) {
+      const LumpedRecord r = o.record(y, ledger);
+      x.segment(32 * period, 32) = r.x;
+      least = std::min(least, r.least);
+    }
+    CHECK(std::abs(ledger.imbalance()) < 1e-12 * ledger.throughput);
+    CHECK(least < 0);  // contact is lost on the way
+    return x;
+  };
+  Eigen::VectorXd exact(64);
+  {
+    const int parts = 8;  // steps in half a cell, where cells end
+    const double h = 1 / (mesh_frequency * 2 * cells * parts);
+    State y = start;
+    for (int i = 0; i < 2 * 2 * cells * parts; ++i) {
+      const int half = i / parts % (2 * cells), cell = (half + 1) / 2;
+      const auto rate = [&](const State& at) {
+        double f = force - damper * at[1];
+        for (Eigen::Index n = 0; n < pairs; ++n) f -= law(cell, n, at[0]);
+        return State(at[1], f / kMass);
+      };
+      if (i % (2 * cells * parts / 32) == 0) exact[i / (2 * cells * parts / 32)] = y[0];
+      const State a = rate(y), b = rate(y + 0.5 * h * a), c = rate(y + 0.5 * h * b), d = rate(y + h * c);
+      y += h / 6 * (a + 2 * b + 2 * c + d);
+    }
+  }
+  const double size = exact.cwiseAbs().maxCoeff();
+  const auto apart = [&](const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+    return (one - other).cwiseAbs().maxCoeff() / size;
+  };
+  const Eigen::VectorXd coarse = polygon(16), fine = polygon(32), finest = polygon(64);
+  MESSAGE("16 chords are off by ", apart(coarse, exact), ", from 32 by ", apart(coarse, fine),
+          ", these from 64 by ", apart(fine, finest), "; linear springs are off by ",
+          apart(polygon(0), exact));
+  CHECK(apart(coarse, exact) < 1e-3);
+  CHECK(apart(polygon(0), exact) > 0.02);
+  CHECK(apart(fine, finest) < 0.4 * apart(coarse, fine));
+
+  // Springs of one pair are one pair in the sweep.
+  LumpedOptions o;
+  o.model = "pairs-hertz";
+  o.mass = kMass;
+  o.direction = "up";
+  o.frequency_from = o.frequency_to = 2000;
+  o.frequency_step = 100;
+  const LumpedParameters springs = cells_of_pairs(s, cells, spring_numbers, 16);
+  const SweepArtifact a = lumped_sweep(s, springs, spring_numbers, o, no_report);
+  REQUIRE(a.pair == pair_numbers);
+  REQUIRE(a.tooth_load[0].cols() == pairs);
+  CHECK(a.mesh_force.row(0).mean() == relative(force, 2e-3));
+}
+
 TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   const StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
-  const RectangularWave wave = stated_wave(rectangular_wave(s), 2.93973e8, 5.16658e8, 0.755);
+  const RectangularWave wave = stated_wave(s, 2.93973e8, 5.16658e8, 0.755);
   LumpedOptions o;
   o.mass = 1.4;
   o.model = "rectangular";
@@ -504,11 +610,21 @@ TEST_CASE("lumped: what is no model is refused by name") {
   says([](auto& p) { p.cell_end[0] = 1.2; }, "must ascend");
   says([](auto& p) { p.gap.resize(1, 1); }, "of gaps");
   says([](auto&) {}, "force is 0 N", 0);
-  const RectangularWave place{kLow, kHigh, 0, 0.75};
-  CHECK(message([&] { stated_wave(place, -1, 1, 0.5); }).find("level is -1") != std::string::npos);
-  CHECK(message([&] { stated_wave(place, 1, 0, 0.5); }).find("level is 0") != std::string::npos);
-  CHECK(message([&] { stated_wave(place, 1, 1, 1); }).find("duty") != std::string::npos);
-  CHECK(message([&] { stated_wave(place, 1, 1, 0); }).find("duty") != std::string::npos);
+  StaticArtifact place;
+  place.driver = place.driven = paper_gear();
+  place.mesh.centre_distance = 0.15;
+  place.torque = 150;
+  place.mesh_phase = Eigen::VectorXd::LinSpaced(2, 0, 0.5);
+  place.stiffness_secant = Eigen::Vector2d(kLow, kHigh);
+  CHECK(message([&] { stated_wave(place, -1, 1e8, 0.5); }).find("level is -1") != std::string::npos);
+  CHECK(message([&] { stated_wave(place, 1e8, 0, 0.5); }).find("level is 0") != std::string::npos);
+  CHECK(message([&] {
+          stated_wave(place, 1e-3, 1e8, 0.5);
+        }).find("level is 0.001 N/m; it must be above 709451") != std::string::npos);
+  CHECK(message([&] { stated_wave(place, 2e8, 1e8, 0.5); }).find("second stiffness level is 100000000 N/m") !=
+        std::string::npos);
+  CHECK(message([&] { stated_wave(place, 1e8, 1e8, 1); }).find("duty") != std::string::npos);
+  CHECK(message([&] { stated_wave(place, 1e8, 1e8, 0); }).find("duty") != std::string::npos);
   CHECK(message([&] { cells_of(Eigen::VectorXd::Zero(8), 8); }).find("least is 0") != std::string::npos);
   CHECK(message([&] { cells_of(Eigen::VectorXd::Ones(8), 0); }).find("0 cells") != std::string::npos);
   LumpedOscillator o = oscillator(kLow, kHigh, 0.75, 0.08);

@@ -345,6 +345,7 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
   struct Change {
     std::string scene;
     bool body, statics, impact, sweep;
+    bool lumped, lumped_map;
   };
   const auto section = [](const std::string& text) { return with_section(text); };
   const auto mesh_key = [](const std::string& line) {
@@ -352,29 +353,34 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
   };
   // A body that changes redoes the statics by their prerequisites and by the hash in their slice.
   const std::vector<Change> changes = {
-      {scene_with("bore_radius_mm = 40", "bore_radius_mm = 39.999999"), true, true, false, false},
-      {scene_with("youngs_modulus_GPa = 207", "youngs_modulus_GPa = 206"), true, true, false, false},
-      {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false, false},
-      {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false, false},
-      {section("[fidelity]\nmodes = 9\n"), true, true, false, false},
-      {section("[fidelity]\nbody = \"lagged\"\n"), false, false, true, true},
-      {section("[fidelity]\nbody = \"full\"\n"), true, true, true, true},
-      {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false, false},
-      {mesh_key("corner_contact = false"), false, true, false, false},
-      {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false, false},
-      {section("[discretisation]\nstrips = 21\n"), false, true, false, false},
-      {section("[discretisation]\npositions = 256\n"), false, true, false, false},
-      {scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.02"), false, false, true, true},
-      {section("[damping]\nrayleigh_stiffness_s = 5.5e-6\n"), false, false, true, true},
-      {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true, true},
-      {section("[fidelity]\ncontact = \"line\"\n"), false, true, true, true},
-      {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, false, true},
-      {section("[discretisation]\nsteady_state = \"march\"\n"), false, false, false, true},
-      {scene_with("step = 20", "step = 10"), false, false, false, true},
-      {scene_with("[100, 150]", "[150, 100]"), false, false, true, true},  // another reference torque
-      {scene_with("[100, 150]", "[100, 200, 300]"), false, false, false,
+      {scene_with("bore_radius_mm = 40", "bore_radius_mm = 39.999999"), true, true, false, false, false,
+       false},
+      {scene_with("youngs_modulus_GPa = 207", "youngs_modulus_GPa = 206"), true, true, false, false, false,
+       false},
+      {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false, false, false, false},
+      {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false, false, false, false},
+      {section("[fidelity]\nmodes = 9\n"), true, true, false, false, false, false},
+      {section("[fidelity]\nbody = \"lagged\"\n"), false, false, true, true, false, false},
+      {section("[fidelity]\nbody = \"full\"\n"), true, true, true, true, false, false},
+      {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false, false, false, false},
+      {mesh_key("corner_contact = false"), false, true, false, false, false, false},
+      {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false, false, false,
+       false},
+      {section("[discretisation]\nstrips = 21\n"), false, true, false, false, false, false},
+      {section("[discretisation]\npositions = 256\n"), false, true, false, false, false, false},
+      {scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.02"), false, false, true, true, true,
+       true},
+      {section("[damping]\nrayleigh_stiffness_s = 5.5e-6\n"), false, false, true, true, false, false},
+      {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true, true, false, false},
+      {section("[fidelity]\ncontact = \"line\"\n"), false, true, true, true, true, true},
+      {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, false, true, true, true},
+      {section("[discretisation]\nsteady_state = \"march\"\n"), false, false, false, true, true, true},
+      {scene_with("step = 20", "step = 10"), false, false, false, true, true, false},
+      {scene_with("[100, 150]", "[150, 100]"), false, false, true, true, true,
+       true},  // another reference torque
+      {scene_with("[100, 150]", "[100, 200, 300]"), false, false, false, false, false,
        false},  // torques are paths, not parameters
-      {std::string("title = \"other\"\n") + kScene, false, false, false, false},
+      {std::string("title = \"other\"\n") + kScene, false, false, false, false, false, false},
   };
   for (const Change& change : changes) {
     INFO(change.scene);
@@ -383,6 +389,8 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
     CHECK((static_slice(s) != static_slice(base)) == change.statics);
     CHECK((impact_slice(s) != impact_slice(base)) == change.impact);
     CHECK((sweep_slice(s) != sweep_slice(base)) == change.sweep);
+    CHECK((lumped_slice(s, true) != lumped_slice(base, true)) == change.lumped);
+    CHECK((lumped_slice(s, false) != lumped_slice(base, false)) == change.lumped_map);
   }
 }
 
@@ -468,6 +476,26 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(impact.reference_torque == 100);
   CHECK(impact.fidelity.body == "lagged");
   CHECK(impact.fidelity.integrator == "newmark");
+
+  const SweepSlice lumped = read_lumped_slice(file.path(lumped_slice(s, true), "lumped.toml"), true);
+  CHECK(lumped.driver_inertia == 0.0148);
+  CHECK(lumped.driven_inertia == 0.0148);
+  CHECK(lumped.reference_torque == 100);
+  CHECK(lumped.frequency_to == 4000);
+  CHECK(lumped.fidelity.contact == "strips");
+  CHECK(lumped.time.steps_per_period == 200);
+  CHECK(read_lumped_slice(file.path(lumped_slice(s, false), "lumped_map.toml"), false).frequency_to == 0);
+  // a slice of an elastic sweep holds all of it
+  CHECK(read_lumped_slice(file.path(sweep_slice(s), "sweep.toml"), true).frequency_step == 20);
+  CHECK_THROWS_AS(read_lumped_slice(file.path(lumped_slice(s, false), "lumped_map.toml"), true), Error);
+  std::string said;
+  try {
+    read_static_slice(file.path(kScene, "whole.toml"));
+  } catch (const Error& e) {
+    said = e.what();
+  }
+  CHECK(said.find("is a whole scene") != std::string::npos);
+  CHECK(said.find("out/whole/params/static.toml (make SCENE=") != std::string::npos);
 
   CHECK_THROWS_AS(read_sweep_slice(file.path(static_slice(s), "wrong.toml")), Error);
   CHECK_THROWS_AS(read_impact_slice(file.path(static_slice(s), "wrong.toml")), Error);

@@ -6,9 +6,10 @@
 // Writes  sweep.h5, of the schema of gear-sweep: transmission error, mesh force, energy, jumps; with --map jump_map.h5, of
 //         that of gear-jump-map: branches, contact loss and loads for a series of damping ratios
 // Equation: m x'' + c x' + F(t) = T / r, F(t) = k(t) x for x >= 0 and 0 for x < 0 (Eq. 23), integrated exactly from event to
-//         event (or by Newmark's method, Eq. 8); k(t) constant in cells of the mesh period.
+//         event (or by Newmark's method, Eq. 8); k(t) constant in cells of the mesh period;
+//         pairs: the sum of unilateral springs, with --hertz each a polygon of 16 chords of Hertz's law
 // Example: gear-lumped --model rectangular --static out/parker2000/T150/static.h5
-//            --reference-static out/parker2000/T100/static.h5 --params out/parker2000/params/sweep.toml --direction up
+//            --reference-static out/parker2000/T100/static.h5 --params out/parker2000/params/lumped.toml --direction up
 //            --output out/parker2000/T150/rectangular/up/sweep.h5
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -26,6 +27,8 @@
 #include "lumped/sweep.h"
 
 namespace {
+
+constexpr int kHertzChords = 16;  // 4e-4 from the law itself over two mesh periods with contact loss
 
 int count_option(const std::string& name, const std::string& word) {
   const double value = whine::number_option(name, word);
@@ -47,7 +50,7 @@ void body(int argc, char** argv) {
   std::string statics, reference, params, output, levels, duty, torque, cells, steps, from, to, step;
   std::string mass, at;
   std::vector<std::string> ratios{"0.08"};
-  bool map = false;
+  bool map = false, hertz = false;
   app.add_option("--model", o.model,
                  "k(t): rectangular (two levels), secant or tangent (curve of the statics), pairs (a spring "
                  "per pair)")
@@ -56,8 +59,13 @@ void body(int argc, char** argv) {
   app.add_option("--static", statics, "static.h5 of the torque to run")->required();
   app.add_option("--reference-static", reference,
                  "static.h5 that the levels of the rectangular wave are read from, instead of --static");
-  app.add_option("--levels", levels,
-                 "other levels of the rectangular wave, N/m: fewer pairs, more pairs (k1,k2)");
+  app.add_flag(
+      "--hertz", hertz,
+      "pairs: each spring follows Hertz's law of a line contact through its static load and deflection, as a "
+      "polygon of 16 chords; without it springs are linear, with the stiffness at the static load");
+  app.add_option(
+      "--levels", levels,
+      "other levels of the rectangular wave, N/m: fewer pairs, more pairs (k1,k2), k2 not below k1");
   app.add_option("--duty", duty, "share of the mesh period with the second level, in (0, 1)");
   app.add_option("--torque", torque, "torque in N m; refused if --static is of another one");
   app.add_option("--mass", mass, "mass in kg; default: I1 I2 / (I1 r2^2 + I2 r1^2) of the gears of --params");
@@ -77,7 +85,7 @@ void body(int argc, char** argv) {
       "--steps", steps,
       "stored samples per mesh period, and least steps of newmark; default: as --params says, or 128");
   app.add_option("--params", params,
-                 "slice of the scene with speeds and samples: out/<scene>/params/sweep.toml");
+                 "slice of the scene with speeds and samples: out/<scene>/params/lumped.toml");
   app.add_option("--from", from,
                  "lowest mesh frequency in Hz; with --to and --step in place of those of --params");
   app.add_option("--to", to, "highest mesh frequency in Hz");
@@ -85,7 +93,7 @@ void body(int argc, char** argv) {
   app.add_option("--direction", o.direction, "up or down")->check(CLI::IsMember({"up", "down"}));
   app.add_flag("--map", map,
                "a map of jumps over the damping ratios instead of one sweep; --params is then "
-               "out/<scene>/params/map.toml, each of --from, --to and --step has a default");
+               "out/<scene>/params/lumped_map.toml, each of --from, --to and --step has a default");
   app.add_option("--loads-at", at, "with --map: speed in Hz whose loads are stored apart; speeds fall on it");
   app.add_option("--output", output, "sweep.h5 to write, with --map jump_map.h5")->required();
   whine::parse(app, argc, argv);
@@ -110,6 +118,7 @@ void body(int argc, char** argv) {
           " takes the stiffness at its own torque");
   if (!cells.empty() && o.model == "rectangular")
     usage("--cells: the rectangular model has two levels and no cells");
+  if (hertz && o.model != "pairs") usage("--hertz is of the model pairs, not of ", o.model);
   if (mass.empty() && params.empty()) usage("--mass is needed without --params, which has the inertias");
   std::vector<double> damping_ratio;
   for (const std::string& word : ratios)
@@ -132,7 +141,7 @@ void body(int argc, char** argv) {
                 "; give the static.h5 of that torque");
   const whine::StaticArtifact at_reference = reference.empty() ? at_torque : whine::read_static(reference);
   if (!params.empty()) {
-    const whine::SweepSlice slice = map ? whine::read_map_slice(params) : whine::read_sweep_slice(params);
+    const whine::SweepSlice slice = whine::read_lumped_slice(params, !map);
     whine::require_contact(at_torque, slice.fidelity, statics);
     o.time = slice.time;
     o.mass = whine::reduced_mass(at_torque, slice.driver_inertia, slice.driven_inertia);
@@ -164,13 +173,14 @@ void body(int argc, char** argv) {
       const size_t comma = levels.find(',');
       if (comma == std::string::npos)
         usage("--levels is '", levels, "'; two numbers with a comma between are needed");
-      wave = whine::stated_wave(wave, whine::number_option("--levels", levels.substr(0, comma)),
+      wave = whine::stated_wave(at_torque, whine::number_option("--levels", levels.substr(0, comma)),
                                 whine::number_option("--levels", levels.substr(comma + 1)),
                                 whine::number_option("--duty", duty));
     }
     springs = whine::cells_of(wave);
   } else if (o.model == "pairs") {
-    springs = whine::cells_of_pairs(at_torque, cell_count, numbers);
+    springs = whine::cells_of_pairs(at_torque, cell_count, numbers, hertz ? kHertzChords : 0);
+    if (hertz) o.model += "-hertz";
   } else {
     springs = whine::cells_of(o.model == "secant" ? at_torque.stiffness_secant : at_torque.stiffness_tangent,
                               cell_count);

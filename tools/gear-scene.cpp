@@ -1,7 +1,7 @@
 // gear-scene: checks a scene and cuts it into the parts that the stages depend on.
 //
 // Reads      a scene (TOML)
-// Writes     <out>/<scene>/params/{static,impact,sweep,map}.toml    slices in SI, replaced only if they change
+// Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml    slices in SI, replaced only if they change
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
@@ -121,6 +121,8 @@ void body(int argc, char** argv) {
   publish_if_changed(home + "/params/impact.toml", impact_slice(scene));
   publish_if_changed(home + "/params/sweep.toml", sweep_slice(scene));
   publish_if_changed(home + "/params/map.toml", map_slice(scene));
+  publish_if_changed(home + "/params/lumped.toml", lumped_slice(scene, true));
+  publish_if_changed(home + "/params/lumped_map.toml", lumped_slice(scene, false));
 
   // 3. The fragment, always written: make compares its time with the scene's.
   std::ostringstream out;

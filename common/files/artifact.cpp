@@ -91,6 +91,10 @@ std::string rebuild_advice(const std::string& path) {
   if (target.rfind("...", 0) == 0 || target.rfind("../", 0) == 0) {
     return "it lies outside the working folder: make it again where it was made";
   }
+  if (target.rfind("out/", 0) != 0)
+    return "make has targets below out/ only, such as out/<scene>/T150/static.h5: give one of these, or make "
+           "it again "
+           "as it was made";
   return "rebuild it with: make " + target;
 }
 

@@ -51,6 +51,8 @@ std::string slice_for(const Scene& scene, const std::string& path) {
   if (name == "static.toml") return static_slice(scene);
   if (name == "impact.toml") return impact_slice(scene);
   if (name == "sweep.toml") return sweep_slice(scene);
+  if (name == "map.toml") return map_slice(scene);
+  if (name == "lumped.toml" || name == "lumped_map.toml") return lumped_slice(scene, name == "lumped.toml");
   for (const SceneGear& gear : scene.gears) {
     const std::string slice = body_slice(scene, gear.name), folder = place.parent_path().filename().string();
     if (name == "body.toml" && (folder == body_hash(slice) || folder == gear.name)) return slice;

@@ -29,7 +29,7 @@ std::string recorded_input(const std::string& artifact, const std::string& role)
 // role: keeps a sweep from mixing a static result with a body that it was not computed from.
 void require_made_from(const std::string& artifact, const std::string& role, const std::string& input);
 
-// "rebuild it with: make <path>"; for a path outside the working folder that there is no such target.
+// "rebuild it with: make <path>"; for a path outside the working folder, or not below out/, that there is no such target.
 std::string rebuild_advice(const std::string& path);
 
 }  // namespace whine

@@ -49,8 +49,9 @@ constexpr const char *kSliceStart = "# What ",
 // The file under reading: turns nodes into values and faults into errors with file:line.
 class Source {
  public:
-  explicit Source(std::string path) : path_(std::move(path)) {
-    const std::string bytes = read_bytes(path_, "check the path of the scene");
+  explicit Source(std::string path, const std::string& hint = "check the path of the scene")
+      : path_(std::move(path)) {
+    const std::string bytes = read_bytes(path_, hint);
     is_slice_ = bytes.rfind(kSliceStart, 0) == 0 && bytes.find(kSliceEnd) < bytes.find('\n');
     try {
       root_ = toml::parse(std::string_view(bytes));
@@ -491,12 +492,27 @@ class SliceText {
   std::string last_;
 };
 
+// A slice of a stage, whose file gear-scene calls `name`; refuses a whole scene.
+Source slice_source(const std::string& path, const std::string& name) {
+  Source source(path, "a slice is out/<scene>/" + name + ", made with: make out/<scene>/" + name);
+  if (!source.is_slice() && source.root().contains("gear") && source.root().contains("operation")) {
+    const std::string stem = std::filesystem::path(path).stem().string(), slice = "out/" + stem + "/" + name;
+    source.refuse(text("is a whole scene; this stage reads the slice of it that gear-scene cuts: give ",
+                       slice, " (make SCENE=", path, " ", slice, ")"));
+  }
+  return source;
+}
+
 // Reads one section of a slice; all its keys must be there.
 void read_slice_section(const Source& source, const std::string& section, const std::string& label,
                         const std::set<Part>& parts, KeyValues& values) {
   const toml::table* table = source.section(label);
   if (!table)
-    source.refuse(text("lacks the section [", label, "]; rebuild it from its scene with gear-scene"));
+    source.refuse(
+        text("lacks the section [", label, "]: ",
+             source.is_slice()
+                 ? "it is the slice for another stage, or an old one; give out/<scene>/params/<stage>.toml"
+                 : "it is no slice; gear-scene cuts them from a scene, out/<scene>/params/<stage>.toml"));
   SectionReader(source, Dialect::slice, *table, section, label).read(values, parts, false);
 }
 
@@ -606,12 +622,16 @@ KeyValues motion_values(const Scene& scene) {
   return values;
 }
 
-void add_inertia_and_damping(SliceText& out, const Scene& scene, KeyValues& values) {
+void add_inertia(SliceText& out, const Scene& scene, KeyValues& values) {
   for (const auto& [label, name] :
        {std::pair{"driver", scene.mesh.driver}, std::pair{"driven", scene.mesh.driven}}) {
     values.total_inertia = scene.gear(name).total_inertia;
     out.add("gear", label, values, {Part::inertia});
   }
+}
+
+void add_inertia_and_damping(SliceText& out, const Scene& scene, KeyValues& values) {
+  add_inertia(out, scene, values);
   out.add("damping", "damping", values, {Part::damping});
 }
 
@@ -647,12 +667,23 @@ std::string map_slice(const Scene& scene) {
   return out.text();
 }
 
+std::string lumped_slice(const Scene& scene, bool speeds) {
+  KeyValues values = motion_values(scene);
+  SliceText out(speeds ? "a sweep of a lumped model" : "a map of a lumped model");
+  add_inertia(out, scene, values);
+  out.add("operation", "operation", values,
+          speeds ? std::set<Part>{Part::load, Part::operation} : std::set<Part>{Part::load});
+  out.add("fidelity", "fidelity", values, {Part::contact_rung});
+  out.add("discretisation", "discretisation", values, {Part::time});
+  return out.text();
+}
+
 std::string body_hash(const std::string& slice) {
   return sha256(slice).substr(0, 16);
 }
 
 BodySlice read_body_slice(const std::string& path) {
-  const Source source(path);
+  const Source source = slice_source(path, "<gear>/body.toml");
   KeyValues values;
   read_slice_section(source, "gear", "gear", {Part::design}, values);
   read_slice_section(source, "material", "material", {Part::material}, values);
@@ -664,7 +695,7 @@ BodySlice read_body_slice(const std::string& path) {
 }
 
 StaticSlice read_static_slice(const std::string& path) {
-  const Source source(path);
+  const Source source = slice_source(path, "params/static.toml");
   KeyValues values;
   read_slice_section(source, "mesh", "mesh", {Part::mesh}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::contact_rung}, values);
@@ -677,14 +708,20 @@ StaticSlice read_static_slice(const std::string& path) {
   return out;
 }
 
-ImpactSlice read_impact_slice(const std::string& path) {
-  const Source source(path);
+namespace {
+
+void read_inertia(const Source& source, ImpactSlice& out) {
   KeyValues values;
-  ImpactSlice out;
   read_slice_section(source, "gear", "driver", {Part::inertia}, values);
   out.driver_inertia = values.total_inertia;
   read_slice_section(source, "gear", "driven", {Part::inertia}, values);
   out.driven_inertia = values.total_inertia;
+}
+
+ImpactSlice read_impact(const Source& source) {
+  KeyValues values;
+  ImpactSlice out;
+  read_inertia(source, out);
   read_slice_section(source, "damping", "damping", {Part::damping}, values);
   read_slice_section(source, "operation", "operation", {Part::load}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::rung, Part::contact_rung}, values);
@@ -694,22 +731,52 @@ ImpactSlice read_impact_slice(const std::string& path) {
   return out;
 }
 
-SweepSlice read_map_slice(const std::string& path) {
-  SweepSlice out;
-  static_cast<ImpactSlice&>(out) = read_impact_slice(path);
+void read_speeds(const Source& source, SweepSlice& out) {
   KeyValues values;
-  read_slice_section(Source(path), "discretisation", "discretisation", {Part::time}, values);
+  read_slice_section(source, "operation", "operation", {Part::operation}, values);
+  out.frequency_from = values.operation.frequency_from;
+  out.frequency_to = values.operation.frequency_to;
+  out.frequency_step = values.operation.frequency_step;
+}
+
+SweepSlice read_motion(const Source& source) {
+  SweepSlice out;
+  static_cast<ImpactSlice&>(out) = read_impact(source);
+  KeyValues values;
+  read_slice_section(source, "discretisation", "discretisation", {Part::time}, values);
   out.time = values.time;
   return out;
 }
 
+}  // namespace
+
+ImpactSlice read_impact_slice(const std::string& path) {
+  return read_impact(slice_source(path, "params/impact.toml"));
+}
+
+SweepSlice read_map_slice(const std::string& path) {
+  return read_motion(slice_source(path, "params/map.toml"));
+}
+
 SweepSlice read_sweep_slice(const std::string& path) {
-  SweepSlice out = read_map_slice(path);
+  const Source source = slice_source(path, "params/sweep.toml");
+  SweepSlice out = read_motion(source);
+  read_speeds(source, out);
+  return out;
+}
+
+SweepSlice read_lumped_slice(const std::string& path, bool speeds) {
+  const Source source = slice_source(path, speeds ? "params/lumped.toml" : "params/lumped_map.toml");
+  SweepSlice out;
+  read_inertia(source, out);
   KeyValues values;
-  read_slice_section(Source(path), "operation", "operation", {Part::operation}, values);
-  out.frequency_from = values.operation.frequency_from;
-  out.frequency_to = values.operation.frequency_to;
-  out.frequency_step = values.operation.frequency_step;
+  read_slice_section(source, "operation", "operation", {Part::load}, values);
+  read_slice_section(source, "fidelity", "fidelity", {Part::contact_rung}, values);
+  read_slice_section(source, "discretisation", "discretisation", {Part::time}, values);
+  out.reference_torque = values.operation.torques.front();
+  out.fidelity.contact = values.fidelity.contact;
+  out.time = values.time;
+  if (speeds) read_speeds(source, out);
   return out;
 }
 

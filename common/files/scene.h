@@ -150,6 +150,10 @@ struct SweepSlice : ImpactSlice {
 // For gear-jump-map: a sweep whose speeds and Rayleigh stiffness factor the map chooses; both are 0.
 SweepSlice read_map_slice(const std::string& path);
 
+// For gear-lumped: a sweep of which nothing is read that only elastic bodies have; damping, body and integrator are defaults.
+// speeds: false leaves those of the scene out, for a map of jumps, which chooses its own.
+SweepSlice read_lumped_slice(const std::string& path, bool speeds);
+
 // Canonical text of a slice: TOML in SI, keys in a fixed order, numbers with all digits. Depends on values
 // only, not on comments, order or defaults left out. Errors: Error(input) for a gear that does not exist.
 std::string body_slice(const Scene& scene, const std::string& gear);
@@ -158,6 +162,7 @@ std::string static_slice(const Scene& scene);
 std::string impact_slice(const Scene& scene);
 std::string sweep_slice(const Scene& scene);
 std::string map_slice(const Scene& scene);
+std::string lumped_slice(const Scene& scene, bool speeds);
 
 // First 16 hexadecimal digits of the SHA-256 of a body slice: the folder out/bodies/<hash>/.
 std::string body_hash(const std::string& slice);

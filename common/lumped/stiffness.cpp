@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "contact/half_plane_strip.h"
 #include "gear/pair.h"
 
 namespace whine {
@@ -81,16 +82,25 @@ RectangularWave rectangular_wave(const StaticArtifact& s) {
   return wave;
 }
 
-RectangularWave stated_wave(const RectangularWave& place, double one, double other, double duty) {
-  for (double level : {one, other})
-    if (!(level > 0) || !std::isfinite(level))
-      fail(Failure::input, "lumped model: a stiffness level is ", level, " N/m; both must be above 0");
+RectangularWave stated_wave(const StaticArtifact& s, double fewer, double more, double duty) {
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double force = s.torque / pair.gear(0).base_radius(), module = s.driver.module;
+  for (double level : {fewer, more})
+    if (!(level > force / module) || !std::isfinite(level))
+      fail(Failure::input, "lumped model: a stiffness level is ", level, " N/m; it must be above ",
+           force / module, " N/m, at which the static load of ", force,
+           " N bends teeth by a whole module of ", 1e3 * module, " mm");
+  if (more < fewer)
+    fail(Failure::input, "lumped model: the second stiffness level is ", more,
+         " N/m; it is that of more pairs and must not be below the first, ", fewer,
+         " N/m; swap them, and take one minus the duty");
   if (!(duty > 0 && duty < 1))
     fail(Failure::input, "lumped model: the duty, the share of the second level, is ", duty,
          "; it must be above 0 and below 1");
+  const RectangularWave place = rectangular_wave(s);
   RectangularWave wave;
-  wave.low = one;
-  wave.high = other;
+  wave.low = fewer;
+  wave.high = more;
   const double middle = 0.5 * (place.high_begin + place.high_end);
   wave.high_begin = wrapped(middle - 0.5 * duty);
   wave.high_end = wave.high_begin + duty;
@@ -128,7 +138,14 @@ LumpedParameters cells_of(const Eigen::VectorXd& values, int cells) {
   return p;
 }
 
-LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::VectorXi& numbers) {
+double hertz_deflection(double load, double static_load, double stiffness, double coefficient) {
+  return load > 0 ? load * (1 / stiffness + 0.5 * coefficient * std::log(static_load / load)) : 0;
+}
+
+LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::VectorXi& numbers, int chords) {
+  if (chords < 0 || chords == 1)
+    fail(Failure::input, "lumped model: ", chords,
+         " chords of Hertz's law; 2 are the least, 0 make linear springs");
   const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
   const double force = s.torque / pair.gear(0).base_radius();
   const double farthest = kFarthest * s.transmission_error.maxCoeff();
@@ -146,9 +163,9 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
     return c.gap;
   };
 
-  // Stiffness against the pair's own phase, at static positions where it carries load.
+  // Load and stiffness against the pair's own phase, at static positions where it carries load.
   struct Point {
-    double phase, stiffness;
+    double phase, load, stiffness;
   };
   std::vector<Point> points;
   for (Eigen::Index i = 0; i < s.mesh_phase.size(); ++i) {
@@ -162,39 +179,73 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
         fail(Failure::input, "lumped model: pair ", s.pair[n], " carries ", load, " N at phase ",
              s.mesh_phase[i], " although its gap is not closed there");
       // The lever arms of a corner differ from the base radius: loads as the torque feels them.
-      points.push_back({phase, load * (force / total) / deflection});
+      points.push_back({phase, load * (force / total), load * (force / total) / deflection});
     }
   }
   if (points.empty()) fail(Failure::input, "lumped model: no tooth pair carries load in the static result");
   std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.phase < b.phase; });
-  const auto stiffness_at = [&](double phase) {
+  const auto at = [&](double phase) {
     const auto after = std::lower_bound(points.begin(), points.end(), phase,
-                                        [](const Point& p, double at) { return p.phase < at; });
-    if (after == points.end()) return points.back().stiffness;
-    if (after == points.begin() || after->phase == phase) return after->stiffness;
+                                        [](const Point& p, double here) { return p.phase < here; });
+    if (after == points.end()) return points.back();
+    if (after == points.begin() || after->phase == phase) return *after;
     const auto before = after - 1;
     const double share = (phase - before->phase) / (after->phase - before->phase);
-    return (1 - share) * before->stiffness + share * after->stiffness;
+    return Point{phase, (1 - share) * before->load + share * after->load,
+                 (1 - share) * before->stiffness + share * after->stiffness};
+  };
+
+  // What a pair's force is made of: springs of its own that come in one after the other.
+  const auto surface = [](const Material& m, const GearDesign& g) {
+    return HalfPlaneSurface(m, g.face_width).coefficient();
+  };
+  const double coefficient = surface(s.driver_material, s.driver) + surface(s.driven_material, s.driven);
+  const int springs = std::max(1, chords);
+  const auto add_pair = [&](const Point& p, double gap, Eigen::Index row, Eigen::Index first,
+                            LumpedParameters& to) {
+    to.gap(row, first) = gap;
+    to.stiffness(row, first) = p.stiffness;
+    double before = 0, reached = 0, slope = 0;
+    for (int i = 0; i < chords; ++i) {
+      const int below =
+          chords / 2 - 1 - i;  // halvings from the static load; from it on equal ratios to the last load
+      const double load = below >= 0
+                              ? std::ldexp(p.load, -below)
+                              : p.load * std::pow(4 * force / p.load, -below / double(chords - chords / 2));
+      const double deflection = hertz_deflection(load, p.load, p.stiffness, coefficient);
+      const double chord = (load - before) / (deflection - reached);
+      if (!(chord > slope))
+        fail(Failure::input, "lumped model: Hertz's law does not stiffen between ", before, " and ", load,
+             " N; the static result is of no contact of these flanks");
+      to.gap(row, first + i) = gap + reached;
+      to.stiffness(row, first + i) = chord - slope;
+      before = load;
+      reached = deflection;
+      slope = chord;
+    }
   };
 
   // Pair n at mesh phase f in [0, 1] has the phase f + n of its own.
   int reach = 1;
   for (double phase = -4; phase <= 4; phase += 1.0 / 256)
     if (gap_at(phase)) reach = std::max(reach, static_cast<int>(std::floor(std::max(phase, 1 - phase))));
-  numbers = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
+  const int pairs = 2 * reach + 1;
+  numbers.resize(pairs * springs);
   LumpedParameters p;
   p.cell_end = centred_cells(cells);
   p.stiffness = p.gap = MatrixRM::Zero(cells + 1, numbers.size());
-  for (int j = 0; j <= cells; ++j)
-    for (Eigen::Index n = 0; n < numbers.size(); ++n) {
-      const double phase = static_cast<double>(j) / cells + numbers[n];
-      if (const auto gap = gap_at(phase)) {
-        p.stiffness(j, n) = stiffness_at(phase);
-        // A pair that the others hold apart at rest, by what they bend of its gears, does not touch at rest.
-        const bool loaded = phase >= points.front().phase && phase <= points.back().phase;
-        p.gap(j, n) = loaded ? *gap : std::max(*gap, at_phase(s.mesh_phase, s.transmission_error, phase));
-      }
+  for (int n = 0; n < pairs; ++n) {
+    numbers.segment(n * springs, springs).setConstant(n - reach);
+    for (int j = 0; j <= cells; ++j) {
+      const double phase = static_cast<double>(j) / cells + n - reach;
+      const auto gap = gap_at(phase);
+      if (!gap) continue;
+      // A pair that the others hold apart at rest, by what they bend of its gears, does not touch at rest.
+      const bool loaded = phase >= points.front().phase && phase <= points.back().phase;
+      add_pair(at(phase), loaded ? *gap : std::max(*gap, at_phase(s.mesh_phase, s.transmission_error, phase)),
+               j, n * springs, p);
     }
+  }
   return p;
 }
 

@@ -320,7 +320,10 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
   a.mean_stiffness = stiffness;
   a.natural_frequency = oscillator.mean_frequency();
   a.direction = o.direction;
-  a.pair = numbers;
+  // Several springs may stand for one pair.
+  std::vector<int> pairs(numbers.data(), numbers.data() + numbers.size());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  a.pair = Eigen::Map<const Eigen::VectorXi>(pairs.data(), static_cast<Eigen::Index>(pairs.size()));
   a.mesh_frequency = Eigen::Map<const Eigen::VectorXd>(speeds.data(), count);
   a.periods.resize(count);
   a.residual.resize(count);
@@ -351,11 +354,14 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
     a.energy(i, line("torque")) = l.force;
     a.energy(i, line("rolling")) = l.switching;
     a.energy(i, line("modal_damping")) = l.damping;
-    MatrixRM loads(width, numbers.size());
+    MatrixRM loads = MatrixRM::Zero(width, a.pair.size());
     for (std::size_t k = 0; k < longest; ++k) {
       const LumpedRecord& r = orbit.record[k % orbit.record.size()];
       a.transmission_error.row(i).segment(static_cast<Eigen::Index>(k) * samples, samples) = r.x.transpose();
-      loads.middleRows(static_cast<Eigen::Index>(k) * samples, samples) = r.load;
+      for (Eigen::Index spring = 0, pair = 0; spring < numbers.size(); ++spring) {
+        pair += spring > 0 && numbers[spring] != numbers[spring - 1];
+        loads.col(pair).segment(static_cast<Eigen::Index>(k) * samples, samples) += r.load.col(spring);
+      }
       least = std::min(least, r.least);
       a.least_gap = std::min(a.least_gap, -r.largest_exit);
     }

@@ -9,16 +9,18 @@
 namespace whine {
 namespace {
 
-[[noreturn]] void missing(const std::string& scene, const std::string& file) {
-  fail(Failure::input, "scorecard: ", file, " of ", scene, " is missing; make it with: make out/", scene, "/",
-       file);
+[[noreturn]] void missing(const std::string& scene, const std::string& file, const std::string& place = "") {
+  const std::string path = (place.empty() ? "out/" + scene : place) + "/" + file;
+  fail(Failure::input, "scorecard: ", file, " of ", scene, " is missing; ",
+       place.empty() || place.starts_with("out/") ? "make it with: make " + path : "there is no " + path);
 }
 
 template <class Artifact>
-const Artifact& look_up(const std::map<std::string, Artifact>& from, const std::string& scene,
+const Artifact& look_up(const std::map<std::string, Artifact>& from, const SceneAnswers& scene,
                         const std::string& file) {
   const auto found = from.find(file);
-  if (found == from.end()) missing(scene, file);
+  if (found == from.end()) missing(scene.name, file);
+  scene.asked.insert(file);
   return found->second;
 }
 
@@ -29,21 +31,21 @@ std::string folder(int torque, const std::string& model, const std::string& dire
 }  // namespace
 
 const StaticArtifact& SceneAnswers::at_rest(int torque) const {
-  return look_up(statics, name, text("T", torque, "/static.h5"));
+  return look_up(statics, *this, text("T", torque, "/static.h5"));
 }
 
 const ImpactArtifact& SceneAnswers::ring_down(int torque) const {
-  return look_up(impacts, name, text("T", torque, "/impact.h5"));
+  return look_up(impacts, *this, text("T", torque, "/impact.h5"));
 }
 
 const SweepArtifact& SceneAnswers::sweep(int torque, const std::string& direction,
                                          const std::string& model) const {
-  return look_up(sweeps, name, folder(torque, model, direction) + "sweep.h5");
+  return look_up(sweeps, *this, folder(torque, model, direction) + "sweep.h5");
 }
 
 Branches SceneAnswers::branches(int torque, const std::string& model) const {
-  return {look_up(responses, name, folder(torque, model, "up") + "response.h5"),
-          look_up(responses, name, folder(torque, model, "down") + "response.h5")};
+  return {look_up(responses, *this, folder(torque, model, "up") + "response.h5"),
+          look_up(responses, *this, folder(torque, model, "down") + "response.h5")};
 }
 
 std::vector<std::string> scorecard_files() {
@@ -82,6 +84,7 @@ auto gears_of(const Artifact& a) {
 struct SceneReader {
   SceneAnswers answers;
   std::map<std::string, std::string> paths;  // as given, by path below the scene
+  std::string place;                         // the scene's folder
 
   template <class Artifact>
   void require_operation(const std::string& file, const Artifact& a) const {
@@ -166,6 +169,7 @@ std::vector<SceneAnswers> read_answers(const std::vector<std::string>& paths) {
       readers.emplace_back();
       reader = readers.end() - 1;
       reader->answers.name = scene;
+      reader->place = place;
     }
     const auto [at, first] = reader->paths.emplace(*file, path);
     if (!first)
@@ -173,7 +177,7 @@ std::vector<SceneAnswers> read_answers(const std::vector<std::string>& paths) {
   }
   for (const SceneReader& reader : readers)
     for (const std::string& file : files)
-      if (!reader.paths.contains(file)) missing(reader.answers.name, file);
+      if (!reader.paths.contains(file)) missing(reader.answers.name, file, reader.place);
   std::vector<SceneAnswers> scenes;
   for (SceneReader& reader : readers) {
     for (const std::string& file : files) reader.read(file);

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct SceneAnswers {
   const ImpactArtifact& ring_down(int torque) const;
   const SweepArtifact& sweep(int torque, const std::string& direction, const std::string& model = "") const;
   Branches branches(int torque, const std::string& model = "") const;
+
+  mutable std::set<std::string> asked = {};  // paths that these four were asked for
 };
 
 // All paths below a scene's folder that the claims read.

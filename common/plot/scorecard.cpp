@@ -4,24 +4,65 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
 
 namespace whine {
 
-Verdict verdict(const Claim& claim, const Finding& finding) {
+Verdict verdict(const Claim& claim, const Finding& finding, const std::string& scene) {
   if (claim.scale == Scale::incomparable) return Verdict::incomparable;
+  if (claim.scale == Scale::misprint) return Verdict::misprint;
   // NaN, a state that is not there, fails every comparison.
-  return std::abs(finding.value - claim.printed) <= claim.tolerance ? Verdict::agrees : Verdict::differs;
+  const bool agrees = std::abs(finding.value - claim.printed) <= claim.tolerance;
+  if (claim.scale == Scale::choice) return agrees ? Verdict::given : Verdict::incomparable;
+  if (!agrees) return Verdict::differs;
+  if (std::count(claim.fitted_in.begin(), claim.fitted_in.end(), scene) > 0) return Verdict::fitted;
+  return claim.given ? Verdict::given : Verdict::agrees;
 }
+
+namespace {
+
+// What differs between paths in one place only is put into braces: up and down first, then torques.
+std::string braced(const std::set<std::string>& files) {
+  std::set<std::string> both;
+  for (const std::string& file : files) {
+    const size_t up = file.find("/up/"), down = file.find("/down/");
+    const std::string one = up == std::string::npos ? file : std::string(file).replace(up, 4, "/down/"),
+                      other = down == std::string::npos ? file : std::string(file).replace(down, 6, "/up/");
+    const bool pair = (up != std::string::npos && files.contains(one)) ||
+                      (down != std::string::npos && files.contains(other));
+    both.insert(!pair                     ? file
+                : up != std::string::npos ? std::string(file).replace(up, 4, "/{up,down}/")
+                                          : std::string(file).replace(down, 6, "/{up,down}/"));
+  }
+  std::map<std::string, std::vector<std::string>> torques;  // by what follows the first folder
+  for (const std::string& file : both)
+    torques[file.substr(file.find('/'))].push_back(file.substr(1, file.find('/') - 1));
+  std::string out;
+  for (const auto& [rest, list] : torques) {
+    std::string inside;
+    for (const std::string& torque : list) inside += (inside.empty() ? "" : ",") + torque;
+    out += (out.empty() ? "T" : " T") + (list.size() > 1 ? "{" + inside + "}" : inside) + rest;
+  }
+  return out;
+}
+
+}  // namespace
 
 Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers>& scenes) {
   Scorecard card;
   for (const SceneAnswers& s : scenes) card.scenes.push_back(s.name);
   for (const Claim& claim : claims) {
-    ScoredClaim row{claim, {}};
-    for (const SceneAnswers& s : scenes) row.findings.push_back(claim.find(s));
+    ScoredClaim row{claim, {}, ""};
+    std::set<std::string> asked;
+    for (const SceneAnswers& s : scenes) {
+      s.asked.clear();
+      row.findings.push_back(claim.find(s));
+      asked.insert(s.asked.begin(), s.asked.end());
+    }
+    row.sources = braced(asked);
     card.rows.push_back(row);
   }
   return card;
@@ -33,7 +74,21 @@ Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers
 namespace {
 
 const char* words_of(Verdict v) {
-  return v == Verdict::agrees ? "agrees" : v == Verdict::differs ? "differs" : "cannot be compared";
+  switch (v) {
+    case Verdict::agrees:
+      return "agrees";
+    case Verdict::differs:
+      return "differs";
+    case Verdict::given:
+      return "given";
+    case Verdict::fitted:
+      return "fitted";
+    case Verdict::misprint:
+      return "misprint of P2000";
+    case Verdict::incomparable:
+      break;
+  }
+  return "cannot be compared";
 }
 
 std::string value_text(const Claim& c, double value) {
@@ -44,7 +99,7 @@ std::string value_text(const Claim& c, double value) {
 
 std::string printed_text(const Claim& c) {
   const std::string value = value_text(c, c.printed);
-  if (c.scale == Scale::statement || c.scale == Scale::incomparable ||
+  if (c.scale == Scale::statement || c.scale == Scale::incomparable || c.scale == Scale::misprint ||
       c.tolerance < 1e-6 * std::abs(c.printed))
     return value;
   return value + " ± " + digits(c.tolerance);
@@ -55,36 +110,41 @@ std::string deviation_text(const Claim& c, const Finding& f) {
       std::abs(f.value - c.printed) < 1e-9 * std::abs(c.printed))
     return "";
   std::ostringstream out;
-  out << std::showpos << std::fixed << std::setprecision(1) << 100 * (f.value / c.printed - 1) << " %";
+  out << std::showpos << std::fixed << std::setprecision(1);
+  if (c.unit == "%")
+    out << f.value - c.printed << " percentage points";
+  else
+    out << 100 * (f.value / c.printed - 1) << " %";
   return out.str();
 }
 
-// "2483 Hz (+0.1 %)", "yes", "none"
+// "2483 Hz (+0.1 %)", "2987 N (-0.4 %, sum over the teeth)", "yes", "none"
 std::string found_text(const Claim& c, const Finding& f) {
-  const std::string value = value_text(c, f.value), off = deviation_text(c, f);
-  if (value.empty()) return c.scale == Scale::incomparable ? "" : "none";
-  return c.scale == Scale::incomparable || off.empty() ? value : value + " (" + off + ")";
+  const std::string value = value_text(c, f.value);
+  if (value.empty()) return c.scale == Scale::incomparable || c.scale == Scale::choice ? "" : "none";
+  std::string more = c.scale == Scale::incomparable ? "" : deviation_text(c, f);
+  if (!f.reading.empty()) more += (more.empty() ? "" : ", ") + f.reading;
+  return more.empty() ? value : value + " (" + more + ")";
 }
 
 // What explains the verdicts: notes of the scenes, once if they are equal.
-std::string notes_text(const Scorecard& card, const ScoredClaim& row, bool all) {
+std::string notes_text(const Scorecard& card, const ScoredClaim& row) {
   std::string words, last;
   for (size_t i = 0; i < row.findings.size(); ++i) {
-    const std::string& note = row.findings[i].note;
-    if (note.empty() || note == last || (!all && verdict(row.claim, row.findings[i]) == Verdict::agrees))
-      continue;
+    const Finding& f = row.findings[i];
+    const Verdict v = verdict(row.claim, f, card.scenes[i]);
+    const bool plain = v == Verdict::agrees || v == Verdict::given || v == Verdict::fitted;
+    if (f.note.empty() || f.note == last || (plain && f.reading.empty())) continue;
     const bool alike = std::all_of(row.findings.begin(), row.findings.end(),
-                                   [&](const Finding& f) { return f.note == note; });
-    words += (words.empty() ? "" : "; ") + (alike ? note : card.scenes[i] + ": " + note);
-    last = note;
+                                   [&](const Finding& other) { return other.note == f.note; });
+    words += (words.empty() ? "" : "; ") + (alike ? f.note : card.scenes[i] + ": " + f.note);
+    last = f.note;
   }
   return words;
 }
 
 std::string claim_cells(const Claim& c) {
-  const std::string given = c.scale == Scale::given ? " (given)" : "";
-  return "| `" + c.id + "` | " + c.place + " | " + c.text + given + " | " + printed_text(c) + " | " +
-         c.basis + " |";
+  return "| `" + c.id + "` | " + c.place + " | " + c.text + " | " + printed_text(c) + " | " + c.basis + " |";
 }
 
 size_t width(const std::string& utf8) {
@@ -102,15 +162,11 @@ std::vector<std::string> bottom_line(const Scorecard& card) {
   std::vector<std::string> lines;
   for (size_t i = 0; i < card.scenes.size(); ++i) {
     std::map<Verdict, int> count;
-    int given = 0;
-    for (const ScoredClaim& row : card.rows) {
-      const Verdict v = verdict(row.claim, row.findings[i]);
-      ++count[v];
-      given += row.claim.scale == Scale::given && v == Verdict::agrees;
-    }
-    lines.push_back(text(card.scenes[i], ": ", count[Verdict::agrees], " agree (", given,
-                         " of them given or fitted), ", count[Verdict::differs], " differ, ",
-                         count[Verdict::incomparable], " cannot be compared"));
+    for (const ScoredClaim& row : card.rows) ++count[verdict(row.claim, row.findings[i], card.scenes[i])];
+    lines.push_back(text(card.scenes[i], ": ", count[Verdict::agrees], " agree, ", count[Verdict::differs],
+                         " differ, ", count[Verdict::given] + count[Verdict::fitted], " given or fitted, ",
+                         count[Verdict::incomparable], " cannot be compared, ", count[Verdict::misprint],
+                         " misprint of P2000"));
   }
   return lines;
 }
@@ -121,8 +177,9 @@ std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>&
   for (const std::string& source : sources) out += "# from " + source + "\n";
   out += "# id\tplace\tclaim\tunit\tprinted\ttolerance\tbasis";
   for (const std::string& s : card.scenes)
-    for (const char* column : {"value", "deviation", "verdict", "note"}) out += "\t" + s + " " + column;
-  out += "\n";
+    for (const char* column : {"value", "deviation", "reading", "verdict", "note"})
+      out += "\t" + s + " " + column;
+  out += "\tartifacts of a scene\n";
   const auto exact = [](double value) {
     std::ostringstream number;
     number << std::setprecision(9) << value;
@@ -132,10 +189,12 @@ std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>&
     const Claim& c = row.claim;
     out += c.id + "\t" + c.place + "\t" + c.text + "\t" + c.unit + "\t" + exact(c.printed) + "\t" +
            exact(c.tolerance) + "\t" + c.basis;
-    for (const Finding& f : row.findings)
-      out += "\t" + exact(f.value) + "\t" + deviation_text(c, f) + "\t" + words_of(verdict(c, f)) + "\t" +
-             f.note;
-    out += "\n";
+    for (size_t i = 0; i < row.findings.size(); ++i) {
+      const Finding& f = row.findings[i];
+      out += "\t" + exact(f.value) + "\t" + deviation_text(c, f) + "\t" + f.reading + "\t" +
+             words_of(verdict(c, f, card.scenes[i])) + "\t" + f.note;
+    }
+    out += "\t" + row.sources + "\n";
   }
   return out;
 }
@@ -146,14 +205,16 @@ std::string scorecard_markdown(const Scorecard& card) {
     out += " `" + s + "` |";
     rule += "---|";
   }
-  out += " reason, where it does not agree |\n" + rule + "---|\n";
+  out += " reason, where it does not agree | from, in `out/<scene>/` |\n" + rule + "---|---|\n";
   for (const ScoredClaim& row : card.rows) {
     out += claim_cells(row.claim);
-    for (const Finding& f : row.findings) {
-      const std::string found = found_text(row.claim, f);
-      out += " " + found + (found.empty() ? "" : ": ") + words_of(verdict(row.claim, f)) + " |";
+    for (size_t i = 0; i < row.findings.size(); ++i) {
+      const std::string found = found_text(row.claim, row.findings[i]);
+      out += " " + found + (found.empty() ? "" : ": ") +
+             words_of(verdict(row.claim, row.findings[i], card.scenes[i])) + " |";
     }
-    out += " " + notes_text(card, row, false) + " |\n";
+    out +=
+        " " + notes_text(card, row) + " | " + (row.sources.empty() ? "" : "`" + row.sources + "`") + " |\n";
   }
   return out;
 }
@@ -166,20 +227,29 @@ std::string scorecard_text(const Scorecard& card) {
   }
   for (const ScoredClaim& row : card.rows) {
     cells.push_back({row.claim.id, row.claim.place, printed_text(row.claim)});
-    for (const Finding& f : row.findings) {
-      cells.back().push_back(found_text(row.claim, f));
-      cells.back().push_back(words_of(verdict(row.claim, f)));
+    for (size_t i = 0; i < row.findings.size(); ++i) {
+      cells.back().push_back(found_text(row.claim, row.findings[i]));
+      cells.back().push_back(words_of(verdict(row.claim, row.findings[i], card.scenes[i])));
     }
   }
   std::vector<size_t> widths(cells[0].size(), 0);
   for (const auto& row : cells)
     for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
-  std::string out;
-  for (const auto& row : cells) {
+  std::string out, home;
+  for (const std::string& s : card.scenes) home += (home.empty() ? "" : ",") + s;
+  home = card.scenes.size() > 1 ? "{" + home + "}" : home;
+  for (size_t r = 0; r < cells.size(); ++r) {
     std::string line;
-    for (size_t i = 0; i < row.size(); ++i) line += (i ? "  " : "") + padded(row[i], widths[i]);
+    for (size_t i = 0; i < cells[r].size(); ++i) line += (i ? "  " : "") + padded(cells[r][i], widths[i]);
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
+    if (r == 0) continue;
+    const ScoredClaim& row = card.rows[r - 1];
+    const std::string reason = notes_text(card, row);
+    if (!reason.empty()) out += "    why: " + reason + "\n";
+    if (row.claim.scale == Scale::incomparable || row.claim.scale == Scale::choice)
+      out += "    not compared: " + row.claim.basis + "\n";
+    if (!row.sources.empty()) out += "    from, in out/" + home + "/: " + row.sources + "\n";
   }
   out += "\n";
   for (const std::string& line : bottom_line(card)) out += line + "\n";

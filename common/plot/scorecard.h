@@ -7,12 +7,15 @@
 
 namespace whine {
 
-enum class Verdict { agrees, differs, incomparable };
-Verdict verdict(const Claim& claim, const Finding& finding);
+enum class Verdict { agrees, differs, given, fitted, incomparable, misprint };
+// given, fitted: agrees, but because the scene took it over or was fitted to it.
+Verdict verdict(const Claim& claim, const Finding& finding, const std::string& scene);
 
 struct ScoredClaim {
   Claim claim;
   std::vector<Finding> findings;  // (scene)
+  // Artifacts that answer, below the scene's folder, as the shell would expand them: "T150/{up,down}/response.h5"
+  std::string sources;
 };
 struct Scorecard {
   std::vector<std::string> scenes;
@@ -20,14 +23,14 @@ struct Scorecard {
 };
 Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers>& scenes);
 
-// "<scene>: 40 agree, 30 differ, 20 cannot be compared", one for each scene.
+// "<scene>: 40 agree, 30 differ, 9 given or fitted, 20 cannot be compared, 1 misprint of P2000", one for each scene.
 std::vector<std::string> bottom_line(const Scorecard& card);
 
 // sources: paths of the artifacts, named in comment lines.
 std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>& sources);
-// For the README: notes only where a verdict is not "agrees".
+// For the README: notes only where a verdict is not "agrees" or there are several readings.
 std::string scorecard_markdown(const Scorecard& card);
-// For the terminal, in columns.
+// For the terminal: columns, below each claim its reason as in the README and the artifacts that answer.
 std::string scorecard_text(const Scorecard& card);
 // id, place, text, printed value and tolerance of each claim, between bars as in the first columns of the README's table.
 std::string claims_markdown(const std::vector<Claim>& claims);
