@@ -14,6 +14,10 @@ ifneq ($(words $(SCENE)),0)
   $(if $(wildcard $(SCENE)),,$(error SCENE=$(SCENE): there is no such file))
   $(if $(filter %.toml,$(SCENE)),,$(error SCENE=$(SCENE): a scene is a .toml file))
   $(if $(filter figures bodies,$(scene_stem)),$(error SCENE=$(SCENE): out/$(scene_stem) has another use; rename the file))
+  # Scenes of one name share out/<name>: one's own must not take the place of the project's.
+  scene_of_name := $(wildcard data/scenes/$(scene_stem).toml)
+  $(if $(scene_of_name),$(if $(shell cmp -s '$(SCENE)' $(scene_of_name) || echo differs),\
+    $(error SCENE=$(SCENE): out/$(scene_stem) is of $(scene_of_name), which says otherwise; rename the file)))
 endif
 own_scene := $(or $(scene_stem),$(paper_scene))
 

@@ -2,6 +2,7 @@
 //
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map}.toml    slices in SI, replaced only if they change
+//            <out>/<scene>/params/title.txt              what figures call it
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
@@ -121,6 +122,7 @@ void body(int argc, char** argv) {
   publish_if_changed(home + "/params/impact.toml", impact_slice(scene));
   publish_if_changed(home + "/params/sweep.toml", sweep_slice(scene));
   publish_if_changed(home + "/params/map.toml", map_slice(scene));
+  publish_if_changed(home + "/params/title.txt", scene.title + "\n");
 
   // 3. The fragment, always written: make compares its time with the scene's.
   std::ostringstream out;
