@@ -12,8 +12,8 @@ paper_scenes := $(paper_scene) $(calibrated_scene)
 both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))
 # $(call of_gears,scene,artifact): of driver and driven gear
 of_gears = $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/$1/$g/$2.h5)
-# $(call impacts,scenes,torques): for damping ratios
-impacts = $(foreach s,$1,$(foreach t,$2,out/$s/T$t/impact.h5))
+# $(call impacts,scenes,torques): for damping ratios, where there are ring-downs
+impacts = $(foreach s,$1,$(if $(filter no,$(SCENE_$s_RINGS_DOWN)),,$(foreach t,$2,out/$s/T$t/impact.h5)))
 # $(call titles,inputs): what figures call the scenes of their inputs
 titles = $(sort $(foreach f,$1,out/$(word 2,$(subst /, ,$f))/params/title.txt))
 # $(call each,torques): those that get a curve each; six can be told apart

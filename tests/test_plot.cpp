@@ -262,6 +262,24 @@ TEST_CASE(
   CHECK(failure_of([] { response_figure({}); }) == Failure::input);
 }
 
+TEST_CASE("response figure: a curve breaks where it changes branch without a jump, not on a steep slope") {
+  const auto rows_of = [](const Eigen::VectorXd& rms) {
+    ResponseArtifact up = some_response("up"), down = some_response("down");
+    up.jump_frequency.resize(0);
+    up.jump_width.resize(0);
+    up.dte_rms = rms;
+    return block(response_figure({up, down}), "a 150 N m up").rows;
+  };
+  Eigen::VectorXd rms(5);
+  rms << 40e-6, 50e-6, 10e-6, 12e-6, 14e-6;
+  REQUIRE(rows_of(rms).size() == 6);
+  CHECK(rows_of(rms)[2].empty());
+  rms << 2e-6, 3.2e-6, 5e-6, 8e-6, 12e-6;
+  CHECK(rows_of(rms).size() == 5);
+  rms << 2e-6, 2.1e-6, 2.7e-6, 2.8e-6, 2.8e-6;  // a step of 29 %
+  CHECK(rows_of(rms).size() == 5);
+}
+
 TEST_CASE("response figure: a curve stops where the sweep left its branch, steps before the branch ends") {
   ResponseArtifact up = some_response("up"), down = some_response("down");
   // falling from 2400 Hz: off the branch after 2300, which ends at 2050 Hz

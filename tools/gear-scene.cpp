@@ -132,6 +132,8 @@ void body(int argc, char** argv) {
   out << name("DRIVEN") << " := " << scene.mesh.driven << "\n" << bodies.str() << name("TORQUES") << " :=";
   for (double torque : scene.operation.torques) out << " " << short_number(torque);
   out << "\n" << name("REFERENCE_TORQUE") << " := " << short_number(scene.operation.torques.front()) << "\n";
+  const bool rings_down = scene.fidelity.contact == "strips" && scene.fidelity.body != "full";
+  out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";
   out << "BODIES +=";
   for (const auto& hash : hashes) out << " " << hash;
   out << "\n";

@@ -198,22 +198,36 @@ Eigen::Index row_left(const ResponseArtifact& r, double f) {
   return last;
 }
 
+// Rows after which a curve breaks: where the march left a branch that ends at a jump, and where the RMS changes by half of
+// itself at once and three times as much as in the steps beside, which is another branch, too.
+std::vector<bool> broken_after(const ResponseArtifact& r) {
+  const Eigen::Index n = r.mesh_frequency.size();
+  std::vector<bool> jumps(n, false), broken;
+  for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j)
+    if (const Eigen::Index i = row_left(r, r.jump_frequency[j]); i >= 0) jumps[i] = true;
+  broken = jumps;
+  const auto change = [&](Eigen::Index i) {
+    return i < 0 || i + 1 >= n || jumps[i] ? 0.0 : std::abs(std::log(r.dte_rms[i + 1] / r.dte_rms[i]));
+  };
+  for (Eigen::Index i = 0; i + 1 < n; ++i)
+    if (r.dte_rms[i] > 0 && r.dte_rms[i + 1] > 0 &&
+        change(i) > std::max(std::log(1.5), 3 * std::max(change(i - 1), change(i + 1))))
+      broken[i] = true;
+  return broken;
+}
+
 FigureBlock branch_block(const std::string& name, const ResponseArtifact& r) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
                      "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
                     {}};
+  const std::vector<bool> broken = broken_after(r);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
                           r.separation_fraction[i], r.mesh_force_max[i], r.tooth_load_max[i],
                           static_cast<double>(r.period_multiple[i])});
-    // The curve stops at a jump: the arrow shows the step, a line would pretend that there are states
-    // between.
-    for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j)
-      if (row_left(r, r.jump_frequency[j]) == i) {
-        block.rows.emplace_back();
-        break;
-      }
+    // A line across would pretend that there are states between.
+    if (broken[i]) block.rows.emplace_back();
   }
   return block;
 }
@@ -323,7 +337,7 @@ std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double 
   std::vector<Motion> motions;
   told.lumped = lumped_of(sweeps);
   for (const auto& panel : panels_of(sweeps, told)) {
-    constexpr size_t kWidth = 150;  // characters that fit into a line
+    constexpr size_t kWidth = 170;  // characters that fit into a line
     const std::string operating = operating_words(panel, told);
     if (panel.scene.size() + operating.size() > kWidth) {
       figure.notes.push_back(panel.scene);

@@ -48,10 +48,10 @@ do for [p = 1:panels] {
 }
 up_tone = most == 1 ? up_colour : "black"
 down_tone = most == 1 ? down_colour : "black"
-set label 101 (most == 1 ? "▲" : filled_signs[1:2 * most - 1]) . " speed rising" at screen 0.06, screen 26 / height tc rgb up_tone font ",16"
-set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . " speed falling" at screen 0.25, screen 26 / height tc rgb down_tone font ",16"
-set label 103 "dashed: jump; dotted: on to the end of the branch" at screen 0.44, screen 26 / height tc rgb "black" font ",16"
-if (lost > 0) { set label 104 "■ at the foot: contact lost" at screen 0.81, screen 26 / height tc rgb "black" font ",16" }
+set label 101 (most == 1 ? "▲" : filled_signs[1:2 * most - 1]) . " speed rising" at screen 0.06, screen 26 / height tc rgb up_tone font ",14"
+set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . " speed falling" at screen 0.205, screen 26 / height tc rgb down_tone font ",14"
+set label 103 "dashed: jump; dotted: to the end of the branch; gap: change of branch" at screen 0.36, screen 26 / height tc rgb "black" font ",14"
+if (lost > 0) { set label 104 "■ at the foot: contact lost" at screen 0.82, screen 26 / height tc rgb "black" font ",14" }
 
 set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
 panel_height = (height - 140) / panels

@@ -39,8 +39,7 @@ do for [m = 1:motions] {
   set yrange [-1.06 * largest : 1.75 * largest]
   set xtics auto
   plot tsv index "[" . letter . " history]" using 1:2 with lines lt 1 lw 2.4 lc rgb line
-  unset label 1
-  unset label 2
+  do for [n in "1 2 20 21"] { unset label int(n) }
   set tmargin at screen 0.37
   set bmargin at screen 0.1
   set xlabel "Frequency (kHz)"

@@ -32,8 +32,8 @@ do for [p = 1:panels] {
   most = int(larger(most, of("curves", word(letters, p))))
   lost = lost + of("contact_lost", word(letters, p))
 }
-set label 101 filled_signs[1:2 * most - 1] . " speed rising      " . open_signs[1:2 * most - 1] . " speed falling      dashed: jump; dotted: on to the end of the branch" \
-  . (lost > 0 ? "      ■ at the foot: contact lost" : "") at screen 0.5, screen 26 / height center font ",16"
+set label 101 filled_signs[1:2 * most - 1] . " speed rising      " . open_signs[1:2 * most - 1] . " speed falling      dashed: jump; dotted: to the end of the branch; gap: change of branch" \
+  . (lost > 0 ? "      ■ at the foot: contact lost" : "") at screen 0.5, screen 26 / height center font ",14"
 set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
 panel_height = (height - 140) / panels
 do for [p = 1:panels] {
