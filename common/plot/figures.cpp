@@ -199,7 +199,7 @@ Eigen::Index row_left(const ResponseArtifact& r, double f) {
 }
 
 // Rows after which a curve breaks: where the march left a branch that ends at a jump, and where the RMS changes by half of
-// itself at once and three times as much as in the steps beside, which is another branch, too.
+// itself at once and 2.5 times as much as in the steps beside, which is another branch, too.
 std::vector<bool> broken_after(const ResponseArtifact& r) {
   const Eigen::Index n = r.mesh_frequency.size();
   std::vector<bool> jumps(n, false), broken;
@@ -211,7 +211,7 @@ std::vector<bool> broken_after(const ResponseArtifact& r) {
   };
   for (Eigen::Index i = 0; i + 1 < n; ++i)
     if (r.dte_rms[i] > 0 && r.dte_rms[i + 1] > 0 &&
-        change(i) > std::max(std::log(1.5), 3 * std::max(change(i - 1), change(i + 1))))
+        change(i) > std::max(std::log(1.5), 2.5 * std::max(change(i - 1), change(i + 1))))
       broken[i] = true;
   return broken;
 }
