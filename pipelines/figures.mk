@@ -12,25 +12,29 @@ paper_scenes := $(paper_scene) $(calibrated_scene)
 both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))
 # $(call of_gears,scene,artifact): of driver and driven gear
 of_gears = $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/$1/$g/$2.h5)
+# $(call impacts,scenes,torques): for damping ratios, where there are ring-downs
+impacts = $(foreach s,$1,$(if $(filter no,$(SCENE_$s_RINGS_DOWN)),,$(foreach t,$2,out/$s/T$t/impact.h5)))
+# $(call titles,inputs): what figures call the scenes of their inputs
+titles = $(sort $(foreach f,$1,out/$(word 2,$(subst /, ,$f))/params/title.txt))
 # $(call each,torques): those that get a curve each; six can be told apart
 each = $(wordlist 1,6,$1)
 
 # inputs_<figure>: $1 scenes, $2 torques. What is drawn at one torque takes the first.
 inputs_fig01 = $(call of_gears,$1,mesh) out/$1/T$(firstword $2)/static.h5
 inputs_fig03 = $(call of_gears,$1,mesh) $(call of_gears,$1,body) out/$1/T$(firstword $2)/static.h5
-inputs_fig05 = $(call both_ways,$1,$(firstword $2),response)
-inputs_fig07 = $(call both_ways,$1,$(call each,$2),response)
+inputs_fig05 = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2))
+inputs_fig07 = $(call both_ways,$1,$(call each,$2),response) $(call impacts,$1,$(call each,$2))
 inputs_fig07-600 = $(inputs_fig07)
-inputs_fig08 = $(call both_ways,$1,$(firstword $2),sweep)
+inputs_fig08 = $(call both_ways,$1,$(firstword $2),sweep) $(call impacts,$1,$(firstword $2))
 inputs_fig09 = $(inputs_fig08)
 inputs_fig10 = $(inputs_fig08)
 inputs_fig11 = $(inputs_fig08)
 inputs_fig12 = $(foreach t,$(call each,$2),out/$1/T$t/static.h5)
 inputs_fig13 = $(inputs_fig12)
-inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,response))
+inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
 inputs_fig14-elastic = $(inputs_fig07)
 inputs_fig15 = $(foreach m,rectangular-fig15 rectangular,out/$1/T$(firstword $2)/$m/down/sweep.h5)
-inputs_fig16 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/secant,response))
+inputs_fig16 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/secant,sweep))
 inputs_error-budget = out/$1/T$(firstword $2)/error_budget.h5
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
@@ -40,9 +44,12 @@ drawn_as_fig07-600 := fig05
 drawn_as_fig09 := fig08
 drawn_as_fig11 := fig10
 drawn_as_fig14 := fig16
+drawn_as_fig14-elastic := fig16
 
 $(foreach f,fig08 fig10,$(eval options_$f := --mesh-frequency 2400))
 $(foreach f,fig09 fig11,$(eval options_$f := --mesh-frequency 1300))
+# upper and lower branch
+options_fig15 := --mesh-frequency 2200,2150
 
 # Where the paper's figures show motions they show them as printed and calibrated; branches at a speed are first those of
 # the scene that has two of them.
@@ -76,7 +83,7 @@ $(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(call id,
 	$(B)/bin/gear-scorecard --output out/figures/scorecard $(inputs_scorecard)
 
 define figure_rule # figure, path without extension, inputs, what else it depends on
-$2.tsv $2.svg $2.png &: $3 $4 pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$2.tsv $2.svg $2.png &: $3 $4 $(call titles,$3) pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $3
 endef
 

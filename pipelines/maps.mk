@@ -92,7 +92,7 @@ lumped_map_artifacts := $(call maps_of,$(JUMP_MAP_MODELS))
 sensitivity_artifacts := $(foreach s,$(own_scene) $(variant_scenes),out/$s/T$(TORQUE)/$(branches_plan).h5)
 
 define map_figure_rules # figure, path without extension, artifacts
-$2.tsv $2.svg $2.png &: $3 pipelines/plots/$1.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$2.tsv $2.svg $2.png &: $3 out/$(own_scene)/params/title.txt pipelines/plots/$1.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	@mkdir -p $(map_folder)
 	$(B)/bin/gear-plot $1 --output $2 $3
 endef

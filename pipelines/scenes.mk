@@ -2,7 +2,8 @@
 #
 # gear-scene checks a scene and writes the parameter slices that stages depend on (out/S/params/*.toml), the
 # keys of each distinct gear (out/bodies/<hash>/body.toml), the links out/S/<gear>, and a fragment of make:
-#   SCENE_S_GEARS, SCENE_S_DRIVER, SCENE_S_DRIVEN, SCENE_S_BODY_<gear>, SCENE_S_TORQUES, SCENE_S_REFERENCE_TORQUE, BODIES.
+#   SCENE_S_GEARS, SCENE_S_DRIVER, SCENE_S_DRIVEN, SCENE_S_BODY_<gear>, SCENE_S_TORQUES, SCENE_S_REFERENCE_TORQUE,
+#   SCENE_S_RINGS_DOWN (no: with its [fidelity] there is no gear-impact), BODIES.
 # Make remakes a fragment before anything else, under -n as well (gear-scene itself is then compiled, too). This
 # happens in every run and costs milliseconds: times cannot tell a scene of the same name in another folder, one that
 # went back in time, or a deleted slice. All that it writes keeps its time if its content stays.
@@ -14,6 +15,10 @@ ifneq ($(words $(SCENE)),0)
   $(if $(wildcard $(SCENE)),,$(error SCENE=$(SCENE): there is no such file))
   $(if $(filter %.toml,$(SCENE)),,$(error SCENE=$(SCENE): a scene is a .toml file))
   $(if $(filter figures bodies,$(scene_stem)),$(error SCENE=$(SCENE): out/$(scene_stem) has another use; rename the file))
+  # Scenes of one name share out/<name>: one's own must not take the place of the project's.
+  scene_of_name := $(wildcard data/scenes/$(scene_stem).toml)
+  $(if $(scene_of_name),$(if $(shell cmp -s '$(SCENE)' $(scene_of_name) || echo differs),\
+    $(error SCENE=$(SCENE): out/$(scene_stem) is of $(scene_of_name), which says otherwise; rename the file)))
 endif
 own_scene := $(or $(scene_stem),$(paper_scene))
 

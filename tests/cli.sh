@@ -398,6 +398,16 @@ if grep -h corner_contact out/scene/params/*.toml | grep -q '#'; then wrong "a s
   ok "a slice gives no unit to true"; fi
 if "$bin/gear-plot" --help | grep -q 'see above' || ! "$bin/gear-plot" --help | tr -s ' \n' ' ' | grep -q 'From response.h5 of sweeps up and down'; then wrong "gear-plot --help says what each figure takes" ""; else
   ok "gear-plot --help says what each figure takes"; fi
+refused "a speed for a figure of no single speed" 2 'fig12 takes no --mesh-frequency' "$bin/gear-plot" fig12 --plots "$plots" --mesh-frequency 2400 --output other out/scene/T100/static.h5
+refused "fig15 without speeds" 2 'fig15 needs --mesh-frequency, in Hz, one or two.*0 given' "$bin/gear-plot" fig15 --plots "$plots" --output other out/scene/T100/pairs/up/sweep.h5
+refused "fig15 with three speeds" 2 'fig15 needs .*3 given' "$bin/gear-plot" fig15 --plots "$plots" --mesh-frequency 1,2,3 --output other out/scene/T100/pairs/up/sweep.h5
+mkdir -p titled/params titled/T100 && cp out/scene/T100/static.h5 titled/T100 && echo 'Gears of <a_b> & {c}' > titled/params/title.txt
+if "$bin/gear-plot" fig12 --plots "$plots" --output titled/fig12 titled/T100/static.h5 > said 2>&1 && grep -q '^# scene titled: Gears of <a_b> & {c}$' titled/fig12.tsv &&
+  grep -q 'titled: Gears of &lt;a_b.*&amp; {c}' titled/fig12.svg; then ok "the title of a scene stands on its figures as it is written"; else
+  wrong "the title of a scene stands on its figures as it is written" "$(grep -o 'titled:[^/]*' titled/fig12.svg) $(tail -n 1 said)"; fi
+if command -v xmllint > /dev/null; then xmllint --noout titled/fig12.svg 2> said && ok "a figure is well-formed SVG" || wrong "a figure is well-formed SVG" "$(head -n 1 said)"; fi
+rm -r titled
+inspected "gear-inspect says its units first" 0 '^units: mm .gears., um .*N/um' out/scene/T100/static.h5
 # On a terminal the search of a calibration shows that it is at work.
 if command -v script > /dev/null; then
   script -q -e -c "${ring_down[*]} --calibrate 0.05 --contact-state one" /dev/null > said 2>&1

@@ -554,31 +554,41 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
     sweeps.push_back(lumped_sweep(s, cells_of(wave), Eigen::VectorXi::Zero(1), o, no_report));
     responses.push_back(response(sweeps.back()));
   }
-  const Figure forces = mesh_force_figure({sweeps[1]});
-  REQUIRE(forces.blocks.size() == 2);
-  CHECK(forces.blocks[0].name == "upper 1");
-  CHECK(forces.blocks[0].rows.size() == 257);
-  CHECK(forces.blocks[0].rows[128 + 5][1] == relative(sweeps[1].mesh_force(2, 5), 1e-12));  // 2200 Hz
-  CHECK(forces.blocks[1].rows[5][1] == relative(sweeps[1].mesh_force(1, 5), 1e-12));        // 2150 Hz
-  CHECK(forces.notes[0].find("jump at 2525.3 Hz") != std::string::npos);
+  const Figure forces = mesh_force_figure({sweeps[0], sweeps[1]}, {2200, 2160});
+  REQUIRE(forces.blocks.size() == 4);
+  CHECK(forces.blocks[2].name == "a 2");
+  CHECK(forces.blocks[2].rows.size() == 257);
+  CHECK(forces.blocks[2].rows[128 + 5][1] == relative(sweeps[1].mesh_force(2, 5), 1e-12));  // 2200 Hz
+  CHECK(forces.blocks[3].rows[5][1] == relative(sweeps[1].mesh_force(1, 5), 1e-12));        // 2150 Hz
+  CHECK(forces.notes[0].find("dashed") == std::string::npos);
+  CHECK(forces.notes[0].find("rectangular stiffness, 294.0 to 516.7") != std::string::npos);
+  CHECK(forces.notes[1].find("jump at 2525.3 Hz") != std::string::npos);
+  for (const auto& [name, value] : forces.words) {
+    if (name == "labels_a")
+      CHECK(value ==
+            "'2200 Hz, ratio 1.758, before its jump at 2172 Hz' '2200 Hz, ratio 1.758, before its "
+            "jump at 2525 Hz' ");
+    if (name == "labels_b")
+      CHECK(value ==
+            "'2150 Hz, ratio 1.758, after its jump at 2172 Hz' '2150 Hz, ratio 1.758, before its "
+            "jump at 2525 Hz' ");
+  }
 
-  const Figure curves = lumped_response_figure(responses);
+  const Background told{{}, {sweeps[0].lumped, sweeps[1].lumped}, {}};
+  const Figure curves = response_figure(responses, told);
   REQUIRE(curves.blocks.size() == 4);
-  CHECK(curves.blocks[0].name == "150 up");
+  CHECK(curves.blocks[0].name == "a 150 N m up");
   CHECK(curves.blocks[0].rows[0][1] == relative(1e6 * responses[1].dte_rms[0], 1e-12));
-  CHECK(curves.blocks[2].name == "150 down");
+  CHECK(curves.blocks[2].name == "a 150 N m down");
   REQUIRE(curves.blocks[3].rows.size() == 1);
   CHECK(curves.blocks[3].rows[0][0] == relative(2171.615284, 1e-6));
   REQUIRE(curves.blocks[1].rows.size() == 1);
   CHECK(curves.blocks[1].rows[0][0] == relative(2525.315708, 1e-6));
-  CHECK(curves.notes[0] == "jumps: 150 N m up 2525.3 Hz; 150 N m down 2171.6 Hz");
-  CHECK_THROWS_AS(lumped_response_figure({responses[0]}), Error);
-  CHECK_THROWS_AS(lumped_response_figure({responses[0], responses[0]}), Error);
-  ResponseArtifact elastic = responses[0];
-  elastic.model = "finite elements";
-  CHECK_THROWS_AS(lumped_response_figure({responses[1], elastic}), Error);
-  CHECK_THROWS_AS(mesh_force_figure({}), Error);
-  CHECK_THROWS_AS(mesh_force_figure({SweepArtifact{}}), Error);
+  CHECK(curves.notes[1].find("mass 1.4 kg, damping ratio 8 %") != std::string::npos);
+  CHECK(curves.notes[2].find("(a) 150 N m: jumps rising 2525, falling 2172 Hz; ") == 0);
+  CHECK_THROWS_AS(mesh_force_figure({}, {2200}), Error);
+  CHECK_THROWS_AS(mesh_force_figure({sweeps[0]}, {}), Error);
+  CHECK_THROWS_AS(mesh_force_figure({SweepArtifact{}}, {2200}), Error);
 }
 
 TEST_CASE("lumped: what is no model is refused by name") {

@@ -78,6 +78,7 @@ int body(int argc, char** argv) {
       "compare slices with this scene; default: data/scenes/<scene>.toml of out/<scene>/, if there is one");
   parse(app, argc, argv);
   bool fresh = true;
+  std::cout << kSummaryUnits << "\n";
   for (const std::string& path : paths) {
     const Origin origin = read_origin(path);
     std::cout << path << ": " << origin.title << "\n";

@@ -1,32 +1,40 @@
 // gear-plot: a figure of the paper as numbers and as pictures.
 //
-// Reads      artifacts, which ones `gear-plot --help` says for each figure; table1 besides --published FILE, frequencies to
-//            compare with; <plots>/<figure>.gp, the template
+// Reads      artifacts, which ones `gear-plot --help` says for each figure; params/title.txt in the folder of their scene, if
+//            there is one; table1 besides --published FILE, frequencies to compare with; <plots>/<figure>.gp, the template
 // Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all; for table1 <output>.tsv and, to read,
 //            <output>.txt
 // Equations  k = (T / r_b) / STE
 // Example    gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
 //                      out/parker2000/T150/down/response.h5
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/provenance.h"
 #include "files/publish.h"
 #include "files/schemas.h"
+#include "files/summary.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
 #include "plot/map_figures.h"
+#include "signal/response.h"
 
 namespace {
 
 using Paths = std::vector<std::string>;
 
+using Frequencies = std::vector<double>;
+
 struct Drawing {
   const char* shows;
   const char* inputs;
-  size_t count;  // of inputs; 0: any number
-  whine::Figure (*draw)(const Paths& inputs, double mesh_frequency);
+  size_t count;        // of inputs; 0: any number
+  size_t frequencies;  // most that --mesh-frequency may give; 0: none, else one is needed
+  whine::Figure (*draw)(const Paths& inputs, const Frequencies& mesh_frequencies);
 };
 
 template <class Artifact>
@@ -36,18 +44,68 @@ std::vector<Artifact> read_all(const Paths& inputs, Artifact (*read)(const std::
   return artifacts;
 }
 
+// Sweeps of one kind among the inputs, with what other inputs and their scenes tell of them.
+template <class Sweep>
+struct Told {
+  std::vector<Sweep> sweeps;
+  whine::Background background;
+
+  void add(const std::string& path, Sweep sweep, const whine::LumpedParameters& lumped) {
+    sweeps.push_back(std::move(sweep));
+    background.scenes.push_back(whine::scene_words(path));
+    background.lumped.push_back(lumped);
+  }
+};
+
+bool is_a(const char* schema, const std::string& path) {
+  return whine::read_origin(path).schema == schema;
+}
+
+Told<whine::ResponseArtifact> read_responses(const Paths& inputs) {
+  Told<whine::ResponseArtifact> told;
+  for (const std::string& path : inputs) {
+    if (is_a("whine/impact", path)) {
+      told.background.impacts.push_back(whine::read_impact(path));
+    } else if (is_a("whine/sweep", path)) {
+      const whine::SweepArtifact sweep = whine::read_sweep(path);
+      told.add(path, whine::response(sweep), sweep.lumped);
+    } else {
+      told.add(path, whine::read_response(path), {});
+    }
+  }
+  return told;
+}
+
+Told<whine::SweepArtifact> read_sweeps(const Paths& inputs) {
+  Told<whine::SweepArtifact> told;
+  for (const std::string& path : inputs) {
+    if (is_a("whine/impact", path)) {
+      told.background.impacts.push_back(whine::read_impact(path));
+    } else {
+      const whine::SweepArtifact sweep = whine::read_sweep(path);
+      told.add(path, sweep, sweep.lumped);
+    }
+  }
+  return told;
+}
+
+whine::Figure draw_responses(const Paths& inputs, const Frequencies&) {
+  const auto told = read_responses(inputs);
+  return whine::response_figure(told.sweeps, told.background);
+}
+
 const std::map<std::string, Drawing>& drawings() {
   static const std::map<std::string, Drawing> all{
       {"fig01",
-       {"finite element mesh", "mesh.h5 of driver and driven gear, static.h5", 3,
-        [](const Paths& in, double) {
+       {"finite element mesh", "mesh.h5 of driver and driven gear, static.h5", 3, 0,
+        [](const Paths& in, const Frequencies&) {
           return whine::mesh_figure(whine::read_mesh(in[0]), whine::read_mesh(in[1]),
                                     whine::read_static(in[2]));
         }}},
       {"fig03",
        {"contact zone: candidate pairs, inner and outer region, pressure",
-        "mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5", 5,
-        [](const Paths& in, double) {
+        "mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5", 5, 0,
+        [](const Paths& in, const Frequencies&) {
           const whine::StaticArtifact pair = whine::read_static(in[4]);
           return whine::contact_zone_figure(
               whine::read_mesh(in[0]), whine::read_mesh(in[1]), pair,
@@ -55,58 +113,63 @@ const std::map<std::string, Drawing>& drawings() {
         }}},
       {"fig05",
        {"RMS of the dynamic transmission error against mesh frequency",
-        "response.h5 of sweeps up and down, any torques; a panel for each set of choices", 0,
-        [](const Paths& in, double) { return whine::response_figure(read_all(in, whine::read_response)); }}},
+        "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and "
+        "damping ratio); "
+        "a panel for each set of choices; impact.h5 of the same torques, for damping ratios",
+        0, 0, draw_responses}},
       {"fig08",
        {"dynamic transmission error over time and its spectrum, both branches at one speed",
-        "sweep.h5 of sweeps up and down of one torque, any choices", 0,
-        [](const Paths& in, double f) {
-          return whine::vibration_figure(read_all(in, whine::read_sweep), f);
+        "sweep.h5 of sweeps up and down of one torque, any choices; impact.h5 of that torque, for damping "
+        "ratios",
+        0, 1,
+        [](const Paths& in, const Frequencies& f) {
+          const auto told = read_sweeps(in);
+          return whine::vibration_figure(told.sweeps, f[0], told.background);
         }}},
       {"fig10",
-       {"tooth loads over the mesh phase, both branches at one speed", "as fig08", 0,
-        [](const Paths& in, double f) {
-          return whine::tooth_load_figure(read_all(in, whine::read_sweep), f);
+       {"tooth loads over the mesh phase, both branches at one speed", "as fig08", 0, 1,
+        [](const Paths& in, const Frequencies& f) {
+          const auto told = read_sweeps(in);
+          return whine::tooth_load_figure(told.sweeps, f[0], told.background);
         }}},
       {"fig12",
-       {"static transmission error and its spectrum", "static.h5, one per torque", 0,
-        [](const Paths& in, double) {
+       {"static transmission error and its spectrum", "static.h5, one per torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
           return whine::transmission_error_figure(read_all(in, whine::read_static));
         }}},
       {"fig13",
-       {"mesh stiffness and its spectrum", "as fig12", 0,
-        [](const Paths& in, double) {
+       {"mesh stiffness and its spectrum", "as fig12", 0, 0,
+        [](const Paths& in, const Frequencies&) {
           return whine::mesh_stiffness_figure(read_all(in, whine::read_static));
         }}},
-      {"fig14-elastic",
-       {"RMS and mean of the dynamic transmission error against mesh frequency", "as fig05", 0,
-        [](const Paths& in, double) { return whine::response_figure(read_all(in, whine::read_response)); }}},
       {"fig15",
-       {"net mesh force of a lumped model", "sweep.h5 of lumped models at one torque", 0,
-        [](const Paths& in, double) { return whine::mesh_force_figure(read_all(in, whine::read_sweep)); }}},
-      {"fig16",
-       {"RMS and mean of the transmission error of a lumped model",
-        "response.h5 of one lumped model, up and down, per torque", 0,
-        [](const Paths& in, double) {
-          return whine::lumped_response_figure(read_all(in, whine::read_response));
+       {"net mesh force of lumped models at one or two speeds", "sweep.h5 of lumped models at one torque", 0,
+        2,
+        [](const Paths& in, const Frequencies& f) {
+          return whine::mesh_force_figure(read_all(in, whine::read_sweep), f);
         }}},
+      {"fig16", {"RMS and mean of the dynamic transmission error", "as fig05", 0, 0, draw_responses}},
       {"error-budget",
        {"what refining each discretisation alone changes, and what other choices change", "error_budget.h5",
-        1,
-        [](const Paths& in, double) { return whine::error_budget_figure(whine::read_error_budget(in[0])); }}},
+        1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return whine::error_budget_figure(whine::read_error_budget(in[0]));
+        }}},
       {"jump-map",
        {"two branches, contact loss and tooth loads against torque, damping and corner rule",
-        "jump_map.h5, one per torque and corner rule", 0,
-        [](const Paths& in, double) { return whine::jump_map_figure(read_all(in, whine::read_jump_map)); }}},
+        "jump_map.h5, one per torque and corner rule", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return whine::jump_map_figure(read_all(in, whine::read_jump_map));
+        }}},
       {"jump-map-lumped",
        {"the same of lumped models, and in how much they agree with the elastic pair",
-        "jump_map.h5 of lumped models and of the elastic pair, one per torque and model or corner rule", 0,
-        [](const Paths& in, double) {
+        "jump_map.h5 of lumped models and of the elastic pair, one per torque and model or corner rule", 0, 0,
+        [](const Paths& in, const Frequencies&) {
           return whine::lumped_jump_map_figure(read_all(in, whine::read_jump_map));
         }}},
       {"sensitivity",
-       {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0,
-        [](const Paths& in, double) {
+       {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0, 0,
+        [](const Paths& in, const Frequencies&) {
           std::vector<whine::JumpMapArtifact> maps = read_all(in, whine::read_jump_map);
           const whine::JumpMapArtifact base = maps.front();
           maps.erase(maps.begin());
@@ -131,7 +194,19 @@ std::string footer() {
   return lines + "  " + kTable + ": natural frequencies, as a table. From impact.h5, one per torque\n";
 }
 
-whine::Figure figure_of(const std::string& name, const Paths& inputs, double mesh_frequency) {
+// Scenes that all of a figure shows: not those that stand at their panels, nor variants of the first.
+Paths scenes_of(const std::string& name, const Paths& inputs, const whine::Figure& figure) {
+  Paths scenes;
+  for (const std::string& path : inputs) {
+    const std::string words = whine::scene_words(path);
+    bool at_panel = words.empty() || (name == "sensitivity" && !scenes.empty());
+    for (const std::string& note : figure.notes) at_panel = at_panel || note.find(words) != std::string::npos;
+    if (!at_panel && std::find(scenes.begin(), scenes.end(), words) == scenes.end()) scenes.push_back(words);
+  }
+  return scenes;
+}
+
+whine::Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies& mesh_frequencies) {
   const auto found = drawings().find(name);
   if (found == drawings().end())
     whine::fail(whine::Failure::usage, "unknown figure '", name, "'; known are ", known());
@@ -139,20 +214,33 @@ whine::Figure figure_of(const std::string& name, const Paths& inputs, double mes
   if (drawing.count != 0 && inputs.size() != drawing.count)
     whine::fail(whine::Failure::usage, name, " needs ", drawing.count, " inputs, ", drawing.inputs, "; ",
                 inputs.size(), " given");
-  if ((name == "fig08" || name == "fig10") && !(mesh_frequency > 0))
-    whine::fail(whine::Failure::usage, name, " needs --mesh-frequency, in Hz, above 0");
-  return drawing.draw(inputs, mesh_frequency);
+  if (drawing.frequencies == 0 && !mesh_frequencies.empty())
+    whine::fail(whine::Failure::usage, name, " takes no --mesh-frequency: it is not of single speeds");
+  if (drawing.frequencies > 0 && (mesh_frequencies.empty() || mesh_frequencies.size() > drawing.frequencies))
+    whine::fail(whine::Failure::usage, name, " needs --mesh-frequency, in Hz, ",
+                drawing.frequencies == 1 ? "one" : "one or two; two as in 2200,2150", "; ",
+                mesh_frequencies.size(), " given");
+  for (double f : mesh_frequencies)
+    if (!(f > 0) || !std::isfinite(f))
+      whine::fail(whine::Failure::usage, name, ": --mesh-frequency ", f, "; it is in Hz, above 0");
+  whine::Figure figure = drawing.draw(inputs, mesh_frequencies);
+  figure.scenes = scenes_of(name, inputs, figure);
+  return figure;
 }
 
 void body(int argc, char** argv) {
   CLI::App app{"Draws a figure of the paper from artifacts", "gear-plot"};
   std::string name, output, published, plots = "pipelines/plots";
   Paths inputs;
-  double mesh_frequency = 0;
+  Frequencies mesh_frequencies;
   app.add_option("figure", name, known())->required();
   app.add_option("inputs", inputs, "artifacts, for each figure below")->required();
   app.add_option("--output", output, "path of the results without extension")->required();
-  app.add_option("--mesh-frequency", mesh_frequency, "speed of fig08 and fig10 in Hz, one of the sweeps'");
+  app.add_option("--mesh-frequency", mesh_frequencies,
+                 "speed of fig08 and fig10 in Hz, one of the sweeps'; one or two of fig15, of its panels "
+                 "(the sweeps' nearest)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--published", published, "file of frequencies that table1 compares with");
   app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
   app.footer(footer());
@@ -169,7 +257,7 @@ void body(int argc, char** argv) {
     whine::tell("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
     return;
   }
-  const whine::Figure figure = figure_of(name, inputs, mesh_frequency);
+  const whine::Figure figure = figure_of(name, inputs, mesh_frequencies);
   const std::string table = output + ".tsv", recipe = plots + "/" + name + ".gp";
   whine::publish(table, whine::tsv(figure, sources));
   whine::publish(output + ".svg", whine::draw(figure, table, recipe, whine::Picture::svg));

@@ -2,6 +2,7 @@
 //
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml    slices in SI, replaced only if they change
+//            <out>/<scene>/params/title.txt              what figures call it
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
@@ -123,6 +124,7 @@ void body(int argc, char** argv) {
   publish_if_changed(home + "/params/map.toml", map_slice(scene));
   publish_if_changed(home + "/params/lumped.toml", lumped_slice(scene, true));
   publish_if_changed(home + "/params/lumped_map.toml", lumped_slice(scene, false));
+  publish_if_changed(home + "/params/title.txt", scene.title + "\n");
 
   // 3. The fragment, always written: make compares its time with the scene's.
   std::ostringstream out;
@@ -132,6 +134,8 @@ void body(int argc, char** argv) {
   out << name("DRIVEN") << " := " << scene.mesh.driven << "\n" << bodies.str() << name("TORQUES") << " :=";
   for (double torque : scene.operation.torques) out << " " << short_number(torque);
   out << "\n" << name("REFERENCE_TORQUE") << " := " << short_number(scene.operation.torques.front()) << "\n";
+  const bool rings_down = scene.fidelity.contact == "strips" && scene.fidelity.body != "full";
+  out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";
   out << "BODIES +=";
   for (const auto& hash : hashes) out << " " << hash;
   out << "\n";

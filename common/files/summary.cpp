@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <sstream>
 
@@ -67,7 +69,7 @@ void show_discretisation(Lines& lines, const BodyDiscretisation& driver, const B
 
 void show_damping(Lines& lines, const Damping& damping) {
   add(lines, "damping", "eta ", damping.rayleigh_stiffness * 1e6, " us, bearing ratio ",
-      damping.bearing_ratio);
+      damping.bearing_ratio * 100, " %");
 }
 
 void show(Lines& lines, const MeshArtifact& a) {
@@ -79,16 +81,16 @@ void show(Lines& lines, const MeshArtifact& a) {
 
 void show(Lines& lines, const BodyArtifact& a) {
   show_gear(lines, a.design, a.discretisation);
-  add(lines, "inertia of the body", a.inertia * 1e3, " g m2");
+  add(lines, "inertia of the body", a.inertia, " kg m2");
   std::string modes;
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(a.eigenfrequency.size(), 8); ++i) {
-    modes += text(i ? ", " : "", std::round(a.eigenfrequency[i] / 10) / 100, " (", a.nodal_diameter[i], ")");
+    modes += text(i ? ", " : "", std::round(a.eigenfrequency[i]), " (", a.nodal_diameter[i], ")");
   }
-  add(lines, "modes", a.eigenfrequency.size(), "; kHz (nodal diameters): ", modes,
+  add(lines, "modes", a.eigenfrequency.size(), "; Hz (nodal diameters): ", modes,
       a.eigenfrequency.size() > 8 ? ", ..." : "");
   add(lines, "near field", near_field(a.discretisation));
   add(lines, "flank table", a.flank_position.size(), " points, tooth offsets 0 to ", a.offsets);
-  add(lines, "asymmetry", a.asymmetry, ", least eigenvalue ", a.least_eigenvalue * 1e9, " um/kN");
+  add(lines, "asymmetry", a.asymmetry, ", least eigenvalue ", a.least_eigenvalue * 1e6, " um/N");
 }
 
 void show(Lines& lines, const StaticArtifact& a) {
@@ -106,7 +108,7 @@ void show(Lines& lines, const StaticArtifact& a) {
     const auto& te = a.transmission_error;
     add(lines, "transmission error", te.mean() * 1e6, " um mean, ", (te.maxCoeff() - te.minCoeff()) * 1e6,
         " um peak to peak");
-    add(lines, "largest tooth load", a.tooth_load.size() ? a.tooth_load.maxCoeff() * 1e-3 : 0.0, " kN");
+    add(lines, "largest tooth load", a.tooth_load.size() ? a.tooth_load.maxCoeff() : 0.0, " N");
   }
   if (a.contact_pressure.size() > 0) {
     Eigen::Index i = 0, j = 0;
@@ -165,8 +167,8 @@ void show(Lines& lines, const SweepArtifact& a) {
   if (lumped) {
     add(lines, "model", a.model, ", one degree of freedom, ", l.cell_end.size(), " cells of ",
         l.stiffness.cols(), l.stiffness.cols() == 1 ? " spring" : " springs", ", mean stiffness ",
-        a.mean_stiffness * 1e-6, "e6 N/m, mass ", l.mass, " kg, integrator ", a.fidelity.integrator);
-    add(lines, "damping", "ratio ", l.damping_ratio, ", c = ", l.damper, " N s/m, acts ",
+        a.mean_stiffness * 1e-6, " N/um, mass ", l.mass, " kg, integrator ", a.fidelity.integrator);
+    add(lines, "damping", "ratio ", l.damping_ratio * 100, " %, c = ", l.damper, " N s/m, acts ",
         l.damper_acts == "contact" ? "in contact" : l.damper_acts);
   } else {
     add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -214,8 +216,8 @@ void show(Lines& lines, const ResponseArtifact& a) {
     Eigen::Index worst = 0;
     const double peak = a.dte_rms.maxCoeff(&worst);
     add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
-    add(lines, "largest tooth load", a.tooth_load_max.maxCoeff() * 1e-3, " kN, all pairs ",
-        a.mesh_force_max.maxCoeff() * 1e-3, " kN");
+    add(lines, "largest tooth load", a.tooth_load_max.maxCoeff(), " N, all pairs ",
+        a.mesh_force_max.maxCoeff(), " N");
     add(lines, "contact lost", (a.separation_fraction.array() > 0).count(), " speeds, at most ",
         a.separation_fraction.maxCoeff() * 100, " % of the period");
   }
@@ -235,8 +237,8 @@ void show(Lines& lines, const JumpMapArtifact& a) {
         two ? text(a.branches_from[i], a.open_below[i] ? " or less" : "", " to ", a.branches_to[i], " Hz")
             : "",
         lost ? text(", contact lost from ", a.loss_from[i], " to ", a.loss_to[i], " Hz") : ", contact kept",
-        ", peak tooth load ", a.peak_tooth_load.row(i).maxCoeff() * 1e-3, " kN, held ",
-        a.held_tooth_load.row(i).maxCoeff() * 1e-3, " kN");
+        ", peak tooth load ", a.peak_tooth_load.row(i).maxCoeff(), " N, held ",
+        a.held_tooth_load.row(i).maxCoeff(), " N");
   }
 }
 
@@ -264,6 +266,27 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
   }
   return lines;
+}
+
+std::string scene_words(const std::string& path) {
+  constexpr size_t kMostBytes = 160;
+  namespace fs = std::filesystem;
+  for (fs::path folder = fs::path(path).lexically_normal().parent_path(); folder.has_filename();
+       folder = folder.parent_path()) {
+    std::ifstream file(folder / "params" / "title.txt");
+    std::string title;
+    if (!file) continue;
+    std::getline(file, title);
+    const std::string name = folder.filename().string();
+    std::string words = title.empty() || title == name ? name : name + ": " + title;
+    if (words.size() > kMostBytes) {
+      size_t end = kMostBytes;
+      while (end > 0 && (static_cast<unsigned char>(words[end]) & 0xC0) == 0x80) --end;  // amid a character
+      words = words.substr(0, end) + "...";
+    }
+    return words;
+  }
+  return "";
 }
 
 }  // namespace whine

@@ -52,31 +52,43 @@ std::string corner_words(const CornerRule& corner) {
   return "corner contact up to " + shown(corner.largest_angle * 180.0 / std::numbers::pi, 4) + "°";
 }
 
-std::string model_of(const ResponseArtifact& r) {
-  return r.model;
-}
-
-std::string model_of(const SweepArtifact& s) {
-  return s.model;
+template <class Artifact>
+auto gears_of(const Artifact& s) {
+  const auto of_gear = [](const GearDesign& g) {
+    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
+  };
+  return std::tuple(of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
+                    s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
+                    s.damping.rayleigh_stiffness, s.damping.rayleigh_mass, s.damping.bearing_ratio,
+                    s.damping.undamped_depth);
 }
 
 // All that two sweeps must share to be one experiment, besides the torque.
 template <class Sweep>
-auto choices_of(const Sweep& s) {
-  const auto of_gear = [](const GearDesign& g) {
-    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
-  };
-  return std::tuple(model_of(s), of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
-                    s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
-                    s.damping.rayleigh_stiffness, s.damping.rayleigh_mass, s.damping.bearing_ratio,
-                    s.damping.undamped_depth, s.fidelity.body, s.fidelity.contact, s.fidelity.integrator);
+auto choices_of(const Sweep& s, const LumpedParameters& lumped) {
+  return std::tuple(s.model, gears_of(s), s.fidelity.body, s.fidelity.contact, s.fidelity.integrator,
+                    lumped.mass, lumped.damping_ratio, lumped.damper_acts);
+}
+
+template <class Sweep>
+bool elastic(const Sweep& s) {
+  return s.model == "finite elements";
+}
+
+std::string lumped_words(const LumpedParameters& lumped) {
+  if (!(lumped.mass > 0)) return "mass and damping ratio: see its sweep.h5";
+  return text("mass ", shown(lumped.mass, 5), " kg, damping ratio ",
+              shown(lumped.damping_ratio * kPercent, 4), " %, damper ",
+              lumped.damper_acts == "contact" ? "in contact only" : "always on");
 }
 
 template <class Sweep>
 std::string choice_words(const Sweep& s) {
+  if (!elastic(s))
+    return text("one degree of freedom (Eq. 23), mesh stiffness: ", s.model, "; integrator ",
+                s.fidelity.integrator, "; its statics: ", corner_words(s.mesh.corner));
   std::string words = "Rayleigh damping η = " + shown(s.damping.rayleigh_stiffness * kMicro, 6) + " µs";
   if (s.damping.rayleigh_mass != 0) words += ", µ = " + shown(s.damping.rayleigh_mass, 6) + " s⁻¹";
-  if (model_of(s) != "finite elements") words = model_of(s) + ": " + words;
   return words + text(", undamped to ", shown(s.damping.undamped_depth * kMilli, 4),
                       " mm depth, bearing ratio ", shown(s.damping.bearing_ratio, 4), "; ",
                       corner_words(s.mesh.corner), "; body ", s.fidelity.body, ", contact ",
@@ -93,23 +105,26 @@ struct ChoicePanel {
   struct Curve {
     const Sweep *up = nullptr, *down = nullptr;
   };
-  std::string choices;
+  std::string choices, scene;
+  LumpedParameters lumped;
   std::vector<Curve> curves;
 };
 
 // In the order in which the choices come. Throws Error(input) where a direction is missing or given twice.
 template <class Sweep>
-std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps) {
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& told) {
   std::vector<ChoicePanel<Sweep>> panels;
   std::vector<const Sweep*> first;  // of each panel
-  for (const Sweep& s : sweeps) {
+  for (size_t i = 0; i < sweeps.size(); ++i) {
+    const Sweep& s = sweeps[i];
+    const LumpedParameters lumped = told.lumped.empty() ? LumpedParameters{} : told.lumped.at(i);
     if (s.direction != "up" && s.direction != "down")
       fail(Failure::input, "figure: a sweep of direction '", s.direction, "'; up and down are known");
     size_t p = 0;
-    while (p < first.size() && choices_of(*first[p]) != choices_of(s)) ++p;
+    while (p < first.size() && choices_of(*first[p], panels[p].lumped) != choices_of(s, lumped)) ++p;
     if (p == first.size()) {
       first.push_back(&s);
-      panels.push_back({choice_words(s), {}});
+      panels.push_back({choice_words(s), told.scenes.empty() ? "" : told.scenes.at(i), lumped, {}});
     }
     auto& curves = panels[p].curves;
     const auto torque_of = [](const auto& c) { return (c.up ? c.up : c.down)->torque; };
@@ -133,6 +148,39 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps) {
   return panels;
 }
 
+// Torques and damping of a panel: "150 N m; damping ratio 6.95 % with two pairs in contact, by ring-down". Without the
+// impact.h5 of its sweeps the torques alone.
+template <class Sweep>
+std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& told) {
+  std::string torques, ratios, at, state;
+  size_t known = 0;
+  for (const auto& curve : panel.curves) {
+    const Sweep& s = *curve.up;
+    torques += (torques.empty() ? "" : ", ") + shown(s.torque, 6);
+    const auto found =
+        std::find_if(told.impacts.begin(), told.impacts.end(), [&](const ImpactArtifact& impact) {
+          return impact.torque == s.torque && gears_of(impact) == gears_of(s) &&
+                 impact.state_phase.size() > 0;
+        });
+    if (!elastic(s) || found == told.impacts.end()) continue;
+    // Many pairs as without load; with any load there may be more.
+    static const std::array<std::string, 4> kCounts{"one", "two", "three", "four"};
+    const size_t many = static_cast<size_t>(
+        std::ceil(GearPair(s.driver, s.driven, s.mesh.centre_distance).contact_ratio() - 1e-9));
+    const auto& states = found->contact_state;
+    const auto wanted = std::find(states.begin(), states.end(), many <= 4 ? kCounts[many - 1] : "");
+    const Eigen::Index i = wanted != states.end() ? wanted - states.begin() : found->state_phase.size() - 1;
+    state = known++ == 0 || state == states[i] ? states[i] : "most";
+    ratios += (ratios.empty() ? "" : ", ") + fixed(found->damping_ratio[i] * kPercent, 2);
+    at += (at.empty() ? "" : ", ") + shown(s.torque, 6);
+  }
+  torques += " N m";
+  if (!elastic(*panel.curves[0].up)) return torques + "; " + lumped_words(panel.lumped);
+  if (known == 0) return torques;
+  return torques + "; damping ratio " + ratios + " %" + (at + " N m" == torques ? "" : " at " + at + " N m") +
+         " with " + state + (state == "one" ? " pair" : " pairs") + " in contact, by ring-down";
+}
+
 // The row after which the march crosses f; -1 if it never does.
 Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
   for (Eigen::Index i = 0; i + 1 < frequency.size(); ++i)
@@ -150,33 +198,46 @@ Eigen::Index row_left(const ResponseArtifact& r, double f) {
   return last;
 }
 
+// Rows after which a curve breaks: where the march left a branch that ends at a jump, and where the RMS changes by half of
+// itself at once and 2.5 times as much as in the steps beside, which is another branch, too.
+std::vector<bool> broken_after(const ResponseArtifact& r) {
+  const Eigen::Index n = r.mesh_frequency.size();
+  std::vector<bool> jumps(n, false), broken;
+  for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j)
+    if (const Eigen::Index i = row_left(r, r.jump_frequency[j]); i >= 0) jumps[i] = true;
+  broken = jumps;
+  const auto change = [&](Eigen::Index i) {
+    return i < 0 || i + 1 >= n || jumps[i] ? 0.0 : std::abs(std::log(r.dte_rms[i + 1] / r.dte_rms[i]));
+  };
+  for (Eigen::Index i = 0; i + 1 < n; ++i)
+    if (r.dte_rms[i] > 0 && r.dte_rms[i + 1] > 0 &&
+        change(i) > std::max(std::log(1.5), 2.5 * std::max(change(i - 1), change(i + 1))))
+      broken[i] = true;
+  return broken;
+}
+
 FigureBlock branch_block(const std::string& name, const ResponseArtifact& r) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
                      "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
                     {}};
+  const std::vector<bool> broken = broken_after(r);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
                           r.separation_fraction[i], r.mesh_force_max[i], r.tooth_load_max[i],
                           static_cast<double>(r.period_multiple[i])});
-    // The curve stops at a jump: the arrow shows the step, a line would pretend that there are states
-    // between.
-    for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j)
-      if (row_left(r, r.jump_frequency[j]) == i) {
-        block.rows.emplace_back();
-        break;
-      }
+    // A line across would pretend that there are states between.
+    if (broken[i]) block.rows.emplace_back();
   }
   return block;
 }
 
 // In order of frequency. What the RMS and the mean are after a jump is read off the branch on which the march goes on.
 FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
-  FigureBlock block{
-      name,
-      {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]", "label row [1]",
-       "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
-      {}};
+  FigureBlock block{name,
+                    {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
+                     "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
+                    {}};
   for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
     const double f = r.jump_frequency[j];
     const Eigen::Index at = row_before(r.mesh_frequency, f), i = row_left(r, f);
@@ -187,26 +248,52 @@ FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
     const auto after = [&](const Eigen::VectorXd& v) {
       return (i == at ? v[at + 1] : (1 - share) * v[at] + share * v[at + 1]) * kMicro;
     };
-    block.rows.push_back({f, r.dte_rms[i] * kMicro, after(r.dte_rms), r.jump_width[j], 0.0,
-                          r.dte_mean[i] * kMicro, after(r.dte_mean), r.mesh_frequency[i]});
+    block.rows.push_back({f, r.dte_rms[i] * kMicro, after(r.dte_rms), r.jump_width[j], r.dte_mean[i] * kMicro,
+                          after(r.dte_mean), r.mesh_frequency[i]});
   }
   std::sort(block.rows.begin(), block.rows.end());
   return block;
 }
 
-// Labels of jumps closer than a few widths of a letter would overlap: the next one stands a row lower.
-void set_label_rows(FigureBlock& one, FigureBlock& other, double span) {
-  std::vector<std::vector<double>*> rows;
-  for (FigureBlock* block : {&one, &other})
-    for (auto& row : block->rows) rows.push_back(&row);
-  std::sort(rows.begin(), rows.end(), [](auto a, auto b) { return a->front() < b->front(); });
-  double previous = -std::numeric_limits<double>::infinity();
-  int level = 0;
-  for (auto* row : rows) {
-    level = row->front() - previous < 0.03 * span ? level + 1 : 0;
-    previous = row->front();
-    (*row)[4] = level;
+// " 1241, 1410" of a block of jumps; after the sixth only how many more there are.
+std::string listed(const FigureBlock& jumps) {
+  constexpr size_t kMostListed = 6;
+  std::string list;
+  for (size_t j = 0; j < std::min(jumps.rows.size(), kMostListed); ++j)
+    list += (j ? ", " : " ") + fixed(jumps.rows[j][0], 0);
+  return jumps.rows.size() > kMostListed ? text(list, " and ", jumps.rows.size() - kMostListed, " more")
+                                         : list;
+}
+
+// Ranges of neighbouring speeds at which either sweep loses contact.
+std::string loss_words(const ResponseArtifact& up, const ResponseArtifact& down) {
+  std::map<double, bool> parts;
+  for (const ResponseArtifact* r : {&up, &down})
+    for (Eigen::Index f = 0; f < r->mesh_frequency.size(); ++f)
+      parts[r->mesh_frequency[f]] |= r->separation_fraction[f] > 0;
+  std::string ranges;
+  for (auto first = parts.begin(); first != parts.end(); ++first) {
+    if (!first->second) continue;
+    auto last = first;
+    while (std::next(last) != parts.end() && std::next(last)->second) ++last;
+    ranges += (ranges.empty() ? "" : ", ") + fixed(first->first, 0);
+    if (last != first) ranges += " to " + fixed(last->first, 0);
+    first = last;
   }
+  return ranges.empty() ? "nowhere" : ranges + " Hz";
+}
+
+std::string loss_words(const std::vector<ChoicePanel<ResponseArtifact>::Curve>& curves) {
+  const std::string first = loss_words(*curves[0].up, *curves[0].down);
+  std::string each;
+  bool alike = true;
+  for (const auto& c : curves) {
+    const std::string words = loss_words(*c.up, *c.down);
+    alike = alike && words == first;
+    each += (each.empty() ? " at " : "; at ") + torque_words(c.up->torque) + ": " + words;
+  }
+  if (alike && first == "nowhere") return "contact is never lost";
+  return alike && curves.size() > 1 ? "contact lost at every torque: " + first : "contact lost" + each;
 }
 
 // ---- motions at one speed
@@ -237,14 +324,34 @@ Motion motion_at(const SweepArtifact& s, double frequency) {
   return m;
 }
 
-std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double frequency) {
+std::vector<LumpedParameters> lumped_of(const std::vector<SweepArtifact>& sweeps) {
+  std::vector<LumpedParameters> lumped;
+  for (const SweepArtifact& s : sweeps) lumped.push_back(s.lumped);
+  return lumped;
+}
+
+std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double frequency, Background told,
+                               Figure& figure) {
   constexpr double kSameBranch = 0.02;  // of the larger RMS: far above what periodicity leaves open
   if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; an up and a down sweep are the least");
   std::vector<Motion> motions;
-  for (const auto& panel : panels_of(sweeps))
+  told.lumped = lumped_of(sweeps);
+  for (const auto& panel : panels_of(sweeps, told)) {
+    constexpr size_t kWidth = 170;  // characters that fit into a line
+    const std::string operating = operating_words(panel, told);
+    if (panel.scene.size() + operating.size() > kWidth) {
+      figure.notes.push_back(panel.scene);
+      figure.notes.push_back(operating);
+    } else {
+      figure.notes.push_back(panel.scene + (panel.scene.empty() ? "" : "; ") + operating);
+    }
+    figure.notes.push_back(panel.choices);
     for (const auto& curve : panel.curves) {
       Motion up = motion_at(*curve.up, frequency), down = motion_at(*curve.down, frequency);
-      const std::string damping = "η = " + shown(curve.up->damping.rayleigh_stiffness * kMicro, 6) + " µs";
+      const std::string damping =
+          elastic(*curve.up)
+              ? "η = " + shown(curve.up->damping.rayleigh_stiffness * kMicro, 6) + " µs"
+              : curve.up->model + " at " + shown(panel.lumped.damping_ratio * kPercent, 4) + " %";
       const auto rms = [](const Motion& m) { return harmonics(m.orbit(m.sweep->transmission_error), 0).rms; };
       const double of_up = rms(up), of_down = rms(down);
       if (std::abs(of_up - of_down) <= kSameBranch * std::max(of_up, of_down)) {
@@ -259,20 +366,20 @@ std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double 
       motions.push_back(upper);
       motions.push_back(lower);
     }
+  }
   if (motions.size() > kMostCurves)
     fail(Failure::input, "figure: ", motions.size(), " motions at ", frequency, " Hz; ", kMostCurves,
          " fit into a figure");
   return motions;
 }
 
-void set_motion_words(Figure& figure, const std::string& what, const std::vector<Motion>& motions,
+void set_motion_title(Figure& figure, const std::string& what, const std::vector<Motion>& motions,
                       double frequency) {
   figure.title = what + " at a mesh frequency of " + shown(frequency, 6) + " Hz, " +
                  torque_words(motions[0].sweep->torque);
-  for (const auto& m : motions) {
-    const std::string choices = choice_words(*m.sweep);
-    if (figure.notes.empty() || figure.notes.back() != choices) figure.notes.push_back(choices);
-  }
+  for (size_t i = 0; i < figure.notes.size(); ++i)
+    figure.words.emplace_back(text("line", i + 1), without_markup(figure.notes[i]));
+  figure.numbers.emplace_back("lines", static_cast<double>(figure.notes.size()));
   figure.numbers.emplace_back("motions", static_cast<double>(motions.size()));
 }
 
@@ -547,21 +654,29 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
   return figure;
 }
 
-Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told) {
   if (sweeps.empty())
     fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
-  std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps);
+  std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps, told);
   Figure figure;
   std::vector<double> torques;
-  for (const auto& r : sweeps) torques.push_back(r.torque);
+  bool any_elastic = false, any_lumped = false;
+  for (const auto& r : sweeps) {
+    torques.push_back(r.torque);
+    (elastic(r) ? any_elastic : any_lumped) = true;
+  }
   std::sort(torques.begin(), torques.end());
   torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
   figure.title = "Dynamic transmission error against mesh frequency, ";
   for (size_t i = 0; i < torques.size(); ++i) figure.title += (i ? ", " : "") + shown(torques[i], 6);
   figure.title += " N m";
   figure.notes.push_back(
-      "f_n: mean natural frequency over the mesh period, contact frozen under the static load");
-  figure.height = panels.size() == 1 ? 1000 : 240 + 600 * static_cast<int>(panels.size());
+      std::string("f_n: ") +
+      (any_elastic ? "mean natural frequency over the mesh period, contact frozen under the static load"
+                   : "") +
+      (any_elastic && any_lumped ? "; one degree of freedom: " : "") +
+      (any_lumped ? "natural frequency of the mass on the mean stiffness" : ""));
+  figure.height = panels.size() == 1 ? 1060 : 240 + 660 * static_cast<int>(panels.size());
   double from = std::numeric_limits<double>::infinity(), to = 0;
   const auto number = [&](const std::string& name, double value) {
     figure.numbers.emplace_back(name, value);
@@ -572,25 +687,21 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
     if (curves.size() > kMostCurves)
       fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
            " curves can be told apart");
-    figure.notes.push_back("(" + letter + ") " + panels[p].choices);
-    figure.words.emplace_back("choices_" + letter, panels[p].choices);
-    std::string labels, jumps;
+    std::string labels, jumps, found_jumps;
     double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;
     bool lost = false;
     for (size_t c = 0; c < curves.size(); ++c) {
       const std::string label = torque_words(curves[c].up->torque);
       labels += "'" + label + "' ";
       std::string found;
-      const size_t first_block = figure.blocks.size();
       for (const ResponseArtifact* r : {curves[c].up, curves[c].down}) {
         const std::string name = letter + " " + label + " ";
         figure.blocks.push_back(branch_block(name + r->direction, *r));
         figure.blocks.push_back(jump_block(name + "jumps " + r->direction, *r));
-        std::string at;
-        for (const auto& row : figure.blocks.back().rows) at += (at.empty() ? "" : ", ") + fixed(row[0], 0);
+        const std::string at = listed(figure.blocks.back());
         if (!at.empty())
           found +=
-              (found.empty() ? " " : ", ") + std::string(r->direction == "up" ? "rising " : "falling ") + at;
+              (found.empty() ? " " : ", ") + std::string(r->direction == "up" ? "rising" : "falling") + at;
         number(text("jumps_", r->direction, "_", letter, "_", c + 1),
                static_cast<double>(r->jump_frequency.size()));
         from = std::min(from, r->mesh_frequency.minCoeff());
@@ -600,10 +711,25 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
         mean_low = std::min(mean_low, r->dte_mean.minCoeff());
         lost |= r->separation_fraction.maxCoeff() > 0;
       }
-      set_label_rows(figure.blocks[first_block + 1], figure.blocks[first_block + 3], to - from);
-      jumps += "'" + label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz") + "' ";
+      const std::string words = label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz");
+      jumps += "'" + words + "' ";
+      found_jumps += (c ? "; " : "") + words;
       number(text("natural_frequency_", letter, "_", c + 1), curves[c].up->natural_frequency);
     }
+    // Scene, operating point, choices: lines above the panel.
+    std::vector<std::string> lines{operating_words(panels[p], told), panels[p].choices};
+    if (!panels[p].scene.empty()) lines.insert(lines.begin(), panels[p].scene);
+    std::string note, heading;
+    for (size_t i = 0; i < lines.size(); ++i) {
+      note += (i ? "; " : "") + lines[i];
+      heading += (i ? "\n" : "") + without_markup(lines[i]);
+    }
+    const std::string loss = loss_words(curves);
+    figure.notes.push_back("(" + letter + ") " + note);
+    figure.notes.push_back("(" + letter + ") " + found_jumps + "; " + loss);
+    figure.words.emplace_back("heading_" + letter, heading);
+    figure.words.emplace_back("loss_" + letter, loss);
+    number("heading_lines_" + letter, static_cast<double>(lines.size()));
     figure.words.emplace_back("labels_" + letter, labels);
     figure.words.emplace_back("jump_labels_" + letter, jumps);
     number("curves_" + letter, static_cast<double>(curves.size()));
@@ -612,17 +738,22 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
     number("mean_min_" + letter, mean_low * kMicro);
     number("contact_lost_" + letter, lost);
   }
+  Eigen::Index speeds = 0;
+  for (const auto& r : sweeps) speeds = std::max(speeds, r.mesh_frequency.size());
+  number("speeds", static_cast<double>(speeds));
   number("panels", static_cast<double>(panels.size()));
   number("frequency_from", from);
   number("frequency_to", to);
   return figure;
 }
 
-Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency) {
+Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
+                        const Background& told) {
   constexpr int kShownPeriods = 3;
-  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency);
   Figure figure;
-  set_motion_words(figure, "Oscillating dynamic transmission error", motions, mesh_frequency);
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, told, figure);
+  set_motion_title(figure, "Oscillating dynamic transmission error", motions, mesh_frequency);
+  figure.height = 960 + 29 * static_cast<int>(figure.notes.size());
   double time_end = 0, largest = 0, largest_amplitude = 0;
   for (size_t i = 0; i < motions.size(); ++i) {
     const Motion& m = motions[i];
@@ -663,12 +794,13 @@ Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_fr
   return figure;
 }
 
-Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency) {
+Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
+                         const Background& told) {
   constexpr int kFirstPeriod = -1, kPeriods = 3, kFirstTooth = -2, kLastTooth = 3;
-  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency);
   Figure figure;
-  set_motion_words(figure, "Tooth loads", motions, mesh_frequency);
-  figure.height = 200 + 330 * static_cast<int>(motions.size());
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, told, figure);
+  set_motion_title(figure, "Tooth loads", motions, mesh_frequency);
+  figure.height = 150 + 29 * static_cast<int>(figure.notes.size()) + 330 * static_cast<int>(motions.size());
   double largest = 0;
   const double static_force =
       motions[0].sweep->torque / ToothGeometry(motions[0].sweep->driver).base_radius();
@@ -925,99 +1057,22 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
   return figure;
 }
 
-Figure lumped_response_figure(std::vector<ResponseArtifact> responses) {
-  if (responses.empty()) fail(Failure::input, "figure: no response.h5; an up and a down sweep are the least");
-  std::stable_sort(responses.begin(), responses.end(), [](const auto& a, const auto& b) {
-    return a.torque != b.torque ? a.torque < b.torque : a.direction > b.direction;  // up before down
-  });
-  if (responses.size() > 2 * kMostCurves)
-    fail(Failure::input, "figure: ", responses.size(), " sweeps given; ", kMostCurves,
-         " torques can be told apart");
-  Figure figure;
-  const std::string model = responses[0].model;
-  figure.title = text("One degree of freedom (Eq. 23), mesh stiffness: ", model);
-  double from = responses[0].mesh_frequency[0], to = from, rms = 0, mean = 0;
-  std::string labels, jumps;
-  for (size_t i = 0; i < responses.size(); ++i) {
-    const ResponseArtifact& r = responses[i];
-    const bool up = i % 2 == 0;
-    if (r.model != model || r.model == "finite elements")
-      fail(Failure::input, "figure: sweeps of the models ", model, " and ", r.model,
-           " given; give those of one lumped model");
-    if (r.direction != (up ? "up" : "down") || (!up && r.torque != responses[i - 1].torque) ||
-        (up && i + 1 == responses.size()) || (up && i > 0 && r.torque == responses[i - 1].torque))
-      fail(Failure::input, "figure: at ", r.torque, " N m there is not one sweep up and one down");
-    const FigureBlock curve = branch_block(text(shown(r.torque, 6), " ", r.direction), r);
-    figure.blocks.push_back(curve);
-    FigureBlock arrows{text("jumps ", curve.name),
-                       {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]",
-                        "dte_mean before [µm]", "dte_mean after [µm]"},
-                       {}};
-    for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
-      const Eigen::Index row = row_left(r, r.jump_frequency[j]);
-      if (row < 0)
-        fail(Failure::input, "figure: a jump at ", r.jump_frequency[j], " Hz lies outside the sweep");
-      arrows.rows.push_back({r.jump_frequency[j], r.dte_rms[row] * kMicro, r.dte_rms[row + 1] * kMicro,
-                             r.dte_mean[row] * kMicro, r.dte_mean[row + 1] * kMicro});
-      jumps += text(jumps.empty() ? "jumps: " : "; ", shown(r.torque, 6), " N m ", r.direction, " ",
-                    fixed(r.jump_frequency[j], 1), " Hz");
-    }
-    figure.blocks.push_back(arrows);
-    figure.numbers.emplace_back(text("jumps_", r.direction, "_", i / 2 + 1),
-                                static_cast<double>(arrows.rows.size()));
-    from = std::min(from, r.mesh_frequency.minCoeff());
-    to = std::max(to, r.mesh_frequency.maxCoeff());
-    rms = std::max(rms, r.dte_rms.maxCoeff() * kMicro);
-    mean = std::max(mean, r.dte_mean.maxCoeff() * kMicro);
-    if (up) labels += text("'", shown(r.torque, 6), " N m' ");
-  }
-  figure.notes.push_back(jumps.empty() ? "no jumps" : jumps);
-  // Ranges of neighbouring speeds at which either sweep parts.
-  const auto apart = [&](size_t i) {
-    std::map<double, bool> parts;
-    for (size_t k : {i, i + 1})
-      for (Eigen::Index f = 0; f < responses[k].mesh_frequency.size(); ++f)
-        parts[responses[k].mesh_frequency[f]] |= responses[k].separation_fraction[f] > 0;
-    std::string ranges;
-    for (auto first = parts.begin(); first != parts.end(); ++first) {
-      if (!first->second) continue;
-      auto last = first;
-      while (std::next(last) != parts.end() && std::next(last)->second) ++last;
-      ranges += (ranges.empty() ? "" : ", ") + fixed(first->first, 0);
-      if (last != first) ranges += " to " + fixed(last->first, 0);
-      first = last;
-    }
-    return ranges.empty() ? "nowhere" : ranges + " Hz";
-  };
-  std::string lost = "contact lost at every torque: " + apart(0);
-  for (size_t i = 2; i < responses.size(); i += 2)
-    if (apart(i) != apart(0)) {
-      lost = "contact lost";
-      for (size_t k = 0; k < responses.size(); k += 2)
-        lost += text(k > 0 ? "; " : " ", "at ", shown(responses[k].torque, 6), " N m: ", apart(k));
-      break;
-    }
-  figure.notes.push_back(lost);
-  figure.numbers.insert(figure.numbers.end(), {{"curves", static_cast<double>(responses.size() / 2)},
-                                               {"natural_frequency", responses[0].natural_frequency},
-                                               {"frequency_from", from},
-                                               {"frequency_to", to},
-                                               {"rms_max", rms},
-                                               {"mean_max", mean}});
-  figure.words = {{"labels", labels}};
-  return figure;
-}
-
-Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps) {
-  // Where P2000's Fig. 15 shows them.
-  constexpr std::array<double, 2> kSpeeds{2200, 2150};
+Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
+                         const std::vector<double>& mesh_frequencies) {
   if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; 1 is the least");
+  if (sweeps.size() > kMostCurves)
+    fail(Failure::input, "figure: ", sweeps.size(), " sweep.h5 given; ", kMostCurves,
+         " curves can be told apart");
+  if (mesh_frequencies.empty() || mesh_frequencies.size() > 2)
+    fail(Failure::input, "figure: ", mesh_frequencies.size(),
+         " mesh frequencies given; one or two are shown");
   Figure figure;
   const double torque = sweeps[0].torque;
-  figure.title = text("Net mesh force of one degree of freedom (Eq. 23), rectangular stiffness, ",
-                      shown(torque, 6), " N m");
+  figure.title = text("Net mesh force of one degree of freedom (Eq. 23), ", torque_words(torque));
   double largest = 0;
-  std::array<std::string, 2> labels;
+  std::vector<std::string> labels(mesh_frequencies.size());
+  const std::vector<std::string> dashes{"solid",       "dashed",      "dotted",
+                                        "dash-dotted", "long dashes", "fine dots"};
   for (size_t s = 0; s < sweeps.size(); ++s) {
     const SweepArtifact& sweep = sweeps[s];
     if (sweep.lumped.cell_end.size() == 0)
@@ -1026,17 +1081,20 @@ Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps) {
       fail(Failure::input, "figure: sweeps at ", torque, " and ", sweep.torque,
            " N m; give those of one torque");
     const double low = sweep.lumped.stiffness.minCoeff(), high = sweep.lumped.stiffness.maxCoeff();
+    const bool rising = sweep.direction == "up";
     std::string jumps;
     for (double f : sweep.jump_frequency) jumps += (jumps.empty() ? ", jump at " : ", ") + fixed(f, 1);
-    figure.notes.push_back(text("levels ", fixed(low * kMega, 1), " and ", fixed(high * kMega, 1),
-                                "e6 N/m (ratio ", fixed(high / low, 3), "), speed ",
-                                sweep.direction == "up" ? "rising" : "falling",
+    figure.notes.push_back(text(dashes[s], ": ", sweep.model, " stiffness, ", fixed(low * kMega, 1), " to ",
+                                fixed(high * kMega, 1), " × 10⁶ N/m (ratio ", fixed(high / low, 3),
+                                "), mean ", fixed(sweep.mean_stiffness * kMega, 1), "; ",
+                                lumped_words(sweep.lumped), "; speed ", rising ? "rising" : "falling",
                                 jumps.empty() ? ", no jump" : jumps + " Hz"));
-    for (size_t k = 0; k < kSpeeds.size(); ++k) {
+    for (size_t k = 0; k < mesh_frequencies.size(); ++k) {
       Eigen::Index row = 0;
-      (sweep.mesh_frequency.array() - kSpeeds[k]).abs().minCoeff(&row);
+      (sweep.mesh_frequency.array() - mesh_frequencies[k]).abs().minCoeff(&row);
+      const double f = sweep.mesh_frequency[row];
       const Eigen::Index samples = sweep.time.steps_per_period, stored = sweep.mesh_force.cols();
-      FigureBlock block{text(k == 0 ? "upper " : "lower ", s + 1),
+      FigureBlock block{text(letter_of(k), " ", s + 1),
                         {"time [mesh periods]", "mesh_force [N]", "transmission_error [µm]"},
                         {}};
       for (Eigen::Index i = 0; i <= 2 * samples; ++i)
@@ -1045,20 +1103,38 @@ Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps) {
                               sweep.transmission_error(row, i % stored) * kMicro});
       figure.blocks.push_back(block);
       largest = std::max(largest, sweep.mesh_force.row(row).maxCoeff());
-      labels[k] += text("'", fixed(sweep.mesh_frequency[row], 0), " Hz, ratio ", fixed(high / low, 3),
-                        jumps.empty() ? " (no jump)' " : "' ");
+      // The jump that the sweep comes to next, else the one that it has behind it.
+      double next = 0, behind = 0;
+      for (double jump : sweep.jump_frequency) {
+        double& side = (jump > f) == rising ? next : behind;
+        if (side == 0 || std::abs(jump - f) < std::abs(side - f)) side = jump;
+      }
+      labels[k] += text("'", shown(f, 6), " Hz, ratio ", fixed(high / low, 3),
+                        next > 0     ? ", before its jump at " + fixed(next, 0) + " Hz' "
+                        : behind > 0 ? ", after its jump at " + fixed(behind, 0) + " Hz' "
+                                     : ", no jump' ");
     }
   }
-  const GearPair pair(sweeps[0].driver, sweeps[0].driven, sweeps[0].mesh.centre_distance);
   figure.numbers = {{"curves", static_cast<double>(sweeps.size())},
+                    {"panels", static_cast<double>(mesh_frequencies.size())},
                     {"force_max", largest},
-                    {"static_force", torque / pair.gear(0).base_radius()}};
-  figure.words = {{"labels_upper", labels[0]}, {"labels_lower", labels[1]}};
+                    {"static_force", torque / ToothGeometry(sweeps[0].driver).base_radius()}};
+  for (size_t k = 0; k < labels.size(); ++k) figure.words.emplace_back("labels_" + letter_of(k), labels[k]);
   return figure;
+}
+
+std::string without_markup(const std::string& words) {
+  std::string out;
+  for (char c : words) {
+    if (std::string("_^{}@&~\\").find(c) != std::string::npos) out += '\\';
+    out += c;
+  }
+  return out;
 }
 
 std::string tsv(const Figure& figure, const std::vector<std::string>& sources) {
   std::string out = "# " + figure.title + "\n";
+  for (const auto& scene : figure.scenes) out += "# scene " + scene + "\n";
   for (const auto& note : figure.notes) out += "# " + note + "\n";
   for (const auto& source : sources) out += "# from " + source + "\n";
   for (const auto& block : figure.blocks) {

@@ -21,7 +21,8 @@ struct FigureBlock {
 
 struct Figure {
   std::string title;
-  std::vector<std::string> notes;  // one line each: operating point, choices, rung
+  std::vector<std::string> scenes;  // "file: title" of those that all of it shows; filled by the caller
+  std::vector<std::string> notes;   // one line each: operating point, choices, rung
   std::vector<FigureBlock> blocks;
   std::vector<std::pair<std::string, double>> numbers;     // variables of the template
   std::vector<std::pair<std::string, std::string>> words;  // string variables of the template
@@ -40,19 +41,29 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
 Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& pair,
                            const ContactZone& zone);
 
+// What figures of sweeps say about them that is in other artifacts.
+struct Background {
+  std::vector<std::string> scenes;       // of each sweep, "file: title"; or none
+  std::vector<LumpedParameters> lumped;  // of each sweep, empty for elastic gears; or none
+  std::vector<ImpactArtifact>
+      impacts;  // for damping ratios, of any gears and torques; found by what they were made from
+};
+
 // RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
 // choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending).
 // Throws Error(input) unless every sweep up has one sweep down of the same torque and choices.
-Figure response_figure(const std::vector<ResponseArtifact>& sweeps);
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told = {});
 
 // The steady motions at one mesh frequency (Hz): a column each, for each set of choices the upper branch and the lower one
 // where the sweeps up and down differ there, by RMS, else the only one; then its title says so. Oscillating DTE over time
 // and its spectrum. Throws Error(input) as response_figure, and for a frequency that is not a speed of every sweep.
-Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency);
+Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
+                        const Background& told = {});
 
 // The same motions: loads of successive teeth and the mesh force over the phase of tooth i, with the phases at which contact
 // is lost (every tooth without force).
-Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency);
+Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
+                         const Background& told = {});
 
 // Static transmission error over a mesh period and its spectrum, one curve per torque (ascending). Throws
 // Error(input) for no input or two of the same torque.
@@ -76,13 +87,13 @@ std::string natural_frequency_text(const Figure& table);
 // choice of near field or contact.
 Figure error_budget_figure(const ErrorBudgetArtifact& budget);
 
-// RMS of the oscillating DTE and its mean against mesh frequency, both directions at each torque (ascending), with jumps.
-// Throws Error(input) unless every torque has one sweep up and one down, all of one lumped model.
-Figure lumped_response_figure(std::vector<ResponseArtifact> responses);
+// Net mesh force over two mesh periods of lumped models, a panel for each of one or two mesh frequencies (Hz) at the stored
+// speed nearest to it. Throws Error(input) for sweeps of elastic gears, of two torques, or another number of frequencies.
+Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
+                         const std::vector<double>& mesh_frequencies);
 
-// Net mesh force over two mesh periods of lumped models, at the stored speeds nearest to those at which P2000 shows the
-// upper and the lower branch. Throws Error(input) for sweeps of elastic gears, or of two torques.
-Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps);
+// Words as they stand, in a text in which gnuplot reads marks such as '_' (subscript).
+std::string without_markup(const std::string& words);
 
 // The TSV: '#' lines with title, notes, sources and columns, then the blocks, two empty lines between them.
 std::string tsv(const Figure& figure, const std::vector<std::string>& sources);

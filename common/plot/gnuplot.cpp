@@ -21,7 +21,7 @@ std::string quoted(const std::string& s) {
   std::string out = "\"";
   for (char c : s) {
     if (c == '"' || c == '\\' || c == '`') out += '\\';
-    out += c;
+    out += c == '\n' ? "\\n" : std::string(1, c);
   }
   return out + "\"";
 }
@@ -33,6 +33,9 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
   script += text(" size 1600,", figure.height, " font 'DejaVu Sans,18' enhanced background '#ffffff'; ");
   script += text("height = real(", figure.height, "); ");
   script += text("tsv = ", quoted(tsv_path), "; title = ", quoted(figure.title), "; ");
+  std::string heading = figure.title;
+  for (const std::string& scene : figure.scenes) heading += "\n{/*0.68 " + without_markup(scene) + "}";
+  script += text("heading = ", quoted(heading), "; ");
   for (size_t i = 0; i < figure.notes.size(); ++i)
     script += text("note", i + 1, " = ", quoted(figure.notes[i]), "; ");
   for (const auto& [name, value] : figure.numbers) {

@@ -1,9 +1,9 @@
 # Error budget: changes of the static answer when one discretisation is refined alone, as bars on a logarithmic scale;
 # beyond a line those by another choice of the model.
-# Variables from gear-plot: tsv, title, note1, note2, labels, entries, choice_labels, choices.
+# Variables from gear-plot: tsv, heading, note1, note2, labels, entries, choice_labels, choices.
 set datafile separator tab
 set datafile commentschars "#"
-set title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, 0.4
+set title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, 0.4
 set lmargin screen 0.1
 set rmargin screen 0.97
 set bmargin screen 0.2
@@ -21,7 +21,7 @@ two_lines(s) = strstrt(s, "|") > 0 ? s[1:strstrt(s, "|") - 1] . "\n{/*0.8 " . s[
 do for [i = 1:entries] { set xtics add (two_lines(word(labels, i)) i - 1) }
 first_choice = entries + 0.5
 do for [i = 1:choices] { set xtics add (two_lines(word(choice_labels, i)) first_choice + i - 1) }
-array colour[7] = ["#1f4e9c", "#c8201e", "#1a7f37", "#6aa84f", "#93c47d", "#b6d7a8", "#d9ead3"]
+array colour[7] = ["#0072b2", "#d55e00", "#333333", "#666666", "#8f8f8f", "#b5b5b5", "#d9d9d9"]
 array name[7] = ["mean stiffness", "peak to peak", "harmonic 1", "harmonic 2", "harmonic 3", "harmonic 4", "harmonic 5"]
 set key at screen 0.9, screen 0.085 horizontal Left reverse samplen 1.5 maxrows 2
 set style fill solid 0.9 noborder

@@ -1,14 +1,14 @@
 # Figure 1: the finite element mesh of the pair (a) and of the teeth in mesh (b); lengths in mm, equal axes.
-# Variables from gear-plot: tsv, title, note1.., pitch_y, half_window, driver_tip, driven_tip, centre_distance.
+# Variables from gear-plot: tsv, heading, note1.., pitch_y, half_window, driver_tip, driven_tip, centre_distance.
 set datafile separator tab
 set datafile commentschars "#"
 
-driver_line = "#1f4e9c"
+driver_line = "#0072b2"
 driven_line = "#b3401a"
 driver_fill = "#e9f0fa"
 driven_fill = "#fbeee6"
 
-set multiplot title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}\n{/*0.68 " . note3 . "}" offset 0, -0.2
+set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}\n{/*0.68 " . note3 . "}" offset 0, -0.2
 set border 15 lw 1.2
 set tics out nomirror
 unset key
@@ -20,7 +20,7 @@ tip = driver_tip > driven_tip ? driver_tip : driven_tip
 set lmargin at screen 0.10
 set rmargin at screen 0.40
 set bmargin at screen 0.175
-set tmargin at screen 0.805
+set tmargin at screen 0.79
 set xlabel "x (mm)"
 set label 3 "{/:Bold (a)} both gears" at graph 0.5, graph 1.0 center offset 0, 0.7
 set ylabel "y (mm)"

@@ -1,23 +1,23 @@
 # Figure 3: the contact zone. (a) inner and outer region of the teeth in contact, (b) candidate pairs on the unloaded flanks,
 # (c) pressure and separation under load.
-# Variables from gear-plot: tsv, title, note1.., matching, touch_y, half_window, reach, peak, strips.
+# Variables from gear-plot: tsv, heading, note1.., matching, touch_y, half_window, reach, peak, strips.
 set datafile separator tab
 set datafile commentschars "#"
 
-driver_line = "#1f4e9c"
+driver_line = "#0072b2"
 driven_line = "#b3401a"
 driver_fill = "#f4f7fc"
 driven_fill = "#fdf7f2"
 driver_inner = "#c4d7f2"
 driven_inner = "#f6d6bd"
 
-set multiplot title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}\n{/*0.68 " . note3 . "}" offset 0, -0.2
+set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}\n{/*0.68 " . note3 . "}" offset 0, -0.2
 set border 15 lw 1.2
 set tics out nomirror
 set lmargin at screen 0.085
 set rmargin at screen 0.475
 set bmargin at screen 0.17
-set tmargin at screen 0.80
+set tmargin at screen 0.785
 set size ratio -1
 set xlabel "x (mm)"
 set ylabel "y (mm)"
@@ -50,14 +50,14 @@ set border 3 lw 1.4
 set grid lt 1 lc rgb "#e8e8e8" lw 1
 
 # (b) heights are drawn far larger than lengths
-set tmargin at screen 0.80
+set tmargin at screen 0.785
 set bmargin at screen 0.535
 set xlabel
 set yrange [*:*]
 set offsets graph 0, graph 0, graph 0.1, graph 0.1
 set ylabel "Height (µm)"
 set ytics 0.5
-set label 1 "{/:Bold (b)} unloaded flanks over their tangent, candidate pairs P, G"
+set label 1 "{/:Bold (b)} unloaded flanks, candidate pairs P, G"
 set key at graph 0.5, graph 0.98 center top maxrows 2 samplen 2.2 opaque
 picked = int(0.8 * strips)
 plot tsv index "[flanks]" using 1:3 with lines lt 1 lw 2.6 lc rgb driven_line title "driven", \
@@ -84,5 +84,5 @@ set label 1 "{/:Bold (c)} under load: a strip carries pressure or is apart"
 set key at screen 0.74, screen 0.012 center bottom vertical maxrows 2 opaque
 plot tsv index "[candidate pairs]" using (0.5 * ($4 + $5)):8:($5 - $4) with boxes fs solid 0.6 border lc rgb "#7f9fbf" fc rgb "#c9d9ee" title "pressure on a strip", \
   tsv index "[Hertz]" using 1:2 with lines lt 1 lw 2 dt (10, 5) lc rgb "black" title "Hertz, same force", \
-  tsv index "[candidate pairs]" using 1:7 axes x1y2 with points pt 6 ps 1.4 lw 2 lc rgb "#1a7f37" title "separation (right)"
+  tsv index "[candidate pairs]" using 1:7 axes x1y2 with points pt 6 ps 1.4 lw 2 lc rgb "#009e73" title "separation (right)"
 unset multiplot

@@ -1,14 +1,15 @@
 # Oscillating dynamic transmission error over time (above) and its spectrum (below), a column for each motion at one speed
 # (Figures 8 and 9).
-# Variables from gear-plot: tsv, title, note1.., motions, time_end, largest, largest_amplitude, frequency_end, and for each
+# Variables from gear-plot: tsv, title, lines, line1.., motions, height, time_end, largest, largest_amplitude, frequency_end, and for each
 # motion a, b, ..: title_a, result_a.
 set datafile separator tab
 set datafile commentschars "#"
 
-line = "#1f4e9c"
+line = "#0072b2"
 letters = "a b c d e f"
-notes = "{/*0.68 " . note1 . "}" . (exists("note2") ? "\n{/*0.68 " . note2 . "}" : "")
-set multiplot title title . "\n" . notes offset 0, -0.3
+notes = ""
+do for [i = 1:lines] { notes = notes . "\n{/*0.62 " . value(sprintf("line%d", i)) . "}" }
+set multiplot title title . notes offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror
 set grid lt 1 lc rgb "#e4e4e4" lw 1
@@ -31,15 +32,14 @@ do for [m = 1:motions] {
   second = strstrt(found, ", ")
   set label 1 "{/:Bold (" . letter . ")} " . head[1:cut] . "\n" . head[cut + 2:*] at graph 0, graph 1 offset 0, 2.2 font ",13"
   set label 2 found[1:second] . "\n" . found[second + 2:half - 1] . "\n" . found[half + 2:*] at graph 0.98, graph 0.97 right font ",13" tc rgb "#303030"
-  set tmargin at screen 0.78
+  set tmargin at screen 1 - (128 + 29 * lines) / height
   set bmargin at screen 0.485
   set xlabel "Time (ms)"
   set xrange [0:time_end]
   set yrange [-1.06 * largest : 1.75 * largest]
   set xtics auto
   plot tsv index "[" . letter . " history]" using 1:2 with lines lt 1 lw 2.4 lc rgb line
-  unset label 1
-  unset label 2
+  do for [n in "1 2 20 21"] { unset label int(n) }
   set tmargin at screen 0.37
   set bmargin at screen 0.1
   set xlabel "Frequency (kHz)"

@@ -1,13 +1,14 @@
 # Loads of successive teeth over the mesh phase, a panel for each motion at one speed; shaded: no tooth carries force
 # (Figures 10 and 11).
-# Variables from gear-plot: tsv, title, note1.., motions, height, largest, static_force, phase_from, phase_to, first_tooth,
+# Variables from gear-plot: tsv, title, lines, line1.., motions, height, largest, static_force, phase_from, phase_to, first_tooth,
 # last_tooth, and for each motion a, b, ..: title_a, result_a, lost_a, shown_a_0 .. (does the first, second tooth carry load?).
 set datafile separator tab
 set datafile commentschars "#"
 
 letters = "a b c d e f"
-notes = "{/*0.68 " . note1 . "}" . (exists("note2") ? "\n{/*0.68 " . note2 . "}" : "")
-set multiplot title title . "\n" . notes offset 0, -0.3
+notes = ""
+do for [i = 1:lines] { notes = notes . "\n{/*0.62 " . value(sprintf("line%d", i)) . "}" }
+set multiplot title title . notes offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
@@ -17,12 +18,12 @@ set rmargin at screen 0.84
 set xrange [phase_from:phase_to]
 set yrange [0 : 1.08 * largest]
 set ylabel "Force (N)" offset 0.5
-colour(t) = t == 0 ? "#1f4e9c" : (t == 1 ? "#c8201e" : "#7f9fbf")
-each = (height - 170) / motions
+colour(t) = t == 0 ? "#0072b2" : (t == 1 ? "#d55e00" : "#7f9fbf")
+each = (height - 120 - 29 * lines) / motions
 do for [m = 1:motions] {
   letter = word(letters, m)
-  set tmargin at screen (height - 105 - (m - 1) * each - 50) / height
-  set bmargin at screen (height - 105 - m * each + 45) / height
+  set tmargin at screen (height - 55 - 29 * lines - (m - 1) * each - 50) / height
+  set bmargin at screen (height - 55 - 29 * lines - m * each + 45) / height
   set label 1 "{/:Bold (" . letter . ")} " . value("title_" . letter) . "; " . value("result_" . letter) at graph 0, graph 1 offset 0, 0.9 font ",14" noenhanced
   set label 1 enhanced
   if (m == motions) { set xlabel "Phase of tooth i (mesh periods, 0: it touches at the pitch point)" } else { unset xlabel }
@@ -36,6 +37,6 @@ do for [m = 1:motions] {
       t == 0 || t == 1 ? 3.0 : 1.8, colour(t), t == 0 ? 'title "tooth i"' : (t == 1 ? 'title "tooth i + 1"' : (t == -1 ? 'title "other teeth"' : 'notitle')))
   }
   eval("plot " . shade . 'tsv index "[' . letter . ' mesh force]" using 1:2 with lines lt 1 lw 1.6 dt (5, 4) lc rgb "#444444" title "all teeth", ' \
-    . 'static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#1a7f37" title sprintf("T / r_b = %.0f N", static_force)' . teeth)
+    . 'static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#009e73" title sprintf("T / r_b = %.0f N", static_force)' . teeth)
 }
 unset multiplot

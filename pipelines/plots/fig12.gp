@@ -1,16 +1,16 @@
 # Figure 12: static transmission error over a mesh period (a) and its harmonics (b), one curve per torque.
-# Variables from gear-plot: tsv, title, note1, curves, labels.
+# Variables from gear-plot: tsv, heading, note1, curves, labels.
 set datafile separator tab
 set datafile commentschars "#"
 
-array colour[6] = ["#1f4e9c", "#c8201e", "#1a7f37", "#8a4fbf", "#b06a00", "#444444"]
+array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 array mark[6] = [1, 6, 4, 2, 8, 12]   # + o square x triangle diamond
 set for [i = 1:6] linetype i lc rgb colour[i] lw 2.6 pt mark[i] ps 2.0
 set linetype 1 dt (3, 3)
 set linetype 2 dt (10, 5)
 set linetype 3 dt solid
 
-set multiplot layout 1, 2 title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.4 \
+set multiplot layout 1, 2 title heading . "\n{/*0.68 " . note1 . "}" offset 0, -0.4 \
   margins screen 0.085, 0.985, 0.20, 0.855 spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6

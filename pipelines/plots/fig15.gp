@@ -1,15 +1,20 @@
-# Figure 15: net mesh force of the lumped model over two mesh periods, upper (a) and lower branch (b).
-# Variables from gear-plot: tsv, title, note1, note2, curves, labels_upper, labels_lower, force_max, static_force.
+# Figure 15: net mesh force of lumped models over two mesh periods, a panel for each mesh frequency, a curve for each sweep.
+# Variables from gear-plot: tsv, heading, note1.., curves, panels, labels_a, labels_b, force_max, static_force.
 set datafile separator tab
 set datafile commentschars "#"
 
-array colour[2] = ["#1f4e9c", "#c8201e"]
-set linetype 1 lc rgb colour[1] lw 2.8 dt solid
-set linetype 2 lc rgb colour[2] lw 2.0 dt (9, 5)
+array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
+set for [i = 1:6] linetype i lc rgb colour[i] lw 2.4
+set linetype 1 dt solid
+set linetype 2 dt (9, 5)
+set linetype 3 dt (3, 3)
+set linetype 4 dt (12, 4, 3, 4)
+set linetype 5 dt (20, 6)
+set linetype 6 dt (2, 5)
 
-set multiplot layout 1, 2 title title . "\n{/*0.68 solid: " . note1 . "; stated, so that the branches stand where P2000 shows them}" \
-  . "\n{/*0.68 dashed: " . note2 . "; those of the static stiffness}" offset 0, -0.4 \
-  margins screen 0.1, 0.975, 0.235, 0.845 spacing screen 0.075
+notes = ""
+do for [i = 1:curves] { notes = notes . "\n{/*0.62 " . value(sprintf("note%d", i)) . "}" }
+set multiplot title heading . notes offset 0, -0.4
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
@@ -18,16 +23,18 @@ set xtics 0.5
 set mxtics 5
 set mytics 2
 set yrange [-0.03 * force_max : 1.1 * force_max]
-set arrow from graph 0, first static_force to graph 1, first static_force nohead back lt 1 lc rgb "#9a9a9a" lw 1.4 dt (18, 10)
-set key font ",13" samplen 2 spacing 1.2 Left reverse center bottom vertical maxrows 2
-
-set key at screen 0.31, screen 0.012
-set xlabel "Time (mesh periods, 0: pitch point)\n{/:Bold (a)} upper branch"
-set ylabel "Net mesh force (N)"
-plot for [i = 1:curves] tsv index "[upper ".i."]" using 1:2 with lines lt i title word(labels_upper, i), \
-  keyentry with lines lt 1 lc rgb "#9a9a9a" lw 1.4 dt (18, 10) title sprintf("static %.0f N", static_force)
-set key at screen 0.785, screen 0.012
-unset ylabel
-set xlabel "Time (mesh periods, 0: pitch point)\n{/:Bold (b)} lower branch"
-plot for [i = 1:curves] tsv index "[lower ".i."]" using 1:2 with lines lt i title word(labels_lower, i)
+set arrow from graph 0, first static_force to graph 1, first static_force nohead back lt 1 lc rgb "#606060" lw 1.4 dt (18, 10)
+set key font ",13" samplen 3 spacing 1.2 Left reverse center bottom vertical
+letters = "a b"
+set tmargin at screen 0.87 - 0.023 * curves
+set bmargin at screen 0.2 + 0.025 * curves
+do for [p = 1:panels] {
+  set lmargin at screen 0.095 + (p - 1) * 0.48
+  set rmargin at screen panels == 1 ? 0.965 : 0.485 + (p - 1) * 0.48
+  set key at screen panels == 1 ? 0.535 : 0.29 + (p - 1) * 0.48, screen 0.012
+  set xlabel "Time (mesh periods, 0: pitch point)\n{/:Bold (" . word(letters, p) . ")}"
+  if (p == 1) { set ylabel "Net mesh force (N)" } else { unset ylabel }
+  plot for [i = 1:curves] tsv index "[".word(letters, p)." ".i."]" using 1:2 with lines lt i title word(value("labels_".word(letters, p)), i), \
+    keyentry with lines lt 1 lc rgb "#606060" lw 1.4 dt (18, 10) title sprintf("T / r_b = %.0f N", static_force)
+}
 unset multiplot

@@ -1,58 +1,98 @@
-# Figures 14 and 16: a lumped model's RMS of the oscillating DTE (a) and mean DTE (b) against mesh frequency, one colour per
-# torque, both sweep directions.
-# Variables from gear-plot: tsv, title, note1, note2, curves, labels, natural_frequency, frequency_from, frequency_to,
-# rms_max, mean_max, jumps_up_<i>, jumps_down_<i>.
+# RMS of the oscillating (left) and mean (right) transmission error against mesh frequency, both sweep directions, a row for each
+# set of choices, a curve for each torque (Figures 14 and 16, and the same of the elastic pair).
+# Variables as fig05.gp, and mean_min_a, mean_max_a, loss_a.
 set datafile separator tab
 set datafile commentschars "#"
 
-array colour[6] = ["#1f4e9c", "#c8201e", "#1a7f37", "#8a4fbf", "#b06a00", "#444444"]
-torque(i) = word(word(labels, i), 1)
-
-set multiplot layout 1, 2 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.09, 0.97, 0.215, 0.835 spacing screen 0.09
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
-set xtics 500
-set mxtics 5
-set mytics 2
-margin = 0.02 * (frequency_to - frequency_from)
+array torque_colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
+# P2000's marks of torques, + o square, for falling speed; filled ones, and x for +, for rising speed
+array open_mark[6] = [1, 6, 4, 8, 12, 10]
+array filled_mark[6] = [2, 7, 5, 9, 13, 11]
+open_signs = "+ ○ □ △ ◇ ▽"
+filled_signs = "× ● ■ ▲ ◆ ▼"
+letters = "a b c d e f g h"
+of(name, letter) = value(name . "_" . letter)
+larger(a, b) = a > b ? a : b
+span = frequency_to - frequency_from
+margin = span > 0 ? 0.02 * span : 1.0
+raw = (span > 0 ? span : 1.0) / 6
+power = 10 ** floor(log10(raw))
+set xtics power * (raw / power > 5 ? 10 : raw / power > 2 ? 5 : raw / power > 1 ? 2 : 1) out nomirror
 set xrange [frequency_from - margin : frequency_to + margin]
-set arrow from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.4 dt (18, 10)
-set label "f_n" at natural_frequency, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",15"
-
-# Up: dots on a line; down: open circles around them where both agree. Curves stop at jumps, arrows lead on.
-curves_of(column) = sprintf('for [i = 1:curves] tsv index "[".torque(i)." up]" using 1:%d with linespoints lt 1 lw 1.8' \
-  . ' pt 7 ps 0.55 lc rgb colour[i] notitle, for [i = 1:curves] tsv index "[".torque(i)." down]" using 1:%d' \
-  . ' with linespoints lt 1 lw 1.2 pt 6 ps 1.35 lc rgb colour[i] notitle', column, column)
-arrows(i, direction, before) = sprintf(', tsv index "[jumps ".torque(%d)." %s]" using 1:%d:(0):($%d - $%d) with vectors' \
-  . ' head filled size screen 0.008, 24 fixed lt 1 lw 2.2 dt %s lc rgb colour[%d] notitle', i, direction, before, before + 1, \
-  before, direction eq "up" ? "solid" : "(12, 7)", i)
-rms_arrows = ""
-mean_arrows = ""
-do for [i = 1:curves] {
-  do for [direction in "up down"] {
-    if (value(sprintf("jumps_%s_%d", direction, i)) > 0) {
-      rms_arrows = rms_arrows . arrows(i, direction, 2)
-      mean_arrows = mean_arrows . arrows(i, direction, 4)
+set xlabel "Mesh frequency (Hz)"
+set mxtics 5
+set ytics out nomirror
+set mytics 2
+set grid xtics ytics lt 1 lc rgb "#e4e4e4" lw 1
+set border 3 lw 1.6
+stride = int(ceil(speeds / 45))
+most = 1
+lost = 0
+do for [p = 1:panels] {
+  most = int(larger(most, of("curves", word(letters, p))))
+  lost = lost + of("contact_lost", word(letters, p))
+}
+set label 101 filled_signs[1:2 * most - 1] . " speed rising      " . open_signs[1:2 * most - 1] . " speed falling      dashed: jump; dotted: to the end of the branch; gap: change of branch" \
+  . (lost > 0 ? "      ■ at the foot: contact lost" : "") at screen 0.5, screen 26 / height center font ",14"
+set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
+panel_height = (height - 140) / panels
+do for [p = 1:panels] {
+  letter = word(letters, p)
+  curves = int(of("curves", letter))
+  set tmargin at screen (height - 90 - (p - 1) * panel_height - 128) / height
+  set bmargin at screen (height - 90 - p * panel_height + 120) / height
+  do for [side = 0:1] {
+    set lmargin at screen (side == 0 ? 0.075 : 0.565)
+    set rmargin at screen (side == 0 ? 0.48 : 0.97)
+    set ylabel (side == 0 ? "RMS of oscillating DTE (µm)" : "Mean DTE (µm)")
+    unset label 1
+    if (side == 0) {
+      set label 1 "{/:Bold (" . letter . ")} " . of("heading", letter) . "\n" . of("loss", letter) at graph 0, graph 1 \
+        offset 0, 1.55 + 0.8 * of("heading_lines", letter) font ",12"
     }
+    unset arrow
+    unset label 11
+    do for [i = 1:curves] {
+      f = value(sprintf("natural_frequency_%s_%d", letter, i))
+      if (f > frequency_from && f < frequency_to) {
+        set arrow from f, graph 0 to f, graph 1 nohead back lt 1 lc rgb (curves > 1 ? torque_colour[i] : "#9a9a9a") lw 1.2 dt (18, 10)
+        if (i == (curves + 1) / 2) { set label 11 "f_n" at f, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14" }
+      }
+    }
+    low = side == 0 ? 0 : of("mean_min", letter)
+    high = side == 0 ? of("rms_max", letter) : of("mean_max", letter)
+    tall = high > low ? high - low : 1.0
+    foot = 0.016
+    room = side == 0 && of("contact_lost", letter) > 0 ? foot * 2 * curves + 0.04 : 0.05
+    set yrange [low - room * tall : high + (curves > 3 ? 0.6 : 0.36) * tall]
+    key_font = side == 0 ? ",11" : ",13"
+    set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.1 font key_font noenhanced opaque
+    c = side == 0 ? 2 : 3
+    before = side == 0 ? 2 : 5
+    after = before + 1
+    block(i, what) = sprintf('tsv index "[%s %s %s]"', letter, word(of("labels", letter), i), what)
+    branch(i, direction) = block(i, direction) . sprintf(' using 1:%d with linespoints lt 1 lw 1.4 pt 7 ps 0.25 lc rgb "%s" notitle, ', c, torque_colour[i]) \
+      . block(i, direction) . sprintf(' every %d using 1:%d with points lt 1 lw 1.6 pt %d ps %g lc rgb "%s" notitle, ', \
+      stride, c, direction eq "up" ? filled_mark[i] : open_mark[i], direction eq "up" ? 1.0 : 1.8, torque_colour[i])
+    bar(i, direction, row) = block(i, direction) . sprintf(' using 1:($4 > 0 ? %g : NaN) with points pt 5 ps 0.5 lc rgb "%s" notitle, ', \
+      -foot * (row - 0.2) * tall, torque_colour[i])
+    jump(i, direction) = block(i, "jumps " . direction) . sprintf(' using 1:%d:(0):($%d - $%d) with vectors head filled' \
+      . ' size screen 0.008, 24 fixed lt 1 lw 2 dt (14, 8) lc rgb "%s" notitle, ', before, after, before, torque_colour[i]) \
+      . block(i, "jumps " . direction) . sprintf(' using 7:%d:($1 - $7):(0) with vectors nohead lt 1 lw 1.4 dt (3, 5) lc rgb "%s" notitle, ', \
+      before, torque_colour[i])
+    drawn = ''
+    do for [i = 1:curves] {
+      drawn = drawn . branch(i, "down") . branch(i, "up")
+      if (side == 0 && of("contact_lost", letter) > 0) { drawn = drawn . bar(i, "up", 2 * i - 1) . bar(i, "down", 2 * i) }
+      if (value(sprintf("jumps_up_%s_%d", letter, i)) > 0) { drawn = drawn . jump(i, "up") }
+      if (value(sprintf("jumps_down_%s_%d", letter, i)) > 0) { drawn = drawn . jump(i, "down") }
+    }
+    do for [i = 1:curves] {
+      drawn = drawn . sprintf('keyentry with linespoints lt 1 lw 2 pt %d ps 1.4 lc rgb "%s" title word(%slabels_%s, %d)%s', open_mark[i], \
+        torque_colour[i], side == 0 ? "jump_" : "", letter, i, i < curves ? ', ' : '')
+    }
+    eval("plot " . drawn)
+    unset label 101
   }
 }
-
-set xlabel "Mesh frequency (Hz)\n{/:Bold (a)}"
-set ylabel "RMS of oscillating DTE (µm)"
-set yrange [0 : (rms_max > 0 ? rms_max : 1) * 1.08]
-set key at screen 0.5, screen 0.012 center bottom vertical maxrows 2 samplen 2.5 spacing 1.2 Left reverse
-legend = ""
-do for [i = 1:curves] {
-  legend = legend . sprintf(', keyentry with linespoints lt 1 lw 1.8 pt 7 ps 0.8 lc rgb colour[%d] title word(labels, %d)." rising"' \
-    . ', keyentry with linespoints lt 1 lw 1.2 pt 6 ps 1.35 lc rgb colour[%d] title word(labels, %d)." falling"', i, i, i, i)
-}
-eval("plot " . curves_of(2) . rms_arrows . legend)
-
-unset key
-set xlabel "Mesh frequency (Hz)\n{/:Bold (b)}"
-set ylabel "Mean DTE (µm)"
-set yrange [0 : mean_max * 1.08]
-eval("plot " . curves_of(3) . mean_arrows)
 unset multiplot

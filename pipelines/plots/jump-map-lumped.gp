@@ -1,6 +1,6 @@
 # Map of jumps of lumped models: torque against damping ratio, a column per model, below it the same with the damper in contact
 # only; cells by what happens in them. The elastic pair stands first.
-# Variables from gear-plot: tsv, title, note1.., notes, panels, panel1.., column1.., row1.., columns, marked, ratio_from, ratio_to,
+# Variables from gear-plot: tsv, heading, note1.., notes, panels, panel1.., column1.., row1.., columns, marked, ratio_from, ratio_to,
 # torque_from, torque_to.
 set datafile separator whitespace
 set datafile commentschars "#"
@@ -9,7 +9,7 @@ two_colour = "#e8998d"
 lost_colour = "#f6dfa4"
 kept_colour = "#e3edf7"
 
-set multiplot title title offset 0, -0.2
+set multiplot title heading offset 0, -0.2
 set border 15 lw 1.6 front
 set tics out nomirror front
 set logscale y

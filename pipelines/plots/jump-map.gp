@@ -1,6 +1,6 @@
 # Map of jumps: torque against damping ratio, one panel per corner rule; cells by what happens in them, lines of the largest
 # tooth load.
-# Variables from gear-plot: tsv, title, note1.., notes, panels, panel1.., printed, lines, largest, ratio_from, ratio_to,
+# Variables from gear-plot: tsv, heading, note1.., notes, panels, panel1.., printed, lines, largest, ratio_from, ratio_to,
 # torque_from, torque_to, first_ratio, last_ratio.
 set datafile separator whitespace
 set datafile commentschars "#"
@@ -8,7 +8,7 @@ set datafile commentschars "#"
 two_colour = "#e8998d"
 lost_colour = "#f6dfa4"
 kept_colour = "#e3edf7"
-line_colour = "#1f4e9c"
+line_colour = "#0072b2"
 
 # The largest tooth load between the middles of the cells, torque on a logarithmic scale. kN
 if (lines > 0) {
@@ -26,7 +26,7 @@ if (lines > 0) {
   set surface
 }
 
-set multiplot title title offset 0, -0.2
+set multiplot title heading offset 0, -0.2
 set border 15 lw 1.6 front
 set tics out nomirror front
 set logscale y

@@ -1,8 +1,8 @@
 # Sensitivity: what each variant of a scene changes, one panel of bars per answer.
-# Variables from gear-plot: tsv, title, note1, note2, variants, label1.., reach1..6: largest change of each answer
+# Variables from gear-plot: tsv, heading, note1, note2, variants, label1.., reach1..6: largest change of each answer
 set datafile separator whitespace
 set datafile commentschars "#"
-set multiplot title title . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}"
+set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}"
 set border 3 lw 1.4
 set tics out nomirror
 set grid xtics lt 1 lc rgb "#e4e4e4" lw 1
@@ -13,7 +13,7 @@ array column_of[6] = [2, 3, 4, 5, 6, 7]
 array name[6] = ["mean stiffness (%)", "f, one pair (Hz)", "f, two pairs (Hz)", "branches from (Hz)", "branches to (Hz)", "tooth load (%)"]
 left = 0.33
 width = (0.99 - left) / 6
-set tmargin at screen 0.875
+set tmargin at screen 0.855
 set bmargin at screen 0.12
 do for [k = 1:6] {
   set lmargin at screen left + (k - 1) * width
@@ -29,8 +29,8 @@ do for [k = 1:6] {
   set arrow 1 from 0, graph 0 to 0, graph 1 nohead lw 1.4 lc rgb "#505050" front
   v = column_of[k]
   plot tsv index "[changes]" using (0.5 * column(v)):1:(0.5 * abs(column(v))):(0.36) with boxxyerror \
-      lc rgb "#1f4e9c" notitle, \
-    tsv index "[changes]" using ((v == 5 || v == 6) && $8 == 0 ? 0 : NaN):1 with points pt 2 ps 1.6 lw 2.4 lc rgb "#c8201e" notitle, \
-    tsv index "[changes]" using (v == 5 && $8 > 0 && $9 > 0 ? column(v) : NaN):1 with points pt 8 ps 1.2 lc rgb "#c8201e" notitle
+      lc rgb "#0072b2" notitle, \
+    tsv index "[changes]" using ((v == 5 || v == 6) && $8 == 0 ? 0 : NaN):1 with points pt 2 ps 1.6 lw 2.4 lc rgb "#d55e00" notitle, \
+    tsv index "[changes]" using (v == 5 && $8 > 0 && $9 > 0 ? column(v) : NaN):1 with points pt 8 ps 1.8 lw 2 lc rgb "#000000" notitle
 }
 unset multiplot

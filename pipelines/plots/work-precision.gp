@@ -3,7 +3,7 @@
 set datafile separator tab
 set datafile commentschars "#"
 
-array colour[9] = ["#1f4e9c", "#6fa8dc", "#c8201e", "#1a7f37", "#b06a00", "#8a4fbf", "#444444", "#d147a3", "#00a0a0"]
+array colour[9] = ["#0072b2", "#6fa8dc", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#444444", "#d147a3", "#00a0a0"]
 array mark[9] = [7, 6, 5, 9, 11, 13, 4, 8, 2]
 
 set multiplot layout 2, 3 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.2 \
