@@ -262,15 +262,6 @@ void RollingDynamics::advance_fields(double* fields) const {
   }
 }
 
-void RollingDynamics::advance_tooth(State& state) const {
-  for (VectorXd* y : {&state.z, &state.v, &state.force}) turn_doublets(y->data());
-  for (int g = 0; g < 2; ++g)
-    for (MatrixXd* field : {&state.lag[g], &state.load[g]}) {
-      for (int j = static_cast<int>(field->cols()) - 1; j > 0; --j) field->col(j) = field->col(j - 1);
-      field->col(0).setZero();
-    }
-}
-
 Lanes RollingDynamics::reading(const Position& position, size_t j, const double* z) const {
   const int coordinates = padded(static_cast<int>(coordinates_.size()));
   if (!lines())
