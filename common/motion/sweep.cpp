@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
-#include "signal/response.h"
+#include "signal/branch_end.h"
 
 namespace whine {
 
@@ -18,7 +18,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int kMostSteps = 65536;  // per mesh period, as of steps_per_period
-constexpr int kJumpFineness = 64;  // steps of the sweep are halved down to this part: 20 Hz leave 0.3 Hz
 
 int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   int steps = time.steps_per_period;
@@ -103,52 +102,42 @@ BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
   return point;
 }
 
-// Between two speeds whose responses differ: follows the branch of the first, with steps that are halved where they leave
-// it, to where it ends - past the second speed too, since a long step leaves a branch early whose basin has become
-// narrow. Nothing if the branch passes through the response at the second speed: a resonance flank, no jump.
+BranchMotion branch_motion(double mesh_frequency, const Orbit& orbit) {
+  return {mesh_frequency, orbit.rms, orbit.multiple};
+}
+
 struct Jump {
   double frequency, width;
 };
-std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& before, double from,
-                              double from_rms, double to, double to_rms, double limit,
-                              std::vector<BranchPoint>* left_early) {
-  const RollingDynamics::State after = sweeper.state();
-  RollingDynamics::State branch = before;
-  double at = from, rms = from_rms, step = 0.5 * (to - from);
-  const double direction = to > from ? 1 : -1, finest = std::abs(to - from) / kJumpFineness;
-  std::optional<Jump> jump;
+// Between the speeds i - 1 and i of a sweep, or beyond where the sweep left the branch early; nothing if the branch leads from
+// one to the other. kept: the state at the end of speed i - 1.
+std::optional<Jump> find_jump(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
+                              const RollingDynamics::State& kept, std::vector<BranchPoint>* left_early) {
+  const BranchMotion &from = motions[i - 1], &to = motions[i];
+  const double width = std::abs(to.mesh_frequency - from.mesh_frequency);
+  const Jump whole{0.5 * (from.mesh_frequency + to.mesh_frequency), width};
+  if (from.multiple == 0) return whole;
+  RollingDynamics::State branch = kept;
+  BranchPoint point;
   std::vector<BranchPoint> points;
-  for (bool passed = false; std::abs(step) >= finest;) {
-    // Speeds of the sweep are met, so that the branch can be compared there.
-    double next = at + step;
-    if (!passed && direction * (next - to) > 0) next = to;
-    if (direction * (next - limit) > 0) {  // the branch outlives the sweep, which left it within this step
-      jump = Jump{0.5 * (from + to), std::abs(to - from)};
-      break;
-    }
+  BranchWalk walk;
+  walk.step = to.mesh_frequency - from.mesh_frequency;
+  walk.limit = motions.back().mesh_frequency;
+  walk.run = [&](double mesh_frequency) {
     sweeper.state() = branch;
-    const Orbit orbit = sweeper.run(next);
-    const double found = orbit.rms;
-    if (like_a_jump(rms, found)) {
-      step *= 0.5;
-      jump = Jump{0.5 * (at + next), std::abs(next - at)};
-      continue;
-    }
-    at = next;
-    rms = found;
+    const Orbit orbit = sweeper.run(mesh_frequency);
+    point = branch_point(mesh_frequency, orbit);
+    return branch_motion(mesh_frequency, orbit);
+  };
+  walk.keep = [&] {
     branch = sweeper.state();
-    points.push_back(branch_point(next, orbit));
-    if (at == to) {
-      passed = true;
-      if (!like_a_jump(found, to_rms)) {
-        jump.reset();
-        break;
-      }
-    }
-  }
-  sweeper.state() = after;
-  if (jump && left_early) left_early->insert(left_early->end(), points.begin(), points.end());
-  return jump;
+    points.push_back(point);
+  };
+  const auto end = branch_end(walk, motions, i);
+  if (!end) return std::nullopt;
+  if (left_early) left_early->insert(left_early->end(), points.begin(), points.end());
+  if (end->outlived) return whole;
+  return Jump{0.5 * (end->last + end->next), std::abs(end->next - end->last)};
 }
 
 }  // namespace
@@ -214,11 +203,13 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
 
   const auto speed = [&](int i) { return slice.frequency_from + i * slice.frequency_step; };
   std::vector<Orbit> steady;
-  std::vector<Jump> jumps;
+  std::vector<BranchMotion> motions;
+  std::vector<RollingDynamics::State> reached;
   for (int i = 0; i < speeds; ++i) {
     const double f = speed(direction == "up" ? i : speeds - 1 - i);
-    const RollingDynamics::State before = sweeper.state();
     steady.push_back(sweeper.run(f));
+    motions.push_back(branch_motion(f, steady.back()));
+    reached.push_back(sweeper.state());
     const Orbit& s = steady.back();
     result.mesh_frequency[i] = f;
     result.periods[i] = s.periods;
@@ -228,12 +219,14 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     result.energy_imbalance[i] = l.imbalance / l.throughput;
     result.energy.row(i) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
         l.lag_damping, l.switching, l.cutting, l.averaging, l.forgetting;  // kEnergyLines
-    if (i > 0 && like_a_jump(steady[i - 1].rms, s.rms))
-      if (const auto jump = find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f,
-                                      s.rms, direction == "up" ? speed(speeds - 1) : speed(0), left_early))
-        jumps.push_back(*jump);
     report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
   }
+
+  std::vector<Jump> jumps;
+  for (size_t i = 1; i < motions.size(); ++i)
+    if (may_break(motions, i))
+      if (const auto jump = find_jump(sweeper, motions, i, reached[i - 1], left_early))
+        jumps.push_back(*jump);
 
   // Rows of one length: shorter orbits repeat to fill theirs.
   size_t longest = 1;
