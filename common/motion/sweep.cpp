@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
+#include "contact/lanes.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
 #include "signal/branch_end.h"
@@ -29,26 +32,28 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   return steps;
 }
 
+// The pair on contact windows of growing levels, whose strips are of one width: a window holds those of the level below. A
+// motion is that of the lowest level that holds it, whatever the speeds before it wanted.
 class Sweeper {
  public:
   Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
           const SweepSlice& slice)
-      : model_(model), dynamics_(model, parameters), slice_(slice), strips_(statics.contact.strips) {
+      : model_(model), parameters_(parameters), slice_(slice), strips_(statics.contact.strips) {
     load_ = statics.torque / model.kinematics.gear(0).base_radius();
-    largest_force_ = 2.5 * load_;
-    corner_gap_ = 2.5 * statics.transmission_error.maxCoeff();
+    corner_gap_ = kBeyondStatics * statics.transmission_error.maxCoeff();
     finest_ = steps_at(slice.time, slice.frequency_from);
-    set_range();
-    state_ = dynamics_.rest();
+    lowest_ = range(0);
+    state_ = dynamics(0).rest();
   }
 
-  const RollingDynamics& dynamics() const { return dynamics_; }
+  const RollingDynamics& dynamics() { return dynamics(0); }
+  int reach() const { return reach_; }  // largest |pair| that any level can touch
   // Mean over the mesh period with the contact frozen as the static load leaves it. Hz
   double natural_frequency() {
     constexpr int kPhases = 32;
     const int positions = std::min(kPhases, finest_);
     double sum = 0;
-    for (int i = 0; i < positions; ++i) sum += dynamics_.frozen_frequency(i * (finest_ / positions));
+    for (int i = 0; i < positions; ++i) sum += dynamics(0).frozen_frequency(i * (finest_ / positions));
     return sum / positions;
   }
   RollingDynamics::State& state() { return state_; }
@@ -56,38 +61,84 @@ class Sweeper {
   // Runs at this speed from the present state until the state repeats.
   Orbit run(double mesh_frequency) {
     const RollingDynamics::State start = state_;
-    for (;;) {
-      try {
-        dynamics_.set_speed(mesh_frequency, steps_at(slice_.time, mesh_frequency));
-        if (auto orbit = settle(dynamics_, state_, slice_.time.periodicity, slice_.time.steady_state))
-          return *orbit;
-      } catch (const Error& error) {
-        fail(error.kind(), "at ", mesh_frequency, " Hz, ", error.what());
-      }
-      // Contact wanted more than the window or the corner range holds: widen and run this speed again.
-      if (++widened_ > 8)
+    for (;; ++level_) {
+      if (level_ > kMostLevel)
         fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks: forces above ",
-             largest_force_, " N or deflections above ", corner_gap_ * 1e6, " micrometres; lower the torque");
-      largest_force_ *= 1.6;
-      corner_gap_ *= 1.6;
-      set_range();
+             largest_force(kMostLevel), " N or deflections above ", corner_gap(kMostLevel) * 1e6,
+             " micrometres; lower the torque");
+      if (auto orbit = try_level(mesh_frequency)) return on_lowest_level(mesh_frequency, std::move(*orbit));
       state_ = start;
     }
   }
 
  private:
-  void set_range() {
-    dynamics_.set_range(
+  static constexpr double kBeyondStatics = 2.5, kWidening = 1.6;
+  static constexpr int kMostLevel = 8;
+
+  double largest_force(int level) const { return kBeyondStatics * load_ * std::pow(kWidening, level); }
+  double corner_gap(int level) const { return corner_gap_ * std::pow(kWidening, level); }
+
+  std::optional<Orbit> try_level(double mesh_frequency) {
+    try {
+      RollingDynamics& dynamics = this->dynamics(level_);
+      dynamics.set_speed(mesh_frequency, steps_at(slice_.time, mesh_frequency));
+      return settle(dynamics, state_, slice_.time.periodicity, slice_.time.steady_state);
+    } catch (const Error& error) {
+      fail(error.kind(), "at ", mesh_frequency, " Hz, ", error.what());
+    }
+  }
+
+  // A transient may have wanted more than the orbit does.
+  Orbit on_lowest_level(double mesh_frequency, Orbit orbit) {
+    while (level_ > 0 && !keeps_one_level() && orbit.multiple > 0) {
+      const RollingDynamics::State reached = state_;
+      --level_;
+      std::optional<Orbit> lower = try_level(mesh_frequency);
+      if (!lower || lower->multiple != orbit.multiple) {
+        state_ = reached;
+        ++level_;
+        break;
+      }
+      lower->periods += orbit.periods;
+      orbit = std::move(*lower);
+    }
+    return orbit;
+  }
+
+  ContactRange range(int level) const {
+    ContactRange range =
         contact_range(model_.kinematics, model_.gear[0].half_plane(), model_.gear[1].half_plane(), strips_,
-                      load_ / model_.kinematics.contact_ratio(), largest_force_, corner_gap_),
-        finest_);
+                      load_ / model_.kinematics.contact_ratio(), largest_force(level), corner_gap(level));
+    if (level > 0) {
+      const double wider = range.half_window / lowest_.half_window;
+      range.strips = padded(static_cast<int>(std::ceil(wider * lowest_.strips)));
+      range.half_window = lowest_.half_window * range.strips / lowest_.strips;
+    }
+    return range;
+  }
+
+  // Every mode of a mesh fills the memory once.
+  bool keeps_one_level() const { return slice_.fidelity.body == "full"; }
+  RollingDynamics& dynamics(int level) {
+    if (static_cast<int>(levels_.size()) <= level) levels_.resize(level + 1);
+    if (!levels_[level]) {
+      if (keeps_one_level())
+        for (auto& other : levels_) other.reset();
+      levels_[level] = std::make_unique<RollingDynamics>(model_, parameters_);
+      levels_[level]->set_range(range(level), finest_);
+      levels_[level]->rest();  // sets the scale of distances
+      reach_ = std::max(reach_, levels_[level]->reach());
+    }
+    return *levels_[level];
   }
 
   const GearMeshModel& model_;
-  RollingDynamics dynamics_;
+  DynamicParameters parameters_;
   const SweepSlice& slice_;
-  int strips_, finest_ = 0, widened_ = 0;
-  double load_ = 0, largest_force_ = 0, corner_gap_ = 0;
+  int strips_, finest_ = 0, level_ = 0, reach_ = 0;
+  double load_ = 0, corner_gap_ = 0;
+  ContactRange lowest_;
+  std::vector<std::unique_ptr<RollingDynamics>> levels_;
   RollingDynamics::State state_;
 };
 
@@ -231,7 +282,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   // Rows of one length: shorter orbits repeat to fill theirs.
   size_t longest = 1;
   for (const Orbit& s : steady) longest = std::max(longest, s.record.size());
-  const int samples = slice.time.steps_per_period, reach = sweeper.dynamics().reach();
+  const int samples = slice.time.steps_per_period, reach = sweeper.reach();
   result.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
   result.transmission_error.resize(speeds, longest * samples);
   result.mesh_force.resize(speeds, longest * samples);
