@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "contact/complementarity.h"
 #include "motion/dynamics.h"
+#include "motion/held_motion.h"
 #include "motion/propagator.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
@@ -92,85 +93,7 @@ class Table {
 };
 int Table::passed = 0, Table::failed = 0;
 
-// --- contact that is held: the steps of RollingDynamics with the torque, or the compliance, as the caller sets it
-
-class HeldMotion {
- public:
-  HeldMotion(HeldMesh held, double step) : mesh(std::move(held)) {
-    const auto n = mesh.torque.size(), strips = mesh.gap.size();
-    z = v = force = VectorXd::Zero(n);
-    p = d = lagged = VectorXd::Zero(strips);
-    set_step(step);
-  }
-
-  void set_step(double step) {
-    step_ = step;
-    steps_.clear();
-    for (Eigen::Index c = 0; c < mesh.torque.size(); ++c) {
-      const double w = std::sqrt(mesh.frequency_squared[c]);
-      steps_.push_back((mesh.newmark ? newmark_propagator : exact_propagator)(w, mesh.damping[c], step));
-    }
-    lag_ = lag_step(mesh.relaxation, step);
-    change_compliance(mesh.local);
-  }
-
-  void change_compliance(const MatrixXd& local) {
-    mesh.local = local;
-    compliance_ = local + lag_.from_new * mesh.residual;
-    for (size_t c = 0; c < steps_.size(); ++c) {
-      const auto h = mesh.participation.col(static_cast<Eigen::Index>(c));
-      compliance_ += 0.5 * steps_[c].bq * h * h.transpose();
-    }
-    active_.forget();
-  }
-
-  // Contact forces of this instant, from the displacements alone.
-  void restart() {
-    ActiveSet active;
-    const VectorXd e = mesh.gap - mesh.participation * z + mesh.residual * lagged;
-    solver_.solve(mesh.local, e, active, p, d);
-    force = mesh.torque - mesh.participation.transpose() * p;
-  }
-
-  void advance() {
-    for (size_t k = 0; k < steps_.size(); ++k) {
-      const Propagator& a = steps_[k];
-      const auto c = static_cast<Eigen::Index>(k);
-      const double mean = 0.5 * (force[c] + mesh.torque[c]), z0 = z[c], v0 = v[c];
-      z[c] = a.a11 * z0 + a.a12 * v0 + a.bq * mean;
-      v[c] = a.a21 * z0 + a.a22 * v0 + a.bv * mean;
-    }
-    lagged = lag_.decay * lagged + lag_.from_old * p;
-    e_.noalias() = mesh.gap - mesh.participation * z;
-    e_.noalias() += mesh.residual * lagged;
-    const Certificate certificate = solver_.solve(compliance_, e_, active_, p, d);
-    fallbacks += certificate.fallback;
-    force.noalias() = -mesh.participation.transpose() * p;
-    for (size_t k = 0; k < steps_.size(); ++k) {
-      const auto c = static_cast<Eigen::Index>(k);
-      z[c] += 0.5 * steps_[k].bq * force[c];
-      v[c] += 0.5 * steps_[k].bv * force[c];
-    }
-    force += mesh.torque;
-    lagged += lag_.from_new * p;
-  }
-
-  HeldMesh mesh;
-  VectorXd z, v, force;   // (coordinate)
-  VectorXd p, d, lagged;  // (strip) N, m, N
-  int fallbacks = 0;
-
-  const MatrixXd& compliance() const { return compliance_; }
-
- private:
-  double step_ = 0;
-  std::vector<Propagator> steps_;
-  Lag lag_{};
-  MatrixXd compliance_;
-  VectorXd e_;
-  ActiveSet active_;
-  ComplementaritySolver solver_;
-};
+// --- systems with known answers
 
 // A unit mass against one strip: contact compliance `local` follows at once, `residual` with a lag.
 HeldMesh one_mass(double torque, double local, double residual = 0, double relaxation = 0) {
@@ -339,7 +262,6 @@ void all_modes(Table& table) {
   mesh.newmark = true;
   mesh.torque = amplitude(0) * eigen.eigenvectors().transpose() * push;
   HeldMotion modes(mesh, step);
-  modes.restart();
 
   // In full space, with the sets of contact tried one by one.
   const MatrixXd effective = m + 0.5 * step * c + 0.25 * step * step * k;
@@ -364,7 +286,7 @@ void all_modes(Table& table) {
   double three_point = 0, one_step = 0, size = 0;
   int apart = 0;
   for (int s = 1; s <= kSteps; ++s) {
-    modes.mesh.torque = amplitude(s) * eigen.eigenvectors().transpose() * push;
+    modes.set_torque(amplitude(s) * eigen.eigenvectors().transpose() * push);
     modes.advance();
     {
       const VectorXd u0 = u + step * v + 0.25 * step * step * a, v0 = v + 0.5 * step * a;
@@ -537,7 +459,7 @@ void undamped_bounce(Table& table) {
   const double step = 2 * kPi / kPerPeriod;
   HeldMotion motion(one_mass(1, 1), step);
   motion.z[0] = 3;
-  motion.restart();
+  motion.touch();
   double first = 0, last = 0, drift = 0, before = 0;
   int crossings = 0;
   for (int i = 1; i <= kSteps; ++i) {
@@ -564,9 +486,7 @@ void step_lengths(Table& table) {
   at.dynamics.rest();
   const auto released = [&](double step, int steps) {
     HeldMotion motion(at.dynamics.hold(0), step);
-    motion.z = start.z;
-    motion.p = motion.lagged = start.p;
-    motion.force = motion.mesh.torque - motion.mesh.participation.transpose() * motion.p;
+    motion.start(start.z, start.p);
     for (int i = 0; i < steps; ++i) motion.advance();
     return motion;
   };
@@ -575,7 +495,7 @@ void step_lengths(Table& table) {
   table.at_most("steps of T / 1e6, 1 % of the torque let go: forces against steps of T / 4e6, relative", 1e-6,
                 (tiny.p - finer.p).norm() / finer.p.norm());
   const Eigen::SelfAdjointEigenSolver<MatrixXd> shortest(tiny.compliance(), Eigen::EigenvaluesOnly),
-      local(tiny.mesh.local, Eigen::EigenvaluesOnly);
+      local(tiny.mesh().local, Eigen::EigenvaluesOnly);
   table.relative("their compliance: least eigenvalue, m/N, against that of what follows at once",
                  local.eigenvalues()[0], shortest.eigenvalues()[0], 1e-3);
   table.at_least(
@@ -586,9 +506,7 @@ void step_lengths(Table& table) {
   const double static_error = 1e6 * at.dynamics.static_deflection();
   const RollingDynamics::State rest = at.dynamics.rest();
   HeldMotion huge(at.dynamics.hold(0), 10 * period);
-  const auto deviation = [&] {
-    return std::abs(1e6 * huge.mesh.error_weight.dot(huge.z) / static_error - 1);
-  };
+  const auto deviation = [&] { return std::abs(1e6 * huge.transmission_error() / static_error - 1); };
   const auto largest_of = [&](int steps) {
     double largest = 0;
     for (int i = 0; i < steps; ++i) {
@@ -597,9 +515,7 @@ void step_lengths(Table& table) {
     }
     return largest;
   };
-  huge.z = start.z;
-  huge.p = huge.lagged = start.p;
-  huge.force = huge.mesh.torque - huge.mesh.participation.transpose() * huge.p;
+  huge.start(start.z, start.p);
   const double let_go = deviation();
   table.at_most("5000 steps of 10 T, held, 1 % of the torque let go: largest deviation of DTE over the first",
                 1 + 1e-9, largest_of(5000) / let_go);
@@ -608,7 +524,7 @@ void step_lengths(Table& table) {
                 (huge.lagged - huge.p).norm() / huge.p.norm());
   // A force that relaxes in eta counts for half of the first step.
   huge.z[0] *= 1.05;
-  huge.restart();
+  huge.touch();
   table.at_most("the same from a jump of 5 % that the lag does not know of: largest deviation of DTE", 1,
                 largest_of(5000));
   table.at_most("and at the end", 1e-8, deviation());
@@ -707,7 +623,6 @@ void bouncing_ball(Table& table) {
     for (int i = 0; i < 60; ++i) (restitution(0.5 * (low + high)) > e ? low : high) = 0.5 * (low + high);
     HeldMotion ball(spring_dashpot(gravity, frequency, low), step);
     ball.z[0] = -height;
-    ball.force[0] = gravity;
     const double zeno = std::sqrt(2 * height / gravity) * (1 + e) / (1 - e);
     int flying = 0;
     for (int i = 1; i * step < 1.1 * zeno; ++i) {
@@ -729,10 +644,10 @@ void preload(Table& table) {
     mesh.damping[0] = 2 * ratio;
     HeldMotion motion(mesh, 2 * kPi / kPerPeriod);
     motion.z[0] = 1;
-    motion.restart();
+    motion.touch();
     double least = 1;
     for (int i = 1; i <= kPeriods * kPerPeriod; ++i) {
-      motion.mesh.torque[0] = 1 + share * std::sin(2 * kPi * i / kPerPeriod);
+      motion.set_torque(VectorXd::Constant(1, 1 + share * std::sin(2 * kPi * i / kPerPeriod)));
       motion.advance();
       if (i > (kPeriods - 1) * kPerPeriod) least = std::min(least, motion.p[0]);
     }
@@ -798,14 +713,14 @@ std::pair<double, int> one_degree(double torque, double mesh_frequency, double r
   mesh.damping[0] = 2 * ratio * std::sqrt(462.1e6 / mass);
   HeldMotion motion(mesh, 1 / (mesh_frequency * kPerPeriod));
   motion.z[0] = start * force / 462.1e6 * std::sqrt(mass);
-  motion.restart();
+  motion.touch();
   VectorXd last(kPerPeriod);
   int apart = 0;
   for (int period = 0; period < kPeriods; ++period)
     for (int i = 0; i < kPerPeriod; ++i) {
       if (i == 0 || i == kPerPeriod / 4 * 3) {
-        motion.change_compliance(MatrixXd::Constant(1, 1, 1 / (i == 0 ? k2 : k1)));
-        motion.restart();
+        motion.set_local(MatrixXd::Constant(1, 1, 1 / (i == 0 ? k2 : k1)));
+        motion.touch();
       }
       motion.advance();
       if (period == kPeriods - 1) {

@@ -10,6 +10,7 @@
 //            --reference-static out/parker2000/T100/static.h5 --direction up --output out/parker2000/T150/up/sweep.h5
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -52,16 +53,22 @@ void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
               change.uneven);
 }
 
-// The default eta is that of P2000's pair; on stiffer or lighter gears it damps what nobody meant to damp.
-void tell_damping(const whine::StaticArtifact& statics, const whine::SweepSlice& slice) {
+// The default eta is that of P2000's pair; on stiffer or lighter gears it damps what nobody meant to damp. Said once of a pair
+// of sweeps, by the one of rising speed.
+void tell_damping(const whine::StaticArtifact& statics, const whine::SweepSlice& slice,
+                  const std::string& direction) {
   const bool damps = slice.fidelity.body != "rigid" && slice.fidelity.body != "quasi-static";
   const double ratio = whine::stiffness_damping_ratio(statics, slice);
-  if (damps && (ratio < 0.01 || ratio > 0.12) && whine::default_rayleigh_stiffness(slice.damping))
-    whine::tell(
-        "gear-sweep: warning: rayleigh_stiffness_s = ", slice.damping.rayleigh_stiffness,
-        ", the default, is for the gears of P2000; these it gives a damping ratio of about ", ratio * 100,
-        " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` "
-        "prints the value for 7 %");
+  if (direction != "up" || !damps || (ratio >= 0.01 && ratio <= 0.12) ||
+      !whine::default_rayleigh_stiffness(slice.damping))
+    return;
+  std::ostringstream percent;
+  percent << std::setprecision(3) << ratio * 100;
+  whine::tell("gear-sweep: warning: rayleigh_stiffness_s = ", slice.damping.rayleigh_stiffness,
+              ", the default, is for the gears of P2000; these it gives a damping ratio of about ",
+              percent.str(),
+              " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate "
+              "DAMPING=0.07` prints the value for 7 %");
 }
 
 // Warnings of what a motion is not, and in words what is out of the ordinary.
@@ -147,7 +154,7 @@ void body(int argc, char** argv) {
   whine::tell("gear-sweep: ", result.torque, " N m ", direction, ", ", result.mesh_frequency.size(),
               " speeds, ", result.periods.sum(), " mesh periods", jumps.empty() ? ", no jump" : jumps, " -> ",
               output);
-  tell_damping(at_torque, slice);
+  tell_damping(at_torque, slice, direction);
   tell_motion(result);
   for (const whine::NextSweep& s : next)
     if (s.missing.empty())

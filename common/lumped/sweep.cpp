@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
-#include "signal/response.h"
+#include "signal/branch_end.h"
 
 namespace whine {
 
@@ -89,47 +89,44 @@ BranchPoint branch_point(double mesh_frequency, const LumpedOrbit& orbit) {
   return point;
 }
 
-// Follows the branch of an orbit from a speed on, with steps that are halved where they leave it, to where it ends - past
-// the speed `to`, too, since a long step leaves a branch early whose basin has become narrow. Nothing if the branch passes
-// through the response at `to`: a resonance flank, no jump.
-std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const LumpedOrbit& from_orbit, double from,
-                                    double to, double to_rms, double limit, double periodicity,
-                                    bool march_only, std::vector<BranchPoint>& left_early) {
-  const LumpedJump whole{0.5 * (from + to), std::abs(to - from), false, from_orbit.start};
-  if (from_orbit.multiple == 0) return whole;
-  LumpedOrbit branch = from_orbit;
+BranchMotion branch_motion(double mesh_frequency, const LumpedOrbit& orbit) {
+  return {mesh_frequency, orbit.rms, orbit.multiple};
+}
+
+// Between the speeds i - 1 and i of a sweep, or beyond where the sweep left the branch early; nothing if the branch leads from
+// one to the other. kept: the orbit at speed i - 1.
+std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const std::vector<BranchMotion>& motions,
+                                    size_t i, const LumpedOrbit& kept, double periodicity, bool march_only,
+                                    std::vector<BranchPoint>& left_early) {
+  const double from = motions[i - 1].mesh_frequency, to = motions[i].mesh_frequency;
+  const LumpedJump whole{0.5 * (from + to), std::abs(to - from), false, kept.start};
+  if (kept.multiple == 0) return whole;
+  LumpedOrbit branch = kept, found;
   std::vector<BranchPoint> points;
-  const auto keep = [&] { left_early.insert(left_early.end(), points.begin(), points.end()); };
-  const double direction = to > from ? 1 : -1;
-  double at = from, step = 0.5 * (to - from), next = at;
-  bool passed = false;
-  while (std::abs(step) >= kFinest) {
-    next = at + step;
-    if (!passed && direction * (next - to) > 0) next = to;
-    if (direction * (next - limit) > 0) {  // the branch outlives the sweep
-      keep();
-      return whole;
-    }
-    oscillator.set_speed(next);
-    LumpedOrbit found = settle(oscillator, branch.start, periodicity, march_only, kFollowPeriods);
-    if (found.multiple == 0 || like_a_jump(found.rms, branch.rms)) {
-      step *= 0.5;
-      continue;
-    }
-    at = next;
-    branch = std::move(found);
-    points.push_back(branch_point(at, branch));
-    if (at == to) {
-      passed = true;
-      if (!like_a_jump(branch.rms, to_rms)) return std::nullopt;
-    }
-  }
-  keep();
-  const double width = std::max(std::abs(next - at), kFinest);
-  if (const auto fold = find_fold(oscillator, branch.start, at, branch.multiple))
-    if (std::abs(fold->mesh_frequency - at) < 1e3 * width)
+  BranchWalk walk;
+  walk.step = to - from;
+  walk.limit = motions.back().mesh_frequency;
+  while (std::abs(walk.step) > kFinest * walk.fineness) walk.fineness *= 2;
+  double ran = from;
+  walk.run = [&](double mesh_frequency) {
+    ran = mesh_frequency;
+    oscillator.set_speed(mesh_frequency);
+    found = settle(oscillator, branch.start, periodicity, march_only, kFollowPeriods);
+    return branch_motion(mesh_frequency, found);
+  };
+  walk.keep = [&] {
+    branch = found;
+    points.push_back(branch_point(ran, branch));
+  };
+  const auto end = branch_end(walk, motions, i);
+  if (!end) return std::nullopt;
+  left_early.insert(left_early.end(), points.begin(), points.end());
+  if (end->outlived) return whole;
+  const double width = std::abs(end->next - end->last);
+  if (const auto fold = find_fold(oscillator, branch.start, end->last, branch.multiple))
+    if (std::abs(fold->mesh_frequency - end->last) < 1e3 * width)
       return LumpedJump{fold->mesh_frequency, width, true, fold->start};
-  return LumpedJump{0.5 * (at + next), width, false, branch.start};
+  return LumpedJump{0.5 * (end->last + end->next), width, false, branch.start};
 }
 
 }  // namespace
@@ -237,20 +234,21 @@ LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>
                          bool march_only, const std::function<void(long, long, const std::string&)>& report) {
   LumpedMarch out;
   State state = oscillator.rest();
+  std::vector<BranchMotion> motions;
   const long total = static_cast<long>(speeds.size());
   for (long i = 0; i < total; ++i) {
     oscillator.set_speed(speeds[i]);
     out.orbits.push_back(settle(oscillator, state, periodicity, march_only));
     const LumpedOrbit& orbit = out.orbits.back();
     state = orbit.start;
-    // The RMS of a motion that does not repeat differs from one stretch of it to the next.
-    const bool compares = i > 0 && (out.orbits[i - 1].multiple > 0 || orbit.multiple > 0);
-    if (compares && like_a_jump(out.orbits[i - 1].rms, orbit.rms))
-      if (const auto jump = find_jump(oscillator, out.orbits[i - 1], speeds[i - 1], speeds[i], orbit.rms,
-                                      speeds.back(), periodicity, march_only, out.left_early))
-        out.jumps.push_back(*jump);
+    motions.push_back(branch_motion(speeds[i], orbit));
     report(i + 1, total, text(speeds[i], " Hz, ", orbit.periods, " periods"));
   }
+  for (size_t i = 1; i < motions.size(); ++i)
+    if (may_break(motions, i))
+      if (const auto jump =
+              find_jump(oscillator, motions, i, out.orbits[i - 1], periodicity, march_only, out.left_early))
+        out.jumps.push_back(*jump);
   return out;
 }
 

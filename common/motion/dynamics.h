@@ -28,12 +28,12 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <limits>
 #include <map>
 #include <vector>
 
 #include "contact/lanes.h"
 #include "files/schemas.h"
+#include "motion/held_motion.h"
 #include "motion/ledger.h"
 #include "motion/propagator.h"
 #include "motion/rolling_mesh.h"
@@ -46,26 +46,6 @@ struct DynamicParameters {
   double mean_stiffness = 0;        // N m-1, sets the bearing dampers
   Damping damping;
   Fidelity fidelity;
-};
-
-// The pair held at one phase, contact on strips: z'' + damping z' + frequency_squared z = torque - participation^T p
-// under contact with gap d = gap - participation z + U + local p, relaxation U' + U = residual p.
-struct HeldMesh {
-  double phase = 0;                   // 1: mesh phase
-  Eigen::VectorXd frequency_squared;  // (coordinate) rad2 s-2; the first is the rigid rotation, 0
-  Eigen::VectorXd damping;            // (coordinate) s-1
-  Eigen::VectorXd torque;             // (coordinate) constant force of the torques
-  Eigen::VectorXd error_weight;       // (coordinate) transmission error per unit
-  Eigen::MatrixXd participation;      // (strip, coordinate)
-  Eigen::MatrixXd local, residual;    // (strip, strip) m N-1
-  Eigen::VectorXd gap;                // (strip) m
-  std::vector<int> first_strip;       // (pair + 1)
-  std::vector<int>
-      window_end;  // strips at an end of their window that is no tip edge: no force may stand there
-  double next_corner_gap = std::numeric_limits<double>::infinity();  // m, see MeshPosition
-  double lost_corner_gap = std::numeric_limits<double>::infinity();  // m
-  double relaxation = 0;  // s; 0: the residual flexibility follows at once
-  bool newmark = false;
 };
 
 class RollingDynamics {
@@ -130,8 +110,6 @@ class RollingDynamics {
   double frozen_frequency(int i);
   // The pair at phase i / (steps of the range), to be moved without rolling. Throws Error(input) for lines.
   HeldMesh hold(int i) const;
-  // Renames teeth after a mesh period: what was pair j becomes pair j + 1, doublets turn by one tooth.
-  void advance_tooth(State& state) const;
   // (node, coordinate): outward displacement of the flanks, hub rotation included, per unit coordinate; h of
   // the gap d = e - h z + ...
   Eigen::MatrixXd participation(const MeshPosition& mesh) const;

@@ -282,48 +282,17 @@ RingDown ring_down(const HeldMesh& mesh, double torque_step, double step, int sa
   const VectorXd target = coordinates(mesh, end, 1);
   const double mesh_force = end.p.sum();
 
-  const auto n = mesh.frequency_squared.size();
-  std::vector<Propagator> propagators;
-  VectorXd half_response(n);
-  for (int c = 0; c < n; ++c) {
-    const double w = std::sqrt(mesh.frequency_squared[c]);
-    propagators.push_back(mesh.newmark ? newmark_propagator(w, mesh.damping[c], step)
-                                       : exact_propagator(w, mesh.damping[c], step));
-    half_response[c] = 0.5 * propagators[c].bq;
-  }
-  const Lag lag = lag_step(mesh.relaxation, step);
-  const MatrixXd compliance =
-      mesh.local + lag.from_new * mesh.residual +
-      mesh.participation * half_response.asDiagonal() * mesh.participation.transpose();
-
-  VectorXd z = coordinates(mesh, before, 1 + torque_step), v = VectorXd::Zero(n), p = before.p,
-           lagged = before.p, force = mesh.torque - mesh.participation.transpose() * p, d(p.size());
-  ActiveSet active = before.active;
-  active.forget();
+  HeldMotion motion(mesh, step);
+  motion.start(coordinates(mesh, before, 1 + torque_step), before.p);
   RingDown result;
   result.transmission_error.resize(samples);
   result.least_mesh_force = 1;
-  result.transmission_error[0] = mesh.error_weight.dot(z - target);
+  result.transmission_error[0] = mesh.error_weight.dot(motion.z - target);
   for (int i = 1; i <= (samples - 1) * stride; ++i) {
-    for (int c = 0; c < n; ++c) {
-      const Propagator& a = propagators[c];
-      const double mean = 0.5 * (force[c] + mesh.torque[c]), z0 = z[c], v0 = v[c];
-      z[c] = a.a11 * z0 + a.a12 * v0 + a.bq * mean;
-      v[c] = a.a21 * z0 + a.a22 * v0 + a.bv * mean;
-    }
-    lagged = lag.decay * lagged + lag.from_old * p;
-    const VectorXd e = mesh.gap - mesh.participation * z + mesh.residual * lagged;
-    solver.solve(compliance, e, active, p, d);
-    const VectorXd own = mesh.participation.transpose() * p;
-    for (int c = 0; c < n; ++c) {
-      z[c] -= 0.5 * propagators[c].bq * own[c];
-      v[c] -= 0.5 * propagators[c].bv * own[c];
-    }
-    force = mesh.torque - own;
-    lagged += lag.from_new * p;
-    result.least_mesh_force = std::min(result.least_mesh_force, p.sum() / mesh_force);
-    require_in_reach(mesh, mesh.error_weight.dot(z), p);
-    if (i % stride == 0) result.transmission_error[i / stride] = mesh.error_weight.dot(z - target);
+    motion.advance();
+    result.least_mesh_force = std::min(result.least_mesh_force, motion.p.sum() / mesh_force);
+    require_in_reach(mesh, motion.transmission_error(), motion.p);
+    if (i % stride == 0) result.transmission_error[i / stride] = mesh.error_weight.dot(motion.z - target);
   }
   if (!(result.least_mesh_force > 0))
     fail(Failure::input, "a torque step of ", torque_step,

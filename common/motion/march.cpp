@@ -262,15 +262,6 @@ void RollingDynamics::advance_fields(double* fields) const {
   }
 }
 
-void RollingDynamics::advance_tooth(State& state) const {
-  for (VectorXd* y : {&state.z, &state.v, &state.force}) turn_doublets(y->data());
-  for (int g = 0; g < 2; ++g)
-    for (MatrixXd* field : {&state.lag[g], &state.load[g]}) {
-      for (int j = static_cast<int>(field->cols()) - 1; j > 0; --j) field->col(j) = field->col(j - 1);
-      field->col(0).setZero();
-    }
-}
-
 Lanes RollingDynamics::reading(const Position& position, size_t j, const double* z) const {
   const int coordinates = padded(static_cast<int>(coordinates_.size()));
   if (!lines())
@@ -675,14 +666,13 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
   period.drift_force = period.least_gap = period.least_force = 0;
   period.fallbacks = 0;
   for (int g = 0; g < 2; ++g)
-    if (state.lag[g].cols() < pairs) {  // the range grew: more teeth are followed
-      const int more = (pairs - static_cast<int>(state.lag[g].cols())) / 2;
+    if (const int known = static_cast<int>(state.lag[g].cols()); known != pairs)  // of another range
       for (MatrixXd* field : {&state.lag[g], &state.load[g]}) {
-        MatrixXd wide = MatrixXd::Zero(field->rows(), pairs);
-        wide.middleCols(more, field->cols()) = *field;
-        *field = wide;
+        const int kept = std::min(known, pairs);
+        MatrixXd other = MatrixXd::Zero(field->rows(), pairs);
+        other.middleCols((pairs - kept) / 2, kept) = field->middleCols((known - kept) / 2, kept);
+        *field = other;
       }
-    }
   take(state);
 
   const Modes<Contact::kRows> modes{coordinates, work_.z.data(), work_.v.data(), work_.force.data(),

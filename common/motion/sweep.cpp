@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
+#include "contact/lanes.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
-#include "signal/response.h"
+#include "signal/branch_end.h"
 
 namespace whine {
 
@@ -18,7 +21,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int kMostSteps = 65536;  // per mesh period, as of steps_per_period
-constexpr int kJumpFineness = 64;  // steps of the sweep are halved down to this part: 20 Hz leave 0.3 Hz
 
 int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   int steps = time.steps_per_period;
@@ -30,26 +32,28 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   return steps;
 }
 
+// The pair on contact windows of growing levels, whose strips are of one width: a window holds those of the level below. A
+// motion is that of the lowest level that holds it, whatever the speeds before it wanted.
 class Sweeper {
  public:
   Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
           const SweepSlice& slice)
-      : model_(model), dynamics_(model, parameters), slice_(slice), strips_(statics.contact.strips) {
+      : model_(model), parameters_(parameters), slice_(slice), strips_(statics.contact.strips) {
     load_ = statics.torque / model.kinematics.gear(0).base_radius();
-    largest_force_ = 2.5 * load_;
-    corner_gap_ = 2.5 * statics.transmission_error.maxCoeff();
+    corner_gap_ = kBeyondStatics * statics.transmission_error.maxCoeff();
     finest_ = steps_at(slice.time, slice.frequency_from);
-    set_range();
-    state_ = dynamics_.rest();
+    lowest_ = range(0);
+    state_ = dynamics(0).rest();
   }
 
-  const RollingDynamics& dynamics() const { return dynamics_; }
+  const RollingDynamics& dynamics() { return dynamics(0); }
+  int reach() const { return reach_; }  // largest |pair| that any level can touch
   // Mean over the mesh period with the contact frozen as the static load leaves it. Hz
   double natural_frequency() {
     constexpr int kPhases = 32;
     const int positions = std::min(kPhases, finest_);
     double sum = 0;
-    for (int i = 0; i < positions; ++i) sum += dynamics_.frozen_frequency(i * (finest_ / positions));
+    for (int i = 0; i < positions; ++i) sum += dynamics(0).frozen_frequency(i * (finest_ / positions));
     return sum / positions;
   }
   RollingDynamics::State& state() { return state_; }
@@ -57,38 +61,84 @@ class Sweeper {
   // Runs at this speed from the present state until the state repeats.
   Orbit run(double mesh_frequency) {
     const RollingDynamics::State start = state_;
-    for (;;) {
-      try {
-        dynamics_.set_speed(mesh_frequency, steps_at(slice_.time, mesh_frequency));
-        if (auto orbit = settle(dynamics_, state_, slice_.time.periodicity, slice_.time.steady_state))
-          return *orbit;
-      } catch (const Error& error) {
-        fail(error.kind(), "at ", mesh_frequency, " Hz, ", error.what());
-      }
-      // Contact wanted more than the window or the corner range holds: widen and run this speed again.
-      if (++widened_ > 8)
+    for (;; ++level_) {
+      if (level_ > kMostLevel)
         fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks: forces above ",
-             largest_force_, " N or deflections above ", corner_gap_ * 1e6, " micrometres; lower the torque");
-      largest_force_ *= 1.6;
-      corner_gap_ *= 1.6;
-      set_range();
+             largest_force(kMostLevel), " N or deflections above ", corner_gap(kMostLevel) * 1e6,
+             " micrometres; lower the torque");
+      if (auto orbit = try_level(mesh_frequency)) return on_lowest_level(mesh_frequency, std::move(*orbit));
       state_ = start;
     }
   }
 
  private:
-  void set_range() {
-    dynamics_.set_range(
+  static constexpr double kBeyondStatics = 2.5, kWidening = 1.6;
+  static constexpr int kMostLevel = 8;
+
+  double largest_force(int level) const { return kBeyondStatics * load_ * std::pow(kWidening, level); }
+  double corner_gap(int level) const { return corner_gap_ * std::pow(kWidening, level); }
+
+  std::optional<Orbit> try_level(double mesh_frequency) {
+    try {
+      RollingDynamics& dynamics = this->dynamics(level_);
+      dynamics.set_speed(mesh_frequency, steps_at(slice_.time, mesh_frequency));
+      return settle(dynamics, state_, slice_.time.periodicity, slice_.time.steady_state);
+    } catch (const Error& error) {
+      fail(error.kind(), "at ", mesh_frequency, " Hz, ", error.what());
+    }
+  }
+
+  // A transient may have wanted more than the orbit does.
+  Orbit on_lowest_level(double mesh_frequency, Orbit orbit) {
+    while (level_ > 0 && !keeps_one_level() && orbit.multiple > 0) {
+      const RollingDynamics::State reached = state_;
+      --level_;
+      std::optional<Orbit> lower = try_level(mesh_frequency);
+      if (!lower || lower->multiple != orbit.multiple) {
+        state_ = reached;
+        ++level_;
+        break;
+      }
+      lower->periods += orbit.periods;
+      orbit = std::move(*lower);
+    }
+    return orbit;
+  }
+
+  ContactRange range(int level) const {
+    ContactRange range =
         contact_range(model_.kinematics, model_.gear[0].half_plane(), model_.gear[1].half_plane(), strips_,
-                      load_ / model_.kinematics.contact_ratio(), largest_force_, corner_gap_),
-        finest_);
+                      load_ / model_.kinematics.contact_ratio(), largest_force(level), corner_gap(level));
+    if (level > 0) {
+      const double wider = range.half_window / lowest_.half_window;
+      range.strips = padded(static_cast<int>(std::ceil(wider * lowest_.strips)));
+      range.half_window = lowest_.half_window * range.strips / lowest_.strips;
+    }
+    return range;
+  }
+
+  // Every mode of a mesh fills the memory once.
+  bool keeps_one_level() const { return slice_.fidelity.body == "full"; }
+  RollingDynamics& dynamics(int level) {
+    if (static_cast<int>(levels_.size()) <= level) levels_.resize(level + 1);
+    if (!levels_[level]) {
+      if (keeps_one_level())
+        for (auto& other : levels_) other.reset();
+      levels_[level] = std::make_unique<RollingDynamics>(model_, parameters_);
+      levels_[level]->set_range(range(level), finest_);
+      levels_[level]->rest();  // sets the scale of distances
+      reach_ = std::max(reach_, levels_[level]->reach());
+    }
+    return *levels_[level];
   }
 
   const GearMeshModel& model_;
-  RollingDynamics dynamics_;
+  DynamicParameters parameters_;
   const SweepSlice& slice_;
-  int strips_, finest_ = 0, widened_ = 0;
-  double load_ = 0, largest_force_ = 0, corner_gap_ = 0;
+  int strips_, finest_ = 0, level_ = 0, reach_ = 0;
+  double load_ = 0, corner_gap_ = 0;
+  ContactRange lowest_;
+  std::vector<std::unique_ptr<RollingDynamics>> levels_;
   RollingDynamics::State state_;
 };
 
@@ -103,52 +153,42 @@ BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
   return point;
 }
 
-// Between two speeds whose responses differ: follows the branch of the first, with steps that are halved where they leave
-// it, to where it ends - past the second speed too, since a long step leaves a branch early whose basin has become
-// narrow. Nothing if the branch passes through the response at the second speed: a resonance flank, no jump.
+BranchMotion branch_motion(double mesh_frequency, const Orbit& orbit) {
+  return {mesh_frequency, orbit.rms, orbit.multiple};
+}
+
 struct Jump {
   double frequency, width;
 };
-std::optional<Jump> find_jump(Sweeper& sweeper, const RollingDynamics::State& before, double from,
-                              double from_rms, double to, double to_rms, double limit,
-                              std::vector<BranchPoint>* left_early) {
-  const RollingDynamics::State after = sweeper.state();
-  RollingDynamics::State branch = before;
-  double at = from, rms = from_rms, step = 0.5 * (to - from);
-  const double direction = to > from ? 1 : -1, finest = std::abs(to - from) / kJumpFineness;
-  std::optional<Jump> jump;
+// Between the speeds i - 1 and i of a sweep, or beyond where the sweep left the branch early; nothing if the branch leads from
+// one to the other. kept: the state at the end of speed i - 1.
+std::optional<Jump> find_jump(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
+                              const RollingDynamics::State& kept, std::vector<BranchPoint>* left_early) {
+  const BranchMotion &from = motions[i - 1], &to = motions[i];
+  const double width = std::abs(to.mesh_frequency - from.mesh_frequency);
+  const Jump whole{0.5 * (from.mesh_frequency + to.mesh_frequency), width};
+  if (from.multiple == 0) return whole;
+  RollingDynamics::State branch = kept;
+  BranchPoint point;
   std::vector<BranchPoint> points;
-  for (bool passed = false; std::abs(step) >= finest;) {
-    // Speeds of the sweep are met, so that the branch can be compared there.
-    double next = at + step;
-    if (!passed && direction * (next - to) > 0) next = to;
-    if (direction * (next - limit) > 0) {  // the branch outlives the sweep, which left it within this step
-      jump = Jump{0.5 * (from + to), std::abs(to - from)};
-      break;
-    }
+  BranchWalk walk;
+  walk.step = to.mesh_frequency - from.mesh_frequency;
+  walk.limit = motions.back().mesh_frequency;
+  walk.run = [&](double mesh_frequency) {
     sweeper.state() = branch;
-    const Orbit orbit = sweeper.run(next);
-    const double found = orbit.rms;
-    if (like_a_jump(rms, found)) {
-      step *= 0.5;
-      jump = Jump{0.5 * (at + next), std::abs(next - at)};
-      continue;
-    }
-    at = next;
-    rms = found;
+    const Orbit orbit = sweeper.run(mesh_frequency);
+    point = branch_point(mesh_frequency, orbit);
+    return branch_motion(mesh_frequency, orbit);
+  };
+  walk.keep = [&] {
     branch = sweeper.state();
-    points.push_back(branch_point(next, orbit));
-    if (at == to) {
-      passed = true;
-      if (!like_a_jump(found, to_rms)) {
-        jump.reset();
-        break;
-      }
-    }
-  }
-  sweeper.state() = after;
-  if (jump && left_early) left_early->insert(left_early->end(), points.begin(), points.end());
-  return jump;
+    points.push_back(point);
+  };
+  const auto end = branch_end(walk, motions, i);
+  if (!end) return std::nullopt;
+  if (left_early) left_early->insert(left_early->end(), points.begin(), points.end());
+  if (end->outlived) return whole;
+  return Jump{0.5 * (end->last + end->next), std::abs(end->next - end->last)};
 }
 
 }  // namespace
@@ -214,11 +254,13 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
 
   const auto speed = [&](int i) { return slice.frequency_from + i * slice.frequency_step; };
   std::vector<Orbit> steady;
-  std::vector<Jump> jumps;
+  std::vector<BranchMotion> motions;
+  std::vector<RollingDynamics::State> reached;
   for (int i = 0; i < speeds; ++i) {
     const double f = speed(direction == "up" ? i : speeds - 1 - i);
-    const RollingDynamics::State before = sweeper.state();
     steady.push_back(sweeper.run(f));
+    motions.push_back(branch_motion(f, steady.back()));
+    reached.push_back(sweeper.state());
     const Orbit& s = steady.back();
     result.mesh_frequency[i] = f;
     result.periods[i] = s.periods;
@@ -228,17 +270,19 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     result.energy_imbalance[i] = l.imbalance / l.throughput;
     result.energy.row(i) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
         l.lag_damping, l.switching, l.cutting, l.averaging, l.forgetting;  // kEnergyLines
-    if (i > 0 && like_a_jump(steady[i - 1].rms, s.rms))
-      if (const auto jump = find_jump(sweeper, before, result.mesh_frequency[i - 1], steady[i - 1].rms, f,
-                                      s.rms, direction == "up" ? speed(speeds - 1) : speed(0), left_early))
-        jumps.push_back(*jump);
     report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
   }
+
+  std::vector<Jump> jumps;
+  for (size_t i = 1; i < motions.size(); ++i)
+    if (may_break(motions, i))
+      if (const auto jump = find_jump(sweeper, motions, i, reached[i - 1], left_early))
+        jumps.push_back(*jump);
 
   // Rows of one length: shorter orbits repeat to fill theirs.
   size_t longest = 1;
   for (const Orbit& s : steady) longest = std::max(longest, s.record.size());
-  const int samples = slice.time.steps_per_period, reach = sweeper.dynamics().reach();
+  const int samples = slice.time.steps_per_period, reach = sweeper.reach();
   result.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
   result.transmission_error.resize(speeds, longest * samples);
   result.mesh_force.resize(speeds, longest * samples);

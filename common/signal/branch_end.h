@@ -1,0 +1,40 @@
+// Where a branch of periodic motions ends as the speed goes on.
+//
+// On a branch the RMS goes on as the speeds before foretell; where a branch ends it steps, and the step stays when that of
+// the speed goes to zero. However small a jump is, it is told so from a steep flank, which only finer speeds can do.
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace whine {
+
+// The motion that a speed led to.
+struct BranchMotion {
+  double mesh_frequency = 0;  // Hz
+  double rms = 0;             // m, of the oscillating transmission error
+  int multiple = 0;           // mesh periods of the orbit; 0: not periodic
+};
+
+// True if the RMS of a sweep may step, or the orbit repeats otherwise, between the motions i - 1 and i: the motions before
+// lead to another RMS half-way than those after, by more than 4 %. Finer speeds say what it is.
+bool may_break(const std::vector<BranchMotion>& sweep, size_t i);
+
+struct BranchWalk {
+  double step = 0;    // Hz, below 0 for falling speed: between the speeds of the sweep, the largest taken
+  double limit = 0;   // Hz, furthest speed
+  int fineness = 64;  // a power of two: steps are halved down to this part
+  std::function<BranchMotion(double)> run;  // at a speed (Hz), from the motion kept last
+  std::function<void()> keep;               // of the motion that was run last, to go on from it
+};
+struct BranchEnd {
+  double last = 0, next = 0;  // Hz: furthest speed on the branch, and that which the branch does not reach
+  bool outlived = false;      // the branch goes on beyond the limit, which `last` is
+};
+
+// Follows the branch of motion i - 1 of a sweep, the motion kept first, with steps that are halved where they leave it, to
+// where it ends. Nothing if it leads to motion i, where the sweep has one; or beyond, since a sweep leaves a branch whose
+// basin has become narrower than its step.
+std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<BranchMotion>& sweep, size_t i);
+
+}  // namespace whine
