@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "contact/lanes.h"
+#include "contact/line_contact.h"
 #include "files/schemas.h"
 #include "motion/ledger.h"
 #include "motion/propagator.h"
@@ -158,6 +159,7 @@ class RollingDynamics {
     Eigen::MatrixXd compliance;  // (strip, strip)
     ActiveSet active;
     PairVector force;  // (pair) N, of lines: what they carried here last; empty: not known
+    LineStart start;   // of lines, at this speed
   };
   // What a step looks up of its position, side by side. Places in stream_, where columns of nodes stand 8 a pair and rows
   // of coordinates have whole lanes.
@@ -184,6 +186,7 @@ class RollingDynamics {
     std::array<Eigen::MatrixXd, 2> field_weight;  // (node, field)
     Frame frame;
   };
+  using Stream = std::vector<double, Eigen::aligned_allocator<double>>;  // lanes in one cache line
   struct LineRecord;
   struct ShapeLanes;
   static const ShapeLanes kShape;
@@ -199,6 +202,11 @@ class RollingDynamics {
       return number[(coordinate / kLanes * kCount + of) * kLanes + coordinate % kLanes];
     }
   };
+  // Whole lanes of coordinates that turn a hub, 0 to first_end and second to second_end: the others see no torque and do not
+  // count for the transmission error.
+  struct HubLanes {
+    int first_end = 0, second = 0, second_end = 0;
+  } hub_lanes_;
   static constexpr int kFields = 12;       // lagged, per tooth
   static constexpr int kSharedFields = 8;  // the first of them: what teeth of a gear do to each other
   static constexpr int kPairNodes = 8;     // columns of nodes: kWindowNodes and zeros up to whole lanes
@@ -268,6 +276,8 @@ class RollingDynamics {
   double relaxation() const { return relaxation_; }
   template <int kRows>
   struct Modes;
+  struct LiveTeeth;
+  LiveTeeth live_teeth();
   template <class Contact>
   bool march(Contact contact, State& state, Period& period, Ledger* ledger);
   const Eigen::MatrixXd& coupling(int g, int offset) const { return coupling_[g][offset + 2 * reach_]; }
@@ -302,7 +312,7 @@ class RollingDynamics {
   double rigid_frequency_ = 0;  // rad s-1: sqrt(mean stiffness / reduced mass)
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;
-  std::vector<double> stream_;
+  Stream stream_;
   std::vector<Step> step_data_;
   SpeedCoefficients speed_;
   DampingIntegrals damping_;
