@@ -103,7 +103,7 @@ class RollingDynamics {
   State rest();
   // Marches one mesh period and renames teeth, so that the state can be compared with the one before.
   // False if contact wanted more than the range holds; the state is then spoiled. With a ledger a step of strips costs
-  // three times as much, one of lines five times. Throws Error(input) for a state of other gears or modes, or with a
+  // three times as much, one of lines seven times. Throws Error(input) for a state of other gears or modes, or with a
   // ledger of another range; Error(numerical), with the mesh phase, if the contact of a step has no certified
   // solution or a line carries more than Hertz's law or its flanks hold.
   bool march(State& state, Period& period, Ledger* ledger = nullptr);
