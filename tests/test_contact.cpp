@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -484,6 +485,35 @@ TEST_CASE(
   }
   CHECK(empty < 60);
   CHECK(steps < 60);
+}
+
+TEST_CASE("line contact: a start that goes along from one e to the next gives the solutions from nothing") {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int at_once = 0, others = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const int n = 1 + trial % 5;
+    const Lines lines = random_lines(n, random);
+    VectorXd e = VectorXd::NullaryExpr(n, [&] { return 4e-6 * uniform(random); });
+    VectorXd force = VectorXd::Zero(n), d(n), cold_d(n);
+    LineStart start;
+    for (int i = 0; i < 100; ++i) {
+      const double step = i % 10 == 0 ? 2e-6 : i % 3 == 0 ? 1e-9 : 1e-16;
+      for (double& x : e) x = std::clamp(x + step * uniform(random), -4e-6, 4e-6);
+      if (!start.known()) start.look(lines.c, lines.law, force);
+      const VectorXd before = force;
+      const Certificate certificate = solve_line_contact(lines.c, lines.law, e, start, force, d);
+      at_once += start.known() && certificate.factorisations == 1;
+      others += ((before.array() > 0) != (force.array() > 0)).any();
+      VectorXd cold = VectorXd::Zero(n);
+      solve_line_contact(lines.c, lines.law, e, cold, cold_d);
+      CHECK((force - cold).cwiseAbs().maxCoeff() < 1e-11 * (1 + cold.maxCoeff()));
+      CHECK((d - cold_d).cwiseAbs().maxCoeff() < 1e-13 * e.cwiseAbs().maxCoeff());
+      CHECK(certificate.residual < 1e-13);
+    }
+  }
+  CHECK(at_once > 1000);
+  CHECK(others > 100);
 }
 
 TEST_CASE("line contact: followed from a start nearby or far, d is 0 within round-off where there is force") {

@@ -44,6 +44,7 @@ class HertzLine {
       : coefficient_(driver.coefficient() + driven.coefficient()) {
     constant_ = (driver.line(1.0, depth) + driven.line(1.0, depth)) / coefficient_ + std::log(4.0) + 1;
     inside_ = {0, 1 / (8 * radius), 0, 0};
+    inside_constant_ = constant_ - 0.5 * std::log(coefficient_ / inside_.square);
     edge_ = {0.5 * edge_slope, 3 / (8 * radius), 0, 0};
     edge_from_ = std::numeric_limits<double>::infinity();
     if (!(edge_slope < 0)) {
@@ -52,7 +53,7 @@ class HertzLine {
       const double distance = -edge_slope * radius;
       edge_from_ = 0.5 * distance * distance / (radius * coefficient_);
       edge_.offset = 0.5 * distance * distance / radius;
-      edge_.energy = on(inside_, edge_from_).energy - on(edge_, edge_from_).energy;
+      edge_.energy = inside(edge_from_).energy - on(edge_, edge_from_).energy;
     }
     largest_force_ = force(std::exp(constant_ - 1 - kLeastSlope));
   }
@@ -61,7 +62,7 @@ class HertzLine {
   // although the slope of the law itself grows without bound.
   Point at(double force) const {
     const double f = std::clamp(force, kLeastForce, largest_force_), beyond = force - f;
-    Point p = on(f <= edge_from_ ? inside_ : edge_, f);
+    Point p = f <= edge_from_ ? inside(f) : on(edge_, f);
     p.energy += (p.indentation + 0.5 * p.slope * beyond) * beyond;
     p.indentation += p.slope * beyond;
     return p;
@@ -93,6 +94,11 @@ class HertzLine {
     double force(double w) const { return (linear + square * w) * w; }  // m, times C
     double width(double cf) const { return 2 * cf / (linear + std::sqrt(linear * linear + 4 * square * cf)); }
   };
+  // The same of inside_, where w is sqrt(C F / square).
+  Point inside(double f) const {
+    const double cf = coefficient_ * f, log_term = inside_constant_ - 0.5 * std::log(f);
+    return {cf * (log_term - 0.5), coefficient_ * (log_term - 1), 0.5 * cf * f * (log_term - 0.25)};
+  }
   Point on(const Branch& b, double f) const {
     const double cf = coefficient_ * f, w = b.width(cf), log_term = constant_ - std::log(w),
                  qw = b.square * w;
@@ -105,6 +111,7 @@ class HertzLine {
   static constexpr double kLeastSlope = 0.125;  // in C
   static constexpr double kLeastForce = 1e-20;  // N
   double coefficient_, constant_;               // m N-1: C; 1: ln(4 depth) + 1 - k
+  double inside_constant_;                      // 1: constant_ - ln(w) + ln(F) / 2 inside
   Branch inside_, edge_;
   double edge_from_, largest_force_;  // N
 };

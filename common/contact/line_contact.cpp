@@ -1,6 +1,7 @@
 #include "contact/line_contact.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,47 +60,55 @@ int list(const std::array<bool, kMostPairs>& in, Eigen::Index n, std::array<int,
   return count;
 }
 
-// d of the pairs that carry, without a look at the others.
+// At s.at: all that a Newton step from there needs but e. False where the tangent is not positive definite.
+template <int n>
+bool linearise(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law, LineStart& s) {
+  Eigen::Matrix<double, n, n> tangent;
+  for (int i = 0; i < n; ++i) {
+    const HertzLine& own_law = law[s.carrying[i]];
+    const HertzLine::Point own = own_law.at(s.at[i]);
+    s.d[i] = own.indentation;
+    s.size[i] = std::abs(own.indentation);
+    s.bend[i] = 0.5 * own_law.coefficient();
+    for (int j = 0; j < n; ++j) {
+      const double shared = c(s.carrying[i], s.carrying[j]);
+      tangent(i, j) = shared;
+      s.d[i] += shared * s.at[j];
+      s.size[i] += std::abs(shared) * s.at[j];
+    }
+    tangent(i, i) += own.slope;
+  }
+  const double determinant = tangent.determinant();
+  if (!(tangent(0, 0) > 0 && determinant > 0)) return false;
+  if constexpr (n == 3)
+    if (!(tangent(0, 0) * tangent(1, 1) > tangent(0, 1) * tangent(1, 0))) return false;
+  const Eigen::Matrix<double, n, n> inverse = tangent.inverse();
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) s.inverse[i][j] = inverse(i, j);
+  return true;
+}
+
+// d of the pairs that carry, without a look at the others; f: (pair that carries) N, result.
 template <int n>
 bool follow(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
-            const Eigen::Ref<const VectorXd>& e, const int* carrying, double* f, Certificate& certificate) {
+            const Eigen::Ref<const VectorXd>& e, LineStart& s, double* f, Certificate& certificate) {
   constexpr int kMostSteps = 6;
   for (int step = 0; step < kMostSteps; ++step) {
-    double tangent[n][n], change[n], tolerance[n];
-    for (int i = 0; i < n; ++i) {
-      const int row = carrying[i];
-      const HertzLine::Point own = law[row].at(f[i]);
-      double d = own.indentation + e[row], size = std::abs(own.indentation) + std::abs(e[row]);
-      for (int j = 0; j < n; ++j) {
-        tangent[i][j] = c(row, carrying[j]);
-        d += tangent[i][j] * f[j];
-        size += std::abs(tangent[i][j]) * f[j];
-      }
-      tangent[i][i] += own.slope;
-      change[i] = -d;
-      tolerance[i] = kRoundOff * size;
-    }
-    for (int k = 0; k < n; ++k) {
-      if (!(tangent[k][k] > 0)) return false;
-      const double reciprocal = 1 / tangent[k][k];
-      for (int i = k + 1; i < n; ++i) {
-        const double factor = tangent[i][k] * reciprocal;
-        for (int j = k + 1; j < n; ++j) tangent[i][j] -= factor * tangent[k][j];
-        change[i] -= factor * change[k];
-      }
-      tangent[k][k] = reciprocal;
+    if (step > 0) {
+      for (int i = 0; i < n; ++i) s.at[i] = f[i];
+      if (!linearise<n>(c, law, s)) return false;
     }
     bool met = true;
-    double left[n], least[n];  // of d at the next force: what the law's slope can have changed on the way
-    for (int i = n - 1; i >= 0; --i) {
-      for (int j = i + 1; j < n; ++j) change[i] -= tangent[i][j] * change[j];
-      change[i] *= tangent[i][i];
-      const double next = f[i] + change[i];
-      if (!(next > 0)) return false;
-      left[i] = 0.5 * law[carrying[i]].coefficient() * change[i] * change[i];
-      least[i] = std::min(f[i], next);
-      met = met && left[i] <= tolerance[i] * least[i];
-      f[i] = next;
+    double d[n], left[n], least[n];  // left of d at the next force: what the law's slope can have changed
+    for (int i = 0; i < n; ++i) d[i] = s.d[i] + e[s.carrying[i]];
+    for (int i = 0; i < n; ++i) {
+      double change = 0;
+      for (int j = 0; j < n; ++j) change -= s.inverse[i][j] * d[j];
+      f[i] = s.at[i] + change;
+      if (!(f[i] > 0)) return false;
+      left[i] = s.bend[i] * change * change;
+      least[i] = std::min(s.at[i], f[i]);
+      met = met && left[i] <= kRoundOff * (s.size[i] + std::abs(e[s.carrying[i]])) * least[i];
     }
     if (!met) continue;
     certificate.iterations = certificate.factorisations = step + 1;
@@ -109,24 +118,16 @@ bool follow(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
   return false;
 }
 
-// The solution if it carries where the start does; otherwise false, and the start is as it was.
+// The solution if it carries where the start does; otherwise false.
 bool follow_start(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
-                  const Eigen::Ref<const VectorXd>& e, Eigen::Ref<VectorXd> force, Eigen::Ref<VectorXd> d,
-                  Certificate& certificate) {
-  constexpr int kMostFollowed = 3;
-  const int n = static_cast<int>(e.size());
-  int carrying[kMostFollowed], count = 0;
-  double f[kMostFollowed];
-  for (int i = 0; i < n; ++i) {
-    if (!(force[i] > 0)) continue;
-    if (count == kMostFollowed || !std::isfinite(force[i])) return false;
-    f[count] = force[i];
-    carrying[count++] = i;
-  }
-  if (count == 1   ? !follow<1>(c, law, e, carrying, f, certificate)
-      : count == 2 ? !follow<2>(c, law, e, carrying, f, certificate)
-      : count == 3 ? !follow<3>(c, law, e, carrying, f, certificate)
-                   : true)
+                  const Eigen::Ref<const VectorXd>& e, LineStart& start, Eigen::Ref<VectorXd> force,
+                  Eigen::Ref<VectorXd> d, Certificate& certificate) {
+  const int n = static_cast<int>(e.size()), count = start.count;
+  const int* carrying = start.carrying;
+  double f[LineStart::kMost] = {};
+  if (count <= 0 || (count == 1 && !follow<1>(c, law, e, start, f, certificate)) ||
+      (count == 2 && !follow<2>(c, law, e, start, f, certificate)) ||
+      (count == 3 && !follow<3>(c, law, e, start, f, certificate)))
     return false;
   double scale = 0, least_gap = std::numeric_limits<double>::infinity();
   certificate.least_force = f[0];
@@ -156,15 +157,41 @@ bool follow_start(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine
 
 }  // namespace
 
+void LineStart::look(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                     const Eigen::Ref<const VectorXd>& start) {
+  forget();
+  int n = 0;
+  for (int i = 0; i < start.size(); ++i) {
+    if (!(start[i] > 0)) continue;
+    if (n == kMost || !std::isfinite(start[i])) return;
+    at[n] = start[i];
+    carrying[n++] = i;
+  }
+  if (n == 0 || (n == 1   ? linearise<1>(c, law, *this)
+                 : n == 2 ? linearise<2>(c, law, *this)
+                          : linearise<3>(c, law, *this)))
+    count = n;
+}
+
 Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
                                const Eigen::Ref<const VectorXd>& e, Eigen::Ref<VectorXd> force,
                                Eigen::Ref<VectorXd> d) {
+  LineStart start;
+  start.look(c, law, force);
+  return solve_line_contact(c, law, e, start, force, d);
+}
+
+Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                               const Eigen::Ref<const VectorXd>& e, LineStart& start,
+                               Eigen::Ref<VectorXd> force, Eigen::Ref<VectorXd> d) {
   const Eigen::Index n = e.size();
   if (n > kMostPairs)
     fail(Failure::numerical, "line contact: ", n, " pairs, at most ", kMostPairs, " are foreseen");
-  if (Certificate followed; follow_start(c, law, e, force, d, followed)) return followed;
-  if (!e.allFinite() || !c.allFinite()) fail(Failure::numerical, "line contact: a number is not finite");
   Certificate certificate;
+  if (follow_start(c, law, e, start, force, d, certificate)) return certificate;
+  if (!e.allFinite() || !c.allFinite()) fail(Failure::numerical, "line contact: a number is not finite");
+  start.forget();
+  certificate = {};
   PairVector f(n);
   std::array<bool, kMostPairs> in{};
   for (int i = 0; i < n; ++i) {

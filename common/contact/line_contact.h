@@ -5,7 +5,7 @@
 // the pairs that carry force, cut where a force would fall below zero and by Armijo's rule where the energy would not
 // fall; a pair comes in only at the least energy of the others, so that no set of pairs comes back (as in Lawson and
 // Hanson, Solving Least Squares Problems, 1974, chapter 23). Up to three pairs that carry at the start are first followed
-// by themselves by plain Newton steps, each of n laws and an n x n elimination: enough while no pair comes or goes, and
+// by themselves by plain Newton steps, each of n laws and an n x n inverse: enough while no pair comes or goes, and
 // the last step needs no look back, for the slope of a law changes by less than C / F. No memory is taken.
 #pragma once
 #include <Eigen/Core>
@@ -20,6 +20,25 @@ inline constexpr int kMostPairs = 8;
 using PairVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPairs, 1>;
 using PairMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostPairs, kMostPairs>;
 
+// Newton's step from the forces `at`, before e is known. It holds for every e of the same C and laws, so a solution whose
+// forces are near these needs no law. Arrays: (pair that carries), the first `count` of them.
+struct LineStart {
+  // From force: (pair) N.
+  void look(const Eigen::Ref<const Eigen::MatrixXd>& c, std::span<const HertzLine> law,
+            const Eigen::Ref<const Eigen::VectorXd>& force);
+  void forget() { count = -1; }
+  bool known() const { return count >= 0; }
+
+  static constexpr int kMost = 3;
+  int count = -1;            // -1: not looked at, too many pairs, or no tangent that is positive definite
+  int carrying[kMost] = {};  // which of all pairs
+  double at[kMost] = {};     // N
+  double d[kMost] = {};      // m, without e
+  double size[kMost] = {};   // m: sum of the sizes of its terms
+  double bend[kMost] = {};   // m N-1: half the laws' coefficients
+  double inverse[kMost][kMost] = {};  // N m-1: of C + slopes
+};
+
 // c: (pair, pair) m N-1; law: (pair); e: (pair) m; force: (pair) N, start and result; d: (pair) m, result. Values of
 // force that are not above 0 are no start. Beyond HertzLine::largest_force the law is a straight line, and whoever
 // uses the result asks require_hertz_range. Certificate as ComplementaritySolver's: gap tolerance the round-off of
@@ -31,6 +50,11 @@ using PairMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMos
 Certificate solve_line_contact(const Eigen::Ref<const Eigen::MatrixXd>& c, std::span<const HertzLine> law,
                                const Eigen::Ref<const Eigen::VectorXd>& e, Eigen::Ref<Eigen::VectorXd> force,
                                Eigen::Ref<Eigen::VectorXd> d);
+
+// The same from a start that is known, for the same C and laws; it is moved along, or forgotten where it was not followed.
+Certificate solve_line_contact(const Eigen::Ref<const Eigen::MatrixXd>& c, std::span<const HertzLine> law,
+                               const Eigen::Ref<const Eigen::VectorXd>& e, LineStart& start,
+                               Eigen::Ref<Eigen::VectorXd> force, Eigen::Ref<Eigen::VectorXd> d);
 
 // d (approach . F) / d x for e = gap - x approach at a solution: approach^T (C + slopes)^-1 approach over the pairs with
 // force. N m-1 if approach is 1; 0 without force.

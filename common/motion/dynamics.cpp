@@ -369,6 +369,7 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   for (int i = 0; i < steps; ++i) {
     const Position& position = positions_[i * stride_];
     step_data_[i].active.forget();
+    step_data_[i].start.forget();
     step_data_[i].compliance = position.local;
     at_nodes = lag_.from_new * position.lagged;
     add_response(position, at_nodes);

@@ -32,6 +32,7 @@
 #include <vector>
 
 #include "contact/lanes.h"
+#include "contact/line_contact.h"
 #include "files/schemas.h"
 #include "motion/held_motion.h"
 #include "motion/ledger.h"
@@ -82,7 +83,7 @@ class RollingDynamics {
   State rest();
   // Marches one mesh period and renames teeth, so that the state can be compared with the one before.
   // False if contact wanted more than the range holds; the state is then spoiled. With a ledger a step of strips costs
-  // three times as much, one of lines five times. Throws Error(input) for a state of other gears or modes, or with a
+  // three times as much, one of lines seven times. Throws Error(input) for a state of other gears or modes, or with a
   // ledger of another range; Error(numerical), with the mesh phase, if the contact of a step has no certified
   // solution or a line carries more than Hertz's law or its flanks hold.
   bool march(State& state, Period& period, Ledger* ledger = nullptr);
@@ -136,6 +137,7 @@ class RollingDynamics {
     Eigen::MatrixXd compliance;  // (strip, strip)
     ActiveSet active;
     PairVector force;  // (pair) N, of lines: what they carried here last; empty: not known
+    LineStart start;   // of lines, at this speed
   };
   // What a step looks up of its position, side by side. Places in stream_, where columns of nodes stand 8 a pair and rows
   // of coordinates have whole lanes.
@@ -162,6 +164,7 @@ class RollingDynamics {
     std::array<Eigen::MatrixXd, 2> field_weight;  // (node, field)
     Frame frame;
   };
+  using Stream = std::vector<double, Eigen::aligned_allocator<double>>;  // lanes in one cache line
   struct LineRecord;
   struct ShapeLanes;
   static const ShapeLanes kShape;
@@ -177,6 +180,11 @@ class RollingDynamics {
       return number[(coordinate / kLanes * kCount + of) * kLanes + coordinate % kLanes];
     }
   };
+  // Whole lanes of coordinates that turn a hub, 0 to first_end and second to second_end: the others see no torque and do not
+  // count for the transmission error.
+  struct HubLanes {
+    int first_end = 0, second = 0, second_end = 0;
+  } hub_lanes_;
   static constexpr int kFields = 12;       // lagged, per tooth
   static constexpr int kSharedFields = 8;  // the first of them: what teeth of a gear do to each other
   static constexpr int kPairNodes = 8;     // columns of nodes: kWindowNodes and zeros up to whole lanes
@@ -246,6 +254,8 @@ class RollingDynamics {
   double relaxation() const { return relaxation_; }
   template <int kRows>
   struct Modes;
+  struct LiveTeeth;
+  LiveTeeth live_teeth();
   template <class Contact>
   bool march(Contact contact, State& state, Period& period, Ledger* ledger);
   const Eigen::MatrixXd& coupling(int g, int offset) const { return coupling_[g][offset + 2 * reach_]; }
@@ -280,7 +290,7 @@ class RollingDynamics {
   double rigid_frequency_ = 0;  // rad s-1: sqrt(mean stiffness / reduced mass)
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;
-  std::vector<double> stream_;
+  Stream stream_;
   std::vector<Step> step_data_;
   SpeedCoefficients speed_;
   DampingIntegrals damping_;

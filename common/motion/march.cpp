@@ -51,6 +51,16 @@ void RollingDynamics::size_workspaces() {
   for (VectorXd* x : {&l.turned_back, &l.frequency_squared, &l.damping}) x->setZero(coordinates);
   l.frequency_squared.head(own) = frequency_squared_;
   for (int i = 0; i < own; ++i) l.damping[i] = coordinates_[i].damping;
+  const auto turns_hub = [&](int lane) {
+    for (int i = lane; i < std::min(lane + kLanes, own); ++i)
+      if (error_weight_[i] != 0 || torque_force_[i] != 0) return true;
+    return false;
+  };
+  HubLanes& hub = hub_lanes_;
+  for (hub.first_end = 0; hub.first_end < coordinates && turns_hub(hub.first_end);) hub.first_end += kLanes;
+  for (hub.second = hub.first_end; hub.second < coordinates && !turns_hub(hub.second);) hub.second += kLanes;
+  for (hub.second_end = coordinates; hub.second_end > hub.second && !turns_hub(hub.second_end - kLanes);)
+    hub.second_end -= kLanes;
 }
 
 RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
@@ -80,7 +90,8 @@ void RollingDynamics::pack() {
 
 namespace {
 
-size_t place(std::vector<double>& stream, Eigen::Index count) {
+template <class Stream>
+size_t place(Stream& stream, Eigen::Index count) {
   const size_t at = stream.size();
   stream.resize(at + static_cast<size_t>(count), 0.0);
   return at;
@@ -94,8 +105,10 @@ struct RollingDynamics::LineRecord {
   static constexpr int kGap = 0;         // m
   static constexpr int kMost = 1;        // N: beyond it neither Hertz's law nor the flanks hold
   static constexpr int kShape = kLanes;  // (coordinate)
-  int reading(int g) const { return kShape + coordinates + g * fields; }  // (field of all pairs) m N-1
-  int weight(int g) const { return kShape + coordinates + 2 * fields + g * kFields; }  // (field of its own)
+  // m N-1: (shared field) of a tooth, one gear after the other so that live teeth stand together; (other field) of its own
+  int reading(int g, int tooth) const { return kShape + coordinates + (2 * tooth + g) * kSharedFields; }
+  int own_reading(int g) const { return reading(0, fields / kFields) + g * (kFields - kSharedFields); }
+  int weight(int g) const { return own_reading(2) + g * kFields; }  // (field of its own)
   int size() const { return weight(2); }
 };
 
@@ -117,7 +130,10 @@ void RollingDynamics::pack_lines(Position& position) {
       const auto weight = position.field_weight[g].row(j);
       for (int tooth = 0; tooth <= 2 * reach_; ++tooth) {
         const MatrixXd& block = coupling(g, position.frame.pair[j].slot - tooth);
-        row(record.reading(g) + tooth * kFields, block.cols()) = weight.head(block.rows()) * block;
+        const Eigen::RowVectorXd reading = weight.head(block.rows()) * block;
+        row(record.reading(g, tooth), kSharedFields) = reading.head(kSharedFields);
+        if (tooth == position.frame.pair[j].slot)
+          row(record.own_reading(g), kFields - kSharedFields) = reading.tail(kFields - kSharedFields);
       }
       row(record.weight(g), kFields) = weight;
     }
@@ -322,7 +338,47 @@ struct ModalLoad {
   }
 };
 
+// What modes move pairs by that have one row each: (pair) row and m.
+struct ModalReading {
+  int count = 0;
+  const double* rows[kMostPairs];
+  double moved[kMostPairs];
+};
+
 }  // namespace
+
+// Columns of lag and load, first to last - 1, outside which no tooth has any.
+struct RollingDynamics::LiveTeeth {
+  int first = 0, last = 0;
+  void add(int slot) {
+    if (first == last) first = last = slot;
+    first = std::min(first, slot);
+    last = std::max(last, slot + 1);
+  }
+};
+
+// Teeth whose lag the others' round-off swallows have none from here on.
+RollingDynamics::LiveTeeth RollingDynamics::live_teeth() {
+  constexpr double kForgotten = 0x1p-80;
+  const int teeth = 2 * reach_ + 1;
+  const auto size = [&](int tooth) {
+    double sum = 0;
+    for (const VectorXd* x : {&work_.lag, &work_.load})
+      for (int g = 0; g < 2; ++g)
+        sum += x->segment<kFields>(g * all_fields() + tooth * kFields).cwiseAbs().sum();
+    return sum;
+  };
+  double all = 0;
+  for (int tooth = 0; tooth < teeth; ++tooth) all += size(tooth);
+  LiveTeeth live;
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    if (!(size(tooth) <= kForgotten * all)) live.add(tooth);
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    if (tooth < live.first || tooth >= live.last)
+      for (VectorXd* x : {&work_.lag, &work_.load})
+        for (int g = 0; g < 2; ++g) x->segment<kFields>(g * all_fields() + tooth * kFields).setZero();
+  return live;
+}
 
 // Modal vectors of a march and what a step does to them. A pair has kRows rows.
 template <int kRows>
@@ -330,6 +386,7 @@ struct RollingDynamics::Modes {
   int coordinates;
   double *z, *v, *force;
   const double* coefficients;
+  HubLanes hub;
 
   // To the next instant, without new contact force.
   void propagate() const {
@@ -357,15 +414,16 @@ struct RollingDynamics::Modes {
     return sum(error);
   }
 
-  // Both in one go; the force itself is not kept. rest: (coordinate), of the loads of more pairs than there are registers.
-  double push_and_propagate(const ModalLoad& load, double* rest) const {
+  // Both in one go, and `next` read off what comes out while it is in registers; the force itself is not kept.
+  // rest: (coordinate), of the loads of more pairs than there are registers.
+  double push_and_propagate(const ModalLoad& load, ModalReading& next, double* rest) const {
     switch (load.count) {
       case 0:
-        return both<0, kRows>(load.rows, load.half);
+        return both<0, kRows>(load.rows, load.half, next);
       case 1:
-        return both<1, kRows>(load.rows, load.half);
+        return both<1, kRows>(load.rows, load.half, next);
       case 2:
-        return both<2, kRows>(load.rows, load.half);
+        return both<2, kRows>(load.rows, load.half, next);
       default:
         break;
     }
@@ -376,36 +434,72 @@ struct RollingDynamics::Modes {
           lanes(rest + c) += load.half[j][r] * lanes(load.rows[j] + c * kRows + r * kLanes);
     const double* row = rest;
     const Lanes one{1};
-    return both<1, 1>(&row, &one);
+    return both<1, 1>(&row, &one, next);
+  }
+
+  void read(ModalReading& reading) const {
+    for (int j = 0; j < reading.count; ++j) reading.moved[j] = dot(reading.rows[j], z, 0, coordinates);
   }
 
  private:
   static const Lanes& of(const double* k, SpeedCoefficients::Of which) { return lanes(k + which * kLanes); }
-  void go_on(const double* k, int c, Lanes z0, Lanes v0, Lanes mean) const {
-    const Lanes bq = of(k, SpeedCoefficients::bq), a12 = of(k, SpeedCoefficients::a12);
-    lanes(z + c) = of(k, SpeedCoefficients::a11) * z0 + a12 * v0 + bq * mean;
+  Lanes go_on(const double* k, int c, Lanes z0, Lanes v0, Lanes mean) const {
+    const Lanes bq = of(k, SpeedCoefficients::bq), a12 = of(k, SpeedCoefficients::a12),
+                z1 = of(k, SpeedCoefficients::a11) * z0 + a12 * v0 + bq * mean;
+    lanes(z + c) = z1;
     lanes(v + c) = of(k, SpeedCoefficients::a21) * z0 + of(k, SpeedCoefficients::a22) * v0 + a12 * mean;
+    return z1;
   }
   template <int kCount, int kRowsEach>
-  double both(const double* const* rows, const Lanes* factor) const {
+  double both(const double* const* rows, const Lanes* factor, ModalReading& next) const {
+    switch (next.count) {
+      case 0:
+        return both<kCount, kRowsEach, 0>(rows, factor, next);
+      case 2:
+        return both<kCount, kRowsEach, 2>(rows, factor, next);
+      case 3:
+        return both<kCount, kRowsEach, 3>(rows, factor, next);
+      default:
+        break;
+    }
+    const double error = both<kCount, kRowsEach, 0>(rows, factor, next);
+    read(next);
+    return error;
+  }
+  template <int kCount, int kRowsEach, int kRead>
+  double both(const double* const* rows, const Lanes* factor, ModalReading& next) const {
     const Modes here = *this;  // stores of lanes may change anything for all that the compiler knows
-    const double* row[kCount + 1];
+    const double *row[kCount + 1], *read_row[kRead + 1];
     double f[kCount + 1][kRowsEach];
     for (int j = 0; j < kCount; ++j) {
       row[j] = rows[j];
       for (int r = 0; r < kRowsEach; ++r) f[j][r] = factor[j][r];
     }
-    const double* k = here.coefficients;
-    Lanes error{};
-    for (int c = 0; c < here.coordinates; c += kLanes, k += SpeedCoefficients::kCount * kLanes) {
-      Lanes half{};
-      for (int j = 0; j < kCount; ++j)
-        for (int r = 0; r < kRowsEach; ++r) half += f[j][r] * lanes(row[j] + c * kRowsEach + r * kLanes);
-      const Lanes z1 = lanes(here.z + c) - of(k, SpeedCoefficients::bq) * half,
-                  v1 = lanes(here.v + c) - of(k, SpeedCoefficients::a12) * half;
-      error += of(k, SpeedCoefficients::weight) * z1;
-      here.go_on(k, c, z1, v1, of(k, SpeedCoefficients::torque) - half);
-    }
+    for (int j = 0; j < kRead; ++j) read_row[j] = next.rows[j];
+    Lanes error{}, moved[kRead + 1] = {};
+    const auto run = [&](auto with_hub, int from, int to) __attribute__((always_inline)) {
+      const double* k = here.coefficients + from * SpeedCoefficients::kCount;
+      for (int c = from; c < to; c += kLanes, k += SpeedCoefficients::kCount * kLanes) {
+        Lanes half{};
+        for (int j = 0; j < kCount; ++j)
+          for (int r = 0; r < kRowsEach; ++r) half += f[j][r] * lanes(row[j] + c * kRowsEach + r * kLanes);
+        const Lanes z1 = lanes(here.z + c) - of(k, SpeedCoefficients::bq) * half,
+                    v1 = lanes(here.v + c) - of(k, SpeedCoefficients::a12) * half;
+        Lanes z2;
+        if constexpr (with_hub) {
+          error += of(k, SpeedCoefficients::weight) * z1;
+          z2 = here.go_on(k, c, z1, v1, of(k, SpeedCoefficients::torque) - half);
+        } else {
+          z2 = here.go_on(k, c, z1, v1, -half);
+        }
+        for (int j = 0; j < kRead; ++j) moved[j] += z2 * lanes(read_row[j] + c);
+      }
+    };
+    run(std::true_type{}, 0, here.hub.first_end);
+    run(std::false_type{}, here.hub.first_end, here.hub.second);
+    run(std::true_type{}, here.hub.second, here.hub.second_end);
+    run(std::false_type{}, here.hub.second_end, here.coordinates);
+    for (int j = 0; j < kRead; ++j) next.moved[j] = sum(moved[j]);
     return sum(error);
   }
 };
@@ -424,9 +518,13 @@ struct RollingDynamics::StripContact {
 
   void rename() { followed = 0; }
 
-  // Fills p and d. z: (coordinate); lag: (field of all pairs) of one gear after the other; both without new contact
-  // force.
-  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
+  // All that can be known of a position before its modes are: its lag, and a start; and which rows of the modes to read. lag: (field of
+  // all pairs) of one gear after the other, without new contact force; no tooth but the live ones has any.
+  void read_ahead(const Position&, Step&, const double*, LiveTeeth, ModalReading& modal) { modal.count = 0; }
+
+  // Fills p and d. z: (coordinate), modal: the rows of read_ahead, and lag as there; all without new contact force.
+  Certificate solve(const Position& position, Step& step, const double* z, const ModalReading&,
+                    const double* lag) {
     const double* stream = dynamics.stream_.data();
     const int present = position.frame.present, of_pair = position.frame.of_pair, strips = present * of_pair;
     follow(position, lag);
@@ -532,8 +630,9 @@ struct RollingDynamics::StripContact {
 // Strips whose problems are kept.
 struct RollingDynamics::RecordedContact : StripContact {
   RecordedContact(RollingDynamics& of, std::vector<ContactProblem>& to) : StripContact(of), problems(to) {}
-  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
-    const Certificate certificate = StripContact::solve(position, step, z, lag);
+  Certificate solve(const Position& position, Step& step, const double* z, const ModalReading& modal,
+                    const double* lag) {
+    const Certificate certificate = StripContact::solve(position, step, z, modal, lag);
     problems.push_back({step.compliance, e.head(position.mesh.strips()), step.active});
     return certificate;
   }
@@ -560,32 +659,41 @@ struct RollingDynamics::LineContact {
 
   void rename() {}
 
-  // As of strips, all three.
-  Certificate solve(const Position& position, Step& step, const double* z, const double* lag) {
-    const int present = position.frame.present;
+  // As of strips, all four.
+  void read_ahead(const Position& position, Step& step, const double* lag, LiveTeeth live,
+                  ModalReading& modal) {
     const double* line = dynamics.stream_.data() + position.frame.line;
-    for (int j = 0; j < present; ++j, line += record.size()) {
-      const double* shape = line + LineRecord::kShape;
-      Lanes modal{}, other{}, driver{}, driven{};
-      int c = 0;
-      for (; c + 2 * kLanes <= record.coordinates; c += 2 * kLanes) {
-        modal += lanes(shape + c) * lanes(z + c);
-        other += lanes(shape + c + kLanes) * lanes(z + c + kLanes);
+    modal.count = position.frame.present;
+    for (int j = 0; j < modal.count; ++j, line += record.size()) {
+      modal.rows[j] = line + LineRecord::kShape;
+      const double *driver_lag = lag + position.frame.pair[j].slot * kFields + kSharedFields,
+                   *driven_lag = driver_lag + record.fields;
+      static_assert(kFields - kSharedFields == kLanes);
+      Lanes driver = lanes(line + record.own_reading(0)) * lanes(driver_lag),
+            driven = lanes(line + record.own_reading(1)) * lanes(driven_lag);
+      for (int tooth = live.first; tooth < live.last; ++tooth) {
+        const double *driver_row = line + record.reading(0, tooth), *driven_row = driver_row + kSharedFields;
+        driver_lag = lag + tooth * kFields;
+        driven_lag = driver_lag + record.fields;
+        for (int k = 0; k < kSharedFields; k += kLanes) {
+          driver += lanes(driver_row + k) * lanes(driver_lag + k);
+          driven += lanes(driven_row + k) * lanes(driven_lag + k);
+        }
       }
-      if (c < record.coordinates) modal += lanes(shape + c) * lanes(z + c);
-      for (int k = 0; k < record.fields; k += kLanes) {
-        driver += lanes(line + record.reading(0) + k) * lanes(lag + k);
-        driven += lanes(line + record.reading(1) + k) * lanes(lag + record.fields + k);
-      }
-      e[j] = line[LineRecord::kGap] + sum((driver + driven) - (modal + other));
+      e[j] = line[LineRecord::kGap] + sum(driver + driven);
     }
-    if (step.force.size() == present)
-      std::copy(step.force.begin(), step.force.end(), p.data());
-    else
-      p.head(present).setZero();
+    if (step.start.known()) return;
+    if (step.force.size() != modal.count) step.force.setZero(modal.count);
+    step.start.look(step.compliance, position.mesh.law, step.force);
+  }
+
+  Certificate solve(const Position& position, Step& step, const double*, const ModalReading& modal,
+                    const double*) {
+    const int present = position.frame.present;
+    for (int j = 0; j < present; ++j) e[j] -= modal.moved[j];
     const Certificate certificate = solve_line_contact(step.compliance, position.mesh.law, e.head(present),
-                                                       p.head(present), d.head(present));
-    step.force = p.head(present);
+                                                       step.start, step.force, d.head(present));
+    for (int j = 0; j < present; ++j) p[j] = step.force[j];
     return certificate;
   }
 
@@ -675,12 +783,21 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       }
   take(state);
 
-  const Modes<Contact::kRows> modes{coordinates, work_.z.data(), work_.v.data(), work_.force.data(),
-                                    speed_.number.data()};
+  const Modes<Contact::kRows> modes{coordinates,        work_.z.data(),       work_.v.data(),
+                                    work_.force.data(), speed_.number.data(), hub_lanes_};
   // Stores of lanes may change anything for all that the compiler knows; it need not look these up again.
   double *const lag_at = work_.lag.data(), *const load_at = work_.load.data();
   const Lag lag_step = lag_;
   ModalLoad on_modes;
+  ModalReading modal;
+  LiveTeeth live = live_teeth();
+  const auto relax = [&] {
+    for (int g = 0; g < 2; ++g)
+      for (int k = g * fields + live.first * kFields; k < g * fields + live.last * kFields; k += kLanes) {
+        lanes(lag_at + k) = lag_step.decay * lanes(lag_at + k) + lag_step.from_old * lanes(load_at + k);
+        lanes(load_at + k) = Lanes{};
+      }
+  };
 
   std::array<Instant, 2>& instants = ledger_work_.instants;
   ledger_work_.balance = 0;
@@ -692,6 +809,7 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       for (double* y : {modes.z, modes.v, modes.force}) turn_doublets(y);
       for (double* x : {lag_at, load_at}) advance_fields(x);
       contact.rename();
+      live = {live.first + (live.first < live.last), std::min(live.last + 1, pairs)};
       if (ledger) rename(instants[(i - 1) % 2]);
     }
     sample_ = sample;
@@ -699,12 +817,13 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     const int present = position.frame.present;
 
     // What the step would bring without new contact force.
-    if (!propagated) modes.propagate();
-    for (int k = 0; k < 2 * fields; k += kLanes) {
-      lanes(lag_at + k) = lag_step.decay * lanes(lag_at + k) + lag_step.from_old * lanes(load_at + k);
-      lanes(load_at + k) = Lanes{};
+    if (!propagated) {
+      modes.propagate();
+      relax();
+      contact.read_ahead(position, step_data_[sample], lag_at, live, modal);
+      modes.read(modal);
     }
-    const Certificate certificate = contact.solve(position, step_data_[sample], modes.z, lag_at);
+    const Certificate certificate = contact.solve(position, step_data_[sample], modes.z, modal, lag_at);
     period.least_gap = std::min(period.least_gap, certificate.least_gap);
     period.least_force = std::min(period.least_force, certificate.least_force);
     period.fallbacks += certificate.fallback;
@@ -715,18 +834,25 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       if (!contact.carried(position, j, carried[j])) return false;
       period.pair_load(position.frame.pair[j].slot, sample) = carried[j];
       drift += position.frame.pair[j].drift_lever * carried[j];
+      if (carried[j] != 0) live.add(position.frame.pair[j].slot);
     }
     period.drift_force = std::max(period.drift_force, std::abs(drift));
     contact.spread(position, carried, load_at, on_modes);
-    propagated = !ledger && i + 1 < steps_;
-    const double error =
-        propagated ? modes.push_and_propagate(on_modes, work_.response.data()) : modes.push(on_modes);
     for (int g = 0; g < 2; ++g)
       for (int j = 0; j < present; ++j) {
         const int own_fields = g * fields + position.frame.pair[j].slot * kFields;
         for (int k = own_fields; k < own_fields + kFields; k += kLanes)
           lanes(lag_at + k) += lag_step.from_new * lanes(load_at + k);
       }
+    propagated = !ledger && i + 1 < steps_;
+    double error;
+    if (propagated) {
+      relax();
+      contact.read_ahead(positions_[(i + 1) * stride_], step_data_[i + 1], lag_at, live, modal);
+      error = modes.push_and_propagate(on_modes, modal, work_.response.data());
+    } else {
+      error = modes.push(on_modes);
+    }
 
     if (ledger) {
       fill(instants[i % 2], &instants[(i - 1) % 2], position, contact.p.data(), contact.d.data());

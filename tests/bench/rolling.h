@@ -99,7 +99,7 @@ inline double load_bandwidth(size_t bytes) {
 //   modes          19 n (propagator 12, share of the new force 7)
 //   lag            6 T F + 4 P F (both gears)
 //   modes read     2 P r n        and loaded: 2 L r n
-//   lag read       strips: 4 P F N + 6 P F;                        lines, which hold the product: 4 P F T
+//   lag read       strips: 4 P F N + 6 P F;                        lines, which hold the product: 4 P (T S + F - S)
 //   lag loaded     strips: 4 L F N + 4 L (F^2 + (P - 1) S^2);      lines: 2 L F
 //   strips only: basis 2 (P + L) N r, interpolation 2 s (6 P + N L), contact problem 2 k^2 + 2 M k (inverse; gaps of all
 //   strips)
@@ -120,8 +120,8 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
                2 * (P + L) * N * r + 2 * s.strips * (kWindowNodes * P + N * L) + 2 * k * k + 2 * M * k;
     w.bytes += 2 * P * N * F + M * N + M + M * k + k * padded(touching);
   } else {
-    w.flops += 4 * P * F * T + 2 * L * F;
-    w.bytes += P * (2 * T * F + 2 * F + kLanes) + P * P;
+    w.flops += 4 * P * (T * S + F - S) + 2 * L * F;
+    w.bytes += P * (2 * (T * S + F - S) + 2 * F + kLanes) + P * P;
   }
   w.bytes *= sizeof(double);
   return w;
