@@ -351,7 +351,7 @@ void torque_without_size(Table& table) {
   const double tiny = statics(1e-6, 8, false).transmission_error[0] / (1e-6 / kBaseRadius),
                small = statics(1e-2, 8, false).transmission_error[0] / (1e-2 / kBaseRadius);
   table.relative("compliance at 1e-6 less that at 1e-2 N m, one pair, 1e-9 m/N: Hertz's logarithm",
-                 1e9 * 2 / (kPi * kYoung * kFaceWidth) * std::log(1e4), 1e9 * (tiny - small), 1e-3);
+                 1e9 * 2 / (kPi * kYoung * kFaceWidth) * std::log(1e4), 1e9 * (tiny - small), 1e-7);
 
   // Torque that vanishes: gears that just touch stay there. Torque that turns round: they part for good.
   Rolling before(150, 128);
@@ -476,7 +476,7 @@ void undamped_bounce(Table& table) {
   const double exact = kPi / (std::acos(-0.5) + std::sqrt(3.0));
   table.relative("undamped bounce, 1e6 steps of 1/200 linear period: frequency over the linear one", exact,
                  2 * kPi * (crossings - 1) / (last - first), 1.2e-4);
-  table.at_most("largest error of the energy in these, relative", 2e-3, drift);
+  table.at_most("largest error of the energy in these, relative", 5e-4, drift);
 }
 
 void step_lengths(Table& table) {
@@ -492,8 +492,8 @@ void step_lengths(Table& table) {
   };
   const HeldMotion tiny = released(1e-6 * period, 2000), finer = released(0.25e-6 * period, 8000),
                    usual = released(period / 128, 0);
-  table.at_most("steps of T / 1e6, 1 % of the torque let go: forces against steps of T / 4e6, relative", 1e-6,
-                (tiny.p - finer.p).norm() / finer.p.norm());
+  table.at_most("steps of T / 1e6, 1 % of the torque let go: forces against steps of T / 4e6, relative",
+                1e-11, (tiny.p - finer.p).norm() / finer.p.norm());
   const Eigen::SelfAdjointEigenSolver<MatrixXd> shortest(tiny.compliance(), Eigen::EigenvaluesOnly),
       local(tiny.mesh().local, Eigen::EigenvaluesOnly);
   table.relative("their compliance: least eigenvalue, m/N, against that of what follows at once",
@@ -540,7 +540,7 @@ void step_lengths(Table& table) {
     if (!at.dynamics.march(state, marched)) fail(Failure::numerical, "contact left the range");
     largest = std::max(largest, std::abs(1e6 * marched.transmission_error[0] / static_error - 1));
   }
-  table.at_most("rolling, one such step per mesh period, from 5 % off: largest deviation of DTE", 0.05,
+  table.at_most("rolling, one such step per mesh period, from 5 % off: largest deviation of DTE", 0.003,
                 largest);
   table.relative("at the end lagged less present loads, relative: sqrt 2 eta / step",
                  std::sqrt(2.0) * 7.7e-6 * 250, (state.lag[0] - state.load[0]).norm() / state.load[0].norm(),
@@ -551,7 +551,7 @@ void step_lengths(Table& table) {
   const StaticArtifact fixed = statics(150);
   const SweepArtifact crawl = run_sweep(slow, 150);
   table.at_most(
-      "rolling at 5 Hz in 128 steps of 4 T: DTE less static, over its mean", 5e-3,
+      "rolling at 5 Hz in 128 steps of 4 T: DTE less static, over its mean", 3.5e-3,
       (crawl.transmission_error.row(0).transpose() - fixed.transmission_error).cwiseAbs().maxCoeff() /
           fixed.transmission_error.mean());
 }
@@ -749,10 +749,10 @@ void scale_invariance(Table& table) {
   };
   const VectorXd smooth = lost(false), corner = lost(true);
   table.absolute("gears at 300 less at 150 N m, one pair: loss of compliance over Hertz's logarithm", 1,
-                 smooth[0], 0.02);
-  table.absolute("two pairs, no corner contact: the same", 0.5, smooth[64], 0.03);
-  table.at_least("no corner contact: least of it over the period", 0.48, smooth.minCoeff());
-  table.at_most("no corner contact: largest", 1.02, smooth.maxCoeff());
+                 smooth[0], 0.003);
+  table.absolute("two pairs, no corner contact: the same", 0.5, smooth[64], 0.005);
+  table.at_least("no corner contact: least of it over the period", 0.5, smooth.minCoeff());
+  table.at_most("no corner contact: largest", 1, smooth.maxCoeff());
   table.at_least("with corner contact, which begins earlier at more torque: largest", 3, corner.maxCoeff());
 }
 
@@ -840,7 +840,7 @@ void perturbation(Table& table) {
   const double end = dynamics.distance(a, b);
   table.at_most("largest multiplier of the mesh period there, by differences of 1e-7", 0.999, multiplier);
   table.relative("two runs that differ by 1e-12: decay per period", multiplier,
-                 std::pow(end / at_skip, 1.0 / (kPeriods - kSkip)), 0.05);
+                 std::pow(end / at_skip, 1.0 / (kPeriods - kSkip)), 0.002);
   table.at_most("their difference after 12 periods, over that at the start",
                 3 * std::pow(multiplier, kPeriods), end / begins);
 }
@@ -851,7 +851,13 @@ void near_fold(Table& table) {
                  static_cast<double>(up.jump_frequency.size()), 0);
   if (up.jump_frequency.size() != 1) return;
   const double jump = up.jump_frequency[0];
-  table.absolute("the jump, Hz", 2790, jump, 28);
+  SweepSlice other = sweep_slice(2760, 2810, 10, 5.5e-6);
+  other.fidelity.integrator = "newmark";
+  other.time.steps_per_period = 512;
+  const SweepArtifact newmark = run_sweep(other, 150);
+  // 128 exact steps leave 0.1 Hz, Newmark with 512 as much, and the search 0.16 Hz.
+  table.absolute("the jump, Hz, against Newmark with 512 steps a period",
+                 newmark.jump_frequency.size() == 1 ? newmark.jump_frequency[0] : 0, jump, 0.5);
   table.at_most("its width, Hz", 1, up.jump_width[0]);
   // Steps that go just past it.
   const double fine = std::floor(jump) - 2;
@@ -884,7 +890,7 @@ void stiff_damping(Table& table) {
     const std::string at = text("Rayleigh stiffness factor ", eta, " s, 2500 Hz: ");
     table.at_least(at + "period multiple (0: not steady)", 1, usual.period_multiple[0]);
     table.relative(at + "RMS, um, against 512 steps a period", 1e6 * rms(fine.transmission_error.row(0)),
-                   1e6 * rms(usual.transmission_error.row(0)), 0.01);
+                   1e6 * rms(usual.transmission_error.row(0)), eta < 1e-3 ? 0.0015 : 0.007);
     table.at_most(at + "energy ledger, relative", 1e-9, usual.energy_imbalance[0]);
   }
   table.at_least("1e-4 s, 2500 Hz: energy in the lag of forgotten teeth, over the work of rolling", 1e-8,
@@ -898,11 +904,20 @@ void ten_times_the_torque(Table& table) {
   table.at_least("1500 N m, 2600 to 3000 Hz: least period multiple (0: not steady)", 1,
                  result.period_multiple.minCoeff());
   table.at_most("energy ledger, relative", 1e-9, result.energy_imbalance.maxCoeff());
+  SweepSlice other = sweep_slice(2600, 3000, 200, 7.7e-6);
+  other.fidelity.integrator = "newmark";
+  other.time.steps_per_period = 512;
+  const SweepArtifact newmark = run_sweep(other, 1500);
+  for (int i = 0; i < 3; ++i)
+    table.relative(
+        text("RMS at ", result.mesh_frequency[i], " Hz, um, against Newmark with 512 steps a period"),
+        1e6 * rms(newmark.transmission_error.row(i)), 1e6 * rms(result.transmission_error.row(i)), 0.002);
   table.at_most("strips that overlap, m", 1e-14, -result.least_gap);
   SweepSlice slow = sweep_slice(5, 5, 1, 7.7e-6);
   slow.time.min_sample_rate = 1;
   const StaticArtifact fixed = statics(1500);
-  table.at_most("rolling at 5 Hz: DTE less static, over its mean", 5e-3,
+  // The slope of the static error steps where a pair comes in, which rings at f_n: 0.0033 at either torque.
+  table.at_most("rolling at 5 Hz: DTE less static, over its mean", 3.5e-3,
                 (run_sweep(slow, 1500).transmission_error.row(0).transpose() - fixed.transmission_error)
                         .cwiseAbs()
                         .maxCoeff() /
@@ -918,7 +933,7 @@ void many_modes(Table& table) {
                 many.energy_imbalance.maxCoeff());
   table.at_most("least mesh force, N", 0, many.mesh_force.minCoeff());
   table.relative("RMS at 2900 Hz, um, against 5 modes a gear", 1e6 * rms(few.transmission_error.row(0)),
-                 1e6 * rms(many.transmission_error.row(0)), 0.02);
+                 1e6 * rms(many.transmission_error.row(0)), 0.005);
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "base/error.h"
 #include "failure_of.h"
 #include "relative.h"
+#include "signal/branch_end.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 
@@ -250,4 +252,98 @@ TEST_CASE("response: sweeps whose arrays disagree or hold impossible values are 
       [](SweepArtifact& s) { s.transmission_error(1, 5) = std::numeric_limits<double>::quiet_NaN(); }));
   CHECK(refused([](SweepArtifact& s) { s.jump_width.resize(0); }));
   CHECK(refused([](SweepArtifact& s) { s.time.steps_per_period = 0; }));
+}
+
+namespace {
+
+// Motions of a cusp: level x with x^3 - b x = 0.1 (f - 1000), log RMS 0.1 x. Two branches for b > 0, whose ends lie where
+// 3 x^2 = b; for b < 0 one, with its steepest flank at 1000 Hz.
+struct Cusp {
+  double b;
+  // Where x flows to from `start`.
+  double settled(double f, double start) const {
+    double x = start;
+    for (int i = 0; i < 100000; ++i) {
+      const double rate = 0.1 * (f - 1000) - x * x * x + b * x;
+      x += 0.5 * rate / (1 + 3 * x * x + std::abs(b));
+      if (std::abs(rate) < 1e-13) break;
+    }
+    return x;
+  }
+};
+
+struct FoundEnds {
+  std::vector<BranchEnd> ends;
+  int runs = 0;
+};
+FoundEnds ends_of(const Cusp& cusp, double first, double last, double step) {
+  FoundEnds found;
+  std::vector<BranchMotion> sweep;
+  std::vector<double> x;
+  const double direction = last > first ? 1 : -1;
+  const auto motion = [](double f, double at) { return BranchMotion{f, std::exp(0.1 * at), 1}; };
+  for (double f = first; direction * (last - f) >= 0; f += direction * step) {
+    x.push_back(cusp.settled(f, x.empty() ? -3 * direction : x.back()));
+    sweep.push_back(motion(f, x.back()));
+  }
+  for (size_t i = 1; i < sweep.size(); ++i) {
+    if (!may_break(sweep, i)) continue;
+    double kept = x[i - 1], tried = 0;
+    BranchWalk walk;
+    walk.step = direction * step;
+    walk.limit = sweep.back().mesh_frequency;
+    walk.run = [&](double f) {
+      ++found.runs;
+      tried = cusp.settled(f, kept);
+      return motion(f, tried);
+    };
+    walk.keep = [&] { kept = tried; };
+    if (const auto end = branch_end(walk, sweep, i)) found.ends.push_back(*end);
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "ends of branches: a jump is what stays as the speed step shrinks, however small; a steep flank is "
+    "none") {
+  // From one branch to the other x goes by 3 sqrt(b / 3): 15, 30 and 55 % of RMS.
+  for (const double b : {0.8, 3.0, 10.0})
+    for (const double step : {5.0, 20.0, 50.0})
+      for (const double direction : {1.0, -1.0}) {
+        const Cusp cusp{b};
+        const FoundEnds found = ends_of(cusp, 1000 - 203 * direction, 1000 + 197 * direction, step);
+        INFO("b " << b << ", steps of " << step << " Hz, direction " << direction << ", runs " << found.runs);
+        REQUIRE(found.ends.size() == 1);
+        const BranchEnd& end = found.ends[0];
+        CHECK(!end.outlived);
+        CHECK(std::abs(end.next - end.last) <= step / 64 * (1 + 1e-9));
+        const double fold = 1000 + direction * 20 * std::pow(b / 3, 1.5);
+        CHECK(std::abs(0.5 * (end.last + end.next) - fold) <= step / 64);
+      }
+  for (const double b : {-0.5, -2.0})
+    for (const double step : {5.0, 20.0, 50.0}) CHECK(ends_of(Cusp{b}, 803, 1203, step).ends.empty());
+}
+
+TEST_CASE("ends of branches: another multiple of the mesh period, a branch that outlives the sweep") {
+  const std::vector<BranchMotion> sweep = {{100, 1, 1}, {110, 1, 1}, {120, 1, 2}, {130, 1, 2}};
+  CHECK(!may_break(sweep, 1));
+  CHECK(may_break(sweep, 2));
+  BranchWalk walk;
+  walk.step = 10;
+  walk.limit = 130;
+  walk.run = [](double f) { return BranchMotion{f, 1, f < 113.3 ? 1 : 2}; };
+  walk.keep = [] {};
+  const auto doubling = branch_end(walk, sweep, 2);
+  REQUIRE(doubling);
+  CHECK(doubling->last < 113.3);
+  CHECK(doubling->next >= 113.3);
+  CHECK(doubling->next - doubling->last == relative(10.0 / 64, 1e-9));
+  walk.run = [](double f) { return BranchMotion{f, 1, 1}; };  // the sweep left it too early
+  const auto beyond = branch_end(walk, sweep, 2);
+  REQUIRE(beyond);
+  CHECK(beyond->outlived);
+  // Motions that do not repeat are not compared.
+  CHECK(!may_break({{100, 1, 0}, {110, 3, 0}}, 1));
 }
