@@ -840,7 +840,8 @@ void perturbation(Table& table) {
   const double end = dynamics.distance(a, b);
   table.at_most("largest multiplier of the mesh period there, by differences of 1e-7", 0.999, multiplier);
   table.relative("two runs that differ by 1e-12: decay per period", multiplier,
-                 std::pow(end / at_skip, 1.0 / (kPeriods - kSkip)), 0.002);
+                 std::pow(end / at_skip, 1.0 / (kPeriods - kSkip)),
+                 0.02);  // 0.0006 to 0.009: what starts at 1e-12 ends at round-off
   table.at_most("their difference after 12 periods, over that at the start",
                 3 * std::pow(multiplier, kPeriods), end / begins);
 }

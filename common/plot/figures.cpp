@@ -189,16 +189,18 @@ Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
   return -1;
 }
 
-// The row after which the march left the branch that ends at the jump f: the last step of the sweep before f across which the
-// RMS may step. It may lie before f in the march, because a branch's basin gets narrower than a step; the sweep then
+// The row after which the march left the branch that ends at the jump f: the step of the sweep in which f lies, or one before it
+// across which the RMS changes more than on a flank, because a branch's basin gets narrower than a step; the sweep then
 // followed the branch to f by itself. -1 if the jump lies outside the sweep.
 Eigen::Index row_left(const ResponseArtifact& r, double f) {
+  constexpr Eigen::Index kEarly = 10;  // steps that a sweep may leave a branch before its end
   const Eigen::Index last = row_before(r.mesh_frequency, f);
   std::vector<BranchMotion> sweep;
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i)
     sweep.push_back({r.mesh_frequency[i], r.dte_rms[i], r.period_multiple[i]});
-  for (Eigen::Index i = last; i >= 0; --i)
-    if (may_break(sweep, static_cast<size_t>(i) + 1)) return i;
+  if (last < 0 || may_break(sweep, static_cast<size_t>(last) + 1)) return last;
+  for (Eigen::Index i = last; i >= 0 && i > last - kEarly; --i)
+    if (like_a_jump(r.dte_rms[i], r.dte_rms[i + 1])) return i;
   return last;
 }
 
