@@ -795,10 +795,10 @@ TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is
   write("whole.h5", small_static(), kMade);
   const std::string bytes = read_bytes("whole.h5");
   for (std::size_t part = 1; part < 32; ++part) {
-    overwrite("cut.h5", bytes.substr(0, bytes.size() * part / 32));
-    const Caught cut = caught([] { read_static("cut.h5"); });
+    overwrite("out/cut.h5", bytes.substr(0, bytes.size() * part / 32));
+    const Caught cut = caught([] { read_static("out/cut.h5"); });
     CHECK(cut.kind == kIo);
-    CHECK(cut.says("make cut.h5"));
+    CHECK(cut.says("make out/cut.h5"));
   }
 }
 

@@ -90,13 +90,14 @@ SweepChange sweep_change(const SweepArtifact& here, const SweepArtifact& next) {
   if (b.mesh_frequency.size() != speeds || a.mesh_frequency != b.mesh_frequency)
     fail(Failure::input, "two sweeps of ", speeds, " and ", b.mesh_frequency.size(),
          " speeds are not of the same speeds in the same order; they cannot be compared");
-  const auto jumped = [](const ResponseArtifact& r, Eigen::Index i) {
-    return i > 0 && r.jump_frequency.size() > 0 && like_a_jump(r.dte_rms[i - 1], r.dte_rms[i]);
-  };
+  std::vector<bool> jumped(static_cast<size_t>(speeds), false);  // a branch was left before this speed
+  for (const ResponseArtifact* r : {&a, &b})
+    for (const Eigen::Index i : rows_before_jumps(*r))
+      if (i >= 0) jumped[static_cast<size_t>(i) + 1] = true;
   SweepChange change;
   bool apart = false;
   for (Eigen::Index i = 0; i < speeds; ++i) {
-    apart = (apart || jumped(a, i) || jumped(b, i)) && like_a_jump(a.dte_rms[i], b.dte_rms[i]);
+    apart = (apart || jumped[static_cast<size_t>(i)]) && like_a_jump(a.dte_rms[i], b.dte_rms[i]);
     if (a.period_multiple[i] < 1 || a.period_multiple[i] != b.period_multiple[i]) {
       ++change.uneven;
     } else if (apart) {

@@ -386,13 +386,12 @@ Finding softening(const SceneAnswers& s) {
 // Largest growth of the RMS across a jump of the rising sweep within 15 % of f_n / order; 0 without a jump there.
 double rise(const ResponseArtifact& up, int order) {
   double largest = 0;
-  for (double f : up.jump_frequency) {
-    if (std::abs(f * order / up.natural_frequency - 1) > 0.15) continue;
-    for (Index i = 0; i + 1 < up.mesh_frequency.size(); ++i)
-      if (std::abs(up.mesh_frequency[i] - f) < 2.5 * step_of(up) &&
-          like_a_jump(up.dte_rms[i], up.dte_rms[i + 1]))
-        largest = std::max(largest, up.dte_rms[i + 1] - up.dte_rms[i]);
-  }
+  const std::vector<Index> left = rows_before_jumps(up);
+  for (size_t j = 0; j < left.size(); ++j)
+    if (const Index i = left[j];
+        i >= 0 &&
+        std::abs(up.jump_frequency[static_cast<Index>(j)] * order / up.natural_frequency - 1) <= 0.15)
+      largest = std::max(largest, up.dte_rms[i + 1] - up.dte_rms[i]);
   return largest;
 }
 
@@ -532,14 +531,14 @@ Finding torque_independent(const SceneAnswers& s) {
           text("jumps at the three torques differ by ", digits(largest, 3), " Hz at most")};
 }
 
-// Rows on both sides of each step of a sweep across which the RMS jumps and a jump lies.
+// The rows before and after each jump.
 Finding mean_jumps(const SceneAnswers& s, bool less) {
   const Branches b = s.branches(kFigureTorque, "rectangular");
   bool holds = true;
   std::string note;
   for (const ResponseArtifact* r : {&b.up, &b.down})
-    for (Index i = 0; i + 1 < r->dte_rms.size() && r->jump_frequency.size() > 0; ++i) {
-      if (!like_a_jump(r->dte_rms[i], r->dte_rms[i + 1])) continue;
+    for (const Index i : rows_before_jumps(*r)) {
+      if (i < 0) continue;
       const double rms = r->dte_rms[i + 1] - r->dte_rms[i], mean = r->dte_mean[i + 1] - r->dte_mean[i];
       if (less ? std::abs(mean) >= std::abs(rms) : mean * rms >= 0) holds = false;
       note += text(note.empty() ? "" : "; ", r->direction, ": RMS ", digits(rms * kMicro, 3), ", mean ",

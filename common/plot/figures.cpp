@@ -17,7 +17,6 @@
 #include "lumped/stiffness.h"
 #include "motion/sweep.h"
 #include "plot/wireframe.h"
-#include "signal/branch_end.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 
@@ -182,35 +181,13 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& t
          " with " + state + (state == "one" ? " pair" : " pairs") + " in contact, by ring-down";
 }
 
-// The row after which the march crosses f; -1 if it never does.
-Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
-  for (Eigen::Index i = 0; i + 1 < frequency.size(); ++i)
-    if ((frequency[i] - f) * (frequency[i + 1] - f) <= 0) return i;
-  return -1;
-}
-
-// The row after which the march left the branch that ends at the jump f: the step of the sweep in which f lies, or one before it
-// across which the RMS changes more than on a flank, because a branch's basin gets narrower than a step; the sweep then
-// followed the branch to f by itself. -1 if the jump lies outside the sweep.
-Eigen::Index row_left(const ResponseArtifact& r, double f) {
-  constexpr Eigen::Index kEarly = 10;  // steps that a sweep may leave a branch before its end
-  const Eigen::Index last = row_before(r.mesh_frequency, f);
-  std::vector<BranchMotion> sweep;
-  for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i)
-    sweep.push_back({r.mesh_frequency[i], r.dte_rms[i], r.period_multiple[i]});
-  if (last < 0 || may_break(sweep, static_cast<size_t>(last) + 1)) return last;
-  for (Eigen::Index i = last; i >= 0 && i > last - kEarly; --i)
-    if (like_a_jump(r.dte_rms[i], r.dte_rms[i + 1])) return i;
-  return last;
-}
-
 // Rows after which a curve breaks: where the march left a branch that ends at a jump, and where the RMS changes by half of
 // itself at once and 2.5 times as much as in the steps beside, which is another branch, too.
 std::vector<bool> broken_after(const ResponseArtifact& r) {
   const Eigen::Index n = r.mesh_frequency.size();
   std::vector<bool> jumps(n, false), broken;
-  for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j)
-    if (const Eigen::Index i = row_left(r, r.jump_frequency[j]); i >= 0) jumps[i] = true;
+  for (const Eigen::Index i : rows_before_jumps(r))
+    if (i >= 0) jumps[i] = true;
   broken = jumps;
   const auto change = [&](Eigen::Index i) {
     return i < 0 || i + 1 >= n || jumps[i] ? 0.0 : std::abs(std::log(r.dte_rms[i + 1] / r.dte_rms[i]));
@@ -244,9 +221,10 @@ FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
                     {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
                      "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
                     {}};
+  const std::vector<Eigen::Index> left = rows_before_jumps(r);
   for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
     const double f = r.jump_frequency[j];
-    const Eigen::Index at = row_before(r.mesh_frequency, f), i = row_left(r, f);
+    const Eigen::Index at = row_before(r.mesh_frequency, f), i = left[j];
     if (at < 0)
       fail(Failure::input, "response: a jump at ", f, " Hz lies outside the sweep, ",
            r.mesh_frequency.minCoeff(), " to ", r.mesh_frequency.maxCoeff(), " Hz");

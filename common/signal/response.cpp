@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "signal/branch_end.h"
 #include "signal/spectrum.h"
 
 namespace whine {
@@ -51,6 +52,31 @@ void require_shapes(const SweepArtifact& s) {
 bool like_a_jump(double rms, double other) {
   constexpr double kRatio = 1.2;
   return std::max(rms, other) > kRatio * std::min(rms, other);
+}
+
+Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
+  for (Eigen::Index i = 0; i + 1 < frequency.size(); ++i)
+    if ((frequency[i] - f) * (frequency[i + 1] - f) <= 0) return i;
+  return -1;
+}
+
+std::vector<Eigen::Index> rows_before_jumps(const ResponseArtifact& r) {
+  constexpr Eigen::Index kEarly = 10;  // steps that a sweep may leave a branch before its end
+  std::vector<BranchMotion> sweep;
+  for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i)
+    sweep.push_back({r.mesh_frequency[i], r.dte_rms[i], r.period_multiple[i]});
+  std::vector<Eigen::Index> rows;
+  for (const double f : r.jump_frequency) {
+    const Eigen::Index last = row_before(r.mesh_frequency, f);
+    rows.push_back(last);
+    if (last < 0 || may_break(sweep, static_cast<size_t>(last) + 1)) continue;
+    for (Eigen::Index i = last; i >= 0 && i > last - kEarly; --i)
+      if (like_a_jump(r.dte_rms[i], r.dte_rms[i + 1])) {
+        rows.back() = i;
+        break;
+      }
+  }
+  return rows;
 }
 
 ResponseArtifact response(const SweepArtifact& s) {

@@ -4,6 +4,8 @@
 // of the paper's Figs. 4-7), over one orbit, so that subharmonics count; over all stored periods where
 // the motion is not periodic.
 #pragma once
+#include <vector>
+
 #include "files/schemas.h"
 
 namespace whine {
@@ -14,6 +16,14 @@ inline constexpr int kResponseHarmonics = 10;
 // row resolves. Jumps are the sweep's own: it bisects them. Throws Error(input) for a sweep without speeds,
 // arrays whose lengths disagree, values that are not finite, or negative forces.
 ResponseArtifact response(const SweepArtifact& sweep);
+
+// The row after which the march crosses f (Hz); -1 if it never does.
+Eigen::Index row_before(const Eigen::VectorXd& frequency, double f);
+
+// (jump) The row after which the march left the branch that ends at a jump: the step of the sweep in which the jump lies, or
+// one before it across which the RMS changes more than on a flank, because a branch's basin gets narrower than a step; the
+// sweep then followed the branch to its end by itself. -1 if the jump lies outside the sweep.
+std::vector<Eigen::Index> rows_before_jumps(const ResponseArtifact& r);
 
 // Whether the RMS of the transmission error of two motions differ as much as across a jump: by more than 20 %.
 bool like_a_jump(double rms, double other);
