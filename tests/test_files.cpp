@@ -213,6 +213,7 @@ StaticArtifact small_static() {
   a.contact_ratio = 1.7547 / 1.1;
   a.mesh_phase = Eigen::VectorXd{{0, 1.0 / 3, 2.0 / 3}};
   a.transmission_error = odd_vector(3, 1e-5);
+  a.unloaded_error = odd_vector(3, 1e-6);
   a.stiffness_secant = odd_vector(3, 4e8);
   a.stiffness_tangent = odd_vector(3, 4.1e8);
   a.pair = Eigen::VectorXi{{-1, 0, 1}};

@@ -173,7 +173,7 @@ void body(int argc, char** argv) {
     springs = whine::cells_of_pairs(at_torque, cell_count, numbers);
   } else {
     springs = whine::cells_of(o.model == "secant" ? at_torque.stiffness_secant : at_torque.stiffness_tangent,
-                              cell_count);
+                              cell_count, at_torque.unloaded_error);
   }
 
   std::optional<whine::Progress> progress;

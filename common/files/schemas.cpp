@@ -13,7 +13,7 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 3, kErrorBudgetVersion = 2,
+constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 4, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1;
 
 const char* const kPhase = "mesh_phase";
@@ -312,6 +312,7 @@ BodyArtifact read_body(const std::string& path) {
 void write(const std::string& path, const StaticArtifact& a, const Provenance& provenance) {
   const Eigen::Index phases = a.mesh_phase.size();
   want_rows("transmission_error", a.transmission_error.size(), phases);
+  want_rows("unloaded_transmission_error", a.unloaded_error.size(), phases);
   want_rows("mesh_stiffness_secant", a.stiffness_secant.size(), phases);
   want_rows("mesh_stiffness_tangent", a.stiffness_tangent.size(), phases);
   want_rows("tooth_load", a.tooth_load.rows(), phases);
@@ -333,8 +334,11 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
   out.put("/transmission_error", a.transmission_error,
           {"m", "transmission error along the line of action, positive when the driver is ahead", kPhase,
            "r1 theta1 + r2 theta2"});
+  out.put("/unloaded_transmission_error", a.unloaded_error,
+          {"m", "transmission error without load: of what flanks deviate by", kPhase, ""});
   out.put("/mesh_stiffness_secant", a.stiffness_secant,
-          {"N m-1", "secant mesh stiffness", kPhase, "(T / r1) / transmission_error"});
+          {"N m-1", "secant mesh stiffness", kPhase,
+           "(T / r1) / (transmission_error - unloaded_transmission_error)"});
   out.put("/mesh_stiffness_tangent", a.stiffness_tangent,
           {"N m-1", "tangent mesh stiffness at fixed phase, contact changes included", kPhase,
            "d(T / r1) / d transmission_error"});
@@ -451,6 +455,7 @@ StaticArtifact read_static(const std::string& path) {
   a.mesh_phase = in.vector("/mesh_phase");
   const Eigen::Index phases = a.mesh_phase.size();
   a.transmission_error = in.vector("/transmission_error", phases);
+  a.unloaded_error = in.vector("/unloaded_transmission_error", phases);
   a.stiffness_secant = in.vector("/mesh_stiffness_secant", phases);
   a.stiffness_tangent = in.vector("/mesh_stiffness_tangent", phases);
   a.pair = in.whole_vector("/pair");
@@ -1015,6 +1020,7 @@ std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to)
     values.total_inertia = driver ? a.driver_inertia : a.driven_inertia;
     values.body = driver ? a.driver_body : a.driven_body;
     values.mesh = a.mesh;
+    values.modification = a.mesh.modification[driver ? 0 : 1];
     values.fidelity = a.fidelity;
     values.contact = a.contact;
     values.time = a.time;

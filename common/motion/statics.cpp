@@ -133,7 +133,7 @@ ContactRange static_range(const GearMeshModel& model, int strips, double load, d
                           double widening) {
   return contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), strips,
                        load / model.kinematics.contact_ratio(), 1.1 * load * window * window * widening,
-                       (1e-6 + 8e-9 * load) * widening);
+                       (1e-6 + 8e-9 * load) * widening, model.flanks());
 }
 
 // One whole period; where and how contact wants more than the range holds, if it does.
@@ -163,7 +163,8 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
                   " micrometres closes a tip edge's gap of ", answer.next_corner_gap * 1e6, " micrometres");
     result.mesh_phase[i] = phase;
     result.transmission_error[i] = e.x;
-    result.stiffness_secant[i] = load / e.x;
+    result.unloaded_error[i] = unloaded_transmission_error(model, phase);
+    result.stiffness_secant[i] = load / (e.x - result.unloaded_error[i]);
     result.stiffness_tangent[i] = e.stiffness;
     result.torque_residual = std::max(result.torque_residual, e.residual);
     result.least_gap = std::min(result.least_gap, e.certificate.least_gap);
@@ -207,8 +208,8 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   result.contact = slice.contact;
   result.torque = torque;
   result.contact_ratio = model.kinematics.contact_ratio();
-  for (VectorXd* v :
-       {&result.mesh_phase, &result.transmission_error, &result.stiffness_secant, &result.stiffness_tangent})
+  for (VectorXd* v : {&result.mesh_phase, &result.transmission_error, &result.unloaded_error,
+                      &result.stiffness_secant, &result.stiffness_tangent})
     v->resize(positions);
 
   double widening = 1;

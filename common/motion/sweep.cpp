@@ -80,7 +80,8 @@ class Sweeper {
   void set_range() {
     dynamics_.set_range(
         contact_range(model_.kinematics, model_.gear[0].half_plane(), model_.gear[1].half_plane(), strips_,
-                      load_ / model_.kinematics.contact_ratio(), largest_force_, corner_gap_),
+                      load_ / model_.kinematics.contact_ratio(), largest_force_, corner_gap_,
+                      model_.flanks()),
         finest_);
   }
 
