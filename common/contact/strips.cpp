@@ -60,9 +60,10 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   for (int i = 0; i < n; ++i) {
     // Gauss's two points: the mean of a cubic.
     const double reach = 0.5 * s.width(i) / std::numbers::sqrt3;
-    s.gap[i] = 0.5 * (gears.gap_at(contact, s.middle(i) - reach, deviation) +
-                      gears.gap_at(contact, s.middle(i) + reach, deviation));
+    s.gap[i] = 0.5 * (gears.gap_at(contact, s.middle(i) - reach).gap +
+                      gears.gap_at(contact, s.middle(i) + reach).gap);
   }
+  if (!deviation.none()) s.gap += mean_deviation(gears, s, deviation);
 
   // Chebyshev points of the first kind and their barycentric weights.
   VectorXd node(kWindowNodes), weight(kWindowNodes);
@@ -90,6 +91,16 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
       s.interpolation.row(i) /= sum;
   }
   return s;
+}
+
+VectorXd mean_deviation(const GearPair& gears, const PairStrips& strips, const PairDeviation& deviation) {
+  VectorXd mean(strips.size());
+  for (int i = 0; i < strips.size(); ++i) {
+    const double reach = 0.5 * strips.width(i) / std::numbers::sqrt3;
+    mean[i] = 0.5 * (deviation.at(gears.gap_at(strips.contact, strips.middle(i) - reach).roll) +
+                     deviation.at(gears.gap_at(strips.contact, strips.middle(i) + reach).roll));
+  }
+  return mean;
 }
 
 MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface& driver,
