@@ -9,8 +9,8 @@
 //            --driven out/parker2000/wheel/body.h5 --torque 5:300:60 --relief-um 0:20:40 --design-torque 150
 //            --output out/parker2000/harris_map.h5
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -50,20 +50,24 @@ std::vector<double> numbers(const std::string& name, const std::string& word) {
 void body(int argc, char** argv) {
   CLI::App app{"Transmission error against torque and tip relief", "gear-harris"};
   whine::HarrisPlan plan;
-  std::string params, static_params, driver, driven, output, torque = "5:300:60", relief = "0:20:40", start,
-                                                             length, design, points = "0", reference;
+  std::string params, static_params, driver, driven, output, torque, relief, start, length, design,
+      points = "0", reference;
   bool dynamic = false;
   app.add_option("--static-params", static_params, "slice of the scene: out/<scene>/params/static.toml")
       ->required();
   app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
   app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--torque", torque, "torques on the driver in N m, from:to:count or with commas")
-      ->capture_default_str();
-  app.add_option("--relief-um", relief, "tip reliefs in micrometres, in the same way")->capture_default_str();
+  app.add_option("--torque", torque,
+                 "torques on the driver in N m, from:to:count or with commas (default: 60 up to twice the "
+                 "design torque)");
+  app.add_option("--relief-um", relief,
+                 "tip reliefs in micrometres, in the same way (default: 40 up to 1.8 times what the teeth "
+                 "bend under the largest torque)");
   auto* start_option = app.add_option(
       "--start-deg", start,
       "roll angles of the driver at which they start, largest first, with commas; the driven gear's "
-      "relief has the same length of roll (default: the highest point of single-pair contact)");
+      "relief has the same length of roll (default: as in the scene, or the highest point of single-pair "
+      "contact)");
   app.add_option("--length-mm", length, "the same as lengths of roll to the tip, smallest first")
       ->excludes(start_option);
   app.add_option("--shape", plan.shape, "how the relief grows")
@@ -73,7 +77,7 @@ void body(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::IsMember({"driver", "driven", "both"}));
   app.add_option("--design-torque", design,
-                 "torque in N m for which the optimum is sought (default: amid the torques)");
+                 "torque in N m for which the optimum is sought (default: midway)");
   app.add_option("--positions", plan.positions, "mesh positions")->capture_default_str();
   app.add_option("--strips", plan.strips, "strips across the contact at the least load of a range of torques")
       ->capture_default_str();
@@ -89,8 +93,15 @@ void body(int argc, char** argv) {
 
   if (dynamic && (params.empty() || reference.empty()))
     whine::fail(whine::Failure::usage, "--dynamic needs --params and --reference-static");
-  plan.torque = numbers("--torque", torque);
-  for (double um : numbers("--relief-um", relief)) plan.relief.push_back(um * 1e-6);
+  if (torque.empty() && design.empty())
+    whine::fail(whine::Failure::usage, "--torque or --design-torque is needed");
+  if (!design.empty()) plan.design_torque = whine::number_option("--design-torque", design);
+  constexpr int kTorques = 60, kReliefs = 40;
+  if (torque.empty())
+    for (int t = 1; t <= kTorques; ++t) plan.torque.push_back(2 * plan.design_torque * t / kTorques);
+  else
+    plan.torque = numbers("--torque", torque);
+  if (design.empty()) plan.design_torque = 0.5 * (plan.torque.front() + plan.torque.back());
   const double checks = whine::number_option("--check", points);
   const whine::StaticSlice slice = whine::read_static_slice(static_params);
   const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
@@ -104,18 +115,35 @@ void body(int argc, char** argv) {
     for (double mm : numbers("--length-mm", length)) plan.length.push_back(mm * 1e-3);
   } else {
     plan.length = {whine::single_pair_relief_length(first, second, slice.mesh)};
+    // The scene's own relief, if it has one.
+    const whine::ToothGeometry gear(first.design);
+    const whine::Relief& own = slice.mesh.modification[0].tip;
+    const double start_roll =
+        own.start_radius > 0 ? gear.roll_angle_at_radius(own.start_radius) : own.start_roll;
+    if (start_roll > 0) plan.length = {gear.base_radius() * (gear.tip_roll_angle() - start_roll)};
+    if (own.length > 0) plan.length = {own.length};
   }
-  plan.design_torque = design.empty() ? 0.5 * (plan.torque.front() + plan.torque.back())
-                                      : whine::number_option("--design-torque", design);
+  if (relief.empty()) {
+    whine::StaticSlice rest = slice;
+    for (whine::FlankModification& m : rest.mesh.modification) m.tip = {};
+    constexpr int kCoarse = 32;
+    rest.contact.positions = kCoarse;
+    const double bent =
+        whine::static_transmission(first, second, rest, plan.torque.back()).transmission_error.maxCoeff();
+    const double largest = std::ceil(1.8 * bent * 1e6) * 1e-6;
+    for (int r = 0; r < kReliefs; ++r) plan.relief.push_back(largest * r / (kReliefs - 1));
+  } else {
+    for (const double um : numbers("--relief-um", relief)) plan.relief.push_back(um * 1e-6);
+  }
 
   std::optional<whine::Progress> progress;
   const auto report = [&](long done, long total, const std::string& note) {
     if (!progress) progress.emplace("gear-harris", total);
     progress->update(done, note);
   };
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   whine::HarrisMapArtifact map = whine::harris_map(first, second, slice, plan, report);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;  // s of this processor
   progress.reset();
   if (checks > 0) whine::check(map, first, second, plan.positions, static_cast<int>(checks));
   whine::Provenance provenance;
@@ -130,7 +158,7 @@ void body(int argc, char** argv) {
   }
   whine::write(output, map, provenance);
   whine::tell("gear-harris: ", plan.torque.size(), " torques x ", plan.relief.size(), " reliefs x ",
-              plan.length.size(), " starts in ", took.count(), " s -> ", output);
+              plan.length.size(), " starts in ", took, " s of CPU -> ", output);
   for (Eigen::Index s = 0; s < map.length.size(); ++s)
     whine::tell("gear-harris: start ", map.start_roll(s, 0) * 180 / std::numbers::pi, " deg: at ",
                 map.design_torque, " N m ", map.optimum_relief[s] * 1e6, " um leave ",
