@@ -61,7 +61,7 @@ void body(int argc, char** argv) {
                  "torques on the driver in N m, from:to:count or with commas (default: 60 up to twice the "
                  "design torque)");
   app.add_option("--relief-um", relief,
-                 "tip reliefs in micrometres, in the same way (default: 40 up to 1.8 times what the teeth "
+                 "tip reliefs in micrometres, in the same way (default: 40 up to 1.2 times what the teeth "
                  "bend under the largest torque)");
   auto* start_option = app.add_option(
       "--start-deg", start,
@@ -130,7 +130,7 @@ void body(int argc, char** argv) {
     rest.contact.positions = kCoarse;
     const double bent =
         whine::static_transmission(first, second, rest, plan.torque.back()).transmission_error.maxCoeff();
-    const double largest = std::ceil(1.8 * bent * 1e6) * 1e-6;
+    const double largest = std::ceil(1.2 * bent * 1e6) * 1e-6;
     for (int r = 0; r < kReliefs; ++r) plan.relief.push_back(largest * r / (kReliefs - 1));
   } else {
     for (const double um : numbers("--relief-um", relief)) plan.relief.push_back(um * 1e-6);

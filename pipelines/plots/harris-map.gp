@@ -1,24 +1,11 @@
 # Harris map: peak-to-peak transmission error against tip relief and torque (a), and against torque for the best relief of the
 # design torque and none (b); with a dynamic part the RMS at the worst speed (c).
 # Variables from gear-plot: tsv, title, note1, note2, labels, curves, design_torque, largest, moving, height.
-set datafile separator tab
+set datafile separator whitespace
 set datafile commentschars "#"
 
 array colour[7] = ["#444444", "#c8201e", "#1f4e9c", "#1a7f37", "#8a4fbf", "#b06a00", "#0a7c86"]
 rows = moving > 0 ? 2 : 1
-set multiplot title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
-set border 15 lw 1.6 front
-set tics out nomirror front
-set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
-set tmargin at screen 1 - 170.0 / height
-set bmargin at screen (rows == 2 ? 0.55 : 0.13)
-set lmargin at screen 0.075
-set rmargin at screen 0.42
-set xlabel "Tip relief (µm)\n{/:Bold (a)} peak-to-peak transmission error (µm)"
-set ylabel "Torque (N m)"
-set xrange [*:*] noextend
-set yrange [*:*] noextend
-set colorbox user origin screen 0.435, (rows == 2 ? 0.55 : 0.13) size screen 0.014, (rows == 2 ? 0.36 : 0.70)
 step = largest > 12 ? 2 : largest > 5 ? 1 : largest > 2 ? 0.5 : 0.2
 set contour base
 unset surface
@@ -28,6 +15,19 @@ splot tsv index "[peak to peak]" using 1:2:3
 unset table
 unset contour
 set surface
+set multiplot title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
+set border 15 lw 1.6 front
+set tics out nomirror front
+set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
+set tmargin at screen 1 - 170.0 / height
+set bmargin at screen (rows == 2 ? 0.55 : 0.13)
+set lmargin at screen 0.085
+set rmargin at screen 0.42
+set xlabel "Tip relief (µm)\n{/:Bold (a)} peak-to-peak transmission error (µm)"
+set ylabel "Torque (N m)"
+set xrange [*:*] noextend
+set yrange [*:*] noextend
+set colorbox user origin screen 0.435, (rows == 2 ? 0.55 : 0.13) size screen 0.014, (rows == 2 ? 0.36 : 0.70)
 unset key
 plot tsv index "[peak to peak]" using 1:2:3 with image, \
   $level using 1:2 with lines lw 1.2 lc rgb "#ffffff", \
@@ -37,7 +37,7 @@ plot tsv index "[peak to peak]" using 1:2:3 with image, \
 unset colorbox
 set border 3
 set lmargin at screen 0.575
-set rmargin at screen 0.985
+set rmargin at screen 0.97
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set xlabel "Torque (N m)\n{/:Bold (b)}"
 set ylabel "Peak-to-peak transmission error (µm)"
@@ -54,7 +54,7 @@ if (moving > 0) {
   set border 15
   set tmargin at screen 0.44
   set bmargin at screen 0.075
-  set lmargin at screen 0.075
+  set lmargin at screen 0.085
   set rmargin at screen 0.42
   set xrange [*:*] noextend
   set yrange [*:*] noextend
