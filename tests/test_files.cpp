@@ -213,6 +213,7 @@ StaticArtifact small_static() {
   a.contact_ratio = 1.7547 / 1.1;
   a.mesh_phase = Eigen::VectorXd{{0, 1.0 / 3, 2.0 / 3}};
   a.transmission_error = odd_vector(3, 1e-5);
+  a.unloaded_error = odd_vector(3, 1e-6);
   a.stiffness_secant = odd_vector(3, 4e8);
   a.stiffness_tangent = odd_vector(3, 4.1e8);
   a.pair = Eigen::VectorXi{{-1, 0, 1}};
@@ -778,7 +779,7 @@ TEST_CASE("an artifact of another schema or version is refused with what it is a
   });
   const Caught old = caught([] { read_static("out/old.h5"); });
   CHECK(old.kind == kInput);
-  CHECK(old.says("is schema version 0, this program reads 3"));
+  CHECK(old.says("is schema version 0, this program reads 4"));
   CHECK(old.says("make out/old.h5"));
 
   write_static_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });

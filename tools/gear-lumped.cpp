@@ -183,7 +183,7 @@ void body(int argc, char** argv) {
     if (hertz) o.model += "-hertz";
   } else {
     springs = whine::cells_of(o.model == "secant" ? at_torque.stiffness_secant : at_torque.stiffness_tangent,
-                              cell_count);
+                              cell_count, at_torque.unloaded_error);
   }
 
   std::optional<whine::Progress> progress;

@@ -155,6 +155,17 @@ const std::map<std::string, Drawing>& drawings() {
         [](const Paths& in, const Frequencies&) {
           return whine::error_budget_figure(whine::read_error_budget(in[0]));
         }}},
+      {"profile",
+       {"profile charts of the driving flanks, as an inspection sheet shows them", "static.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return whine::profile_figure(whine::read_static(in[0]));
+        }}},
+      {"harris-map",
+       {"peak-to-peak transmission error against torque and tip relief, and the Harris cusp", "harris_map.h5",
+        1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return whine::harris_map_figure(whine::read_harris_map(in[0]));
+        }}},
       {"jump-map",
        {"two branches, contact loss and tooth loads against torque, damping and corner rule",
         "jump_map.h5, one per torque and corner rule", 0, 0,

@@ -65,8 +65,11 @@ void check_geometry(const Scene& scene, const std::string& path) {
       fail(error.kind(), path, ": ", section, ": ", error.what());
     }
   };
-  for (const SceneGear& gear : scene.gears)
+  for (const SceneGear& gear : scene.gears) {
     in("[gear." + gear.name + "]", [&] { ToothGeometry tooth(gear.design); });
+    in("[gear." + gear.name + ".modification]",
+       [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
+  }
   in("[[mesh]]", [&] {
     GearPair pair(scene.gear(scene.mesh.driver).design, scene.gear(scene.mesh.driven).design,
                   scene.mesh.centre_distance);

@@ -35,8 +35,8 @@ VectorXd strip_borders(double low, double high, double low_grade, double high_gr
 
 }  // namespace
 
-PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact,
-                       const ContactRange& range) {
+PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact, const ContactRange& range,
+                       const PairDeviation& deviation) {
   PairStrips s;
   s.pair = pair;
   s.contact = contact;
@@ -44,7 +44,8 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   // limits are the roots, where strips must not carry force.
   const int n = range.strips;
   const double offset = 0.5 * range.half_window / n;  // a quarter strip
-  double low = offset - range.half_window, high = offset + range.half_window;
+  const double centre = range.follows ? gears.nearest(contact, deviation) : 0;
+  double low = centre + offset - range.half_window, high = centre + offset + range.half_window;
   if (low <= contact.x_min) {
     low = contact.x_min;
     s.low_is_edge = std::isfinite(gears.tip_distance(contact, 1));
@@ -53,8 +54,8 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
     high = contact.x_max;
     s.high_is_edge = std::isfinite(gears.tip_distance(contact, 0));
   }
-  s.border = strip_borders(low, high, s.low_is_edge ? 1 + low / (range.half_window - offset) : 0,
-                           s.high_is_edge ? 1 - high / (range.half_window + offset) : 0, n);
+  s.border = strip_borders(low, high, s.low_is_edge ? 1 - (centre - low) / (range.half_window - offset) : 0,
+                           s.high_is_edge ? 1 - (high - centre) / (range.half_window + offset) : 0, n);
   s.gap.resize(n);
   for (int i = 0; i < n; ++i) {
     // Gauss's two points: the mean of a cubic.
@@ -62,6 +63,7 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
     s.gap[i] = 0.5 * (gears.gap_at(contact, s.middle(i) - reach).gap +
                       gears.gap_at(contact, s.middle(i) + reach).gap);
   }
+  if (!deviation.none()) s.gap += mean_deviation(gears, s, deviation);
 
   // Chebyshev points of the first kind and their barycentric weights.
   VectorXd node(kWindowNodes), weight(kWindowNodes);
@@ -89,6 +91,16 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
       s.interpolation.row(i) /= sum;
   }
   return s;
+}
+
+VectorXd mean_deviation(const GearPair& gears, const PairStrips& strips, const PairDeviation& deviation) {
+  VectorXd mean(strips.size());
+  for (int i = 0; i < strips.size(); ++i) {
+    const double reach = 0.5 * strips.width(i) / std::numbers::sqrt3;
+    mean[i] = 0.5 * (deviation.at(gears.gap_at(strips.contact, strips.middle(i) - reach).roll) +
+                     deviation.at(gears.gap_at(strips.contact, strips.middle(i) + reach).roll));
+  }
+  return mean;
 }
 
 MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface& driver,
@@ -120,7 +132,7 @@ MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface&
 
 ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver,
                            const HalfPlaneSurface& driven, int across, double mean_force,
-                           double largest_force, double corner_gap) {
+                           double largest_force, double corner_gap, const PairDeviation& deviation) {
   // Hertz, line contact: a^2 = 4 W R / (pi E*), in terms of the half-planes' log coefficient C = 2 W / (pi E*
   // F).
   // rho1 rho2 / (rho1 + rho2) is a parabola along the path, highest midway between the tangent points.
@@ -132,7 +144,17 @@ ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver
     return std::sqrt(2 * radius * force * (driver.coefficient() + driven.coefficient()));
   };
   ContactRange range;
-  range.half_window = half_width(largest_force);
+  // Flanks of slope s touch R s beside the nominal point, and not where the gap is larger than what they deviate by.
+  double slope = 0, spread = 0;
+  for (const FlankDeviation* flank : deviation.gear)
+    if (flank) {
+      slope += flank->steepest();
+      spread += flank->largest() - flank->least();
+    }
+  const double width = half_width(largest_force),
+               move = std::min(radius * slope, std::sqrt(2 * radius * spread));
+  range.follows = move > width;
+  range.half_window = width + std::min(move, width);
   range.strips =
       padded(std::max(4, static_cast<int>(std::ceil(across * range.half_window / half_width(mean_force)))));
   range.corner_gap = corner_gap;

@@ -25,6 +25,8 @@ struct ContactRange {
   double half_window = 0;  // m along the flank, either side of the nominal contact point
   int strips = 0;          // in a window
   double corner_gap = 0;   // m: tip edges with a larger gap than this are left out
+  // The window lies about the place where unloaded flanks come nearest to each other instead.
+  bool follows = false;
 };
 
 inline constexpr int kWindowNodes = 6;
@@ -56,8 +58,12 @@ ContactPatch contact_patch(const PairStrips& strips, const Eigen::Ref<const Eige
 
 // pair: number of the pair; contact: its kinematics at this phase. Throws Error(numerical) if the flanks do not face each
 // other about the contact point.
-PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact,
-                       const ContactRange& range);
+PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact, const ContactRange& range,
+                       const PairDeviation& deviation = {});
+
+// (strip) m: what the two flanks deviate by, mean over each strip as in PairStrips::gap.
+Eigen::VectorXd mean_deviation(const GearPair& gears, const PairStrips& strips,
+                               const PairDeviation& deviation);
 
 // (strip, strip) m N-1: both half-planes' surface displacement relative to `depth` of a strip for a unit force spread
 // over another, mean over the strip.
@@ -66,9 +72,10 @@ Eigen::MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneS
 
 // Number of strips and half window for a force per pair (N): `across` strips over the Hertz contact width at
 // `mean_force` or a little more (a multiple of 4 in all), a window for `largest_force`, both with the largest relative
-// curvature radius on the path of contact.
+// curvature radius on the path of contact. What flanks deviate by moves the place where they touch: the window is wider by
+// the largest such move, or follows it where that is more than the contact is wide.
 ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver,
                            const HalfPlaneSurface& driven, int across, double mean_force,
-                           double largest_force, double corner_gap);
+                           double largest_force, double corner_gap, const PairDeviation& deviation = {});
 
 }  // namespace whine

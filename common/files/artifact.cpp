@@ -191,6 +191,14 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
         },
         parameter.value);
   }
+  if (part != Part::mesh) return;
+  // Gears as they are designed have no such section.
+  for (int g = 0; g < 2; ++g)
+    if (values.mesh.modification[g] != FlankModification{}) {
+      KeyValues own;
+      own.modification = values.mesh.modification[g];
+      parameters(kModificationOf[g], own, Part::modification);
+    }
 }
 
 void ArtifactWriter::publish() {
@@ -253,6 +261,13 @@ MatrixRMi ArtifactReader::whole_matrix(const std::string& name, Eigen::Index row
 
 void ArtifactReader::parameters(const std::string& section, KeyValues& values, Part part) const {
   set_parameters(values, part, SectionSource(*this, section));
+  if (part != Part::mesh) return;
+  for (int g = 0; g < 2; ++g) {
+    KeyValues own;
+    const SectionSource source(*this, kModificationOf[g]);
+    if (source.has("tip_relief")) set_parameters(own, Part::modification, source);
+    values.mesh.modification[g] = own.modification;
+  }
 }
 
 }  // namespace whine

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <numeric>
 #include <sstream>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr Unit kNone{"", "1"};
 constexpr Unit kMillimetre{"_mm", "m", 1, 1000};
+constexpr Unit kMicrometre{"_um", "m", 1, 1e6};
 constexpr Unit kDegree{"_deg", "rad", std::numbers::pi, 180};
 constexpr Unit kCornerDegree{"", "rad", std::numbers::pi, 180};
 constexpr Unit kInertia{"_kgm2", "kg m2"};
@@ -73,6 +75,46 @@ std::vector<Key> make_keys() {
     {Part::reference, "gear", "material", kNone, nullptr, 0, 0, false, "",
      "name of a [material.<name>] section",
      [](V& v) -> Slot { return &v.material_name; }},
+
+    {Part::modification, "modification", "tip_relief_um", kMicrometre, "0.0", 0, 1000, false, "",
+     "material taken off at the tip edge, normal to the driving flank",
+     [](V& v) -> Slot { return &v.modification.tip.amount; }},
+    {Part::modification, "modification", "tip_relief_start_deg", kDegree, "0", 0, 90, false, "",
+     "roll angle at which it starts; 0: not given; of the three ways to say the start one is given",
+     [](V& v) -> Slot { return &v.modification.tip.start_roll; }},
+    {Part::modification, "modification", "tip_relief_start_radius_mm", kMillimetre, "0", 0, 1e5, false, "",
+     "the same as a radius",
+     [](V& v) -> Slot { return &v.modification.tip.start_radius; }},
+    {Part::modification, "modification", "tip_relief_length_mm", kMillimetre, "0", 0, 1e5, false, "",
+     "the same as the length of roll (base radius times roll angle) from the start to the tip edge",
+     [](V& v) -> Slot { return &v.modification.tip.length; }},
+    {Part::modification, "modification", "tip_relief_shape", kNone, "linear", 0, 0, false, "linear parabolic",
+     "how it grows with the roll angle",
+     [](V& v) -> Slot { return &v.modification.tip.shape; }},
+    {Part::modification, "modification", "root_relief_um", kMicrometre, "0.0", 0, 1000, false, "",
+     "material taken off at the foot of the involute, normal to the driving flank",
+     [](V& v) -> Slot { return &v.modification.root.amount; }},
+    {Part::modification, "modification", "root_relief_start_deg", kDegree, "0", 0, 90, false, "",
+     "roll angle at which it starts; 0: not given; of the three ways to say the start one is given",
+     [](V& v) -> Slot { return &v.modification.root.start_roll; }},
+    {Part::modification, "modification", "root_relief_start_radius_mm", kMillimetre, "0", 0, 1e5, false, "",
+     "the same as a radius",
+     [](V& v) -> Slot { return &v.modification.root.start_radius; }},
+    {Part::modification, "modification", "root_relief_length_mm", kMillimetre, "0", 0, 1e5, false, "",
+     "the same as the length of roll (base radius times roll angle) from the start to the foot of the involute",
+     [](V& v) -> Slot { return &v.modification.root.length; }},
+    {Part::modification, "modification", "root_relief_shape", kNone, "linear", 0, 0, false, "linear parabolic",
+     "how it grows with the roll angle",
+     [](V& v) -> Slot { return &v.modification.root.shape; }},
+    {Part::modification, "modification", "crowning_um", kMicrometre, "0.0", -1000, 1000, false, "",
+     "profile crowning: a parabola, 0 midway in the roll angle, this much taken off at both ends of the involute",
+     [](V& v) -> Slot { return &v.modification.crowning; }},
+    {Part::modification, "modification", "slope_um", kMicrometre, "0.0", -1000, 1000, false, "",
+     "profile slope: linear in the roll angle, 0 at the foot of the involute, this much taken off at the tip",
+     [](V& v) -> Slot { return &v.modification.slope; }},
+    {Part::modification, "modification", "points", kNone, "", -1000, 1000, false, "",
+     "[[roll angle in degrees, micrometres taken off], ...], ascending; monotone cubics between, constant outside; adds to the others",
+     [](V& v) -> Slot { return &v.modification.points; }},
 
     {Part::material, "material", "youngs_modulus_GPa", kGigapascal, nullptr, 0, 2000, true, "",
      "Young's modulus",
@@ -231,6 +273,15 @@ std::string exact_text(double value) {
   return out;
 }
 
+std::string exact_text(const Points& points) {
+  std::string out;
+  for (const auto& [roll, removed] : points)
+    out += (out.empty() ? "[" : ", [") + exact_text(roll) + ", " + exact_text(removed) + "]";
+  return "[" + out + "]";
+}
+
+const std::array<Unit, 2> kPointUnits{kDegree, kMicrometre};
+
 std::vector<Parameter> parameters_of(const KeyValues& values, Part part) {
   KeyValues copy = values;  // slots point at what may be changed
   std::vector<Parameter> out;
@@ -260,6 +311,8 @@ std::vector<Parameter> parameters_of(const KeyValues& values, Part part) {
       add(name + "_from", *range->from);
       add(name + "_to", *range->to);
       add(name + "_step", *range->step);
+    } else if (const auto* points = std::get_if<Points*>(&slot)) {
+      if (!(*points)->empty()) add(name, exact_text(**points));
     } else {
       fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
     }
@@ -288,6 +341,18 @@ void set_parameters(KeyValues& values, Part part, const ParameterSource& source)
       *range->from = source.number(name + "_from");
       *range->to = source.number(name + "_to");
       *range->step = source.number(name + "_step");
+    } else if (const auto* points = std::get_if<Points*>(&slot)) {
+      (*points)->clear();
+      std::vector<double> numbers;
+      const std::string word = source.has(name) ? source.word(name) : "";
+      for (const char* at = word.c_str(); *at;) {
+        char* end = nullptr;
+        const double number = std::strtod(at, &end);
+        if (end != at) numbers.push_back(number);
+        at = end != at ? end : at + 1;
+      }
+      for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
+        (*points)->push_back({numbers[i], numbers[i + 1]});
     } else {
       fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
     }
@@ -303,6 +368,7 @@ std::string scene_key_table() {
     std::string label = "[" + section + "]";
     if (section.empty()) label = "(top)";
     if (section == "gear" || section == "material") label = "[" + section + ".<name>]";
+    if (section == "modification") label = "[gear.<name>.modification]";
     if (section == "mesh") label = "[[mesh]]";
     std::string range = "text";
     if (*key.choices) {

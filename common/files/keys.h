@@ -3,6 +3,7 @@
 //
 // Private to the room files/.
 #pragma once
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,6 +18,7 @@ struct KeyValues {
   std::string like, material_name;  // of a gear
   double total_inertia = 0;         // kg m2, of a gear
   GearDesign design;
+  FlankModification modification;
   Material material;
   GearMeshSpec mesh;
   Damping damping;
@@ -33,6 +35,7 @@ enum class Part {
   reference,  // like, material: names of other sections
   design,
   inertia,
+  modification,
   material,
   mesh,
   damping,
@@ -52,9 +55,10 @@ struct PlaneSlot {
 struct RangeSlot {
   double *from, *to, *step;
 };
+using Points = std::vector<std::array<double, 2>>;  // rad, m: in a scene degrees and micrometres
 // Where a key's value lives, and thereby its type.
-using Slot =
-    std::variant<double*, int*, std::string*, CornerRule*, PlaneSlot, std::vector<double>*, RangeSlot>;
+using Slot = std::variant<double*, int*, std::string*, CornerRule*, PlaneSlot, std::vector<double>*,
+                          RangeSlot, Points*>;
 
 // SI = value * multiply / divide; two factors because 3.0 / 1000 is the double nearest to 0.003 and 3.0 *
 // 0.001 is not always.
@@ -88,6 +92,13 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 
 // Shortest text that reads back as the same double; always a TOML float.
 std::string exact_text(double value);
+std::string exact_text(const Points& points);
+
+// Sections of /parameters and of slices that hold what is taken off the driver's and the driven gear's flanks.
+inline constexpr const char* kModificationOf[2] = {"driver_modification", "driven_modification"};
+
+// Units of the two numbers of a point.
+extern const std::array<Unit, 2> kPointUnits;
 
 // One value for /parameters/<section>/<name>.
 struct Parameter {

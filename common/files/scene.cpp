@@ -119,7 +119,10 @@ class SectionReader {
       if (std::find(known.begin(), known.end(), word) != known.end()) continue;
       std::string advice;
       for (const Key& key : scene_keys()) {
-        if (name_in(key, dialect_) == word) advice = text("; it belongs into [", key.section, "]");
+        if (name_in(key, dialect_) == word)
+          advice = text("; it belongs into [",
+                        std::string(key.section) == "modification" ? "gear.<name>.modification" : key.section,
+                        "]");
       }
       const std::string near = nearest(word, known);
       if (advice.empty() && !near.empty()) advice = text("; did you mean '", near, "'?");
@@ -223,6 +226,8 @@ class SectionReader {
       }
     } else if (const auto* list = std::get_if<std::vector<double>*>(&slot)) {
       assign_list(key, node, **list);
+    } else if (const auto* points = std::get_if<Points*>(&slot)) {
+      assign_points(key, node, **points);
     } else {
       assign_range(key, node, std::get<RangeSlot>(slot));
     }
@@ -249,6 +254,33 @@ class SectionReader {
       }
       if (!seen.insert(value).second) refuse(key, node, text("holds ", value, " twice"));
     }
+  }
+
+  void assign_points(const Key& key, const toml::node& node, Points& points) const {
+    points.clear();
+    const toml::array* array = node.as_array();
+    if (!array) refuse(key, node, "must be a list of points: [[22.0, 0.0], [27.0, 10.0]]");
+    const char* const kCoordinate[2] = {"roll angle ", "deviation "};
+    for (const toml::node& item : *array) {
+      const toml::array* pair = item.as_array();
+      if (!pair || pair->size() != 2)
+        refuse(key, item, "a point is [roll angle in degrees, micrometres taken off]");
+      std::array<double, 2> point;
+      for (int i = 0; i < 2; ++i) {
+        const double value = finite_number(key, *pair->get(i), kCoordinate[i]);
+        point[i] = value;
+        if (dialect_ == Dialect::slice) continue;
+        const double least = i == 0 ? 0 : key.least, most = i == 0 ? 90 : key.most;
+        if (value < least || value > most)
+          refuse(key, item,
+                 text(kCoordinate[i], "must be from ", least, " to ", most, i == 0 ? " deg" : " um"));
+        point[i] = value * kPointUnits[i].multiply / kPointUnits[i].divide;
+      }
+      if (!points.empty() && !(point[0] > points.back()[0]))
+        refuse(key, item, "points must ascend in the roll angle; sort them and give each angle once");
+      points.push_back(point);
+    }
+    if (points.size() == 1) refuse(key, node, "must hold two points at least, or none");
   }
 
   void assign_range(const Key& key, const toml::node& node, const RangeSlot& slot) const {
@@ -288,6 +320,8 @@ class SectionReader {
       **target = word;
     } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
       **corner = CornerRule{word == "true", std::numeric_limits<double>::infinity()};
+    } else if (const auto* points = std::get_if<Points*>(&slot)) {
+      (*points)->clear();
     } else {
       fail(Failure::numerical, "the key table gives '", key.name, "' a default that its type cannot take");
     }
@@ -342,6 +376,41 @@ std::string advice_for(const std::string& word, const std::vector<std::string>& 
   return near.empty() ? text("; known are: ", joined(known)) : text("; did you mean '", near, "'?");
 }
 
+// Fills what stands in [gear.<name>.modification], if that is there.
+void read_modification(const Source& source, const toml::table& gear, const std::string& label,
+                       KeyValues& values) {
+  const toml::node* node = gear.get("modification");
+  if (!node) return;
+  const toml::table* table = node->as_table();
+  if (!table)
+    source.refuse(
+        *node, text("'modification' in [", label, "] must be a section: write [", label, ".modification]"));
+  const std::string own = label + ".modification";
+  const SectionReader reader(source, Dialect::scene, *table, "modification", own);
+  reader.refuse_unknown();
+  // A start given here takes the place of one taken over from another gear, in whatever form.
+  const auto starts = [&](const char* end) {
+    std::vector<const toml::node*> given;
+    for (const char* form : {"_start_deg", "_start_radius_mm", "_length_mm"})
+      if (const toml::node* start = table->get(text(end, "_relief", form))) given.push_back(start);
+    if (given.size() > 1)
+      source.refuse(*given[1], text("[", own, "] says the start of ", end, "_relief ", given.size(),
+                                    " times; give one of ", end, "_relief_start_deg, ", end,
+                                    "_relief_start_radius_mm, ", end, "_relief_length_mm"));
+    return !given.empty();
+  };
+  for (const auto& [end, relief] :
+       {std::pair{"tip", &values.modification.tip}, std::pair{"root", &values.modification.root}})
+    if (starts(end)) relief->start_roll = relief->start_radius = relief->length = 0;
+  reader.read(values, {Part::modification}, true);
+  for (const auto& [end, relief] :
+       {std::pair{"tip", values.modification.tip}, std::pair{"root", values.modification.root}})
+    if (relief.amount > 0 && !(relief.start_roll > 0 || relief.start_radius > 0 || relief.length > 0))
+      source.refuse(*table, text("[", own, "] lacks the start of ", end, "_relief_um = ", relief.amount * 1e6,
+                                 "; give one of ", end, "_relief_start_deg, ", end,
+                                 "_relief_start_radius_mm, ", end, "_relief_length_mm"));
+}
+
 const std::set<Part> kGearParts = {Part::reference, Part::design, Part::inertia};
 
 void read_gears(const Source& source, Scene& scene) {
@@ -372,7 +441,7 @@ void read_gears(const Source& source, Scene& scene) {
                                  "', a folder of results is; choose another name"));
     }
     const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
-    reader.refuse_unknown();
+    reader.refuse_unknown({"modification"});
     KeyValues values;
     const toml::node* like = table->get("like");
     if (like && like->is_string()) {
@@ -387,8 +456,10 @@ void read_gears(const Source& source, Scene& scene) {
                                   as_written(*chain), " itself; name the first gear"));
       }
       SectionReader(source, Dialect::scene, *model, "gear", "gear." + base).read(values, kGearParts, false);
+      read_modification(source, *model, "gear." + base, values);
     }
     reader.read(values, kGearParts, like != nullptr);
+    read_modification(source, *table, "gear." + name, values);
     if (!material.count(values.material_name)) {
       const toml::node* key = table->get("material");
       source.refuse(key ? *key : static_cast<const toml::node&>(*table),
@@ -396,7 +467,8 @@ void read_gears(const Source& source, Scene& scene) {
                          "' names no [material.<name>] section",
                          advice_for(values.material_name, names_of(materials))));
     }
-    scene.gears.push_back({name, values.design, material.at(values.material_name), values.total_inertia});
+    scene.gears.push_back(
+        {name, values.design, material.at(values.material_name), values.total_inertia, values.modification});
   }
 }
 
@@ -428,6 +500,8 @@ void read_mesh_section(const Source& source, Scene& scene) {
                                              "' is the driver, too; a gear cannot mesh with itself"));
   }
   scene.mesh = values.mesh;
+  scene.mesh.modification = {scene.gear(values.mesh.driver).modification,
+                             scene.gear(values.mesh.driven).modification};
 }
 
 // Slices are written in the order of the table, one section after the other.
@@ -474,6 +548,7 @@ class SliceText {
       for (double value : **list) items.push_back(exact_text(value));
       return "[" + joined(items) + "]";
     }
+    if (const auto* points = std::get_if<Points*>(&slot)) return exact_text(**points);
     const auto& range = std::get<RangeSlot>(slot);
     return "{ from = " + exact_text(*range.from) + ", to = " + exact_text(*range.to) +
            ", step = " + exact_text(*range.step) + " }";
@@ -600,6 +675,12 @@ std::string static_slice(const Scene& scene) {
   if (values.contact.positions == 0) values.contact.positions = std::max(128, scene.time.steps_per_period);
   SliceText out("the static stage");
   out.add("mesh", "mesh", values, {Part::mesh});
+  // Left out for flanks as they are designed, whose slices are what they were before flanks could be others.
+  for (int g = 0; g < 2; ++g) {
+    values.modification = scene.mesh.modification[g];
+    if (values.modification != FlankModification{})
+      out.add("modification", kModificationOf[g], values, {Part::modification});
+  }
   out.add("fidelity", "fidelity", values, {Part::contact_rung});
   out.add("discretisation", "discretisation", values, {Part::contact});
   // Going back to an earlier design finds its old body.h5, older than the static result of the design
@@ -700,6 +781,11 @@ StaticSlice read_static_slice(const std::string& path) {
   read_slice_section(source, "mesh", "mesh", {Part::mesh}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::contact_rung}, values);
   read_slice_section(source, "discretisation", "discretisation", {Part::contact}, values);
+  for (int g = 0; g < 2; ++g) {
+    if (!source.section(kModificationOf[g])) continue;
+    read_slice_section(source, "modification", kModificationOf[g], {Part::modification}, values);
+    values.mesh.modification[g] = values.modification;
+  }
   StaticSlice out{values.mesh, values.fidelity, values.contact, "", ""};
   if (const toml::table* bodies = source.section("body")) {
     out.driver_body = (*bodies)["driver"].value_or(std::string());

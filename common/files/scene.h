@@ -4,6 +4,7 @@
 // the reader, the canonical slices that make compares, /parameters in the artifacts and `--help` all come
 // from that declaration.
 #pragma once
+#include <array>
 #include <limits>
 #include <map>
 #include <string>
@@ -23,6 +24,28 @@ struct GearDesign {
   double tooth_thinning = 0;      // m at the pitch circle
   double face_width = 0;          // m
   double bore_radius = 0;         // m; rigid hub
+};
+
+// Material taken off a flank between a start on it and one of its ends.
+struct Relief {
+  double amount = 0;  // m normal to the flank, at the end: the tip edge, or the foot of the involute
+  // Where it starts, by one of these; 0: not given.
+  double start_roll = 0;         // rad
+  double start_radius = 0;       // m
+  double length = 0;             // m, length of roll (base radius times roll angle) from the start to the end
+  std::string shape = "linear";  // in the roll angle; or "parabolic"
+
+  bool operator==(const Relief&) const = default;
+};
+
+// What is taken off the driving flanks of a gear, all of its teeth alike. Parts add up.
+struct FlankModification {
+  Relief tip, root;
+  double crowning = 0;                        // m at both ends of the involute, 0 midway in the roll angle
+  double slope = 0;                           // m at the tip, 0 at the foot; below 0: material stands
+  std::vector<std::array<double, 2>> points;  // rad, m: roll angle, ascending, and what is taken off there
+
+  bool operator==(const FlankModification&) const = default;
 };
 
 struct Material {
@@ -50,6 +73,7 @@ struct SceneGear {
   GearDesign design;
   Material material;
   double total_inertia = 0;  // kg m2 about the axis, body included
+  FlankModification modification;
 };
 
 // Off the line of action a tip edge may touch a flank.
@@ -62,6 +86,7 @@ struct GearMeshSpec {
   std::string driver, driven;  // names of gears
   double centre_distance = 0;  // m
   CornerRule corner;
+  std::array<FlankModification, 2> modification;  // of driver and driven gear
 };
 
 struct Damping {

@@ -4,7 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "files/scene.h"
+
 namespace whine {
+
+// "as designed", "tip relief 10 um from 20.9 deg".
+std::string in_words(const FlankModification& modification);
 
 // What every line of a summary is in; a number that stands without a unit is a plain one.
 inline constexpr const char* kSummaryUnits =

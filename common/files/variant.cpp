@@ -63,6 +63,16 @@ std::string scene_variant(const std::string& path, const std::vector<std::string
       if (toml::array* list = node->as_array())
         for (toml::node& mesh : *list)
           if (toml::table* table = mesh.as_table()) set(*table, name, value);
+    } else if (section == "modification") {
+      toml::node* gears = scene.get("gear");
+      if (toml::table* group = gears ? gears->as_table() : nullptr)
+        for (auto&& [label, item] : *group)
+          if (toml::table* gear = item.as_table()) {
+            toml::table* own = gear->get_as<toml::table>("modification");
+            if (!own && gear->contains("like")) continue;
+            if (!own) own = gear->insert("modification", toml::table{}).first->second.as_table();
+            set(*own, name, value);
+          }
     } else if (section == "gear" || section == "material") {
       if (toml::table* group = node->as_table())
         for (auto&& [label, item] : *group)

@@ -179,6 +179,54 @@ FlankGap GearPair::gap_at(const PairContact& c, double x) const {
   return result;
 }
 
+double GearPair::nearest(const PairContact& c, const PairDeviation& deviation) const {
+  if (deviation.none() || !c.on_flank) return 0;
+  // The exact flanks part by x^2 / (2 R) at least, within the range of the deviations no farther than this.
+  double range = 0;
+  for (const FlankDeviation* flank : deviation.gear)
+    if (flank) range += flank->largest() - flank->least();
+  constexpr double kMargin = 1.2;  // over R, which changes along the flank
+  const double reach = kMargin * std::sqrt(2 * relative_curvature_radius(c) * range);
+  double low = std::max(c.x_min, -reach), high = std::min(c.x_max, reach);
+  if (!(high > low)) return std::clamp(0.0, c.x_min, c.x_max);
+
+  const auto gap = [&](double x) { return gap_at(c, x, deviation); };
+  constexpr int kPlaces = 32;
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  const double step = (high - low) / kPlaces;
+  for (int i = 0; i <= kPlaces; ++i)
+    if (const double here = gap(low + i * step); here < least) {
+      least = here;
+      best = i;
+    }
+  const double end = high;
+  high = std::min(end, low + (best + 1) * step);
+  low = std::max(low, low + (best - 1) * step);
+  // Golden section: a relief starts with a corner, where there is no derivative.
+  const double golden = 0.5 * (std::sqrt(5.0) - 1);
+  double a = high - golden * (high - low), b = low + golden * (high - low), at_a = gap(a), at_b = gap(b);
+  while (high - low > 1e-11) {
+    if (at_a <= at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - golden * (high - low);
+      at_a = gap(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + golden * (high - low);
+      at_b = gap(b);
+    }
+  }
+  double x = 0.5 * (low + high);
+  for (const double edge : {c.x_min, c.x_max, 0.0})  // found exactly, if it is one of these
+    if (edge >= c.x_min && edge <= c.x_max && gap(edge) <= gap(x)) x = edge;
+  return x;
+}
+
 double GearPair::tip_distance(const PairContact& c, int g) const {
   const double end = g == 0 ? c.x_max : c.x_min;
   const bool is_tip = std::abs(roll_at(g, c, end) - gear_[g].tip_roll_angle()) < 1e-9;

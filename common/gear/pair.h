@@ -7,6 +7,7 @@
 #pragma once
 #include <array>
 
+#include "gear/flank_deviation.h"
 #include "gear/involute.h"
 
 namespace whine {
@@ -63,6 +64,16 @@ class GearPair {
   // point, in [x_min, x_max]. Exact: both involutes are intersected with the line parallel to the contact
   // normal.
   FlankGap gap_at(const PairContact& contact, double x) const;
+  // m: the same with what the two flanks deviate by.
+  double gap_at(const PairContact& contact, double x, const PairDeviation& deviation) const {
+    const FlankGap exact = gap_at(contact, x);
+    return deviation.none() ? exact.gap : exact.gap + deviation.at(exact.roll);
+  }
+
+  // m: tangential coordinate at which two flanks that deviate come nearest to each other; where they do not, 0. Found to
+  // 1e-11 m, which is 1e-13 m of gap at a slope of 10 mrad. Between two dips of the gap that are less than a 32nd of the
+  // range apart in which it can be least, either may be taken.
+  double nearest(const PairContact& contact, const PairDeviation& deviation) const;
 
   // m, >= 0: from the nominal touching point to gear g's tip edge, the driver's at x_max, the driven gear's at x_min;
   // infinity if the flanks' common range ends before it.

@@ -121,7 +121,7 @@ LumpedParameters cells_of(const RectangularWave& wave) {
   return p;
 }
 
-LumpedParameters cells_of(const Eigen::VectorXd& values, int cells) {
+LumpedParameters cells_of(const Eigen::VectorXd& values, int cells, const Eigen::VectorXd& unloaded) {
   if (values.size() < 2 || !values.allFinite() || !(values.minCoeff() > 0))
     fail(Failure::input,
          "lumped model: the stiffness must be given at 2 phases at least and be above 0; its least is ",
@@ -130,11 +130,15 @@ LumpedParameters cells_of(const Eigen::VectorXd& values, int cells) {
   p.cell_end = centred_cells(cells);
   p.stiffness.resize(cells + 1, 1);
   p.gap = MatrixRM::Zero(cells + 1, 1);
-  const double whole = integral(values, 1);
-  for (int j = 1; j < cells; ++j)
-    p.stiffness(j, 0) = (integral(values, p.cell_end[j]) - integral(values, p.cell_end[j - 1])) * cells;
-  p.stiffness(0, 0) = p.stiffness(cells, 0) =
-      (integral(values, p.cell_end[0]) + whole - integral(values, p.cell_end[cells - 1])) * cells;
+  const auto fill = [&](const Eigen::VectorXd& curve, MatrixRM& means) {
+    const double whole = integral(curve, 1);
+    for (int j = 1; j < cells; ++j)
+      means(j, 0) = (integral(curve, p.cell_end[j]) - integral(curve, p.cell_end[j - 1])) * cells;
+    means(0, 0) = means(cells, 0) =
+        (integral(curve, p.cell_end[0]) + whole - integral(curve, p.cell_end[cells - 1])) * cells;
+  };
+  fill(values, p.stiffness);
+  if (unloaded.size() > 0) fill(unloaded, p.gap);
   return p;
 }
 
@@ -148,6 +152,9 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
          " chords of Hertz's law; 2 are the least, 0 make linear springs");
   const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
   const double force = s.torque / pair.gear(0).base_radius();
+  const FlankDeviation deviation[2] = {{pair.gear(0), s.mesh.modification[0]},
+                                       {pair.gear(1), s.mesh.modification[1]}};
+  const PairDeviation flanks{{&deviation[0], &deviation[1]}, {}};
   const double farthest = kFarthest * s.transmission_error.maxCoeff();
   // Nothing where this pair cannot touch.
   const auto gap_at = [&](double own_phase) -> std::optional<double> {
@@ -156,11 +163,11 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
     if (pair.gear(0).base_radius() * tangent + path <= 0 || pair.gear(1).base_radius() * tangent - path <= 0)
       return std::nullopt;
     const PairContact c = pair.contact(own_phase);
-    if (!c.corner) return 0.0;
-    if (!s.mesh.corner.enabled || c.normal_angle > s.mesh.corner.largest_angle || !c.on_flank ||
-        c.gap > farthest)
+    const double gap = flanks.none() || !c.on_flank ? c.gap : pair.gap_at(c, pair.nearest(c, flanks), flanks);
+    if (c.corner && (!s.mesh.corner.enabled || c.normal_angle > s.mesh.corner.largest_angle || !c.on_flank ||
+                     gap > farthest))
       return std::nullopt;
-    return c.gap;
+    return gap;
   };
 
   // Load and stiffness against the pair's own phase, at static positions where it carries load.

@@ -28,8 +28,9 @@ RectangularWave stated_wave(const StaticArtifact& pair, double fewer, double mor
 // Cells and springs only; mass and damper are left at 0. One spring without a gap for the whole mesh:
 LumpedParameters cells_of(const RectangularWave& wave);
 // values: (phase) N m-1 at equally spaced phases from 0; each of `cells` cells, the first about phase 0, carries the mean of
-// the curve that is linear between them. Error(input) for values not above 0.
-LumpedParameters cells_of(const Eigen::VectorXd& values, int cells);
+// the curve that is linear between them. unloaded: (phase) m, transmission error at which the spring touches, taken likewise;
+// empty: 0. Error(input) for values not above 0.
+LumpedParameters cells_of(const Eigen::VectorXd& values, int cells, const Eigen::VectorXd& unloaded = {});
 
 // A spring per tooth pair, those off the line of action included, but for what the corner rule leaves out. Gap: from the
 // flanks' geometry amid each cell; for a pair that is not loaded at rest the static transmission error at least.

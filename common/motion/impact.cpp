@@ -116,7 +116,7 @@ class HeldPair {
     // As a sweep begins, so that the strips are the same.
     dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
                                      statics.contact.strips, load / model.kinematics.contact_ratio(),
-                                     2.5 * load, 2.5 * statics.transmission_error.maxCoeff()),
+                                     2.5 * load, 2.5 * statics.transmission_error.maxCoeff(), model.flanks()),
                        plan_.phases);
     set_gears(blank_, driver, driven);
     blank_.mesh = statics.mesh;

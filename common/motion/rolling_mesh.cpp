@@ -1,5 +1,6 @@
 #include "motion/rolling_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -81,7 +82,9 @@ VectorXd ElasticGear::mode_on_tooth(int column, int tooth) const {
 GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh)
     : kinematics(driver.design, driven.design, mesh.centre_distance),
       gear{ElasticGear(driver), ElasticGear(driven)},
-      corner(mesh.corner) {}
+      corner(mesh.corner),
+      deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0]),
+                FlankDeviation(kinematics.gear(1), mesh.modification[1])} {}
 
 VectorXd MeshPosition::to_strips(const Eigen::Ref<const VectorXd>& at_nodes) const {
   if (!law.empty()) return at_nodes;
@@ -152,7 +155,7 @@ bool MeshPosition::reaches_window_end(const Eigen::Ref<const VectorXd>& p) const
   return false;
 }
 
-PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap) {
+PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap, int period) {
   PairsInReach reach;
   const GearPair& gears = model.kinematics;
   const double tangent = std::tan(gears.working_pressure_angle()), pitch = gears.base_pitch();
@@ -165,12 +168,15 @@ PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double cor
     const PairContact contact = gears.contact(phase + pair);
     if (contact.corner) {
       if (!model.corner.enabled || contact.normal_angle > model.corner.largest_angle) continue;
+      const PairDeviation flanks = model.flanks(pair, period);
       if (!contact.on_flank) {
-        reach.lost_corner_gap = std::min(reach.lost_corner_gap, contact.gap);
+        reach.lost_corner_gap = std::min(reach.lost_corner_gap, contact.gap + flanks.at(contact.roll));
         continue;
       }
-      if (contact.gap > corner_gap) {
-        reach.next_corner_gap = std::min(reach.next_corner_gap, contact.gap);
+      const double gap =
+          flanks.none() ? contact.gap : gears.gap_at(contact, gears.nearest(contact, flanks), flanks);
+      if (gap > corner_gap) {
+        reach.next_corner_gap = std::min(reach.next_corner_gap, gap);
         continue;
       }
     }
@@ -180,14 +186,32 @@ PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double cor
   return reach;
 }
 
-MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range) {
+double unloaded_transmission_error(const GearMeshModel& model, double phase, int period) {
+  const GearPair& gears = model.kinematics;
+  if (model.flanks().none()) return 0;
+  // A pair on the line of action, which there always is, has no larger gap.
+  const double largest = std::max(0.0, model.deviation[0].largest() + model.deviation[1].largest());
+  constexpr double kLever = 1.1;  // over the lever of a tip edge
+  const PairsInReach reach = pairs_in_reach(model, phase, kLever * largest, period);
+  double least = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < reach.size(); ++j) {
+    const PairContact& contact = reach.contact[j];
+    const PairDeviation flanks = model.flanks(reach.pair[j], period);
+    const double gap = gears.gap_at(contact, gears.nearest(contact, flanks), flanks);
+    least = std::min(least, gap * gears.gear(0).base_radius() / contact.lever[0]);
+  }
+  return least;
+}
+
+MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range, int period) {
   MeshPosition position;
   position.phase = phase;
-  const PairsInReach reach = pairs_in_reach(model, phase, range.corner_gap);
+  const PairsInReach reach = pairs_in_reach(model, phase, range.corner_gap, period);
   position.next_corner_gap = reach.next_corner_gap;
   position.lost_corner_gap = reach.lost_corner_gap;
   for (int j = 0; j < reach.size(); ++j)
-    position.pairs.push_back(make_strips(model.kinematics, reach.pair[j], reach.contact[j], range));
+    position.pairs.push_back(make_strips(model.kinematics, reach.pair[j], reach.contact[j], range,
+                                         model.flanks(reach.pair[j], period)));
 
   position.first_strip.push_back(0);
   for (const PairStrips& s : position.pairs)
@@ -223,16 +247,96 @@ MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& positi
   return a;
 }
 
+namespace {
+
+// What a line contact takes in place of the gap of two flanks: a parabola, cut off at the tip edge that is near.
+struct LineGap {
+  double gap = 0;         // m, at the touching point
+  double radius = 0;      // m
+  double edge_slope = 0;  // 1, see HertzLine
+  double touch = 0;       // m: tangential coordinate of the touching point, of the edge if that touches
+};
+
+// tip: m, distances of the tip edges of driver and driven gear; near: whose the law knows of. half_width: m, of the
+// contact over which flanks that deviate are averaged.
+LineGap line_gap(const GearPair& gears, const PairContact& contact, const PairDeviation& deviation,
+                 const double tip[2], int near, double half_width) {
+  LineGap line;
+  line.gap = contact.gap;
+  line.radius = gears.relative_curvature_radius(contact);
+  line.edge_slope = contact.corner ? std::tan(contact.normal_angle) : -tip[near] / line.radius;
+  if (deviation.none()) return line;
+
+  // Gap of the flanks as designed, to the side on which both exist: contact.gap + leaning x + x^2 / (2 R).
+  const double side = near == 0 ? -1 : 1;  // the driver's tip edge is where x is largest
+  const double leaning = contact.corner ? side * std::tan(contact.normal_angle) : 0,
+               curvature = 1 / line.radius;
+  // Pressure that is bounded at both ends weighs a gap by 1 / sqrt(a^2 - x^2) (Johnson, Contact Mechanics, section 2.7):
+  // what it feels of the deviation are the first Chebyshev coefficients over its width.
+  struct Parabola {
+    double value, slope, curvature;  // m, 1, m-1 at the middle
+  };
+  const auto felt = [&](double middle) {
+    constexpr int kNodes = 24;
+    double mean = 0, first = 0, second = 0;
+    for (int k = 0; k < kNodes; ++k) {
+      const double angle = (k + 0.5) * std::numbers::pi / kNodes, cosine = std::cos(angle);
+      const double x = middle + half_width * cosine;
+      std::array<double, 2> roll;
+      for (int g = 0; g < 2; ++g) {  // along the flank's arc: x to 1e-4 of itself
+        const double rb = gears.gear(g).base_radius(), sign = g == 0 ? 1 : -1;
+        roll[g] = std::sqrt(std::max(0.0, contact.roll[g] * contact.roll[g] + 2 * sign * x / rb));
+      }
+      const double d = deviation.at(roll) / kNodes;
+      mean += d;
+      first += d * cosine;
+      second += d * std::cos(2 * angle);
+    }
+    return Parabola{mean - 2 * second, 2 * first / half_width, 8 * second / (half_width * half_width)};
+  };
+  // The middle of the contact, where the slopes add up to nothing, or the end of the flanks that it is pushed against.
+  double low = contact.x_min, high = contact.x_max;
+  const auto slope = [&](double x) { return leaning + curvature * x + felt(x).slope; };
+  double middle = low;
+  if (slope(high) < 0)
+    middle = high;
+  else if (slope(low) < 0)
+    while (high - low > 1e-6 * half_width) {
+      middle = 0.5 * (low + high);
+      if (middle == low || middle == high) break;
+      (slope(middle) < 0 ? low : high) = middle;
+    }
+  const Parabola p = felt(middle);
+  // A hollow that is as narrow as the flanks' own curvature holds no single contact; the law stops short of it.
+  constexpr double kLeastCurvature = 0.1;
+  const double whole = std::max(curvature + p.curvature, kLeastCurvature * curvature);
+  const double slope_there = leaning + curvature * middle + p.slope;
+  double touch = middle - slope_there / whole;
+  const double edge = -side * tip[near];
+  line.radius = 1 / whole;
+  if (std::isfinite(edge) && side * (touch - edge) < 0) touch = edge;
+  const double off = touch - middle;
+  line.gap = contact.gap + (leaning + 0.5 * curvature * middle) * middle + p.value +
+             (slope_there + 0.5 * whole * off) * off;
+  line.edge_slope = touch == edge ? side * (slope_there + whole * off) : -side * (touch - edge) * whole;
+  line.touch = touch;
+  return line;
+}
+
+}  // namespace
+
 MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
-                                double pair_force) {
+                                double pair_force, int period) {
   const GearPair& gears = model.kinematics;
   MeshPosition position;
   position.phase = phase;
   position.nodes_per_pair = 1;
-  const PairsInReach reach = pairs_in_reach(model, phase, corner_gap);
+  const PairsInReach reach = pairs_in_reach(model, phase, corner_gap, period);
   position.next_corner_gap = reach.next_corner_gap;
   position.lost_corner_gap = reach.lost_corner_gap;
   const int n = reach.size();
+  const double coefficient =
+      model.gear[0].half_plane().coefficient() + model.gear[1].half_plane().coefficient();
   position.first_strip = {0};
   position.gap.resize(n);
   for (int g = 0; g < 2; ++g) {
@@ -244,21 +348,23 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     PairStrips line;
     line.pair = reach.pair[j];
     line.contact = contact;
-    line.gap = VectorXd::Constant(1, contact.gap);
-    position.pairs.push_back(line);
-    position.first_strip.push_back(j + 1);
-    position.gap[j] = contact.gap;
     const double tip[2] = {gears.tip_distance(contact, 0), gears.tip_distance(contact, 1)};
     const int near = contact.corner ? contact.tip_gear : tip[0] < tip[1] ? 0 : 1;
-    const double radius = gears.relative_curvature_radius(contact);
-    const double edge_slope = contact.corner ? std::tan(contact.normal_angle) : -tip[near] / radius;
-    position.law.emplace_back(model.gear[0].half_plane(), model.gear[1].half_plane(), radius, depth,
-                              edge_slope);
+    const double half_width =
+        std::sqrt(2 * gears.relative_curvature_radius(contact) * pair_force * coefficient);
+    const LineGap flanks = line_gap(gears, contact, model.flanks(line.pair, period), tip, near, half_width);
+    line.gap = VectorXd::Constant(1, flanks.gap);
+    position.pairs.push_back(line);
+    position.first_strip.push_back(j + 1);
+    position.gap[j] = flanks.gap;
+    position.law.emplace_back(model.gear[0].half_plane(), model.gear[1].half_plane(), flanks.radius, depth,
+                              flanks.edge_slope);
     const HertzLine& law = position.law.back();
     // The driver's tip edge is where x is largest.
-    const double inward =
-        law.at_edge(pair_force) ? law.centroid(pair_force) - (contact.corner ? 0 : tip[near]) : 0;
-    const FlankGap middle = gears.gap_at(contact, near == 0 ? -inward : inward);
+    const double edge = contact.corner ? 0 : near == 0 ? tip[0] : -tip[1];
+    const FlankGap middle =
+        gears.gap_at(contact, law.at_edge(pair_force) ? edge + (near == 0 ? -1 : 1) * law.centroid(pair_force)
+                                                      : flanks.touch);
     for (int g = 0; g < 2; ++g) {
       position.strip_lever[g][j] = contact.lever[g];
       position.table_weights[g].row(j) = model.gear[g].table().weights(middle.roll[g]);
@@ -307,6 +413,21 @@ MatrixXd body_compliance(const MeshPosition& position, int g, const std::vector<
   for (const PairStrips& strips : position.pairs) pair.push_back(strips.pair);
   return (position.law.empty() ? between_nodes<kWindowNodes> : between_nodes<1>)(position.table_weights[g],
                                                                                  pair, g, tables);
+}
+
+std::vector<MatrixXd> compliance_tables(const ElasticGear& gear, double depth) {
+  std::vector<MatrixXd> tables;
+  for (int offset = -gear.body().offsets; offset <= gear.body().offsets; ++offset)
+    tables.push_back(gear.compliance(offset, depth));
+  return tables;
+}
+
+MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
+                            const std::array<std::vector<MatrixXd>, 2>& tables, double depth) {
+  MatrixXd a = local_compliance(model, position, depth);
+  position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
+                         a);
+  return a;
 }
 
 Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& approach, double load,

@@ -53,9 +53,15 @@ struct GearMeshModel {
   GearPair kinematics;
   std::array<ElasticGear, 2> gear;
   CornerRule corner;
+  std::array<FlankDeviation, 2> deviation;
 
   // Tooth of gear g that works in pair `pair`: pairs count in the sense of motion, teeth counter-clockwise.
   static int tooth(int g, int pair) { return g == 0 ? pair : -pair; }
+  // Flanks of a pair `period` mesh periods after tooth 0 of both gears met at the pitch point: the reference pair is then that
+  // of the teeth `period` places behind.
+  PairDeviation flanks(int pair = 0, int period = 0) const {
+    return {{&deviation[0], &deviation[1]}, {tooth(0, pair - period), tooth(1, pair - period)}};
+  }
 };
 
 // Which pairs may touch at one phase, in the order of their numbers.
@@ -70,8 +76,13 @@ struct PairsInReach {
   int size() const { return static_cast<int>(pair.size()); }
 };
 
-// corner_gap: m, tip edges with a larger gap than this are left out.
-PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap);
+// corner_gap: m, tip edges with a larger gap than this are left out; where flanks deviate it is the least gap of the two
+// flanks that counts, wherever near the edge it is.
+PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap, int period = 0);
+
+// m: how far the driver turns ahead, along the line of action, until the first of its unloaded flanks touches: the least of
+// all pairs' gaps, each over its driving lever. 0 for flanks that do not deviate. Exact to 1e-13 m.
+double unloaded_transmission_error(const GearMeshModel& model, double phase, int period = 0);
 
 // All that contact needs at one phase; strips and nodes of all pairs in one row, pair after pair. With one contact line
 // per pair a line stands for a pair's only strip and only node.
@@ -105,13 +116,16 @@ struct MeshPosition {
   bool reaches_window_end(const Eigen::Ref<const Eigen::VectorXd>& p) const;
 };
 
-MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range);
+// phase: within a mesh period, 0 to 1; period: which one, for teeth that differ.
+MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range,
+                           int period = 0);
 
 // The same with one contact line per pair. depth: m, of the Hertz laws. The tables are read at the middle of the
 // pressure that pair_force (N) makes, which moves inwards from the touching point where contact ends at a tip edge; held
-// there, whatever force the pair carries.
+// there, whatever force the pair carries. So is the parabola that the law takes in place of flanks that deviate: the one
+// that a contact under pair_force feels.
 MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
-                                double pair_force);
+                                double pair_force, int period = 0);
 
 // The pair_force of statics and dynamics under a mean `load` (N): where a contact comes to a tip edge, two pairs share it.
 inline double shared_force(double load) {
@@ -128,6 +142,13 @@ Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition&
 // (node, node) m N-1: tables[offset + max] (flank, flank) of gear g between all nodes.
 Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
                                 const std::vector<Eigen::MatrixXd>& tables);
+
+// m N-1: ElasticGear::compliance for every stored tooth offset, from the most negative on, as body_compliance takes them.
+std::vector<Eigen::MatrixXd> compliance_tables(const ElasticGear& gear, double depth);
+
+// (strip, strip) m N-1: half-planes and bodies, `tables` of both gears relative to `depth`; not of lines.
+Eigen::MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
+                                   const std::array<std::vector<Eigen::MatrixXd>, 2>& tables, double depth);
 
 // Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
 // approach . p = load (Eq. 18-20).

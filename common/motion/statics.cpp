@@ -17,13 +17,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::vector<MatrixXd> compliance_tables(const ElasticGear& gear, double depth) {
-  std::vector<MatrixXd> tables;
-  for (int offset = -gear.body().offsets; offset <= gear.body().offsets; ++offset)
-    tables.push_back(gear.compliance(offset, depth));
-  return tables;
-}
-
 struct Loaded {
   int pair;
   double force;
@@ -55,9 +48,7 @@ StripsAnswer solve_strips(const GearMeshModel& model, const ContactRange& range,
                           ComplementaritySolver& solver) {
   StripsAnswer s;
   s.position = make_position(model, phase, range);
-  MatrixXd& a = s.compliance = local_compliance(model, s.position, kStripsDepth);
-  s.position.add_to_strips(
-      body_compliance(s.position, 0, tables[0]) + body_compliance(s.position, 1, tables[1]), a);
+  const MatrixXd& a = s.compliance = contact_compliance(model, s.position, tables, kStripsDepth);
   // A contact that happens to end on a sound part of a broken table would look right.
   const double least =
       a.allFinite() ? a.ldlt().vectorD().minCoeff() : std::numeric_limits<double>::quiet_NaN();
@@ -133,7 +124,7 @@ ContactRange static_range(const GearMeshModel& model, int strips, double load, d
                           double widening) {
   return contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), strips,
                        load / model.kinematics.contact_ratio(), 1.1 * load * window * window * widening,
-                       (1e-6 + 8e-9 * load) * widening);
+                       (1e-6 + 8e-9 * load) * widening, model.flanks());
 }
 
 // One whole period; where and how contact wants more than the range holds, if it does.
@@ -163,7 +154,8 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
                   " micrometres closes a tip edge's gap of ", answer.next_corner_gap * 1e6, " micrometres");
     result.mesh_phase[i] = phase;
     result.transmission_error[i] = e.x;
-    result.stiffness_secant[i] = load / e.x;
+    result.unloaded_error[i] = unloaded_transmission_error(model, phase);
+    result.stiffness_secant[i] = load / (e.x - result.unloaded_error[i]);
     result.stiffness_tangent[i] = e.stiffness;
     result.torque_residual = std::max(result.torque_residual, e.residual);
     result.least_gap = std::min(result.least_gap, e.certificate.least_gap);
@@ -207,8 +199,8 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   result.contact = slice.contact;
   result.torque = torque;
   result.contact_ratio = model.kinematics.contact_ratio();
-  for (VectorXd* v :
-       {&result.mesh_phase, &result.transmission_error, &result.stiffness_secant, &result.stiffness_tangent})
+  for (VectorXd* v : {&result.mesh_phase, &result.transmission_error, &result.unloaded_error,
+                      &result.stiffness_secant, &result.stiffness_tangent})
     v->resize(positions);
 
   double widening = 1;

@@ -106,9 +106,9 @@ class Sweeper {
   }
 
   ContactRange range(int level) const {
-    ContactRange range =
-        contact_range(model_.kinematics, model_.gear[0].half_plane(), model_.gear[1].half_plane(), strips_,
-                      load_ / model_.kinematics.contact_ratio(), largest_force(level), corner_gap(level));
+    ContactRange range = contact_range(
+        model_.kinematics, model_.gear[0].half_plane(), model_.gear[1].half_plane(), strips_,
+        load_ / model_.kinematics.contact_ratio(), largest_force(level), corner_gap(level), model_.flanks());
     if (level > 0) {
       const double wider = range.half_window / lowest_.half_window;
       range.strips = padded(static_cast<int>(std::ceil(wider * lowest_.strips)));

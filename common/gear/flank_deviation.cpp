@@ -1,0 +1,155 @@
+#include "gear/flank_deviation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace whine {
+
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::string degrees(double roll) {
+  return text(roll / kDegree, " deg");
+}
+
+// rad: where a relief starts. end: "tip" or "root"; `towards`: its end on the flank.
+double start_of(const ToothGeometry& gear, const Relief& relief, const std::string& end, double towards) {
+  const double rb = gear.base_radius(), form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
+  const std::string from = text(degrees(form), " (radius ", rb * std::hypot(1, form) * 1e3, " mm) to ",
+                                degrees(tip), " (radius ", gear.tip_radius() * 1e3, " mm)");
+  if (relief.start_radius > 0) {
+    const double foot = rb * std::hypot(1, form);
+    if (!(relief.start_radius >= foot && relief.start_radius <= gear.tip_radius()))
+      fail(Failure::input, end, "_relief_start_radius_mm = ", relief.start_radius * 1e3,
+           " does not lie on the involute, which goes from roll angle ", from, "; start the relief on it");
+    return gear.roll_angle_at_radius(relief.start_radius);
+  }
+  if (relief.length > 0) {
+    if (!(relief.length <= rb * (tip - form)))
+      fail(Failure::input, end, "_relief_length_mm = ", relief.length * 1e3,
+           " is longer than the involute, whose length of roll is ", rb * (tip - form) * 1e3,
+           " mm; shorten it");
+    return towards + (towards == tip ? -1 : 1) * relief.length / rb;
+  }
+  if (!(relief.start_roll >= form && relief.start_roll <= tip))
+    fail(Failure::input, end, "_relief_start_deg = ", relief.start_roll / kDegree,
+         " does not lie on the involute, which goes from roll angle ", from, "; start the relief on it");
+  return relief.start_roll;
+}
+
+}  // namespace
+
+MonotoneCubic::MonotoneCubic(const std::vector<std::array<double, 2>>& points) {
+  if (points.size() < 2) fail(Failure::input, "a table needs two points at least, given are ", points.size());
+  for (const auto& [x, y] : points) {
+    if (!x_.empty() && !(x > x_.back()))
+      fail(Failure::input, "points are not in order: ", x, " after ", x_.back(), "; sort them");
+    x_.push_back(x);
+    y_.push_back(y);
+  }
+  const std::size_t n = x_.size();
+  std::vector<double> h(n - 1), secant(n - 1);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    h[i] = x_[i + 1] - x_[i];
+    secant[i] = (y_[i + 1] - y_[i]) / h[i];
+  }
+  slope_.assign(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    if (!(secant[i - 1] * secant[i] > 0)) continue;
+    const double w = (h[i - 1] + 2 * h[i]) / (3 * (h[i - 1] + h[i]));
+    slope_[i] = secant[i - 1] * secant[i] / (w * secant[i] + (1 - w) * secant[i - 1]);
+  }
+  // Ends: the parabola through three points, held within what keeps the cubic monotone.
+  const auto end = [&](std::size_t first, std::size_t second) {
+    const double d = secant[first];
+    const double s = ((2 * h[first] + h[second]) * d - h[first] * secant[second]) / (h[first] + h[second]);
+    if (!(s * d > 0)) return 0.0;
+    return secant[second] * d < 0 && std::abs(s) > 3 * std::abs(d) ? 3 * d : s;
+  };
+  slope_[0] = n == 2 ? secant[0] : end(0, 1);
+  slope_[n - 1] = n == 2 ? secant[0] : end(n - 2, n - 3);
+}
+
+Vector2d MonotoneCubic::at(double x) const {
+  if (x_.empty()) return {0, 0};
+  if (x < x_.front()) return {y_.front(), 0};
+  if (x > x_.back()) return {y_.back(), 0};
+  const auto after = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
+  const std::size_t i = static_cast<std::size_t>(after - x_.begin()) - 1;
+  const double h = x_[i + 1] - x_[i], t = (x - x_[i]) / h, rise = y_[i + 1] - y_[i];
+  const double a = slope_[i] * h - rise, b = rise - slope_[i + 1] * h;
+  // y_i + rise t + t (1 - t) (a (1 - t) + b t)
+  return {y_[i] + t * (rise + (1 - t) * (a * (1 - t) + b * t)),
+          (rise + (1 - 2 * t) * (a * (1 - t) + b * t) + t * (1 - t) * (b - a)) / h};
+}
+
+FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModification& m)
+    : form_(gear.form_roll_angle()),
+      tip_(gear.tip_roll_angle()),
+      middle_(0.5 * (form_ + tip_)),
+      crowning_(m.crowning),
+      slope_(m.slope) {
+  if (m.tip.amount > 0)
+    parts_.push_back({start_of(gear, m.tip, "tip", tip_), tip_, m.tip.amount, m.tip.shape == "parabolic"});
+  if (m.root.amount > 0)
+    parts_.push_back(
+        {start_of(gear, m.root, "root", form_), form_, m.root.amount, m.root.shape == "parabolic"});
+  for (const Part& part : parts_)
+    if (part.start == part.end)
+      fail(Failure::input, part.end == tip_ ? "tip" : "root", "_relief_um = ", part.amount * 1e6,
+           " starts at the very end of the involute, ", degrees(part.end), "; start it before");
+  if (!m.points.empty()) {
+    constexpr double kRounding = 0.01 * kDegree;  // of tables that are printed
+    for (const auto& [roll, removed] : m.points)
+      if (roll < form_ - kRounding || roll > tip_ + kRounding)
+        fail(Failure::input, "points: the roll angle ", degrees(roll),
+             " lies beyond the involute, which goes from ", degrees(form_), " to ", degrees(tip_),
+             "; leave such points out");
+    points_ = MonotoneCubic(m.points);
+  }
+
+  none_ = parts_.empty() && crowning_ == 0 && slope_ == 0 &&
+          std::all_of(m.points.begin(), m.points.end(), [](const auto& point) { return point[1] == 0; });
+  if (none_) return;
+  std::vector<double> places{form_, tip_};
+  constexpr int kPlaces = 400;
+  for (int i = 1; i < kPlaces; ++i) places.push_back(form_ + (tip_ - form_) * i / kPlaces);
+  for (const auto& point : m.points) places.push_back(std::clamp(point[0], form_, tip_));
+  least_ = largest_ = at(form_, 0);
+  for (const double roll : places) {
+    const Vector2d here = value_and_slope(roll, 0);
+    const double radius = gear.base_radius() * std::hypot(1, roll);
+    if (!(here[0] < 0.5 * gear.thickness_at_radius(radius)))
+      fail(Failure::input, "the modification takes ", here[0] * 1e6, " micrometres off the flank at ",
+           degrees(roll), ", where half of the tooth is ", 0.5e6 * gear.thickness_at_radius(radius),
+           " micrometres thick; take off less");
+    least_ = std::min(least_, here[0]);
+    largest_ = std::max(largest_, here[0]);
+    steepest_ = std::max(steepest_, std::abs(here[1]) / (gear.base_radius() * roll));
+  }
+}
+
+Vector2d FlankDeviation::value_and_slope(double roll, int) const {
+  if (none_) return {0, 0};
+  const double on = std::clamp(roll, form_, tip_), span = tip_ - form_;
+  Vector2d sum = points_.at(on);
+  for (const Part& part : parts_) {
+    const double t = (on - part.start) / (part.end - part.start),
+                 rate = part.amount / (part.end - part.start);
+    if (t <= 0) continue;
+    sum += part.parabolic ? Vector2d(part.amount * t * t, 2 * rate * t) : Vector2d(part.amount * t, rate);
+  }
+  const double off = 2 * (on - middle_) / span;
+  sum +=
+      Vector2d(crowning_ * off * off + slope_ * (on - form_) / span, (4 * crowning_ * off + slope_) / span);
+  sum[0] += sum[1] * (roll - on);
+  return sum;
+}
+
+}  // namespace whine

@@ -1,0 +1,77 @@
+// What is taken off a driving flank, as a function of the roll angle and of the tooth: modifications that a designer
+// wants, and errors that a machine makes.
+//
+// A deviation is measured along the flank's normal, positive where material is missing, so that it adds to the gap of two
+// flanks. It stays on its flank: neither the mesh nor the body of a gear knows of it. Neglected against the exact offset
+// curve: 1 - cos of the angle between the flank's normal and that of the contact (2e-4 of the deviation at the end of a
+// window of strips), and the turn of the normal by the deviation's own slope (3 mrad for 10 micrometres over 3 mm).
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "gear/involute.h"
+
+namespace whine {
+
+// Cubic through points that rises and falls only where they do: continuous with its first derivative, slopes by the weighted
+// harmonic mean of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5 (1984) 300-304). Constant outside its points.
+class MonotoneCubic {
+ public:
+  MonotoneCubic() = default;  // 0 everywhere
+  // At least two points, x ascending; throws Error(input) otherwise.
+  explicit MonotoneCubic(const std::vector<std::array<double, 2>>& points);
+  Eigen::Vector2d at(double x) const;  // value and slope
+
+ private:
+  std::vector<double> x_, y_, slope_;
+};
+
+class FlankDeviation {
+ public:
+  FlankDeviation() = default;  // none
+  // Throws Error(input), by the keys of a scene, for a relief that does not start on the flank, points beyond it, or more
+  // taken off than half the tooth's thickness.
+  FlankDeviation(const ToothGeometry& gear, const FlankModification& modification);
+
+  // True if nothing deviates on any tooth.
+  bool none() const { return none_; }
+  // m; roll: rad; tooth: its number, counter-clockwise, any whole number. Beyond the ends of the involute the value goes on
+  // with its slope.
+  double at(double roll, int tooth) const { return value_and_slope(roll, tooth)[0]; }
+  // m and m per rad.
+  Eigen::Vector2d value_and_slope(double roll, int tooth) const;
+
+  // Over the whole flank of every tooth. m; 1: slope against the arc length of the flank, unsigned.
+  double least() const { return least_; }
+  double largest() const { return largest_; }
+  double steepest() const { return steepest_; }
+
+ private:
+  struct Part {  // grows from 0 at `start` to `amount` at `end`
+    double start, end, amount;
+    bool parabolic;
+  };
+  std::vector<Part> parts_;
+  double form_ = 0, tip_ = 1, middle_ = 0, crowning_ = 0, slope_ = 0;  // rad, m
+  MonotoneCubic points_;
+  bool none_ = true;
+  double least_ = 0, largest_ = 0, steepest_ = 0;
+};
+
+// The two flanks of one pair of teeth. Default: none.
+struct PairDeviation {
+  std::array<const FlankDeviation*, 2> gear{};  // driver, driven gear; nullptr: none
+  std::array<int, 2> tooth{};
+
+  bool none() const { return (!gear[0] || gear[0]->none()) && (!gear[1] || gear[1]->none()); }
+  // m, of both flanks at their roll angles (rad).
+  double at(const std::array<double, 2>& roll) const {
+    double sum = 0;
+    for (int g = 0; g < 2; ++g)
+      if (gear[g] && !gear[g]->none()) sum += gear[g]->at(roll[g], tooth[g]);
+    return sum;
+  }
+};
+
+}  // namespace whine
