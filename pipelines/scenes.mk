@@ -34,6 +34,7 @@ scenes := $(sort \
   $(if $(filter mesh reduce static impact calibrate sweep lumped jump-map sensitivity out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
   $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scenes))) \
+  $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter bench work-precision,$(goals)),$(paper_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/%,$(path_goals)),$(word 2,$(subst /, ,$g))))

@@ -77,7 +77,7 @@ void tell_motion(const whine::SweepArtifact& result) {
       whine::tell("gear-sweep: warning: at ", result.mesh_frequency[i],
                   " Hz the motion is not periodic after ", result.periods[i],
                   " mesh periods; the state still changes by ", result.residual[i], " per period");
-    else if (result.period_multiple[i] > 1)
+    else if (result.period_multiple[i] > result.hunting_periods)
       whine::tell("gear-sweep: at ", result.mesh_frequency[i],
                   " Hz the motion is subharmonic: it repeats after ", result.period_multiple[i],
                   " mesh periods");

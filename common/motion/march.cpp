@@ -124,6 +124,18 @@ void RollingDynamics::pack_lines(Position& position) {
   }
 }
 
+void RollingDynamics::pack_gap(const Position& position) {
+  const MeshPosition& mesh = position.mesh;
+  if (!lines()) {
+    std::copy(mesh.gap.begin(), mesh.gap.end(),
+              stream_.begin() + static_cast<std::ptrdiff_t>(position.frame.gap));
+    return;
+  }
+  const LineRecord record{padded(static_cast<int>(coordinates_.size())), all_fields()};
+  for (size_t j = 0; j < mesh.pairs.size(); ++j)
+    stream_[position.frame.line + j * record.size() + LineRecord::kGap] = mesh.gap[j];
+}
+
 // A window's basis in lanes: what a pair's shape rows move its nodes by, and what its nodes' forces are in them.
 struct RollingDynamics::ShapeLanes {
   double column[kShapeRows][kPairNodes] = {}, row[kPairNodes][kShapeRows] = {};
@@ -264,6 +276,7 @@ void RollingDynamics::advance_fields(double* fields) const {
 
 void RollingDynamics::advance_tooth(State& state) const {
   for (VectorXd* y : {&state.z, &state.v, &state.force}) turn_doublets(y->data());
+  state.period = (state.period + 1) % hunting_;
   for (int g = 0; g < 2; ++g)
     for (MatrixXd* field : {&state.lag[g], &state.load[g]}) {
       for (int j = static_cast<int>(field->cols()) - 1; j > 0; --j) field->col(j) = field->col(j - 1);
@@ -692,6 +705,7 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
   const Lag lag_step = lag_;
   ModalLoad on_modes;
 
+  set_gap(positions_[0], state.period);
   std::array<Instant, 2>& instants = ledger_work_.instants;
   ledger_work_.balance = 0;
   if (ledger) fill(instants[0], nullptr, positions_[0], state.p.data(), state.d.data());
@@ -703,8 +717,10 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       for (double* x : {lag_at, load_at}) advance_fields(x);
       contact.rename();
       if (ledger) rename(instants[(i - 1) % 2]);
+      state.period = (state.period + 1) % hunting_;
     }
     sample_ = sample;
+    set_gap(positions_[sample * stride_], state.period);
     const Position& position = positions_[sample * stride_];
     const int present = position.frame.present;
 

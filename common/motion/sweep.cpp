@@ -30,6 +30,20 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   return steps;
 }
 
+// All motions are kept until the sweep is written.
+void require_memory(int hunting, int speeds, const SweepSlice& slice, int pairs) {
+  constexpr double kMostMemory = 4e9;  // bytes
+  double samples = 0;
+  for (int i = 0; i < speeds; ++i)
+    samples +=
+        slice.time.steps_per_period + steps_at(slice.time, slice.frequency_from + i * slice.frequency_step);
+  const double memory = 8.0 * samples * hunting * (2 + pairs);
+  if (hunting > 1 && memory > kMostMemory)
+    fail(Failure::input, "teeth that differ meet again after ", hunting, " mesh periods; ", speeds,
+         " speeds of that length need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period and min_sample_rate_kHz");
+}
+
 class Sweeper {
  public:
   Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
@@ -37,7 +51,12 @@ class Sweeper {
       : model_(model), dynamics_(model, parameters), slice_(slice), strips_(statics.contact.strips) {
     load_ = statics.torque / model.kinematics.gear(0).base_radius();
     largest_force_ = 2.5 * load_;
-    corner_gap_ = 2.5 * statics.transmission_error.maxCoeff();
+    // Beside what load adds: teeth that differ are near or far as they are.
+    const Eigen::VectorXd& without_load = statics.unloaded_error;
+    corner_gap_ = statics.hunting_periods == 1
+                      ? 2.5 * statics.transmission_error.maxCoeff()
+                      : 2.5 * (statics.transmission_error - without_load).maxCoeff() +
+                            std::max(0.0, without_load.maxCoeff());
     finest_ = steps_at(slice.time, slice.frequency_from);
     set_range();
     state_ = dynamics_.rest();
@@ -49,7 +68,10 @@ class Sweeper {
     constexpr int kPhases = 32;
     const int positions = std::min(kPhases, finest_);
     double sum = 0;
-    for (int i = 0; i < positions; ++i) sum += dynamics_.frozen_frequency(i * (finest_ / positions));
+    // Of teeth that differ other ones at each phase.
+    for (int i = 0; i < positions; ++i)
+      sum +=
+          dynamics_.frozen_frequency(i * (finest_ / positions), i * dynamics_.hunting_periods() / positions);
     return sum / positions;
   }
   RollingDynamics::State& state() { return state_; }
@@ -204,6 +226,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   result.driver_bearing_damper = sweeper.dynamics().bearing_damper(0);
   result.driven_bearing_damper = sweeper.dynamics().bearing_damper(1);
   result.natural_frequency = sweeper.natural_frequency();
+  result.hunting_periods = sweeper.dynamics().hunting_periods();
+  require_memory(result.hunting_periods, speeds, slice, 2 * sweeper.dynamics().reach() + 1);
   result.direction = direction;
   result.mesh_frequency.resize(speeds);
   result.periods.resize(speeds);
