@@ -242,7 +242,8 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
     if (attempt == kWidenings)
       fail(Failure::numerical, "at ", torque, " N m contact leaves the flanks: window ",
            range.half_window * 1e3, " mm either side, tip edges up to ", range.corner_gap * 1e6,
-           " micrometres away, and still ", beyond, "; lower the torque");
+           " micrometres away, and still ", beyond, "; lower the torque",
+           result.hunting_periods > 1 ? " or the errors of the teeth" : "");
     widening *= kWidening;
   }
   result.mean_stiffness = result.stiffness_secant.mean();

@@ -789,6 +789,7 @@ Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
                           [&](Eigen::Index k) { return r.dte_order(peak, k - 1); })};
   figure.numbers = {{"periods", static_cast<double>(periods)}, {"last_order", kLastOrder}};
   figure.words = {{"speed", fixed(r.mesh_frequency[peak], 0) + " Hz"}};
+  figure.height = 1300;
   return figure;
 }
 

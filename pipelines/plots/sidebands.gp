@@ -12,11 +12,14 @@ set key off
 
 set xlabel "Mesh periods {/:Bold (a)}"
 set ylabel "STE (µm)"
+set ytics 10
 set xrange [0:periods]
 plot tsv index "[transmission_error]" using 1:2 with lines lw 1.4 lc rgb "#1f4e9c"
 
 set logscale y
 set format y "10^{%L}"
+set ytics 100
+set mytics 1
 set yrange [1e-5:*]
 set xrange [0:last_order]
 set xtics 0.5
