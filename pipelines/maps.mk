@@ -9,6 +9,9 @@
 # Lumped models are artifacts of the same schema, by their name instead of a corner rule: out/S/T150/jump_map_secant.h5,
 # jump_map_secant-contact.h5 (damper in contact only). They have a figure of their own, jump-map-lumped, beside the elastic pair.
 
+#   make harris-map                  out/S/harris_map.h5: transmission error at rest against torque and tip relief;
+#                                    HARRIS_DYNAMIC=yes: out/S/harris_dynamic.h5, with sweeps at every point of a coarse grid
+#
 # Torques in N m, corner rules as in a scene, damping ratios with two pairs in contact, steps of the speeds in Hz.
 JUMP_MAP_TORQUES ?= 20 50 100 150 200 300 450 600
 JUMP_MAP_CORNERS ?= false 1 true
@@ -27,6 +30,10 @@ SENSITIVITY_FACTOR ?= 5.5e-6
 SENSITIVITY_RATIO ?= 0.05
 SENSITIVITY_STEP ?= 50
 
+# Options of gear-harris. TORQUE is the design torque; without --torque and --relief-um the map goes to twice that and to what
+# teeth bend there. Of a grid of sweeps each point takes seconds.
+HARRIS_OPTIONS ?= $(if $(HARRIS_DYNAMIC),--torque 50:300:6 --relief-um 0:12:7)
+
 $(foreach v,JUMP_MAP SENSITIVITY,$(if $(filter-out coarse fine,$($v)),$(error $v=$($v): it is coarse or fine)))
 fineness = $(if $(filter fine,$($1)),_fine)
 
@@ -40,7 +47,9 @@ plan_branches := $(sensitivity_cases) --step $(SENSITIVITY_STEP)
 plan_branches_fine := $(sensitivity_cases) --step $(fine_step)
 
 # Options in files of their own, per scene, replaced if they change: so that other options redo what they made.
-plans := jump_map jump_map_fine branches branches_fine
+plan_harris_map := --design-torque $(TORQUE) --check 12 $(HARRIS_OPTIONS)
+plan_harris_dynamic := --design-torque $(TORQUE) $(HARRIS_OPTIONS) --dynamic
+plans := jump_map jump_map_fine branches branches_fine harris_map harris_dynamic
 $(plans:%=$(B)/plans/$(own_scene)/%): $(B)/plans/$(own_scene)/%: FORCE
 	+@mkdir -p $(@D); echo '$(plan_$*)' | $(call replace_if_changed,$@)
 
@@ -79,6 +88,19 @@ $(if $(SCENE_$(own_scene)_GEARS),\
 $(foreach s,$(filter $(own_scene) $(variant_scenes),$(scenes)),$(if $(SCENE_$s_GEARS),\
   $(eval $(call branches_rules,$s,$(TORQUE),$(branches_plan)))))
 
+harris_inputs = out/$1/params/static.toml $(pair_bodies) $(call id,gear-harris)
+harris_options = --static-params out/$1/params/static.toml $(pair_options)
+
+define harris_rules # scene
+out/$1/harris_map.h5: $(harris_inputs) $(B)/plans/$1/harris_map | $(B)/bin/gear-harris
+	$$(call run,harris) $(harris_options) $(plan_harris_map) --output $$@
+
+out/$1/harris_dynamic.h5: $(harris_inputs) out/$1/params/sweep.toml $(reference_static) $(B)/plans/$1/harris_dynamic | $(B)/bin/gear-harris
+	$$(call run,harris) $(harris_options) $(plan_harris_dynamic) --params out/$1/params/sweep.toml \
+	  --reference-static $(reference_static) --output $$@
+endef
+$(if $(SCENE_$(own_scene)_GEARS),$(eval $(call harris_rules,$(own_scene))))
+
 map_folder := $(if $(SCENE),out/$(own_scene)/report,out/figures)
 map_figure := $(map_folder)/jump-map$(subst _,-,$(call fineness,JUMP_MAP))
 lumped_map_figure := $(map_folder)/jump-map-lumped$(subst _,-,$(call fineness,JUMP_MAP))
@@ -86,6 +108,8 @@ sensitivity_figure := $(map_folder)/sensitivity$(subst _,-,$(call fineness,SENSI
 maps_of = $(foreach c,$1,$(foreach t,$(map_torques),out/$(own_scene)/T$t/$(subst jump_map,jump_map_$c,$(map_plan)).h5))
 map_artifacts := $(call maps_of,$(JUMP_MAP_CORNERS))
 lumped_map_artifacts := $(call maps_of,$(JUMP_MAP_MODELS))
+harris_map := harris_$(if $(HARRIS_DYNAMIC),dynamic,map)
+harris_figure := $(map_folder)/$(subst _,-,$(harris_map))
 sensitivity_artifacts := $(foreach s,$(own_scene) $(variant_scenes),out/$s/T$(TORQUE)/$(branches_plan).h5)
 
 define map_figure_rules # figure, path without extension, artifacts
@@ -95,8 +119,10 @@ $2.tsv $2.svg $2.png &: $3 pipelines/plots/$1.gp $(call id,gear-plot) | $(B)/bin
 endef
 $(eval $(call map_figure_rules,jump-map,$(map_figure),$(map_artifacts)))
 $(if $(JUMP_MAP_MODELS),$(eval $(call map_figure_rules,jump-map-lumped,$(lumped_map_figure),$(map_artifacts) $(lumped_map_artifacts))))
+$(eval $(call map_figure_rules,harris-map,$(harris_figure),out/$(own_scene)/$(harris_map).h5))
 $(eval $(call map_figure_rules,sensitivity,$(sensitivity_figure),$(sensitivity_artifacts)))
 
-.PHONY: jump-map sensitivity
+.PHONY: jump-map sensitivity harris-map
+harris-map: $(foreach e,tsv svg png,$(harris_figure).$e) ## peak-to-peak transmission error against torque and tip relief, the optimum for TORQUE, the Harris cusp; HARRIS_DYNAMIC=yes
 jump-map: $(foreach f,$(map_figure) $(if $(JUMP_MAP_MODELS),$(lumped_map_figure)),$(foreach e,tsv svg png,$f.$e)) ## two branches, contact loss, tooth loads against torque, damping, corner rule, lumped model; JUMP_MAP=fine
 sensitivity: $(foreach e,tsv svg png,$(sensitivity_figure).$e) ## what each input that the paper does not state changes; SENSITIVITY=fine

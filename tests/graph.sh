@@ -121,6 +121,8 @@ change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; make_ -n $a
 expect "inertia redoes the sweeps" "gear-impact*3 gear-lumped*14 gear-plot*12 gear-spectra*22 gear-sweep*10"; restore
 change 's/^corner_contact = true/corner_contact = false/'; make_ -n $all
 expect "the corner rule redoes statics and sweeps, no body" "gear-impact*3 gear-lumped*14 gear-plot*16 gear-spectra*22 gear-static*5 gear-sweep*10"; restore
+change 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n[gear.wheel]/'; make_ -n $all
+expect "a relief redoes statics and sweeps, no body" "gear-impact*3 gear-lumped*14 gear-plot*16 gear-spectra*22 gear-static*5 gear-sweep*10"; restore
 change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n $all
 expect "speeds redo the sweeps" "gear-lumped*14 gear-plot*11 gear-spectra*22 gear-sweep*10"; restore
 change 's/^like = "pinion"/&\nprofile_shift = 0.1/; s/^centre_distance_mm = .*/centre_distance_mm = 150.4/'; make_ -n mesh

@@ -773,7 +773,7 @@ TEST_CASE("an artifact of another schema or version is refused with what it is a
   });
   const Caught old = caught([] { read_static("out/old.h5"); });
   CHECK(old.kind == kInput);
-  CHECK(old.says("is schema version 0, this program reads 3"));
+  CHECK(old.says("is schema version 0, this program reads 4"));
   CHECK(old.says("make out/old.h5"));
 
   write_static_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });

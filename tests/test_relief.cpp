@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "contact/load_path.h"
 #include "gear/flank_deviation.h"
+#include "motion/harris_map.h"
 #include "paper_pair.h"
 #include "relative.h"
 
@@ -322,4 +324,121 @@ TEST_CASE("contact lines of relieved pairs against fine strips: 0.15 % of the me
       CHECK(off.cwiseAbs().maxCoeff() < 1.5e-3 * strips.transmission_error.mean());
     }
   }
+}
+
+TEST_CASE("a contact followed through all loads has the forces and approaches of one load at a time") {
+  const GearMeshModel model(paper_body(), paper_body(), paper_mesh(tip_relief(6, 21), {}));
+  const double rb = model.kinematics.gear(0).base_radius();
+  const std::array tables{compliance_tables(model.gear[0], 1e-3), compliance_tables(model.gear[1], 1e-3)};
+  const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(17, 10, 300) / rb;
+  const ContactRange range =
+      contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), 8, load[0],
+                    1.1 * load[16], 40e-6, model.flanks());
+  ComplementaritySolver solver;
+  LoadPath path;
+  Eigen::VectorXd x(load.size());
+  for (const double phase : {0.0, 0.12, 0.3, 0.5, 0.88}) {
+    const MeshPosition position = make_position(model, phase, range);
+    const Eigen::MatrixXd a = contact_compliance(model, position, tables, 1e-3);
+    const Eigen::VectorXd approach = position.strip_lever[0] / rb;
+    path.follow(a, position.gap, approach, load, x);
+    CHECK(path.pivots() < 2 * position.strips());
+    for (int i = 0; i < load.size(); ++i) {
+      ActiveSet active;
+      const Equilibrium e = equilibrium(a, position.gap, approach, load[i], 0, active, solver);
+      CHECK(x[i] == relative(e.x, 1e-11));
+      if (i + 1 == load.size()) CHECK((path.force() - e.p).cwiseAbs().maxCoeff() < 1e-8 * load[i]);
+    }
+  }
+  // A minus sign on the diagonal: no solution under any load.
+  Eigen::MatrixXd bad = -Eigen::MatrixXd::Identity(2, 2);
+  CHECK_THROWS_AS(path.follow(bad, Eigen::VectorXd::Zero(2), Eigen::VectorXd::Ones(2), load, x), Error);
+}
+
+TEST_CASE(
+    "Harris map: within 0.5 % of finer strips and positions; relief that makes up for the deflection leaves "
+    "a third; the cusp at the design torque, from the pair's "
+    "own deflection") {
+  StaticSlice slice = paper_statics(128);
+  HarrisPlan plan;
+  plan.torque = {20, 60, 90, 150, 225, 300};
+  plan.design_torque = 150;
+  plan.length = {single_pair_relief_length(paper_body(), paper_body(), slice.mesh)};
+
+  // What a relief has to make up for: when the driver's tooth is at its highest point of single-pair contact and carries all,
+  // the next pair is where it comes into contact, unloaded, and overlaps by this.
+  const GearMeshModel model(paper_body(), paper_body(), slice.mesh);
+  const GearPair& pair = model.kinematics;
+  const double rb = pair.gear(0).base_radius(), load = 150 / rb;
+  const std::array tables{compliance_tables(model.gear[0], 1e-3), compliance_tables(model.gear[1], 1e-3)};
+  const double phase = (pair.path_start() + pair.base_pitch()) / pair.base_pitch();
+  MeshPosition position = make_position(
+      model, phase,
+      contact_range(pair, model.gear[0].half_plane(), model.gear[1].half_plane(), 8, load, 2 * load, 15e-6));
+  const Eigen::MatrixXd a = contact_compliance(model, position, tables, 1e-3);
+  const Eigen::VectorXd approach = position.strip_lever[0] / rb;
+  Eigen::VectorXd alone = position.gap;
+  for (size_t j = 0; j < position.pairs.size(); ++j)
+    if (position.pairs[j].pair != 0)
+      alone.segment(position.first_strip[j], position.pairs[j].size()).array() += 1e-3;
+  ComplementaritySolver solver;
+  ActiveSet active;
+  const Equilibrium e = equilibrium(a, alone, approach, load, 0, active, solver);
+  const Eigen::VectorXd overlap = e.x * approach - a * e.p - position.gap;
+  double deflection = 0;
+  for (size_t j = 0; j < position.pairs.size(); ++j)
+    if (position.pairs[j].pair == -1)
+      deflection = overlap.segment(position.first_strip[j], position.pairs[j].size()).maxCoeff();
+  MESSAGE("overlap of the next pair ", deflection * 1e6, " um");
+  CHECK(deflection > 2e-6);
+
+  plan.relief = {0, 0.5 * deflection, deflection, 1.5 * deflection};
+  HarrisMapArtifact map = harris_map(paper_body(), paper_body(), slice, plan, no_report);
+  const auto at = [&](int t, int r) { return map.peak_to_peak[0](t, r); };
+  MESSAGE("at 150 N m ", at(3, 0) * 1e6, " um without relief, ", at(3, 2) * 1e6, " with; optimum ",
+          map.optimum_relief[0] * 1e6, " um leave ", map.optimum_peak_to_peak[0] * 1e6);
+  CHECK(at(3, 2) < at(3, 0) / 3);
+  for (int t = 0; t < 3; ++t) CHECK(at(t, 2) > 1.2 * at(t + 1, 2));
+  for (int t = 3; t < 5; ++t) CHECK(at(t + 1, 2) > 1.2 * at(t, 2));
+  for (int t = 0; t < 3; ++t) CHECK(map.cusp(0, t) > 1.2 * map.cusp(0, t + 1));
+  for (int t = 3; t < 5; ++t) CHECK(map.cusp(0, t + 1) > 1.2 * map.cusp(0, t));
+  CHECK(map.cusp(0, 3) == relative(map.optimum_peak_to_peak[0], 2e-3));
+  CHECK(map.optimum_peak_to_peak[0] <= map.peak_to_peak[0].row(3).minCoeff());
+  CHECK((map.unrelieved - map.peak_to_peak[0].col(0)).norm() == 0);
+
+  check(map, paper_body(), paper_body(), plan.positions, 6);
+  CHECK(map.checked == 6);
+  MESSAGE("off by ", map.largest_error, " of finer solutions");
+  CHECK(map.largest_error > 0);
+  CHECK(map.largest_error < 5e-3);
+}
+
+TEST_CASE("Harris map refuses plans out of order, reliefs that do not fit, a design torque outside") {
+  HarrisPlan good;
+  good.torque = {50, 100};
+  good.relief = {0, 1e-6};
+  good.length = {2e-3};
+  good.design_torque = 60;
+  good.positions = 8;
+  const auto refused = [&](const auto& change) -> std::string {
+    HarrisPlan plan = good;
+    change(plan);
+    try {
+      harris_map(paper_body(), paper_body(), paper_statics(8), plan, no_report);
+    } catch (const Error& error) {
+      CHECK(error.kind() == Failure::input);
+      return error.what();
+    }
+    return "accepted";
+  };
+  CHECK(refused([](HarrisPlan&) {}) == "accepted");
+  CHECK(refused([](HarrisPlan& p) {
+          p.torque = {100, 50};
+        }).find("torque 50 N m after 100") != std::string::npos);
+  CHECK(refused([](HarrisPlan& p) { p.relief = {-1e-6}; }).find("must be at least 0") != std::string::npos);
+  CHECK(refused([](HarrisPlan& p) { p.length = {}; }).find("no length") != std::string::npos);
+  CHECK(refused([](HarrisPlan& p) { p.length = {50e-3}; }).find("longer than the involute") !=
+        std::string::npos);
+  CHECK(refused([](HarrisPlan& p) { p.design_torque = 200; }).find("design torque 200 N m lies outside") !=
+        std::string::npos);
 }

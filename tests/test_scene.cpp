@@ -362,6 +362,8 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
       {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false, false},
       {mesh_key("corner_contact = false"), false, true, false, false},
       {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false, false},
+      {section("[gear.pinion.modification]\ncrowning_um = 3\n"), false, true, false, false},
+      {section("[gear.pinion.modification]\ntip_relief_um = 0\n"), false, false, false, false},
       {section("[discretisation]\nstrips = 21\n"), false, true, false, false},
       {section("[discretisation]\npositions = 256\n"), false, true, false, false},
       {scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.02"), false, false, true, true},
@@ -473,6 +475,60 @@ TEST_CASE("slices read back bit by bit") {
   CHECK_THROWS_AS(read_impact_slice(file.path(static_slice(s), "wrong.toml")), Error);
   CHECK(body_hash(body_slice(s, "wheel")).size() == 16);
   CHECK(body_hash(body_slice(s, "wheel")) == sha256(body_slice(s, "wheel")).substr(0, 16));
+}
+
+TEST_CASE("modifications of flanks: units, taken over by like, own starts take the place of others") {
+  const SceneFile file;
+  const std::string relief =
+      "[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 20.9\nroot_relief_um = 4\n"
+      "root_relief_length_mm = 1.5\nroot_relief_shape = \"parabolic\"\nslope_um = -2\n"
+      "points = [[15, 0], [20.5, 1.25], [27, -3]]\n";
+  const Scene s =
+      file.read(kScene + relief + "[gear.wheel.modification]\ntip_relief_start_radius_mm = 76.5\n");
+  const FlankModification& pinion = s.gear("pinion").modification;
+  CHECK(pinion.tip.amount == 10e-6);
+  CHECK(pinion.tip.start_roll == 20.9 * std::numbers::pi / 180);
+  CHECK(pinion.tip.shape == "linear");
+  CHECK(pinion.root.amount == 4e-6);
+  CHECK(pinion.root.length == 1.5e-3);
+  CHECK(pinion.root.shape == "parabolic");
+  CHECK(pinion.slope == -2e-6);
+  REQUIRE(pinion.points.size() == 3);
+  CHECK(pinion.points[1] == std::array<double, 2>{20.5 * std::numbers::pi / 180, 1.25e-6});
+  FlankModification wheel = pinion;
+  wheel.tip.start_roll = 0;
+  wheel.tip.start_radius = 76.5 / 1000;
+  CHECK(s.gear("wheel").modification == wheel);
+  CHECK(s.mesh.modification[0] == pinion);
+  CHECK(s.mesh.modification[1] == wheel);
+  const StaticSlice slice = read_static_slice(file.path(static_slice(s), "static.toml"));
+  CHECK(slice.mesh.modification == s.mesh.modification);
+  CHECK(body_slice(s, "wheel") == body_slice(file.read(kScene), "wheel"));
+  CHECK(static_slice(file.read(kScene)).find("modification") == std::string::npos);
+}
+
+TEST_CASE("modifications of flanks are refused with key, value and limit") {
+  const SceneFile file;
+  const auto refusal = [&](const std::string& keys) {
+    return file.refusal(kScene + ("[gear.pinion.modification]\n" + keys + "\n"));
+  };
+  CHECK(contains(refusal("tip_relief_um = 10"), "lacks the start of tip_relief_um = 10"));
+  CHECK(contains(refusal("tip_relief_um = -1\ntip_relief_start_deg = 22"),
+                 "'tip_relief_um' in [gear.pinion.modification] = -1: must be at least 0 um"));
+  CHECK(contains(refusal("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_length_mm = 2"),
+                 "says the start of tip_relief 2 times"));
+  CHECK(contains(refusal("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_shape = \"cubic\""),
+                 "must be one of: linear, parabolic"));
+  CHECK(contains(refusal("points = [[20, 0], [19, 1]]"), "points must ascend in the roll angle"));
+  CHECK(contains(refusal("points = [[20, 0]]"), "two points at least"));
+  CHECK(contains(refusal("points = [[20, 0, 1], [21, 1]]"), "a point is [roll angle in degrees"));
+  CHECK(contains(refusal("points = [[20, 0], [21, 2000]]"), "must be from -1000 to 1000 um"));
+  CHECK(contains(refusal("points = 3"), "must be a list of points"));
+  CHECK(contains(refusal("crowning_mm = 3"), "did you mean 'crowning_um'?"));
+  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50\ncrowning_um = 3")),
+                 "it belongs into [gear.<name>.modification]"));
+  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50\nmodification = 3")),
+                 "write [gear.pinion.modification]"));
 }
 
 TEST_CASE("the key table holds every key once, with its meaning") {

@@ -57,18 +57,19 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   s.border = strip_borders(low, high, s.low_is_edge ? 1 - (centre - low) / (range.half_window - offset) : 0,
                            s.high_is_edge ? 1 - (high - centre) / (range.half_window + offset) : 0, n);
   s.gap.resize(n);
-  const bool deviates = !deviation.none(), differs = deviation.differs();
+  const bool differs = deviation.differs();
   for (int g = 0; differs && g < 2; ++g) s.gap_roll[g].resize(2 * n);
   const auto gap = [&](double x, int place) {
     const FlankGap exact = gears.gap_at(contact, x);
     for (int g = 0; differs && g < 2; ++g) s.gap_roll[g][place] = exact.roll[g];
-    return deviates ? exact.gap + deviation.at(exact.roll) : exact.gap;
+    return exact.gap;
   };
   for (int i = 0; i < n; ++i) {
     // Gauss's two points: the mean of a cubic.
     const double reach = 0.5 * s.width(i) / std::numbers::sqrt3;
     s.gap[i] = 0.5 * (gap(s.middle(i) - reach, 2 * i) + gap(s.middle(i) + reach, 2 * i + 1));
   }
+  if (!deviation.none()) s.gap += mean_deviation(gears, s, deviation);
 
   // Chebyshev points of the first kind and their barycentric weights.
   VectorXd node(kWindowNodes), weight(kWindowNodes);
@@ -96,6 +97,16 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
       s.interpolation.row(i) /= sum;
   }
   return s;
+}
+
+VectorXd mean_deviation(const GearPair& gears, const PairStrips& strips, const PairDeviation& deviation) {
+  VectorXd mean(strips.size());
+  for (int i = 0; i < strips.size(); ++i) {
+    const double reach = 0.5 * strips.width(i) / std::numbers::sqrt3;
+    mean[i] = 0.5 * (deviation.at(gears.gap_at(strips.contact, strips.middle(i) - reach).roll) +
+                     deviation.at(gears.gap_at(strips.contact, strips.middle(i) + reach).roll));
+  }
+  return mean;
 }
 
 MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface& driver,

@@ -23,9 +23,9 @@ namespace whine {
 // How far contact is looked for.
 struct ContactRange {
   double half_window = 0;  // m along the flank, either side of the nominal contact point
-  bool follows = false;   // either side of the place where unloaded flanks come nearest to each other instead
-  int strips = 0;         // in a window
-  double corner_gap = 0;  // m: tip edges with a larger gap than this are left out
+  int strips = 0;          // in a window
+  double corner_gap = 0;   // m: tip edges with a larger gap than this are left out
+  bool follows = false;  // either side of the place where unloaded flanks come nearest to each other instead
 };
 
 inline constexpr int kWindowNodes = 6;
@@ -62,6 +62,10 @@ ContactPatch contact_patch(const PairStrips& strips, const Eigen::Ref<const Eige
 // other about the contact point.
 PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact, const ContactRange& range,
                        const PairDeviation& deviation = {});
+
+// (strip) m: what the two flanks deviate by, mean over each strip as in PairStrips::gap.
+Eigen::VectorXd mean_deviation(const GearPair& gears, const PairStrips& strips,
+                               const PairDeviation& deviation);
 
 // (strip, strip) m N-1: both half-planes' surface displacement relative to `depth` of a strip for a unit force spread
 // over another, mean over the strip.

@@ -14,7 +14,8 @@ namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
 constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 4, kErrorBudgetVersion = 2,
-              kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1;
+              kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1,
+              kHarrisMapVersion = 1;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -1037,6 +1038,160 @@ JumpMapArtifact read_jump_map(const std::string& path) {
   for (int d = 0; d < 2; ++d)
     for (const CaseCurve& v : kCaseCurves)
       (a.*v.values)[d] = in.matrix(text("/", kDirections[d], "/", v.name), cases, a.mesh_frequency.size());
+  return a;
+}
+
+namespace {
+
+struct MapCube {
+  const char *name, *units, *meaning;
+  std::vector<MatrixRM> HarrisMapArtifact::*values;
+};
+const MapCube kPeakToPeak{"peak_to_peak", "m", "peak-to-peak static transmission error",
+                          &HarrisMapArtifact::peak_to_peak};
+const MapCube kDynamicCubes[] = {
+    {"dynamic/rms", "m",
+     "RMS of the oscillating part of the transmission error at the speed where it is largest, up or down",
+     &HarrisMapArtifact::dynamic_rms},
+    {"dynamic/worst_frequency", "Hz", "mesh frequency at which it is largest",
+     &HarrisMapArtifact::worst_frequency}};
+
+void put_cube(ArtifactWriter& out, const HarrisMapArtifact& a, const std::string& name,
+              const std::string& units, const std::string& meaning, const std::vector<MatrixRM>& values) {
+  want_rows(name.c_str(), static_cast<Eigen::Index>(values.size()), a.length.size());
+  std::vector<double> all;
+  for (const MatrixRM& slice : values) {
+    want_rows((name + " (torques)").c_str(), slice.rows(), a.torque.size());
+    want_rows((name + " (reliefs)").c_str(), slice.cols(), a.relief.size());
+    all.insert(all.end(), slice.data(), slice.data() + slice.size());
+  }
+  out.file().put("/" + name, all.data(),
+                 {static_cast<std::size_t>(a.length.size()), static_cast<std::size_t>(a.torque.size()),
+                  static_cast<std::size_t>(a.relief.size())},
+                 {units, meaning, "relief_length torque relief", ""});
+}
+
+std::vector<MatrixRM> take_cube(const ArtifactReader& in, const HarrisMapArtifact& a,
+                                const std::string& name) {
+  const Eigen::Index starts = a.length.size(), torques = a.torque.size(), reliefs = a.relief.size();
+  if (in.file().shape("/" + name) != h5::Shape{static_cast<std::size_t>(starts),
+                                               static_cast<std::size_t>(torques),
+                                               static_cast<std::size_t>(reliefs)})
+    in.file().refuse(
+        text("dataset /", name, " has another shape than ", starts, " x ", torques, " x ", reliefs));
+  const auto all = in.file().doubles("/" + name);
+  std::vector<MatrixRM> out;
+  for (Eigen::Index s = 0; s < starts; ++s)
+    out.push_back(Eigen::Map<const MatrixRM>(all.data() + s * torques * reliefs, torques, reliefs));
+  return out;
+}
+
+}  // namespace
+
+void write(const std::string& path, const HarrisMapArtifact& a, const Provenance& provenance) {
+  const bool moving = !a.dynamic_rms.empty();
+  want_rows("start_roll", a.start_roll.rows(), a.length.size());
+  want_rows("optimum_relief", a.optimum_relief.size(), a.length.size());
+  want_rows("optimum_peak_to_peak", a.optimum_peak_to_peak.size(), a.length.size());
+  want_rows("cusp", a.cusp.rows(), a.length.size());
+  want_rows("cusp (columns)", a.cusp.cols(), a.torque.size());
+  want_rows("unrelieved", a.unrelieved.size(), a.torque.size());
+  ArtifactWriter out(path, "harris_map", kHarrisMapVersion,
+                     text("Harris map: ", a.mesh.driver, " drives ", a.mesh.driven), provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
+  values.contact = a.contact;
+  values.time = a.time;
+  values.damping = a.damping;
+  put_pair(out, a);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("discretisation", values, Part::contact);
+  out.put("/parameters/relief/relieved", a.relieved, {"1", "gears whose tips are relieved", "", ""});
+  out.put("/parameters/relief/shape", a.shape, {"1", "how the relief grows with the roll angle", "", ""});
+  out.put("/parameters/operation/design_torque", a.design_torque,
+          {"N m", "torque on the driver for which the optimum is sought", "", ""});
+  out.put("/torque", a.torque, {"N m", "torque on the driver", "torque", ""});
+  out.put("/relief", a.relief,
+          {"m", "material taken off at the tip edge, normal to the flank", "relief", ""});
+  out.put("/relief_length", a.length,
+          {"m", "length of roll from where the relief starts to the tip edge", "relief_length",
+           "r_b (tip roll angle - start roll angle)"});
+  out.put(
+      "/start_roll_angle", a.start_roll,
+      {"rad", "roll angle at which the relief starts, on driver and driven gear", "relief_length gear", ""});
+  put_cube(out, a, kPeakToPeak.name, kPeakToPeak.units, kPeakToPeak.meaning, a.*kPeakToPeak.values);
+  for (int n = 0; n < 3; ++n)
+    put_cube(out, a, text("harmonic_", n + 1), "m",
+             text("amplitude of harmonic ", n + 1, " of the static transmission error"), a.harmonic[n]);
+  out.put("/optimum_relief", a.optimum_relief,
+          {"m", "relief of the least peak to peak at the design torque", "relief_length", ""});
+  out.put("/optimum_peak_to_peak", a.optimum_peak_to_peak,
+          {"m", "peak to peak of that relief at the design torque", "relief_length", ""});
+  out.put("/cusp", a.cusp, {"m", "peak to peak of that relief against torque", "relief_length torque", ""});
+  out.put("/unrelieved", a.unrelieved, {"m", "peak to peak without tip relief", "torque", ""});
+  out.put("/check/points", a.checked,
+          {"1", "points of the map solved again with finer strips and at more positions", "", ""});
+  out.put("/check/largest_error", a.largest_error,
+          {"1", "largest difference of the peak to peak from those, over it", "", ""});
+  if (moving) {
+    put_inertia(out, "driver", a.driver_inertia);
+    put_inertia(out, "driven", a.driven_inertia);
+    out.parameters("damping", values, Part::damping);
+    out.parameters("fidelity", values, Part::rung);
+    out.parameters("discretisation", values, Part::time);
+    for (const auto& [name, value] : {std::pair{"from", a.frequency_from}, std::pair{"to", a.frequency_to},
+                                      std::pair{"step", a.frequency_step}})
+      out.put(text("/parameters/operation/mesh_frequency_", name), value,
+              {"Hz", "speeds of the sweeps", "", ""});
+    for (const MapCube& cube : kDynamicCubes)
+      put_cube(out, a, cube.name, cube.units, cube.meaning, a.*cube.values);
+  }
+  out.publish();
+}
+
+HarrisMapArtifact read_harris_map(const std::string& path) {
+  const ArtifactReader in(path, "harris_map", kHarrisMapVersion);
+  HarrisMapArtifact a;
+  const bool moving = in.file().has("/dynamic/rms");
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("discretisation", values, Part::contact);
+  take_pair(in, a);
+  if (moving) {
+    a.driver_inertia = take_inertia(in, "driver");
+    a.driven_inertia = take_inertia(in, "driven");
+    in.parameters("damping", values, Part::damping);
+    in.parameters("fidelity", values, Part::rung);
+    in.parameters("discretisation", values, Part::time);
+    a.frequency_from = in.number("/parameters/operation/mesh_frequency_from");
+    a.frequency_to = in.number("/parameters/operation/mesh_frequency_to");
+    a.frequency_step = in.number("/parameters/operation/mesh_frequency_step");
+  }
+  a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
+  a.contact = values.contact;
+  a.time = values.time;
+  a.damping = values.damping;
+  a.relieved = in.word("/parameters/relief/relieved");
+  a.shape = in.word("/parameters/relief/shape");
+  a.design_torque = in.number("/parameters/operation/design_torque");
+  a.torque = in.vector("/torque");
+  a.relief = in.vector("/relief");
+  a.length = in.vector("/relief_length");
+  a.start_roll = in.matrix("/start_roll_angle", a.length.size(), 2);
+  a.peak_to_peak = take_cube(in, a, kPeakToPeak.name);
+  for (int n = 0; n < 3; ++n) a.harmonic[n] = take_cube(in, a, text("harmonic_", n + 1));
+  a.optimum_relief = in.vector("/optimum_relief", a.length.size());
+  a.optimum_peak_to_peak = in.vector("/optimum_peak_to_peak", a.length.size());
+  a.cusp = in.matrix("/cusp", a.length.size(), a.torque.size());
+  a.unrelieved = in.vector("/unrelieved", a.torque.size());
+  a.checked = in.whole("/check/points");
+  a.largest_error = in.number("/check/largest_error");
+  if (moving)
+    for (const MapCube& cube : kDynamicCubes) a.*cube.values = take_cube(in, a, cube.name);
   return a;
 }
 

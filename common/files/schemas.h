@@ -299,6 +299,37 @@ struct JumpMapArtifact {
   std::array<MatrixRM, 2> dte_rms, tooth_load_max, separation_fraction;
 };
 
+// harris_map.h5: transmission error of a pair at rest, or its motion at the worst speed, against torque and tip relief. What
+// else is taken off the flanks stands in `mesh`, whose tip reliefs are 0.
+struct HarrisMapArtifact {
+  GearDesign driver, driven;
+  Material driver_material, driven_material;
+  BodyDiscretisation driver_body, driven_body;
+  GearMeshSpec mesh;
+  Fidelity fidelity;  // of the map at rest the contact rung only, which is "strips"
+  ContactDiscretisation contact;
+  std::string relieved, shape;  // "driver", "driven" or "both" gears; "linear" or "parabolic"
+  Eigen::VectorXd torque;       // (torque) N m, ascending
+  Eigen::VectorXd relief;       // (relief) m, ascending
+  Eigen::VectorXd length;       // (start) m: length of roll from where the relief starts to the tip edge
+  MatrixRM start_roll;          // (start, gear) rad: the same as roll angles on driver and driven gear
+  double design_torque = 0;     // N m
+  std::vector<MatrixRM> peak_to_peak;             // [start] (torque, relief) m
+  std::array<std::vector<MatrixRM>, 3> harmonic;  // first three, amplitudes: [start] (torque, relief) m
+  // (start) m: least peak to peak at the design torque, and the relief that has it, between those of the map
+  Eigen::VectorXd optimum_relief, optimum_peak_to_peak;
+  MatrixRM cusp;               // (start, torque) m: peak to peak of that relief
+  Eigen::VectorXd unrelieved;  // (torque) m: peak to peak without tip relief
+  int checked = 0;             // points that were solved again with finer strips and at more positions
+  double largest_error = 0;    // 1: largest difference from those, over the peak to peak there
+  // On demand, empty otherwise: the larger of the sweeps up and down at the speed where it is largest.
+  std::vector<MatrixRM> dynamic_rms, worst_frequency;  // [start] (torque, relief) m, Hz
+  TimeDiscretisation time;                             // and what follows: of these motions
+  Damping damping;
+  double driver_inertia = 0, driven_inertia = 0;                    // kg m2
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // Hz
+};
+
 // What an artifact of a pair says of its two gears.
 template <class Artifact>
 void set_gears(Artifact& artifact, const BodyArtifact& driver, const BodyArtifact& driven) {
@@ -318,6 +349,7 @@ void write(const std::string& path, const ImpactArtifact&, const Provenance&);
 void write(const std::string& path, const SweepArtifact&, const Provenance&);
 void write(const std::string& path, const ResponseArtifact&, const Provenance&);
 void write(const std::string& path, const JumpMapArtifact&, const Provenance&);
+void write(const std::string& path, const HarrisMapArtifact&, const Provenance&);
 MeshArtifact read_mesh(const std::string& path);
 BodyArtifact read_body(const std::string& path);
 StaticArtifact read_static(const std::string& path);
@@ -326,6 +358,7 @@ ImpactArtifact read_impact(const std::string& path);
 SweepArtifact read_sweep(const std::string& path);
 ResponseArtifact read_response(const std::string& path);
 JumpMapArtifact read_jump_map(const std::string& path);
+HarrisMapArtifact read_harris_map(const std::string& path);
 
 // What two maps were made from that differs, in a scene's keys and units: "bore_radius_mm 40 -> 35"; "" if nothing
 // does. Gears by the driver's, if both gears changed alike.

@@ -42,6 +42,13 @@ std::string corner_rule(const GearMeshSpec& mesh) {
               " deg between the normals");
 }
 
+// Nothing for flanks as they are designed.
+void show_modification(Lines& lines, const GearMeshSpec& mesh) {
+  for (int g = 0; g < 2; ++g)
+    if (mesh.modification[g] != FlankModification{})
+      add(lines, g == 0 ? "driver's flanks" : "driven gear's flanks", in_words(mesh.modification[g]));
+}
+
 void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& body) {
   add(lines, "gear", gear.teeth, " teeth, module ", gear.module * 1e3, " mm, face width ",
       gear.face_width * 1e3, " mm, bore radius ", gear.bore_radius * 1e3, " mm");
@@ -95,6 +102,7 @@ void show(Lines& lines, const StaticArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", centre distance ",
       a.mesh.centre_distance * 1e3, " mm");
   add(lines, "corner contact", corner_rule(a.mesh));
+  show_modification(lines, a.mesh);
   show_discretisation(lines, a.driver_body, a.driven_body);
   add(lines, "contact", a.fidelity.contact,
       a.fidelity.contact == "strips"
@@ -174,6 +182,7 @@ void show(Lines& lines, const SweepArtifact& a) {
     show_damping(lines, a.damping);
   }
   add(lines, "corner contact", corner_rule(a.mesh));
+  show_modification(lines, a.mesh);
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0;
     const Eigen::VectorXd rms =
@@ -242,6 +251,45 @@ void show(Lines& lines, const JumpMapArtifact& a) {
 
 }  // namespace
 
+namespace {
+
+void show(Lines& lines, const HarrisMapArtifact& a) {
+  show_gear(lines, a.driver, a.driver_body);
+  show_modification(lines, a.mesh);
+  add(lines, "torque", a.torque.size(), " from ", a.torque[0], " to ", a.torque[a.torque.size() - 1], " N m");
+  add(lines, "tip relief", a.relief.size(), " from ", a.relief[0] * 1e6, " to ",
+      a.relief[a.relief.size() - 1] * 1e6, " um, ", a.shape, ", on ",
+      a.relieved == "both" ? "both gears" : "the " + a.relieved + (a.relieved == "driven" ? " gear" : ""));
+  for (Eigen::Index s = 0; s < a.length.size(); ++s)
+    add(lines, text("start ", a.start_roll(s, 0) * 180 / std::numbers::pi, " deg"), "at ", a.design_torque,
+        " N m ", a.optimum_relief[s] * 1e6, " um leave ", a.optimum_peak_to_peak[s] * 1e6,
+        " um peak to peak");
+  if (a.checked > 0)
+    add(lines, "finer solution", a.checked, " points differ by ", a.largest_error * 100, " % at most");
+  for (Eigen::Index s = 0; s < static_cast<Eigen::Index>(a.dynamic_rms.size()); ++s)
+    add(lines, "RMS at worst speed", a.dynamic_rms[s].minCoeff() * 1e6, " to ",
+        a.dynamic_rms[s].maxCoeff() * 1e6, " um");
+}
+
+}  // namespace
+
+std::string in_words(const FlankModification& m) {
+  std::string out;
+  const auto part = [&](const std::string& words) { out += (out.empty() ? "" : ", ") + words; };
+  const double degree = std::numbers::pi / 180;
+  for (const auto& [end, relief] : {std::pair{"tip", m.tip}, std::pair{"root", m.root}})
+    if (relief.amount > 0)
+      part(text(relief.shape == "linear" ? "" : relief.shape + " ", end, " relief ", relief.amount * 1e6,
+                " um ",
+                relief.start_radius > 0 ? text("from radius ", relief.start_radius * 1e3, " mm")
+                : relief.length > 0     ? text("over ", relief.length * 1e3, " mm of roll")
+                                        : text("from ", relief.start_roll / degree, " deg")));
+  if (m.crowning != 0) part(text("crowning ", m.crowning * 1e6, " um"));
+  if (m.slope != 0) part(text("slope ", m.slope * 1e6, " um"));
+  if (!m.points.empty()) part(text(m.points.size(), " points"));
+  return out.empty() ? "as designed" : out;
+}
+
 std::vector<std::pair<std::string, std::string>> summary(const std::string& path, const std::string& schema) {
   Lines lines;
   if (schema == "whine/mesh") {
@@ -260,6 +308,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_response(path));
   } else if (schema == "whine/jump_map") {
     show(lines, read_jump_map(path));
+  } else if (schema == "whine/harris_map") {
+    show(lines, read_harris_map(path));
   } else {
     add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
   }

@@ -445,6 +445,21 @@ MatrixXd body_compliance(const MeshPosition& position, int g, const std::vector<
                                                                                  pair, g, tables);
 }
 
+std::vector<MatrixXd> compliance_tables(const ElasticGear& gear, double depth) {
+  std::vector<MatrixXd> tables;
+  for (int offset = -gear.body().offsets; offset <= gear.body().offsets; ++offset)
+    tables.push_back(gear.compliance(offset, depth));
+  return tables;
+}
+
+MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
+                            const std::array<std::vector<MatrixXd>, 2>& tables, double depth) {
+  MatrixXd a = local_compliance(model, position, depth);
+  position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
+                         a);
+  return a;
+}
+
 Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& approach, double load,
                         double start, ActiveSet& active, ComplementaritySolver& solver) {
   VectorXd d(gap.size()), reduced, response;

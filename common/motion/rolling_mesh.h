@@ -153,6 +153,13 @@ Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition&
 Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
                                 const std::vector<Eigen::MatrixXd>& tables);
 
+// m N-1: ElasticGear::compliance for every stored tooth offset, from the most negative on, as body_compliance takes them.
+std::vector<Eigen::MatrixXd> compliance_tables(const ElasticGear& gear, double depth);
+
+// (strip, strip) m N-1: half-planes and bodies, `tables` of both gears relative to `depth`; not of lines.
+Eigen::MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
+                                   const std::array<std::vector<Eigen::MatrixXd>, 2>& tables, double depth);
+
 // Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
 // approach . p = load (Eq. 18-20).
 struct Equilibrium {

@@ -18,13 +18,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::vector<MatrixXd> compliance_tables(const ElasticGear& gear, double depth) {
-  std::vector<MatrixXd> tables;
-  for (int offset = -gear.body().offsets; offset <= gear.body().offsets; ++offset)
-    tables.push_back(gear.compliance(offset, depth));
-  return tables;
-}
-
 struct Loaded {
   int pair;
   double force;
@@ -55,9 +48,7 @@ LoadedStrips loaded_strips(const GearMeshModel& model, const ContactRange& range
                            const std::array<std::vector<MatrixXd>, 2>& tables, double phase) {
   LoadedStrips s;
   s.position = make_position(model, phase, range);
-  MatrixXd& a = s.compliance = local_compliance(model, s.position, kStripsDepth);
-  s.position.add_to_strips(
-      body_compliance(s.position, 0, tables[0]) + body_compliance(s.position, 1, tables[1]), a);
+  const MatrixXd& a = s.compliance = contact_compliance(model, s.position, tables, kStripsDepth);
   // A contact that happens to end on a sound part of a broken table would look right.
   const double least =
       a.allFinite() ? a.ldlt().vectorD().minCoeff() : std::numeric_limits<double>::quiet_NaN();

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "files/summary.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
 #include "motion/sweep.h"
@@ -87,7 +88,8 @@ std::string torque_words(double torque) {
   return shown(torque, 6) + " N m";
 }
 
-// Sweeps of the same choices, both directions at each torque (ascending).
+// Sweeps of the same choices, both directions at each torque (ascending), those of other flanks in the order in which they
+// come.
 template <class Sweep>
 struct ChoicePanel {
   struct Curve {
@@ -112,10 +114,14 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps) {
       panels.push_back({choice_words(s), {}});
     }
     auto& curves = panels[p].curves;
-    const auto torque_of = [](const auto& c) { return (c.up ? c.up : c.down)->torque; };
-    auto at = curves.begin();
-    while (at != curves.end() && torque_of(*at) < s.torque) ++at;
-    if (at == curves.end() || torque_of(*at) != s.torque) at = curves.emplace(at);
+    const auto of = [](const auto& c) { return c.up ? c.up : c.down; };
+    const auto same = [&](const auto& c) {
+      return of(c)->torque == s.torque && of(c)->mesh.modification == s.mesh.modification;
+    };
+    auto at = std::find_if(curves.begin(), curves.end(), same);
+    if (at == curves.end())
+      at = curves.emplace(std::find_if(curves.begin(), curves.end(),
+                                       [&](const auto& c) { return of(c)->torque > s.torque; }));
     const Sweep*& place = s.direction == "up" ? at->up : at->down;
     if (place)
       fail(Failure::input, "figure: two sweeps ", s.direction, " at ", torque_words(s.torque), " with ",
@@ -551,6 +557,26 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
   return figure;
 }
 
+namespace {
+
+// What tells the curves of a panel apart: their torques, or their flanks where those differ at one torque.
+template <class Sweep>
+std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
+  bool others = false, torques = false;
+  for (const auto& curve : panel.curves) {
+    others |= curve.up->torque == s.torque && curve.up->mesh.modification != s.mesh.modification;
+    torques |= curve.up->torque != s.torque;
+  }
+  if (!others) return torque_words(s.torque);
+  const auto& both = s.mesh.modification;
+  const std::string flanks = both[0] == both[1]
+                                 ? in_words(both[0])
+                                 : "driver " + in_words(both[0]) + ", driven " + in_words(both[1]);
+  return flanks + (torques ? ", " + torque_words(s.torque) : "");
+}
+
+}  // namespace
+
 Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
   if (sweeps.empty())
     fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
@@ -582,7 +608,7 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
     double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;
     bool lost = false;
     for (size_t c = 0; c < curves.size(); ++c) {
-      const std::string label = torque_words(curves[c].up->torque);
+      const std::string label = curve_label(panels[p], *curves[c].up);
       labels += "'" + label + "' ";
       std::string found;
       const size_t first_block = figure.blocks.size();
@@ -619,6 +645,45 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps) {
   number("panels", static_cast<double>(panels.size()));
   number("frequency_from", from);
   number("frequency_to", to);
+  return figure;
+}
+
+Figure profile_figure(const StaticArtifact& s) {
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double degree = std::numbers::pi / 180, pitch = pair.base_pitch(),
+               tangent = std::tan(pair.working_pressure_angle());
+  Figure figure;
+  figure.title = "Profile charts of the driving flanks";
+  double low = 0, high = 0;
+  for (int g = 0; g < 2; ++g) {
+    const std::string name = g == 0 ? "driver" : "driven";
+    const ToothGeometry& gear = pair.gear(g);
+    const FlankDeviation deviation(gear, s.mesh.modification[g]);
+    figure.notes.push_back((g == 0 ? s.mesh.driver : s.mesh.driven) + ", " + name + ": " +
+                           in_words(s.mesh.modification[g]));
+    figure.words.emplace_back("title_" + name, figure.notes.back());
+    FigureBlock trace{name, {"roll angle [deg]", "length of roll [mm]", "material [µm]"}, {}};
+    const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
+    constexpr int kPlaces = 400;
+    for (int i = 0; i <= kPlaces; ++i) {
+      const double roll = form + (tip - form) * i / kPlaces, removed = deviation.at(roll, 0);
+      trace.rows.push_back({roll / degree, gear.base_radius() * roll * kMilli, -removed * kMicro});
+      low = std::min(low, -removed * kMicro);
+      high = std::max(high, -removed * kMicro);
+    }
+    figure.blocks.push_back(trace);
+    // Start of the active profile, lowest and highest point of single-pair contact: where along the path of contact.
+    const double first = g == 0 ? pair.path_start() : -pair.path_end(),
+                 last = g == 0 ? pair.path_end() : -pair.path_start();
+    for (const auto& [mark, path] : {std::pair{"sap", first}, std::pair{"lpstc", last - pitch},
+                                     std::pair{"pitch", 0.0}, std::pair{"hpstc", first + pitch}})
+      figure.numbers.emplace_back(std::string(mark) + "_" + name,
+                                  (tangent + path / gear.base_radius()) / degree);
+    figure.numbers.emplace_back("form_" + name, form / degree);
+    figure.numbers.emplace_back("tip_" + name, tip / degree);
+  }
+  figure.numbers.emplace_back("lowest", low);
+  figure.numbers.emplace_back("highest", high);
   return figure;
 }
 

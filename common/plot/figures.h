@@ -41,9 +41,15 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
                            const ContactZone& zone);
 
 // RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
-// choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending).
+// choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending) and
+// each modification of the flanks.
 // Throws Error(input) unless every sweep up has one sweep down of the same torque and choices.
 Figure response_figure(const std::vector<ResponseArtifact>& sweeps);
+
+// What is taken off the driving flanks of both gears, as an inspection sheet shows it: material against the roll angle, the
+// tip to the right, the designed involute a straight line, plus upwards. Marks: start of the active profile, lowest and
+// highest point of single-pair contact, pitch point, tip.
+Figure profile_figure(const StaticArtifact& pair);
 
 // The steady motions at one mesh frequency (Hz): a column each, for each set of choices the upper branch and the lower one
 // where the sweeps up and down differ there, by RMS, else the only one; then its title says so. Oscillating DTE over time

@@ -562,4 +562,71 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
   return figure;
 }
 
+Figure harris_map_figure(const HarrisMapArtifact& map) {
+  constexpr double kMicro = 1e6;  // m -> micrometre
+  Figure figure;
+  Index best = 0;
+  for (Index s = 1; s < map.length.size(); ++s)
+    if (map.optimum_peak_to_peak[s] < map.optimum_peak_to_peak[best]) best = s;
+  const auto start_words = [&](Index s) {
+    return rounded(map.start_roll(s, 0) * 180 / std::numbers::pi, 2) + "°";
+  };
+  figure.title = text("Harris map: ", map.shape, " tip relief of ",
+                      map.relieved == "both"     ? "both gears"
+                      : map.relieved == "driver" ? "the driver"
+                                                 : "the driven gear");
+  figure.notes.push_back(text(
+      "relief over ", rounded(map.length[best] * 1e3, 2), " mm of roll, from roll angle ", start_words(best),
+      " of the driver; strips on a cached body, ", map.contact.positions, " mesh positions"));
+  figure.notes.push_back(text("design torque ", map.design_torque,
+                              " N m: ", rounded(map.optimum_relief[best] * kMicro, 2), " µm leave ",
+                              rounded(map.optimum_peak_to_peak[best] * kMicro, 3), " µm peak to peak"));
+  const auto cube = [&](const std::string& name, const MatrixRM& values, double scale) {
+    FigureBlock block{name, {"relief [µm]", "torque [N m]", "value"}, {}};
+    for (Index t = 0; t < map.torque.size(); ++t) {
+      if (t > 0) block.rows.push_back({});
+      for (Index r = 0; r < map.relief.size(); ++r)
+        block.rows.push_back({map.relief[r] * kMicro, map.torque[t], values(t, r) * scale});
+    }
+    figure.blocks.push_back(block);
+  };
+  cube("peak to peak", map.peak_to_peak[best], kMicro);
+  for (int n = 0; n < 3; ++n) cube(text("harmonic ", n + 1), map.harmonic[n][best], kMicro);
+  FigureBlock ridge{"best relief", {"relief [µm]", "torque [N m]"}, {}};
+  for (Index t = 0; t < map.torque.size(); ++t) {
+    Index r = 0;
+    map.peak_to_peak[best].row(t).minCoeff(&r);
+    ridge.rows.push_back({map.relief[r] * kMicro, map.torque[t]});
+  }
+  figure.blocks.push_back(ridge);
+  figure.blocks.push_back(
+      {"optimum",
+       {"relief [µm]", "torque [N m]", "peak to peak [µm]"},
+       {{map.optimum_relief[best] * kMicro, map.design_torque, map.optimum_peak_to_peak[best] * kMicro}}});
+  FigureBlock cusp{"cusp", {"torque [N m]", "no relief [µm]"}, {}};
+  std::string labels = "'no relief' ";
+  for (Index s = 0; s < map.length.size(); ++s) {
+    const std::string label = text(rounded(map.optimum_relief[s] * kMicro, 2), " µm from ", start_words(s));
+    labels += "'" + label + "' ";
+    cusp.columns.push_back(label + " [µm]");
+  }
+  for (Index t = 0; t < map.torque.size(); ++t) {
+    std::vector<double> row{map.torque[t], map.unrelieved[t] * kMicro};
+    for (Index s = 0; s < map.length.size(); ++s) row.push_back(map.cusp(s, t) * kMicro);
+    cusp.rows.push_back(row);
+  }
+  figure.blocks.push_back(cusp);
+  figure.words.emplace_back("labels", labels);
+  figure.numbers.emplace_back("curves", static_cast<double>(map.length.size() + 1));
+  figure.numbers.emplace_back("design_torque", map.design_torque);
+  figure.numbers.emplace_back("largest", map.peak_to_peak[best].maxCoeff() * kMicro);
+  figure.numbers.emplace_back("moving", map.dynamic_rms.empty() ? 0 : 1);
+  if (!map.dynamic_rms.empty()) {
+    cube("rms", map.dynamic_rms[best], kMicro);
+    cube("worst frequency", map.worst_frequency[best], 1);
+    figure.height = 1900;
+  }
+  return figure;
+}
+
 }  // namespace whine

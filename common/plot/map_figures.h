@@ -18,6 +18,11 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps);
 // what decides. Throws Error(input) without a lumped model, else as jump_map_figure.
 Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps);
 
+// Peak-to-peak transmission error against torque and tip relief, with the best relief of each torque and the optimum for the
+// design torque; beside it, against torque, that relief of each start and no relief (the Harris cusp). The map is that of
+// the start whose optimum is least. With a dynamic part its map of the RMS at the worst speed stands below.
+Figure harris_map_figure(const HarrisMapArtifact& map);
+
 // What each variant changes against the base, in the last case of the maps: mean
 // stiffness, natural frequencies, ends of the branches, tooth load (held). Every case stands in the table. Throws Error(input)
 // for no variant, one that differs in torque or cases, or one in which no key differs.

@@ -1,0 +1,66 @@
+# Harris map: peak-to-peak transmission error against tip relief and torque (a), and against torque for the best relief of the
+# design torque and none (b); with a dynamic part the RMS at the worst speed (c).
+# Variables from gear-plot: tsv, title, note1, note2, labels, curves, design_torque, largest, moving, height.
+set datafile separator whitespace
+set datafile commentschars "#"
+
+array colour[7] = ["#444444", "#c8201e", "#1f4e9c", "#1a7f37", "#8a4fbf", "#b06a00", "#0a7c86"]
+rows = moving > 0 ? 2 : 1
+step = largest > 12 ? 2 : largest > 5 ? 1 : largest > 2 ? 0.5 : 0.2
+set contour base
+unset surface
+set cntrparam levels incremental step, step, 100 * step
+set table $level
+splot tsv index "[peak to peak]" using 1:2:3
+unset table
+unset contour
+set surface
+set multiplot title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
+set border 15 lw 1.6 front
+set tics out nomirror front
+set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
+set tmargin at screen 1 - 170.0 / height
+set bmargin at screen (rows == 2 ? 0.55 : 0.13)
+set lmargin at screen 0.085
+set rmargin at screen 0.42
+set xlabel "Tip relief (µm)\n{/:Bold (a)} peak-to-peak transmission error (µm)"
+set ylabel "Torque (N m)"
+set xrange [*:*] noextend
+set yrange [*:*] noextend
+set colorbox user origin screen 0.435, (rows == 2 ? 0.55 : 0.13) size screen 0.014, (rows == 2 ? 0.36 : 0.70)
+unset key
+plot tsv index "[peak to peak]" using 1:2:3 with image, \
+  $level using 1:2 with lines lw 1.2 lc rgb "#ffffff", \
+  tsv index "[best relief]" using 1:2 with lines lw 2.4 dt (10, 6) lc rgb "#c8201e", \
+  tsv index "[optimum]" using 1:2 with points pt 3 ps 2.6 lw 3 lc rgb "#c8201e"
+
+unset colorbox
+set border 3
+set lmargin at screen 0.575
+set rmargin at screen 0.97
+set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
+set xlabel "Torque (N m)\n{/:Bold (b)}"
+set ylabel "Peak-to-peak transmission error (µm)"
+set xrange [0:*]
+set yrange [0:*]
+set key top left Left reverse samplen 2.5 spacing 1.2 font ",14"
+set arrow 1 from design_torque, graph 0 to design_torque, graph 1 nohead back lw 1.4 dt (8, 6) lc rgb "#808080"
+plot for [i = 1:curves] tsv index "[cusp]" using 1:i + 1 with lines lw 2.8 lc rgb colour[i] title word(labels, i)
+
+if (moving > 0) {
+  unset arrow
+  unset grid
+  unset key
+  set border 15
+  set tmargin at screen 0.44
+  set bmargin at screen 0.075
+  set lmargin at screen 0.085
+  set rmargin at screen 0.42
+  set xrange [*:*] noextend
+  set yrange [*:*] noextend
+  set colorbox user origin screen 0.435, 0.075 size screen 0.014, 0.365
+  set xlabel "Tip relief (µm)\n{/:Bold (c)} RMS at the worst speed (µm)"
+  set ylabel "Torque (N m)"
+  plot tsv index "[rms]" using 1:2:3 with image
+}
+unset multiplot

@@ -1,0 +1,36 @@
+# Profile charts: material on the driving flanks against the roll angle, tip to the right, one panel per gear.
+# Variables from gear-plot: tsv, title, title_driver, title_driven, lowest, highest; for each gear g: form_g, sap_g, lpstc_g,
+# pitch_g, hpstc_g, tip_g.
+set datafile separator tab
+set datafile commentschars "#"
+
+set multiplot layout 2, 1 title title offset 0, -0.3 margins screen 0.085, 0.975, 0.1, 0.86 spacing screen 0.19
+set border 3 lw 1.6
+set tics out nomirror
+set mxtics 5
+set mytics 2
+set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
+set ylabel "Material (µm)"
+span = highest - lowest > 0 ? highest - lowest : 1
+set yrange [lowest - 0.12 * span : highest + 0.3 * span]
+unset key
+do for [g in "driver driven"] {
+  set title value("title_" . g) offset 0, 0.2
+  set xlabel "Roll angle (deg)"
+  from = value("form_" . g)
+  to = value("tip_" . g)
+  set xrange [from - 0.02 * (to - from) : to + 0.02 * (to - from)]
+  unset arrow
+  unset label
+  n = 0
+  do for [m in "form sap lpstc pitch hpstc tip"] {
+    n = n + 1
+    x = value(m . "_" . g)
+    set arrow n from x, graph 0 to x, graph 1 nohead back lw 1.4 dt (8, 6) lc rgb "#808080"
+    set label n m eq "sap" || m eq "lpstc" || m eq "hpstc" ? (m eq "sap" ? "SAP" : m eq "lpstc" ? "LPSTC" : "HPSTC") : m \
+      at x, graph 0.95 offset 0.5, 0 left font ",13" tc rgb "#505050"
+  }
+  set arrow 20 from from, 0 to to, 0 nohead back lw 1.6 lc rgb "#1a7f37"
+  plot sprintf("%s", tsv) index "[" . g . "]" using 1:3 with lines lw 3 lc rgb "#1f4e9c"
+}
+unset multiplot
