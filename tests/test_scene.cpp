@@ -574,3 +574,93 @@ TEST_CASE("the key table holds every key once, with its meaning") {
     CHECK(seen.insert(line.substr(0, line.find('|', line.find('|', 1) + 1))).second);
   }
 }
+
+namespace {
+
+// [gear.wheel.error] with a list of 50 numbers, the first three as given, and other lines.
+std::string with_errors(const std::string& key, const std::string& first_three,
+                        const std::string& lines = "") {
+  std::string zeros;
+  for (int i = 3; i < 50; ++i) zeros += ", 0";
+  return with_section("[gear.wheel.error]\n" +
+                      (key.empty() ? "" : key + " = [" + first_three + zeros + "]\n") + lines);
+}
+
+}  // namespace
+
+TEST_CASE("errors of teeth: lists in SI, a gear's own, in the static slice and in no body") {
+  const SceneFile file;
+  const Scene plain = file.read(kScene),
+              scene = file.read(with_errors("single_pitch_um", "1, -1.5, 0.5", "iso_class = 5\nseed = 7\n"));
+  const ToothErrors& errors = scene.gear("wheel").errors;
+  REQUIRE(errors.single_pitch.size() == 50);
+  CHECK(errors.single_pitch[1] == -1.5e-6);
+  CHECK(errors.iso_class == 5);
+  CHECK(errors.seed == 7);
+  CHECK(errors.profile_form_waves == 3);
+  CHECK(scene.gear("pinion").errors.none());
+  CHECK(scene.mesh.errors[1].single_pitch == errors.single_pitch);
+  CHECK(body_slice(scene, "wheel") == body_slice(plain, "wheel"));
+  CHECK(static_slice(scene) != static_slice(plain));
+  const StaticSlice back = read_static_slice(file.path(static_slice(scene), "static.toml"));
+  CHECK(back.mesh.errors[1].single_pitch == errors.single_pitch);
+  CHECK(back.mesh.errors[1].iso_class == 5);
+  CHECK(back.mesh.errors[1].iso_share == 1);
+  CHECK(back.mesh.errors[0].none());
+  CHECK(back.contact.positions == 128);
+  CHECK(static_slice(file.read(with_errors("single_pitch_um", "0, 0, 0"))) == static_slice(plain));
+  // 29 and 50 teeth: 1450 mesh periods.
+  const std::string uneven = scene_with("like = \"pinion\"", "like = \"pinion\"\nteeth = 29") +
+                             "[gear.pinion.error]\niso_class = 5\n[gear.wheel.error]\niso_class = 5\n";
+  CHECK(read_static_slice(file.path(static_slice(file.read(uneven)), "static.toml")).contact.positions == 16);
+  // A gear that is like another has errors of its own.
+  CHECK(file.read(with_section("[gear.pinion.error]\niso_class = 5\n")).gear("wheel").errors.none());
+}
+
+TEST_CASE("errors of teeth: what is wrong with them is refused by name") {
+  const SceneFile file;
+  CHECK(contains(
+      file.refusal(with_section("[gear.wheel.error]\ncumulative_pitch_um = [1, 2, 3]\n")),
+      "x.toml:24: 'cumulative_pitch_um' in [gear.wheel.error] holds 3 numbers, the gear has 50 teeth"));
+  CHECK(contains(file.refusal(with_section("[gear.wheel.error]\ncumulative_pitch_um = 3\n")),
+                 "must be a list with a number for each tooth"));
+  CHECK(contains(file.refusal(with_errors("profile_slope_um", "0, 2000, 0")), "must be at most 1000 um"));
+  CHECK(contains(file.refusal(with_section("[gear.wheel.error]\niso_class = 12\n")), "must be at most 11"));
+  CHECK(contains(file.refusal(with_section("[gear.wheel.error]\niso_clas = 5\n")),
+                 "did you mean 'iso_class'?"));
+  CHECK(contains(file.refusal(scene_with("like = \"pinion\"", "like = \"pinion\"\nerror = 3")),
+                 "'error' in [gear.wheel] must be a section"));
+  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50\niso_class = 5")),
+                 "it belongs into [gear.<name>.error]"));
+}
+
+TEST_CASE("errors of teeth from a measured file, as TOML and as CSV, beside the scene") {
+  const SceneFile file;
+  const std::string small = scene_with("teeth = 50", "teeth = 5"), names = "[gear.wheel.error]\nfile = ";
+  file.path("cumulative_pitch_um = [0, 1.5, -2, 3, 0.5]\nprofile_slope_um = [1, 1, 1, 1, 1]\n", "teeth.toml");
+  file.path(
+      "# measured\ntooth, cumulative_pitch_um, profile_slope_um\n0, 0, 1\n1, 1.5, 1\n2, -2, 1\n3, 3, 1\n4, "
+      "0.5, 1\n",
+      "teeth.csv");
+  for (const char* name : {"teeth.toml", "teeth.csv"}) {
+    const ToothErrors errors =
+        file.read(small + names + "\"" + name + "\"\neccentricity_um = 4\n").gear("wheel").errors;
+    CHECK(errors.cumulative_pitch == std::vector<double>{0, 1.5e-6, -2e-6, 3e-6, 0.5e-6});
+    CHECK(errors.profile_slope == std::vector<double>(5, 1e-6));
+    CHECK(errors.eccentricity == 4e-6);
+  }
+  const auto refused = [&](const std::string& bytes, const std::string& name = "bad.csv") {
+    file.path(bytes, name);
+    return file.refusal(small + names + "\"" + name + "\"\n");
+  };
+  CHECK(contains(refused("number, profile_slope_um\n"), "bad.csv:1: the first column must be called tooth"));
+  CHECK(contains(refused("tooth, profile_slope_um\n0, 1\n2, 1\n"),
+                 "bad.csv:3: tooth 2 stands where tooth 1 is due"));
+  CHECK(contains(refused("tooth, profile_slope_um\n0, 1, 5\n"),
+                 "bad.csv:2: holds 3 numbers, 2 columns are named"));
+  CHECK(contains(refused("tooth, profile_slope_um\n0, x\n"), "bad.csv:2: 'x' is no number"));
+  CHECK(contains(refused("tooth, profile_slop_um\n0, 1\n"), "did you mean 'profile_slope_um'?"));
+  CHECK(contains(refused("tooth, profile_slope_um\n0, 1\n"), "holds 1 numbers, the gear has 5 teeth"));
+  CHECK(contains(refused("1", "bad.txt"), "is neither a .toml nor a .csv"));
+  CHECK_THROWS_AS(file.read(small + names + "\"none.csv\"\n"), Error);
+}

@@ -139,6 +139,7 @@ void body(int argc, char** argv) {
   if (!torque.empty() && whine::number_option("--torque", torque) != at_torque.torque)
     whine::fail(whine::Failure::input, statics, " is at ", at_torque.torque, " N m, --torque says ", torque,
                 "; give the static.h5 of that torque");
+  whine::require_like_teeth(at_torque.mesh, "a lumped model");
   const whine::StaticArtifact at_reference = reference.empty() ? at_torque : whine::read_static(reference);
   if (!params.empty()) {
     const whine::SweepSlice slice = whine::read_lumped_slice(params, !map);

@@ -178,6 +178,12 @@ const std::map<std::string, Drawing>& drawings() {
         [](const Paths& in, const Frequencies&) {
           return whine::lumped_jump_map_figure(read_all(in, whine::read_jump_map));
         }}},
+      {"sidebands",
+       {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
+        "static.h5 and response.h5 of one torque", 2,
+        [](const Paths& in, double) {
+          return whine::sidebands_figure(whine::read_static(in[0]), whine::read_response(in[1]));
+        }}},
       {"sensitivity",
        {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0, 0,
         [](const Paths& in, const Frequencies&) {

@@ -69,6 +69,8 @@ void check_geometry(const Scene& scene, const std::string& path) {
     in("[gear." + gear.name + "]", [&] { ToothGeometry tooth(gear.design); });
     in("[gear." + gear.name + ".modification]",
        [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
+    in("[gear." + gear.name + ".error]",
+       [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
   }
   in("[[mesh]]", [&] {
     GearPair pair(scene.gear(scene.mesh.driver).design, scene.gear(scene.mesh.driven).design,

@@ -24,9 +24,10 @@
 
 namespace {
 
-Eigen::VectorXd mean_and_harmonics(const Eigen::VectorXd& samples) {
-  const int count = whine::resolved_harmonics(samples.size(), 40);
-  const whine::Harmonics h = whine::harmonics(samples, count);
+// periods: mesh periods that the samples are of; those of `base` periods are its harmonics.
+Eigen::VectorXd mean_and_harmonics(const Eigen::VectorXd& samples, int periods, int base) {
+  const int count = whine::resolved_harmonics(samples.size(), 40, periods) * (periods / base);
+  const whine::Harmonics h = whine::harmonics(samples, count, base);
   Eigen::VectorXd out(count + 1);
   out << h.mean, h.amplitude;
   return out;
@@ -78,8 +79,11 @@ void body(int argc, char** argv) {
   whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, slice, torque);
   std::optional<whine::NextRung> change;
   if (next_rung) change = whine::next_contact_rung(driver_body, driven_body, slice, result);
-  result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error);
-  result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant);
+  const int periods = result.hunting_periods;
+  result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error, periods, periods);
+  result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant, periods, periods);
+  if (periods > 1)
+    result.transmission_error_order = mean_and_harmonics(result.transmission_error, periods, 1);
 
   whine::write(output, result, provenance);
   const auto& te = result.transmission_error;
@@ -90,6 +94,9 @@ void body(int argc, char** argv) {
     tell_change("where a pair carries load off the line of action", change->corner, slice.contact.strips);
     tell_change("elsewhere", change->elsewhere, slice.contact.strips);
   }
+  if (periods > 1)
+    whine::tell("gear-static: teeth differ: ", periods, " mesh periods, after which the same ones meet, of ",
+                slice.contact.positions, " positions each");
   if (slice.mesh.corner.enabled == false)
     whine::tell("gear-static: corner contact is off: only pairs on the line of action carry load");
   if (result.driver.tooth_thinning + result.driven.tooth_thinning > 0 && result.backlash_margin <= 0)

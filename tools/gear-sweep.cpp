@@ -72,7 +72,8 @@ void tell_damping(const whine::StaticArtifact& statics, const whine::SweepSlice&
 }
 
 // Warnings of what a motion is not, and in words what is out of the ordinary.
-void tell_motion(const whine::SweepArtifact& result) {
+// without_load: m, least transmission error at which unloaded teeth touch.
+void tell_motion(const whine::SweepArtifact& result, double without_load) {
   constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
   const double steps = whine::steps_per_oscillation(result);
   if (steps < kFewestSteps)
@@ -84,11 +85,11 @@ void tell_motion(const whine::SweepArtifact& result) {
       whine::tell("gear-sweep: warning: at ", result.mesh_frequency[i],
                   " Hz the motion is not periodic after ", result.periods[i],
                   " mesh periods; the state still changes by ", result.residual[i], " per period");
-    else if (result.period_multiple[i] > 1)
+    else if (result.period_multiple[i] > result.hunting_periods)
       whine::tell("gear-sweep: at ", result.mesh_frequency[i],
                   " Hz the motion is subharmonic: it repeats after ", result.period_multiple[i],
                   " mesh periods");
-  const double least = result.transmission_error.minCoeff();
+  const double least = result.transmission_error.minCoeff() - without_load;
   if (least < 0 && !std::isfinite(result.backlash_margin))
     whine::tell("gear-sweep: the teeth swing ", std::round(-least * 1e7) / 10,
                 " um apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
@@ -155,7 +156,7 @@ void body(int argc, char** argv) {
               " speeds, ", result.periods.sum(), " mesh periods", jumps.empty() ? ", no jump" : jumps, " -> ",
               output);
   tell_damping(at_torque, slice, direction);
-  tell_motion(result);
+  tell_motion(result, at_torque.unloaded_error.minCoeff());
   for (const whine::NextSweep& s : next)
     if (s.missing.empty())
       tell_change(s, result, run(s.driver, s.driven, s.statics, s.mean_stiffness, s.slice, " " + s.to));

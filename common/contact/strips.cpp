@@ -57,11 +57,17 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   s.border = strip_borders(low, high, s.low_is_edge ? 1 - (centre - low) / (range.half_window - offset) : 0,
                            s.high_is_edge ? 1 - (high - centre) / (range.half_window + offset) : 0, n);
   s.gap.resize(n);
+  const bool differs = deviation.differs();
+  for (int g = 0; differs && g < 2; ++g) s.gap_roll[g].resize(2 * n);
+  const auto gap = [&](double x, int place) {
+    const FlankGap exact = gears.gap_at(contact, x);
+    for (int g = 0; differs && g < 2; ++g) s.gap_roll[g][place] = exact.roll[g];
+    return exact.gap;
+  };
   for (int i = 0; i < n; ++i) {
     // Gauss's two points: the mean of a cubic.
     const double reach = 0.5 * s.width(i) / std::numbers::sqrt3;
-    s.gap[i] = 0.5 * (gears.gap_at(contact, s.middle(i) - reach).gap +
-                      gears.gap_at(contact, s.middle(i) + reach).gap);
+    s.gap[i] = 0.5 * (gap(s.middle(i) - reach, 2 * i) + gap(s.middle(i) + reach, 2 * i + 1));
   }
   if (!deviation.none()) s.gap += mean_deviation(gears, s, deviation);
 
@@ -149,12 +155,13 @@ ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver
   for (const FlankDeviation* flank : deviation.gear)
     if (flank) {
       slope += flank->steepest();
-      spread += flank->largest() - flank->least();
+      spread += flank->spread();
     }
   const double width = half_width(largest_force),
                move = std::min(radius * slope, std::sqrt(2 * radius * spread));
-  range.follows = move > width;
-  range.half_window = width + std::min(move, width);
+  // One window holds all teeth.
+  range.follows = move > width && !deviation.differs();
+  range.half_window = width + (range.follows ? width : move);
   range.strips =
       padded(std::max(4, static_cast<int>(std::ceil(across * range.half_window / half_width(mean_force)))));
   range.corner_gap = corner_gap;

@@ -36,9 +36,12 @@ struct PairStrips {
   PairContact contact;
   Eigen::VectorXd border;  // (strip + 1) m along the flank from the nominal contact point
   bool low_is_edge = false, high_is_edge = false;  // the window ends at a tip edge, where force may stand
-  Eigen::VectorXd gap;                             // (strip) m, unloaded
+  Eigen::VectorXd gap;                             // (strip) m, unloaded, of what all teeth have in common
   Eigen::Matrix<double, Eigen::Dynamic, kWindowNodes> interpolation;  // (strip, node) 1
   std::array<Eigen::VectorXd, 2> node_roll;                           // (node) rad, on driver and driven gear
+  // (place) rad, on driver and driven gear: where a strip's gap is read, two places a strip, of lines one; empty for teeth that
+  // are all alike
+  std::array<Eigen::VectorXd, 2> gap_roll;
 
   int size() const { return static_cast<int>(gap.size()); }
   double width(int i) const { return border[i + 1] - border[i]; }           // m
@@ -73,7 +76,8 @@ Eigen::MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneS
 // Number of strips and half window for a force per pair (N): `across` strips over the Hertz contact width at
 // `mean_force` or a little more (a multiple of 4 in all), a window for `largest_force`, both with the largest relative
 // curvature radius on the path of contact. What flanks deviate by moves the place where they touch: the window is wider by
-// the largest such move, or follows it where that is more than the contact is wide.
+// the largest such move, or follows it where that is more than the contact is wide and all teeth
+// are alike.
 ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver,
                            const HalfPlaneSurface& driven, int across, double mean_force,
                            double largest_force, double corner_gap, const PairDeviation& deviation = {});

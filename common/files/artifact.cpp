@@ -199,6 +199,12 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
       own.modification = values.mesh.modification[g];
       parameters(kModificationOf[g], own, Part::modification);
     }
+  for (int g = 0; g < 2; ++g)
+    if (!values.mesh.errors[g].none()) {
+      KeyValues own;
+      own.errors = values.mesh.errors[g];
+      parameters(kErrorOf[g], own, Part::error);
+    }
 }
 
 void ArtifactWriter::publish() {
@@ -267,6 +273,9 @@ void ArtifactReader::parameters(const std::string& section, KeyValues& values, P
     const SectionSource source(*this, kModificationOf[g]);
     if (source.has("tip_relief")) set_parameters(own, Part::modification, source);
     values.mesh.modification[g] = own.modification;
+    const SectionSource errors(*this, kErrorOf[g]);
+    if (errors.has("iso_class")) set_parameters(own, Part::error, errors);
+    values.mesh.errors[g] = own.errors;
   }
 }
 

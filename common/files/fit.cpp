@@ -45,6 +45,14 @@ void require_contact(const StaticArtifact& statics, const Fidelity& wanted, cons
        "\", the slice of this stage says \"", wanted.contact, "\"; ", rebuild_advice(path));
 }
 
+void require_like_teeth(const GearMeshSpec& mesh, const std::string& stage) {
+  for (int g = 0; g < 2; ++g)
+    if (!mesh.errors[g].none())
+      fail(Failure::input, stage, " does not take teeth that differ: [gear.", g ? mesh.driven : mesh.driver,
+           ".error] gives the ", g ? "driven gear" : "driver",
+           " deviations tooth by tooth; use a scene without this section");
+}
+
 std::string slice_for(const Scene& scene, const std::string& path) {
   const std::filesystem::path place(path);
   const std::string name = place.filename().string();

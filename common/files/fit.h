@@ -21,6 +21,9 @@ void require_body(const BodyArtifact& body, const std::string& hash, const std::
 // slice of a later stage says.
 void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path);
 
+// Error(input), by the stage, if the teeth of a gear differ from each other: for stages that look at one mesh period.
+void require_like_teeth(const GearMeshSpec& mesh, const std::string& stage);
+
 // The slice that a scene gives now for the path of an earlier one, .../params/<stage>.toml or .../<gear's hash>/body.toml;
 // empty if none of the scene's slices stands there.
 std::string slice_for(const Scene& scene, const std::string& path);

@@ -116,6 +116,40 @@ std::vector<Key> make_keys() {
      "[[roll angle in degrees, micrometres taken off], ...], ascending; monotone cubics between, constant outside; adds to the others",
      [](V& v) -> Slot { return &v.modification.points; }},
 
+    {Part::error, "error", "single_pitch_um", kMicrometre, "", -1000, 1000, false, "",
+     "a number for each tooth: deviation of the pitch from the driving flank before (of tooth 0 the last) to this one, along the reference circle; they sum up to 0. Teeth count counter-clockwise on both gears, the driver turns so; tooth 0 of both is in mesh at phase 0. Positive, here and below: material stands, contact begins early",
+     [](V& v) -> Slot { return ToothList{&v.errors.single_pitch}; }},
+    {Part::error, "error", "cumulative_pitch_um", kMicrometre, "", -1000, 1000, false, "",
+     "the same as place of each flank, along the reference circle; adds to single_pitch_um",
+     [](V& v) -> Slot { return ToothList{&v.errors.cumulative_pitch}; }},
+    {Part::error, "error", "eccentricity_um", kMicrometre, "0.0", 0, 1000, false, "",
+     "distance of the toothing's axis from that of rotation; the run-out is about twice it",
+     [](V& v) -> Slot { return &v.errors.eccentricity; }},
+    {Part::error, "error", "eccentricity_tooth", kNone, "0.0", -2000, 2000, false, "",
+     "number of the tooth towards which; between two teeth a fraction",
+     [](V& v) -> Slot { return &v.errors.eccentric_tooth; }},
+    {Part::error, "error", "profile_slope_um", kMicrometre, "", -1000, 1000, false, "",
+     "a number for each tooth: rise of its profile from the foot of the involute to the tip edge; 0 at the reference circle",
+     [](V& v) -> Slot { return ToothList{&v.errors.profile_slope}; }},
+    {Part::error, "error", "profile_form_um", kMicrometre, "", -1000, 1000, false, "",
+     "a number for each tooth: sine waves along its profile, from peak to valley; 0 at the reference circle, where positive ones rise to the tip",
+     [](V& v) -> Slot { return ToothList{&v.errors.profile_form}; }},
+    {Part::error, "error", "profile_form_waves", kNone, "3.0", 0.5, 100, false, "",
+     "number of these waves from the foot of the involute to the tip edge",
+     [](V& v) -> Slot { return &v.errors.profile_form_waves; }},
+    {Part::error, "error", "iso_class", kNone, "0", 0, 11, false, "",
+     "deviations of pitch, profile slope and form drawn at random within this class of ISO 1328-1:2013; 0: none; adds to the lists",
+     [](V& v) -> Slot { return &v.errors.iso_class; }},
+    {Part::error, "error", "iso_share", kNone, "1.0", 0, 1, true, "",
+     "share of the class's limits that the draw takes up: of pitch, and of profile, the limit that is used most just has it",
+     [](V& v) -> Slot { return &v.errors.iso_share; }},
+    {Part::error, "error", "seed", kNone, "1", 0, 2147483647, false, "",
+     "of the draw; two gears with one seed have errors of one kind",
+     [](V& v) -> Slot { return &v.errors.seed; }},
+    {Part::error_file, "error", "file", kNone, "", 0, 0, false, "",
+     "measured errors, path from the folder of the scene: a .toml with the lists above, or a .csv whose columns are named tooth and as those lists; keys given here besides override",
+     [](V& v) -> Slot { return &v.error_file; }},
+
     {Part::material, "material", "youngs_modulus_GPa", kGigapascal, nullptr, 0, 2000, true, "",
      "Young's modulus",
      [](V& v) -> Slot { return &v.material.youngs_modulus; }},
@@ -194,7 +228,7 @@ std::vector<Key> make_keys() {
      "pressure strips across the contact width at the mean load; a window holds whole fours of them",
      [](V& v) -> Slot { return &v.contact.strips; }},
     {Part::contact, "discretisation", "positions", kNone, "0", 0, 65536, false, "",
-     "mesh positions of the static stage; 0: as steps_per_period, 128 at least",
+     "positions of the static stage per mesh period; 0: as steps_per_period, 128 at least, for teeth that differ fewer (16 at least), so that there are 16384 in all",
      [](V& v) -> Slot { return &v.contact.positions; }},
     {Part::time, "discretisation", "steps_per_period", kNone, "128", 8, 65536, false, "",
      "stored samples per mesh period; steps are doubled until min_sample_rate_kHz is reached",
@@ -273,6 +307,12 @@ std::string exact_text(double value) {
   return out;
 }
 
+std::string exact_text(const std::vector<double>& values) {
+  std::string out;
+  for (const double value : values) out += (out.empty() ? "" : ", ") + exact_text(value);
+  return "[" + out + "]";
+}
+
 std::string exact_text(const Points& points) {
   std::string out;
   for (const auto& [roll, removed] : points)
@@ -313,12 +353,31 @@ std::vector<Parameter> parameters_of(const KeyValues& values, Part part) {
       add(name + "_step", *range->step);
     } else if (const auto* points = std::get_if<Points*>(&slot)) {
       if (!(*points)->empty()) add(name, exact_text(**points));
+    } else if (const auto* list = std::get_if<ToothList>(&slot)) {
+      if (!list->values->empty()) add(name, exact_text(*list->values));
     } else {
       fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
     }
   }
   return out;
 }
+
+namespace {
+
+// Of a list that is kept as text; none if it is not there.
+std::vector<double> numbers_in(const ParameterSource& source, const std::string& name) {
+  std::vector<double> numbers;
+  const std::string word = source.has(name) ? source.word(name) : "";
+  for (const char* at = word.c_str(); *at;) {
+    char* end = nullptr;
+    const double number = std::strtod(at, &end);
+    if (end != at) numbers.push_back(number);
+    at = end != at ? end : at + 1;
+  }
+  return numbers;
+}
+
+}  // namespace
 
 void set_parameters(KeyValues& values, Part part, const ParameterSource& source) {
   for (const Key& key : scene_keys()) {
@@ -343,16 +402,11 @@ void set_parameters(KeyValues& values, Part part, const ParameterSource& source)
       *range->step = source.number(name + "_step");
     } else if (const auto* points = std::get_if<Points*>(&slot)) {
       (*points)->clear();
-      std::vector<double> numbers;
-      const std::string word = source.has(name) ? source.word(name) : "";
-      for (const char* at = word.c_str(); *at;) {
-        char* end = nullptr;
-        const double number = std::strtod(at, &end);
-        if (end != at) numbers.push_back(number);
-        at = end != at ? end : at + 1;
-      }
+      const std::vector<double> numbers = numbers_in(source, name);
       for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
         (*points)->push_back({numbers[i], numbers[i + 1]});
+    } else if (const auto* list = std::get_if<ToothList>(&slot)) {
+      *list->values = numbers_in(source, name);
     } else {
       fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
     }
@@ -368,7 +422,7 @@ std::string scene_key_table() {
     std::string label = "[" + section + "]";
     if (section.empty()) label = "(top)";
     if (section == "gear" || section == "material") label = "[" + section + ".<name>]";
-    if (section == "modification") label = "[gear.<name>.modification]";
+    if (section == "modification" || section == "error") label = "[gear.<name>." + section + "]";
     if (section == "mesh") label = "[[mesh]]";
     std::string range = "text";
     if (*key.choices) {

@@ -19,6 +19,8 @@ struct KeyValues {
   double total_inertia = 0;         // kg m2, of a gear
   GearDesign design;
   FlankModification modification;
+  ToothErrors errors;
+  std::string error_file;
   Material material;
   GearMeshSpec mesh;
   Damping damping;
@@ -36,6 +38,8 @@ enum class Part {
   design,
   inertia,
   modification,
+  error,
+  error_file,
   material,
   mesh,
   damping,
@@ -56,9 +60,12 @@ struct RangeSlot {
   double *from, *to, *step;
 };
 using Points = std::vector<std::array<double, 2>>;  // rad, m: in a scene degrees and micrometres
+struct ToothList {                                  // a number for each tooth, or none
+  std::vector<double>* values;
+};
 // Where a key's value lives, and thereby its type.
 using Slot = std::variant<double*, int*, std::string*, CornerRule*, PlaneSlot, std::vector<double>*,
-                          RangeSlot, Points*>;
+                          RangeSlot, Points*, ToothList>;
 
 // SI = value * multiply / divide; two factors because 3.0 / 1000 is the double nearest to 0.003 and 3.0 *
 // 0.001 is not always.
@@ -93,9 +100,11 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 // Shortest text that reads back as the same double; always a TOML float.
 std::string exact_text(double value);
 std::string exact_text(const Points& points);
+std::string exact_text(const std::vector<double>& values);  // [1.0, 2.0]
 
 // Sections of /parameters and of slices that hold what is taken off the driver's and the driven gear's flanks.
 inline constexpr const char* kModificationOf[2] = {"driver_modification", "driven_modification"};
+inline constexpr const char* kErrorOf[2] = {"driver_error", "driven_error"};
 
 // Units of the two numbers of a point.
 extern const std::array<Unit, 2> kPointUnits;

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -60,6 +61,53 @@ class Source {
     }
   }
 
+  // Of measured teeth: a line of names, then a line of numbers for each tooth; names and numbers apart by commas.
+  static Source table_of_teeth(const std::string& path) {
+    Source source(path, toml::table{});
+    std::istringstream lines(
+        read_bytes(path, "check 'file' of the scene; it starts from the scene's folder"));
+    std::vector<std::string> names;
+    std::vector<toml::array> columns;
+    toml::source_index number = 0;
+    double tooth = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
+      std::vector<std::string> fields;
+      std::istringstream rest(line);
+      for (std::string field; std::getline(rest, field, ',');) {
+        const auto first = field.find_first_not_of(" \t"), last = field.find_last_not_of(" \t");
+        fields.push_back(first == std::string::npos ? "" : field.substr(first, last - first + 1));
+      }
+      if (names.empty()) {
+        names = fields;
+        columns.resize(names.size());
+        if (names.empty() || names[0] != "tooth")
+          source.refuse_line(number, "the first column must be called tooth");
+        continue;
+      }
+      if (fields.size() != names.size())
+        source.refuse_line(number,
+                           text("holds ", fields.size(), " numbers, ", names.size(), " columns are named"));
+      for (size_t i = 0; i < fields.size(); ++i) {
+        char* end = nullptr;
+        const double value = std::strtod(fields[i].c_str(), &end);
+        if (end == fields[i].c_str() || *end)
+          source.refuse_line(number, text("'", fields[i], "' is no number"));
+        if (i == 0 && value != tooth)
+          source.refuse_line(number, text("tooth ", fields[i], " stands where tooth ", tooth,
+                                          " is due; teeth are in order from 0"));
+        if (i > 0) columns[i].push_back(value);
+      }
+      ++tooth;
+    }
+    if (names.empty()) source.refuse("is empty; name the columns in the first line, tooth first");
+    for (size_t i = 1; i < names.size(); ++i) source.root_.insert_or_assign(names[i], columns[i]);
+    return source;
+  }
+
+  const std::string& path() const { return path_; }
   const toml::table& root() const { return root_; }
   bool is_slice() const { return is_slice_; }
 
@@ -80,6 +128,7 @@ class Source {
   }
 
  private:
+  Source(std::string path, toml::table root) : path_(std::move(path)), root_(std::move(root)) {}
   std::string path_;
   toml::table root_;
   bool is_slice_ = false;
@@ -120,9 +169,12 @@ class SectionReader {
       std::string advice;
       for (const Key& key : scene_keys()) {
         if (name_in(key, dialect_) == word)
-          advice = text("; it belongs into [",
-                        std::string(key.section) == "modification" ? "gear.<name>.modification" : key.section,
-                        "]");
+          advice =
+              text("; it belongs into [",
+                   key.part == Part::modification || key.part == Part::error || key.part == Part::error_file
+                       ? text("gear.<name>.", key.section)
+                       : key.section,
+                   "]");
       }
       const std::string near = nearest(word, known);
       if (advice.empty() && !near.empty()) advice = text("; did you mean '", near, "'?");
@@ -228,6 +280,11 @@ class SectionReader {
       assign_list(key, node, **list);
     } else if (const auto* points = std::get_if<Points*>(&slot)) {
       assign_points(key, node, **points);
+    } else if (const auto* teeth = std::get_if<ToothList>(&slot)) {
+      const toml::array* array = node.as_array();
+      if (!array) refuse(key, node, "must be a list with a number for each tooth");
+      teeth->values->clear();
+      for (const toml::node& item : *array) teeth->values->push_back(checked_number(key, item));
     } else {
       assign_range(key, node, std::get<RangeSlot>(slot));
     }
@@ -322,6 +379,8 @@ class SectionReader {
       **corner = CornerRule{word == "true", std::numeric_limits<double>::infinity()};
     } else if (const auto* points = std::get_if<Points*>(&slot)) {
       (*points)->clear();
+    } else if (const auto* teeth = std::get_if<ToothList>(&slot)) {
+      teeth->values->clear();
     } else {
       fail(Failure::numerical, "the key table gives '", key.name, "' a default that its type cannot take");
     }
@@ -411,6 +470,44 @@ void read_modification(const Source& source, const toml::table& gear, const std:
                                  "_relief_start_radius_mm, ", end, "_relief_length_mm"));
 }
 
+// Fills what stands in [gear.<name>.error] and in the file that it names, if it is there. Errors are a gear's own: `like` does
+// not take them over.
+void read_errors(const Source& source, const toml::table& gear, const std::string& label, KeyValues& values) {
+  values.errors = {};
+  const toml::node* node = gear.get("error");
+  if (!node) return;
+  const toml::table* table = node->as_table();
+  if (!table)
+    source.refuse(*node, text("'error' in [", label, "] must be a section: write [", label, ".error]"));
+  const SectionReader reader(source, Dialect::scene, *table, "error", label + ".error");
+  reader.refuse_unknown();
+  reader.read(values, {Part::error_file}, false);
+  if (!values.error_file.empty()) {
+    const std::filesystem::path name = std::filesystem::path(source.path()).parent_path() / values.error_file;
+    if (name.extension() != ".toml" && name.extension() != ".csv")
+      source.refuse(*table->get("file"), text("'file' in [", label, ".error] = '", values.error_file,
+                                              "' is neither a .toml nor a .csv"));
+    const Source measured =
+        name.extension() == ".csv" ? Source::table_of_teeth(name.string()) : Source(name.string());
+    if (const toml::node* another = measured.root().get("file"))
+      measured.refuse(*another, "a file of measured errors cannot name another");
+    const SectionReader lists(measured, Dialect::scene, measured.root(), "error", "");
+    lists.refuse_unknown();
+    lists.read(values, {Part::error}, false);
+  }
+  reader.read(values, {Part::error}, !values.error_file.empty());
+  for (const auto& [key, list] : {std::pair{"single_pitch_um", &values.errors.single_pitch},
+                                  std::pair{"cumulative_pitch_um", &values.errors.cumulative_pitch},
+                                  std::pair{"profile_slope_um", &values.errors.profile_slope},
+                                  std::pair{"profile_form_um", &values.errors.profile_form}})
+    if (!list->empty() && static_cast<int>(list->size()) != values.design.teeth) {
+      const toml::node* at = table->get(key);
+      source.refuse(at ? *at : *table,
+                    text("'", key, "' in [", label, ".error] holds ", list->size(), " numbers, the gear has ",
+                         values.design.teeth, " teeth; give one for each"));
+    }
+}
+
 const std::set<Part> kGearParts = {Part::reference, Part::design, Part::inertia};
 
 void read_gears(const Source& source, Scene& scene) {
@@ -441,7 +538,7 @@ void read_gears(const Source& source, Scene& scene) {
                                  "', a folder of results is; choose another name"));
     }
     const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
-    reader.refuse_unknown({"modification"});
+    reader.refuse_unknown({"modification", "error"});
     KeyValues values;
     const toml::node* like = table->get("like");
     if (like && like->is_string()) {
@@ -460,6 +557,7 @@ void read_gears(const Source& source, Scene& scene) {
     }
     reader.read(values, kGearParts, like != nullptr);
     read_modification(source, *table, "gear." + name, values);
+    read_errors(source, *table, "gear." + name, values);
     if (!material.count(values.material_name)) {
       const toml::node* key = table->get("material");
       source.refuse(key ? *key : static_cast<const toml::node&>(*table),
@@ -467,8 +565,8 @@ void read_gears(const Source& source, Scene& scene) {
                          "' names no [material.<name>] section",
                          advice_for(values.material_name, names_of(materials))));
     }
-    scene.gears.push_back(
-        {name, values.design, material.at(values.material_name), values.total_inertia, values.modification});
+    scene.gears.push_back({name, values.design, material.at(values.material_name), values.total_inertia,
+                           values.modification, values.errors});
   }
 }
 
@@ -502,6 +600,7 @@ void read_mesh_section(const Source& source, Scene& scene) {
   scene.mesh = values.mesh;
   scene.mesh.modification = {scene.gear(values.mesh.driver).modification,
                              scene.gear(values.mesh.driven).modification};
+  scene.mesh.errors = {scene.gear(values.mesh.driver).errors, scene.gear(values.mesh.driven).errors};
 }
 
 // Slices are written in the order of the table, one section after the other.
@@ -549,6 +648,7 @@ class SliceText {
       return "[" + joined(items) + "]";
     }
     if (const auto* points = std::get_if<Points*>(&slot)) return exact_text(**points);
+    if (const auto* teeth = std::get_if<ToothList>(&slot)) return exact_text(*teeth->values);
     const auto& range = std::get<RangeSlot>(slot);
     return "{ from = " + exact_text(*range.from) + ", to = " + exact_text(*range.to) +
            ", step = " + exact_text(*range.step) + " }";
@@ -672,7 +772,15 @@ std::string static_slice(const Scene& scene) {
   values.mesh = scene.mesh;
   values.fidelity = scene.fidelity;
   values.contact = scene.contact;
-  if (values.contact.positions == 0) values.contact.positions = std::max(128, scene.time.steps_per_period);
+  if (values.contact.positions == 0) {
+    values.contact.positions = std::max(128, scene.time.steps_per_period);
+    int periods = 1;  // after which the same teeth meet
+    for (const std::string& name : {scene.mesh.driver, scene.mesh.driven})
+      if (!scene.gear(name).errors.none()) periods = std::lcm(periods, scene.gear(name).design.teeth);
+    constexpr int kMostInAll = 16384, kLeast = 16;
+    if (periods > 1)
+      values.contact.positions = std::clamp(kMostInAll / periods, kLeast, values.contact.positions);
+  }
   SliceText out("the static stage");
   out.add("mesh", "mesh", values, {Part::mesh});
   // Left out for flanks as they are designed, whose slices are what they were before flanks could be others.
@@ -680,6 +788,10 @@ std::string static_slice(const Scene& scene) {
     values.modification = scene.mesh.modification[g];
     if (values.modification != FlankModification{})
       out.add("modification", kModificationOf[g], values, {Part::modification});
+  }
+  for (int g = 0; g < 2; ++g) {
+    values.errors = scene.mesh.errors[g];
+    if (!values.errors.none()) out.add("error", kErrorOf[g], values, {Part::error});
   }
   out.add("fidelity", "fidelity", values, {Part::contact_rung});
   out.add("discretisation", "discretisation", values, {Part::contact});
@@ -785,6 +897,11 @@ StaticSlice read_static_slice(const std::string& path) {
     if (!source.section(kModificationOf[g])) continue;
     read_slice_section(source, "modification", kModificationOf[g], {Part::modification}, values);
     values.mesh.modification[g] = values.modification;
+  }
+  for (int g = 0; g < 2; ++g) {
+    if (!source.section(kErrorOf[g])) continue;
+    read_slice_section(source, "error", kErrorOf[g], {Part::error}, values);
+    values.mesh.errors[g] = values.errors;
   }
   StaticSlice out{values.mesh, values.fidelity, values.contact, "", ""};
   if (const toml::table* bodies = source.section("body")) {

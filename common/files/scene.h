@@ -48,6 +48,29 @@ struct FlankModification {
   bool operator==(const FlankModification&) const = default;
 };
 
+// What a machine leaves on the driving flanks of a gear, tooth by tooth; signs as an inspection sheet has them, positive where
+// material stands. An empty list is none; parts add up.
+struct ToothErrors {
+  std::vector<double>
+      single_pitch;  // (tooth) m along the reference circle: from the flank before to this one
+  std::vector<double> cumulative_pitch;  // (tooth) m along the reference circle
+  double eccentricity = 0;               // m: of the toothing's axis from that of rotation
+  double eccentric_tooth = 0;            // number of the tooth, or of a place between two, towards which
+  std::vector<double> profile_slope;     // (tooth) m: rise from the foot of the involute to the tip
+  std::vector<double> profile_form;      // (tooth) m: from peak to valley of waves along the flank
+  double profile_form_waves = 3;         // along the flank
+  int iso_class = 0;                     // of ISO 1328-1, deviations drawn at random within it; 0: none
+  double iso_share = 1;                  // of the limit that is used most
+  int seed = 1;
+
+  bool none() const {
+    for (const auto* list : {&single_pitch, &cumulative_pitch, &profile_slope, &profile_form})
+      for (const double deviation : *list)
+        if (deviation != 0) return false;
+    return eccentricity == 0 && iso_class == 0;
+  }
+};
+
 struct Material {
   double youngs_modulus = 0;  // Pa
   double poisson_ratio = 0;   // 1
@@ -74,6 +97,7 @@ struct SceneGear {
   Material material;
   double total_inertia = 0;  // kg m2 about the axis, body included
   FlankModification modification;
+  ToothErrors errors;
 };
 
 // Off the line of action a tip edge may touch a flank.
@@ -87,6 +111,7 @@ struct GearMeshSpec {
   double centre_distance = 0;  // m
   CornerRule corner;
   std::array<FlankModification, 2> modification;  // of driver and driven gear
+  std::array<ToothErrors, 2> errors;              // the same
 };
 
 struct Damping {
@@ -111,8 +136,9 @@ struct Fidelity {
 std::string next_rung(const std::string& key, const std::string& choice);
 
 struct ContactDiscretisation {
-  int strips = 8;     // across the contact width at the mean load
-  int positions = 0;  // mesh positions of the static stage; 0: as steps_per_period, 128 at least
+  int strips = 8;  // across the contact width at the mean load
+  int positions =
+      0;  // of the static stage per mesh period; 0: as steps_per_period, 128 at least, fewer where teeth differ
 };
 
 struct TimeDiscretisation {

@@ -119,6 +119,18 @@ void put_backlash(ArtifactWriter& out, double margin) {
   out.put("/backlash_margin", margin, {"m", "least backlash left along the line of action", "", ""});
 }
 
+// Teeth that are all alike have no such entry.
+void put_hunting(ArtifactWriter& out, int periods) {
+  if (periods > 1)
+    out.put("/hunting_periods", periods,
+            {"1", "mesh periods of a hunting period, after which the same teeth meet, as far as teeth differ",
+             "", ""});
+}
+
+int take_hunting(const ArtifactReader& in) {
+  return in.file().has("/hunting_periods") ? in.whole("/hunting_periods") : 1;
+}
+
 void put_natural_frequency(ArtifactWriter& out, double frequency) {
   out.put("/natural_frequency", frequency,
           {"Hz", "natural frequency: mean over the period with the contact frozen under the static load", "",
@@ -357,6 +369,10 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
           {"m", "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic", ""});
   out.put("/mesh_stiffness_harmonic", a.stiffness_harmonic,
           {"N m-1", "mean, then amplitudes of the harmonics of the secant stiffness", "harmonic", ""});
+  put_hunting(out, a.hunting_periods);
+  if (a.transmission_error_order.size() > 0)
+    out.put("/transmission_error_order", a.transmission_error_order,
+            {"m", "mean, then amplitudes of the harmonics of the hunting frequency", "order", ""});
   out.put("/mean_stiffness", a.mean_stiffness,
           {"N m-1", "mean of the secant stiffness over a mesh period", "", ""});
   out.put("/certificate/least_gap", a.least_gap,
@@ -465,6 +481,8 @@ StaticArtifact read_static(const std::string& path) {
   a.contact_half_width = in.matrix("/contact_half_width", phases, a.pair.size());
   a.transmission_error_harmonic = in.vector("/transmission_error_harmonic");
   a.stiffness_harmonic = in.vector("/mesh_stiffness_harmonic");
+  a.hunting_periods = take_hunting(in);
+  if (a.hunting_periods > 1) a.transmission_error_order = in.vector("/transmission_error_order");
   a.mean_stiffness = in.number("/mean_stiffness");
   a.least_gap = in.number("/certificate/least_gap");
   a.least_force = in.number("/certificate/least_force");
@@ -664,6 +682,7 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
             Eigen::VectorXd(a.energy.col(static_cast<Eigen::Index>(i))),
             {"J", text(kEnergyLines[i].meaning, ", over the stored periods"), kSpeed, ""});
   put_natural_frequency(out, a.natural_frequency);
+  put_hunting(out, a.hunting_periods);
   out.put("/drift_force", a.drift_force,
           {"N", "largest force that the output must supply to hold the mean speed", kSpeed, ""});
   out.put("/certificate/least_gap", a.least_gap,
@@ -729,6 +748,7 @@ SweepArtifact read_sweep(const std::string& path) {
   for (size_t i = 0; i < kEnergyLines.size(); ++i)
     a.energy.col(static_cast<Eigen::Index>(i)) = in.vector(text("/energy/", kEnergyLines[i].name), speeds);
   a.natural_frequency = in.number("/natural_frequency");
+  a.hunting_periods = take_hunting(in);
   a.drift_force = in.vector("/drift_force", speeds);
   a.least_gap = in.number("/certificate/least_gap");
   a.least_force = in.number("/certificate/least_force");
@@ -744,6 +764,7 @@ void write(const std::string& path, const ResponseArtifact& a, const Provenance&
   want_rows("dte_rms", a.dte_rms.size(), speeds);
   want_rows("dte_mean", a.dte_mean.size(), speeds);
   want_rows("dte_harmonic", a.dte_harmonic.rows(), speeds);
+  if (a.hunting_periods > 1) want_rows("dte_order", a.dte_order.rows(), speeds);
   want_rows("tooth_load_max", a.tooth_load_max.size(), speeds);
   want_rows("mesh_force_max", a.mesh_force_max.size(), speeds);
   want_rows("separation_fraction", a.separation_fraction.size(), speeds);
@@ -779,6 +800,11 @@ void write(const std::string& path, const ResponseArtifact& a, const Provenance&
   out.put("/dte_mean", a.dte_mean, {"m", "mean of the dynamic transmission error", kSpeed, ""});
   out.put("/dte_harmonic", a.dte_harmonic,
           {"m", "amplitude of the harmonics 1, 2, ... of the mesh frequency", "mesh_frequency harmonic", ""});
+  put_hunting(out, a.hunting_periods);
+  if (a.hunting_periods > 1)
+    out.put(
+        "/dte_order", a.dte_order,
+        {"m", "amplitude of the harmonics 1, 2, ... of the hunting frequency", "mesh_frequency order", ""});
   out.put("/tooth_load_max", a.tooth_load_max, {"N", "largest normal force of one tooth pair", kSpeed, ""});
   out.put("/mesh_force_max", a.mesh_force_max,
           {"N", "largest normal force of all pairs together", kSpeed, ""});
@@ -829,6 +855,8 @@ ResponseArtifact read_response(const std::string& path) {
   a.jump_frequency = in.vector("/jump_frequency");
   a.jump_width = in.vector("/jump_width", a.jump_frequency.size());
   a.period_multiple = in.whole_vector("/period_multiple", speeds);
+  a.hunting_periods = take_hunting(in);
+  if (a.hunting_periods > 1) a.dte_order = in.matrix("/dte_order", speeds);
   return a;
 }
 
@@ -1176,6 +1204,7 @@ std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to)
     values.body = driver ? a.driver_body : a.driven_body;
     values.mesh = a.mesh;
     values.modification = a.mesh.modification[driver ? 0 : 1];
+    values.errors = a.mesh.errors[driver ? 0 : 1];
     values.fidelity = a.fidelity;
     values.contact = a.contact;
     values.time = a.time;

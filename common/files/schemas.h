@@ -79,7 +79,9 @@ struct StaticArtifact {
   ContactDiscretisation contact;
   double torque = 0;  // N m on the driver
   double contact_ratio = 0;
-  Eigen::VectorXd mesh_phase;          // (phase) 1
+  int hunting_periods =
+      1;  // mesh periods after which the same teeth meet, as far as teeth differ; all are here
+  Eigen::VectorXd mesh_phase;          // (phase) 1, 0 to hunting_periods
   Eigen::VectorXd transmission_error;  // (phase) m
   Eigen::VectorXd unloaded_error;      // (phase) m: the same without load, 0 for flanks as they are designed
   // (phase) N m-1; the secant is the load over what it adds to the transmission error; the tangent of contact "line" is off by up to 0.6 % where contact comes near a tip edge
@@ -90,7 +92,10 @@ struct StaticArtifact {
   MatrixRM contact_pressure, contact_half_width;
   Eigen::VectorXd transmission_error_harmonic;  // (harmonic 0..) m: mean, then amplitudes
   Eigen::VectorXd stiffness_harmonic;           // (harmonic 0..) N m-1, of the secant stiffness
-  double mean_stiffness = 0;                    // N m-1: mean over the period of the secant stiffness
+  // (order 0..) m: mean, then amplitudes of the harmonics of the hunting frequency, up to those above; empty for teeth that
+  // are all alike
+  Eigen::VectorXd transmission_error_order;
+  double mean_stiffness = 0;  // N m-1: mean over the period of the secant stiffness
   // certificate: worst over all positions
   double least_gap = 0;        // m, of strips without force
   double least_force = 0;      // N, of strips with force
@@ -202,6 +207,7 @@ struct SweepArtifact {
   double mean_stiffness = 0;                                    // N m-1 that sets the bearing dampers
   double driver_bearing_damper = 0, driven_bearing_damper = 0;  // N m s
   double natural_frequency = 0;    // Hz: mean over the period with the contact frozen under the static load
+  int hunting_periods = 1;         // mesh periods after which the same teeth meet, as far as teeth differ
   std::string direction;           // "up" or "down"
   Eigen::VectorXd mesh_frequency;  // (speed) Hz
   // (speed, sample) m: the first period_multiple mesh periods are one orbit, repeated to fill the row
@@ -211,7 +217,8 @@ struct SweepArtifact {
   std::vector<MatrixRM> tooth_load;  // [speed] (sample, pair) N
   Eigen::VectorXi periods;           // (speed) mesh periods run
   Eigen::VectorXd residual;          // (speed) relative change of the state over a period at the end
-  Eigen::VectorXi period_multiple;   // (speed) 1 unless subharmonic; 0: not periodic within the limit
+  // (speed) mesh periods of the orbit: hunting_periods unless subharmonic; 0: not periodic within the limit
+  Eigen::VectorXi period_multiple;
   Eigen::VectorXd energy_imbalance;  // (speed) relative to the input energy of the stored periods
   MatrixRM energy;                   // (speed, line of kEnergyLines) J over the stored periods
   // (speed) N: largest force that the output must supply to hold the mean speed
@@ -227,10 +234,14 @@ struct SweepArtifact {
 // response.h5: what a sweep says, per speed
 struct ResponseArtifact {
   double torque = 0;
-  std::string direction, model;                    // model: "finite elements" or a lumped model's name
-  Eigen::VectorXd mesh_frequency;                  // (speed) Hz
-  Eigen::VectorXd dte_rms, dte_mean;               // (speed) m
-  MatrixRM dte_harmonic;                           // (speed, harmonic 1..) m, amplitude
+  std::string direction, model;       // model: "finite elements" or a lumped model's name
+  Eigen::VectorXd mesh_frequency;     // (speed) Hz
+  Eigen::VectorXd dte_rms, dte_mean;  // (speed) m
+  MatrixRM dte_harmonic;              // (speed, harmonic 1..) m, amplitude
+  int hunting_periods = 1;            // as in the sweep
+  // (speed, order 1..) m, amplitude of the harmonics of the hunting frequency, up to those above; empty if it is the mesh
+  // frequency
+  MatrixRM dte_order;
   Eigen::VectorXd tooth_load_max, mesh_force_max;  // (speed) N
   Eigen::VectorXd separation_fraction;             // (speed) share of the period without force
   Eigen::VectorXd separations_per_period;          // (speed) 1

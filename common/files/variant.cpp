@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
@@ -63,14 +64,14 @@ std::string scene_variant(const std::string& path, const std::vector<std::string
       if (toml::array* list = node->as_array())
         for (toml::node& mesh : *list)
           if (toml::table* table = mesh.as_table()) set(*table, name, value);
-    } else if (section == "modification") {
+    } else if (section == "modification" || section == "error") {
       toml::node* gears = scene.get("gear");
       if (toml::table* group = gears ? gears->as_table() : nullptr)
         for (auto&& [label, item] : *group)
           if (toml::table* gear = item.as_table()) {
-            toml::table* own = gear->get_as<toml::table>("modification");
-            if (!own && gear->contains("like")) continue;
-            if (!own) own = gear->insert("modification", toml::table{}).first->second.as_table();
+            toml::table* own = gear->get_as<toml::table>(section);
+            if (!own && section == "modification" && gear->contains("like")) continue;
+            if (!own) own = gear->insert(section, toml::table{}).first->second.as_table();
             set(*own, name, value);
           }
     } else if (section == "gear" || section == "material") {
@@ -84,6 +85,14 @@ std::string scene_variant(const std::string& path, const std::vector<std::string
       if (toml::table* table = node->as_table()) set(*table, name, value);
     }
   }
+  // Paths start from the folder of the scene, and the variant has another.
+  if (toml::table* gears = scene.get_as<toml::table>("gear"))
+    for (auto&& [label, item] : *gears)
+      if (toml::node* file = toml::node_view(item)["error"]["file"].node(); file && file->is_string())
+        toml::node_view(item)["error"].as_table()->insert_or_assign(
+            "file", (std::filesystem::absolute(path).parent_path() / *file->value<std::string>())
+                        .lexically_normal()
+                        .string());
   std::ostringstream out;
   out << "# Made by gear-scene --set from another scene; edit that one.\n" << scene << "\n";
   return out.str();

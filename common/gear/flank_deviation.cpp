@@ -89,7 +89,8 @@ Vector2d MonotoneCubic::at(double x) const {
           (rise + (1 - 2 * t) * (a * (1 - t) + b * t) + t * (1 - t) * (b - a)) / h};
 }
 
-FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModification& m)
+FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModification& m,
+                               const ToothErrors& errors)
     : form_(gear.form_roll_angle()),
       tip_(gear.tip_roll_angle()),
       middle_(0.5 * (form_ + tip_)),
@@ -116,26 +117,74 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
 
   none_ = parts_.empty() && crowning_ == 0 && slope_ == 0 &&
           std::all_of(m.points.begin(), m.points.end(), [](const auto& point) { return point[1] == 0; });
+  modified_ = !none_;
+  if (!errors.none()) {
+    const GearDesign& design = gear.design();
+    repeats_ = design.teeth;
+    none_ = false;
+    base_radius_ = gear.base_radius();
+    reference_roll_ = std::tan(design.pressure_angle);
+    waves_ = errors.profile_form_waves;
+    tooth_angle_ = 2 * std::numbers::pi / design.teeth;
+    eccentricity_ = errors.eccentricity;
+    eccentric_angle_ = 0.5 * std::numbers::pi + tooth_angle_ * errors.eccentric_tooth;
+    const Vec2 normal = gear.flank_normal(0);
+    normal_angle_ = std::atan2(normal.y(), normal.x());
+    const ToothDeviations d = tooth_deviations(design, errors);
+    for (int i = 0; i < repeats_; ++i)
+      teeth_.push_back({-d.cumulative_pitch[i] * base_radius_ / gear.pitch_radius(), -d.profile_slope[i],
+                        -d.profile_form[i]});
+  }
   if (none_) return;
   std::vector<double> places{form_, tip_};
   constexpr int kPlaces = 400;
   for (int i = 1; i < kPlaces; ++i) places.push_back(form_ + (tip_ - form_) * i / kPlaces);
   for (const auto& point : m.points) places.push_back(std::clamp(point[0], form_, tip_));
   least_ = largest_ = at(form_, 0);
-  for (const double roll : places) {
-    const Vector2d here = value_and_slope(roll, 0);
-    const double radius = gear.base_radius() * std::hypot(1, roll);
-    if (!(here[0] < 0.5 * gear.thickness_at_radius(radius)))
-      fail(Failure::input, "the modification takes ", here[0] * 1e6, " micrometres off the flank at ",
-           degrees(roll), ", where half of the tooth is ", 0.5e6 * gear.thickness_at_radius(radius),
-           " micrometres thick; take off less");
-    least_ = std::min(least_, here[0]);
-    largest_ = std::max(largest_, here[0]);
-    steepest_ = std::max(steepest_, std::abs(here[1]) / (gear.base_radius() * roll));
+  std::vector<double> low(places.size()), high(places.size());  // of all teeth
+  for (int tooth = -1; tooth < (repeats_ > 1 ? repeats_ : 0); ++tooth) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (size_t i = 0; i < places.size(); ++i) {
+      const double roll = places[i];
+      const Vector2d here = value_and_slope(roll, tooth < 0 ? kEveryTooth : tooth);
+      const double radius = gear.base_radius() * std::hypot(1, roll);
+      if (!(here[0] < 0.5 * gear.thickness_at_radius(radius)))
+        fail(Failure::input, "the modification takes ", here[0] * 1e6, " micrometres off the flank at ",
+             degrees(roll), ", where half of the tooth is ", 0.5e6 * gear.thickness_at_radius(radius),
+             " micrometres thick; take off less");
+      lowest = std::min(lowest, here[0]);
+      highest = std::max(highest, here[0]);
+      low[i] = tooth < 0 ? here[0] : std::min(low[i], here[0]);
+      high[i] = tooth < 0 ? here[0] : std::max(high[i], here[0]);
+      between_teeth_ = std::max(between_teeth_, high[i] - low[i]);
+      if (tooth < 0 && repeats_ > 1) continue;
+      least_ = std::min(least_, here[0]);
+      largest_ = std::max(largest_, here[0]);
+      steepest_ = std::max(steepest_, std::abs(here[1]) / (gear.base_radius() * roll));
+    }
+    spread_ = std::max(spread_, highest - lowest);
   }
 }
 
-Vector2d FlankDeviation::value_and_slope(double roll, int) const {
+// What sets one tooth apart; roll: within the flank.
+Vector2d FlankDeviation::of_tooth(double roll, int tooth) const {
+  const Tooth& own = teeth_[static_cast<size_t>(((tooth % repeats_) + repeats_) % repeats_)];
+  const double span = tip_ - form_, from = (roll - reference_roll_) / span;
+  const double rate = 2 * std::numbers::pi * waves_;
+  Vector2d sum(own.offset + own.slope * from + 0.5 * own.form * std::sin(rate * from),
+               (own.slope + 0.5 * own.form * rate * std::cos(rate * from)) / span);
+  if (eccentricity_ == 0) return sum;
+  // The displacement along the flank's normal brings it nearer; that along the tangent moves a flank of this curvature away.
+  constexpr double kLeastRoll = 0.02;
+  const double angle = normal_angle_ - roll + tooth_angle_ * tooth - eccentric_angle_;
+  const double along = eccentricity_ * std::cos(angle), across = eccentricity_ * std::sin(angle);
+  const double radius = base_radius_ * std::max(roll, kLeastRoll);
+  sum[0] += -along + 0.5 * across * across / radius;
+  sum[1] += -across - across * along / radius - 0.5 * across * across / (radius * std::max(roll, kLeastRoll));
+  return sum;
+}
+
+Vector2d FlankDeviation::value_and_slope(double roll, int tooth) const {
   if (none_) return {0, 0};
   const double on = std::clamp(roll, form_, tip_), span = tip_ - form_;
   Vector2d sum = points_.at(on);
@@ -148,6 +197,7 @@ Vector2d FlankDeviation::value_and_slope(double roll, int) const {
   const double off = 2 * (on - middle_) / span;
   sum +=
       Vector2d(crowning_ * off * off + slope_ * (on - form_) / span, (4 * crowning_ * off + slope_) / span);
+  if (repeats_ > 1 && tooth != kEveryTooth) sum += of_tooth(on, tooth);
   sum[0] += sum[1] * (roll - on);
   return sum;
 }

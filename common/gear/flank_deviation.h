@@ -8,9 +8,10 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <vector>
 
-#include "gear/involute.h"
+#include "gear/tooth_errors.h"
 
 namespace whine {
 
@@ -27,16 +28,24 @@ class MonotoneCubic {
   std::vector<double> x_, y_, slope_;
 };
 
+// In place of a tooth's number: what all teeth have in common.
+inline constexpr int kEveryTooth = std::numeric_limits<int>::min();
+
 class FlankDeviation {
  public:
   FlankDeviation() = default;  // none
-  // Throws Error(input), by the keys of a scene, for a relief that does not start on the flank, points beyond it, or more
-  // taken off than half the tooth's thickness.
-  FlankDeviation(const ToothGeometry& gear, const FlankModification& modification);
+  // Throws Error(input), by the keys of a scene, for a relief that does not start on the flank, points beyond it, more
+  // taken off than half the tooth's thickness, and errors that tooth_deviations refuses. An eccentric toothing moves flanks by
+  // its displacement e along their normals, to second order: what is left out is e^3 / rho^2, rho the radius of curvature.
+  FlankDeviation(const ToothGeometry& gear, const FlankModification& modification,
+                 const ToothErrors& errors = {});
 
   // True if nothing deviates on any tooth.
   bool none() const { return none_; }
-  // m; roll: rad; tooth: its number, counter-clockwise, any whole number. Beyond the ends of the involute the value goes on
+  bool none(int tooth) const { return none_ || (tooth == kEveryTooth && !modified_); }
+  // Teeth after which the flanks repeat: 1 if they are all alike, else all of them.
+  int repeats() const { return repeats_; }
+  // m; roll: rad; tooth: its number, counter-clockwise, any whole number, or kEveryTooth. Beyond the ends of the involute the value goes on
   // with its slope.
   double at(double roll, int tooth) const { return value_and_slope(roll, tooth)[0]; }
   // m and m per rad.
@@ -46,6 +55,10 @@ class FlankDeviation {
   double least() const { return least_; }
   double largest() const { return largest_; }
   double steepest() const { return steepest_; }
+  double spread() const { return spread_; }  // m: largest less least on one tooth, largest of all teeth
+  double between_teeth() const {
+    return between_teeth_;
+  }  // m: the same at one roll angle, from tooth to tooth and the common part
 
  private:
   struct Part {  // grows from 0 at `start` to `amount` at `end`
@@ -55,8 +68,16 @@ class FlankDeviation {
   std::vector<Part> parts_;
   double form_ = 0, tip_ = 1, middle_ = 0, crowning_ = 0, slope_ = 0;  // rad, m
   MonotoneCubic points_;
-  bool none_ = true;
-  double least_ = 0, largest_ = 0, steepest_ = 0;
+  bool none_ = true, modified_ = false;
+  double least_ = 0, largest_ = 0, steepest_ = 0, spread_ = 0, between_teeth_ = 0;
+  int repeats_ = 1;
+  Eigen::Vector2d of_tooth(double roll, int tooth) const;
+  struct Tooth {  // m taken off: everywhere, at the tip less at the foot, from peak to valley
+    double offset, slope, form;
+  };
+  std::vector<Tooth> teeth_;
+  double base_radius_ = 0, reference_roll_ = 0, waves_ = 0;                             // m, rad, 1
+  double eccentricity_ = 0, eccentric_angle_ = 0, normal_angle_ = 0, tooth_angle_ = 0;  // m, rad
 };
 
 // The two flanks of one pair of teeth. Default: none.
@@ -64,12 +85,21 @@ struct PairDeviation {
   std::array<const FlankDeviation*, 2> gear{};  // driver, driven gear; nullptr: none
   std::array<int, 2> tooth{};
 
-  bool none() const { return (!gear[0] || gear[0]->none()) && (!gear[1] || gear[1]->none()); }
+  bool none() const { return (!gear[0] || gear[0]->none(tooth[0])) && (!gear[1] || gear[1]->none(tooth[1])); }
+  // Whether pairs differ from each other.
+  bool differs() const { return (gear[0] && gear[0]->repeats() > 1) || (gear[1] && gear[1]->repeats() > 1); }
+  // m: how far pairs of other teeth may differ from each other.
+  double between_teeth() const {
+    double sum = 0;
+    for (const FlankDeviation* flank : gear)
+      if (flank) sum += flank->between_teeth();
+    return sum;
+  }
   // m, of both flanks at their roll angles (rad).
   double at(const std::array<double, 2>& roll) const {
     double sum = 0;
     for (int g = 0; g < 2; ++g)
-      if (gear[g] && !gear[g]->none()) sum += gear[g]->at(roll[g], tooth[g]);
+      if (gear[g] && !gear[g]->none(tooth[g])) sum += gear[g]->at(roll[g], tooth[g]);
     return sum;
   }
 };

@@ -184,7 +184,7 @@ double GearPair::nearest(const PairContact& c, const PairDeviation& deviation) c
   // The exact flanks part by x^2 / (2 R) at least, within the range of the deviations no farther than this.
   double range = 0;
   for (const FlankDeviation* flank : deviation.gear)
-    if (flank) range += flank->largest() - flank->least();
+    if (flank) range += flank->spread();
   constexpr double kMargin = 1.2;  // over R, which changes along the flank
   const double reach = kMargin * std::sqrt(2 * relative_curvature_radius(c) * range);
   double low = std::max(c.x_min, -reach), high = std::min(c.x_max, reach);

@@ -275,6 +275,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     }
   }
   step_data_.clear();
+  set_hunting_gaps();
   pack();
   turns_.clear();
   for (int i = 0; i < static_cast<int>(coordinates_.size()); ++i) {
@@ -286,6 +287,38 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
       turns_.push_back({i, c.partner, std::cos(c.turn), std::sin(c.turn)});
   }
   size_workspaces();
+}
+
+void RollingDynamics::set_hunting_gaps() {
+  hunting_ = whine::hunting_periods(model_);
+  hunting_gap_.clear();
+  if (hunting_ == 1) return;
+  size_t strips = 0;
+  for (Position& position : positions_) {
+    position.hunting = strips;
+    strips += static_cast<size_t>(position.mesh.strips());
+  }
+  constexpr double kMostMemory = 2e9;  // bytes
+  const double memory = 8.0 * static_cast<double>(strips) * hunting_;
+  if (memory > kMostMemory)
+    fail(Failure::input, "teeth that differ meet again after ", hunting_, " mesh periods, whose gaps at ",
+         positions_.size(), " positions each need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; set contact = \"line\", lower min_sample_rate_kHz and steps_per_period, or raise the "
+         "lowest speed");
+  hunting_gap_.resize(strips * static_cast<size_t>(hunting_));
+  for (int period = 0; period < hunting_; ++period)
+    for (const Position& position : positions_)
+      Eigen::Map<VectorXd>(&hunting_gap_[static_cast<size_t>(period) * strips + position.hunting],
+                           position.mesh.strips()) = flank_gaps(model_, position.mesh, period);
+}
+
+void RollingDynamics::put_gap(Position& position, int period) {
+  const double* gap =
+      &hunting_gap_[hunting_gap_.size() / static_cast<size_t>(hunting_) * static_cast<size_t>(period) +
+                    position.hunting];
+  const int strips = position.mesh.strips();
+  std::copy(gap, gap + strips, position.mesh.gap.data());
+  pack_gap(position);
 }
 
 const MatrixXd& RollingDynamics::shape_on_tooth(int g, int tooth) const {
@@ -433,7 +466,8 @@ double RollingDynamics::condensed_eigenvalue(const MatrixXd& compliance, const M
        " steps; raise total_inertia_kgm2 or set body = \"modal\"");
 }
 
-double RollingDynamics::frozen_frequency(int i) {
+double RollingDynamics::frozen_frequency(int i, int period) {
+  set_gap(positions_[i], period);
   const Position& position = positions_[i];
   const VectorXd p = equilibrium_at(position, static_compliance(position), elastic_offset(position)).p;
   std::vector<int> touch;
@@ -493,6 +527,7 @@ HeldMesh RollingDynamics::hold(int i) const {
 }
 
 RollingDynamics::State RollingDynamics::rest() {
+  set_gap(positions_[0], 0);
   const Position& position = positions_[0];
   const MatrixXd a = static_compliance(position);
   const VectorXd offset = elastic_offset(position);
@@ -519,6 +554,9 @@ RollingDynamics::State RollingDynamics::rest() {
   static_deflection_ = error_weight_.dot(state.z);
   State nothing = state;
   nothing.z.setZero();
+  // Teeth that differ are ahead or behind without load, too.
+  if (hunting_ > 1)
+    nothing.z[0] = unloaded_transmission_error(model_, position.mesh.phase) / error_weight_[0];
   energy_scale_ = 1;
   energy_scale_ = distance(state, nothing);
   return state;

@@ -63,6 +63,8 @@ class RollingDynamics {
     std::array<Eigen::MatrixXd, 2> lag,
         load;         // (field, pair) N: lagged and present loads of the lagged fields
     double pair = 0;  // stamp of the gears and their modes that this is a state of
+    int period =
+        0;  // mesh periods since tooth 0 of both gears met at the pitch point, less whole hunting periods
   };
   // What one mesh period showed, sampled at each step: sample i at phase i / steps.
   struct Period {
@@ -107,8 +109,8 @@ class RollingDynamics {
   };
   StepSizes step_sizes(int i) const;
   // Lowest natural frequency, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
-  // the range): undamped, the residual flexibility follows at once. Throws Error(numerical) if there is none.
-  double frozen_frequency(int i);
+  // the range) of a mesh period: undamped, the residual flexibility follows at once. Throws Error(numerical) if there is none.
+  double frozen_frequency(int i, int period = 0);
   // The pair at phase i / (steps of the range), to be moved without rolling. Throws Error(input) for lines.
   HeldMesh hold(int i) const;
   // (node, coordinate): outward displacement of the flanks, hub rotation included, per unit coordinate; h of
@@ -118,6 +120,7 @@ class RollingDynamics {
   Eigen::VectorXd difference(const State& a, const State& b) const;
   double distance(const State& a, const State& b) const { return difference(a, b).norm(); }
 
+  int hunting_periods() const { return hunting_; }                 // see hunting_periods() of the model
   int reach() const { return reach_; }                             // largest |pair| that can touch
   double bearing_damper(int g) const;                              // N m s
   double static_deflection() const { return static_deflection_; }  // m, transmission error of rest()
@@ -162,6 +165,7 @@ class RollingDynamics {
     Eigen::MatrixXd participation;                // (node, coordinate)
     Eigen::MatrixXd lagged;                       // (node, node): of both gears, when nothing moves
     std::array<Eigen::MatrixXd, 2> field_weight;  // (node, field)
+    size_t hunting = 0;  // place of its gaps in each mesh period's part of hunting_gap_
     Frame frame;
   };
   using Stream = std::vector<double, Eigen::aligned_allocator<double>>;  // lanes in one cache line
@@ -268,7 +272,14 @@ class RollingDynamics {
   Equilibrium equilibrium_at(const Position& position, const Eigen::MatrixXd& compliance,
                              const Eigen::VectorXd& offset);
   Eigen::VectorXd elastic_offset(const Position& position) const;
+  void set_hunting_gaps();
+  // Gives a position the gaps of the teeth that meet there in a mesh period; nothing to do for teeth that are alike.
+  void set_gap(Position& position, int period) {
+    if (hunting_ > 1) put_gap(position, period);
+  }
+  void put_gap(Position& position, int period);
   void pack();
+  void pack_gap(const Position& position);
   void pack_strips(Position& position, size_t& inner);
   void pack_lines(Position& position);
   void add_modes(int g, const std::vector<int>& columns);
@@ -291,6 +302,8 @@ class RollingDynamics {
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;
   Stream stream_;
+  int hunting_ = 1;
+  std::vector<double> hunting_gap_;  // m: (mesh period, strip of all positions), of teeth that differ
   std::vector<Step> step_data_;
   SpeedCoefficients speed_;
   DampingIntegrals damping_;

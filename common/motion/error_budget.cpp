@@ -169,7 +169,8 @@ NextRung next_contact_rung(const BodyArtifact& driver, const BodyArtifact& drive
     for (int pair = lowest; pair <= highest; ++pair) {
       const double line = load_of(result, i, pair), by_strips = load_of(strips, i, pair);
       worst = std::max(worst, std::abs(by_strips - line) / load);
-      if (line > 0 || by_strips > 0) corner |= gears.contact(result.mesh_phase[i] + pair).corner;
+      if (line > 0 || by_strips > 0)
+        corner |= gears.contact(result.mesh_phase[i] - std::floor(result.mesh_phase[i]) + pair).corner;
     }
     const double error = (strips.transmission_error[i] - result.transmission_error[i]) / mean_error;
     StaticDifference& zone = corner ? change.corner : change.elsewhere;

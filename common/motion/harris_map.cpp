@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "contact/load_path.h"
+#include "files/fit.h"
 #include "motion/rolling_mesh.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
@@ -211,6 +212,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
                              const StaticSlice& statics, const HarrisPlan& plan,
                              const std::function<void(long, long, const std::string&)>& report) {
   require_plan(plan);
+  require_like_teeth(statics.mesh, "a Harris map");
   const auto as_vector = [](const std::vector<double>& v) {
     return VectorXd(Eigen::Map<const VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
   };

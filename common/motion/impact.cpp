@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "files/fit.h"
 #include "motion/rolling_mesh.h"
 
 namespace whine {
@@ -103,6 +104,7 @@ class HeldPair {
            "dense matrices; set body = \"modal\"");
     if (plan.phases < 2 || plan.phases % 2)
       fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
+    require_like_teeth(statics.mesh, "a pair that is held at a mesh phase (gear-impact, gear-jump-map)");
     const GearMeshModel model(driver, driven, statics.mesh);
     DynamicParameters parameters;
     parameters.torque = statics.torque;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "files/fit.h"
 #include "gear/pair.h"
 #include "motion/impact.h"
 #include "motion/statics.h"
@@ -49,6 +50,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
       if (!(value > 0 && value < 1))
         fail(Failure::input, what, " of ", value, "; it must be above 0 and below 1");
 
+  require_like_teeth(statics.mesh, "a map of jumps");
   const StaticArtifact rest = static_transmission(driver, driven, statics, torque);
   const double bearing_stiffness =
       torque == slice.reference_torque

@@ -140,6 +140,18 @@ void RollingDynamics::pack_lines(Position& position) {
   }
 }
 
+void RollingDynamics::pack_gap(const Position& position) {
+  const MeshPosition& mesh = position.mesh;
+  if (!lines()) {
+    std::copy(mesh.gap.begin(), mesh.gap.end(),
+              stream_.begin() + static_cast<std::ptrdiff_t>(position.frame.gap));
+    return;
+  }
+  const LineRecord record{padded(static_cast<int>(coordinates_.size())), all_fields()};
+  for (size_t j = 0; j < mesh.pairs.size(); ++j)
+    stream_[position.frame.line + j * record.size() + LineRecord::kGap] = mesh.gap[j];
+}
+
 // A window's basis in lanes: what a pair's shape rows move its nodes by, and what its nodes' forces are in them.
 struct RollingDynamics::ShapeLanes {
   double column[kShapeRows][kPairNodes] = {}, row[kPairNodes][kShapeRows] = {};
@@ -799,6 +811,7 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       }
   };
 
+  set_gap(positions_[0], state.period);
   std::array<Instant, 2>& instants = ledger_work_.instants;
   ledger_work_.balance = 0;
   if (ledger) fill(instants[0], nullptr, positions_[0], state.p.data(), state.d.data());
@@ -811,8 +824,10 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       contact.rename();
       live = {live.first + (live.first < live.last), std::min(live.last + 1, pairs)};
       if (ledger) rename(instants[(i - 1) % 2]);
+      state.period = (state.period + 1) % hunting_;
     }
     sample_ = sample;
+    set_gap(positions_[sample * stride_], state.period);
     const Position& position = positions_[sample * stride_];
     const int present = position.frame.present;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/error.h"
 #include "contact/lanes.h"
@@ -83,8 +84,8 @@ GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& dri
     : kinematics(driver.design, driven.design, mesh.centre_distance),
       gear{ElasticGear(driver), ElasticGear(driven)},
       corner(mesh.corner),
-      deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0]),
-                FlankDeviation(kinematics.gear(1), mesh.modification[1])} {}
+      deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0]),
+                FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1])} {}
 
 VectorXd MeshPosition::to_strips(const Eigen::Ref<const VectorXd>& at_nodes) const {
   if (!law.empty()) return at_nodes;
@@ -155,7 +156,11 @@ bool MeshPosition::reaches_window_end(const Eigen::Ref<const VectorXd>& p) const
   return false;
 }
 
-PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap, int period) {
+int hunting_periods(const GearMeshModel& model) {
+  return std::lcm(model.deviation[0].repeats(), model.deviation[1].repeats());
+}
+
+PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap) {
   PairsInReach reach;
   const GearPair& gears = model.kinematics;
   const double tangent = std::tan(gears.working_pressure_angle()), pitch = gears.base_pitch();
@@ -168,13 +173,16 @@ PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double cor
     const PairContact contact = gears.contact(phase + pair);
     if (contact.corner) {
       if (!model.corner.enabled || contact.normal_angle > model.corner.largest_angle) continue;
-      const PairDeviation flanks = model.flanks(pair, period);
+      const PairDeviation flanks = model.common_flanks();
+      const double nearer = flanks.between_teeth();  // other teeth, at most
       if (!contact.on_flank) {
-        reach.lost_corner_gap = std::min(reach.lost_corner_gap, contact.gap + flanks.at(contact.roll));
+        reach.lost_corner_gap =
+            std::min(reach.lost_corner_gap, contact.gap + flanks.at(contact.roll) - nearer);
         continue;
       }
       const double gap =
-          flanks.none() ? contact.gap : gears.gap_at(contact, gears.nearest(contact, flanks), flanks);
+          (flanks.none() ? contact.gap : gears.gap_at(contact, gears.nearest(contact, flanks), flanks)) -
+          nearer;
       if (gap > corner_gap) {
         reach.next_corner_gap = std::min(reach.next_corner_gap, gap);
         continue;
@@ -192,7 +200,7 @@ double unloaded_transmission_error(const GearMeshModel& model, double phase, int
   // A pair on the line of action, which there always is, has no larger gap.
   const double largest = std::max(0.0, model.deviation[0].largest() + model.deviation[1].largest());
   constexpr double kLever = 1.1;  // over the lever of a tip edge
-  const PairsInReach reach = pairs_in_reach(model, phase, kLever * largest, period);
+  const PairsInReach reach = pairs_in_reach(model, phase, kLever * largest);
   double least = std::numeric_limits<double>::infinity();
   for (int j = 0; j < reach.size(); ++j) {
     const PairContact& contact = reach.contact[j];
@@ -203,20 +211,40 @@ double unloaded_transmission_error(const GearMeshModel& model, double phase, int
   return least;
 }
 
+VectorXd flank_gaps(const GearMeshModel& model, const MeshPosition& position, int period) {
+  VectorXd gap(position.first_strip.back());
+  for (size_t j = 0; j < position.pairs.size(); ++j) {
+    const PairStrips& s = position.pairs[j];
+    gap.segment(position.first_strip[j], s.size()) = s.gap;
+    const PairDeviation own = model.flanks(s.pair, period), common = model.common_flanks();
+    if (!own.differs()) continue;
+    const auto places = static_cast<int>(s.gap_roll[0].size()) / s.size();
+    for (int i = 0; i < s.size(); ++i) {
+      double sum = 0;
+      for (int k = i * places; k < (i + 1) * places; ++k) {
+        const std::array<double, 2> roll{s.gap_roll[0][k], s.gap_roll[1][k]};
+        sum += own.at(roll) - common.at(roll);
+      }
+      gap[position.first_strip[j] + i] += sum / places;
+    }
+  }
+  return gap;
+}
+
 MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range, int period) {
   MeshPosition position;
   position.phase = phase;
-  const PairsInReach reach = pairs_in_reach(model, phase, range.corner_gap, period);
+  const PairsInReach reach = pairs_in_reach(model, phase, range.corner_gap);
   position.next_corner_gap = reach.next_corner_gap;
   position.lost_corner_gap = reach.lost_corner_gap;
   for (int j = 0; j < reach.size(); ++j)
-    position.pairs.push_back(make_strips(model.kinematics, reach.pair[j], reach.contact[j], range,
-                                         model.flanks(reach.pair[j], period)));
+    position.pairs.push_back(
+        make_strips(model.kinematics, reach.pair[j], reach.contact[j], range, model.common_flanks()));
 
   position.first_strip.push_back(0);
   for (const PairStrips& s : position.pairs)
     position.first_strip.push_back(position.first_strip.back() + s.size());
-  position.gap.resize(position.first_strip.back());
+  position.gap = flank_gaps(model, position, period);
   for (int g = 0; g < 2; ++g) {
     position.strip_lever[g].resize(position.strips());
     position.node_lever[g].resize(position.nodes());
@@ -224,7 +252,6 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Conta
   }
   for (size_t j = 0; j < position.pairs.size(); ++j) {
     const PairStrips& s = position.pairs[j];
-    position.gap.segment(position.first_strip[j], s.size()) = s.gap;
     for (int g = 0; g < 2; ++g) {
       position.strip_lever[g].segment(position.first_strip[j], s.size()).setConstant(s.contact.lever[g]);
       position.node_lever[g].segment<kWindowNodes>(j * kWindowNodes).setConstant(s.contact.lever[g]);
@@ -331,14 +358,13 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
   MeshPosition position;
   position.phase = phase;
   position.nodes_per_pair = 1;
-  const PairsInReach reach = pairs_in_reach(model, phase, corner_gap, period);
+  const PairsInReach reach = pairs_in_reach(model, phase, corner_gap);
   position.next_corner_gap = reach.next_corner_gap;
   position.lost_corner_gap = reach.lost_corner_gap;
   const int n = reach.size();
   const double coefficient =
       model.gear[0].half_plane().coefficient() + model.gear[1].half_plane().coefficient();
   position.first_strip = {0};
-  position.gap.resize(n);
   for (int g = 0; g < 2; ++g) {
     position.strip_lever[g].resize(n);
     position.table_weights[g].resize(n, model.gear[g].table_size());
@@ -352,11 +378,14 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     const int near = contact.corner ? contact.tip_gear : tip[0] < tip[1] ? 0 : 1;
     const double half_width =
         std::sqrt(2 * gears.relative_curvature_radius(contact) * pair_force * coefficient);
-    const LineGap flanks = line_gap(gears, contact, model.flanks(line.pair, period), tip, near, half_width);
+    const LineGap flanks = line_gap(gears, contact, model.common_flanks(), tip, near, half_width);
     line.gap = VectorXd::Constant(1, flanks.gap);
+    if (model.common_flanks().differs()) {
+      const FlankGap touch = gears.gap_at(contact, flanks.touch);
+      for (int g = 0; g < 2; ++g) line.gap_roll[g] = VectorXd::Constant(1, touch.roll[g]);
+    }
     position.pairs.push_back(line);
     position.first_strip.push_back(j + 1);
-    position.gap[j] = flanks.gap;
     position.law.emplace_back(model.gear[0].half_plane(), model.gear[1].half_plane(), flanks.radius, depth,
                               flanks.edge_slope);
     const HertzLine& law = position.law.back();
@@ -371,6 +400,7 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     }
   }
   position.node_lever = position.strip_lever;
+  position.gap = flank_gaps(model, position, period);
   return position;
 }
 

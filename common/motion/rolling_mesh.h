@@ -62,6 +62,8 @@ struct GearMeshModel {
   PairDeviation flanks(int pair = 0, int period = 0) const {
     return {{&deviation[0], &deviation[1]}, {tooth(0, pair - period), tooth(1, pair - period)}};
   }
+  // What all pairs have in common.
+  PairDeviation common_flanks() const { return {{&deviation[0], &deviation[1]}, {kEveryTooth, kEveryTooth}}; }
 };
 
 // Which pairs may touch at one phase, in the order of their numbers.
@@ -76,9 +78,13 @@ struct PairsInReach {
   int size() const { return static_cast<int>(pair.size()); }
 };
 
+// Mesh periods after which the same teeth meet, as far as teeth differ; 1 if they are all alike.
+int hunting_periods(const GearMeshModel& model);
+
 // corner_gap: m, tip edges with a larger gap than this are left out; where flanks deviate it is the least gap of the two
-// flanks that counts, wherever near the edge it is.
-PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap, int period = 0);
+// flanks that counts, wherever near the edge it is, and of whichever teeth come nearest: pairs are the same in every mesh
+// period.
+PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap);
 
 // m: how far the driver turns ahead, along the line of action, until the first of its unloaded flanks touches: the least of
 // all pairs' gaps, each over its driving lever. 0 for flanks that do not deviate. Exact to 1e-13 m.
@@ -92,7 +98,7 @@ struct MeshPosition {
   std::vector<HertzLine> law;     // (pair) of lines; empty: strips
   int nodes_per_pair = kWindowNodes;
   std::vector<int> first_strip;                  // (pair + 1)
-  Eigen::VectorXd gap;                           // (strip) m
+  Eigen::VectorXd gap;                           // (strip) m, of the teeth that meet in one mesh period
   std::array<Eigen::VectorXd, 2> strip_lever;    // (strip) m
   std::array<Eigen::VectorXd, 2> node_lever;     // (node) m
   std::array<Eigen::MatrixXd, 2> table_weights;  // (node, flank) 1: the S of load and reading
@@ -116,6 +122,9 @@ struct MeshPosition {
   bool reaches_window_end(const Eigen::Ref<const Eigen::VectorXd>& p) const;
 };
 
+// m: (strip) gaps of the teeth that meet in a mesh period; all else at a position is the same in every one.
+Eigen::VectorXd flank_gaps(const GearMeshModel& model, const MeshPosition& position, int period);
+
 // phase: within a mesh period, 0 to 1; period: which one, for teeth that differ.
 MeshPosition make_position(const GearMeshModel& model, double phase, const ContactRange& range,
                            int period = 0);
@@ -123,7 +132,8 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Conta
 // The same with one contact line per pair. depth: m, of the Hertz laws. The tables are read at the middle of the
 // pressure that pair_force (N) makes, which moves inwards from the touching point where contact ends at a tip edge; held
 // there, whatever force the pair carries. So is the parabola that the law takes in place of flanks that deviate: the one
-// that a contact under pair_force feels.
+// that a contact under pair_force feels of what all teeth have in common. What sets teeth apart changes the gap where these
+// touch, and nothing else: a slope s of one tooth leaves out R s^2 / 2, 4 nm for 10 micrometres over a flank of 7 mm.
 MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
                                 double pair_force, int period = 0);
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
 
@@ -31,22 +32,21 @@ struct PositionAnswer {
   bool leaves_window = false;                       // a wider range may do
 };
 
-// A rung of contact at one load: the equilibrium at a phase, looked for from `start` (m).
-using ContactRung = std::function<PositionAnswer(double phase, double start)>;
+// A rung of contact at one load: the equilibrium at a phase of a mesh period, looked for from `start` (m). One phase after the
+// other: what all mesh periods have in common there is kept.
+using ContactRung = std::function<PositionAnswer(double phase, int period, double start)>;
 
-struct StripsAnswer {
+struct LoadedStrips {
   MeshPosition position;
   MatrixXd compliance;  // (strip, strip) m N-1
   VectorXd approach;    // (strip) 1
-  Equilibrium equilibrium;
 };
 
 constexpr double kStripsDepth = 1e-3;  // m: statics do not depend on it, near field and far field cancel it
 
-StripsAnswer solve_strips(const GearMeshModel& model, const ContactRange& range, double load,
-                          const std::array<std::vector<MatrixXd>, 2>& tables, double phase, double start,
-                          ComplementaritySolver& solver) {
-  StripsAnswer s;
+LoadedStrips loaded_strips(const GearMeshModel& model, const ContactRange& range,
+                           const std::array<std::vector<MatrixXd>, 2>& tables, double phase) {
+  LoadedStrips s;
   s.position = make_position(model, phase, range);
   const MatrixXd& a = s.compliance = contact_compliance(model, s.position, tables, kStripsDepth);
   // A contact that happens to end on a sound part of a broken table would look right.
@@ -57,9 +57,12 @@ StripsAnswer solve_strips(const GearMeshModel& model, const ContactRange& range,
          " strips is not positive definite: pivot ", least,
          " m/N; the body's table is wrong, rebuild body.h5");
   s.approach = s.position.strip_lever[0] / model.kinematics.gear(0).base_radius();
-  ActiveSet active;
-  s.equilibrium = equilibrium(a, s.position.gap, s.approach, load, start, active, solver);
   return s;
+}
+
+Equilibrium equilibrium(const LoadedStrips& s, double load, double start, ComplementaritySolver& solver) {
+  ActiveSet active;
+  return equilibrium(s.compliance, s.position.gap, s.approach, load, start, active, solver);
 }
 
 std::array<std::vector<MatrixXd>, 2> strips_tables(const GearMeshModel& model) {
@@ -68,12 +71,13 @@ std::array<std::vector<MatrixXd>, 2> strips_tables(const GearMeshModel& model) {
 
 ContactRung strips_rung(const GearMeshModel& model, const ContactRange& range, double load,
                         double face_width) {
-  return [&model, range, load, face_width, tables = strips_tables(model), solver = ComplementaritySolver()](
-             double phase, double start) mutable {
-    const StripsAnswer s = solve_strips(model, range, load, tables, phase, start, solver);
-    const MeshPosition& position = s.position;
+  return [&model, range, load, face_width, tables = strips_tables(model), solver = ComplementaritySolver(),
+          s = std::optional<LoadedStrips>()](double phase, int period, double start) mutable {
+    if (!s || s->position.phase != phase) s = loaded_strips(model, range, tables, phase);
+    if (period > 0) s->position.gap = flank_gaps(model, s->position, period);
+    const MeshPosition& position = s->position;
     PositionAnswer answer;
-    answer.equilibrium = s.equilibrium;
+    answer.equilibrium = equilibrium(*s, load, start, solver);
     answer.next_corner_gap = position.next_corner_gap;
     answer.lost_corner_gap = position.lost_corner_gap;
     const VectorXd& p = answer.equilibrium.p;
@@ -92,58 +96,69 @@ ContactRung line_rung(const GearMeshModel& model, const ContactRange& range, dou
   // The half window is Hertz's half-width under the whole load: the laws rise over all of it, and the tables keep what
   // lies deeper.
   const double depth = 3 * range.half_window;
-  return [&model, range, load, face_width, depth,
-          tables = std::array{compliance_tables(model.gear[0], depth),
-                              compliance_tables(model.gear[1], depth)}](double phase, double start) {
-    const MeshPosition position =
-        make_line_position(model, phase, range.corner_gap, depth, shared_force(load));
-    const MatrixXd c = body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]);
-    const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
-    PositionAnswer answer;
-    answer.equilibrium = equilibrium(c, position.law, position.gap, approach, load, start);
-    answer.next_corner_gap = position.next_corner_gap;
-    answer.lost_corner_gap = position.lost_corner_gap;
-    const VectorXd& force = answer.equilibrium.p;
-    require_line_range(position, force);
-    for (size_t j = 0; j < position.pairs.size(); ++j) {
-      const double width = position.law[j].width(force[j]);
-      ContactPatch patch;
-      if (force[j] > 0 && !position.law[j].at_edge(force[j]))
-        patch = {4 * force[j] / (std::numbers::pi * width * face_width), 0.5 * width};
-      answer.loads.push_back({position.pairs[j].pair, force[j], patch});
-    }
-    return answer;
-  };
+  return
+      [&model, range, load, face_width, depth,
+       tables = std::array{compliance_tables(model.gear[0], depth), compliance_tables(model.gear[1], depth)}](
+          double phase, int period, double start) {
+        const MeshPosition position =
+            make_line_position(model, phase, range.corner_gap, depth, shared_force(load), period);
+        const MatrixXd c = body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]);
+        const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
+        PositionAnswer answer;
+        answer.equilibrium = equilibrium(c, position.law, position.gap, approach, load, start);
+        answer.next_corner_gap = position.next_corner_gap;
+        answer.lost_corner_gap = position.lost_corner_gap;
+        const VectorXd& force = answer.equilibrium.p;
+        require_line_range(position, force);
+        for (size_t j = 0; j < position.pairs.size(); ++j) {
+          const double width = position.law[j].width(force[j]);
+          ContactPatch patch;
+          if (force[j] > 0 && !position.law[j].at_edge(force[j]))
+            patch = {4 * force[j] / (std::numbers::pi * width * face_width), 0.5 * width};
+          answer.loads.push_back({position.pairs[j].pair, force[j], patch});
+        }
+        return answer;
+      };
 }
 
 constexpr int kWidenings = 6;
 constexpr double kWidening = 1.6;
+
+// m: what teeth that differ may add to the transmission error.
+double largest_error(const GearMeshModel& model) {
+  double sum = 0;
+  for (const FlankDeviation& flank : model.deviation)
+    if (flank.repeats() > 1) sum += std::max(0.0, flank.largest());
+  return sum;
+}
 
 // How far contact is looked for under a load; widening: 1 unless contact has left it.
 ContactRange static_range(const GearMeshModel& model, int strips, double load, double window,
                           double widening) {
   return contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), strips,
                        load / model.kinematics.contact_ratio(), 1.1 * load * window * window * widening,
-                       (1e-6 + 8e-9 * load) * widening, model.flanks());
+                       (1e-6 + 8e-9 * load) * widening + largest_error(model), model.flanks());
 }
 
-// One whole period; where and how contact wants more than the range holds, if it does.
+// One whole hunting period; where and how contact wants more than the range holds, if it does.
 std::string solve_period(const GearMeshModel& model, const ContactRange& range, double load, int positions,
                          StaticArtifact& result) {
   const double face_width =
       std::min(model.kinematics.gear(0).design().face_width, model.kinematics.gear(1).design().face_width);
   const ContactRung solve =
       (result.fidelity.contact == "line" ? line_rung : strips_rung)(model, range, load, face_width);
-  std::vector<std::pair<int, Loaded>> loads;  // position and what a pair carries there
+  const int rows = positions * result.hunting_periods;
+  std::vector<std::pair<int, Loaded>> loads;  // row and what a pair carries there
   int lowest = 0, highest = 0;
-  double start = 0;
+  std::vector<double> start(static_cast<size_t>(result.hunting_periods), 0.0);
   result.least_gap = result.least_force = std::numeric_limits<double>::infinity();
   result.torque_residual = 0;
-  for (int i = 0; i < positions; ++i) {
-    const double phase = static_cast<double>(i) / positions;
-    const PositionAnswer answer = solve(phase, start);
+  for (int row = 0; row < rows; ++row) {
+    const int period = row % result.hunting_periods, i = period * positions + row / result.hunting_periods;
+    const double phase = static_cast<double>(row / result.hunting_periods) / positions;
+    const PositionAnswer answer = solve(phase, period, start[period]);
     const Equilibrium& e = answer.equilibrium;
-    start = e.x;
+    start[period] = e.x;
     if (answer.leaves_window) return text("at mesh phase ", phase, " the pressure reaches the window's end");
     if (e.x > answer.lost_corner_gap)
       fail(Failure::numerical, "at mesh phase ", phase, " the deflection ", e.x * 1e6,
@@ -152,9 +167,9 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
     if (e.x > answer.next_corner_gap)
       return text("at mesh phase ", phase, " the deflection ", e.x * 1e6,
                   " micrometres closes a tip edge's gap of ", answer.next_corner_gap * 1e6, " micrometres");
-    result.mesh_phase[i] = phase;
+    result.mesh_phase[i] = period + phase;
     result.transmission_error[i] = e.x;
-    result.unloaded_error[i] = unloaded_transmission_error(model, phase);
+    result.unloaded_error[i] = unloaded_transmission_error(model, phase, period);
     result.stiffness_secant[i] = load / (e.x - result.unloaded_error[i]);
     result.stiffness_tangent[i] = e.stiffness;
     result.torque_residual = std::max(result.torque_residual, e.residual);
@@ -170,7 +185,7 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
   lowest = std::min(lowest, -1);
   highest = std::max(highest, 1);
   result.pair = Eigen::VectorXi::LinSpaced(highest - lowest + 1, lowest, highest);
-  result.tooth_load = MatrixRM::Zero(positions, result.pair.size());
+  result.tooth_load = MatrixRM::Zero(rows, result.pair.size());
   result.contact_pressure = result.contact_half_width = result.tooth_load;
   for (const auto& [i, at] : loads) {
     result.tooth_load(i, at.pair - lowest) = at.force;
@@ -199,9 +214,16 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   result.contact = slice.contact;
   result.torque = torque;
   result.contact_ratio = model.kinematics.contact_ratio();
+  result.hunting_periods = hunting_periods(model);
+  constexpr int kMostRows = 1 << 21;
+  if (positions > kMostRows / result.hunting_periods)
+    fail(Failure::input, "teeth that differ meet again after ", result.hunting_periods,
+         " mesh periods; with positions = ", positions, " these are ",
+         static_cast<double>(positions) * result.hunting_periods, " positions, at most ", kMostRows,
+         " are allowed; lower positions");
   for (VectorXd* v : {&result.mesh_phase, &result.transmission_error, &result.unloaded_error,
                       &result.stiffness_secant, &result.stiffness_tangent})
-    v->resize(positions);
+    v->resize(positions * result.hunting_periods);
 
   double widening = 1;
   for (int attempt = 0;; ++attempt) {
@@ -211,7 +233,8 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
     if (attempt == kWidenings)
       fail(Failure::numerical, "at ", torque, " N m contact leaves the flanks: window ",
            range.half_window * 1e3, " mm either side, tip edges up to ", range.corner_gap * 1e6,
-           " micrometres away, and still ", beyond, "; lower the torque");
+           " micrometres away, and still ", beyond, "; lower the torque",
+           result.hunting_periods > 1 ? " or the errors of the teeth" : "");
     widening *= kWidening;
   }
   result.mean_stiffness = result.stiffness_secant.mean();
@@ -230,8 +253,8 @@ ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
   double widening = 1;
   for (int attempt = 0; attempt < kWidenings; ++attempt, widening *= kWidening) {
     const ContactRange range = static_range(model, statics.contact.strips, load, 1, widening);
-    const StripsAnswer s = solve_strips(model, range, load, tables, 0.0, 0.0, solver);
-    const Equilibrium& e = s.equilibrium;
+    const LoadedStrips s = loaded_strips(model, range, tables, 0.0);
+    const Equilibrium e = equilibrium(s, load, 0.0, solver);
     if (s.position.reaches_window_end(e.p) || e.x > s.position.next_corner_gap) continue;
     const VectorXd separation = s.compliance * e.p + s.position.gap - e.x * s.approach;
     for (size_t j = 0; j < s.position.pairs.size(); ++j)

@@ -15,8 +15,9 @@ using State = RollingDynamics::State;
 
 namespace {
 
-constexpr int kMostPeriods = 3000;  // per speed, before it counts as not periodic
-constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in mesh periods
+constexpr int kMostPeriods = 3000;  // mesh periods per speed, before it counts as not periodic
+constexpr int kLeastTurns = 100;    // but this many hunting periods
+constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in hunting periods
 constexpr int kStagnation = 50;     // periods over which a subharmonic must not come nearer to a shorter one
 constexpr int kColumns = 4;         // changes that one extrapolation combines: three multipliers go
 constexpr double kClose = 1e-2;     // change per period below which the motion counts as close to its orbit
@@ -32,6 +33,12 @@ double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
   const double mean = sum / static_cast<double>(count);
   for (const auto& period : record) square += (period.transmission_error.array() - mean).square().sum();
   return std::sqrt(square / static_cast<double>(count));
+}
+
+// Sample 0 of a march is that of the period after it, in the names of its teeth.
+void begin_with_end_of(const RollingDynamics::Period& before, RollingDynamics::Period& period) {
+  period.transmission_error[0] = before.transmission_error[0];
+  if (before.pair_load.rows() == period.pair_load.rows()) period.pair_load.col(0) = before.pair_load.col(0);
 }
 
 // Sum of weight[i] times the state i.
@@ -103,11 +110,13 @@ class Extrapolation {
 
 }  // namespace
 
-// A subharmonic of order m is a motion whose state repeats after m periods but, long since and without getting any nearer,
+// A subharmonic of order m is a motion whose state repeats after m hunting periods but, long since and without getting any nearer,
 // not after a divisor of m: a slow transient may look like one for a while.
 std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double periodicity,
                             const std::string& method) {
   Orbit orbit;
+  // The map whose orbits are looked for: a hunting period, which is a mesh period for teeth that are alike.
+  const int hunting = dynamics.hunting_periods(), most = std::max(kMostPeriods / hunting, kLeastTurns);
   std::deque<State> past{state};
   std::deque<std::array<double, kMostMultiple + 1>> history;  // change over m periods
   RollingDynamics::Period period;
@@ -126,8 +135,13 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
     extrapolation.forget();
     past.assign(1, state);
   };
+  const auto turn = [&] {
+    for (int k = 0; k < hunting; ++k)
+      if (!dynamics.march(state, period)) return false;
+    return true;
+  };
   for (int n = 1;; ++n) {
-    if (!dynamics.march(state, period)) {
+    if (!turn()) {
       if (!proposal.pending) return std::nullopt;
       reject();
       continue;
@@ -148,21 +162,26 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
         if (m % d == 0 && !stagnates(d)) multiple = 0;
     }
     if (change[1] == 0) multiple = 1;
-    if (multiple > 0 || n >= kMostPeriods) {
+    if (multiple > 0 || n >= most) {
       // Not periodic: reported as such, with the last periods as they are.
       const State reached = state;
-      orbit.multiple = multiple;
-      orbit.periods = n;
+      orbit.multiple = multiple * hunting;
+      orbit.periods = n * hunting;
       orbit.residual = change[std::max(multiple, 1)];
       orbit.ledger = {};
       orbit.record.clear();
-      for (int k = 0; k < (multiple > 0 ? multiple : kMostMultiple); ++k) {
+      const int recorded = hunting * (multiple > 0 ? multiple : hunting > 1 ? 1 : kMostMultiple);
+      RollingDynamics::Period before = period;
+      for (int k = 0; k < recorded; ++k) {
         if (!dynamics.march(state, period, &orbit.ledger)) return std::nullopt;
         orbit.record.push_back(period);
+        // A march ends with the first sample of the period after it.
+        if (recorded > 1) begin_with_end_of(before, orbit.record.back());
+        before = period;
       }
       // An extrapolation may have hit an unstable orbit: then the period just recorded was a step away from it.
-      const bool leaves = proposal.pending && multiple == 1 && n < kMostPeriods &&
-                          dynamics.distance(state, reached) > orbit.residual;
+      const bool leaves =
+          proposal.pending && multiple == 1 && n < most && dynamics.distance(state, reached) > orbit.residual;
       if (!leaves) {
         orbit.rms = oscillating_rms(orbit.record);
         return orbit;

@@ -8,7 +8,8 @@
 
 namespace whine {
 
-// One orbit of `multiple` mesh periods; 0: the motion did not become periodic and `record` holds the last periods.
+// One orbit of `multiple` mesh periods, whole hunting periods of teeth that differ; 0: the motion did not become periodic and
+// `record` holds the last periods.
 struct Orbit {
   int multiple = 1;
   int periods = 0;      // mesh periods marched before those recorded
@@ -18,8 +19,8 @@ struct Orbit {
   std::vector<RollingDynamics::Period> record;
 };
 
-// Marches from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance); `state` then stands at
-// the start of a mesh period on the orbit. method "march": plain marching, as a rig would. "extrapolate": once the motion
+// Marches from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance) over a hunting period, which is
+// a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method "march": plain marching, as a rig would. "extrapolate": once the motion
 // is close, reduced rank extrapolation (Sidi, Vector Extrapolation Methods with Applications, SIAM 2017, ch. 2) takes
 // the slow multipliers out. It is used only where the multipliers that it sees lie inside the unit circle, and counts only
 // if marching on comes closer still: an unstable orbit is left again. Empty if contact wanted more than the range of the

@@ -32,6 +32,20 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   return steps;
 }
 
+// All motions are kept until the sweep is written.
+void require_memory(int hunting, int speeds, const SweepSlice& slice, int pairs) {
+  constexpr double kMostMemory = 4e9;  // bytes
+  double samples = 0;
+  for (int i = 0; i < speeds; ++i)
+    samples +=
+        slice.time.steps_per_period + steps_at(slice.time, slice.frequency_from + i * slice.frequency_step);
+  const double memory = 8.0 * samples * hunting * (2 + pairs);
+  if (hunting > 1 && memory > kMostMemory)
+    fail(Failure::input, "teeth that differ meet again after ", hunting, " mesh periods; ", speeds,
+         " speeds of that length need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period and min_sample_rate_kHz");
+}
+
 // The pair on contact windows of growing levels, whose strips are of one width: a window holds those of the level below. A
 // motion is that of the lowest level that holds it, whatever the speeds before it wanted.
 class Sweeper {
@@ -40,7 +54,12 @@ class Sweeper {
           const SweepSlice& slice)
       : model_(model), parameters_(parameters), slice_(slice), strips_(statics.contact.strips) {
     load_ = statics.torque / model.kinematics.gear(0).base_radius();
-    corner_gap_ = kBeyondStatics * statics.transmission_error.maxCoeff();
+    // Beside what load adds: teeth that differ are near or far as they are.
+    const Eigen::VectorXd& without_load = statics.unloaded_error;
+    corner_gap_ = statics.hunting_periods == 1
+                      ? kBeyondStatics * statics.transmission_error.maxCoeff()
+                      : kBeyondStatics * (statics.transmission_error - without_load).maxCoeff() +
+                            std::max(0.0, without_load.maxCoeff());
     finest_ = steps_at(slice.time, slice.frequency_from);
     lowest_ = range(0);
     state_ = dynamics(0).rest();
@@ -53,7 +72,10 @@ class Sweeper {
     constexpr int kPhases = 32;
     const int positions = std::min(kPhases, finest_);
     double sum = 0;
-    for (int i = 0; i < positions; ++i) sum += dynamics(0).frozen_frequency(i * (finest_ / positions));
+    // Of teeth that differ other ones at each phase.
+    for (int i = 0; i < positions; ++i)
+      sum += dynamics(0).frozen_frequency(i * (finest_ / positions),
+                                          i * dynamics(0).hunting_periods() / positions);
     return sum / positions;
   }
   RollingDynamics::State& state() { return state_; }
@@ -243,6 +265,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   result.driver_bearing_damper = sweeper.dynamics().bearing_damper(0);
   result.driven_bearing_damper = sweeper.dynamics().bearing_damper(1);
   result.natural_frequency = sweeper.natural_frequency();
+  result.hunting_periods = sweeper.dynamics().hunting_periods();
+  require_memory(result.hunting_periods, speeds, slice, 2 * sweeper.dynamics().reach() + 1);
   result.direction = direction;
   result.mesh_frequency.resize(speeds);
   result.periods.resize(speeds);

@@ -390,10 +390,14 @@ void sort_by_torque(std::vector<StaticArtifact>& statics) {
     if (statics[i].torque == statics[i + 1].torque)
       fail(Failure::input, "figure: two static.h5 of the same torque, ", statics[i].torque,
            " N m; give each once");
-  for (const auto& s : statics)
+  for (const auto& s : statics) {
+    if (s.hunting_periods > 1)
+      fail(Failure::input, "figure: the teeth of ", s.torque,
+           " N m differ from each other, and this figure shows one mesh period; make sidebands");
     if (s.mesh_phase.size() != statics[0].mesh_phase.size() || s.mesh_phase != statics[0].mesh_phase)
       fail(Failure::input, "figure: the static.h5 of ", s.torque, " N m and of ", statics[0].torque,
            " N m have different mesh phases; make them with the same `positions`");
+  }
 }
 
 std::string torque_label(const StaticArtifact& s) {
@@ -929,6 +933,44 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
   std::string labels;
   for (const auto& s : statics) labels += text("'", torque_label(s), "' ");
   figure.words = {{"labels", labels}};
+  return figure;
+}
+
+Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
+  const int periods = s.hunting_periods;
+  if (periods < 2)
+    fail(Failure::input,
+         "figure: the teeth are all alike and have no sidebands; give a gear of the scene a "
+         "section [gear.<name>.error]");
+  if (r.hunting_periods != periods || r.torque != s.torque)
+    fail(Failure::input, "figure: the sweep is of ", r.hunting_periods, " mesh periods at ", r.torque,
+         " N m, the statics are of ", periods, " at ", s.torque, " N m; give those of one scene and torque");
+  constexpr double kLastOrder = 3.5, kFloor = 1e-12;  // m: below, nothing but round-off
+  Eigen::Index peak = 0;
+  r.dte_rms.maxCoeff(&peak);
+  Figure figure;
+  figure.title = "Sidebands of teeth that differ";
+  figure.notes.push_back(text(pair_words(s), ", ", torque_words(s.torque)));
+  figure.notes.push_back(text(
+      "the same teeth meet after ", periods, " mesh periods; orders of the mesh frequency, of the shafts ",
+      shown(1.0 / s.driver.teeth, 4), " (driver) and ", shown(1.0 / s.driven.teeth, 4)));
+  FigureBlock error{"transmission_error", {"mesh_phase [1]", "transmission_error [µm]"}, {}};
+  for (Eigen::Index i = 0; i < s.mesh_phase.size(); ++i)
+    error.rows.push_back({s.mesh_phase[i], s.transmission_error[i] * kMicro});
+  const auto orders = [&](const std::string& name, Eigen::Index count, const auto& amplitude) {
+    FigureBlock block{name, {"order [1]", "amplitude [µm]"}, {}};
+    for (Eigen::Index k = 1; k <= count && k <= kLastOrder * periods; ++k)
+      block.rows.push_back({static_cast<double>(k) / periods, std::max(kFloor, amplitude(k)) * kMicro});
+    return block;
+  };
+  figure.blocks = {error,
+                   orders("orders at rest", s.transmission_error_order.size() - 1,
+                          [&](Eigen::Index k) { return s.transmission_error_order[k]; }),
+                   orders("orders in motion", r.dte_order.cols(),
+                          [&](Eigen::Index k) { return r.dte_order(peak, k - 1); })};
+  figure.numbers = {{"periods", static_cast<double>(periods)}, {"last_order", kLastOrder}};
+  figure.words = {{"speed", fixed(r.mesh_frequency[peak], 0) + " Hz"}};
+  figure.height = 1300;
   return figure;
 }
 

@@ -79,6 +79,12 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics);
 // rectangular wave.
 Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
 
+// Teeth that differ: static transmission error over the hunting period, its spectrum in orders of the mesh frequency, and that
+// of the dynamic one at the speed of the sweep with the largest RMS. Orders 1 / teeth and their multiples are those of a shaft;
+// beside a harmonic of the mesh frequency they are its sidebands. Throws Error(input) if the teeth are all alike, or the two
+// are not of one torque and one hunting period.
+Figure sidebands_figure(const StaticArtifact& statics, const ResponseArtifact& motion);
+
 // Natural frequencies by ring-down with few and with many pairs in contact and on the mean, a row for each torque
 // (ascending). The mean stands there twice: over the phases of a mesh period, and over the two states, weighted by the
 // shares of the period that the contact ratio gives them. published: a file of lines "torque <tab> contact <tab>

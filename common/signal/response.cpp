@@ -29,6 +29,9 @@ void require_shapes(const SweepArtifact& s) {
   if (s.time.steps_per_period < 1 || s.transmission_error.cols() % s.time.steps_per_period != 0)
     fail(Failure::input, "sweep: ", s.transmission_error.cols(),
          " samples are no whole number of periods of ", s.time.steps_per_period, " steps");
+  if (s.hunting_periods < 1 || s.transmission_error.cols() / s.time.steps_per_period % s.hunting_periods != 0)
+    fail(Failure::input, "sweep: ", s.transmission_error.cols() / s.time.steps_per_period,
+         " mesh periods are no whole number of hunting periods of ", s.hunting_periods);
   if (s.jump_width.size() != s.jump_frequency.size())
     fail(Failure::input, "sweep: ", s.jump_frequency.size(), " jumps, but ", s.jump_width.size(), " widths");
   for (Eigen::Index f = 0; f < speeds; ++f) {
@@ -118,6 +121,8 @@ ResponseArtifact response(const SweepArtifact& s) {
   r.dte_rms.resize(speeds);
   r.dte_mean.resize(speeds);
   r.dte_harmonic.resize(speeds, count);
+  r.hunting_periods = s.hunting_periods;
+  if (s.hunting_periods > 1) r.dte_order.resize(speeds, count * s.hunting_periods);
   r.tooth_load_max.resize(speeds);
   r.mesh_force_max.resize(speeds);
   r.separation_fraction.resize(speeds);
@@ -130,6 +135,10 @@ ResponseArtifact response(const SweepArtifact& s) {
     r.dte_rms[f] = dte.rms;
     r.dte_mean[f] = dte.mean;
     r.dte_harmonic.row(f) = dte.amplitude.transpose();
+    if (s.hunting_periods > 1)
+      r.dte_order.row(f) = harmonics(s.transmission_error.row(f).head(samples).transpose(),
+                                     count * s.hunting_periods, periods / s.hunting_periods)
+                               .amplitude.transpose();
     r.tooth_load_max[f] = s.tooth_load[f].maxCoeff();
     r.mesh_force_max[f] = s.mesh_force.row(f).maxCoeff();
     r.separation_fraction[f] = apart.fraction;

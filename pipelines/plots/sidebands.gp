@@ -1,0 +1,31 @@
+# Sidebands: static transmission error over the hunting period (a), its spectrum in orders of the mesh frequency (b), and that
+# of the dynamic transmission error (c). Variables from gear-plot: tsv, title, note1, note2, periods, last_order, speed.
+set datafile separator tab
+set datafile commentschars "#"
+
+set multiplot layout 3, 1 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
+  margins screen 0.085, 0.985, 0.08, 0.85 spacing screen 0.1
+set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
+set border 3 lw 1.6
+set tics out nomirror
+set key off
+
+set xlabel "Mesh periods {/:Bold (a)}"
+set ylabel "STE (µm)"
+set ytics 10
+set xrange [0:periods]
+plot tsv index "[transmission_error]" using 1:2 with lines lw 1.4 lc rgb "#1f4e9c"
+
+set logscale y
+set format y "10^{%L}"
+set ytics 100
+set mytics 1
+set yrange [1e-5:*]
+set xrange [0:last_order]
+set xtics 0.5
+set xlabel "Order of the mesh frequency, at rest {/:Bold (b)}"
+set ylabel "Amplitude (µm)"
+plot tsv index "[orders at rest]" using 1:2 with impulses lw 1.8 lc rgb "#1f4e9c"
+set xlabel "Order of the mesh frequency, in motion at " . speed . " {/:Bold (c)}"
+plot tsv index "[orders in motion]" using 1:2 with impulses lw 1.8 lc rgb "#c8201e"
+unset multiplot
