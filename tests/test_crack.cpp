@@ -155,7 +155,6 @@ double strip_rotation(double a, double w, double element, double finest, bool se
     for (Index n = 0; n < k.rows() / 2; ++n)
       if (k.coeff(2 * n, 2 * n) == 0)
         held[static_cast<size_t>(2 * n)] = held[static_cast<size_t>(2 * n + 1)] = 1;
-    held[0] = held[1] = held[static_cast<size_t>(2 * across)] = held[static_cast<size_t>(2 * across + 1)] = 0;
     held[0] = held[1] = held[static_cast<size_t>(2 * across + 1)] = 1;  // statically determinate
     return force.dot(solved(k, held, force).col(0));
   };

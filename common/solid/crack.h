@@ -7,8 +7,8 @@
 // not touch.
 //
 // The whole gear is solved with all teeth, each condensed to its two sector edges, which is exact: the intact ones are
-// equal, so that two factorisations of a sector and one of a block-cyclic matrix of the edges do for a gear of any number
-// of teeth. The crack's share is the difference between the mesh with the slit open and the same mesh with the slit
+// equal, so that three sectors (intact, open, closed) and two block-cyclic matrices of the edges are factorised whatever the
+// number of teeth. The crack's share is the difference between the mesh with the slit open and the same mesh with the slit
 // closed. So it is free of what the meshes themselves differ by, zero without a crack and never negative; it is added to
 // the compliance that cyclic symmetry gives.
 #pragma once
