@@ -10,6 +10,7 @@ paper_scenes := $(paper_scene) $(calibrated_scene)
 graded_scene := parker2000-grade5
 # The same two with tip relief.
 relief_scenes := $(foreach s,$(paper_scenes),$(foreach r,20_9 22_2 23_6,$s-relief-$r))
+cracked_scene := parker2000-crack
 
 # $(call both_ways,scenes,torques,artifact): sweeps up and down
 both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))
@@ -42,6 +43,7 @@ inputs_profile-chart = out/$1/T$(firstword $2)/static.h5
 inputs_relief-jumps = $(inputs_fig05)
 inputs_error-budget = out/$1/T$(firstword $2)/error_budget.h5
 inputs_sidebands = out/$1/T$(firstword $2)/static.h5 out/$1/T$(firstword $2)/up/response.h5
+inputs_crack = out/$1/T$(firstword $2)/static.h5
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
 drawn_as = $(or $(drawn_as_$1),$1)
@@ -64,9 +66,10 @@ options_fig15 := --mesh-frequency 2200,2150
 $(foreach f,fig05 fig07 fig07-600 fig14-elastic,$(eval paper_scenes_$f := $(paper_scenes)))
 $(foreach f,fig08 fig09 fig10 fig11,$(eval paper_scenes_$f := $(calibrated_scene) $(paper_scene)))
 paper_scenes_sidebands := $(graded_scene)
+paper_scenes_crack := $(cracked_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(paper_scenes) $(relief_scenes)
-$(foreach f,profile-chart relief-jumps fig03 fig05 fig08 fig09 fig10 fig11 fig15 error-budget sidebands,$(eval paper_torques_$f := 150))
+$(foreach f,profile-chart relief-jumps fig03 fig05 fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig12 fig13 fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
 published_table1 := data/published/parker2000-table1.tsv
@@ -75,7 +78,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 # at the paper's own speeds, torques or levels
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
-figures := $(paper_figures) error-budget profile-chart relief-jumps sidebands
+figures := $(paper_figures) error-budget profile-chart relief-jumps sidebands crack
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
 # What gear-scorecard --files lists, of both scenes of the paper.
@@ -88,7 +91,7 @@ inputs_scorecard := $(foreach s,$(paper_scenes),$(scorecard_files:%=out/$s/%))
 figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inputs_scorecard)
 
 $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
-  $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) error-budget profile-chart sidebands table1)))
+  $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) error-budget profile-chart sidebands crack table1)))
 
 $(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
 	$(B)/bin/gear-scorecard --output out/figures/scorecard $(inputs_scorecard)
@@ -108,7 +111,7 @@ define figure_rules # scene; needs its fragment
 $(if $(filter $(paper_scene),$1),\
   $(foreach f,$(figures),$(eval $(call figure_rule,$f,out/figures/$f,$(call inputs_of_paper,$f)))) \
   $(eval $(call table_rule,out/figures/table1,$(call inputs_of_paper,table1),$(published_table1))))
-$(foreach f,$(report_figures) error-budget profile-chart sidebands,\
+$(foreach f,$(report_figures) error-budget profile-chart sidebands crack,\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef
@@ -141,3 +144,4 @@ profile-chart: ## what is taken off the driving flanks, as an inspection sheet s
 relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relief, at both dampings, 150 N m
 error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m (SCENE: its first torque)
 sidebands: ## teeth that differ: transmission error over the hunting period, shaft orders and sidebands, 150 N m of parker2000-grade5 (SCENE: its first torque)
+crack: ## a cracked tooth: static transmission error with and without it, orders, 150 N m of parker2000-crack (SCENE: its first torque)

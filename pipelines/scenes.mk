@@ -40,6 +40,7 @@ scenes := $(sort \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
   $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scenes))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
+  $(if $(filter crack out/figures/crack%,$(goals)),$(if $(SCENE),$(own_scene),$(cracked_scene))) \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes))) \
   $(if $(filter bench work-precision,$(goals)),$(paper_scene)) \

@@ -314,6 +314,9 @@ a material that is not there|stell|s/^material = "steel"/material = "stell"/
 a gear that is not there|gear|s/^driven = "wheel"/driven = "wheell"/
 a gear like itself|like|s/^like = "pinion"/like = "wheel"/
 TOML that is none|scene_bad.toml|s/^teeth = 50/teeth = = 50/
+a crack longer than the tooth|gear.pinion.*depth_mm = 20 is longer than the tooth: .*at most [0-9.]+ mm|s/^\[material.steel\]/[gear.pinion.crack]\ndepth_mm = 20\n&/
+a crack in a tooth that is not there|'tooth' in .gear.pinion.crack. = 50: the gear has the teeth 0 to 49|s/^\[material.steel\]/[gear.pinion.crack]\ntooth = 50\ndepth_mm = 2\n&/
+a crack that starts off the fillet|start_deg = 2 is not on the fillet|s/^\[material.steel\]/[gear.pinion.crack]\nstart_deg = 2\ndepth_mm = 2\n&/
 CASES
 refused "scene: it is not there" 4 nowhere.toml "$bin/gear-scene" --scene nowhere.toml --output scene.mk --out out
 
@@ -363,6 +366,28 @@ if "$bin/gear-reduce" --params $matched/body.toml --mesh out/scene/pinion/mesh.h
   grep -q 'matching at 1.25 mm below the flank' said; then ok "gear-reduce matches at the depth of the scene, and body.h5 says so"; else
   wrong "gear-reduce matches at the depth of the scene, and body.h5 says so" "$(tail -n 1 said)"; fi
 rm -f said
+
+# --- a cracked tooth: another mesh and body of that gear alone, statics over a turn, no motion
+sed -E "$coarse; s/^\[material.steel\]/[gear.pinion.crack]\ntooth = 3\ndepth_mm = 2\n&/" "$scene_of_paper" > scene_cracked.toml
+cracked=out/scene_cracked
+"$bin/gear-scene" --scene scene_cracked.toml --output cracked.mk --out out > /dev/null 2>&1
+mkdir -p $cracked/T100
+cracked_pair=(--driver $cracked/pinion/body.h5 --driven $cracked/wheel/body.h5)
+if [ "$(readlink $cracked/wheel)" = "$(readlink out/scene/wheel)" ] && [ "$(readlink $cracked/pinion)" != "$(readlink out/scene/pinion)" ] &&
+  "$bin/gear-mesh" --params $cracked/pinion/body.toml --output $cracked/pinion/mesh.h5 > said 2>&1 &&
+  "$bin/gear-reduce" --params $cracked/pinion/body.toml --mesh $cracked/pinion/mesh.h5 --output $cracked/pinion/body.h5 > said 2>&1 &&
+  "$bin/gear-static" --params $cracked/params/static.toml "${cracked_pair[@]}" --torque 100 --output $cracked/T100/static.h5 > said 2>&1 &&
+  grep -q '50 mesh periods' said && "$bin/gear-plot" crack --plots "$plots" --output crack $cracked/T100/static.h5 > said 2>&1; then
+  ok "a cracked tooth: mesh, body, statics over a turn and its figure"; else
+  wrong "a cracked tooth: mesh, body, statics over a turn and its figure" "$(tail -n 1 said)"; fi
+refused "the mesh of a gear without the crack" 3 "its depth is 0, the slice of the scene says 0.002 m" "$bin/gear-reduce" \
+  --params $cracked/pinion/body.toml --mesh out/scene/pinion/mesh.h5 --output $cracked/pinion/body.h5
+refused "motion with a cracked tooth" 3 "driver has a crack in tooth 3: motion does not yet" "$bin/gear-sweep" --params $cracked/params/sweep.toml "${cracked_pair[@]}" \
+  --static $cracked/T100/static.h5 --reference-static $cracked/T100/static.h5 --direction up --output $cracked/T100/sweep.h5
+refused "a lumped model of a cracked tooth" 3 "50 mesh periods, because a tooth is cracked" "$bin/gear-lumped" --model secant --static $cracked/T100/static.h5 \
+  --params $cracked/params/sweep.toml --direction up --output $cracked/T100/lumped.h5
+refused "a figure of a crack without one" 3 "no tooth has a crack" "$bin/gear-plot" crack --plots "$plots" --output crack out/scene/T100/static.h5
+rm -rf said crack.* cracked.mk $cracked
 
 # --- artifacts: cut off, of another kind, of another version, not there
 head -c 3000 out/scene/pinion/body.h5 > cut.h5

@@ -140,6 +140,11 @@ void body(int argc, char** argv) {
     whine::fail(whine::Failure::input, statics, " is at ", at_torque.torque, " N m, --torque says ", torque,
                 "; give the static.h5 of that torque");
   whine::require_like_teeth(at_torque.mesh, "a lumped model");
+  if (at_torque.hunting_periods > 1)
+    whine::fail(whine::Failure::input, statics, " holds ", at_torque.hunting_periods,
+                " mesh periods, because a tooth is cracked: a lumped model takes teeth that are all alike; "
+                "use a scene "
+                "without [gear.<name>.crack]");
   const whine::StaticArtifact at_reference = reference.empty() ? at_torque : whine::read_static(reference);
   if (!params.empty()) {
     const whine::SweepSlice slice = whine::read_lumped_slice(params, !map);

@@ -2,7 +2,7 @@
 //
 // Reads      params     slice of a scene: the gear's own keys and its discretisation
 // Writes     mesh.h5    nodes, elements, regions and node sets of the sector; the whole gear for ParaView
-//                       under /VTKHDF
+//                       under /VTKHDF; the sector of the cracked tooth beside it if the gear has one
 // Equations  involute of the base circle, root cut by a rounded rack; the tooth is mirror symmetric
 // Example    gear-mesh --params out/parker2000/pinion/body.toml --output out/parker2000/pinion/mesh.h5
 #include <CLI/CLI.hpp>

@@ -178,6 +178,10 @@ const std::map<std::string, Drawing>& drawings() {
         [](const Paths& in, const Frequencies&) {
           return whine::lumped_jump_map_figure(read_all(in, whine::read_jump_map));
         }}},
+      {"crack",
+       {"the mark of a cracked tooth in the static transmission error, and its orders",
+        "static.h5 of a pair with a crack", 1,
+        [](const Paths& in, double) { return whine::crack_figure(whine::read_static(in[0])); }}},
       {"sidebands",
        {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
         "static.h5 and response.h5 of one torque", 2,

@@ -4,6 +4,7 @@
 //            mesh.h5    geometry; refused unless it is of the gear of the slice
 // Writes     body.h5    eigenfrequencies with the hub fixed, mode shapes and compliance on the flank, inertia
 //                       coupling
+//                       and what the crack of a tooth adds to the compliance, if the gear has one
 // Equations  K u = omega^2 M u and M_fr of Eq. 3-6, sector by sector in the harmonics of cyclic symmetry;
 //            flexibility K x = f with the half-plane solution of the line load subtracted in the tooth, or matched
 //            at a depth
@@ -48,6 +49,10 @@ void body(int argc, char** argv) {
                   ? whine::text(" at ", slice.discretisation.matching_depth * 1e3, " mm")
                   : "",
               ", asymmetry of the flexibility ", result.asymmetry, " -> ", output);
+  if (slice.design.crack.depth > 0)
+    whine::tell("gear-reduce: the crack in tooth ", slice.design.crack.tooth, " adds up to ",
+                result.crack_compliance.maxCoeff() * 1e9, " um/kN to ",
+                result.compliance[0].maxCoeff() * 1e9);
 }
 
 }  // namespace

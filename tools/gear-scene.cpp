@@ -26,6 +26,7 @@
 #include "files/publish.h"
 #include "files/scene.h"
 #include "files/variant.h"
+#include "gear/crack.h"
 #include "gear/pair.h"
 
 namespace {
@@ -66,7 +67,10 @@ void check_geometry(const Scene& scene, const std::string& path) {
     }
   };
   for (const SceneGear& gear : scene.gears) {
-    in("[gear." + gear.name + "]", [&] { ToothGeometry tooth(gear.design); });
+    in("[gear." + gear.name + "]", [&] {
+      const ToothGeometry tooth(gear.design);
+      if (gear.design.crack.depth > 0) crack_slit(tooth);
+    });
     in("[gear." + gear.name + ".modification]",
        [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
     in("[gear." + gear.name + ".error]",

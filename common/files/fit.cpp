@@ -16,7 +16,7 @@ void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::s
   wanted.design = slice.design;
   wanted.body = slice.discretisation;
   found.body.modes = wanted.body.modes;
-  for (const Part part : {Part::design, Part::body}) {
+  for (const Part part : {Part::design, Part::crack, Part::body}) {
     const auto have = parameters_of(found, part), want = parameters_of(wanted, part);
     for (std::size_t i = 0; i < want.size(); ++i) {
       if (have[i].value == want[i].value) continue;

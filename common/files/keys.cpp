@@ -150,6 +150,19 @@ std::vector<Key> make_keys() {
      "measured errors, path from the folder of the scene: a .toml with the lists above, or a .csv whose columns are named tooth and as those lists; keys given here besides override",
      [](V& v) -> Slot { return &v.error_file; }},
 
+    {Part::crack, "crack", "tooth", kNone, "0", 0, 1999, false, "",
+     "number of the cracked tooth, counter-clockwise from tooth 0",
+     [](V& v) -> Slot { return &v.design.crack.tooth; }},
+    {Part::crack, "crack", "depth_mm", kMillimetre, nullptr, 0, 1000, false, "",
+     "length of a straight slit from the root of the driving flank into the tooth; 0: none; a quarter of a module must be left",
+     [](V& v) -> Slot { return &v.design.crack.depth; }},
+    {Part::crack, "crack", "start_deg", kDegree, "30", 1, 89, false, "",
+     "where on the fillet: angle of the fillet's tangent there against the tooth's centre line",
+     [](V& v) -> Slot { return &v.design.crack.start; }},
+    {Part::crack, "crack", "angle_deg", kDegree, "60", 5, 135, false, "",
+     "direction against the tooth's centre line: 0 to the axis, 90 straight across; 90 - start_deg is square to the fillet",
+     [](V& v) -> Slot { return &v.design.crack.angle; }},
+
     {Part::material, "material", "youngs_modulus_GPa", kGigapascal, nullptr, 0, 2000, true, "",
      "Young's modulus",
      [](V& v) -> Slot { return &v.material.youngs_modulus; }},
@@ -422,7 +435,8 @@ std::string scene_key_table() {
     std::string label = "[" + section + "]";
     if (section.empty()) label = "(top)";
     if (section == "gear" || section == "material") label = "[" + section + ".<name>]";
-    if (section == "modification" || section == "error") label = "[gear.<name>." + section + "]";
+    if (section == "modification" || section == "error" || section == "crack")
+      label = "[gear.<name>." + section + "]";
     if (section == "mesh") label = "[[mesh]]";
     std::string range = "text";
     if (*key.choices) {

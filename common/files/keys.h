@@ -36,6 +36,7 @@ enum class Part {
   title,
   reference,  // like, material: names of other sections
   design,
+  crack,  // of a design; a slice or an artifact holds it only where there is one
   inertia,
   modification,
   error,

@@ -146,6 +146,11 @@ std::string unit_of(const Key& key) {
   return suffix.empty() ? "" : " " + suffix.substr(1);
 }
 
+// Sections that stand within that of a gear.
+bool of_gear(const std::string& section) {
+  return section == "modification" || section == "error" || section == "crack";
+}
+
 // Reads the keys of one section, e.g. label "gear.pinion" for the keys of section "gear".
 class SectionReader {
  public:
@@ -169,12 +174,7 @@ class SectionReader {
       std::string advice;
       for (const Key& key : scene_keys()) {
         if (name_in(key, dialect_) == word)
-          advice =
-              text("; it belongs into [",
-                   key.part == Part::modification || key.part == Part::error || key.part == Part::error_file
-                       ? text("gear.<name>.", key.section)
-                       : key.section,
-                   "]");
+          advice = text("; it belongs into [", of_gear(key.section) ? "gear.<name>." : "", key.section, "]");
       }
       const std::string near = nearest(word, known);
       if (advice.empty() && !near.empty()) advice = text("; did you mean '", near, "'?");
@@ -508,6 +508,24 @@ void read_errors(const Source& source, const toml::table& gear, const std::strin
     }
 }
 
+// Fills what stands in [gear.<name>.crack]. A crack is damage, not design: a gear that is `like` another has none of it.
+void read_crack(const Source& source, const toml::table& gear, const std::string& label, GearDesign& design) {
+  design.crack = Crack{};
+  const toml::node* node = gear.get("crack");
+  if (!node) return;
+  const toml::table* table = node->as_table();
+  if (!table)
+    source.refuse(*node, text("'crack' in [", label, "] must be a section: write [", label, ".crack]"));
+  const SectionReader reader(source, Dialect::scene, *table, "crack", label + ".crack");
+  reader.refuse_unknown();
+  KeyValues values;
+  reader.read(values, {Part::crack}, false);
+  if (values.design.crack.tooth >= design.teeth)
+    source.refuse(*table->get("tooth"), text("'tooth' in [", label, ".crack] = ", values.design.crack.tooth,
+                                             ": the gear has the teeth 0 to ", design.teeth - 1));
+  if (values.design.crack.depth > 0) design.crack = values.design.crack;
+}
+
 const std::set<Part> kGearParts = {Part::reference, Part::design, Part::inertia};
 
 void read_gears(const Source& source, Scene& scene) {
@@ -538,7 +556,7 @@ void read_gears(const Source& source, Scene& scene) {
                                  "', a folder of results is; choose another name"));
     }
     const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
-    reader.refuse_unknown({"modification", "error"});
+    reader.refuse_unknown({"crack", "modification", "error"});
     KeyValues values;
     const toml::node* like = table->get("like");
     if (like && like->is_string()) {
@@ -558,6 +576,7 @@ void read_gears(const Source& source, Scene& scene) {
     reader.read(values, kGearParts, like != nullptr);
     read_modification(source, *table, "gear." + name, values);
     read_errors(source, *table, "gear." + name, values);
+    read_crack(source, *table, "gear." + name, values.design);
     if (!material.count(values.material_name)) {
       const toml::node* key = table->get("material");
       source.refuse(key ? *key : static_cast<const toml::node&>(*table),
@@ -759,6 +778,7 @@ std::string body_slice(const BodySlice& chosen) {
   values.body = chosen.discretisation;
   SliceText out("the body of a gear");
   out.add("gear", "gear", values, {Part::design});
+  if (values.design.crack.depth > 0) out.add("crack", "crack", values, {Part::crack});
   out.add("material", "material", values, {Part::material});
   out.add("fidelity", "fidelity", values, {Part::body});
   out.add("discretisation", "discretisation", values, {Part::body});
@@ -879,6 +899,7 @@ BodySlice read_body_slice(const std::string& path) {
   const Source source = slice_source(path, "<gear>/body.toml");
   KeyValues values;
   read_slice_section(source, "gear", "gear", {Part::design}, values);
+  if (source.section("crack")) read_slice_section(source, "crack", "crack", {Part::crack}, values);
   read_slice_section(source, "material", "material", {Part::material}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::body}, values);
   read_slice_section(source, "discretisation", "discretisation", {Part::body}, values);

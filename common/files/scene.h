@@ -7,10 +7,19 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
 namespace whine {
+
+// A slit from the root of one tooth into it; see gear/crack.h.
+struct Crack {
+  int tooth = 0;                        // its number, counter-clockwise from tooth 0
+  double depth = 0;                     // m, length of the slit; 0: there is none
+  double start = std::numbers::pi / 6;  // rad, of the fillet's tangent at the mouth against the centre line
+  double angle = std::numbers::pi / 3;  // rad, of the slit against the centre line
+};
 
 // One gear's geometry; what is true of the tooth and the blank, nothing of load or motion.
 struct GearDesign {
@@ -24,6 +33,7 @@ struct GearDesign {
   double tooth_thinning = 0;      // m at the pitch circle
   double face_width = 0;          // m
   double bore_radius = 0;         // m; rigid hub
+  Crack crack;                    // of one tooth
 };
 
 // Material taken off a flank between a start on it and one of its ends.

@@ -27,13 +27,27 @@ KeyValues with(const GearDesign& design) {
   return values;
 }
 
+// Gears without a crack have no such section.
+void put_crack(ArtifactWriter& out, const std::string& section, const GearDesign& design) {
+  if (design.crack.depth > 0) out.parameters(section + "_crack", with(design), Part::crack);
+}
+
+void take_crack(const ArtifactReader& in, const std::string& section, GearDesign& design) {
+  if (!in.file().has("/parameters/" + section + "_crack/depth")) return;
+  KeyValues values = with(design);
+  in.parameters(section + "_crack", values, Part::crack);
+  design = values.design;
+}
+
 void put_design(ArtifactWriter& out, const std::string& section, const GearDesign& design) {
   out.parameters(section, with(design), Part::design);
+  put_crack(out, section, design);
 }
 
 GearDesign take_design(const ArtifactReader& in, const std::string& section) {
   KeyValues values;
   in.parameters(section, values, Part::design);
+  take_crack(in, section, values.design);
   return values.design;
 }
 
@@ -58,6 +72,7 @@ void put_gear(ArtifactWriter& out, const std::string& role, const GearDesign& de
   values.body = body;
   for (const Part part : {Part::design, Part::material, Part::body, Part::near_field})
     out.parameters(role, values, part);
+  put_crack(out, role, design);
 }
 
 void take_gear(const ArtifactReader& in, const std::string& role, GearDesign& design, Material& material,
@@ -65,6 +80,7 @@ void take_gear(const ArtifactReader& in, const std::string& role, GearDesign& de
   KeyValues values;
   for (const Part part : {Part::design, Part::material, Part::body, Part::near_field})
     in.parameters(role, values, part);
+  take_crack(in, role, values.design);
   design = values.design;
   material = values.material;
   body = values.body;
@@ -197,6 +213,38 @@ void want_indices(const ArtifactReader& in, const std::string& name, const Eigen
   }
 }
 
+void put_sector(ArtifactWriter& out, const std::string& group, const MeshArtifact& a) {
+  out.put(group + "/node_position", a.node_position,
+          {"m", "position of the nodes; gear centre at 0, tooth along +y", "node xy", ""});
+  out.put(group + "/element_node", a.element_node,
+          {"1", "nodes of the elements: corners counter-clockwise, mid-sides, centre", "element corner", ""});
+  out.put(group + "/element_region", a.element_region,
+          {"1", "0: rim, 1: tooth, where the half-plane field is subtracted", "element", ""});
+  out.put(group + "/bore_node", a.bore_node, {"1", "nodes on the rigid hub", "bore_node", ""});
+  out.put(
+      group + "/side_node", a.side_node,
+      {"1", "node on the clockwise edge and its image on the counter-clockwise edge", "side_node edge", ""});
+  out.put(group + "/flank_node", a.flank_node,
+          {"1", "nodes of the driving flank, root to tip", "flank_node", ""});
+  out.put(group + "/flank_roll_angle", a.flank_roll_angle,
+          {"rad", "involute roll angle of the flank nodes", "flank_node", ""});
+}
+
+void take_sector(const ArtifactReader& in, const std::string& group, MeshArtifact& a) {
+  a.node_position = in.matrix(group + "/node_position", -1, 2);
+  const Eigen::Index nodes = a.node_position.rows();
+  a.element_node = in.whole_matrix(group + "/element_node");
+  a.element_region = in.whole_vector(group + "/element_region", a.element_node.rows());
+  a.bore_node = in.whole_vector(group + "/bore_node");
+  a.side_node = in.whole_matrix(group + "/side_node", -1, 2);
+  a.flank_node = in.whole_vector(group + "/flank_node");
+  a.flank_roll_angle = in.vector(group + "/flank_roll_angle", a.flank_node.size());
+  want_indices(in, group + "/element_node", a.element_node, nodes);
+  want_indices(in, group + "/bore_node", a.bore_node.transpose(), nodes);
+  want_indices(in, group + "/side_node", a.side_node, nodes);
+  want_indices(in, group + "/flank_node", a.flank_node.transpose(), nodes);
+}
+
 }  // namespace
 
 void write(const std::string& path, const MeshArtifact& a, const Provenance& provenance) {
@@ -204,20 +252,13 @@ void write(const std::string& path, const MeshArtifact& a, const Provenance& pro
                      "Finite-element mesh of one tooth sector: " + gear_title(a.design), provenance);
   put_design(out, "gear", a.design);
   put_body_discretisation(out, a.discretisation);
-  out.put("/sector/node_position", a.node_position,
-          {"m", "position of the nodes; gear centre at 0, tooth along +y", "node xy", ""});
-  out.put("/sector/element_node", a.element_node,
-          {"1", "nodes of the elements: corners counter-clockwise, mid-sides, centre", "element corner", ""});
-  out.put("/sector/element_region", a.element_region,
-          {"1", "0: rim, 1: tooth, where the half-plane field is subtracted", "element", ""});
-  out.put("/sector/bore_node", a.bore_node, {"1", "nodes on the rigid hub", "bore_node", ""});
-  out.put(
-      "/sector/side_node", a.side_node,
-      {"1", "node on the clockwise edge and its image on the counter-clockwise edge", "side_node edge", ""});
-  out.put("/sector/flank_node", a.flank_node,
-          {"1", "nodes of the driving flank, root to tip", "flank_node", ""});
-  out.put("/sector/flank_roll_angle", a.flank_roll_angle,
-          {"rad", "involute roll angle of the flank nodes", "flank_node", ""});
+  put_sector(out, "/sector", a);
+  for (const MeshArtifact& cracked : a.cracked_tooth) {
+    put_sector(out, "/cracked_tooth", cracked);
+    out.put("/cracked_tooth/slit_node", cracked.slit_node,
+            {"1", "the same point on the two faces of the slit, mouth to tip; the tip itself is one node",
+             "slit_node face", ""});
+  }
   put_vtk(out.file(), whole_gear(a));
   out.publish();
   link_for_paraview(path);
@@ -228,18 +269,15 @@ MeshArtifact read_mesh(const std::string& path) {
   MeshArtifact a;
   a.design = take_design(in, "gear");
   a.discretisation = take_body_discretisation(in);
-  a.node_position = in.matrix("/sector/node_position", -1, 2);
-  const Eigen::Index nodes = a.node_position.rows();
-  a.element_node = in.whole_matrix("/sector/element_node");
-  a.element_region = in.whole_vector("/sector/element_region", a.element_node.rows());
-  a.bore_node = in.whole_vector("/sector/bore_node");
-  a.side_node = in.whole_matrix("/sector/side_node", -1, 2);
-  a.flank_node = in.whole_vector("/sector/flank_node");
-  a.flank_roll_angle = in.vector("/sector/flank_roll_angle", a.flank_node.size());
-  want_indices(in, "/sector/element_node", a.element_node, nodes);
-  want_indices(in, "/sector/bore_node", a.bore_node.transpose(), nodes);
-  want_indices(in, "/sector/side_node", a.side_node, nodes);
-  want_indices(in, "/sector/flank_node", a.flank_node.transpose(), nodes);
+  take_sector(in, "/sector", a);
+  if (in.file().has("/cracked_tooth/slit_node")) {
+    MeshArtifact& cracked = a.cracked_tooth.emplace_back();
+    cracked.design = a.design;
+    cracked.discretisation = a.discretisation;
+    take_sector(in, "/cracked_tooth", cracked);
+    cracked.slit_node = in.whole_matrix("/cracked_tooth/slit_node", -1, 2);
+    want_indices(in, "/cracked_tooth/slit_node", cracked.slit_node, cracked.node_position.rows());
+  }
   return a;
 }
 
@@ -283,6 +321,15 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
                   d == 0 ? ", less the half-plane relative to reference_depth" : ""),
              "flank_position flank_position", ""});
   }
+  if (a.crack_compliance.size() > 0) {
+    want_rows("crack_compliance", a.crack_compliance.rows(), (2 * a.offsets + 1) * points);
+    want_rows("crack_compliance (columns)", a.crack_compliance.cols(), (2 * a.offsets + 1) * points);
+    out.put("/compliance/crack", a.crack_compliance,
+            {"m N-1",
+             "what the crack adds between the teeth from `offsets` clockwise of the cracked one to `offsets` "
+             "counter-clockwise of it, tooth by tooth",
+             "tooth_flank_position tooth_flank_position", ""});
+  }
   out.put("/compliance/offsets", a.offsets, {"1", "largest tooth offset of the tables", "", ""});
   out.put("/compliance/reference_depth", a.reference_depth,
           {"m", "depth relative to which the half-plane is taken off", "", ""});
@@ -316,6 +363,9 @@ BodyArtifact read_body(const std::string& path) {
   a.offsets = in.whole("/compliance/offsets");
   for (int d = 0; d <= a.offsets; ++d)
     a.compliance.push_back(in.matrix(text("/compliance/offset_", d), points, points));
+  if (a.design.crack.depth > 0)
+    a.crack_compliance =
+        in.matrix("/compliance/crack", (2 * a.offsets + 1) * points, (2 * a.offsets + 1) * points);
   a.reference_depth = in.number("/compliance/reference_depth");
   a.asymmetry = in.number("/compliance/asymmetry");
   a.least_eigenvalue = in.number("/compliance/least_eigenvalue");

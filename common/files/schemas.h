@@ -38,6 +38,10 @@ struct MeshArtifact {
                         // counter-clockwise edge
   Eigen::VectorXi flank_node;        // nodes of the driving flank, root to tip
   Eigen::VectorXd flank_roll_angle;  // rad, of flank_node
+  // None, or the sector of the cracked tooth, with the same node sets and sector edges. Nodes on the slit stand twice in
+  // it, but for the tip; triangles are elements whose first corner stands also as fourth.
+  std::vector<MeshArtifact> cracked_tooth;
+  MatrixRMi slit_node;  // (pair, 2) in the cracked tooth's sector: the same point on the slit's two faces
 };
 
 // body.h5: all that the contact of a rolling gear needs of its solid. Per real mode (doublets: two columns,
@@ -59,7 +63,10 @@ struct BodyArtifact {
   // loaded one) per unit total normal force on tooth 0; offset 0: less the half-plane relative to
   // reference_depth
   std::vector<MatrixRM> compliance;
-  double reference_depth = 0;   // m
+  double reference_depth = 0;  // m
+  // (tooth flank, tooth flank) m N-1, or empty: what the crack adds to the compliance between the teeth from `offsets`
+  // clockwise of the cracked one to `offsets` counter-clockwise of it, tooth by tooth
+  MatrixRM crack_compliance;
   double asymmetry = 0;         // relative, before symmetrisation
   double least_eigenvalue = 0;  // m N-1 of the compliance of all offsets less the stored modes
   // for looking: the whole gear with mode shapes and the displacement under a unit force at mid flank; written, never

@@ -74,6 +74,12 @@ std::string scene_variant(const std::string& path, const std::vector<std::string
             if (!own) own = gear->insert(section, toml::table{}).first->second.as_table();
             set(*own, name, value);
           }
+    } else if (section == "crack") {
+      toml::node* gears = scene.get("gear");
+      if (toml::table* group = gears ? gears->as_table() : nullptr)
+        for (auto&& [label, item] : *group)
+          if (toml::table* gear = item.as_table())
+            if (toml::table* own = gear->get_as<toml::table>("crack")) set(*own, name, value);
     } else if (section == "gear" || section == "material") {
       if (toml::table* group = node->as_table())
         for (auto&& [label, item] : *group)

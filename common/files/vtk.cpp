@@ -70,6 +70,39 @@ VtkGrid whole_gear(const MeshArtifact& sector) {
       tooth[copy * elements + e] = copy;
     }
   }
+  for (const MeshArtifact& cracked : sector.cracked_tooth) {
+    // Its nodes on the sector edges are those of its neighbours, all others are added; the intact tooth's cells go.
+    const int copy = sector.design.crack.tooth;
+    std::vector<Eigen::Index> shown(static_cast<std::size_t>(cracked.node_position.rows()), -1);
+    for (Eigen::Index k = 0; k < sector.side_node.size(); ++k)
+      shown.at(static_cast<std::size_t>(cracked.side_node.data()[k])) =
+          number(copy, sector.side_node.data()[k]);
+    const Eigen::Index before = out.point.rows(), kept = elements * (teeth - 1),
+                       all = kept + cracked.element_node.rows();
+    Eigen::Index count = before;
+    for (Eigen::Index& at : shown)
+      if (at < 0) at = count++;
+    out.point.conservativeResize(count, 2);
+    const double angle = 2.0 * std::numbers::pi * copy / teeth, c = std::cos(angle), s = std::sin(angle);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      if (shown[i] >= before) {
+        const double x = cracked.node_position(static_cast<Eigen::Index>(i), 0),
+                     y = cracked.node_position(static_cast<Eigen::Index>(i), 1);
+        out.point.row(shown[i]) << c * x - s * y, s * x + c * y;
+      }
+    MatrixRMi cell(all, out.cell.cols());
+    Eigen::VectorXi own_region(all), own_tooth(all);
+    const Eigen::Index first = copy * elements, rest = kept - first;
+    cell << out.cell.topRows(first), out.cell.bottomRows(rest),
+        cracked.element_node.unaryExpr(
+            [&shown](int i) { return static_cast<int>(shown[static_cast<std::size_t>(i)]); });
+    own_region << region.head(first), region.tail(rest), cracked.element_region;
+    own_tooth << tooth.head(first), tooth.tail(rest),
+        Eigen::VectorXi::Constant(cracked.element_node.rows(), copy);
+    out.cell = cell;
+    region = own_region;
+    tooth = own_tooth;
+  }
   out.cell_numbers = {{"region", region}, {"tooth", tooth}};
   return out;
 }

@@ -29,6 +29,12 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
   const std::string& rung = parameters.fidelity.body;
   double inverse_mass = 0;
   for (int g = 0; g < 2; ++g) {
+    if (model.gear[g].cracked())
+      fail(Failure::input, "the ", g ? "driven gear" : "driver", " has a crack in tooth ",
+           model.gear[g].body().design.crack.tooth,
+           ": motion does not yet follow a tooth that is softer than the others; statics do (make static), "
+           "or take the "
+           "section [gear.<name>.crack] out");
     if (!(parameters.inertia[g] > model.gear[g].body().inertia))
       fail(Failure::input, "total_inertia_kgm2 = ", parameters.inertia[g], " of the ",
            g ? "driven gear" : "driver", " lies below the inertia of its own body, ",

@@ -25,6 +25,7 @@ const BodyArtifact& finite(const BodyArtifact& body) {
   require(body.flank_mode, "flank_mode");
   require(body.eigenfrequency, "eigenfrequency");
   require(body.inertia_coupling, "inertia_coupling");
+  require(body.crack_compliance, "compliance of its crack");
   for (size_t d = 0; d < body.compliance.size(); ++d)
     require(body.compliance[d], text("compliance at tooth offset ", d));
   return body;
@@ -58,6 +59,17 @@ MatrixXd ElasticGear::residual(int offset, double depth, const std::vector<int>&
     r -= mode_on_tooth(column, offset) * mode_on_tooth(column, 0).transpose() / (w * w);
   }
   return r;
+}
+
+MatrixXd ElasticGear::crack_compliance(int read, int loaded) const {
+  const int teeth = body_.design.teeth, n = table_size();
+  const auto place = [&](int tooth) {  // in the stored window; its end or more if outside
+    const int from = (tooth - body_.design.crack.tooth + body_.offsets) % teeth;
+    return from < 0 ? from + teeth : from;
+  };
+  const int row = place(read), column = place(loaded);
+  if (!cracked() || row > 2 * body_.offsets || column > 2 * body_.offsets) return {};
+  return body_.crack_compliance.block(row * n, column * n, n, n);
 }
 
 int ElasticGear::partner(int column) const {
@@ -157,7 +169,12 @@ bool MeshPosition::reaches_window_end(const Eigen::Ref<const VectorXd>& p) const
 }
 
 int hunting_periods(const GearMeshModel& model) {
-  return std::lcm(model.deviation[0].repeats(), model.deviation[1].repeats());
+  int periods = 1;
+  for (int g = 0; g < 2; ++g) {
+    periods = std::lcm(periods, model.deviation[g].repeats());
+    if (model.gear[g].cracked()) periods = std::lcm(periods, model.kinematics.gear(g).design().teeth);
+  }
+  return periods;
 }
 
 PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap) {
@@ -458,6 +475,28 @@ MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& posi
   position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
                          a);
   return a;
+}
+
+MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period) {
+  const auto pairs = static_cast<Eigen::Index>(position.pairs.size());
+  MatrixXd c;
+  for (int g = 0; g < 2; ++g) {
+    if (!model.gear[g].cracked()) continue;
+    const auto tooth = [&](Eigen::Index pair) {
+      return GearMeshModel::tooth(g, position.pairs[static_cast<size_t>(pair)].pair - period);
+    };
+    for (Eigen::Index i = 0; i < pairs; ++i)
+      for (Eigen::Index j = 0; j < pairs; ++j) {
+        const MatrixXd share = model.gear[g].crack_compliance(tooth(i), tooth(j));
+        if (share.size() == 0) continue;
+        if (c.size() == 0) c.setZero(position.nodes(), position.nodes());
+        const auto rows = position.nodes_of(static_cast<size_t>(i)),
+                   columns = position.nodes_of(static_cast<size_t>(j));
+        c(rows, columns) += position.table_weights[g](rows, Eigen::all) * share *
+                            position.table_weights[g](columns, Eigen::all).transpose();
+      }
+  }
+  return c;
 }
 
 Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& approach, double load,

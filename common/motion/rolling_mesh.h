@@ -34,6 +34,11 @@ class ElasticGear {
   // The same less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual
   // flexibility.
   Eigen::MatrixXd residual(int offset, double depth, const std::vector<int>& kept) const;
+  bool cracked() const { return body_.crack_compliance.size() > 0; }
+  // (flank, flank) m N-1: what the crack adds to the inward displacement of tooth `read` by a force on tooth `loaded`: numbers
+  // of teeth, counter-clockwise, any whole ones. Empty where it adds nothing: without a crack, and further than the stored
+  // offsets from the cracked tooth.
+  Eigen::MatrixXd crack_compliance(int read, int loaded) const;
   // (flank) kg^-1/2: outward normal displacement of mode `column` on the tooth `tooth` places
   // counter-clockwise.
   Eigen::VectorXd mode_on_tooth(int column, int tooth) const;
@@ -159,6 +164,10 @@ std::vector<Eigen::MatrixXd> compliance_tables(const ElasticGear& gear, double d
 // (strip, strip) m N-1: half-planes and bodies, `tables` of both gears relative to `depth`; not of lines.
 Eigen::MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
                                    const std::array<std::vector<Eigen::MatrixXd>, 2>& tables, double depth);
+
+// (node, node) m N-1: what cracks in the teeth of both gears add between all nodes in a mesh period; empty if no tooth near a
+// cracked one is in reach.
+Eigen::MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period);
 
 // Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
 // approach . p = load (Eq. 18-20).

@@ -60,6 +60,13 @@ LoadedStrips loaded_strips(const GearMeshModel& model, const ContactRange& range
   return s;
 }
 
+// With what cracks add to the compliance of a position.
+LoadedStrips with_cracks(const LoadedStrips& intact, const MatrixXd& at_nodes) {
+  LoadedStrips s = intact;
+  s.position.add_to_strips(at_nodes, s.compliance);
+  return s;
+}
+
 Equilibrium equilibrium(const LoadedStrips& s, double load, double start, ComplementaritySolver& solver) {
   ActiveSet active;
   return equilibrium(s.compliance, s.position.gap, s.approach, load, start, active, solver);
@@ -72,12 +79,20 @@ std::array<std::vector<MatrixXd>, 2> strips_tables(const GearMeshModel& model) {
 ContactRung strips_rung(const GearMeshModel& model, const ContactRange& range, double load,
                         double face_width) {
   return [&model, range, load, face_width, tables = strips_tables(model), solver = ComplementaritySolver(),
-          s = std::optional<LoadedStrips>()](double phase, int period, double start) mutable {
-    if (!s || s->position.phase != phase) s = loaded_strips(model, range, tables, phase);
+          s = std::optional<LoadedStrips>(), same = std::optional<PositionAnswer>(),
+          alike = model.deviation[0].repeats() == 1 && model.deviation[1].repeats() == 1](
+             double phase, int period, double start) mutable {
+    if (!s || s->position.phase != phase) {
+      s = loaded_strips(model, range, tables, phase);
+      same.reset();
+    }
     if (period > 0) s->position.gap = flank_gaps(model, s->position, period);
     const MeshPosition& position = s->position;
+    const MatrixXd cracks = crack_compliance(model, position, period);
+    const bool intact = cracks.size() == 0;
+    if (intact && same) return *same;
     PositionAnswer answer;
-    answer.equilibrium = equilibrium(*s, load, start, solver);
+    answer.equilibrium = equilibrium(intact ? *s : with_cracks(*s, cracks), load, start, solver);
     answer.next_corner_gap = position.next_corner_gap;
     answer.lost_corner_gap = position.lost_corner_gap;
     const VectorXd& p = answer.equilibrium.p;
@@ -88,6 +103,7 @@ ContactRung strips_rung(const GearMeshModel& model, const ContactRange& range, d
           {position.pairs[j].pair, pair_loads[j],
            contact_patch(position.pairs[j], p.segment(position.first_strip[j], position.pairs[j].size()),
                          face_width)});
+    if (intact && alike) same = answer;
     return answer;
   };
 }
@@ -102,7 +118,8 @@ ContactRung line_rung(const GearMeshModel& model, const ContactRange& range, dou
           double phase, int period, double start) {
         const MeshPosition position =
             make_line_position(model, phase, range.corner_gap, depth, shared_force(load), period);
-        const MatrixXd c = body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]);
+        MatrixXd c = body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]);
+        if (const MatrixXd cracks = crack_compliance(model, position, period); cracks.size() > 0) c += cracks;
         const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
         PositionAnswer answer;
         answer.equilibrium = equilibrium(c, position.law, position.gap, approach, load, start);
@@ -253,7 +270,9 @@ ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
   double widening = 1;
   for (int attempt = 0; attempt < kWidenings; ++attempt, widening *= kWidening) {
     const ContactRange range = static_range(model, statics.contact.strips, load, 1, widening);
-    const LoadedStrips s = loaded_strips(model, range, tables, 0.0);
+    LoadedStrips s = loaded_strips(model, range, tables, 0.0);
+    if (const MatrixXd cracks = crack_compliance(model, s.position, 0); cracks.size() > 0)
+      s = with_cracks(s, cracks);
     const Equilibrium e = equilibrium(s, load, 0.0, solver);
     if (s.position.reaches_window_end(e.p) || e.x > s.position.next_corner_gap) continue;
     const VectorXd separation = s.compliance * e.p + s.position.gap - e.x * s.approach;

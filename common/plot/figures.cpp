@@ -974,6 +974,65 @@ Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
   return figure;
 }
 
+Figure crack_figure(const StaticArtifact& s) {
+  const std::array<const GearDesign*, 2> gears{&s.driver, &s.driven};
+  std::string cracks;
+  for (size_t g = 0; g < 2; ++g)
+    if (const Crack& crack = gears[g]->crack; crack.depth > 0)
+      cracks += text(cracks.empty() ? "" : "; ", "tooth ", crack.tooth,
+                     g ? " of the driven gear" : " of the driver", ": a slit of ",
+                     shown(crack.depth * 1e3, 4), " mm from the fillet, ",
+                     shown(crack.angle * 180 / std::numbers::pi, 4), "° to the tooth's centre line");
+  if (cracks.empty())
+    fail(Failure::input,
+         "figure: no tooth has a crack; give a gear of the scene a section [gear.<name>.crack]");
+  for (const ToothErrors& errors : s.mesh.errors)
+    if (!errors.none())
+      fail(
+          Failure::input,
+          "figure: teeth have errors of their own beside the crack; use a scene without [gear.<name>.error]");
+  const Eigen::Index positions = s.mesh_phase.size() / s.hunting_periods;
+  const auto period = [&](Eigen::Index k) { return s.transmission_error.segment(k * positions, positions); };
+  Eigen::Index stiffest = 0, most = 0;
+  double largest = 0;
+  for (Eigen::Index k = 0; k < s.hunting_periods; ++k)
+    if (period(k).mean() < period(stiffest).mean()) stiffest = k;
+  const Eigen::VectorXd intact = period(stiffest);
+  for (Eigen::Index k = 0; k < s.hunting_periods; ++k)
+    if (const double here = (period(k) - intact).maxCoeff(); here > largest) {
+      largest = here;
+      most = k;
+    }
+  constexpr int kAround = 5;  // mesh periods either side
+  constexpr double kLastOrder = 3.5, kFloor = 1e-12;
+  Figure figure;
+  figure.title = "The mark of a cracked tooth in the transmission error";
+  figure.notes.push_back(text(pair_words(s), ", ", torque_words(s.torque)));
+  figure.notes.push_back(text(cracks, "; adds up to ", shown(largest * kMicro, 3), " µm, ",
+                              shown(100 * largest / intact.mean(), 3), " % of the mean"));
+  FigureBlock error{"transmission_error",
+                    {"mesh periods [1]", "with the crack [µm]", "without [µm]", "difference [µm]"},
+                    {}};
+  for (Eigen::Index k = -kAround; k <= kAround; ++k) {
+    const Eigen::Index at = ((most + k) % s.hunting_periods + s.hunting_periods) % s.hunting_periods;
+    for (Eigen::Index i = 0; i < positions; ++i)
+      error.rows.push_back({static_cast<double>(k) + static_cast<double>(i) / static_cast<double>(positions),
+                            period(at)[i] * kMicro, intact[i] * kMicro,
+                            (period(at)[i] - intact[i]) * kMicro});
+  }
+  FigureBlock orders{"orders", {"order [1]", "amplitude [µm]"}, {}};
+  for (Eigen::Index k = 1; k < s.transmission_error_order.size() && k <= kLastOrder * s.hunting_periods; ++k)
+    orders.rows.push_back({static_cast<double>(k) / s.hunting_periods,
+                           std::max(kFloor, s.transmission_error_order[k]) * kMicro});
+  FigureBlock without{"orders without", {"order [1]", "amplitude [µm]"}, {}};
+  const Harmonics of_intact = harmonics(intact, static_cast<int>(kLastOrder));
+  for (Eigen::Index k = 0; k < of_intact.amplitude.size(); ++k)
+    without.rows.push_back({static_cast<double>(k + 1), of_intact.amplitude[k] * kMicro});
+  figure.blocks = {error, orders, without};
+  figure.numbers = {{"around", kAround}, {"last_order", kLastOrder}};
+  return figure;
+}
+
 Figure natural_frequency_table(std::vector<ImpactArtifact> impacts, const std::string& published) {
   if (impacts.empty()) fail(Failure::input, "table: no impact.h5 given; 1 is the least");
   std::sort(impacts.begin(), impacts.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });

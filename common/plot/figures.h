@@ -85,6 +85,12 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
 // are not of one torque and one hunting period.
 Figure sidebands_figure(const StaticArtifact& statics, const ResponseArtifact& motion);
 
+// A cracked tooth: static transmission error about the mesh periods in which it works, beside that of teeth without a crack,
+// what it adds, and the spectrum in orders of the mesh frequency. Without a crack is what the pair shows while the cracked
+// tooth is on the far side of its gear. Throws Error(input) for a pair without a crack or with errors tooth by tooth, which
+// nothing tells from its mark.
+Figure crack_figure(const StaticArtifact& statics);
+
 // Natural frequencies by ring-down with few and with many pairs in contact and on the mean, a row for each torque
 // (ascending). The mean stands there twice: over the phases of a mesh period, and over the two states, weighted by the
 // shares of the period that the contact ratio gives them. published: a file of lines "torque <tab> contact <tab>

@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "gear/involute.h"
+#include "solid/crack.h"
 #include "solid/elements.h"
 
 namespace whine {
@@ -42,6 +43,22 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 };
 
+// Runs `work` in a gmsh session; whatever gmsh throws becomes an Error.
+void with_gmsh(const std::string& what, const std::function<void()>& work) {
+  try {
+    const GmshSession session;
+    work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    fail(Failure::numerical, "gmsh could not mesh ", what, ": ", error.what(), "; change element_mm");
+  } catch (const std::string& message) {
+    fail(Failure::numerical, "gmsh could not mesh ", what, ": ", message, "; change element_mm");
+  } catch (int code) {
+    fail(Failure::numerical, "gmsh could not mesh ", what, " (status ", code, "); change element_mm");
+  }
+}
+
 // q such that first (1 + q + ... + q^(n-1)) = length; at least 1, so `first` is an upper limit.
 double growth_ratio(double first, double length, int n) {
   if (first * n >= length) return 1;
@@ -51,29 +68,6 @@ double growth_ratio(double first, double length, int n) {
     double sum = 0, term = first;
     for (int k = 0; k < n; ++k, term *= q) sum += term;
     (sum < length ? low : high) = q;
-  }
-  return 0.5 * (low + high);
-}
-
-// The parameter in [from, to] of the point of `curve` nearest to p: a scan, then golden sections.
-double nearest(const std::function<Vec2(double)>& curve, const Vec2& p, double from, double to) {
-  constexpr int kScan = 200;
-  int best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= kScan; ++i) {
-    const double d = (curve(from + (to - from) * i / kScan) - p).squaredNorm();
-    if (d < least) {
-      least = d;
-      best = i;
-    }
-  }
-  double low = from + (to - from) * std::max(best - 1, 0) / kScan;
-  double high = from + (to - from) * std::min(best + 1, kScan) / kScan;
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1);
-  for (int i = 0; i < 80; ++i) {
-    const double a = high - ratio * (high - low), b = low + ratio * (high - low);
-    ((curve(a) - p).squaredNorm() < (curve(b) - p).squaredNorm() ? high : low) =
-        (curve(a) - p).squaredNorm() < (curve(b) - p).squaredNorm() ? b : a;
   }
   return 0.5 * (low + high);
 }
@@ -339,7 +333,8 @@ class ExactBoundary {
       case Curve::flank:
         return tooth_.flank_point(roll_angle(p));
       case Curve::root:
-        return tooth_.root_point(nearest([this](double t) { return tooth_.root_point(t); }, p, 0, 1));
+        return tooth_.root_point(
+            nearest_parameter([this](double t) { return tooth_.root_point(t); }, p, 0, 1));
       case Curve::sector_edge:
         return edge_ * edge_.dot(p);
       case Curve::centre_line:
@@ -457,6 +452,96 @@ std::vector<std::array<int, 9>> raise_order(HalfMesh& half, const ExactBoundary&
 
 }  // namespace
 
+double nearest_parameter(const std::function<Vec2(double)>& curve, const Vec2& p, double from, double to) {
+  constexpr int kScan = 200;
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kScan; ++i) {
+    const double d = (curve(from + (to - from) * i / kScan) - p).squaredNorm();
+    if (d < least) {
+      least = d;
+      best = i;
+    }
+  }
+  double low = from + (to - from) * std::max(best - 1, 0) / kScan;
+  double high = from + (to - from) * std::min(best + 1, kScan) / kScan;
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1);
+  for (int i = 0; i < 80; ++i) {
+    const double a = high - ratio * (high - low), b = low + ratio * (high - low);
+    ((curve(a) - p).squaredNorm() < (curve(b) - p).squaredNorm() ? high : low) =
+        (curve(a) - p).squaredNorm() < (curve(b) - p).squaredNorm() ? b : a;
+  }
+  return 0.5 * (low + high);
+}
+
+Triangulation triangulate(const std::vector<Vec2>& polygon, const std::vector<Vec2>& slit, double finest,
+                          double largest) {
+  Triangulation result;
+  with_gmsh("the tooth around its crack", [&] {
+    namespace geo = gmsh::model::geo;
+    std::vector<int> point;  // tags, in the order of the result's first nodes
+    const auto add_point = [&](const Vec2& p) {
+      point.push_back(geo::addPoint(p.x() * kGmshScale, p.y() * kGmshScale, 0));
+      return point.back();
+    };
+    const auto edge = [&](int a, int b) {
+      const int tag = geo::addLine(a, b);
+      geo::mesh::setTransfiniteCurve(tag, 2);
+      return tag;
+    };
+    for (const Vec2& p : polygon) add_point(p);
+    std::vector<int> loop, inner;
+    for (size_t i = 0; i < polygon.size(); ++i)
+      loop.push_back(edge(point[i], point[(i + 1) % polygon.size()]));
+    const size_t mouth =
+        static_cast<size_t>(std::find(polygon.begin(), polygon.end(), slit.front()) - polygon.begin());
+    if (mouth == polygon.size()) fail(Failure::numerical, "the slit does not start on the polygon's edge");
+    int last = point[mouth];
+    for (size_t i = 1; i < slit.size(); ++i) {
+      const int next = add_point(slit[i]);
+      inner.push_back(edge(last, next));
+      last = next;
+    }
+    const int surface = geo::addPlaneSurface({geo::addCurveLoop(loop)});
+    geo::synchronize();
+    gmsh::model::mesh::embed(1, inner, 2, surface);
+    const auto mm = [](double length) { return text("(", length * kGmshScale, ")"); };
+    const int size = gmsh::model::mesh::field::add("MathEval");
+    gmsh::model::mesh::field::setString(size, "F",
+                                        text("Min(", mm(largest), ", ", mm(finest), " + sqrt((x-",
+                                             mm(slit.back().x()), ")^2+(y-", mm(slit.back().y()), ")^2)/3)"));
+    gmsh::model::mesh::field::setAsBackgroundMesh(size);
+    gmsh::model::mesh::generate(2);
+
+    std::map<std::size_t, int> number;
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, parameters;
+    for (int tag : point) {
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters, 0, tag);
+      number[tags.at(0)] = static_cast<int>(number.size());
+    }
+    result.node = polygon;
+    result.node.insert(result.node.end(), slit.begin() + 1, slit.end());
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters, 2, surface);
+    for (size_t i = 0; i < tags.size(); ++i) {
+      number[tags[i]] = static_cast<int>(result.node.size());
+      result.node.emplace_back(coordinates[3 * i] / kGmshScale, coordinates[3 * i + 1] / kGmshScale);
+    }
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> elements, nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, 2, surface);
+    for (size_t e = 0; e < elements.at(0).size(); ++e) {
+      std::array<int, 3> corner;
+      for (size_t k = 0; k < 3; ++k) corner[k] = number.at(nodes[0][3 * e + k]);
+      const auto at = [&](size_t k) { return result.node[static_cast<size_t>(corner[k])]; };
+      const Vec2 a = at(1) - at(0), b = at(2) - at(0);
+      if (a.x() * b.y() < a.y() * b.x()) std::swap(corner[1], corner[2]);
+      result.triangle.push_back(corner);
+    }
+  });
+  return result;
+}
+
 double exact_sector_area(const GearDesign& design) {
   const ToothGeometry tooth(design);
   const GaussRule rule = gauss_rule(8);
@@ -524,19 +609,10 @@ MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation
          " is not above 0: the hub on which the gear turns needs a radius");
 
   HalfMesh half;
-  try {
-    const GmshSession session;
+  with_gmsh("the tooth sector", [&] {
     const Plan plan = make_plan(tooth, h);
     half = HalfSector(tooth, plan).mesh();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& error) {
-    fail(Failure::numerical, "gmsh could not mesh the tooth sector: ", error.what(), "; change element_mm");
-  } catch (const std::string& message) {
-    fail(Failure::numerical, "gmsh could not mesh the tooth sector: ", message, "; change element_mm");
-  } catch (int code) {
-    fail(Failure::numerical, "gmsh could not mesh the tooth sector (status ", code, "); change element_mm");
-  }
+  });
   const ExactBoundary exact(tooth);
   make_exact(half, tooth, exact);
 
@@ -621,6 +697,7 @@ MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation
   mesh.bore_node =
       Eigen::Map<Eigen::VectorXi>(bore_nodes.data(), static_cast<Eigen::Index>(bore_nodes.size()));
   check_sector_mesh(mesh);
+  if (design.crack.depth > 0) mesh.cracked_tooth.push_back(make_cracked_sector(mesh));
   return mesh;
 }
 

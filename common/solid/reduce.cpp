@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "solid/crack.h"
 #include "solid/flank_table.h"
 #include "solid/half_plane.h"
 #include "solid/mesher.h"
@@ -46,6 +47,7 @@ std::vector<Side> sides_of_tooth_region(const MeshArtifact& mesh) {
   for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e)
     for (int k = 0; k < 4; ++k) {
       const auto node = element_side(e, k);
+      if (node[0] == node[1]) continue;  // of a triangle
       auto& [tooth, rest] = count[std::minmax(node[0], node[1])];
       ++(mesh.element_region[e] == 1 ? tooth : rest);
     }
@@ -54,6 +56,7 @@ std::vector<Side> sides_of_tooth_region(const MeshArtifact& mesh) {
     if (mesh.element_region[e] != 1) continue;
     for (int k = 0; k < 4; ++k) {
       Side side{element_side(e, k)};
+      if (side.node[0] == side.node[1]) continue;
       const auto [tooth, rest] = count.at(std::minmax(side.node[0], side.node[1]));
       if (tooth == 2) continue;
       auto all_in = [&side](const std::set<int>& set) {
@@ -486,6 +489,8 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   for (int d = 0; d <= body.offsets; ++d)
     body.compliance.push_back(
         offset_sum(d, [&](int n) -> const Eigen::MatrixXcd& { return flexibility[static_cast<size_t>(n)]; }));
+
+  if (mesh.design.crack.depth > 0) body.crack_compliance = crack_compliance(mesh, material, xi, body.offsets);
 
   // Eigenvalues of the whole gear's table, all offsets: those of its harmonics, less the kept modes. What the
   // half-plane takes too much beyond its depth leaves up to 2 % of the largest entry below zero (at a module of
