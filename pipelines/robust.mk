@@ -25,7 +25,7 @@ test-sanitize: $(B)/bin/whine-tests | $(with_deps) ## the tests under ASan, UBSa
 FAULT_KILLS ?= 50
 .PHONY: test-faults
 test-faults: build $(tools:%=$(B)/id/%) | $(with_deps) ## kills, full disks, damaged files, clocks set back, two makes: each ends in the same bytes or says why; FAULT_KILLS=50
-	@B=$(B) FAULT_KILLS=$(FAULT_KILLS) MAKEFLAGS= bash tests/faults.sh | tee $(B)/faults.log; ! grep -q '^FAILED' $(B)/faults.log
+	@B=$(B) FAULTS=all FAULT_KILLS=$(FAULT_KILLS) MAKEFLAGS= MAKELEVEL= bash tests/faults.sh | tee $(B)/faults.log; ! grep -q '^FAILED' $(B)/faults.log
 
 # --- numbers under stress
 

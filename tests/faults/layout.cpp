@@ -9,16 +9,17 @@ namespace {
 
 herr_t show(hid_t file, const char* name, const H5O_info_t* info, void*) {
   if (info->type != H5O_TYPE_DATASET) return 0;
-  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), list = H5Dget_create_plist(set);
+  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), list = H5Dget_create_plist(set),
+              space = H5Dget_space(set);
   if (H5Pget_layout(list) == H5D_CHUNKED) {
     hsize_t chunks = 0;
-    H5Dget_num_chunks(set, H5S_ALL, &chunks);
+    H5Dget_num_chunks(set, space, &chunks);
     for (hsize_t i = 0; i < chunks; ++i) {
       hsize_t offset[8];
       unsigned filters = 0;
       haddr_t at = 0;
       hsize_t size = 0;
-      H5Dget_chunk_info(set, H5S_ALL, i, offset, &filters, &at, &size);
+      H5Dget_chunk_info(set, space, i, offset, &filters, &at, &size);
       std::printf("/%s %llu %llu\n", name, static_cast<unsigned long long>(at),
                   static_cast<unsigned long long>(size));
     }
@@ -26,6 +27,7 @@ herr_t show(hid_t file, const char* name, const H5O_info_t* info, void*) {
     std::printf("/%s %llu %llu\n", name, static_cast<unsigned long long>(at),
                 static_cast<unsigned long long>(H5Dget_storage_size(set)));
   }
+  H5Sclose(space);
   H5Pclose(list);
   H5Dclose(set);
   return 0;
