@@ -75,6 +75,13 @@ $(B)/fuzz/whine-fuzz-artifact $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/artifact.c
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
 	clang++ $(CPPFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) $(shell pkg-config --libs hdf5 libcrypto)
 
+# The same targets without libFuzzer, for `make test`.
+replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
+$(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp
+$(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp
+$(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(B)/lib/libfiles.a $(B)/lib/libbase.a | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) -o $@ $(filter %.cpp,$^) $(filter %.a,$^) $(LDLIBS)
+
 # The corpus stays as it is: what a run finds new goes to $(B)/fuzz, and a file that breaks a reader to $(B)/fuzz/found.
 .PHONY: fuzz
 fuzz: $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%) | $(B)/fuzz/found/ ## feed the readers of scenes and artifacts with damaged files, FUZZ_SECONDS=60 each

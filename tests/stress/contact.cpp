@@ -250,12 +250,35 @@ const char* fault(const Problem& problem, const VectorXd& p, const VectorXd& d,
                                                                           : nullptr;
 }
 
+// Whether an answer that is off by 1e-6 of a force is found to be.
+bool judge_finds(Problems& problems) {
+  ComplementaritySolver solver;
+  for (int found = 0; found < 100;) {
+    const Problem problem = problems.make(0);
+    const int n = static_cast<int>(problem.e.size());
+    VectorXd p(n), d(n);
+    ActiveSet active;
+    const Certificate certificate = solver.solve(problem.a, problem.e, active, p, d);
+    Eigen::Index most = 0;
+    if (!(p.maxCoeff(&most) > 0)) continue;
+    if (fault(problem, p, d, certificate)) return false;
+    p[most] *= 1 + 1e-6;
+    if (!fault(problem, p, d, certificate)) return false;
+    ++found;
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const long count = argc > 1 ? std::atol(argv[1]) : 1000000;
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atol(argv[2])) : 1;
   Problems problems(seed);
+  if (!judge_finds(problems)) {
+    std::puts("the judge does not find an answer that is wrong");
+    return 1;
+  }
   long certified[Problems::kKinds] = {}, refused[Problems::kKinds] = {}, wrong = 0, needless = 0,
        fallbacks = 0;
   ComplementaritySolver solver;  // one for all: what a problem leaves behind is no business of the next
