@@ -75,7 +75,10 @@ $(B)/fuzz/whine-fuzz-artifact $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/artifact.c
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
 	clang++ $(CPPFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) $(shell pkg-config --libs hdf5 libcrypto)
 
-# The same targets without libFuzzer, for `make test`.
+# The same targets without libFuzzer; tests/fuzz.sh runs them if they are there.
+.PHONY: replay
+replay: $$(replays) ## the same readers against the same damaged files every time, without libFuzzer
+	@B=$(B) bash tests/fuzz.sh
 replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
 $(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp
 $(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp

@@ -250,7 +250,7 @@ const char* fault(const Problem& problem, const VectorXd& p, const VectorXd& d,
                                                                           : nullptr;
 }
 
-// Whether an answer that is off by 1e-6 of a force is found to be.
+// Whether an answer that is off by 1e-4 of a force is found to be.
 bool judge_finds(Problems& problems) {
   ComplementaritySolver solver;
   for (int found = 0; found < 100;) {
@@ -262,7 +262,7 @@ bool judge_finds(Problems& problems) {
     Eigen::Index most = 0;
     if (!(p.maxCoeff(&most) > 0)) continue;
     if (fault(problem, p, d, certificate)) return false;
-    p[most] *= 1 + 1e-6;
+    p[most] *= 1 + 1e-4;
     if (!fault(problem, p, d, certificate)) return false;
     ++found;
   }
