@@ -29,6 +29,8 @@ $(if $(filter clean%,$(goals)),$(if $(filter-out clean%,$(goals)),\
 
 # a literal comma for $(if)
 , := ,
+# Sanitized objects do not fit others.
+SANITIZE := $(or $(SANITIZE),$(filter test-sanitize,$(goals)))
 B := build$(if $(SANITIZE),/sanitize)
 CXX := g++
 # Half the time of a sweep is dense algebra: AVX2 and FMA where the processor has them. Bytes are the same on one type of
@@ -38,7 +40,8 @@ OPTIMISE := -O2 $(ARCH)
 # Without NDEBUG an assert would put its line number into the program, and a comment would redo results.
 # Hidden: gmsh carries an Eigen without AVX, which would take over exported templates of ours and free what it did not allocate.
 # g++ 12 sees AVX loads beyond the end of Eigen's small vectors that it has itself proved not to happen.
-CXXFLAGS := -std=c++20 -fvisibility=hidden -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined,\
+CXXFLAGS := -std=c++20 -fvisibility=hidden -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g $(ARCH) -D_GLIBCXX_ASSERTIONS \
+  -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined,\
   $(OPTIMISE) -DNDEBUG)
 CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed
@@ -105,12 +108,13 @@ $(B)/flags: $(if $(and $(findstring x$(flags)x,x$(flags_before)x),$(findstring x
 # differs, so that a program that was linked anew with the same bytes redoes nothing. `+`: also under make -n,
 # which would otherwise take every result for stale.
 id = $(if $(FREEZE),,$(B)/id/$1)
-replace_if_changed = { cat > $1.new; if cmp -s $1.new $1; then rm $1.new; else mv $1.new $1; fi; }
+# The number of the shell in the name: two makes on one tree do not write the same file.
+replace_if_changed = { cat > $1.new.$$$$; if cmp -s $1.new.$$$$ $1; then rm $1.new.$$$$; else mv $1.new.$$$$ $1; fi; }
 
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
 
-include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk
+include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk
 
 # Figures of P2000 that are none of ours, and what is of its scenes only.
 $(foreach f,$(filter-out figures $(figures),$(filter fig%,$(goals))),\
@@ -161,7 +165,7 @@ check-format: ## fail if clang-format would change a source
 .PHONY: help clean clean-figures clean-motion clean-out
 help: ## print this list
 	@echo 'Whine: gear whine from elastic teeth that touch, part and touch again. Targets:'
-	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk Makefile
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk Makefile
 	@echo 'Any artifact is a target, at any torque in N m; the scene stands in its path:'
 	@echo '  make out/parker2000/T600/up/response.h5'
 	@echo '  make SCENE=path/to/scene.toml sweep'

@@ -402,6 +402,8 @@ status=$?
 if [ $status = 3 ] && grep -q 'MISSING; .*make out/scene/T100/up/sweep.h5' said; then ok "gear-inspect: an input that is missing is status 3"; else
   wrong "gear-inspect: an input that is missing is status 3" "status $status: $(grep input said)"; fi
 mv sweep_away.h5 out/scene/T100/up/sweep.h5
+if said=$("$bin/gear-inspect" --check out 2>&1) && [ -z "$said" ]; then ok "gear-inspect --check is silent when all is well"; else
+  wrong "gear-inspect --check is silent when all is well" "$(head -n 1 <<< "$said")"; fi
 # inspected <claim> <status> <extended pattern> <arguments of gear-inspect...>
 inspected() {
   "$bin/gear-inspect" "${@:4}" > said 2>&1
@@ -452,10 +454,14 @@ refused "a driven gear of another scene" 3 'the driven of this scene' "$bin/gear
 "$bin/gear-static" --params out/scene_other/params/static.toml --driver $other/body.h5 --driven $other/body.h5 --torque 100 \
   --output other_static.h5 > /dev/null 2>&1
 refused "the wave of another scene" 3 'other_static.h5: is of another driver than out/scene/T100/static.h5' $(lumped rectangular) --reference-static other_static.h5
-# An older schema: the number in the file itself is changed (it stands 40 bytes after its name), all else stays.
+# An older schema: the number in the file itself is changed (it stands 40 bytes after its name), and the content hash with it.
 cp out/scene/T100/up/sweep.h5 old.h5
 place=$(grep -a -b -o -m1 schema_version old.h5 | head -n 1 | cut -d: -f1)
 printf '\0' | dd of=old.h5 bs=1 seek=$((place + 40)) conv=notrunc status=none
+refused "an artifact that was edited" 4 'old.h5: is not what was written: .*delete it, then rebuild it with: make old.h5' "$bin/gear-spectra" --input old.h5 --output x.h5
+digits=$(($(grep -a -b -o -m1 'in place of these digits: ' old.h5 | head -n 1 | cut -d: -f1) + 26))
+printf '%064d' 0 | dd of=old.h5 bs=1 seek=$digits conv=notrunc status=none
+sha256sum < old.h5 | head -c 64 | dd of=old.h5 bs=1 seek=$digits conv=notrunc status=none
 refused "an artifact of an older schema names the target that makes it again" 3 'version 0.*make' "$bin/gear-spectra" --input old.h5 --output x.h5
 
 # --- interrupted and full

@@ -12,9 +12,11 @@
 #include <fstream>
 #include <functional>
 #include <numbers>
+#include <random>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/artifact.h"
 #include "files/fit.h"
 #include "files/h5.h"
 #include "files/provenance.h"
@@ -351,8 +353,9 @@ void overwrite(const std::string& path, const std::string& bytes) {
 // An artifact that differs from a right one in what `change` does.
 void write_static_like(const std::string& path, const std::function<void(h5::Writer&)>& change) {
   h5::Writer file;
+  put_seal(file);
   change(file);
-  publish(path, file.finish());
+  publish(path, sealed(file.finish()));
 }
 
 }  // namespace
@@ -784,6 +787,63 @@ TEST_CASE("an artifact of another schema or version is refused with what it is a
 
   write_static_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });
   CHECK(caught([] { read_static("out/alien.h5"); }).kind == kInput);
+}
+
+TEST_CASE("one flipped bit in any byte of an artifact is found, whatever reads it") {
+  Folder folder;
+  write("static.h5", small_static(), kMade);
+  const std::string whole = read_bytes("static.h5");
+  std::mt19937 random(8);
+  // Bytes of the signature make it no HDF5 file; all others are under the hash.
+  for (std::size_t place = 0; place < whole.size(); place += 1 + random() % 64) {
+    std::string bytes = whole;
+    bytes[place] = static_cast<char>(bytes[place] ^ (1 << random() % 8));
+    overwrite("static.h5", bytes);
+    const Caught read = caught([] { read_static("static.h5"); }),
+                 seen = caught([] { read_origin("static.h5"); });
+    if (read.kind == kIo && seen.kind == kIo && read.says("make static.h5")) continue;
+    FAIL("the flipped bit in byte " << place << " of " << whole.size() << " was not found");
+  }
+  overwrite("static.h5", whole);
+  CHECK(caught([] { read_static("static.h5"); }).kind == 0);
+}
+
+TEST_CASE("an artifact without its hash is refused before HDF5 sees it") {
+  Folder folder;
+  h5::Writer file;
+  file.attribute("/", "schema", std::string("whine/static"));
+  file.attribute("/", "schema_version", 3);
+  publish("bare.h5", file.finish());
+  const Caught bare = caught([] { read_static("bare.h5"); });
+  CHECK(bare.kind == kIo);
+  CHECK(bare.says("carries no content hash"));
+  CHECK(bare.says("make bare.h5"));
+}
+
+TEST_CASE("an input that was replaced, before or while a stage ran, is named and nothing is written") {
+  Folder folder;
+  char name[] = "build/bin/gear-test";
+  char* arguments[] = {name, nullptr};
+  overwrite("slice.toml", "a = 1\n");
+  write("body.h5", small_body(), made_by(1, arguments, {"params=slice.toml"}));
+  const Provenance now = made_by(1, arguments, {"driver=body.h5"});
+  CHECK(caught([] { require_fresh("body.h5"); }).kind == 0);
+
+  overwrite("slice.toml", "a = 2\n");
+  const Caught stale = caught([&] { made_by(1, arguments, {"driver=body.h5"}); });
+  CHECK(stale.kind == kInput);
+  CHECK(stale.says("body.h5: is stale: its input 'params', slice.toml, is not what it was"));
+  CHECK(stale.says("make body.h5"));
+  fs::remove("slice.toml");  // what is not there contradicts nothing
+  CHECK(caught([] { require_fresh("body.h5"); }).kind == 0);
+
+  BodyArtifact other = small_body();
+  other.inertia *= 2;
+  write("body.h5", other, kMade);
+  const Caught replaced = caught([&] { write("static.h5", small_static(), now); });
+  CHECK(replaced.kind == kInput);
+  CHECK(replaced.says("static.h5: is not written, because its input body.h5 was replaced"));
+  CHECK_FALSE(fs::exists("static.h5"));
 }
 
 TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is refused, never read") {

@@ -103,6 +103,10 @@ void body(int argc, char** argv) {
     plan.torque = numbers("--torque", torque);
   if (design.empty()) plan.design_torque = 0.5 * (plan.torque.front() + plan.torque.back());
   const double checks = whine::number_option("--check", points);
+  std::vector<std::string> inputs = {"static_params=" + static_params, "driver=" + driver,
+                                     "driven=" + driven};
+  if (dynamic) inputs.insert(inputs.end(), {"params=" + params, "reference_static=" + reference});
+  const whine::Provenance provenance = whine::made_by(argc, argv, std::move(inputs));
   const whine::StaticSlice slice = whine::read_static_slice(static_params);
   const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
   whine::require_body(first, slice.driver_body, "driver", driver);
@@ -146,15 +150,10 @@ void body(int argc, char** argv) {
   const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;  // s of this processor
   progress.reset();
   if (checks > 0) whine::check(map, first, second, plan.positions, static_cast<int>(checks));
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"static_params=" + static_params, "driver=" + driver, "driven=" + driven};
   if (dynamic) {
     whine::add_dynamics(map, first, second, whine::read_sweep_slice(params),
                         whine::read_static(reference).mean_stiffness, report);
     progress.reset();
-    provenance.inputs.insert(provenance.inputs.end(), {"params=" + params, "reference_static=" + reference});
   }
   whine::write(output, map, provenance);
   whine::tell("gear-harris: ", plan.torque.size(), " torques x ", plan.relief.size(), " reliefs x ",

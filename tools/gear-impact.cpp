@@ -67,6 +67,10 @@ void body(int argc, char** argv) {
     whine::fail(whine::Failure::usage, "--output or --calibrate is needed; see --help");
 
   plan.torque_step = whine::number_option("--torque-step", step_word);
+  const whine::Provenance provenance =
+      whine::made_by(argc, argv,
+                     {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
+                      "reference_static=" + reference});
   const whine::ImpactSlice slice = whine::read_impact_slice(params);
   for (const std::string& file : {statics, reference}) {
     whine::require_made_from(file, "driver", driver);
@@ -96,11 +100,6 @@ void body(int argc, char** argv) {
   const whine::ImpactArtifact result =
       whine::impact(first, second, at_torque, at_reference.mean_stiffness, slice, plan, report);
   progress.reset();
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
-                       "reference_static=" + reference};
   whine::write(output, result, provenance);
   whine::tell("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", output);
 }

@@ -2,10 +2,14 @@
 //
 // Reads      any artifacts (HDF5); their inputs at the paths recorded in /provenance, relative to the
 //            working folder; the scene (--scene, or data/scenes/<scene>.toml for out/<scene>/params/...)
+//            With --check: every artifact (.h5) below the folders given, out/ if none is
 // Writes     nothing; prints on standard output. Exit status 3 if an input has changed or is missing
+//            With --check: a line on standard error for each fault, nothing if all is well. Exit status 3 if an
+//            artifact is damaged, of another version, not finite, or made from other files than those beside it
 // Equations  none
 // Example    gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <vector>
@@ -46,37 +50,85 @@ std::string against_scene(const std::string& artifact, const InputRecord& input,
   return text("STALE: ", scene, " says otherwise now; ", rebuild_advice(artifact));
 }
 
+// What has become of an input since, in words; clears fresh if it is not what it was, or not there to tell.
+std::string state_of(const std::string& path, const InputRecord& input, const std::string& scene,
+                     bool& fresh) {
+  if (std::filesystem::exists(input.path) && sha256_of_file(input.path) == input.sha256)
+    return input.role == "params" ? against_scene(path, input, scene, fresh)
+                                  : "fresh: the file is what it was";
+  fresh = false;
+  return std::filesystem::exists(input.path) ? text("STALE; ", rebuild_advice(path))
+                                             : text("MISSING; ", rebuild_advice(input.path));
+}
+
 // False if an input is not what it was, or not there to tell.
 bool show_origin(const std::string& path, const Origin& origin, const std::string& scene) {
   line("made by", text(origin.tool, " ", origin.version, ": ", origin.command));
   bool fresh = true;
   for (const InputRecord& input : origin.inputs) {
-    std::string state = "fresh: the file is what it was";
-    if (!std::filesystem::exists(input.path)) {
-      state = text("MISSING; ", rebuild_advice(input.path));
-      fresh = false;
-    } else if (sha256_of_file(input.path) != input.sha256) {
-      state = text("STALE; ", rebuild_advice(path));
-      fresh = false;
-    } else if (input.role == "params") {
-      state = against_scene(path, input, scene, fresh);
-    }
+    const std::string state = state_of(path, input, scene, fresh);
     line("input " + input.role, text(input.path, " (", input.sha256.substr(0, 12), ") ", state));
   }
   for (const std::string& stage : origin.history) line("earlier", stage);
   return fresh;
 }
 
+// All artifacts below a folder, links not followed, in the order of the alphabet; a path to a file is that file.
+std::vector<std::string> artifacts_below(const std::string& place) {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  if (!fs::is_directory(place, code)) return {place};
+  std::vector<std::string> out;
+  fs::recursive_directory_iterator entry(place, code);
+  for (; !code && entry != fs::recursive_directory_iterator(); entry.increment(code))
+    if (entry->path().extension() == ".h5") out.push_back(entry->path().generic_string());
+  if (code) fail(Failure::io, place, ": cannot be searched: ", code.message(), "; check its permissions");
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// The number of faults, each told in a line.
+int check(const std::string& path, const std::string& scene) {
+  int faults = 0;
+  const auto tell_fault = [&](const std::string& words) {
+    tell("gear-inspect: ", words);
+    ++faults;
+  };
+  try {
+    const Origin origin = read_origin(path);
+    summary(path, origin.schema);
+    for (const InputRecord& input : origin.inputs) {
+      bool fresh = true;
+      const std::string state = state_of(path, input, scene, fresh);
+      if (!fresh) tell_fault(text(path, ": input ", input.role, ", ", input.path, ": ", state));
+    }
+  } catch (const Error& error) {
+    tell_fault(error.what());
+  }
+  return faults;
+}
+
 int body(int argc, char** argv) {
   std::vector<std::string> paths;
   CLI::App app{"Says what artifacts are, from what they were made, and whether they are stale",
                "gear-inspect"};
-  app.add_option("artifact", paths, "artifacts (HDF5)")->required();
+  app.add_option("artifact", paths, "artifacts (HDF5); with --check folders as well");
+  bool checked = false;
+  app.add_flag("--check", checked,
+               "say only what is wrong with the artifacts, those below folders included (default: out)");
   std::string scene;
   app.add_option(
       "--scene", scene,
       "compare slices with this scene; default: data/scenes/<scene>.toml of out/<scene>/, if there is one");
   parse(app, argc, argv);
+  if (checked) {
+    if (paths.empty()) paths = {"out"};
+    int faults = 0;
+    for (const std::string& place : paths)
+      for (const std::string& path : artifacts_below(place)) faults += check(path, scene);
+    return faults == 0 ? 0 : static_cast<int>(Failure::input);
+  }
+  if (paths.empty()) fail(Failure::usage, "give artifacts to inspect, or --check for all below out");
   bool fresh = true;
   std::cout << kSummaryUnits << "\n";
   for (const std::string& path : paths) {

@@ -19,6 +19,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "motion/jump_map.h"
@@ -80,6 +81,9 @@ void body(int argc, char** argv) {
   if (!to.empty()) plan.to = above_zero("--to", to);
   if (!at.empty()) plan.load_frequency = above_zero("--loads-at", at);
   const double torque = whine::number_option("--torque", torque_word);
+  const whine::Provenance provenance = whine::made_by(
+      argc, argv,
+      {"params=" + params, "static_params=" + static_params, "driver=" + driver, "driven=" + driven});
   whine::SweepSlice slice = whine::read_map_slice(params);
   whine::StaticSlice statics = whine::read_static_slice(static_params);
   if (!corner.empty()) statics.mesh.corner = corner_rule(corner);
@@ -96,11 +100,6 @@ void body(int argc, char** argv) {
                                                           progress->update(done, note);
                                                         });
   progress.reset();
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"params=" + params, "static_params=" + static_params, "driver=" + driver,
-                       "driven=" + driven};
   whine::write(output, result, provenance);
   whine::tell("gear-jump-map: ", torque, " N m, ", result.two_branches.sum(), " of ",
               result.two_branches.size(), " dampings with two branches, ",

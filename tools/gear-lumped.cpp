@@ -135,6 +135,10 @@ void body(int argc, char** argv) {
       if (!(*value > 0)) usage(name, " is ", *value, " Hz; it must be above 0");
     }
 
+  std::vector<std::string> inputs = {"static=" + statics};
+  if (!reference.empty()) inputs.push_back("reference_static=" + reference);
+  if (!params.empty()) inputs.push_back("params=" + params);
+  const whine::Provenance provenance = whine::made_by(argc, argv, std::move(inputs));
   const whine::StaticArtifact at_torque = whine::read_static(statics);
   if (!torque.empty() && whine::number_option("--torque", torque) != at_torque.torque)
     whine::fail(whine::Failure::input, statics, " is at ", at_torque.torque, " N m, --torque says ", torque,
@@ -197,12 +201,6 @@ void body(int argc, char** argv) {
     if (!progress) progress.emplace("gear-lumped " + o.model + " " + (map ? "map" : o.direction), total);
     progress->update(done, note);
   };
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"static=" + statics};
-  if (!reference.empty()) provenance.inputs.push_back("reference_static=" + reference);
-  if (!params.empty()) provenance.inputs.push_back("params=" + params);
   if (map) {
     const whine::JumpMapArtifact result =
         whine::lumped_jump_map(at_torque, springs, numbers, o, map_speeds, damping_ratio, report);

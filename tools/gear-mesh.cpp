@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "solid/elements.h"
@@ -23,13 +24,10 @@ void body(int argc, char** argv) {
   app.add_option("--output", output, "mesh.h5 to write")->required();
   whine::parse(app, argc, argv);
 
+  const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params});
   const whine::BodySlice slice = whine::read_body_slice(params);
   const whine::MeshArtifact mesh = whine::make_sector_mesh(slice.design, slice.discretisation);
 
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"params=" + params};
   whine::write(output, mesh, provenance);
   const double area = whine::mesh_area(mesh.node_position, mesh.element_node);
   whine::tell("gear-mesh: ", slice.design.teeth, " teeth, ", mesh.element_node.rows(), " elements and ",

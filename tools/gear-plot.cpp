@@ -273,12 +273,14 @@ void body(int argc, char** argv) {
     const whine::Figure table =
         whine::natural_frequency_table(read_all(inputs, whine::read_impact), published);
     const std::string words = whine::natural_frequency_text(table);
+    for (const std::string& path : inputs) whine::require_fresh(path);
     whine::publish(output + ".tsv", whine::tsv(table, sources));
     whine::publish(output + ".txt", words);
     whine::tell("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
     return;
   }
   const whine::Figure figure = figure_of(name, inputs, mesh_frequencies);
+  for (const std::string& path : inputs) whine::require_fresh(path);
   const std::string table = output + ".tsv", recipe = plots + "/" + name + ".gp";
   whine::publish(table, whine::tsv(figure, sources));
   whine::publish(output + ".svg", whine::draw(figure, table, recipe, whine::Picture::svg));

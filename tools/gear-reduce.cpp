@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "solid/reduce.h"
@@ -29,16 +30,13 @@ void body(int argc, char** argv) {
   app.add_option("--output", output, "body.h5 to write")->required();
   whine::parse(app, argc, argv);
 
+  const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params, "mesh=" + mesh});
   const whine::BodySlice slice = whine::read_body_slice(params);
   whine::MeshArtifact sector = whine::read_mesh(mesh);
   whine::require_mesh(sector, slice, mesh);
   sector.discretisation = slice.discretisation;  // a mesh does not say how its near field is reduced
   const whine::BodyArtifact result = whine::reduce(sector, slice.material, slice.discretisation.modes);
 
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"params=" + params, "mesh=" + mesh};
   whine::write(output, result, provenance);
   Eigen::Index torsional = 0;
   result.inertia_coupling.cwiseAbs().maxCoeff(&torsional);

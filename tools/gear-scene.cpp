@@ -115,6 +115,11 @@ void body(int argc, char** argv) {
   check_geometry(scene, path);
   const std::string home = folder + "/" + stem;
 
+  for (const std::string& place : {home, folder + "/bodies"})
+    if (const int moved = bring_to_present(place); moved > 0)
+      tell("gear-scene: ", place, ": ", moved,
+           " files had times in the future and have those of now instead");
+
   // 2. Slices and links; unchanged ones are left alone, so that make sees what did change.
   const auto name = [&](const std::string& key) { return "SCENE_" + stem + "_" + key; };
   std::ostringstream bodies;

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/provenance.h"
 #include "files/publish.h"
 #include "plot/scorecard.h"
 
@@ -35,6 +36,7 @@ void body(int argc, char** argv) {
     whine::fail(whine::Failure::usage, "artifacts of a scene are needed; --files lists them");
 
   const whine::Scorecard card = whine::score(whine::paper_claims(), whine::read_answers(inputs));
+  for (const std::string& path : inputs) whine::require_fresh(path);
   std::vector<std::string> sources;
   for (const std::string& path : inputs) sources.push_back(whine::recorded_path(path));
   whine::publish(output + ".tsv", whine::scorecard_tsv(card, sources));

@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "base/tool.h"
+#include "files/provenance.h"
 #include "files/schemas.h"
 #include "signal/response.h"
 
@@ -22,12 +23,9 @@ void body(int argc, char** argv) {
   app.add_option("--output", output, "response.h5 to write")->required();
   whine::parse(app, argc, argv);
 
+  const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});
   const whine::SweepArtifact sweep = whine::read_sweep(input);
   const whine::ResponseArtifact result = whine::response(sweep);
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"sweep=" + input};
   whine::write(output, result, provenance);
 
   Eigen::Index peak = 0;

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "motion/error_budget.h"
@@ -58,14 +59,12 @@ void body(int argc, char** argv) {
   whine::parse(app, argc, argv);
 
   const double torque = whine::number_option("--torque", torque_word);
+  const whine::Provenance provenance =
+      whine::made_by(argc, argv, {"params=" + params, "driver=" + driver, "driven=" + driven});
   const whine::StaticSlice slice = whine::read_static_slice(params);
   const whine::BodyArtifact driver_body = whine::read_body(driver), driven_body = whine::read_body(driven);
   whine::require_body(driver_body, slice.driver_body, "driver", driver);
   whine::require_body(driven_body, slice.driven_body, "driven", driven);
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"params=" + params, "driver=" + driver, "driven=" + driven};
   if (budget) {
     const whine::ErrorBudgetArtifact errors = whine::error_budget(driver_body, driven_body, slice, torque);
     whine::write(output, errors, provenance);

@@ -114,6 +114,10 @@ void body(int argc, char** argv) {
                "sweep on the next rung of contact and on that of body as well, and say what they change");
   whine::parse(app, argc, argv);
 
+  const whine::Provenance provenance =
+      whine::made_by(argc, argv,
+                     {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
+                      "reference_static=" + reference});
   const whine::SweepSlice slice = whine::read_sweep_slice(params);
   for (const std::string& file : {statics, reference}) {
     whine::require_made_from(file, "driver", driver);
@@ -144,11 +148,6 @@ void body(int argc, char** argv) {
   const whine::SweepArtifact result =
       run(driver_body, driven_body, at_torque, at_reference.mean_stiffness, slice, "");
 
-  whine::Provenance provenance;
-  provenance.tool = whine::program_name(argv[0]);
-  provenance.command = whine::command_line(argc, argv);
-  provenance.inputs = {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
-                       "reference_static=" + reference};
   whine::write(output, result, provenance);
   std::string jumps;
   for (double f : result.jump_frequency) jumps += whine::text(jumps.empty() ? ", jumps at " : ", ", f, " Hz");

@@ -1,6 +1,7 @@
 #include "files/artifact.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -18,6 +19,29 @@ h5::Label record(const std::string& long_name, const std::string& axes = "") {
 
 bool is_hdf5(const std::string& bytes) {
   return bytes.compare(0, 4, "\x89HDF") == 0;
+}
+
+const std::string kSeal = "sha256 of this file with zeros in place of these digits: ";
+const std::string kUnsealed(64, '0');
+
+// Of an artifact whose content is what its writer has published. Error(io) otherwise; what is no HDF5 file is left to
+// its reader.
+std::string artifact_bytes(const std::string& path) {
+  std::string bytes = read_bytes(path, rebuild_advice(path));
+  if (!is_hdf5(bytes)) return bytes;
+  const auto refuse = [&](const char* what) {
+    fail(Failure::io, path, ": ", what, " (", bytes.size(), " bytes); delete it, then ",
+         rebuild_advice(path));
+  };
+  const auto at = bytes.find(kSeal);
+  if (at == std::string::npos || bytes.size() - at < kSeal.size() + kUnsealed.size())
+    refuse("carries no content hash: it is truncated, damaged or of an earlier version of this program");
+  const auto digits = bytes.begin() + static_cast<std::ptrdiff_t>(at + kSeal.size());
+  std::string found(kUnsealed);
+  std::swap_ranges(found.begin(), found.end(), digits);
+  if (sha256(bytes) != found) refuse("is not what was written: truncated, damaged or edited");
+  std::copy(found.begin(), found.end(), digits);
+  return bytes;
 }
 
 Origin origin_of(const h5::Reader& file) {
@@ -85,6 +109,18 @@ class SectionSource : public ParameterSource {
 
 }  // namespace
 
+void put_seal(h5::Writer& file) {
+  file.ascii_attribute("/", "content_sha256", kSeal + kUnsealed);
+}
+
+std::string sealed(std::string bytes) {
+  const auto at = bytes.find(kSeal);
+  if (at == std::string::npos || bytes.size() - at < kSeal.size() + kUnsealed.size())
+    fail(Failure::numerical, "the file has no place for its content hash");
+  bytes.replace(at + kSeal.size(), kUnsealed.size(), kUnsealed);
+  return bytes.replace(at + kSeal.size(), kUnsealed.size(), sha256(bytes));
+}
+
 std::string rebuild_advice(const std::string& path) {
   const std::string target = recorded_path(path);
   // make has no targets outside its own folder.
@@ -99,7 +135,28 @@ std::string rebuild_advice(const std::string& path) {
 }
 
 Origin read_origin(const std::string& path) {
-  return origin_of(h5::Reader(read_bytes(path, rebuild_advice(path)), path, rebuild_advice(path)));
+  return origin_of(h5::Reader(artifact_bytes(path), path, rebuild_advice(path)));
+}
+
+void require_fresh(const std::string& artifact) {
+  for (const InputRecord& input : read_origin(artifact).inputs) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(input.path, ignored) && sha256_of_file(input.path) != input.sha256)
+      fail(Failure::input, artifact, ": is stale: its input '", input.role, "', ", input.path,
+           ", is not what it was; delete it, then ", rebuild_advice(artifact));
+  }
+}
+
+Provenance made_by(int argc, char** argv, std::vector<std::string> inputs) {
+  Provenance out{program_name(argv[0]), command_line(argc, argv), std::move(inputs), {}};
+  for (const std::string& input : out.inputs) {
+    const std::string path = input.substr(input.find('=') + 1);
+    // No target makes a slice of a scene.
+    const std::string bytes = read_bytes(path, path.ends_with(".h5") ? rebuild_advice(path) : "");
+    out.sha256.push_back(sha256(bytes));
+    if (is_hdf5(bytes)) require_fresh(path);
+  }
+  return out;
 }
 
 std::string recorded_input(const std::string& artifact, const std::string& role) {
@@ -117,7 +174,8 @@ void require_made_from(const std::string& artifact, const std::string& role, con
 
 ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int version,
                                const std::string& title, const Provenance& provenance)
-    : path_(std::move(path)) {
+    : path_(std::move(path)), inputs_(provenance.inputs), sha256_(provenance.sha256) {
+  put_seal(file_);
   file_.attribute("/", "schema", kFamily + kind);
   file_.attribute("/", "schema_version", version);
   file_.attribute("/", "title", title);
@@ -128,7 +186,7 @@ ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int ve
     const auto equals = input.find('=');
     if (equals == std::string::npos) fail(Failure::numerical, "input '", input, "' is not role=path");
     const std::string place = input.substr(equals + 1);
-    const std::string bytes = read_bytes(place);
+    const std::string bytes = artifact_bytes(place);
     roles.push_back(input.substr(0, equals));
     paths.push_back(recorded_path(place));
     hashes.push_back(sha256(bytes));
@@ -208,11 +266,17 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
 }
 
 void ArtifactWriter::publish() {
-  whine::publish(path_, file_.finish());
+  for (std::size_t i = 0; i < sha256_.size(); ++i) {
+    const std::string place = inputs_[i].substr(inputs_[i].find('=') + 1);
+    if (sha256_of_file(place) != sha256_[i])
+      fail(Failure::input, path_, ": is not written, because its input ", place,
+           " was replaced while it was being made; ", rebuild_advice(path_));
+  }
+  whine::publish(path_, sealed(file_.finish()));
 }
 
 ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind, int version)
-    : file_(read_bytes(path, rebuild_advice(path)), path, rebuild_advice(path)) {
+    : file_(artifact_bytes(path), path, rebuild_advice(path)) {
   const std::string schema = file_.string_attribute("/", "schema");
   if (schema != kFamily + kind) {
     file_.refuse(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));

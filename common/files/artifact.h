@@ -13,6 +13,12 @@
 
 namespace whine {
 
+// The root attribute content_sha256 ends with the SHA-256 of the file in which these 64 digits are zeros. It is checked
+// on the bytes of the file, so that HDF5 never parses a file that is not what its writer has made.
+void put_seal(h5::Writer& file);
+// The bytes of such a file with the digits that they ask for. Error(numerical) if there is no place for them.
+std::string sealed(std::string bytes);
+
 class ArtifactWriter {
  public:
   // kind: "static" for the schema "whine/static".
@@ -32,11 +38,12 @@ class ArtifactWriter {
   // /parameters/<section>/<key> for all keys of a part.
   void parameters(const std::string& section, const KeyValues& values, Part part);
 
-  // Writes the file whole or not at all.
+  // Writes the file whole or not at all. Error(input) if an input is not what it was when the stage read it.
   void publish();
 
  private:
   std::string path_;
+  std::vector<std::string> inputs_, sha256_;  // "role=path", and what was recorded of it
   h5::Writer file_;
 };
 

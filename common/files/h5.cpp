@@ -308,6 +308,17 @@ struct Reader::Impl {
     return out;
   }
 
+  // The number of values, before memory is taken for them. Deflate makes at most 1032 bytes of one.
+  std::size_t stored_count(hid_t set, std::size_t item_bytes, const std::string& name) const {
+    const Shape shape = shape_of(set);
+    const double stored = static_cast<double>(H5Dget_storage_size(set));
+    double bytes = static_cast<double>(item_bytes);
+    for (std::size_t n : shape) bytes *= static_cast<double>(n);
+    if (bytes > 1032 * stored)
+      refuse(text("dataset ", name, " says that it holds ", bytes, " bytes, but ", stored, " are stored"));
+    return count_of(shape);
+  }
+
   template <class T>
   std::vector<T> numbers(const std::string& name, bool whole) const {
     const Handle set = dataset(name);
@@ -316,7 +327,7 @@ struct Reader::Impl {
     if (kind != H5T_INTEGER && (whole || kind != H5T_FLOAT)) {
       refuse("dataset " + name + (whole ? " does not hold whole numbers" : " does not hold numbers"));
     }
-    std::vector<T> out(count_of(shape_of(set)));
+    std::vector<T> out(stored_count(set, H5Tget_size(type), name));
     if (!out.empty() && H5Dread(set, Types<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) {
       refuse("dataset " + name + " cannot be read (damaged file)");
     }
@@ -396,7 +407,8 @@ std::vector<std::string> Reader::strings(const std::string& path) const {
   const auto read = [](hid_t object, hid_t memory, void* out) {
     return H5Dread(object, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out);
   };
-  return impl_->take_strings(type, count_of(impl_->shape_of(set)), "dataset " + path, read, set);
+  return impl_->take_strings(type, impl_->stored_count(set, H5Tget_size(type), path), "dataset " + path, read,
+                             set);
 }
 
 std::string Reader::string_attribute(const std::string& path, const std::string& name) const {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "files/schemas.h"
+
 namespace whine {
 
 struct InputRecord {
@@ -28,6 +30,14 @@ std::string recorded_input(const std::string& artifact, const std::string& role)
 // Error(input), with the make target, unless `artifact` was made from this very content of `input` in this
 // role: keeps a sweep from mixing a static result with a body that it was not computed from.
 void require_made_from(const std::string& artifact, const std::string& role, const std::string& input);
+
+// Of a tool, before it reads its inputs ("role=path"): their hashes are taken here, and each that is an artifact is
+// refused by require_fresh, so that nothing is computed from files that do not belong together.
+Provenance made_by(int argc, char** argv, std::vector<std::string> inputs);
+
+// Error(input), with the make target, if a file from which `artifact` was made lies where it was recorded (relative
+// to the working folder) with another content. One that is not there any more leaves the artifact what it is.
+void require_fresh(const std::string& artifact);
 
 // "rebuild it with: make <path>"; for a path outside the working folder, or not below out/, that there is no such target.
 std::string rebuild_advice(const std::string& path);

@@ -18,6 +18,10 @@ bool publish_if_changed(const std::string& path, const std::string& bytes);
 // alone. True if it was made or replaced. Error(io) if a file or folder that is no link stands there.
 bool publish_link(const std::string& link, const std::string& target);
 
+// Files below `folder` whose times lie in the future, because the clock was set back, get times just before now, in
+// the same order: make would take them for newer than what changes from now on. The number of them.
+int bring_to_present(const std::string& folder);
+
 // The whole content of a file. Error(io) if it cannot be read; `hint` is appended to the message.
 std::string read_bytes(const std::string& path, const std::string& hint = "");
 

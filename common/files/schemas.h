@@ -2,8 +2,8 @@
 //
 // All values SI. Shapes are given with the axes in index order. Writers refuse values that are not finite,
 // add units, long_name and axes to every dataset, /parameters and /provenance, and publish the file whole:
-// temporary name in the same folder, fsync, rename. Readers check schema, version, shapes and finiteness and
-// throw Error(input) or Error(io) with the make target that rebuilds the file.
+// temporary name in the same folder, fsync, rename. Readers check the content hash before HDF5 sees the file, then
+// schema, version, shapes and finiteness, and throw Error(input) or Error(io) with the make target that rebuilds it.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -23,6 +23,9 @@ struct Provenance {
   std::string command;  // as typed, paths relative to the working folder
   // "role=path"; each is hashed (SHA-256 of the file) and its history copied
   std::vector<std::string> inputs;
+  // of the inputs before they were read; a writer refuses to publish what was made while one of them changed.
+  // Empty: not known
+  std::vector<std::string> sha256 = {};
 };
 
 // mesh.h5: one tooth sector; the tooth points along +y, sector edges at angle 90 deg -/+ 180 deg/teeth.

@@ -1,0 +1,97 @@
+# What machine and input may do to a result: sanitizers, faults, fuzzing, numbers under stress, static checks.
+#
+#   make test-sanitize        the tests of the programs' parts under ASan, UBSan and -D_GLIBCXX_ASSERTIONS
+#   make test-faults          kills, full disks, damaged files, two makes at once; FAULT_KILLS=50
+#   make fuzz                 FUZZ_SECONDS=60 for each reader, from the corpus in tests/fuzz/corpus
+#   make stress               contact problems and whole scenes by the thousand; STRESS_PROBLEMS, STRESS_SCENES
+#   make lint                 clang-tidy, include direction of the rooms, shellcheck
+
+.PHONY: deps-lint deps-fuzz
+deps-lint: wanted := clang-tidy clang-format shellcheck
+deps-lint: | $(with_deps) ## install the packages that only `lint` uses
+	$(install_wanted)
+deps-fuzz: wanted := clang libclang-rt-14-dev
+deps-fuzz: | $(with_deps) ## install the packages that only `fuzz` uses
+	$(install_wanted)
+
+# --- sanitizers
+
+.PHONY: test-sanitize
+test-sanitize: $(B)/bin/whine-tests | $(with_deps) ## the tests under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, but for the slow cases in tests/unsanitized
+	@$< --no-colors=true --test-case-exclude="$$(sed '/^#/d' tests/unsanitized | paste -sd, -)"
+
+# --- faults
+
+FAULT_KILLS ?= 50
+.PHONY: test-faults
+test-faults: build $(tools:%=$(B)/id/%) | $(with_deps) ## kills, full disks, damaged files, clocks set back, two makes: each ends in the same bytes or says why; FAULT_KILLS=50
+	@B=$(B) FAULTS=all FAULT_KILLS=$(FAULT_KILLS) MAKEFLAGS= MAKELEVEL= bash tests/faults.sh | tee $(B)/faults.log; ! grep -q '^FAILED' $(B)/faults.log
+
+# --- numbers under stress
+
+STRESS_PROBLEMS ?= 1000000
+STRESS_SCENES ?= 200
+STRESS_SEED ?= 1
+$(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests/peer/strip_problems.h $(B)/flags $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS)
+
+.PHONY: stress
+stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 200 random scenes: a certificate, a closed ledger or a refusal; STRESS_PROBLEMS, STRESS_SCENES
+	@$< $(STRESS_PROBLEMS) $(STRESS_SEED)
+	@B=$(B) tests/stress/scenes.sh $(STRESS_SCENES) $(STRESS_SEED)
+
+# --- static checks
+
+lint_sources := $(wildcard common/*/*.cpp tools/*.cpp)
+lint_scripts := $(wildcard tests/*.sh tests/*/*.sh) tests/run .ci/run
+lint_checked := $(lint_sources:%=$(B)/lint/%)
+# A file that passed is checked again when it, a header or the list of checks has changed.
+$(lint_checked): $(B)/lint/%: % .clang-tidy $(wildcard common/*/*.h)
+	@mkdir -p $(@D)
+	@clang-tidy --quiet $< -- -std=c++20 $(CPPFLAGS) $(HDF5_CFLAGS) 2> /dev/null > $@.new || { cat $@.new >&2; exit 1; }
+	@mv $@.new $@
+
+.PHONY: lint
+lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks and why), include direction of the rooms, shellcheck
+	@shellcheck $(lint_scripts)
+	@B=$(B) bash tests/rooms.sh | tee $(B)/lint/rooms; ! grep -q '^FAILED' $(B)/lint/rooms
+
+# --- fuzzing
+
+FUZZ_SECONDS ?= 60
+fuzz_targets := scene artifact sealed
+fuzz_sources := $(wildcard common/base/*.cpp common/files/*.cpp)
+fuzz_flags := -std=c++20 -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
+
+$(B)/fuzz/ $(B)/fuzz/found/:
+	@mkdir -p $@
+$(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base/*.h common/files/*.h) | $(filter deps-fuzz,$(goals)) $(with_deps)
+	@mkdir -p $(@D)
+	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) $(fuzz_flags) -c -o $@ $<
+
+$(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%: tests/fuzz/file_of.h $(fuzz_sources:%.cpp=$(B)/fuzz/%.o)
+$(B)/fuzz/whine-fuzz-scene: tests/fuzz/scene.cpp
+$(B)/fuzz/whine-fuzz-artifact $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/artifact.cpp
+$(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
+	clang++ $(CPPFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) $(shell pkg-config --libs hdf5 libcrypto)
+
+# The same targets without libFuzzer; tests/fuzz.sh runs them if they are there.
+.PHONY: replay
+replay: $$(replays) ## the same readers against the same damaged files every time, without libFuzzer
+	@B=$(B) bash tests/fuzz.sh
+replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
+$(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp
+$(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp
+$(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(B)/lib/libfiles.a $(B)/lib/libbase.a | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) -o $@ $(filter %.cpp,$^) $(filter %.a,$^) $(LDLIBS)
+
+# The corpus stays as it is: what a run finds new goes to $(B)/fuzz, and a file that breaks a reader to $(B)/fuzz/found.
+.PHONY: fuzz
+fuzz: $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%) | $(B)/fuzz/found/ ## feed the readers of scenes and artifacts with damaged files, FUZZ_SECONDS=60 each
+	@for target in $(fuzz_targets); do \
+	  mkdir -p $(B)/fuzz/new-$$target; \
+	  $(B)/fuzz/whine-fuzz-$$target -max_total_time=$(FUZZ_SECONDS) -timeout=10 -malloc_limit_mb=1024 -rss_limit_mb=2048 -max_len=1048576 \
+	    -print_final_stats=1 -artifact_prefix=$(B)/fuzz/found/$$target- $(B)/fuzz/new-$$target tests/fuzz/corpus/$$target > $(B)/fuzz/$$target.log 2>&1 || \
+	    { status=$$?; tail -n 30 $(B)/fuzz/$$target.log >&2; exit $$status; }; \
+	  echo "fuzz: $$target: $$(sed -n 's/^stat::number_of_executed_units: *//p' $(B)/fuzz/$$target.log) inputs, no crash, no hang, no more than 1 GiB taken"; \
+	done

@@ -1,0 +1,13 @@
+# Readers of scenes and artifacts against damaged files, the same ones every time; `make fuzz` looks further.
+set -uo pipefail
+B=${B:-build}
+corpus=$PWD/tests/fuzz/corpus
+bin=$PWD/$B/bin
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+for target in scene artifact sealed; do
+  [ -x "$bin/whine-replay-$target" ] || { echo "skipped: damaged files for the readers of $target (make replay compiles the programs)"; continue; }
+  if said=$("$bin/whine-replay-$target" 2000 1 "$corpus/$target" 2>&1); then echo "ok: $target: $said, read or refused"; else
+    echo "FAILED: $target: status $?, $(tail -n 1 <<< "$said")"; fi
+done

@@ -1,0 +1,50 @@
+// libFuzzer: any bytes as each kind of artifact. They are read or refused by an Error.
+//
+// -DSEALED: the content hash is put right first, so that the bytes reach HDF5 and the readers behind it; no accident makes
+// such a file.
+#include "files/artifact.h"
+#include "base/error.h"
+#include "file_of.h"
+#include "files/provenance.h"
+#include "files/schemas.h"
+#include "files/summary.h"
+
+namespace {
+
+using namespace whine;
+
+template <class Read>
+void refused_or_read(const Read& read) {
+  try {
+    read();
+  } catch (const Error&) {
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+#ifdef SEALED
+  std::string bytes(reinterpret_cast<const char*>(data), size);
+  try {
+    bytes = sealed(std::move(bytes));
+  } catch (const Error&) {
+    return -1;  // nothing to put right: of no use in a corpus
+  }
+  const FileOf file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+#else
+  const FileOf file(data, size);
+#endif
+  const std::string path = file.path();
+  refused_or_read([&] { require_fresh(path); });
+  refused_or_read([&] { summary(path, read_origin(path).schema); });
+  refused_or_read([&] { read_mesh(path); });
+  refused_or_read([&] { read_body(path); });
+  refused_or_read([&] { read_static(path); });
+  refused_or_read([&] { read_error_budget(path); });
+  refused_or_read([&] { read_impact(path); });
+  refused_or_read([&] { read_sweep(path); });
+  refused_or_read([&] { read_response(path); });
+  refused_or_read([&] { read_jump_map(path); });
+  return 0;
+}
