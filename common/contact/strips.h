@@ -23,9 +23,10 @@ namespace whine {
 // How far contact is looked for.
 struct ContactRange {
   double half_window = 0;  // m along the flank, either side of the nominal contact point
-  bool follows = false;   // either side of the place where unloaded flanks come nearest to each other instead
-  int strips = 0;         // in a window
-  double corner_gap = 0;  // m: tip edges with a larger gap than this are left out
+  int strips = 0;          // in a window
+  double corner_gap = 0;   // m: tip edges with a larger gap than this are left out
+  // The window lies about the place where unloaded flanks come nearest to each other instead.
+  bool follows = false;
 };
 
 inline constexpr int kWindowNodes = 6;
