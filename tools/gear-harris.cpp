@@ -81,7 +81,8 @@ void body(int argc, char** argv) {
   app.add_option("--positions", plan.positions, "mesh positions")->capture_default_str();
   app.add_option("--strips", plan.strips, "strips across the contact at the least load of a range of torques")
       ->capture_default_str();
-  app.add_option("--check", points, "points to solve again with 3 times the strips and positions")
+  app.add_option("--check", points,
+                 "points to solve again with 3 times the strips and positions, beside the optimum")
       ->capture_default_str();
   auto* dynamic_option =
       app.add_flag("--dynamic", dynamic, "sweep up and down at every point: minutes to hours");

@@ -273,8 +273,11 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
     // The optimum first: its relief then has a curve over all torques.
     {
       const VectorXd load = VectorXd::Constant(1, plan.design_torque / rb);
+      // A range of one load has no strips to spare, as the others have under their larger loads.
+      HarrisPlan finer = plan;
+      finer.strips *= 2;
       std::vector<Range> ranges;
-      for (const double end : relief_ends) ranges.emplace_back(model, unit, end, tables, load, plan);
+      for (const double end : relief_ends) ranges.emplace_back(model, unit, end, tables, load, finer);
       const auto value = [&](double relief) {
         return peak_to_peak(ranges[range_of(relief) - relief_ends.begin()].error(relief).col(0));
       };
@@ -349,17 +352,22 @@ void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifac
   slice.contact.positions = finer * positions;
   map.checked = 0;
   map.largest_error = 0;
+  const auto compare = [&](double relief, double length, double torque, double found) {
+    slice.mesh = relieved_mesh(map, relief, length);
+    const StaticArtifact fine = static_transmission(driver, driven, slice, torque);
+    map.largest_error =
+        std::max(map.largest_error, std::abs(found / peak_to_peak(fine.transmission_error) - 1));
+    ++map.checked;
+  };
+  for (Eigen::Index s = 0; s < map.length.size(); ++s)
+    compare(map.optimum_relief[s], map.length[s], map.design_torque, map.optimum_peak_to_peak[s]);
   // Spread over the map by the golden section of its places.
   for (int k = 0; k < points; ++k) {
     const double place = std::fmod((k + 0.5) * 0.5 * (std::sqrt(5.0) - 1), 1.0);
     const auto at =
         std::min(all - 1, static_cast<Eigen::Index>((k + place) / points * static_cast<double>(all)));
     const Eigen::Index t = at / reliefs, r = at % reliefs, s = k % map.length.size();
-    slice.mesh = relieved_mesh(map, map.relief[r], map.length[s]);
-    const StaticArtifact fine = static_transmission(driver, driven, slice, map.torque[t]);
-    const double exact = peak_to_peak(fine.transmission_error);
-    map.largest_error = std::max(map.largest_error, std::abs(map.peak_to_peak[s](t, r) / exact - 1));
-    ++map.checked;
+    compare(map.relief[r], map.length[s], map.torque[t], map.peak_to_peak[s](t, r));
   }
 }
 
