@@ -494,11 +494,16 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
   }
   figure.blocks.push_back(action);
 
+  const FlankDeviation deviation[2] = {{pair.gear(0), s.mesh.modification[0]},
+                                       {pair.gear(1), s.mesh.modification[1]}};
   const auto on_flanks = [&](double x) {
     const FlankGap at = pair.gap_at(strips.contact, x);
     std::array<Vec2, 2> local;  // along the flank, out of the driver
     for (int g = 0; g < 2; ++g) {
-      const Vec2 p = moved(pair.gear(g).flank_point(at.roll[g]), placed(pair, g)) - touch;
+      const ToothGeometry& gear = pair.gear(g);
+      const Vec2 place =
+          gear.flank_point(at.roll[g]) - deviation[g].at(at.roll[g], 0) * gear.flank_normal(at.roll[g]);
+      const Vec2 p = moved(place, placed(pair, g)) - touch;
       local[g] = Vec2(p.dot(tangent), p.dot(normal));
     }
     return local;
