@@ -20,6 +20,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "gear/pair.h"

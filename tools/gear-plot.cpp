@@ -180,12 +180,12 @@ const std::map<std::string, Drawing>& drawings() {
         }}},
       {"crack",
        {"the mark of a cracked tooth in the static transmission error, and its orders",
-        "static.h5 of a pair with a crack", 1,
-        [](const Paths& in, double) { return whine::crack_figure(whine::read_static(in[0])); }}},
+        "static.h5 of a pair with a crack", 1, 0,
+        [](const Paths& in, const Frequencies&) { return whine::crack_figure(whine::read_static(in[0])); }}},
       {"sidebands",
        {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
-        "static.h5 and response.h5 of one torque", 2,
-        [](const Paths& in, double) {
+        "static.h5 and response.h5 of one torque", 2, 0,
+        [](const Paths& in, const Frequencies&) {
           return whine::sidebands_figure(whine::read_static(in[0]), whine::read_response(in[1]));
         }}},
       {"sensitivity",
