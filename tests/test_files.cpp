@@ -791,21 +791,21 @@ TEST_CASE("an artifact of another schema or version is refused with what it is a
 
 TEST_CASE("one flipped bit in any byte of an artifact is found, whatever reads it") {
   Folder folder;
-  write("static.h5", small_static(), kMade);
-  const std::string whole = read_bytes("static.h5");
+  write("out/static.h5", small_static(), kMade);
+  const std::string whole = read_bytes("out/static.h5");
   std::mt19937 random(8);
   // Bytes of the signature make it no HDF5 file; all others are under the hash.
   for (std::size_t place = 0; place < whole.size(); place += 1 + random() % 64) {
     std::string bytes = whole;
     bytes[place] = static_cast<char>(bytes[place] ^ (1 << random() % 8));
-    overwrite("static.h5", bytes);
-    const Caught read = caught([] { read_static("static.h5"); }),
-                 seen = caught([] { read_origin("static.h5"); });
-    if (read.kind == kIo && seen.kind == kIo && read.says("make static.h5")) continue;
+    overwrite("out/static.h5", bytes);
+    const Caught read = caught([] { read_static("out/static.h5"); }),
+                 seen = caught([] { read_origin("out/static.h5"); });
+    if (read.kind == kIo && seen.kind == kIo && read.says("make out/static.h5")) continue;
     FAIL("the flipped bit in byte " << place << " of " << whole.size() << " was not found");
   }
-  overwrite("static.h5", whole);
-  CHECK(caught([] { read_static("static.h5"); }).kind == 0);
+  overwrite("out/static.h5", whole);
+  CHECK(caught([] { read_static("out/static.h5"); }).kind == 0);
 }
 
 TEST_CASE("an artifact without its hash is refused before HDF5 sees it") {
@@ -813,11 +813,11 @@ TEST_CASE("an artifact without its hash is refused before HDF5 sees it") {
   h5::Writer file;
   file.attribute("/", "schema", std::string("whine/static"));
   file.attribute("/", "schema_version", 3);
-  publish("bare.h5", file.finish());
-  const Caught bare = caught([] { read_static("bare.h5"); });
+  publish("out/bare.h5", file.finish());
+  const Caught bare = caught([] { read_static("out/bare.h5"); });
   CHECK(bare.kind == kIo);
   CHECK(bare.says("carries no content hash"));
-  CHECK(bare.says("make bare.h5"));
+  CHECK(bare.says("make out/bare.h5"));
 }
 
 TEST_CASE("an input that was replaced, before or while a stage ran, is named and nothing is written") {
@@ -825,24 +825,24 @@ TEST_CASE("an input that was replaced, before or while a stage ran, is named and
   char name[] = "build/bin/gear-test";
   char* arguments[] = {name, nullptr};
   overwrite("slice.toml", "a = 1\n");
-  write("body.h5", small_body(), made_by(1, arguments, {"params=slice.toml"}));
-  const Provenance now = made_by(1, arguments, {"driver=body.h5"});
-  CHECK(caught([] { require_fresh("body.h5"); }).kind == 0);
+  write("out/body.h5", small_body(), made_by(1, arguments, {"params=slice.toml"}));
+  const Provenance now = made_by(1, arguments, {"driver=out/body.h5"});
+  CHECK(caught([] { require_fresh("out/body.h5"); }).kind == 0);
 
   overwrite("slice.toml", "a = 2\n");
-  const Caught stale = caught([&] { made_by(1, arguments, {"driver=body.h5"}); });
+  const Caught stale = caught([&] { made_by(1, arguments, {"driver=out/body.h5"}); });
   CHECK(stale.kind == kInput);
-  CHECK(stale.says("body.h5: is stale: its input 'params', slice.toml, is not what it was"));
-  CHECK(stale.says("make body.h5"));
+  CHECK(stale.says("out/body.h5: is stale: its input 'params', slice.toml, is not what it was"));
+  CHECK(stale.says("make out/body.h5"));
   fs::remove("slice.toml");  // what is not there contradicts nothing
-  CHECK(caught([] { require_fresh("body.h5"); }).kind == 0);
+  CHECK(caught([] { require_fresh("out/body.h5"); }).kind == 0);
 
   BodyArtifact other = small_body();
   other.inertia *= 2;
-  write("body.h5", other, kMade);
+  write("out/body.h5", other, kMade);
   const Caught replaced = caught([&] { write("static.h5", small_static(), now); });
   CHECK(replaced.kind == kInput);
-  CHECK(replaced.says("static.h5: is not written, because its input body.h5 was replaced"));
+  CHECK(replaced.says("static.h5: is not written, because its input out/body.h5 was replaced"));
   CHECK_FALSE(fs::exists("static.h5"));
 }
 
@@ -853,12 +853,13 @@ TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is
   CHECK(caught([] { read_static("empty.h5"); }).says("is empty"));
   overwrite("text.h5", "not an artifact at all");
   CHECK(caught([] { read_static("text.h5"); }).says("not an HDF5 file"));
-  write("whole.h5", small_static(), kMade);
-  const std::string bytes = read_bytes("whole.h5");
+  write("out/whole.h5", small_static(), kMade);
+  const std::string bytes = read_bytes("out/whole.h5");
   for (std::size_t part = 1; part < 32; ++part) {
     overwrite("out/cut.h5", bytes.substr(0, bytes.size() * part / 32));
     const Caught cut = caught([] { read_static("out/cut.h5"); });
     CHECK(cut.kind == kIo);
+    CHECK(fs::exists("out/cut.h5"));
     CHECK(cut.says("make out/cut.h5"));
   }
 }

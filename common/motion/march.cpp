@@ -827,12 +827,12 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       state.period = (state.period + 1) % hunting_;
     }
     sample_ = sample;
-    set_gap(positions_[sample * stride_], state.period);
-    const Position& position = positions_[sample * stride_];
+    Position& position = positions_[sample * stride_];
     const int present = position.frame.present;
 
     // What the step would bring without new contact force.
     if (!propagated) {
+      set_gap(position, state.period);
       modes.propagate();
       relax();
       contact.read_ahead(position, step_data_[sample], lag_at, live, modal);
@@ -863,7 +863,9 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     double error;
     if (propagated) {
       relax();
-      contact.read_ahead(positions_[(i + 1) * stride_], step_data_[i + 1], lag_at, live, modal);
+      Position& next = positions_[(i + 1) * stride_];
+      set_gap(next, state.period);
+      contact.read_ahead(next, step_data_[i + 1], lag_at, live, modal);
       error = modes.push_and_propagate(on_modes, modal, work_.response.data());
     } else {
       error = modes.push(on_modes);
