@@ -106,8 +106,8 @@ struct SceneGear {
   GearDesign design;
   Material material;
   double total_inertia = 0;  // kg m2 about the axis, body included
-  FlankModification modification;
-  ToothErrors errors;
+  FlankModification modification = {};
+  ToothErrors errors = {};
 };
 
 // Off the line of action a tip edge may touch a flank.
@@ -120,8 +120,8 @@ struct GearMeshSpec {
   std::string driver, driven;  // names of gears
   double centre_distance = 0;  // m
   CornerRule corner;
-  std::array<FlankModification, 2> modification;  // of driver and driven gear
-  std::array<ToothErrors, 2> errors;              // the same
+  std::array<FlankModification, 2> modification = {};  // of driver and driven gear
+  std::array<ToothErrors, 2> errors = {};              // the same
 };
 
 struct Damping {
