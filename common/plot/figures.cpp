@@ -158,15 +158,19 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, cons
 // impact.h5 of its sweeps the torques alone.
 template <class Sweep>
 std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& told) {
-  std::string torques, ratios, at, state;
+  std::vector<std::string> torques, at;
+  std::string ratios, state;
+  const auto once = [](std::vector<std::string>& list, const std::string& word) {
+    if (list.empty() || list.back() != word) list.push_back(word);
+  };
   size_t known = 0;
   for (const auto& curve : panel.curves) {
     const Sweep& s = *curve.up;
-    torques += (torques.empty() ? "" : ", ") + shown(s.torque, 6);
+    once(torques, shown(s.torque, 6));
     const auto found =
         std::find_if(told.impacts.begin(), told.impacts.end(), [&](const ImpactArtifact& impact) {
           return impact.torque == s.torque && gears_of(impact) == gears_of(s) &&
-                 impact.state_phase.size() > 0;
+                 impact.mesh.modification == s.mesh.modification && impact.state_phase.size() > 0;
         });
     if (!elastic(s) || found == told.impacts.end()) continue;
     // Many pairs as without load; with any load there may be more.
@@ -178,12 +182,17 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& t
     const Eigen::Index i = wanted != states.end() ? wanted - states.begin() : found->state_phase.size() - 1;
     state = known++ == 0 || state == states[i] ? states[i] : "most";
     ratios += (ratios.empty() ? "" : ", ") + fixed(found->damping_ratio[i] * kPercent, 2);
-    at += (at.empty() ? "" : ", ") + shown(s.torque, 6);
+    once(at, shown(s.torque, 6));
   }
-  torques += " N m";
-  if (!elastic(*panel.curves[0].up)) return torques + "; " + lumped_words(panel.lumped);
-  if (known == 0) return torques;
-  return torques + "; damping ratio " + ratios + " %" + (at + " N m" == torques ? "" : " at " + at + " N m") +
+  const auto in_a_row = [](const std::vector<std::string>& list) {
+    std::string row;
+    for (const std::string& word : list) row += (row.empty() ? "" : ", ") + word;
+    return row + " N m";
+  };
+  const std::string words = in_a_row(torques);
+  if (!elastic(*panel.curves[0].up)) return words + "; " + lumped_words(panel.lumped);
+  if (known == 0) return words;
+  return words + "; damping ratio " + ratios + " %" + (at == torques ? "" : " at " + in_a_row(at)) +
          " with " + state + (state == "one" ? " pair" : " pairs") + " in contact, by ring-down";
 }
 
@@ -273,14 +282,33 @@ std::string loss_words(const ResponseArtifact& up, const ResponseArtifact& down)
   return ranges.empty() ? "nowhere" : ranges + " Hz";
 }
 
-std::string loss_words(const std::vector<ChoicePanel<ResponseArtifact>::Curve>& curves) {
+// What tells the curves of a panel apart: their torques, or their flanks where those differ at one torque.
+template <class Sweep>
+std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
+  bool others = false, torques = false;
+  for (const auto& curve : panel.curves) {
+    others |= curve.up->torque == s.torque && curve.up->mesh.modification != s.mesh.modification;
+    torques |= curve.up->torque != s.torque;
+  }
+  if (!others) return torque_words(s.torque);
+  const auto& both = s.mesh.modification;
+  const std::string flanks = both[0] == both[1]
+                                 ? in_words(both[0])
+                                 : "driver " + in_words(both[0]) + ", driven " + in_words(both[1]);
+  return flanks + (torques ? ", " + torque_words(s.torque) : "");
+}
+
+std::string loss_words(const ChoicePanel<ResponseArtifact>& panel) {
+  const auto& curves = panel.curves;
   const std::string first = loss_words(*curves[0].up, *curves[0].down);
   std::string each;
   bool alike = true;
   for (const auto& c : curves) {
     const std::string words = loss_words(*c.up, *c.down);
     alike = alike && words == first;
-    each += (each.empty() ? " at " : "; at ") + torque_words(c.up->torque) + ": " + words;
+    const std::string label = curve_label(panel, *c.up);
+    each += (each.empty() ? " " : "; ") + (label == torque_words(c.up->torque) ? "at " + label : label) +
+            ": " + words;
   }
   if (alike && first == "nowhere") return "contact is never lost";
   return alike && curves.size() > 1 ? "contact lost at every torque: " + first : "contact lost" + each;
@@ -653,26 +681,6 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
   return figure;
 }
 
-namespace {
-
-// What tells the curves of a panel apart: their torques, or their flanks where those differ at one torque.
-template <class Sweep>
-std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
-  bool others = false, torques = false;
-  for (const auto& curve : panel.curves) {
-    others |= curve.up->torque == s.torque && curve.up->mesh.modification != s.mesh.modification;
-    torques |= curve.up->torque != s.torque;
-  }
-  if (!others) return torque_words(s.torque);
-  const auto& both = s.mesh.modification;
-  const std::string flanks = both[0] == both[1]
-                                 ? in_words(both[0])
-                                 : "driver " + in_words(both[0]) + ", driven " + in_words(both[1]);
-  return flanks + (torques ? ", " + torque_words(s.torque) : "");
-}
-
-}  // namespace
-
 Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told) {
   if (sweeps.empty())
     fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
@@ -743,7 +751,7 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
       note += (i ? "; " : "") + lines[i];
       heading += (i ? "\n" : "") + without_markup(lines[i]);
     }
-    const std::string loss = loss_words(curves);
+    const std::string loss = loss_words(panels[p]);
     figure.notes.push_back("(" + letter + ") " + note);
     figure.notes.push_back("(" + letter + ") " + found_jumps + "; " + loss);
     figure.words.emplace_back("heading_" + letter, heading);
