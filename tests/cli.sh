@@ -84,7 +84,8 @@ done
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
   [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
   [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --output x out/scene/T100/static.h5"
-  [gear-inspect]="gear-inspect out/scene/T100/static.h5")
+  [gear-inspect]="gear-inspect out/scene/T100/static.h5"
+  [gear-harris]="gear-harris --static-params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --design-torque 100 --output x")
 for program in "$bin"/gear-*; do
   name=$(basename "$program")
   "$program" --help > said 2>&1 && grep -q -- --help said && ok "$name --help" || wrong "$name --help" "$(head -n 1 said)"
@@ -455,14 +456,15 @@ refused "a driven gear of another scene" 3 'the driven of this scene' "$bin/gear
   --output other_static.h5 > /dev/null 2>&1
 refused "the wave of another scene" 3 'other_static.h5: is of another driver than out/scene/T100/static.h5' $(lumped rectangular) --reference-static other_static.h5
 # An older schema: the number in the file itself is changed (it stands 40 bytes after its name), and the content hash with it.
-cp out/scene/T100/up/sweep.h5 old.h5
-place=$(grep -a -b -o -m1 schema_version old.h5 | head -n 1 | cut -d: -f1)
-printf '\0' | dd of=old.h5 bs=1 seek=$((place + 40)) conv=notrunc status=none
-refused "an artifact that was edited" 4 'old.h5: is not what was written: .*delete it, then rebuild it with: make old.h5' "$bin/gear-spectra" --input old.h5 --output x.h5
-digits=$(($(grep -a -b -o -m1 'in place of these digits: ' old.h5 | head -n 1 | cut -d: -f1) + 26))
-printf '%064d' 0 | dd of=old.h5 bs=1 seek=$digits conv=notrunc status=none
-sha256sum < old.h5 | head -c 64 | dd of=old.h5 bs=1 seek=$digits conv=notrunc status=none
-refused "an artifact of an older schema names the target that makes it again" 3 'version 0.*make' "$bin/gear-spectra" --input old.h5 --output x.h5
+cp out/scene/T100/up/sweep.h5 out/old.h5
+place=$(grep -a -b -o -m1 schema_version out/old.h5 | head -n 1 | cut -d: -f1)
+printf '\0' | dd of=out/old.h5 bs=1 seek=$((place + 40)) conv=notrunc status=none
+refused "an artifact that was edited" 4 'out/old.h5: is not what was written: .*delete it; rebuild it with: make out/old.h5' "$bin/gear-spectra" --input out/old.h5 --output x.h5
+digits=$(($(grep -a -b -o -m1 'in place of these digits: ' out/old.h5 | head -n 1 | cut -d: -f1) + 26))
+printf '%064d' 0 | dd of=out/old.h5 bs=1 seek=$digits conv=notrunc status=none
+sha256sum < out/old.h5 | head -c 64 | dd of=out/old.h5 bs=1 seek=$digits conv=notrunc status=none
+refused "an artifact of an older schema names the target that makes it again" 3 'version 0.*make' "$bin/gear-spectra" --input out/old.h5 --output x.h5
+rm out/old.h5
 
 # --- interrupted and full
 # A sweep over so many speeds that it is still at work when the signal comes; the status says that it was.

@@ -30,8 +30,7 @@ std::string artifact_bytes(const std::string& path) {
   std::string bytes = read_bytes(path, rebuild_advice(path));
   if (!is_hdf5(bytes)) return bytes;
   const auto refuse = [&](const char* what) {
-    fail(Failure::io, path, ": ", what, " (", bytes.size(), " bytes); delete it, then ",
-         rebuild_advice(path));
+    fail(Failure::io, path, ": ", what, " (", bytes.size(), " bytes); delete it; ", rebuild_advice(path));
   };
   const auto at = bytes.find(kSeal);
   if (at == std::string::npos || bytes.size() - at < kSeal.size() + kUnsealed.size())
@@ -143,7 +142,7 @@ void require_fresh(const std::string& artifact) {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(input.path, ignored) && sha256_of_file(input.path) != input.sha256)
       fail(Failure::input, artifact, ": is stale: its input '", input.role, "', ", input.path,
-           ", is not what it was; delete it, then ", rebuild_advice(artifact));
+           ", is not what it was; delete it; ", rebuild_advice(artifact));
   }
 }
 
@@ -152,7 +151,12 @@ Provenance made_by(int argc, char** argv, std::vector<std::string> inputs) {
   for (const std::string& input : out.inputs) {
     const std::string path = input.substr(input.find('=') + 1);
     // No target makes a slice of a scene.
-    const std::string bytes = read_bytes(path, path.ends_with(".h5") ? rebuild_advice(path) : "");
+    const bool artifact = path.ends_with(".h5");
+    if (!artifact && !std::filesystem::exists(path)) {
+      out.sha256.emplace_back();  // its reader knows what to advise
+      continue;
+    }
+    const std::string bytes = read_bytes(path, artifact ? rebuild_advice(path) : "");
     out.sha256.push_back(sha256(bytes));
     if (is_hdf5(bytes)) require_fresh(path);
   }

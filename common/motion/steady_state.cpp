@@ -41,13 +41,13 @@ void begin_with_end_of(const RollingDynamics::Period& before, RollingDynamics::P
   if (before.pair_load.rows() == period.pair_load.rows()) period.pair_load.col(0) = before.pair_load.col(0);
 }
 
-// Sum of weight[i] times the state i.
+// Sum of weight[i] times the state i, from the second on: the first is no image of another, and may come from another range.
 State combination(const std::deque<State>& states, const VectorXd& weight) {
   State sum = states.back();
   const auto add = [&](auto&& part) {
     auto& total = part(sum);
-    total = weight[0] * part(states[0]);
-    for (int i = 1; i < weight.size(); ++i) total += weight[i] * part(states[i]);
+    total = weight[1] * part(states[1]);
+    for (int i = 2; i < weight.size(); ++i) total += weight[i] * part(states[i]);
   };
   add([](auto& s) -> auto& { return s.z; });
   add([](auto& s) -> auto& { return s.v; });

@@ -115,7 +115,12 @@ class Sweeper {
     while (level_ > 0 && !keeps_one_level() && orbit.multiple > 0) {
       const RollingDynamics::State reached = state_;
       --level_;
-      std::optional<Orbit> lower = try_level(mesh_frequency);
+      std::optional<Orbit> lower;
+      try {
+        lower = try_level(mesh_frequency);
+      } catch (const Error& error) {  // the orbit on the level above stands
+        if (error.kind() != Failure::numerical) throw;
+      }
       if (!lower || lower->multiple != orbit.multiple) {
         state_ = reached;
         ++level_;

@@ -26,7 +26,8 @@ Eigen::Index row_before(const Eigen::VectorXd& frequency, double f);
 // sweep then followed the branch to its end by itself. -1 if the jump lies outside the sweep.
 std::vector<Eigen::Index> rows_before_jumps(const ResponseArtifact& r);
 
-// Whether the RMS of the transmission error of two motions differ as much as across a jump: by more than 20 %.
+// Whether the RMS of the transmission error of two motions differ by more than 20 %: more than that of neighbouring speeds of
+// one branch.
 bool like_a_jump(double rms, double other);
 
 }  // namespace whine

@@ -5,7 +5,7 @@ set datafile separator tab
 set datafile commentschars "#"
 
 set multiplot layout 3, 1 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.085, 0.985, 0.08, 0.85 spacing screen 0.1
+  margins screen 0.085, 0.985, 0.12, 0.85 spacing screen 0.12
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
