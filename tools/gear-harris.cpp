@@ -160,10 +160,14 @@ void body(int argc, char** argv) {
   whine::write(output, map, provenance);
   whine::tell("gear-harris: ", plan.torque.size(), " torques x ", plan.relief.size(), " reliefs x ",
               plan.length.size(), " starts in ", took, " s of CPU -> ", output);
-  for (Eigen::Index s = 0; s < map.length.size(); ++s)
-    whine::tell("gear-harris: start ", map.start_roll(s, 0) * 180 / std::numbers::pi, " deg: at ",
-                map.design_torque, " N m ", map.optimum_relief[s] * 1e6, " um leave ",
-                map.optimum_peak_to_peak[s] * 1e6, " um peak to peak");
+  for (Eigen::Index s = 0; s < map.length.size(); ++s) {
+    const bool at_edge = plan.relief.size() > 1 && map.optimum_relief[s] >= plan.relief.back();
+    whine::tell(
+        "gear-harris: start ", map.start_roll(s, 0) * 180 / std::numbers::pi, " deg: at ", map.design_torque,
+        " N m ", map.optimum_relief[s] * 1e6, " um leave ", map.optimum_peak_to_peak[s] * 1e6,
+        " um peak to peak",
+        at_edge ? "; that is the edge of the map: more relief may leave less, widen --relief-um" : "");
+  }
   if (map.checked > 0)
     whine::tell("gear-harris: ", map.checked,
                 " points solved again with 3 times the strips and positions differ by ",

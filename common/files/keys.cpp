@@ -37,7 +37,7 @@ std::vector<Key> make_keys() {
      [](V& v) -> Slot { return &v.title; }},
 
     {Part::reference, "gear", "like", kNone, "", 0, 0, false, "",
-     "another gear whose keys this one takes over; keys given here besides override",
+     "another gear whose keys this one takes over, its modification too, its errors and its crack not; keys given here besides override",
      [](V& v) -> Slot { return &v.like; }},
     {Part::design, "gear", "teeth", kNone, nullptr, 5, 2000, false, "",
      "number of teeth",
