@@ -196,8 +196,8 @@ TEST_CASE("body rungs: each is nearer to the one with the most modes than the ru
   StaticSlice statics_slice = paper_statics(128);
   statics_slice.fidelity.contact = "line";
   const StaticArtifact statics = static_transmission(body, body, statics_slice, 150);
-  // At 3500 Hz the rigid gears, which next to nothing damps, wander through hundreds of periods before they settle: the last digits
-  // of a start decide on which motion, and one start in twenty comes upon loads beyond Hertz's law on the way.
+  // At 3500 Hz the rigid gears, which next to nothing damps, wander through hundreds of periods before they settle: the last
+  // digits of a start decide on which motion, and one start in twenty comes upon loads beyond Hertz's law on the way.
   for (const double frequency : {1350.0, 3300.0}) {
     SweepSlice slice = paper_sweep(frequency, frequency, 1);
     slice.fidelity.contact = "line";

@@ -94,7 +94,8 @@ struct StaticArtifact {
   Eigen::VectorXd mesh_phase;          // (phase) 1, 0 to hunting_periods
   Eigen::VectorXd transmission_error;  // (phase) m
   Eigen::VectorXd unloaded_error;      // (phase) m: the same without load, 0 for flanks as they are designed
-  // (phase) N m-1; the secant is the load over what it adds to the transmission error; the tangent of contact "line" is off by up to 0.6 % where contact comes near a tip edge
+  // (phase) N m-1; the secant is the load over what it adds to the transmission error; the tangent of contact "line" is off by
+  // up to 0.6 % where contact comes near a tip edge
   Eigen::VectorXd stiffness_secant, stiffness_tangent;
   Eigen::VectorXi pair;  // (pair)
   MatrixRM tooth_load;   // (phase, pair) N

@@ -45,8 +45,8 @@ class FlankDeviation {
   bool none(int tooth) const { return none_ || (tooth == kEveryTooth && !modified_); }
   // Teeth after which the flanks repeat: 1 if they are all alike, else all of them.
   int repeats() const { return repeats_; }
-  // m; roll: rad; tooth: its number, counter-clockwise, any whole number, or kEveryTooth. Beyond the ends of the involute the value goes on
-  // with its slope.
+  // m; roll: rad; tooth: its number, counter-clockwise, any whole number, or kEveryTooth. Beyond the ends of the involute the
+  // value goes on with its slope.
   double at(double roll, int tooth) const { return value_and_slope(roll, tooth)[0]; }
   // m and m per rad.
   Eigen::Vector2d value_and_slope(double roll, int tooth) const;

@@ -69,9 +69,9 @@ struct LumpedOptions {
 };
 
 // springs: cells only (lumped/stiffness.h). numbers: of the tooth pairs that they stand for, several of one pair one after the
-// other; one spring that stands for all of them is pair 0. left_early: takes the motions on the way to the ends of branches, if given. Fields of a
-// sweep that only elastic bodies have are empty or 0; its inertias are those of equal shares of the mass. Throws
-// Error(input) for values that make no model, Error(numerical) if a motion cannot be followed.
+// other; one spring that stands for all of them is pair 0. left_early: takes the motions on the way to the ends of branches, if
+// given. Fields of a sweep that only elastic bodies have are empty or 0; its inertias are those of equal shares of the mass.
+// Throws Error(input) for values that make no model, Error(numerical) if a motion cannot be followed.
 SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
                            const Eigen::VectorXi& numbers, const LumpedOptions& options,
                            const std::function<void(long, long, const std::string&)>& report,

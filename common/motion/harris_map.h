@@ -35,8 +35,8 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
                              const StaticSlice& statics, const HarrisPlan& plan,
                              const std::function<void(long, long, const std::string&)>& report);
 
-// Solves the optima and `points` points of the map again, one load at a time (static_transmission), with `finer` times the strips of
-// the map at the same load and `finer` times the positions, and fills checked and largest_error.
+// Solves the optima and `points` points of the map again, one load at a time (static_transmission), with `finer` times the
+// strips of the map at the same load and `finer` times the positions, and fills checked and largest_error.
 void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifact& driven, int positions,
            int points, int finer = 3);
 

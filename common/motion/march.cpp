@@ -530,8 +530,8 @@ struct RollingDynamics::StripContact {
 
   void rename() { followed = 0; }
 
-  // All that can be known of a position before its modes are: its lag, and a start; and which rows of the modes to read. lag: (field of
-  // all pairs) of one gear after the other, without new contact force; no tooth but the live ones has any.
+  // All that can be known of a position before its modes are: its lag, and a start; and which rows of the modes to read. lag:
+  // (field of all pairs) of one gear after the other, without new contact force; no tooth but the live ones has any.
   void read_ahead(const Position&, Step&, const double*, LiveTeeth, ModalReading& modal) { modal.count = 0; }
 
   // Fills p and d. z: (coordinate), modal: the rows of read_ahead, and lag as there; all without new contact force.

@@ -110,8 +110,8 @@ class Extrapolation {
 
 }  // namespace
 
-// A subharmonic of order m is a motion whose state repeats after m hunting periods but, long since and without getting any nearer,
-// not after a divisor of m: a slow transient may look like one for a while.
+// A subharmonic of order m is a motion whose state repeats after m hunting periods but, long since and without getting any
+// nearer, not after a divisor of m: a slow transient may look like one for a while.
 std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double periodicity,
                             const std::string& method) {
   Orbit orbit;

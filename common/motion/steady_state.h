@@ -20,11 +20,11 @@ struct Orbit {
 };
 
 // Marches from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance) over a hunting period, which is
-// a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method "march": plain marching, as a rig would. "extrapolate": once the motion
-// is close, reduced rank extrapolation (Sidi, Vector Extrapolation Methods with Applications, SIAM 2017, ch. 2) takes
-// the slow multipliers out. It is used only where the multipliers that it sees lie inside the unit circle, and counts only
-// if marching on comes closer still: an unstable orbit is left again. Empty if contact wanted more than the range of the
-// dynamics holds; the state is then spoiled.
+// a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method "march": plain
+// marching, as a rig would. "extrapolate": once the motion is close, reduced rank extrapolation (Sidi, Vector Extrapolation
+// Methods with Applications, SIAM 2017, ch. 2) takes the slow multipliers out. It is used only where the multipliers that it
+// sees lie inside the unit circle, and counts only if marching on comes closer still: an unstable orbit is left again. Empty if
+// contact wanted more than the range of the dynamics holds; the state is then spoiled.
 std::optional<Orbit> settle(RollingDynamics& dynamics, RollingDynamics::State& state, double periodicity,
                             const std::string& method);
 

@@ -10,8 +10,8 @@ enum class Picture { svg, png };
 
 // Runs `gnuplot -d` (no user settings, locale C.UTF-8) on the template and returns the picture's bytes. The
 // template finds the string variables tsv, title, heading (title and scenes, a line each), note1.. and the figure's own
-// numbers and words; the terminal is set before it. Throws Error(io) if gnuplot cannot be started, Error(numerical) with its first
-// complaint if it fails or draws nothing.
+// numbers and words; the terminal is set before it. Throws Error(io) if gnuplot cannot be started, Error(numerical) with its
+// first complaint if it fails or draws nothing.
 std::string draw(const Figure& figure, const std::string& tsv_path, const std::string& template_path,
                  Picture picture);
 

@@ -14,8 +14,8 @@ inline constexpr int kResponseHarmonics = 10;
 
 // Rows keep the order of marching. Harmonics are those of the mesh frequency, 10 or as many as the coarsest
 // row resolves; of teeth that differ, orders as well, up to the last of these harmonics: harmonics of the hunting frequency,
-// which hold the shafts' orders and the sidebands of the mesh frequency. Jumps are the sweep's own: it bisects them. Throws Error(input) for a sweep without speeds,
-// arrays whose lengths disagree, values that are not finite, or negative forces.
+// which hold the shafts' orders and the sidebands of the mesh frequency. Jumps are the sweep's own: it bisects them. Throws
+// Error(input) for a sweep without speeds, arrays whose lengths disagree, values that are not finite, or negative forces.
 ResponseArtifact response(const SweepArtifact& sweep);
 
 // The row after which the march crosses f (Hz); -1 if it never does.

@@ -9,19 +9,7 @@
 #include "files/schemas.h"
 #include "files/summary.h"
 
-namespace {
-
 using namespace whine;
-
-template <class Read>
-void refused_or_read(const Read& read) {
-  try {
-    read();
-  } catch (const Error&) {
-  }
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
 #ifdef SEALED

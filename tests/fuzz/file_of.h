@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "base/error.h"
+
 namespace whine {
 
 class FileOf {
@@ -27,5 +29,14 @@ class FileOf {
  private:
   int number_;
 };
+
+// What is read may be refused by an Error, and in no other way.
+template <class Read>
+void refused_or_read(const Read& read) {
+  try {
+    read();
+  } catch (const Error&) {
+  }
+}
 
 }  // namespace whine

@@ -11,14 +11,6 @@ namespace {
 
 using namespace whine;
 
-template <class Read>
-void refused_or_read(const Read& read) {
-  try {
-    read();
-  } catch (const Error&) {
-  }
-}
-
 // What a slice is read from must be what a program has written.
 void require_readable(const Scene& scene) {
   const auto as_file = [](const std::string& slice, const auto& read) {
