@@ -261,6 +261,20 @@ TEST_CASE("broken TOML and keys given twice are refused with the line") {
   CHECK(contains(file.refusal("\xff\xfe"), "is not valid TOML"));
 }
 
+TEST_CASE("letters beyond ASCII stand in texts and comments, elsewhere they are refused with the line") {
+  const SceneFile file;
+  const std::string stray = "is not valid TOML: a character beyond ASCII";
+  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50 µ")), "x.toml:2: " + stray));
+  CHECK(contains(file.refusal(scene_with("[gear.pinion]", "[\ngear.pinion]")), "is not valid TOML"));
+  for (const std::string title : {R"("µ" # µ)", R"('\' # "µ)", R"("\"µ" # "µ)", "\"\"\"µ\n\"µ\"\"\"\"\" # µ",
+                                  "'''µ\n''' # µ", R"("")"}) {
+    CHECK_FALSE(contains(file.refusal("title = " + title + "\n" + kScene), stray));
+    CHECK(contains(file.refusal("title = " + title + "\nµ\n" + kScene), stray));
+  }
+  // Where a text goes on after a backslash at the end of a line.
+  CHECK(contains(file.refusal("title = \"\"\"a\\\n  µ\"\"\"\n" + std::string(kScene)), "x.toml:2: " + stray));
+}
+
 TEST_CASE("names must lead somewhere: gears, materials, like") {
   const SceneFile file;
   CHECK(contains(

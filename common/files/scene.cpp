@@ -1,7 +1,5 @@
 #include "files/scene.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +13,7 @@
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/publish.h"
+#include "files/toml.h"
 
 namespace whine {
 namespace {
@@ -55,7 +54,7 @@ class Source {
     const std::string bytes = read_bytes(path_, hint);
     is_slice_ = bytes.rfind(kSliceStart, 0) == 0 && bytes.find(kSliceEnd) < bytes.find('\n');
     try {
-      root_ = toml::parse(std::string_view(bytes));
+      root_ = parse_toml(bytes);
     } catch (const toml::parse_error& error) {
       refuse_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
     }

@@ -1,7 +1,5 @@
 #include "files/variant.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -9,13 +7,14 @@
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/publish.h"
+#include "files/toml.h"
 
 namespace whine {
 namespace {
 
 toml::table parsed(const std::string& bytes, const std::string& path) {
   try {
-    return toml::parse(std::string_view(bytes));
+    return parse_toml(bytes);
   } catch (const toml::parse_error& error) {
     fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
   }
@@ -24,7 +23,7 @@ toml::table parsed(const std::string& bytes, const std::string& path) {
 // What the right side of "key=value" would be in a scene; a bare word is text.
 void set(toml::table& section, const std::string& key, const std::string& value) {
   try {
-    const toml::table line = toml::parse("value = " + value);
+    const toml::table line = parse_toml("value = " + value);
     if (line.size() == 1) {
       line.get("value")->visit([&](const auto& node) { section.insert_or_assign(key, node); });
       return;
