@@ -1,7 +1,7 @@
 // gear-inspect: what an artifact is, from what it was made, its key numbers, and whether its inputs changed.
 //
 // Reads      any artifacts (HDF5); their inputs at the paths recorded in /provenance, relative to the
-//            working folder; the scene (--scene, or data/scenes/<scene>.toml for out/<scene>/params/...)
+//            working folder; the scene (--scene, or the one that out/<scene>/params/scene.txt names)
 //            With --check: every artifact (.h5) below the folders given, out/ if none is
 // Writes     nothing; prints on standard output. Exit status 3 if an input has changed or is missing
 //            With --check: a line on standard error for each fault, nothing if all is well. Exit status 3 if an
@@ -29,12 +29,15 @@ void line(const std::string& name, const std::string& words) {
   std::cout << "  " << name << std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') << words << "\n";
 }
 
-// The scene that a slice out/<scene>/params/... was cut from; empty if no file of its name is known.
+// The scene that a slice out/<scene>/params/... was cut from; empty if it is not known, or not there any more.
 std::string scene_of(const std::string& slice) {
   const std::filesystem::path folder = std::filesystem::path(slice).parent_path();
   if (folder.filename() != "params") return "";
-  const std::string scene = "data/scenes/" + folder.parent_path().filename().string() + ".toml";
-  return std::filesystem::exists(scene) ? scene : "";
+  const std::filesystem::path home = folder.parent_path();
+  for (const std::string& scene :
+       {recorded_scene(home.generic_string()), "data/scenes/" + home.filename().string() + ".toml"})
+    if (std::filesystem::is_regular_file(scene)) return scene;
+  return "";
 }
 
 // Whether a slice, which is the file it was, is what its scene says today, in words; clears fresh if not.
@@ -47,7 +50,11 @@ std::string against_scene(const std::string& artifact, const InputRecord& input,
                 scene.empty() ? ", give --scene" : "");
   if (sha256(now) == input.sha256) return text("fresh: as the slice and as ", scene);
   fresh = false;
-  return text("STALE: ", scene, " says otherwise now; ", rebuild_advice(artifact));
+  std::string advice = rebuild_advice(artifact);
+  const auto make = advice.find("make out/");
+  if (make != std::string::npos && scene.rfind("data/scenes/", 0) != 0)
+    advice.insert(make + 5, "SCENE=" + scene + " ");
+  return text("STALE: ", scene, " says otherwise now; ", advice);
 }
 
 // What has become of an input since, in words; clears fresh if it is not what it was, or not there to tell.
@@ -119,7 +126,7 @@ int body(int argc, char** argv) {
   std::string scene;
   app.add_option(
       "--scene", scene,
-      "compare slices with this scene; default: data/scenes/<scene>.toml of out/<scene>/, if there is one");
+      "compare slices with this scene; default: the one that out/<scene>/ was made of, if it is there");
   parse(app, argc, argv);
   if (checked) {
     if (paths.empty()) paths = {"out"};

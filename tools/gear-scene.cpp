@@ -3,6 +3,7 @@
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml    slices in SI, replaced only if they change
 //            <out>/<scene>/params/title.txt              what figures call it
+//            <out>/<scene>/params/scene.txt              path of the scene, from the working folder
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
@@ -23,6 +24,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/fit.h"
 #include "files/publish.h"
 #include "files/scene.h"
 #include "files/variant.h"
@@ -114,6 +116,7 @@ void body(int argc, char** argv) {
   const Scene scene = read_scene(path);
   check_geometry(scene, path);
   const std::string home = folder + "/" + stem;
+  record_scene(home, path);
 
   for (const std::string& place : {home, folder + "/bodies"})
     if (const int moved = bring_to_present(place); moved > 0)

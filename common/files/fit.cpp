@@ -6,8 +6,14 @@
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/provenance.h"
+#include "files/publish.h"
 
 namespace whine {
+namespace {
+
+const std::string kRecord = "/params/scene.txt";
+
+}  // namespace
 
 void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::string& path) {
   KeyValues found, wanted;
@@ -66,6 +72,25 @@ std::string slice_for(const Scene& scene, const std::string& path) {
     if (name == "body.toml" && (folder == body_hash(slice) || folder == gear.name)) return slice;
   }
   return "";
+}
+
+std::string recorded_scene(const std::string& home) {
+  const std::string path = home + kRecord;
+  if (!std::filesystem::is_regular_file(path)) return "";
+  const std::string line = read_bytes(path);
+  return line.substr(0, line.find('\n'));
+}
+
+void record_scene(const std::string& home, const std::string& scene) {
+  namespace fs = std::filesystem;
+  std::error_code gone;
+  const std::string before = recorded_scene(home);
+  const bool there = !before.empty() && fs::is_regular_file(before, gone);
+  if (there && !fs::equivalent(before, scene, gone) && read_bytes(before) != read_bytes(scene))
+    fail(Failure::input, scene, ": ", home, " is of ", before,
+         ", which says otherwise; rename one of the two, or delete ", home);
+  const fs::path path = fs::absolute(scene).lexically_normal().lexically_relative(fs::current_path());
+  publish_if_changed(home + kRecord, path.generic_string() + "\n");
 }
 
 bool default_rayleigh_stiffness(const Damping& damping) {

@@ -28,6 +28,13 @@ void require_like_teeth(const GearMeshSpec& mesh, const std::string& stage);
 // empty if none of the scene's slices stands there.
 std::string slice_for(const Scene& scene, const std::string& path);
 
+// The file that gear-scene last cut into the folder `home` (out/<scene>), from the working folder; empty if not known.
+std::string recorded_scene(const std::string& home);
+
+// Records it for `home`. Error(input) if another file is recorded there, is still there and says otherwise: files of one
+// name in two folders would take turns in one folder of results.
+void record_scene(const std::string& home, const std::string& scene);
+
 // Whether rayleigh_stiffness is what the key table gives scenes that say nothing: a slice does not know which it was.
 bool default_rayleigh_stiffness(const Damping& damping);
 
