@@ -153,7 +153,7 @@ deps: ## install the Debian packages that `figures` and `test` need
 hard-cases: $(B)/bin/whine-hard-cases | $(with_deps) ## hard cases with known answers: expected, found, allowed; status 1 if one fails
 	@$<
 
-test: build $(B)/bin/whine-tests $(B)/bin/whine-hard-cases $(tools:%=$(B)/id/%) | $(with_deps) ## run all tests; the last line is `N passed, N failed`
+test: build $(replays) $(B)/bin/whine-tests $(B)/bin/whine-hard-cases $(tools:%=$(B)/id/%) | $(with_deps) ## run all tests; the last line is `N passed, N failed`
 	@B=$(B) tests/run
 
 format: ## lay out the C++ sources with clang-format

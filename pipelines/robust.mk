@@ -72,8 +72,9 @@ $(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%: tests/fuzz/file_of.h $(fuzz_sources:%.cpp=$(B)/fuzz/%.o)
 $(B)/fuzz/whine-fuzz-scene: tests/fuzz/scene.cpp
 $(B)/fuzz/whine-fuzz-artifact $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/artifact.cpp
+$(B)/fuzz/whine-fuzz-sealed: tests/fuzz/edit.cpp
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
-	clang++ $(CPPFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) $(shell pkg-config --libs hdf5 libcrypto)
+	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) $(shell pkg-config --libs hdf5 libcrypto)
 
 # The same targets without libFuzzer; tests/fuzz.sh runs them if they are there.
 .PHONY: replay
@@ -82,8 +83,9 @@ replay: $$(replays) ## the same readers against the same damaged files every tim
 replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
 $(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp
 $(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp
+$(B)/bin/whine-replay-sealed: tests/fuzz/edit.cpp
 $(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(B)/lib/libfiles.a $(B)/lib/libbase.a | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) -o $@ $(filter %.cpp,$^) $(filter %.a,$^) $(LDLIBS)
+	$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) $(CXXFLAGS) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) -o $@ $(filter %.cpp,$^) $(filter %.a,$^) $(LDLIBS)
 
 # The corpus stays as it is: what a run finds new goes to $(B)/fuzz, and a file that breaks a reader to $(B)/fuzz/found.
 .PHONY: fuzz

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder of its own for each case, removed at the end, in which the case works.
+// A folder of its own for each case, in which the case works, removed at the end; WHINE_KEEP=folder keeps a copy.
 class Folder {
  public:
   Folder() {
@@ -42,6 +42,8 @@ class Folder {
   }
   ~Folder() {
     fs::current_path(before_);
+    if (const char* place = std::getenv("WHINE_KEEP"))
+      fs::copy(path_, place, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     fs::remove_all(path_);
   }
   std::vector<std::string> names(const fs::path& where = ".") const {
@@ -806,6 +808,41 @@ TEST_CASE("one flipped bit in any byte of an artifact is found, whatever reads i
   }
   overwrite("out/static.h5", whole);
   CHECK(caught([] { read_static("out/static.h5"); }).kind == 0);
+}
+
+TEST_CASE("what HDF5 would follow for ever is refused although the hash is right") {
+  Folder folder;
+  write("out/static.h5", small_static(), kMade);
+  const std::string whole = read_bytes("out/static.h5");
+  const std::size_t heap = whole.find("GCOL");
+  REQUIRE(heap != std::string::npos);
+  constexpr std::size_t kFirstSize =
+      24;  // after the header of the heap, of 16 bytes, and number and use of the object
+  for (const char byte : {'\xf0', '\x7f'}) {
+    // -16 is the size with which HDF5 1.10 never gets on; the other one leads out of the file.
+    std::string bytes = whole;
+    bytes.replace(heap + kFirstSize, 8, std::string(1, byte) + std::string(7, '\xff'));
+    overwrite("out/static.h5", sealed(bytes));
+    const Caught damaged = caught([] { read_static("out/static.h5"); });
+    CHECK(damaged.kind == kIo);
+    CHECK(damaged.says("damaged"));
+    CHECK(damaged.says("make out/static.h5"));
+  }
+  // All else that HDF5 follows has a checksum of its own, here that of the root group.
+  std::string bytes = whole;
+  const std::size_t root = bytes.find("schema_version");
+  bytes[root] = 'S';
+  overwrite("out/static.h5", sealed(bytes));
+  CHECK(caught([] { read_static("out/static.h5"); }).kind != 0);
+
+  // The heap's mark among numbers is no heap.
+  const std::string mark = "a GCOL\1 and what follows it by accident";
+  write_static_like("out/numbers.h5", [&](h5::Writer& file) {
+    file.attribute("/", "schema", std::string("whine/none"));
+    file.put("/bytes", reinterpret_cast<const std::uint8_t*>(mark.data()), {mark.size()},
+             {"1", "bytes", "byte", ""});
+  });
+  CHECK(h5::Reader(read_bytes("out/numbers.h5"), "out/numbers.h5", "").shape("/bytes").at(0) == mark.size());
 }
 
 TEST_CASE("an artifact without its hash is refused before HDF5 sees it") {

@@ -21,6 +21,7 @@ bool is_hdf5(const std::string& bytes) {
   return bytes.compare(0, 4, "\x89HDF") == 0;
 }
 
+const std::string kSealed = "/provenance/content_sha256";
 const std::string kSeal = "sha256 of this file with zeros in place of these digits: ";
 const std::string kUnsealed(64, '0');
 
@@ -109,7 +110,8 @@ class SectionSource : public ParameterSource {
 }  // namespace
 
 void put_seal(h5::Writer& file) {
-  file.ascii_attribute("/", "content_sha256", kSeal + kUnsealed);
+  file.put(kSealed, kSeal + kUnsealed,
+           record("content hash, which readers check before they parse the file"));
 }
 
 std::string sealed(std::string bytes) {

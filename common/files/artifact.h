@@ -13,8 +13,9 @@
 
 namespace whine {
 
-// The root attribute content_sha256 ends with the SHA-256 of the file in which these 64 digits are zeros. It is checked
-// on the bytes of the file, so that HDF5 never parses a file that is not what its writer has made.
+// The dataset /provenance/content_sha256 ends with the SHA-256 of the file in which these 64 digits are zeros. It is
+// checked on the bytes of the file, so that HDF5 never parses a file that is not what its writer has made. No attribute:
+// those are under a checksum of HDF5's own.
 void put_seal(h5::Writer& file);
 // The bytes of such a file with the digits that they ask for. Error(numerical) if there is no place for them.
 std::string sealed(std::string bytes);

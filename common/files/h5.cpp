@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <utility>
 
 #include "base/error.h"
@@ -53,9 +55,10 @@ void check(herr_t status, const std::string& what) {
   if (status < 0) fail(Failure::numerical, "HDF5 refused to ", what, "; this is a fault of the program");
 }
 
-Handle string_type() {
+// Of no fixed length for attributes, which readers of other languages then show as text.
+Handle string_type(std::size_t size = H5T_VARIABLE) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "copy a type");
-  check(H5Tset_size(type, H5T_VARIABLE), "set a string size");
+  check(H5Tset_size(type, size), "set a string size");
   check(H5Tset_cset(type, H5T_CSET_UTF8), "set a character set");
   return type;
 }
@@ -71,6 +74,69 @@ std::size_t count_of(const Shape& shape) {
   std::size_t count = 1;
   for (std::size_t n : shape) count *= n;
   return count;
+}
+
+// The bytes of a file that is made in memory. H5Fget_file_image clears a mark in the superblock and leaves its checksum as
+// it was (1.10), so they are taken where HDF5 gives its memory back.
+struct Image {
+  std::string bytes;
+  bool wanted = false;
+
+  static void* take(std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); }
+  static void* resize(void* memory, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::realloc(memory, size);
+  }
+  static herr_t give_back(void* memory, H5FD_file_image_op_t, void* self) {
+    auto& image = *static_cast<Image*>(self);
+    if (image.wanted) {
+      constexpr std::size_t kEndOfFile = 28;  // in the superblock; more memory may have been taken
+      std::uint64_t size = 0;
+      std::memcpy(&size, static_cast<const char*>(memory) + kEndOfFile, sizeof size);
+      image.bytes.assign(static_cast<const char*>(memory), size);
+    }
+    std::free(memory);
+    return 0;
+  }
+  static void* same(void* self) { return self; }
+  static herr_t keep(void*) { return 0; }
+};
+
+std::uint64_t number_at(const std::string& bytes, std::size_t at, int length) {
+  std::uint64_t out = 0;
+  for (int i = length - 1; i >= 0; --i)
+    out = out << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
+  return out;
+}
+
+// Global heaps, which hold texts of no fixed length, are the only structures without a checksum in the files that are
+// made here, and HDF5 follows the sizes in them unchecked: for ever, if one is damaged. Whether all are sound to which the
+// file refers: their mark (with the version, without which HDF5 does not take it for one) may also stand among numbers.
+bool heaps_are_sound(const std::string& bytes) {
+  constexpr std::size_t kHeader = 16;  // of a heap and of an object in it
+  const std::string mark = "GCOL\1";
+  for (std::size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) {
+    std::string address(8, '\0');
+    for (std::size_t i = 0; i < 8; ++i) address[i] = static_cast<char>(at >> 8 * i & 255);
+    if (bytes.find(address) == std::string::npos) continue;
+    if (bytes.size() - at < kHeader) return false;
+    std::size_t left = number_at(bytes, at + 8, 8);
+    if (left < kHeader || left > bytes.size() - at) return false;
+    std::size_t object = at + kHeader;
+    std::vector<bool> seen(1 << 16);
+    for (left -= kHeader; left >= kHeader;) {
+      const std::size_t index = number_at(bytes, object, 2), size = number_at(bytes, object + 8, 8);
+      if (index == 0) {  // the rest is free
+        if (size != left) return false;
+        break;
+      }
+      if (seen[index] || size > left - kHeader) return false;
+      seen[index] = true;
+      const std::size_t whole = std::min(left, kHeader + (size + 7) / 8 * 8);
+      object += whole;
+      left -= whole;
+    }
+  }
+  return true;
 }
 
 template <class T>
@@ -105,6 +171,18 @@ struct Types<std::uint8_t> {
 
 struct Writer::Impl {
   hid_t file = -1;
+  Image image;
+
+  // All of one length, so that they stand where they belong and not in a heap.
+  void put(const std::string& path, const std::vector<std::string>& words, const Shape& shape,
+           const Label& label) {
+    std::size_t longest = 0;
+    for (const std::string& word : words) longest = std::max(longest, word.size());
+    std::string block;
+    for (const std::string& word : words) block += word + std::string(longest + 1 - word.size(), '\0');
+    const Handle type = string_type(longest + 1);
+    put(path, type, type, longest + 1, block.data(), shape, label);
+  }
 
   void attribute(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type, hid_t space,
                  const void* value) {
@@ -186,6 +264,11 @@ Writer::Writer() : impl_(std::make_unique<Impl>()) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
   check(H5Pset_fapl_core(access, 1 << 20, 0), "select memory as a file");
   check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "select strong closing");
+  // The format in which all but global heaps has a checksum: HDF5 then refuses what is damaged before it follows it.
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "select a file format");
+  H5FD_file_image_callbacks_t calls{Image::take, nullptr,     Image::resize, Image::give_back,
+                                    Image::same, Image::keep, &impl_->image};
+  check(H5Pset_file_image_callbacks(access, &calls), "take its memory");
   const Handle create(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a property list");
   check(H5Pset_obj_track_times(create, 0), "switch object times off");
   impl_->file = H5Fcreate(memory_name().c_str(), H5F_ACC_TRUNC, create, access);
@@ -217,16 +300,11 @@ void Writer::put(const std::string& path, const std::uint8_t* data, const Shape&
 }
 
 void Writer::put(const std::string& path, const std::vector<std::string>& data, const Label& label) {
-  std::vector<const char*> pointers;
-  for (const auto& word : data) pointers.push_back(word.c_str());
-  const Handle type = string_type();
-  impl_->put(path, type, type, 0, pointers.data(), {data.size()}, label);
+  impl_->put(path, data, {data.size()}, label);
 }
 
 void Writer::put(const std::string& path, const std::string& value, const Label& label) {
-  const char* pointer = value.c_str();
-  const Handle type = string_type();
-  impl_->put(path, type, type, 0, &pointer, {}, label);
+  impl_->put(path, std::vector<std::string>{value}, {}, label);
 }
 
 void Writer::attribute(const std::string& path, const std::string& name, const std::string& value) {
@@ -251,19 +329,14 @@ void Writer::ascii_attribute(const std::string& path, const std::string& name, c
 }
 
 std::string Writer::finish() {
-  check(H5Fflush(impl_->file, H5F_SCOPE_LOCAL), "flush the file");
-  const ssize_t size = H5Fget_file_image(impl_->file, nullptr, 0);
-  if (size <= 0) fail(Failure::numerical, "HDF5 refused to give the size of the file");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(impl_->file, bytes.data(), bytes.size()) != size) {
-    fail(Failure::numerical, "HDF5 refused to give the bytes of the file");
-  }
-  H5Fclose(std::exchange(impl_->file, -1));
-  return bytes;
+  impl_->image.wanted = true;
+  check(H5Fclose(std::exchange(impl_->file, -1)), "close the file");
+  return std::move(impl_->image.bytes);
 }
 
 struct Reader::Impl {
   std::string path, hint;
+  std::size_t size = 0;  // of the file, in bytes
   hid_t file = -1;
 
   [[noreturn]] void refuse(const std::string& what) const {
@@ -272,7 +345,7 @@ struct Reader::Impl {
 
   Handle dataset(const std::string& name) const {
     const hid_t id = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
-    if (id < 0) refuse("dataset " + name + " is missing");
+    if (id < 0) refuse("dataset " + name + " is missing or damaged");
     return Handle(id, H5Dclose, "open " + name);
   }
 
@@ -289,6 +362,8 @@ struct Reader::Impl {
     if (H5Tget_class(type) != H5T_STRING) refuse(name + " is not text");
     std::vector<std::string> out;
     if (H5Tis_variable_str(type) > 0) {
+      // What refers to a heap has a checksum in an attribute only.
+      if (H5Iget_type(object) != H5I_ATTR) refuse(name + " is text of no fixed length");
       const Handle memory = string_type();
       std::vector<char*> pointers(count, nullptr);
       if (count > 0 && read(object, memory, pointers.data()) < 0) refuse(name + " cannot be read");
@@ -308,13 +383,14 @@ struct Reader::Impl {
     return out;
   }
 
-  // The number of values, before memory is taken for them. Deflate makes at most 1032 bytes of one.
+  // The number of values, before memory is taken for them. Deflate makes at most 1032 bytes of one, of the chunks that are
+  // written here at most 1010: a file of 1 MiB never asks for 1 GiB.
   std::size_t stored_count(hid_t set, std::size_t item_bytes, const std::string& name) const {
     const Shape shape = shape_of(set);
-    const double stored = static_cast<double>(H5Dget_storage_size(set));
+    const double stored = std::min(static_cast<double>(H5Dget_storage_size(set)), static_cast<double>(size));
     double bytes = static_cast<double>(item_bytes);
     for (std::size_t n : shape) bytes *= static_cast<double>(n);
-    if (bytes > 1032 * stored)
+    if (bytes > 1020 * stored)
       refuse(text("dataset ", name, " says that it holds ", bytes, " bytes, but ", stored, " are stored"));
     return count_of(shape);
   }
@@ -345,6 +421,7 @@ Reader::Reader(const std::string& bytes, std::string path, std::string hint)
   silence();
   impl_->path = std::move(path);
   impl_->hint = std::move(hint);
+  impl_->size = bytes.size();
   const auto broken = [&](const std::string& what) {
     fail(Failure::io, impl_->path, ": ", what, " (", bytes.size(), " bytes)", impl_->hint.empty() ? "" : "; ",
          impl_->hint);
@@ -352,6 +429,10 @@ Reader::Reader(const std::string& bytes, std::string path, std::string hint)
   static const std::string signature("\x89HDF\r\n\x1a\n", 8);
   if (bytes.empty()) broken("the file is empty");
   if (bytes.compare(0, 8, signature) != 0) broken("is not an HDF5 file");
+  constexpr char kSuperblock = 3;  // of the format with checksums
+  if (bytes.size() > 8 && bytes[8] != kSuperblock)
+    broken("is of an earlier version of this program, or damaged");
+  if (!heaps_are_sound(bytes)) broken("the file is damaged");
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
   check(H5Pset_fapl_core(access, 1 << 20, 0), "select memory as a file");
   check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "select strong closing");
@@ -414,7 +495,7 @@ std::vector<std::string> Reader::strings(const std::string& path) const {
 std::string Reader::string_attribute(const std::string& path, const std::string& name) const {
   const std::string what = "attribute " + name + " of " + path;
   const hid_t opened = H5Aopen_by_name(impl_->file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (opened < 0) impl_->refuse(what + " is missing");
+  if (opened < 0) impl_->refuse(what + " is missing or damaged");
   const Handle id(opened, H5Aclose, "open " + what);
   const Handle type(H5Aget_type(id), H5Tclose, "get a type");
   const Handle space(H5Aget_space(id), H5Sclose, "get a space");
@@ -426,7 +507,7 @@ std::string Reader::string_attribute(const std::string& path, const std::string&
 int Reader::int_attribute(const std::string& path, const std::string& name) const {
   const std::string what = "attribute " + name + " of " + path;
   const hid_t opened = H5Aopen_by_name(impl_->file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (opened < 0) impl_->refuse(what + " is missing");
+  if (opened < 0) impl_->refuse(what + " is missing or damaged");
   const Handle id(opened, H5Aclose, "open " + what);
   const Handle type(H5Aget_type(id), H5Tclose, "get a type");
   const Handle space(H5Aget_space(id), H5Sclose, "get a space");

@@ -22,6 +22,12 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+// A target may know of other damage.
+extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                                                     std::size_t room, unsigned int seed);
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t*, std::size_t size, std::size_t) {
+  return size;
+}
 
 namespace {
 
@@ -40,6 +46,13 @@ class Damage {
   explicit Damage(unsigned seed) : random_(seed) {}
   std::string of(const std::vector<std::string>& files) {
     std::string bytes = pick(files);
+    if (LLVMFuzzerCustomMutator && below(2)) {
+      const std::size_t size = bytes.size();
+      bytes.resize(1 << 20);
+      bytes.resize(LLVMFuzzerCustomMutator(reinterpret_cast<std::uint8_t*>(bytes.data()), size, bytes.size(),
+                                           random_()));
+      return bytes;
+    }
     for (int times = 1 + below(4); times > 0 && !bytes.empty(); --times) {
       const std::size_t at = below(bytes.size());
       const std::size_t length = 1 + below(std::min<std::size_t>(bytes.size() - at, 1u << below(10)));
