@@ -100,7 +100,7 @@ std::string recorded_path(const std::string& path) {
   if (!given.is_absolute()) return path;
   std::error_code ignored;
   const auto here = std::filesystem::current_path(ignored);
-  const std::string below = given.lexically_normal().lexically_relative(here).generic_string();
+  std::string below = given.lexically_normal().lexically_relative(here).generic_string();
   if (!below.empty() && below != ".." && below.rfind("../", 0) != 0) return below;
   return ".../" + given.filename().string();
 }
