@@ -337,7 +337,7 @@ void read_figure(const StudyFile& file, Study& study) {
     if (list->size() > kMostPanels)
       file.refuse(*table->get(what), text("'", what, "' in [figure] names ", list->size(),
                                           "; a figure has room for ", kMostPanels));
-  study.figure_colour = file.word(*table, "colour", names.size() > 1 ? names[1] : "");
+  study.figure_colour = file.word(*table, "colour", names.size() > 1 && !study.random ? names[1] : "");
   if (!study.figure_colour.empty() && !among(study.figure_colour, names))
     file.refuse(*table->get("colour"), text("'colour' = ", study.figure_colour,
                                             ": no [[vary]] has this key; there are: ", joined(names)));

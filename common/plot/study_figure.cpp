@@ -25,6 +25,24 @@ Shown shown_units(const std::string& units) {
   return {units == "1" ? "" : "Hz", 1};
 }
 
+// Key values as an axis shows them: powers of ten of small numbers stand at the unit.
+struct AxisUnits {
+  std::string words;
+  double scale;
+};
+
+AxisUnits axis_units(const VariedKey& key, double largest) {
+  static const std::map<std::string, std::string> spelt{
+      {"um", "µm"},     {"Nm", "N m"},     {"deg", "°"}, {"kgm2", "kg m²"},
+      {"per_s", "1/s"}, {"kgm3", "kg/m³"}, {"1", ""}};
+  if (!key.number) return {"", 1};
+  const auto found = spelt.find(key.scene_units);
+  const std::string unit = found == spelt.end() ? key.scene_units : found->second;
+  if (!(largest > 0 && largest < 1e-2)) return {unit, 1};
+  const int power = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+  return {text("10^{", power, "} ", unit), std::pow(10, -power)};
+}
+
 std::string with_unit(const std::string& name, const std::string& units) {
   return units.empty() || units == "1" ? name : name + " (" + units + ")";
 }
@@ -230,14 +248,15 @@ Figure study_figure(const StudyArtifact& a) {
     };
     for (size_t v = 0; v < variants; ++v) rgb[v] = colour(share(at[v], place_of(a.variants[v].values[by])));
     const VariedKey& key = a.plan.keys[by];
-    figure.words.emplace_back("colour_label", with_unit(key.label, key.scene_units));
+    const AxisUnits units = axis_units(key, *most);
+    figure.words.emplace_back("colour_label", with_unit(key.label, units.words));
     const size_t entries = std::min(levels, kFew);
     for (size_t e = 0; e < entries; ++e) {
       const size_t place = entries > 1 ? e * (levels - 1) / (entries - 1) : 0;
       const std::string& level = axes[by].levels[place];
       const double value = key.number ? std::strtod(level.c_str(), nullptr) : static_cast<double>(place) + 1;
       char short_number[32];
-      std::snprintf(short_number, sizeof short_number, "%.4g", value);
+      std::snprintf(short_number, sizeof short_number, "%.5g", value * units.scale);
       figure.words.emplace_back(text("colour_name", e + 1), key.number ? short_number : level);
       figure.numbers.emplace_back(text("colour_rgb", e + 1), colour(share(value, place)));
     }
@@ -250,7 +269,9 @@ Figure study_figure(const StudyArtifact& a) {
   for (size_t c = 0; c < columns; ++c) {
     const size_t k = key_of(a, a.plan.figure_keys[c]);
     const VariedKey& key = a.plan.keys[k];
-    figure.words.emplace_back(text("x", c + 1), with_unit(key.label, key.number ? key.scene_units : ""));
+    const AxisUnits units = axis_units(key, *std::max_element(axes[k].at.begin(), axes[k].at.end()));
+    figure.words.emplace_back(text("x", c + 1), with_unit(key.label, units.words));
+    figure.numbers.emplace_back(text("scale", c + 1), units.scale);
     std::string ticks;
     if (!key.number)
       for (size_t l = 0; l < axes[k].levels.size(); ++l)

@@ -8,35 +8,38 @@ set border 3 lw 1.4
 set tics out nomirror font ",13"
 set grid lt 1 lc rgb "#e4e4e4" lw 1
 all = columns + random
-left = 0.075
+left = 0.09
 width = (0.985 - left) / all
 top = 1 - 110.0 / height
 bottom = (colours > 0 ? 110.0 : 75.0) / height
 tall = (top - bottom) / rows
 set key off
 do for [r = 1:int(rows)] {
-  set tmargin at screen top - (r - 1) * tall - 12.0 / height
-  set bmargin at screen top - r * tall + 42.0 / height
+  set tmargin at screen top - (r - 1) * tall - 14.0 / height
+  set bmargin at screen top - r * tall + 72.0 / height
   do for [c = 1:int(all)] {
     set lmargin at screen left + (c - 1) * width
     set rmargin at screen left + c * width - 0.018
-    if (c == 1) { set ylabel value(sprintf("y%d", r)) font ",14" offset 0.5, 0; set format y "%g" } else { unset ylabel; set format y "" }
+    if (c == 1) { set ylabel value(sprintf("y%d", r)) font ",13" offset 0.5, 0; set format y "%g" } else { unset ylabel; set format y "" }
     set autoscale
-    set offsets graph 0.03, graph 0.03, graph 0.06, graph 0.06
+    set offsets graph 0.03, graph 0.03, graph 0.12, graph 0.06
+    set ytics autofreq
     unset label
     if (c <= columns) {
       set xlabel value(sprintf("x%d", c)) font ",14" offset 0, 0.5
       ticks = value(sprintf("ticks%d", c))
+      scale = value(sprintf("scale%d", c))
       set format x "%g"
       set xtics autofreq
+      set xtics font ",12"
       if (strlen(ticks) > 0) { eval("set xtics (" . ticks . ")") }
       set label 1 value(sprintf("correlation%d_%d", r, c)) at graph 0.97, 0.93 right font ",13" front
       if (value(sprintf("drawn%d_%d", r, c)) > 0) {
         panel = sprintf("[panel%d_%d]", r, c)
         if (random > 0) {
-          plot tsv index panel using 1:2:3 with points pt 7 ps 0.45 lc rgb variable
+          plot tsv index panel using ($1 * scale):2:3 with points pt 7 ps (rows > 2 ? 0.5 : 0.7) lc rgb variable
         } else {
-          plot tsv index panel using 1:2:3 with linespoints pt 7 ps 0.7 lw 1.6 lc rgb variable
+          plot tsv index panel using ($1 * scale):2:3 with linespoints pt 7 ps 0.7 lw 1.6 lc rgb variable
         }
       } else {
         set label 2 "none" at graph 0.5, 0.5 center font ",14"
@@ -48,7 +51,7 @@ do for [r = 1:int(rows)] {
       set xlabel "share of the variants (%)" font ",14" offset 0, 0.5
       set xtics 0, 25, 100
       set xrange [0:100]
-      set offsets 0, 0, graph 0.06, graph 0.06
+      set offsets 0, 0, graph 0.12, graph 0.06
       if (value(sprintf("drawn%d_1", r)) > 0) {
         array share[3] = [5, 50, 95]
         do for [p = 1:3] {
