@@ -46,7 +46,10 @@ void body(int argc, char** argv) {
   const whine::Provenance provenance =
       whine::made_by(argc, argv, {"params=" + params, "driver=" + driver, "driven=" + driven});
   const whine::VariantSlice slice = whine::read_variant_slice(params);
-  const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
+  const whine::BodyArtifact first = whine::read_body(driver);
+  std::optional<whine::BodyArtifact> other;  // gears that are alike share a body
+  if (driven != driver) other = whine::read_body(driven);
+  const whine::BodyArtifact& second = other ? *other : first;
   whine::require_body(first, slice.statics.driver_body, "driver", driver);
   whine::require_body(second, slice.statics.driven_body, "driven", driven);
   whine::VariantArtifact result = whine::variant_parameters(first, second, slice);

@@ -209,6 +209,7 @@ Figure study_figure(const StudyArtifact& a) {
       a.plan.random ? text(", drawn with seed ", a.plan.seed) : ", all combinations",
       refused > 0 ? text("; ", refused, " were refused (column 'refused' of the table) and are not drawn")
                   : ""));
+  figure.words.emplace_back("subtitle", without_markup(figure.notes[0]));
   for (size_t k = 0; k < axes.size(); ++k)
     if (!a.plan.keys[k].number) {
       std::string list;

@@ -1,9 +1,9 @@
 # A study: a row of panels for each answer, a column for each key that varies; of a sample the distribution beside them.
-# Variables from gear-plot: tsv, heading, note1, height, rows, columns, random, x1.., ticks1.., y1.., drawn1_1.., correlation1_1..,
+# Variables from gear-plot: tsv, heading, subtitle, height, rows, columns, random, x1.., ticks1.., y1.., drawn1_1.., correlation1_1..,
 # percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1..
 set datafile separator whitespace
 set datafile commentschars "#"
-set multiplot title heading . "\n{/*0.62 " . note1 . "}"
+set multiplot title heading . "\n{/*0.62 " . subtitle . "}"
 set border 3 lw 1.4
 set tics out nomirror font ",13"
 set grid lt 1 lc rgb "#e4e4e4" lw 1
@@ -19,7 +19,7 @@ do for [r = 1:int(rows)] {
   set bmargin at screen top - r * tall + 72.0 / height
   do for [c = 1:int(all)] {
     set lmargin at screen left + (c - 1) * width
-    set rmargin at screen left + c * width - 0.018
+    set rmargin at screen left + c * width - 0.024
     if (c == 1) { set ylabel value(sprintf("y%d", r)) font ",13" offset 0.5, 0; set format y "%g" } else { unset ylabel; set format y "" }
     set autoscale
     set offsets graph 0.03, graph 0.03, graph 0.12, graph 0.06
