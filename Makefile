@@ -2,6 +2,7 @@
 #
 #   programs   tools/gear-x.cpp and common/*/*.cpp -> build/bin/gear-x           (this file)
 #   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
+#   studies    variants of a scene -> a table of their answers                   (pipelines/studies.mk)
 #   stages     scene -> mesh -> body -> static -> sweep -> response              (pipelines/stages.mk)
 #   figures    artifacts -> out/figures, out/<scene>/report                      (pipelines/figures.mk)
 #
@@ -84,8 +85,8 @@ $(B)/lib/lib$1.a: $(filter $(B)/obj/common/$1/%,$(library)) common/$1 | $(B)/lib
 endef
 $(foreach r,$(rooms),$(eval $(call room_rules,$r)))
 
-# gear-scene runs before everything, under make -n as well, so it waits for no more than it needs.
-rooms_of = $(patsubst %,$(B)/lib/lib%.a,$(if $(filter gear-scene,$1),gear files base,$(rooms)))
+# gear-scene and gear-study run before everything, under make -n as well, so they wait for no more than they need.
+rooms_of = $(patsubst %,$(B)/lib/lib%.a,$(if $(filter gear-scene gear-study,$1),gear files base,$(rooms)))
 $(tools:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/tools/%.o $$(call rooms_of,$$*) | $(B)/bin/
 	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
 
@@ -114,7 +115,7 @@ replace_if_changed = { cat > $1.new.$$$$; if cmp -s $1.new.$$$$ $1; then rm $1.n
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
 
-include pipelines/figures.mk pipelines/scenes.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk
+include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk
 
 # Figures of P2000 that are none of ours, and what is of its scenes only.
 $(foreach f,$(filter-out figures $(figures),$(filter fig%,$(goals))),\
@@ -162,10 +163,10 @@ format: ## lay out the C++ sources with clang-format
 check-format: ## fail if clang-format would change a source
 	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
 
-.PHONY: help clean clean-figures clean-motion clean-out
+.PHONY: help clean clean-figures clean-studies clean-motion clean-out
 help: ## print this list
 	@echo 'Whine: gear whine from elastic teeth that touch, part and touch again. Targets:'
-	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk Makefile
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk pipelines/studies.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk Makefile
 	@echo 'Any artifact is a target, at any torque in N m; the scene stands in its path:'
 	@echo '  make out/parker2000/T600/up/response.h5'
 	@echo '  make SCENE=path/to/scene.toml sweep'
@@ -177,6 +178,9 @@ clean: ## remove build/ (programs; results stay valid)
 
 clean-figures: ## remove the figures (seconds to make again)
 	rm -rf out/figures out/*/report
+
+clean-studies: ## remove what studies have computed; bodies stay
+	rm -rf out/studies
 
 clean-motion: ## remove statics, sweeps and responses of all scenes (minutes); bodies stay
 	rm -rf out/*/T[0-9]*

@@ -14,7 +14,7 @@ ifneq ($(words $(SCENE)),0)
   $(if $(filter-out 1,$(words $(SCENE))),$(error SCENE=$(SCENE): make cannot handle blanks in a path; rename the file))
   $(if $(wildcard $(SCENE)),,$(error SCENE=$(SCENE): there is no such file))
   $(if $(filter %.toml,$(SCENE)),,$(error SCENE=$(SCENE): a scene is a .toml file))
-  $(if $(filter figures bodies,$(scene_stem)),$(error SCENE=$(SCENE): out/$(scene_stem) has another use; rename the file))
+  $(if $(filter figures bodies studies,$(scene_stem)),$(error SCENE=$(SCENE): out/$(scene_stem) has another use; rename the file))
   # Scenes of one name share out/<name>: one's own must not take the place of the project's.
   scene_of_name := $(wildcard data/scenes/$(scene_stem).toml)
   $(if $(scene_of_name),$(if $(shell cmp -s '$(SCENE)' $(scene_of_name) || echo differs),\
@@ -44,7 +44,7 @@ scenes := $(sort \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes))) \
   $(if $(filter bench work-precision,$(goals)),$(paper_scene)) \
-  $(foreach g,$(filter-out out/figures/% out/bodies/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
+  $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
 $(foreach s,$(filter-out $(variant_scenes),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\
   $(error out/$s: there is no data/scenes/$s.toml; for a scene elsewhere say SCENE=path/to/$s.toml)))

@@ -21,6 +21,7 @@
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
 #include "plot/map_figures.h"
+#include "plot/study_figure.h"
 #include "signal/response.h"
 
 namespace {
@@ -182,6 +183,11 @@ const std::map<std::string, Drawing>& drawings() {
        {"the mark of a cracked tooth in the static transmission error, and its orders",
         "static.h5 of a pair with a crack", 1, 0,
         [](const Paths& in, const Frequencies&) { return whine::crack_figure(whine::read_static(in[0])); }}},
+      {"study",
+       {"answers of the variants of a study against the keys that vary", "study.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return whine::study_figure(whine::read_study_artifact(in[0]));
+        }}},
       {"sidebands",
        {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
         "static.h5 and response.h5 of one torque", 2, 0,

@@ -15,7 +15,6 @@
 //            gear-scene --keys
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -28,8 +27,7 @@
 #include "files/publish.h"
 #include "files/scene.h"
 #include "files/variant.h"
-#include "gear/crack.h"
-#include "gear/pair.h"
+#include "gear/scene_geometry.h"
 
 namespace {
 
@@ -38,15 +36,12 @@ using namespace whine;
 // The stem names a folder, a make variable and a goal.
 std::string checked_stem(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
-  const bool plain = !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '_' || c == '-';
-  });
-  if (!plain) {
+  if (!plain_name(stem)) {
     fail(Failure::input, path, ": the name '", stem,
          "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the "
          "file");
   }
-  if (stem == "bodies" || stem == "figures") {
+  if (stem == "bodies" || stem == "figures" || stem == "studies") {
     fail(Failure::input, path, ": a scene cannot be called '", stem,
          "', a folder of results is; rename the file");
   }
@@ -57,31 +52,6 @@ std::string short_number(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%g", value);
   return buffer;
-}
-
-// Gears that cannot exist and pairs that cannot run are told here, not after minutes of work.
-void check_geometry(const Scene& scene, const std::string& path) {
-  const auto in = [&](const std::string& section, const auto& make) {
-    try {
-      make();
-    } catch (const Error& error) {
-      fail(error.kind(), path, ": ", section, ": ", error.what());
-    }
-  };
-  for (const SceneGear& gear : scene.gears) {
-    in("[gear." + gear.name + "]", [&] {
-      const ToothGeometry tooth(gear.design);
-      if (gear.design.crack.depth > 0) crack_slit(tooth);
-    });
-    in("[gear." + gear.name + ".modification]",
-       [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
-    in("[gear." + gear.name + ".error]",
-       [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
-  }
-  in("[[mesh]]", [&] {
-    GearPair pair(scene.gear(scene.mesh.driver).design, scene.gear(scene.mesh.driven).design,
-                  scene.mesh.centre_distance);
-  });
 }
 
 void body(int argc, char** argv) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -139,28 +141,47 @@ Origin read_origin(const std::string& path) {
   return origin_of(h5::Reader(artifact_bytes(path), path, rebuild_advice(path)));
 }
 
-void require_fresh(const std::string& artifact) {
+namespace {
+
+// hashes: of files that were read before, by path.
+void require_fresh(const std::string& artifact, std::map<std::string, std::string>& hashes) {
   for (const InputRecord& input : read_origin(artifact).inputs) {
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(input.path, ignored) && sha256_of_file(input.path) != input.sha256)
+    if (!std::filesystem::is_regular_file(input.path, ignored)) continue;
+    const auto [hash, first] = hashes.try_emplace(input.path);
+    if (first) hash->second = sha256_of_file(input.path);
+    if (hash->second != input.sha256)
       fail(Failure::input, artifact, ": is stale: its input '", input.role, "', ", input.path,
            ", is not what it was; delete it; ", rebuild_advice(artifact));
   }
 }
 
+}  // namespace
+
+void require_fresh(const std::string& artifact) {
+  std::map<std::string, std::string> none;
+  require_fresh(artifact, none);
+}
+
 Provenance made_by(int argc, char** argv, std::vector<std::string> inputs) {
+  std::map<std::string, std::string> known_inputs;  // of the inputs, which a thousand variants share
   Provenance out{program_name(argv[0]), command_line(argc, argv), std::move(inputs), {}};
+  std::map<std::string, std::string>
+      known;  // a file in two roles, as the body of gears that are alike, is read once
   for (const std::string& input : out.inputs) {
     const std::string path = input.substr(input.find('=') + 1);
-    // No target makes a slice of a scene.
-    const bool artifact = path.ends_with(".h5");
-    if (!artifact && !std::filesystem::exists(path)) {
-      out.sha256.emplace_back();  // its reader knows what to advise
-      continue;
+    const auto [hash, first] = known.try_emplace(path);
+    if (first) {
+      // No target makes a slice of a scene.
+      const bool artifact = path.ends_with(".h5");
+      // One that is missing has no hash: its reader knows what to advise.
+      if (artifact || std::filesystem::exists(path)) {
+        const std::string bytes = read_bytes(path, artifact ? rebuild_advice(path) : "");
+        hash->second = sha256(bytes);
+        if (is_hdf5(bytes)) require_fresh(path, known_inputs);
+      }
     }
-    const std::string bytes = read_bytes(path, artifact ? rebuild_advice(path) : "");
-    out.sha256.push_back(sha256(bytes));
-    if (is_hdf5(bytes)) require_fresh(path);
+    out.sha256.push_back(hash->second);
   }
   return out;
 }
@@ -188,21 +209,24 @@ ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int ve
   file_.group("/parameters");
 
   std::vector<std::string> roles, paths, hashes, history;
+  std::map<std::string, std::string> known;  // hashes by path
+  std::set<std::string> told;                // lines of the history
   for (const std::string& input : provenance.inputs) {
     const auto equals = input.find('=');
     if (equals == std::string::npos) fail(Failure::numerical, "input '", input, "' is not role=path");
     const std::string place = input.substr(equals + 1);
-    const std::string bytes = artifact_bytes(place);
     roles.push_back(input.substr(0, equals));
     paths.push_back(recorded_path(place));
-    hashes.push_back(sha256(bytes));
+    const auto [hash, first] = known.try_emplace(place);
+    const std::string bytes = first ? artifact_bytes(place) : "";
+    if (first) hash->second = sha256(bytes);
+    hashes.push_back(hash->second);
     if (!is_hdf5(bytes)) continue;
     const Origin origin = origin_of(h5::Reader(bytes, place, rebuild_advice(place)));
     std::vector<std::string> lines = origin.history;
     lines.push_back(origin.tool + " " + origin.version + ": " + origin.command);
-    for (const std::string& line : lines) {
-      if (std::find(history.begin(), history.end(), line) == history.end()) history.push_back(line);
-    }
+    for (const std::string& line : lines)
+      if (told.insert(line).second) history.push_back(line);
   }
   const std::string folder = "/provenance/";
   file_.put(folder + "tool", provenance.tool, record("program that made this file"));
@@ -272,9 +296,12 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
 }
 
 void ArtifactWriter::publish() {
+  std::map<std::string, std::string> now;
   for (std::size_t i = 0; i < sha256_.size(); ++i) {
     const std::string place = inputs_[i].substr(inputs_[i].find('=') + 1);
-    if (sha256_of_file(place) != sha256_[i])
+    const auto [hash, first] = now.try_emplace(place);
+    if (first) hash->second = sha256_of_file(place);
+    if (hash->second != sha256_[i])
       fail(Failure::input, path_, ": is not written, because its input ", place,
            " was replaced while it was being made; ", rebuild_advice(path_));
   }

@@ -312,6 +312,43 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   return best;
 }
 
+namespace {
+
+std::string place_of(const Key& key, const std::string& owner) {
+  const std::string section(key.section), name(key.name);
+  if (section.empty()) return name;
+  if (section == "gear" || section == "material") return section + "." + owner + "." + name;
+  if (section == "modification" || section == "error" || section == "crack")
+    return "gear." + owner + "." + section + "." + name;
+  return section + "." + name;
+}
+
+}  // namespace
+
+KeyPlace find_key(const std::string& name) {
+  std::string owner;
+  for (const char* group : {"gear.", "material."})
+    if (name.rfind(group, 0) == 0) {
+      const auto from = std::string(group).size(), to = name.find('.', from);
+      if (to != std::string::npos) owner = name.substr(from, to - from);
+    }
+  const bool placed = name.find('.') != std::string::npos;
+  std::vector<std::string> known;
+  for (const Key& key : scene_keys()) {
+    const std::string candidate = placed ? place_of(key, owner) : key.name;
+    if (candidate == name) return {&key, placed ? owner : ""};
+    known.push_back(candidate);
+  }
+  // A right key in a wrong place is nearer than any key that is spelt alike there.
+  const std::string last = name.substr(name.rfind('.') + 1);
+  std::string near;
+  for (const Key& key : scene_keys())
+    if (placed && last == key.name) near = place_of(key, owner.empty() ? "<name>" : owner);
+  if (near.empty()) near = nearest(name, known);
+  fail(Failure::usage, "no scene has the key '", name, "'",
+       near.empty() ? "; gear-scene --keys lists them" : "; did you mean '" + near + "'?");
+}
+
 std::string exact_text(double value) {
   char buffer[64];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;

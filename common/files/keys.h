@@ -95,6 +95,15 @@ struct Key {
 
 const std::vector<Key>& scene_keys();
 
+// A key by its name ("bore_radius_mm") or by its place in a scene ("gear.pinion.bore_radius_mm",
+// "gear.pinion.modification.tip_relief_um", "damping.rayleigh_stiffness_s"). Error(usage), by the nearest one, if no scene has
+// it there.
+struct KeyPlace {
+  const Key* key;
+  std::string owner;  // the one gear or material; "": a key alone means all of them
+};
+KeyPlace find_key(const std::string& name);
+
 // The known word nearest to `word` by edit distance, "" if none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 

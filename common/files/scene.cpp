@@ -13,7 +13,9 @@
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/publish.h"
+#include "files/study.h"
 #include "files/toml.h"
+#include "files/variant.h"
 
 namespace whine {
 namespace {
@@ -49,9 +51,11 @@ constexpr const char *kSliceStart = "# What ",
 // The file under reading: turns nodes into values and faults into errors with file:line.
 class Source {
  public:
-  explicit Source(std::string path, const std::string& hint = "check the path of the scene")
-      : path_(std::move(path)) {
-    const std::string bytes = read_bytes(path_, hint);
+  explicit Source(const std::string& path, const std::string& hint = "check the path of the scene")
+      : Source(path, read_bytes(path, hint), true) {}
+
+  // lines: whether those of the bytes are those of the file.
+  Source(std::string path, const std::string& bytes, bool lines) : path_(std::move(path)), lines_(lines) {
     is_slice_ = bytes.rfind(kSliceStart, 0) == 0 && bytes.find(kSliceEnd) < bytes.find('\n');
     try {
       root_ = parse_toml(bytes);
@@ -112,6 +116,7 @@ class Source {
 
   [[noreturn]] void refuse(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
   [[noreturn]] void refuse_line(toml::source_index line, const std::string& what) const {
+    if (!lines_) refuse(what);
     fail(Failure::input, path_, ":", line, ": ", what);
   }
   [[noreturn]] void refuse(const toml::node& at, const std::string& what) const {
@@ -130,8 +135,11 @@ class Source {
   Source(std::string path, toml::table root) : path_(std::move(path)), root_(std::move(root)) {}
   std::string path_;
   toml::table root_;
-  bool is_slice_ = false;
+  bool is_slice_ = false, lines_ = true;
 };
+
+// Section of a slice with what is a variant's own: its torque, the directions of its sweeps.
+constexpr const char* kVariant = "variant";
 
 // In a scene keys carry unit suffixes and ranges hold; slices are in SI, written by this program.
 enum class Dialect { scene, slice };
@@ -390,12 +398,6 @@ class SectionReader {
   const toml::table& table_;
   std::string section_, label_;
 };
-
-bool plain_name(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '_' || c == '-';
-  });
-}
 
 // Named sections below [group]: [gear.pinion], [material.steel].
 std::vector<std::pair<std::string, const toml::table*>> named_sections(const Source& source,
@@ -711,6 +713,12 @@ void read_slice_section(const Source& source, const std::string& section, const 
 
 }  // namespace
 
+bool plain_name(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-';
+  });
+}
+
 const SceneGear& Scene::gear(const std::string& name) const {
   for (const SceneGear& candidate : gears) {
     if (candidate.name == name) return candidate;
@@ -718,8 +726,9 @@ const SceneGear& Scene::gear(const std::string& name) const {
   fail(Failure::input, "the scene has no gear '", name, "'");
 }
 
-Scene read_scene(const std::string& path) {
-  const Source source(path);
+namespace {
+
+Scene scene_of(const Source& source) {
   if (source.is_slice())
     source.refuse("is a slice, which gear-scene cut from a scene for one stage; give the scene itself");
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
@@ -737,7 +746,7 @@ Scene read_scene(const std::string& path) {
   Scene scene;
   KeyValues values;
   top.read(values, {Part::title}, false);
-  scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
+  scene.title = values.title.empty() ? std::filesystem::path(source.path()).stem().string() : values.title;
   read_gears(source, scene);
   read_mesh_section(source, scene);
   const std::set<Part> rest = {Part::damping,    Part::load,         Part::operation,
@@ -765,6 +774,16 @@ Scene read_scene(const std::string& path) {
   return scene;
 }
 
+}  // namespace
+
+Scene read_scene(const std::string& path) {
+  return scene_of(Source(path));
+}
+
+Scene read_variant_of(const std::string& path, const std::string& variant) {
+  return scene_of(Source(path, variant, false));
+}
+
 std::string body_slice(const Scene& scene, const std::string& gear) {
   const SceneGear& chosen = scene.gear(gear);
   return body_slice({chosen.design, chosen.material, scene.body});
@@ -786,7 +805,9 @@ std::string body_slice(const BodySlice& chosen) {
   return out.text();
 }
 
-std::string static_slice(const Scene& scene) {
+namespace {
+
+KeyValues static_values(const Scene& scene) {
   KeyValues values;
   values.mesh = scene.mesh;
   values.fidelity = scene.fidelity;
@@ -800,7 +821,11 @@ std::string static_slice(const Scene& scene) {
     if (periods > 1)
       values.contact.positions = std::clamp(kMostInAll / periods, kLeast, values.contact.positions);
   }
-  SliceText out("the static stage");
+  return values;
+}
+
+// moving: with what a motion needs in the same sections.
+void add_static(SliceText& out, const Scene& scene, KeyValues& values, bool moving) {
   out.add("mesh", "mesh", values, {Part::mesh});
   // Left out for flanks as they are designed, whose slices are what they were before flanks could be others.
   for (int g = 0; g < 2; ++g) {
@@ -812,12 +837,23 @@ std::string static_slice(const Scene& scene) {
     values.errors = scene.mesh.errors[g];
     if (!values.errors.none()) out.add("error", kErrorOf[g], values, {Part::error});
   }
-  out.add("fidelity", "fidelity", values, {Part::contact_rung});
-  out.add("discretisation", "discretisation", values, {Part::contact});
+  using Parts = std::set<Part>;
+  out.add("fidelity", "fidelity", values,
+          moving ? Parts{Part::rung, Part::contact_rung} : Parts{Part::contact_rung});
+  out.add("discretisation", "discretisation", values,
+          moving ? Parts{Part::contact, Part::time} : Parts{Part::contact});
   // Going back to an earlier design finds its old body.h5, older than the static result of the design
   // between: only this text can tell make that the result is stale.
   out.add_line("body", "driver", body_hash(body_slice(scene, scene.mesh.driver)));
   out.add_line("body", "driven", body_hash(body_slice(scene, scene.mesh.driven)));
+}
+
+}  // namespace
+
+std::string static_slice(const Scene& scene) {
+  KeyValues values = static_values(scene);
+  SliceText out("the static stage");
+  add_static(out, scene, values, false);
   return out.text();
 }
 
@@ -890,6 +926,24 @@ std::string lumped_slice(const Scene& scene, bool speeds) {
   return out.text();
 }
 
+std::string variant_slice(const Scene& scene, double torque, const std::vector<std::string>& directions) {
+  KeyValues values = static_values(scene);
+  const KeyValues moving = motion_values(scene);
+  values.damping = moving.damping;
+  values.time = moving.time;
+  SliceText out("a variant of a study");
+  add_static(out, scene, values, !directions.empty());
+  if (!directions.empty()) {
+    add_inertia_and_damping(out, scene, values);
+    values.operation = moving.operation;
+    out.add("operation", "operation", values, {Part::load, Part::operation});
+  }
+  values.operation.torques = {torque};
+  out.add("operation", kVariant, values, {Part::load});
+  out.add_line(kVariant, "directions", joined(directions, " "));
+  return out.text();
+}
+
 std::string body_hash(const std::string& slice) {
   return sha256(slice).substr(0, 16);
 }
@@ -907,8 +961,9 @@ BodySlice read_body_slice(const std::string& path) {
   return {values.design, values.material, values.body};
 }
 
-StaticSlice read_static_slice(const std::string& path) {
-  const Source source = slice_source(path, "params/static.toml");
+namespace {
+
+StaticSlice read_static(const Source& source) {
   KeyValues values;
   read_slice_section(source, "mesh", "mesh", {Part::mesh}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::contact_rung}, values);
@@ -930,8 +985,6 @@ StaticSlice read_static_slice(const std::string& path) {
   }
   return out;
 }
-
-namespace {
 
 void read_inertia(const Source& source, ImpactSlice& out) {
   KeyValues values;
@@ -972,6 +1025,29 @@ SweepSlice read_motion(const Source& source) {
 }
 
 }  // namespace
+
+StaticSlice read_static_slice(const std::string& path) {
+  return read_static(slice_source(path, "params/static.toml"));
+}
+
+VariantSlice read_variant_slice(const std::string& path) {
+  const Source source(path, "a variant's slice is written by: make study STUDY=<name>");
+  KeyValues values;
+  read_slice_section(source, "operation", kVariant, {Part::load}, values);
+  VariantSlice out;
+  out.statics = read_static(source);
+  out.torque = values.operation.torques.front();
+  std::istringstream words((*source.section(kVariant))["directions"].value_or(std::string()));
+  for (std::string word; words >> word;) {
+    if (word != "up" && word != "down")
+      source.refuse(text("names the direction '", word, "'; there are up and down"));
+    out.directions.push_back(word);
+  }
+  if (out.directions.empty()) return out;
+  out.motion = read_motion(source);
+  read_speeds(source, out.motion);
+  return out;
+}
 
 ImpactSlice read_impact_slice(const std::string& path) {
   return read_impact(slice_source(path, "params/impact.toml"));

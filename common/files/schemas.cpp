@@ -1,12 +1,15 @@
 #include "files/schemas.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
 #include "base/error.h"
 #include "files/artifact.h"
+#include "files/study.h"
 #include "files/vtk.h"
 
 namespace whine {
@@ -15,7 +18,7 @@ namespace {
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
 constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 4, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1,
-              kHarrisMapVersion = 1;
+              kHarrisMapVersion = 1, kVariantVersion = 1, kStudyVersion = 1;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -109,6 +112,21 @@ double take_inertia(const ArtifactReader& in, const std::string& role) {
   KeyValues values;
   in.parameters(role, values, Part::inertia);
   return values.total_inertia;
+}
+
+template <class Artifact>
+void put_speeds(ArtifactWriter& out, const Artifact& a) {
+  for (const auto& [name, value] : {std::pair{"from", a.frequency_from}, std::pair{"to", a.frequency_to},
+                                    std::pair{"step", a.frequency_step}})
+    out.put(text("/parameters/operation/mesh_frequency_", name), value,
+            {"Hz", "speeds of the sweeps", "", ""});
+}
+
+template <class Artifact>
+void take_speeds(const ArtifactReader& in, Artifact& a) {
+  a.frequency_from = in.number("/parameters/operation/mesh_frequency_from");
+  a.frequency_to = in.number("/parameters/operation/mesh_frequency_to");
+  a.frequency_step = in.number("/parameters/operation/mesh_frequency_step");
 }
 
 // Bearing dampers and what sets them.
@@ -1191,10 +1209,7 @@ void write(const std::string& path, const HarrisMapArtifact& a, const Provenance
     out.parameters("damping", values, Part::damping);
     out.parameters("fidelity", values, Part::rung);
     out.parameters("discretisation", values, Part::time);
-    for (const auto& [name, value] : {std::pair{"from", a.frequency_from}, std::pair{"to", a.frequency_to},
-                                      std::pair{"step", a.frequency_step}})
-      out.put(text("/parameters/operation/mesh_frequency_", name), value,
-              {"Hz", "speeds of the sweeps", "", ""});
+    put_speeds(out, a);
     for (const MapCube& cube : kDynamicCubes)
       put_cube(out, a, cube.name, cube.units, cube.meaning, a.*cube.values);
   }
@@ -1216,9 +1231,7 @@ HarrisMapArtifact read_harris_map(const std::string& path) {
     in.parameters("damping", values, Part::damping);
     in.parameters("fidelity", values, Part::rung);
     in.parameters("discretisation", values, Part::time);
-    a.frequency_from = in.number("/parameters/operation/mesh_frequency_from");
-    a.frequency_to = in.number("/parameters/operation/mesh_frequency_to");
-    a.frequency_step = in.number("/parameters/operation/mesh_frequency_step");
+    take_speeds(in, a);
   }
   a.mesh = values.mesh;
   a.fidelity = values.fidelity;
@@ -1242,6 +1255,210 @@ HarrisMapArtifact read_harris_map(const std::string& path) {
   a.largest_error = in.number("/check/largest_error");
   if (moving)
     for (const MapCube& cube : kDynamicCubes) a.*cube.values = take_cube(in, a, cube.name);
+  return a;
+}
+
+namespace {
+
+constexpr const char* kVariants = "variant";
+
+std::string words(const std::vector<std::string>& list) {
+  std::string out;
+  for (const std::string& word : list) out += (out.empty() ? "" : " ") + word;
+  return out;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream in(line);
+  for (std::string word; in >> word;) out.push_back(word);
+  return out;
+}
+
+// The dataset of a key: its place without dots, its name without the unit.
+std::string dataset_of(const VariedKey& key) {
+  const std::string leaf = find_key(key.name).key->si_name();
+  const auto dot = key.name.rfind('.');
+  std::string place = dot == std::string::npos ? "" : key.name.substr(0, dot + 1);
+  std::replace(place.begin(), place.end(), '.', '_');
+  std::replace(place.begin(), place.end(), '-', '_');
+  return "/key/" + place + leaf;
+}
+
+}  // namespace
+
+void write(const std::string& path, const VariantArtifact& a, const Provenance& provenance) {
+  const std::vector<AnswerKind> kinds = answer_kinds(a.directions);
+  if (a.refusal.empty()) want_rows("answer", a.answer.size(), static_cast<Eigen::Index>(kinds.size()));
+  ArtifactWriter out(path, "variant", kVariantVersion, "Variant of a study: " + pair_title(a.mesh, a.torque),
+                     provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
+  values.contact = a.contact;
+  values.time = a.time;
+  values.damping = a.damping;
+  put_pair(out, a);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("discretisation", values, Part::contact);
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/parameters/operation/directions", words(a.directions),
+          {"1", "directions of the sweeps; none: at rest", "", ""});
+  if (!a.directions.empty()) {
+    put_inertia(out, "driver", a.driver_inertia);
+    put_inertia(out, "driven", a.driven_inertia);
+    out.parameters("damping", values, Part::damping);
+    out.parameters("fidelity", values, Part::rung);
+    out.parameters("discretisation", values, Part::time);
+    out.put("/parameters/operation/reference_torque", a.reference_torque,
+            {"N m", "torque whose mean stiffness sets the bearing dampers", "", ""});
+    put_speeds(out, a);
+  }
+  out.put("/refusal", a.refusal, {"1", "why a stage refused the variant; empty: none did", "", ""});
+  if (a.refusal.empty())
+    for (size_t i = 0; i < kinds.size(); ++i)
+      out.put("/answer/" + kinds[i].name, a.answer[static_cast<Eigen::Index>(i)],
+              {kinds[i].units, kinds[i].meaning, "", ""});
+  out.publish();
+}
+
+VariantArtifact read_variant(const std::string& path) {
+  const ArtifactReader in(path, "variant", kVariantVersion);
+  VariantArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("discretisation", values, Part::contact);
+  take_pair(in, a);
+  a.torque = in.number("/parameters/operation/torque");
+  a.directions = split(in.word("/parameters/operation/directions"));
+  for (const std::string& direction : a.directions)
+    if (direction != "up" && direction != "down")
+      in.file().refuse("names the direction '" + direction + "'; there are up and down");
+  if (!a.directions.empty()) {
+    a.driver_inertia = take_inertia(in, "driver");
+    a.driven_inertia = take_inertia(in, "driven");
+    in.parameters("damping", values, Part::damping);
+    in.parameters("fidelity", values, Part::rung);
+    in.parameters("discretisation", values, Part::time);
+    a.reference_torque = in.number("/parameters/operation/reference_torque");
+    take_speeds(in, a);
+  }
+  a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
+  a.contact = values.contact;
+  a.time = values.time;
+  a.damping = values.damping;
+  a.refusal = in.word("/refusal");
+  if (!a.refusal.empty()) return a;
+  const std::vector<AnswerKind> kinds = answer_kinds(a.directions);
+  a.answer.resize(static_cast<Eigen::Index>(kinds.size()));
+  for (size_t i = 0; i < kinds.size(); ++i)
+    a.answer[static_cast<Eigen::Index>(i)] = in.number("/answer/" + kinds[i].name);
+  return a;
+}
+
+void write(const std::string& path, const StudyArtifact& a, const Provenance& provenance) {
+  const auto variants = static_cast<Eigen::Index>(a.variants.size());
+  want_rows("answer", a.answer.rows(), variants);
+  want_rows("answer (columns)", a.answer.cols(), static_cast<Eigen::Index>(a.plan.answers.size()));
+  want_rows("refusal", static_cast<Eigen::Index>(a.refusal.size()), variants);
+  ArtifactWriter out(path, "study", kStudyVersion, "Study: " + a.plan.title, provenance);
+  const auto put_words = [&](const std::string& name, const std::vector<std::string>& list,
+                             const std::string& meaning, const std::string& axes) {
+    out.file().put(name, list, h5::Label{"1", meaning, axes, ""});
+  };
+  const std::string section = "/parameters/study/";
+  std::vector<std::string> keys;
+  for (const VariedKey& key : a.plan.keys) keys.push_back(key.name);
+  out.put(section + "title", a.plan.title, {"1", "what the study is", "", ""});
+  out.put(section + "scene", a.plan.scene, {"1", "scene whose variants these are", "", ""});
+  out.put(section + "directions", words(a.plan.directions),
+          {"1", "directions of the sweeps; none: at rest", "", ""});
+  out.put(section + "plan", std::string(a.plan.random ? "sample" : "grid"),
+          {"1", "all combinations, or random ones", "", ""});
+  out.put(section + "seed", a.plan.seed, {"1", "of the draws of a sample", "", ""});
+  put_words(section + "key", keys, "keys that vary, as the study names them", "key");
+  put_words(section + "answer", a.plan.answers, "answers that are gathered", "answer");
+  put_words(section + "figure_answer", a.plan.figure_answers, "answers that the figure shows",
+            "figure_answer");
+  put_words(section + "figure_key", a.plan.figure_keys, "keys against which it shows them", "figure_key");
+  out.put(section + "figure_colour", a.plan.figure_colour, {"1", "key by which it colours them", "", ""});
+
+  std::vector<std::string> names;
+  Eigen::VectorXi refused(variants);
+  for (Eigen::Index v = 0; v < variants; ++v) {
+    names.push_back(a.variants[v].name);
+    refused[v] = a.refusal[v].empty() ? 0 : 1;
+  }
+  put_words("/variant", names, "name of the variant's slice and artifact", kVariants);
+  for (size_t k = 0; k < a.plan.keys.size(); ++k) {
+    const VariedKey& key = a.plan.keys[k];
+    Eigen::VectorXd numbers(variants);
+    std::vector<std::string> texts;
+    for (Eigen::Index v = 0; v < variants; ++v) {
+      texts.push_back(a.variants[v].values.at(k));
+      numbers[v] = key.number ? key.si(texts.back()) : 0;
+    }
+    const std::string meaning = key.name + ": " + key.meaning;
+    if (key.number)
+      out.put(dataset_of(key), numbers, {key.units, meaning, kVariants, ""});
+    else
+      put_words(dataset_of(key), texts, meaning, kVariants);
+  }
+  for (const AnswerKind& kind : answer_kinds(a.plan.directions)) {
+    const auto found = std::find(a.plan.answers.begin(), a.plan.answers.end(), kind.name);
+    if (found != a.plan.answers.end())
+      out.put("/answer/" + kind.name, Eigen::VectorXd(a.answer.col(found - a.plan.answers.begin())),
+              {kind.units, kind.meaning + "; 0 where refused is 1", kVariants, ""});
+  }
+  out.put("/refused", refused, {"1", "1: a stage refused the variant, it has no answers", kVariants, ""});
+  put_words("/refusal", a.refusal, "why; empty where it was not refused", kVariants);
+  out.publish();
+}
+
+StudyArtifact read_study_artifact(const std::string& path) {
+  const ArtifactReader in(path, "study", kStudyVersion);
+  const std::string section = "/parameters/study/";
+  StudyArtifact a;
+  a.plan.title = in.word(section + "title");
+  a.plan.scene = in.word(section + "scene");
+  a.plan.directions = split(in.word(section + "directions"));
+  a.plan.random = in.word(section + "plan") == "sample";
+  a.plan.seed = in.whole(section + "seed");
+  a.plan.answers = in.file().strings(section + "answer");
+  a.plan.figure_answers = in.file().strings(section + "figure_answer");
+  a.plan.figure_keys = in.file().strings(section + "figure_key");
+  a.plan.figure_colour = in.word(section + "figure_colour");
+  for (const std::string& name : in.file().strings("/variant")) a.variants.push_back({name, {}});
+  const auto variants = static_cast<Eigen::Index>(a.variants.size());
+  const auto want_words = [&](const std::string& name) {
+    std::vector<std::string> list = in.file().strings(name);
+    if (list.size() != a.variants.size())
+      in.file().refuse(
+          text("dataset ", name, " holds ", list.size(), " words, there are ", variants, " variants"));
+    return list;
+  };
+  for (const std::string& name : in.file().strings(section + "key")) {
+    const VariedKey key = varied_key(name);
+    if (key.number) {
+      const Eigen::VectorXd si = in.vector(dataset_of(key), variants);
+      for (Eigen::Index v = 0; v < variants; ++v) {
+        char buffer[40];
+        std::snprintf(buffer, sizeof buffer, "%.12g", si[v] * key.to_si_divide / key.to_si_multiply);
+        a.variants[v].values.emplace_back(buffer);
+      }
+    } else {
+      const std::vector<std::string> texts = want_words(dataset_of(key));
+      for (Eigen::Index v = 0; v < variants; ++v) a.variants[v].values.push_back(texts[v]);
+    }
+    a.plan.keys.push_back(key);
+  }
+  a.answer.resize(variants, static_cast<Eigen::Index>(a.plan.answers.size()));
+  for (size_t i = 0; i < a.plan.answers.size(); ++i)
+    a.answer.col(static_cast<Eigen::Index>(i)) = in.vector("/answer/" + a.plan.answers[i], variants);
+  a.refusal = want_words("/refusal");
   return a;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "files/schemas.h"
+#include "files/study.h"
 
 namespace whine {
 namespace {
@@ -275,6 +276,41 @@ void show(Lines& lines, const HarrisMapArtifact& a) {
         a.dynamic_rms[s].maxCoeff() * 1e6, " um");
 }
 
+void show(Lines& lines, const VariantArtifact& a) {
+  show_gear(lines, a.driver, a.driver_body);
+  show_modification(lines, a.mesh);
+  add(lines, "torque", a.torque, " N m");
+  if (!a.directions.empty())
+    add(lines, "speeds", a.frequency_from, " to ", a.frequency_to, " Hz, ", a.directions.size(),
+        a.directions.size() == 1 ? " direction" : " directions");
+  if (!a.refusal.empty()) add(lines, "refused", a.refusal);
+  const std::vector<AnswerKind> kinds = answer_kinds(a.directions);
+  for (Eigen::Index i = 0; i < a.answer.size(); ++i)
+    add(lines, kinds[i].name, a.answer[i], " ", kinds[i].units == "1" ? "" : kinds[i].units);
+}
+
+void show(Lines& lines, const StudyArtifact& a) {
+  std::string keys;
+  for (const VariedKey& key : a.plan.keys) keys += (keys.empty() ? "" : ", ") + key.name;
+  const auto refused =
+      a.refusal.size() - static_cast<size_t>(std::count(a.refusal.begin(), a.refusal.end(), ""));
+  add(lines, "study", a.variants.size(), " variants of ", a.plan.scene,
+      a.plan.random ? ", drawn at random" : ", all combinations", ", ", refused, " refused");
+  add(lines, "keys", keys);
+  for (const AnswerKind& kind : answer_kinds(a.plan.directions)) {
+    const auto found = std::find(a.plan.answers.begin(), a.plan.answers.end(), kind.name);
+    if (found == a.plan.answers.end()) continue;
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t v = 0; v < a.refusal.size(); ++v)
+      if (a.refusal[v].empty()) {
+        const double value = a.answer(static_cast<Eigen::Index>(v), found - a.plan.answers.begin());
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+    if (least <= most) add(lines, kind.name, least, " to ", most, " ", kind.units == "1" ? "" : kind.units);
+  }
+}
+
 }  // namespace
 
 std::string in_words(const FlankModification& m) {
@@ -314,6 +350,10 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_jump_map(path));
   } else if (schema == "whine/harris_map") {
     show(lines, read_harris_map(path));
+  } else if (schema == "whine/variant") {
+    show(lines, read_variant(path));
+  } else if (schema == "whine/study") {
+    show(lines, read_study_artifact(path));
   } else {
     add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
   }

@@ -33,61 +33,68 @@ void set(toml::table& section, const std::string& key, const std::string& value)
   section.insert_or_assign(key, value);
 }
 
+// owner "": any.
+void require_member(const toml::table& members, const std::string& group, const std::string& owner,
+                    const std::string& path) {
+  if (owner.empty() || members.contains(owner)) return;
+  std::vector<std::string> names;
+  for (const auto& [label, item] : members) names.emplace_back(label.str());
+  const std::string near = nearest(owner, names);
+  fail(Failure::input, path, ": has no [", group, ".", owner, "]",
+       near.empty() ? "" : "; did you mean '" + near + "'?");
+}
+
 }  // namespace
 
 std::string scene_variant(const std::string& path, const std::vector<std::string>& changes) {
   toml::table scene = parsed(read_bytes(path, "check the path of the scene"), path);
-  std::vector<std::string> known;
-  for (const Key& key : scene_keys()) known.push_back(key.name);
   for (const std::string& change : changes) {
     const size_t equals = change.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == change.size())
       fail(Failure::usage, "--set ", change, ": write key=value, as in bore_radius_mm=35");
     const std::string name = change.substr(0, equals), value = change.substr(equals + 1);
-    const auto key =
-        std::find_if(scene_keys().begin(), scene_keys().end(), [&](const Key& k) { return name == k.name; });
-    if (key == scene_keys().end()) {
-      const std::string near = nearest(name, known);
-      fail(Failure::usage, "--set ", change, ": no scene has the key '", name, "'",
-           near.empty() ? "; gear-scene --keys lists them" : "; did you mean '" + near + "'?");
-    }
-    const std::string section = key->section;
+    const KeyPlace place = [&] {
+      try {
+        return find_key(name);
+      } catch (const Error& error) {
+        fail(error.kind(), "--set ", change, ": ", error.what());
+      }
+    }();
+    const std::string section = place.key->section, leaf = place.key->name, owner = place.owner;
     if (section.empty()) {
-      set(scene, name, value);
+      set(scene, leaf, value);
       continue;
     }
-    toml::node* node = scene.get(section);
-    if (!node && (section == "gear" || section == "material" || section == "mesh"))
-      fail(Failure::input, path, ": lacks the section [", section, "] of the key '", name, "'");
+    const bool in_gear = section == "modification" || section == "error" || section == "crack";
+    const std::string group = in_gear ? "gear" : section;
+    toml::node* node = scene.get(group);
+    if (!node && (group == "gear" || group == "material" || group == "mesh"))
+      fail(Failure::input, path, ": lacks the section [", group, "] of the key '", name, "'");
     if (section == "mesh") {
       if (toml::array* list = node->as_array())
         for (toml::node& mesh : *list)
-          if (toml::table* table = mesh.as_table()) set(*table, name, value);
-    } else if (section == "modification" || section == "error") {
-      toml::node* gears = scene.get("gear");
-      if (toml::table* group = gears ? gears->as_table() : nullptr)
-        for (auto&& [label, item] : *group)
-          if (toml::table* gear = item.as_table()) {
-            toml::table* own = gear->get_as<toml::table>(section);
-            if (!own && section == "modification" && gear->contains("like")) continue;
-            if (!own) own = gear->insert(section, toml::table{}).first->second.as_table();
-            set(*own, name, value);
-          }
-    } else if (section == "crack") {
-      toml::node* gears = scene.get("gear");
-      if (toml::table* group = gears ? gears->as_table() : nullptr)
-        for (auto&& [label, item] : *group)
-          if (toml::table* gear = item.as_table())
-            if (toml::table* own = gear->get_as<toml::table>("crack")) set(*own, name, value);
-    } else if (section == "gear" || section == "material") {
-      if (toml::table* group = node->as_table())
-        for (auto&& [label, item] : *group)
-          if (toml::table* table = item.as_table();
-              table && (table->contains(name) || !table->contains("like")))
-            set(*table, name, value);
+          if (toml::table* table = mesh.as_table()) set(*table, leaf, value);
+    } else if (group == "gear" || group == "material") {
+      toml::table* members = node->as_table();
+      if (!members) continue;  // what it is instead is told when the scene is read
+      require_member(*members, group, owner, path);
+      for (auto&& [label, item] : *members) {
+        toml::table* table = item.as_table();
+        if (!table || (!owner.empty() && label.str() != owner)) continue;
+        const bool here = !owner.empty();
+        if (!in_gear) {
+          if (here || table->contains(leaf) || !table->contains("like")) set(*table, leaf, value);
+          continue;
+        }
+        toml::table* own = table->get_as<toml::table>(section);
+        if (!own && !here && (section == "crack" || (section == "modification" && table->contains("like"))))
+          continue;
+        if (!own) own = table->insert(section, toml::table{}).first->second.as_table();
+        if (own) set(*own, leaf, value);
+      }
     } else {
       if (!node) node = &scene.insert(section, toml::table{}).first->second;
-      if (toml::table* table = node->as_table()) set(*table, name, value);
+      if (toml::table* table = node->as_table()) set(*table, leaf, value);
     }
   }
   // Paths start from the folder of the scene, and the variant has another.

@@ -1,0 +1,21 @@
+// One variant of a study from bodies to answers: static equilibrium, sweeps, and the numbers that a study gathers.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "files/study.h"
+
+namespace whine {
+
+// Fills what of the artifact is a parameter: gears, mesh, operation, damping, discretisation.
+VariantArtifact variant_parameters(const BodyArtifact& driver, const BodyArtifact& driven,
+                                   const VariantSlice& slice);
+
+// The answers, in the order of answer_kinds(slice.directions), SI: those of static_transmission at the variant's torque and of
+// the response of sweep() in each direction; equal to what the stages one by one answer. report(done, total, note) is called
+// after each speed. Throws as static_transmission, sweep and response.
+Eigen::VectorXd variant_answers(const BodyArtifact& driver, const BodyArtifact& driven,
+                                const VariantSlice& slice,
+                                const std::function<void(long, long, const std::string&)>& report);
+
+}  // namespace whine

@@ -1,0 +1,345 @@
+#include "plot/study_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+struct Shown {
+  const char* units;
+  double scale;
+};
+
+Shown shown_units(const std::string& units) {
+  if (units == "m") return {"µm", 1e6};
+  if (units == "N m-1") return {"10^6 N/m", 1e-6};
+  if (units == "N") return {"kN", 1e-3};
+  return {units == "1" ? "" : "Hz", 1};
+}
+
+// Key values as an axis shows them: powers of ten of small numbers stand at the unit.
+struct AxisUnits {
+  std::string words;
+  double scale;
+};
+
+AxisUnits axis_units(const VariedKey& key, double largest) {
+  static const std::map<std::string, std::string> spelt{
+      {"um", "µm"},     {"Nm", "N m"},     {"deg", "°"}, {"kgm2", "kg m²"},
+      {"per_s", "1/s"}, {"kgm3", "kg/m³"}, {"1", ""}};
+  if (!key.number) return {"", 1};
+  const auto found = spelt.find(key.scene_units);
+  const std::string unit = found == spelt.end() ? key.scene_units : found->second;
+  if (!(largest > 0 && largest < 1e-2)) return {unit, 1};
+  const int power = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+  return {text("10^{", power, "} ", unit), std::pow(10, -power)};
+}
+
+std::string with_unit(const std::string& name, const std::string& units) {
+  return units.empty() || units == "1" ? name : name + " (" + units + ")";
+}
+
+// "largest RMS, up" of rms_max_up.
+std::string label_of(const std::string& answer) {
+  static const std::map<std::string, std::string> known{{"te_mean", "mean static TE"},
+                                                        {"te_peak_to_peak", "static TE, peak to peak"},
+                                                        {"te_harmonic_1", "static TE, harm. 1"},
+                                                        {"te_harmonic_2", "static TE, harm. 2"},
+                                                        {"te_harmonic_3", "static TE, harm. 3"},
+                                                        {"tooth_load_static", "largest static tooth load"},
+                                                        {"rms_max", "largest RMS of DTE"},
+                                                        {"rms_max_speed", "its mesh frequency"},
+                                                        {"tooth_load_max", "largest tooth load"},
+                                                        {"separation_max", "largest contact loss"},
+                                                        {"loss_from", "contact lost from"},
+                                                        {"loss_to", "contact lost to"},
+                                                        {"jump_frequency", "highest jump"},
+                                                        {"unsteady", "unsteady speeds"}};
+  for (const char* end : {"_up", "_down"})
+    if (answer.ends_with(end)) {
+      const std::string base = answer.substr(0, answer.size() - std::string(end).size());
+      const auto found = known.find(base);
+      return (found == known.end() ? base : found->second) + ", " + (end + 1);
+    }
+  const auto found = known.find(answer);
+  if (found != known.end()) return found->second;
+  std::string words = answer;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+// Answers whose 0 says that there is none.
+bool absent(const std::string& answer, double value) {
+  return value == 0 && (answer.starts_with("jump_frequency_") || answer.starts_with("loss_"));
+}
+
+// A number for each value of a key: itself, or the place of a word among the words, from 1.
+struct Axis {
+  std::vector<double> at;           // (variant)
+  std::vector<std::string> levels;  // ascending, or in order of the study
+};
+
+Axis axis_of(const StudyArtifact& a, size_t k) {
+  Axis axis;
+  const bool number = a.plan.keys[k].number;
+  for (const GatheredVariant& v : a.variants) {
+    const std::string& value = v.values[k];
+    auto found = std::find(axis.levels.begin(), axis.levels.end(), value);
+    if (found == axis.levels.end()) found = axis.levels.insert(axis.levels.end(), value);
+    axis.at.push_back(number ? std::strtod(value.c_str(), nullptr)
+                             : static_cast<double>(found - axis.levels.begin()) + 1);
+  }
+  if (number)
+    std::sort(axis.levels.begin(), axis.levels.end(), [](const std::string& x, const std::string& y) {
+      return std::strtod(x.c_str(), nullptr) < std::strtod(y.c_str(), nullptr);
+    });
+  return axis;
+}
+
+size_t key_of(const StudyArtifact& a, const std::string& name) {
+  for (size_t k = 0; k < a.plan.keys.size(); ++k)
+    if (a.plan.keys[k].name == name) return k;
+  fail(Failure::input, "the study varies no key '", name, "'");
+}
+
+Index answer_of(const StudyArtifact& a, const std::string& name) {
+  const auto found = std::find(a.plan.answers.begin(), a.plan.answers.end(), name);
+  if (found == a.plan.answers.end()) fail(Failure::input, "the study gathers no answer '", name, "'");
+  return found - a.plan.answers.begin();
+}
+
+AnswerKind kind_of(const StudyArtifact& a, const std::string& name) {
+  for (const AnswerKind& kind : answer_kinds(a.plan.directions))
+    if (kind.name == name) return kind;
+  fail(Failure::input, "there is no answer '", name, "'");
+}
+
+// From dark blue to orange, of equal steps in lightness, readable without colour.
+double colour(double share) {
+  static const int stops[][3] = {
+      {0x0d, 0x2a, 0x63}, {0x00, 0x72, 0xb2}, {0x00, 0x9e, 0x73}, {0xe6, 0x9f, 0x00}, {0xd5, 0x5e, 0x00}};
+  const double at = std::clamp(share, 0.0, 1.0) * 4;
+  const int i = std::min(3, static_cast<int>(at));
+  double rgb = 0;
+  for (int c = 0; c < 3; ++c)
+    rgb = rgb * 256 + std::round(stops[i][c] + (at - i) * (stops[i + 1][c] - stops[i][c]));
+  return rgb;
+}
+
+std::vector<double> ranks(const std::vector<double>& values) {
+  std::vector<size_t> order(values.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  std::sort(order.begin(), order.end(), [&](size_t i, size_t j) { return values[i] < values[j]; });
+  std::vector<double> rank(values.size());
+  for (size_t i = 0; i < order.size();) {
+    size_t end = i;
+    while (end < order.size() && values[order[end]] == values[order[i]]) ++end;
+    for (size_t j = i; j < end; ++j) rank[order[j]] = 0.5 * static_cast<double>(i + end - 1);
+    i = end;
+  }
+  return rank;
+}
+
+// By linear interpolation between the sorted values.
+double percentile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto i = static_cast<size_t>(at);
+  return i + 1 < sorted.size() ? sorted[i] + (at - static_cast<double>(i)) * (sorted[i + 1] - sorted[i])
+                               : sorted[i];
+}
+
+FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
+  FigureBlock table{"variants", {"variant [1]", "refused [1]"}, {}};
+  for (const VariedKey& key : a.plan.keys)
+    table.columns.push_back(key.name +
+                            (key.number ? " [" + key.scene_units + "]" : " [place in the list above]"));
+  std::vector<double> scale;
+  for (const std::string& name : a.plan.answers) {
+    const Shown unit = shown_units(kind_of(a, name).units);
+    table.columns.push_back(name + " [" + (*unit.units ? unit.units : "1") + "]");
+    scale.push_back(unit.scale);
+  }
+  for (size_t v = 0; v < a.variants.size(); ++v) {
+    std::vector<double> row{static_cast<double>(v), a.refusal[v].empty() ? 0.0 : 1.0};
+    for (const Axis& axis : axes) row.push_back(axis.at[v]);
+    for (size_t i = 0; i < scale.size(); ++i)
+      row.push_back(a.answer(static_cast<Index>(v), static_cast<Index>(i)) * scale[i]);
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+}  // namespace
+
+double rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
+  if (x.size() < 2) return 0;
+  const std::vector<double> rx = ranks(x), ry = ranks(y);
+  const double middle = 0.5 * static_cast<double>(x.size() - 1);
+  double xy = 0, xx = 0, yy = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    xy += (rx[i] - middle) * (ry[i] - middle);
+    xx += (rx[i] - middle) * (rx[i] - middle);
+    yy += (ry[i] - middle) * (ry[i] - middle);
+  }
+  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
+}
+
+Figure study_figure(const StudyArtifact& a) {
+  const size_t variants = a.variants.size();
+  const auto refused = static_cast<size_t>(
+      std::count_if(a.refusal.begin(), a.refusal.end(), [](const std::string& why) { return !why.empty(); }));
+  if (refused == variants)
+    fail(Failure::input, "all ", variants,
+         " variants of the study were refused, the first because: ", a.refusal.at(0));
+  std::vector<Axis> axes;
+  for (size_t k = 0; k < a.plan.keys.size(); ++k) axes.push_back(axis_of(a, k));
+
+  Figure figure;
+  figure.title = a.plan.title;
+  figure.notes.push_back(text(
+      variants, " variants of ", a.plan.scene,
+      a.plan.random ? text(", drawn with seed ", a.plan.seed) : ", all combinations",
+      refused > 0 ? text("; ", refused, " were refused (column 'refused' of the table) and are not drawn")
+                  : ""));
+  figure.words.emplace_back("subtitle", without_markup(figure.notes[0]));
+  for (size_t k = 0; k < axes.size(); ++k)
+    if (!a.plan.keys[k].number) {
+      std::string list;
+      for (const std::string& level : axes[k].levels) list += (list.empty() ? "" : ", ") + level;
+      figure.notes.push_back(text("values of ", a.plan.keys[k].name, ", counted from 1: ", list));
+    }
+  // In the table only: reasons may be long.
+  std::map<std::string, size_t> reasons;
+  for (const std::string& why : a.refusal)
+    if (!why.empty()) ++reasons[why];
+  constexpr size_t kMostReasons = 20;
+  size_t listed = 0;
+  for (const auto& [why, count] : reasons)
+    if (listed++ < kMostReasons) figure.notes.push_back(text("refused (", count, "): ", why));
+  if (reasons.size() > kMostReasons)
+    figure.notes.push_back(
+        text("and ", reasons.size() - kMostReasons, " other reasons; study.h5 holds them all"));
+  figure.blocks.push_back(table_of(a, axes));
+
+  const bool coloured = !a.plan.figure_colour.empty();
+  const size_t by = coloured ? key_of(a, a.plan.figure_colour) : 0;
+  std::vector<double> rgb(variants, colour(0.25));
+  if (coloured) {
+    const std::vector<double>& at = axes[by].at;
+    const auto [least, most] = std::minmax_element(at.begin(), at.end());
+    // By place among few levels, by value where there are many.
+    constexpr size_t kFew = 6;
+    const size_t levels = axes[by].levels.size();
+    const auto share = [&](double value, size_t place) {
+      if (levels <= kFew)
+        return levels > 1 ? static_cast<double>(place) / static_cast<double>(levels - 1) : 0.25;
+      return *most > *least ? (value - *least) / (*most - *least) : 0.25;
+    };
+    const auto place_of = [&](const std::string& level) {
+      return static_cast<size_t>(std::find(axes[by].levels.begin(), axes[by].levels.end(), level) -
+                                 axes[by].levels.begin());
+    };
+    for (size_t v = 0; v < variants; ++v) rgb[v] = colour(share(at[v], place_of(a.variants[v].values[by])));
+    const VariedKey& key = a.plan.keys[by];
+    const AxisUnits units = axis_units(key, *most);
+    figure.words.emplace_back("colour_label", with_unit(key.label, units.words));
+    const size_t entries = std::min(levels, kFew);
+    for (size_t e = 0; e < entries; ++e) {
+      const size_t place = entries > 1 ? e * (levels - 1) / (entries - 1) : 0;
+      const std::string& level = axes[by].levels[place];
+      const double value = key.number ? std::strtod(level.c_str(), nullptr) : static_cast<double>(place) + 1;
+      char short_number[32];
+      std::snprintf(short_number, sizeof short_number, "%.5g", value * units.scale);
+      figure.words.emplace_back(text("colour_name", e + 1), key.number ? short_number : level);
+      figure.numbers.emplace_back(text("colour_rgb", e + 1), colour(share(value, place)));
+    }
+    figure.numbers.emplace_back("colours", static_cast<double>(entries));
+  } else {
+    figure.numbers.emplace_back("colours", 0);
+  }
+
+  const size_t rows = a.plan.figure_answers.size(), columns = a.plan.figure_keys.size();
+  for (size_t c = 0; c < columns; ++c) {
+    const size_t k = key_of(a, a.plan.figure_keys[c]);
+    const VariedKey& key = a.plan.keys[k];
+    const AxisUnits units = axis_units(key, *std::max_element(axes[k].at.begin(), axes[k].at.end()));
+    figure.words.emplace_back(text("x", c + 1), with_unit(key.label, units.words));
+    figure.numbers.emplace_back(text("scale", c + 1), units.scale);
+    std::string ticks;
+    if (!key.number)
+      for (size_t l = 0; l < axes[k].levels.size(); ++l)
+        ticks += text(l ? ", " : "", "\"", without_markup(axes[k].levels[l]), "\" ", l + 1);
+    figure.words.emplace_back(text("ticks", c + 1), ticks);
+  }
+  for (size_t r = 0; r < rows; ++r) {
+    const std::string& name = a.plan.figure_answers[r];
+    const Shown unit = shown_units(kind_of(a, name).units);
+    figure.words.emplace_back(text("y", r + 1), with_unit(label_of(name), unit.units));
+    std::vector<double> value(variants);
+    std::vector<size_t> drawn;
+    for (size_t v = 0; v < variants; ++v) {
+      value[v] = a.answer(static_cast<Index>(v), answer_of(a, name)) * unit.scale;
+      if (a.refusal[v].empty() && !absent(name, value[v])) drawn.push_back(v);
+    }
+    for (size_t c = 0; c < columns; ++c) {
+      const size_t k = key_of(a, a.plan.figure_keys[c]);
+      FigureBlock panel{
+          text("panel", r + 1, "_", c + 1), {with_unit(a.plan.keys[k].name, ""), name, "colour [rgb]"}, {}};
+      std::vector<size_t> order = drawn;
+      // Those that agree in all other keys come one after the other.
+      const auto others = [&](size_t v) {
+        std::vector<std::string> rest = a.variants[v].values;
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+        return rest;
+      };
+      if (!a.plan.random)
+        std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) {
+          const auto x = others(i), y = others(j);
+          return x != y ? x < y : axes[k].at[i] < axes[k].at[j];
+        });
+      for (size_t i = 0; i < order.size(); ++i) {
+        if (i > 0 && !a.plan.random && others(order[i]) != others(order[i - 1])) panel.rows.emplace_back();
+        panel.rows.push_back({axes[k].at[order[i]], value[order[i]], rgb[order[i]]});
+      }
+      figure.numbers.emplace_back(text("drawn", r + 1, "_", c + 1), static_cast<double>(order.size()));
+      figure.blocks.push_back(panel);
+      std::vector<double> x, y;
+      for (const size_t v : drawn) {
+        x.push_back(axes[k].at[v]);
+        y.push_back(value[v]);
+      }
+      char correlation[32];
+      std::snprintf(correlation, sizeof correlation, "ρ = %.2f", rank_correlation(x, y));
+      figure.words.emplace_back(text("correlation", r + 1, "_", c + 1),
+                                a.plan.random && a.plan.keys[k].number ? correlation : "");
+    }
+    if (!a.plan.random) continue;
+    std::vector<double> sorted;
+    for (const size_t v : drawn) sorted.push_back(value[v]);
+    std::sort(sorted.begin(), sorted.end());
+    FigureBlock spread{text("spread", r + 1), {"share [%]", name}, {}};
+    for (size_t i = 0; i < sorted.size(); ++i)
+      spread.rows.push_back(
+          {100 * (static_cast<double>(i) + 0.5) / static_cast<double>(sorted.size()), sorted[i]});
+    figure.blocks.push_back(spread);
+    const double shares[] = {0.05, 0.5, 0.95};
+    for (int p = 0; p < 3; ++p)
+      figure.numbers.emplace_back(text("percentile", r + 1, "_", p + 1),
+                                  sorted.empty() ? 0 : percentile(sorted, shares[p]));
+  }
+  figure.numbers.emplace_back("rows", static_cast<double>(rows));
+  figure.numbers.emplace_back("columns", static_cast<double>(columns));
+  figure.numbers.emplace_back("random", a.plan.random ? 1 : 0);
+  figure.height = 320 + 270 * static_cast<int>(rows);
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,92 @@
+# A study: a row of panels for each answer, a column for each key that varies; of a sample the distribution beside them.
+# Variables from gear-plot: tsv, heading, subtitle, height, rows, columns, random, x1.., ticks1.., y1.., drawn1_1.., correlation1_1..,
+# percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1..
+set datafile separator whitespace
+set datafile commentschars "#"
+set multiplot title heading . "\n{/*0.62 " . subtitle . "}"
+set border 3 lw 1.4
+set tics out nomirror font ",13"
+set grid lt 1 lc rgb "#e4e4e4" lw 1
+all = columns + random
+left = 0.09
+width = (0.985 - left) / all
+top = 1 - 110.0 / height
+bottom = (colours > 0 ? 110.0 : 75.0) / height
+tall = (top - bottom) / rows
+set key off
+do for [r = 1:int(rows)] {
+  set tmargin at screen top - (r - 1) * tall - 14.0 / height
+  set bmargin at screen top - r * tall + 72.0 / height
+  do for [c = 1:int(all)] {
+    set lmargin at screen left + (c - 1) * width
+    set rmargin at screen left + c * width - 0.024
+    if (c == 1) { set ylabel value(sprintf("y%d", r)) font ",13" offset 0.5, 0; set format y "%g" } else { unset ylabel; set format y "" }
+    set autoscale
+    set offsets graph 0.03, graph 0.03, graph 0.12, graph 0.06
+    set ytics autofreq
+    unset label
+    if (c <= columns) {
+      set xlabel value(sprintf("x%d", c)) font ",14" offset 0, 0.5
+      ticks = value(sprintf("ticks%d", c))
+      scale = value(sprintf("scale%d", c))
+      set format x "%g"
+      set xtics autofreq
+      set xtics font ",12"
+      if (strlen(ticks) > 0) { eval("set xtics (" . ticks . ")") }
+      set label 1 value(sprintf("correlation%d_%d", r, c)) at graph 0.97, 0.93 right font ",13" front
+      if (value(sprintf("drawn%d_%d", r, c)) > 0) {
+        panel = sprintf("[panel%d_%d]", r, c)
+        if (random > 0) {
+          plot tsv index panel using ($1 * scale):2:3 with points pt 7 ps (rows > 2 ? 0.5 : 0.7) lc rgb variable
+        } else {
+          plot tsv index panel using ($1 * scale):2:3 with linespoints pt 7 ps 0.7 lw 1.6 lc rgb variable
+        }
+      } else {
+        set label 2 "none" at graph 0.5, 0.5 center font ",14"
+        set xrange [0:1]
+        set yrange [0:1]
+        plot NaN
+      }
+    } else {
+      set xlabel "share of the variants (%)" font ",14" offset 0, 0.5
+      set xtics 0, 25, 100
+      set xrange [0:100]
+      set offsets 0, 0, graph 0.12, graph 0.06
+      if (value(sprintf("drawn%d_1", r)) > 0) {
+        array share[3] = [5, 50, 95]
+        do for [p = 1:3] {
+          set label 2 + p sprintf("%d %%: %.4g", share[p], value(sprintf("percentile%d_%d", r, p))) at graph 0.04, 0.93 - 0.11 * (p - 1) left font ",13" front
+        }
+        plot tsv index sprintf("[spread%d]", r) using 1:2 with lines lw 2 lc rgb "#0072b2", \
+          "+" using (share[int($0) + 1]):(value(sprintf("percentile%d_%d", r, int($0) + 1))) every ::0::2 with points pt 7 ps 1 lc rgb "#d55e00"
+      } else {
+        set yrange [0:1]
+        plot NaN
+      }
+    }
+  }
+}
+if (colours > 0) {
+  # The legend below all panels.
+  unset label
+  unset tics
+  unset xlabel
+  unset ylabel
+  unset border
+  unset grid
+  set lmargin at screen 0
+  set rmargin at screen 1
+  set tmargin at screen 1
+  set bmargin at screen 0
+  set offsets 0, 0, 0, 0
+  set xrange [0:1]
+  set yrange [0:1]
+  set label 1 colour_label . ":" at left, 30.0 / height left font ",14"
+  do for [e = 1:int(colours)] {
+    at = left + 0.24 + 0.115 * (e - 1)
+    set label 10 + e "" at at, 30.0 / height point pt 7 ps 1.4 lc rgb int(value(sprintf("colour_rgb%d", e)))
+    set label 20 + e value(sprintf("colour_name%d", e)) at at + 0.012, 30.0 / height left font ",14"
+  }
+  plot NaN
+}
+unset multiplot

@@ -1,0 +1,81 @@
+# Studies: a scene, keys that vary in it, and a table and a figure of what the variants answer.
+#
+#   make study STUDY=damping-torque-relief     data/studies/<name>.toml, or a path to a study of yours
+#   make study-bodies STUDY=...                only the meshes and bodies that its variants share
+#   make study STUDY=... SHARE=3/10            only the third tenth of the variants, no table: for several makes side by side
+#
+# gear-study checks study and scene and writes a slice for each variant, out/studies/<study>/variants/ab/ab12....toml, named after
+# its content: a variant that stays is not made again, whatever else the study says. Beside it gear-variant writes the
+# variant's artifact, .h5; the bodies are those of out/bodies, shared with all scenes and studies. Like fragments of scenes, the
+# fragment of a study is remade in every run: STUDY_S_PAIRS (driver_driven, hashes of bodies), STUDY_S_<pair> (variants),
+# STUDY_S_OPTIONS, BODIES.
+
+study_stem := $(basename $(notdir $(STUDY)))
+study_goals := $(filter study study-bodies,$(goals))
+# Like scenes: a study of one's own does not take the place of one of the project.
+own_study := $(if $(filter %.toml,$(STUDY)),$(STUDY))
+ifneq ($(words $(STUDY)),0)
+  $(if $(filter-out 1,$(words $(STUDY))),$(error STUDY=$(STUDY): make cannot handle blanks in a path; rename the file))
+  $(if $(or $(own_study),$(findstring /,$(STUDY))),$(if $(filter %.toml,$(STUDY)),,$(error STUDY=$(STUDY): a study is a .toml file)))
+  study_of_name := $(if $(own_study),$(wildcard data/studies/$(study_stem).toml))
+  $(if $(study_of_name),$(if $(shell cmp -s '$(STUDY)' $(study_of_name) || echo differs),\
+    $(error STUDY=$(STUDY): out/studies/$(study_stem) is of $(study_of_name), which says otherwise; rename the file)))
+endif
+$(if $(study_goals),$(if $(STUDY),,$(error $(firstword $(study_goals)): which study? make $(firstword $(study_goals)) STUDY=<name>; \
+  there are: $(patsubst data/studies/%.toml,%,$(wildcard data/studies/*.toml)), or a path to one of yours)))
+study_file = $(if $(and $(own_study),$(filter $(study_stem),$1)),$(own_study),data/studies/$1.toml)
+
+studies := $(sort $(if $(study_goals),$(study_stem)) $(foreach g,$(filter out/studies/%,$(goals)),$(word 3,$(subst /, ,$g))))
+$(foreach s,$(studies),$(if $(wildcard $(call study_file,$s)),,$(error STUDY=$s: there is no $(call study_file,$s); \
+  there are: $(patsubst data/studies/%.toml,%,$(wildcard data/studies/*.toml)); for a study elsewhere say STUDY=path/to/<name>.toml)))
+
+study_fragments := $(studies:%=$(B)/studies/%.mk)
+$(foreach f,$(filter-out $(wildcard $(study_fragments)),$(study_fragments)),$(shell mkdir -p $(dir $f) && touch $f))
+$(study_fragments): $(B)/studies/%.mk: $(B)/bin/gear-study FORCE
+	@new=$@.new.$$$$; said=$$($< --study $(call study_file,$*) --output $$new --out out 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
+	if cmp -s $$new $@; then rm $$new; else mv $$new $@; echo "$$said" >&2; fi
+include $(study_fragments)
+
+study_variants = $(foreach p,$(STUDY_$1_PAIRS),$(STUDY_$1_$p:%=out/studies/$1/%.h5))
+study_bodies = $(sort $(foreach p,$(STUDY_$1_PAIRS),$(foreach h,$(subst _, ,$p),out/bodies/$h/body.h5)))
+
+# A launcher that has ended without its program having run ends the recipe; a file that another machine has written may be seen
+# late, so it is waited for, in seconds.
+LAUNCH_WAIT ?= 60
+landed = $(if $(call launch,$1),&& { for second in $$(seq 0 $(LAUNCH_WAIT)); do \
+  fresh=yes; for input in $^; do [ -e $@ ] && [ ! $$input -nt $@ ] || fresh=; done; [ -z "$$fresh" ] || exit 0; sleep 1; done; \
+  echo "$@: the launcher '$(call launch,$1)' has ended$(,) but its result is not there after $(LAUNCH_WAIT) s" >&2; exit 1; })
+
+define study_pair_rules # study, pair, driver, driven
+$(STUDY_$1_$2:%=out/studies/$1/%.h5): %.h5: %.toml $(sort out/bodies/$3/body.h5 out/bodies/$4/body.h5) $(call id,gear-variant) | $(B)/bin/gear-variant
+	$$(call run,variant) --params $$< --driver out/bodies/$3/body.h5 --driven out/bodies/$4/body.h5 --plan out/studies/$1/plan.toml$(STUDY_$1_OPTIONS) \
+	  --output $$@ $$(call landed,variant)
+endef
+
+define study_rules # study
+$(foreach p,$(STUDY_$1_PAIRS),$(eval $(call study_pair_rules,$1,$p,$(word 1,$(subst _, ,$p)),$(word 2,$(subst _, ,$p)))))
+out/studies/$1/study.h5: out/studies/$1/plan.toml $(study_variants) $(call id,gear-study) | $(B)/bin/gear-study
+	$(B)/bin/gear-study --gather $$< --output $$@
+
+out/studies/$1/study.tsv out/studies/$1/study.svg out/studies/$1/study.png &: out/studies/$1/study.h5 pipelines/plots/study.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+	$(B)/bin/gear-plot study --output out/studies/$1/study $$<
+endef
+$(foreach s,$(studies),$(eval $(call study_rules,$s)))
+
+# The variants of a share, i of n equal ones.
+SHARE ?=
+share_of = $(shell bash -c 'IFS=/ read -r i n <<< "$(SHARE)"; [[ "$$i$$n" =~ ^[0-9]+$$ ]] && ((n > 0 && i > 0 && i <= n)) && \
+  echo $$(((i - 1) * $(words $1) / n + 1)) $$((i * $(words $1) / n))')
+shared = $(if $(share_of),,$(error SHARE=$(SHARE): it is i/n, the i-th of n shares, such as 3/10))$(wordlist $(word 1,$(share_of)),$(word 2,$(share_of)),$1)
+
+.PHONY: study study-bodies
+study-bodies: $(if $(filter study-bodies,$(goals)),$(call study_bodies,$(study_stem))) ## meshes and bodies that the variants of STUDY share
+study: $(if $(filter study,$(goals)),$(if $(SHARE),$(call shared,$(call study_variants,$(study_stem))),\
+  $(foreach e,tsv svg png,out/studies/$(study_stem)/study.$e))) ## variants of a scene, a table and a figure of their answers: STUDY=name or path; SHARE=3/10
+
+.PHONY: deps-slurm test-slurm
+deps-slurm: wanted := munge slurmctld slurmd slurm-client
+deps-slurm: | $(with_deps) ## install the packages that only `test-slurm` uses
+	$(install_wanted)
+test-slurm: build $(tools:%=$(B)/id/%) | $(with_deps) $(filter deps-slurm,$(goals)) ## a study on a Slurm cluster of one node, made on the loopback device: the same bytes as here
+	@B=$(B) SLURM=run MAKEFLAGS= MAKELEVEL= bash tests/slurm.sh | tee $(B)/slurm.log; ! grep -q -E '^(FAILED|skipped)' $(B)/slurm.log

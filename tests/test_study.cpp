@@ -1,0 +1,287 @@
+// Studies: what their reader refuses and by which words, what a grid and a sample hold, slices, plans and artifacts. Answers beside
+// those of the stages one by one: tests/study.sh.
+#include "files/study.h"
+
+#include <doctest/doctest.h>
+
+#include <unistd.h>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <set>
+
+#include "base/error.h"
+#include "failure_of.h"
+#include "plot/study_figure.h"
+#include "relative.h"
+
+using namespace whine;
+
+namespace {
+
+const std::string kScene = std::filesystem::absolute("data/scenes/parker2000.toml").string();
+
+// A file that goes with its end.
+struct Written {
+  std::string path;
+  explicit Written(const std::string& content, const std::string& name = "study.toml")
+      : path((std::filesystem::temp_directory_path() / ("whine_" + std::to_string(::getpid()) + "_" + name))
+                 .string()) {
+    std::ofstream(path) << content;
+  }
+  ~Written() { std::filesystem::remove(path); }
+};
+
+Study study_of(const std::string& content) {
+  return read_study(Written("scene = '" + kScene + "'\n" + content).path);
+}
+
+// What read_study, or the first variants, refuse; the scene stands in line 1.
+std::string refusal_of(const std::string& content) {
+  try {
+    const Written file("scene = '" + kScene + "'\n" + content);
+    const Study study = read_study(file.path);
+    for (long i = 0; i < study.variants; ++i) study_variant(study, i, variant_values(study, i));
+  } catch (const Error& error) {
+    const std::string said = error.what();
+    return said.substr(said.find("study.toml") + 10);
+  }
+  return "";
+}
+
+bool refuses(const std::string& content, const std::string& words) {
+  const std::string said = refusal_of(content);
+  INFO(said);
+  const bool found = said.find(words) != std::string::npos && said.find('\n') == std::string::npos;
+  CHECK_MESSAGE(found, "'" << words << "' is not in '" << said << "'");
+  return found;
+}
+
+const std::string kDamping = "[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [4e-6, 5.5e-6]\n";
+
+}  // namespace
+
+TEST_CASE("a study that says nothing sensible is refused by line, value and limit") {
+  refuses("", ": the study varies nothing");
+  refuses(
+      "[[vary]]\nkey = 'damping.rayleigh_stifness_s'\nvalues = [1e-6, 2e-6]\n",
+      ":3: no scene has the key 'damping.rayleigh_stifness_s'; did you mean 'damping.rayleigh_stiffness_s'?");
+  refuses("[[vary]]\nkey = 'gear.pinion.rayleigh_stiffness_s'\nvalues = [1e-6, 2e-6]\n",
+          "did you mean 'damping.rayleigh_stiffness_s'?");
+  refuses("[[vary]]\nkey = 'gear.pinon.bore_radius_mm'\nvalues = [38, 40]\n",
+          "variant 0 (gear.pinon.bore_radius_mm = 38.0)");
+  refuses("[[vary]]\nkey = 'gear.pinon.bore_radius_mm'\nvalues = [38, 40]\n",
+          "has no [gear.pinon]; did you mean 'pinion'?");
+  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = []\n", ":4: 'values' must be a list");
+  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6]\n",
+          ":2: the study varies nothing: every key has one value only");
+  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 1.0e-6]\n", "holds 1e-06 twice");
+  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 'much']\n",
+          ":4: 'values' of damping.rayleigh_stiffness_s holds 'much': must be a number");
+  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 2]\n",
+          ":3: variant 1 (damping.rayleigh_stiffness_s = 2.0): ");
+  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 2]\n", "must be at most 1 s");
+  refuses(kDamping + kDamping, "varies twice, as 'damping.rayleigh_stiffness_s' in line 3");
+  refuses(
+      "[[vary]]\nkey = 'bore_radius_mm'\nvalues = [38, 40]\n[[vary]]\nkey = "
+      "'gear.wheel.bore_radius_mm'\nvalues = [38, 40]\n",
+      "varies twice");
+  refuses("[set]\n'damping.rayleigh_stiffness_s' = 1e-6\n" + kDamping, "varies and is in [set]");
+  refuses("[set]\n'damping.rayleigh' = 1e-6\n" + kDamping,
+          ":3: [set]: no scene has the key 'damping.rayleigh'");
+  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 200\nto = 100\nstep = 10\n",
+          ":5: the range of operation.torque_Nm is empty");
+  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\n", "lacks 'step' or 'count'");
+  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\nstep = -1\n",
+          "must be greater than 0");
+  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\nstep = 10\ncount = 3\n",
+          "'step' and 'count'");
+  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 0\nto = 200\nstep = 100\n",
+          "the torque must be greater than 0");
+  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 1\nto = 2\nstep = 1e-9\n",
+          "more than 200000 values");
+  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 10\n",
+          "drawn at random, which a grid is not");
+  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [1, 2]\nmean = 100\ndeviation = 10\n",
+          "in two ways");
+  refuses("[[vary]]\nkey = 'fidelity.modes'\nvalues = [5, 5.5]\n", "must be a whole number");
+  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalue = [5, 5.5]\n",
+          ":4: unknown key 'value' in [[vary]]; did you mean 'values'?");
+  refuses("stage = 'sweeps'\n" + kDamping, ":2: 'stage' = sweeps: must be one of: static, sweep");
+  refuses("directions = ['up']\n" + kDamping, "say stage = \"sweep\"");
+  refuses("plan = 'sample'\n" + kDamping, "lacks samples");
+  refuses("plan = 'sample'\nsamples = 0\n" + kDamping, "must be a whole number from 1 to 200000");
+  refuses("samples = 5\n" + kDamping, "is of a sample");
+  refuses("answers = ['te_peak_to_peek']\n" + kDamping, "did you mean 'te_peak_to_peak'?");
+  refuses("answers = ['rms_max_up']\n" + kDamping, "there is no answer of this stage 'rms_max_up'");
+  refuses("[figure]\nkeys = ['damping']\n" + kDamping, "there is no varied key");
+  refuses("tilte = 'x'\n" + kDamping, ":2: unknown key 'tilte'; did you mean 'title'?");
+  refuses(
+      "plan = 'sample'\nsamples = 5\n[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 1\nleast "
+      "= 150\n",
+      "leave hardly a draw");
+  refuses("title\n", ":2: is not valid TOML");
+  std::string wide = "[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 1\nto = 1000\nstep = 1\n";
+  wide += "[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nfrom = 1e-6\nto = 1e-5\ncount = 1000\n";
+  wide += "[[vary]]\nkey = 'damping.bearing_ratio'\nfrom = 0.001\nto = 0.1\ncount = 1000\n";
+  refuses(wide, ": the grid has 1000000000 variants; 200000 is the most");
+  CHECK(refusal_of(kDamping) == "");
+}
+
+TEST_CASE("a grid holds all combinations, the last key fastest") {
+  const Study study = study_of(
+      "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 150.0]\n"
+      "[[vary]]\nkey = 'gear.pinion.modification.tip_relief_um'\nfrom = 0\nto = 0.3\nstep = 0.1\n"
+      "[set]\n'gear.pinion.modification.tip_relief_start_deg' = 22\n");
+  REQUIRE(study.variants == 8);
+  std::set<std::vector<std::string>> seen;
+  for (long i = 0; i < study.variants; ++i) seen.insert(variant_values(study, i));
+  CHECK(seen.size() == 8);
+  CHECK(variant_values(study, 0) == std::vector<std::string>{"100.0", "0.0"});
+  CHECK(variant_values(study, 3) == std::vector<std::string>{"100.0", "0.3"});  // not 0.30000000000000004
+  CHECK(variant_values(study, 4) == std::vector<std::string>{"150.0", "0.0"});
+  const StudyVariant third = study_variant(study, 7, variant_values(study, 7));
+  CHECK(third.torque == 150);
+  CHECK(third.scene.operation.torques.front() == 100);  // which sets the dampers
+  // The wheel is like the pinion.
+  for (int g = 0; g < 2; ++g) CHECK(third.scene.mesh.modification[g].tip.amount == relative(0.3e-6, 1e-15));
+}
+
+TEST_CASE("variants are the scene as if their keys were edited in it") {
+  const Study study = study_of(
+      "[set]\n[set.fidelity]\ncontact = 'line'\n[[vary]]\nkey = 'gear.wheel.bore_radius_mm'\nvalues = [35, "
+      "40]\n"
+      "[[vary]]\nkey = 'mesh.corner_contact'\nvalues = [true, 5.0]\n");
+  const Scene base = read_scene(kScene), first = study_variant(study, 1, variant_values(study, 1)).scene,
+              last = study_variant(study, 2, variant_values(study, 2)).scene;
+  CHECK(first.gear("wheel").design.bore_radius == 0.035);
+  CHECK(first.gear("pinion").design.bore_radius == base.gear("pinion").design.bore_radius);
+  CHECK(first.mesh.corner.largest_angle == relative(5 * std::numbers::pi / 180, 1e-15));
+  CHECK(first.fidelity.contact == "line");
+  CHECK(!study.keys[1].number);
+  // A variant with the scene's own values is the scene, slices and all.
+  CHECK(body_slice(last, "wheel") == body_slice(base, "wheel"));
+  CHECK(body_slice(last, "wheel") == body_slice(base, "pinion"));
+}
+
+TEST_CASE(
+    "draws keep within their bounds, are what their seed says, and a longer sample begins with a shorter "
+    "one") {
+  const auto sample = [](int samples, int seed) {
+    return study_of("plan = 'sample'\nsamples = " + std::to_string(samples) +
+                    "\nseed = " + std::to_string(seed) +
+                    "\n[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nmean = 6e-6\ndeviation = 1e-6\n"
+                    "[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 30\nleast = 90\n"
+                    "[[vary]]\nkey = 'damping.bearing_ratio'\nfrom = 0.001\nto = 0.009\n"
+                    "[[vary]]\nkey = 'gear.pinion.error.seed'\nfrom = 1\nto = 4\n"
+                    "[[vary]]\nkey = 'fidelity.contact'\nvalues = ['line', 'strips']\n");
+  };
+  const int n = 4000;
+  const Study study = sample(n, 1), other = sample(50, 2), shorter = sample(50, 1);
+  REQUIRE(study.variants == n);
+  double sum = 0, squares = 0, least_torque = HUGE_VAL, low = HUGE_VAL, high = 0, line = 0;
+  std::set<std::string> seeds;
+  int same = 0;
+  for (long i = 0; i < n; ++i) {
+    const std::vector<std::string> values = variant_values(study, i);
+    const double eta = std::stod(values[0]), ratio = std::stod(values[2]);
+    sum += eta;
+    squares += eta * eta;
+    least_torque = std::min(least_torque, std::stod(values[1]));
+    low = std::min(low, ratio);
+    high = std::max(high, ratio);
+    seeds.insert(values[3]);
+    line += values[4] == "'line'" || values[4] == "\"line\"";
+    if (i >= 50) continue;
+    CHECK(variant_values(shorter, i) == values);
+    same += variant_values(other, i) == values;
+  }
+  const double mean = sum / n, deviation = std::sqrt(squares / n - mean * mean);
+  CHECK(same == 0);
+  CHECK(mean == relative(6e-6, 0.01));  // 4 standard errors
+  CHECK(deviation == relative(1e-6, 0.045));
+  CHECK(least_torque >= 90);
+  CHECK(low >= 0.001);
+  CHECK(low < 0.0011);
+  CHECK(high <= 0.009);
+  CHECK(high > 0.0089);
+  CHECK(seeds == std::set<std::string>{"1", "2", "3", "4"});
+  CHECK(line / n == relative(0.5, 0.065));
+}
+
+TEST_CASE("slices of variants depend on what their stage computes, on nothing else") {
+  const Scene scene = read_scene(kScene);
+  Scene damped = scene;
+  damped.damping.rayleigh_stiffness *= 2;
+  CHECK(variant_slice(scene, 150, {}) == variant_slice(damped, 150, {}));
+  CHECK(variant_slice(scene, 150, {"up"}) != variant_slice(damped, 150, {"up"}));
+  CHECK(variant_slice(scene, 150, {}) != variant_slice(scene, 151, {}));
+  Scene relieved = scene;
+  relieved.mesh.modification[0].tip.amount = 1e-6;
+  CHECK(variant_slice(scene, 150, {}) != variant_slice(relieved, 150, {}));
+  const Written file(variant_slice(relieved, 150, {"up", "down"}), "slice.toml");
+  const VariantSlice slice = read_variant_slice(file.path);
+  CHECK(slice.torque == 150);
+  CHECK(slice.directions == std::vector<std::string>{"up", "down"});
+  CHECK(slice.motion.reference_torque == 100);
+  CHECK(slice.statics.mesh.modification[0].tip.amount == 1e-6);
+  CHECK(slice.motion.damping.rayleigh_stiffness == scene.damping.rayleigh_stiffness);
+  CHECK(slice.motion.frequency_to == 4000);
+}
+
+TEST_CASE("plans come back as they were written") {
+  const Study study = study_of("stage = 'sweep'\ntitle = 'Quotes \"and\" more'\n" + kDamping +
+                               "[[vary]]\nkey = 'mesh.corner_contact'\nvalues = [true, 5.0]\n");
+  std::vector<GatheredVariant> variants;
+  for (long i = 0; i < study.variants; ++i)
+    variants.push_back({"abcd" + std::to_string(i), variant_values(study, i)});
+  const Written file(plan_text(study, variants), "plan.toml");
+  const auto [plan, back] = read_plan(file.path);
+  CHECK(plan_text(plan, back) == plan_text(study, variants));
+  CHECK(plan.keys[0].units == "s");
+  const Written other("title = 'x'\n", "plan.toml");
+  CHECK_THROWS_AS(read_plan(other.path), Error);
+}
+
+TEST_CASE("what is gathered of a study comes back from its artifact") {
+  StudyArtifact a;
+  a.plan = study_of("stage = 'sweep'\n" + kDamping +
+                    "[[vary]]\nkey = 'mesh.corner_contact'\nvalues = [true, 5.0]\n");
+  a.plan.answers = {"rms_max_up", "jumps_up"};
+  a.plan.figure_answers = a.plan.answers;
+  for (const char* eta : {"4e-06", "5.5e-06"})
+    for (const char* corner : {"true", "5.0"})
+      a.variants.push_back({std::string("ab") + eta + corner, {eta, corner}});
+  a.answer = MatrixRM::Random(4, 2);
+  a.answer.row(2).setZero();
+  a.refusal = {"", "", "it jams", ""};
+  const Written file("", "study.h5");
+  write(file.path, a, {"test", "test", {}, {}});
+  const StudyArtifact b = read_study_artifact(file.path);
+  CHECK(b.answer == a.answer);
+  CHECK(b.refusal == a.refusal);
+  REQUIRE(b.variants.size() == 4);
+  for (size_t v = 0; v < 4; ++v) {
+    CHECK(b.variants[v].name == a.variants[v].name);
+    CHECK(b.variants[v].values == a.variants[v].values);
+  }
+  const Figure figure = study_figure(b);
+  REQUIRE(figure.blocks[0].rows.size() == 4);
+  CHECK(figure.blocks[0].rows[2][1] == 1);  // marked
+  size_t drawn = 0;
+  for (const auto& row : figure.blocks[1].rows) drawn += !row.empty();
+  CHECK(drawn == 3);
+  StudyArtifact none = b;
+  none.refusal = {"a", "b", "c", "d"};
+  CHECK_THROWS_AS(study_figure(none), Error);
+}
+
+TEST_CASE("rank correlation: known values, ties, what does not vary") {
+  CHECK(rank_correlation({1, 2, 3, 4}, {1, 8, 27, 64}) == relative(1.0, 1e-15));
+  CHECK(rank_correlation({1, 2, 3, 4}, {9, 7, 3, 1}) == relative(-1.0, 1e-15));
+  CHECK(rank_correlation({1, 2, 3, 4, 5}, {2, 1, 4, 3, 5}) == relative(0.8, 1e-14));  // 1 - 6 x 4 / (5 x 24)
+  CHECK(rank_correlation({1, 2, 2, 3}, {1, 2, 3, 4}) ==
+        relative(0.9486832980505138, 1e-14));  // R: cor(method = "spearman")
+  CHECK(rank_correlation({1, 1, 1}, {1, 2, 3}) == 0);
+}

@@ -1,0 +1,158 @@
+// gear-study: what variants a study has and where they come from; afterwards, what they answered, in one file.
+//
+// Reads      a study (TOML) and the scene that it names; with --gather its plan and the artifact of each variant
+// Writes     <out>/studies/<study>/variants/ab/ab12....toml    a slice for each variant, replaced only if it changes
+//            <out>/studies/<study>/plan.toml                   the variants, their values, what is gathered
+//            <out>/bodies/<hash>/body.toml                     one per distinct gear
+//            --output                                          make fragment: variants by their pair of bodies
+//            --gather: study.h5 instead, a row for each variant
+// Equations  none; variants are scenes as gear-scene --set makes them, draws as files/study.h says
+// Example    gear-study --study data/studies/damping-torque-relief.toml --output build/studies/damping-torque-relief.mk --out out
+//            gear-study --gather out/studies/damping-torque-relief/plan.toml --output out/studies/damping-torque-relief/study.h5
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/provenance.h"
+#include "files/publish.h"
+#include "files/study.h"
+#include "files/variant.h"
+#include "gear/scene_geometry.h"
+
+namespace {
+
+using namespace whine;
+
+constexpr int kShownRefusals = 5;
+
+bool holds(const std::string& path, const std::string& bytes) {
+  std::error_code code;
+  return std::filesystem::is_regular_file(path, code) && read_bytes(path) == bytes;
+}
+
+void plan(const std::string& path, const std::string& output, const std::string& folder) {
+  const std::string stem = std::filesystem::path(path).stem().string();
+  if (!plain_name(stem))
+    fail(Failure::input, path, ": the name '", stem,
+         "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the "
+         "file");
+  const Study study = read_study(path);
+  const std::string home = folder + "/studies/" + stem + "/";
+
+  // The whole study is checked before anything is written.
+  std::map<std::string, std::string> bodies, slices;        // by hash
+  std::map<std::string, std::vector<std::string>> of_pair;  // "driver_driven" -> variants, each once
+  std::vector<GatheredVariant> variants;
+  for (long i = 0; i < study.variants; ++i) {
+    const std::vector<std::string> values = variant_values(study, i);
+    const StudyVariant variant = study_variant(study, i, values);
+    std::string pair;
+    for (const std::string& gear : {variant.scene.mesh.driver, variant.scene.mesh.driven}) {
+      const std::string body = body_slice(variant.scene, gear);
+      pair += (pair.empty() ? "" : "_") + bodies.emplace(body_hash(body), body).first->first;
+    }
+    const std::string slice = variant_slice(variant.scene, variant.torque, study.directions);
+    // One whose slice is there has been checked before.
+    if (!holds(home + variant_file(body_hash(slice)) + ".toml", slice))
+      check_geometry(variant.scene, path + ": " + variant_name(study, i, values));
+    variants.push_back({body_hash(slice), values});
+    if (slices.emplace(variants.back().name, slice).second) of_pair[pair].push_back(variants.back().name);
+  }
+  if (slices.size() == 1 && study.variants > 1)
+    fail(Failure::input, path, ": the study varies nothing: all ", study.variants,
+         " variants are alike, because what its stage computes depends on none of the keys");
+
+  for (const std::string& place : {home, folder + "/bodies"})
+    if (const int moved = bring_to_present(place); moved > 0)
+      tell("gear-study: ", place, ": ", moved,
+           " files had times in the future and have those of now instead");
+  for (const auto& [hash, text] : bodies) publish_if_changed(folder + "/bodies/" + hash + "/body.toml", text);
+  for (const auto& [hash, text] : slices) publish_if_changed(home + variant_file(hash) + ".toml", text);
+  publish_if_changed(home + "plan.toml", plan_text(study, variants));
+
+  const std::string prefix = "STUDY_" + stem + "_";
+  std::ostringstream out;
+  out << "# Written by gear-study from " << recorded_path(path) << "\n" << prefix << "PAIRS :=";
+  for (const auto& [pair, names] : of_pair) out << " " << pair;
+  for (const auto& [pair, names] : of_pair) {
+    out << "\n" << prefix << pair << " :=";
+    for (const std::string& name : names) out << " " << variant_file(name);
+  }
+  out << "\n" << prefix << "OPTIONS :=" << (study.marks_refusals ? " --mark-refusals" : "") << "\nBODIES +=";
+  for (const auto& [hash, text] : bodies) out << " " << hash;
+  out << "\n";
+  publish(output, out.str());
+  tell("gear-study: ", path, ": ", study.variants, " variants, ",
+       slices.size() < variants.size() ? text(slices.size(), " of them different, ") : "", bodies.size(),
+       bodies.size() == 1 ? " body" : " bodies");
+}
+
+void gather(int argc, char** argv, const std::string& path, const std::string& output) {
+  StudyArtifact study;
+  std::tie(study.plan, study.variants) = read_plan(path);
+  const std::string home = std::filesystem::path(path).parent_path().string() + "/";
+  std::vector<std::string> inputs{"plan=" + path};
+  std::set<std::string> listed;
+  for (const GatheredVariant& variant : study.variants)
+    if (listed.insert(variant.name).second)
+      inputs.push_back("variant=" + home + variant_file(variant.name) + ".h5");
+  const Provenance provenance = made_by(argc, argv, inputs);
+
+  const std::vector<AnswerKind> kinds = answer_kinds(study.plan.directions);
+  std::vector<Eigen::Index> column;
+  for (const std::string& answer : study.plan.answers)
+    column.push_back(
+        std::find_if(kinds.begin(), kinds.end(), [&](const AnswerKind& k) { return k.name == answer; }) -
+        kinds.begin());
+  study.answer.setZero(static_cast<Eigen::Index>(study.variants.size()),
+                       static_cast<Eigen::Index>(column.size()));
+  long refused = 0;
+  for (size_t v = 0; v < study.variants.size(); ++v) {
+    const std::string file = home + variant_file(study.variants[v].name) + ".h5";
+    const VariantArtifact variant = read_variant(file);
+    if (variant.directions != study.plan.directions)
+      fail(Failure::input, file, ": is of another stage than the study; ", rebuild_advice(file));
+    study.refusal.push_back(variant.refusal);
+    if (!variant.refusal.empty()) {
+      if (++refused <= kShownRefusals)
+        tell(
+            "gear-study: warning: ", variant_name(study.plan, static_cast<long>(v), study.variants[v].values),
+            " was refused: ", variant.refusal);
+      continue;
+    }
+    for (size_t i = 0; i < column.size(); ++i)
+      study.answer(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(i)) = variant.answer[column[i]];
+  }
+  write(output, study, provenance);
+  tell("gear-study: ", study.plan.title, ": ", study.variants.size(), " variants",
+       refused > 0 ? text(", ", refused, " of them refused and marked so") : "", " -> ", output);
+}
+
+void body(int argc, char** argv) {
+  std::string path, plan_path, output, folder = "out";
+  CLI::App app{"Expands a study into its variants, and gathers what they answer", "gear-study"};
+  auto* study_option = app.add_option("--study", path, "study file (TOML)");
+  auto* gather_option =
+      app.add_option("--gather", plan_path, "plan.toml of a study whose variants are there");
+  app.add_option("--output", output, "make fragment to write; with --gather study.h5")->required();
+  app.add_option("--out", folder, "folder of the artifacts")->capture_default_str();
+  study_option->excludes(gather_option);
+  parse(app, argc, argv);
+  if (path.empty() == plan_path.empty()) fail(Failure::usage, "--study or --gather is needed; see --help");
+  if (!path.empty())
+    plan(path, output, folder);
+  else
+    gather(argc, argv, plan_path, output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}

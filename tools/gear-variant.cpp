@@ -1,0 +1,80 @@
+// gear-variant: one variant of a study, from the bodies to its answers, in one go.
+//
+// Reads   params (slice of the variant: mesh, contact, torque, and of motions damping, inertia, speeds, fidelity, time), body.h5
+//         of both gears
+// Writes  variant.h5    transmission error and stiffness at rest, and of each sweep RMS, loads, contact loss, jumps, as numbers
+// With --mark-refusals a variant that a stage refuses is an artifact, too, which says why.
+// Equations: as gear-static, gear-sweep and gear-spectra, whose numbers these are.
+// Example: gear-variant --params out/studies/relief/variants/3f/3f0c.toml --driver out/bodies/0123/body.h5
+//            --driven out/bodies/0123/body.h5 --output out/studies/relief/variants/3f/3f0c.h5
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/tool.h"
+#include "files/fit.h"
+#include "files/provenance.h"
+#include "files/study.h"
+#include "motion/study_variant.h"
+
+namespace {
+
+// "variant 17 (damping.rayleigh_stiffness_s = 5.5e-06): " of a slice; "" if no plan lists it.
+std::string name_in(const std::string& plan, const std::string& params) {
+  if (plan.empty()) return "";
+  const auto [study, variants] = whine::read_plan(plan);
+  for (size_t i = 0; i < variants.size(); ++i)
+    if (params.ends_with(whine::variant_file(variants[i].name) + ".toml"))
+      return whine::variant_name(study, static_cast<long>(i), variants[i].values) + ": ";
+  return "";
+}
+
+void body(int argc, char** argv) {
+  CLI::App app{"Answers of one variant of a study, at rest and in motion", "gear-variant"};
+  std::string params, driver, driven, output, plan;
+  bool marks = false;
+  app.add_option("--params", params, "slice of the variant, as gear-study writes it")->required();
+  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
+  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
+  app.add_option("--output", output, "artifact to write")->required();
+  app.add_option("--plan", plan, "plan.toml of the study, so that errors name the variant and its values");
+  app.add_flag("--mark-refusals", marks, "write why a stage refuses the variant, instead of failing");
+  whine::parse(app, argc, argv);
+
+  const whine::Provenance provenance =
+      whine::made_by(argc, argv, {"params=" + params, "driver=" + driver, "driven=" + driven});
+  const whine::VariantSlice slice = whine::read_variant_slice(params);
+  const whine::BodyArtifact first = whine::read_body(driver);
+  std::optional<whine::BodyArtifact> other;  // gears that are alike share a body
+  if (driven != driver) other = whine::read_body(driven);
+  const whine::BodyArtifact& second = other ? *other : first;
+  whine::require_body(first, slice.statics.driver_body, "driver", driver);
+  whine::require_body(second, slice.statics.driven_body, "driven", driven);
+  whine::VariantArtifact result = whine::variant_parameters(first, second, slice);
+  try {
+    std::optional<whine::Progress> progress;
+    result.answer =
+        whine::variant_answers(first, second, slice, [&](long done, long total, const std::string& note) {
+          if (!progress) progress.emplace("gear-variant", total);
+          progress->update(done, note);
+        });
+  } catch (const whine::Error& error) {
+    const bool of_physics =
+        error.kind() == whine::Failure::numerical || error.kind() == whine::Failure::input;
+    if (!marks || !of_physics) whine::fail(error.kind(), params, ": ", name_in(plan, params), error.what());
+    result.refusal = error.what();
+  }
+  whine::write(output, result, provenance);
+  if (!result.refusal.empty())
+    whine::tell("gear-variant: warning: refused: ", result.refusal, " -> ", output);
+  else
+    whine::tell("gear-variant: ", result.torque, " N m, ", result.answer.size(), " answers -> ", output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
