@@ -148,6 +148,11 @@ deps: wanted := $(packages)
 deps: ## install the Debian packages that `figures` and `test` need
 	$(install_wanted)
 
+.PHONY: deps-vtk
+deps-vtk: wanted := python3-vtk9
+deps-vtk: | $(with_deps) ## install VTK for the one check in `test` that reads artifacts as ParaView does
+	$(install_wanted)
+
 # --- tests and upkeep -----------------------------------------------------------------------------------------
 
 .PHONY: hard-cases test format check-format

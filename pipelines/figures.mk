@@ -106,11 +106,23 @@ $1.tsv $1.txt &: $2 $3 $4 $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot table1 $(if $3,--published $3) --output $1 $2
 endef
 
+# 2400 Hz is where P2000 shows two branches at 150 N m; of a scene it is its first torque and the speed with the largest RMS.
+animation_frames := $(shell seq -f %03g 48)
+define animation_rule # path without extension, scene, torque, options, what else it depends on
+$1.tsv $1.gif $(animation_frames:%=$1-%.png) &: $(call of_gears,$2,mesh) out/$2/T$3/down/sweep.h5 out/$2/params/title.txt $5 \
+    pipelines/plots/animation.gp $(call id,gear-animate) | $(B)/bin/gear-animate $(with_deps)
+	$$(call run,animate) --driver-mesh out/$2/$(SCENE_$2_DRIVER)/mesh.h5 --driven-mesh out/$2/$(SCENE_$2_DRIVEN)/mesh.h5 \
+	  --sweep out/$2/T$3/down/sweep.h5 $4 --frames $(words $(animation_frames)) --output $1
+endef
+
 # The fragment of a scene says its torques: a report depends on the list, too, not only on what stands at each.
 define figure_rules # scene; needs its fragment
 $(if $(filter $(paper_scene),$1),\
   $(foreach f,$(figures),$(eval $(call figure_rule,$f,out/figures/$f,$(call inputs_of_paper,$f)))) \
   $(eval $(call table_rule,out/figures/table1,$(call inputs_of_paper,table1),$(published_table1))))
+$(if $(filter $(calibrated_scene),$1),\
+  $(eval $(call animation_rule,out/figures/animation/motion,$1,150,--mesh-frequency 2400)))
+$(eval $(call animation_rule,out/$1/report/animation/motion,$1,$(firstword $(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 $(foreach f,$(report_figures) error-budget profile-chart sidebands crack,\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
@@ -118,7 +130,7 @@ endef
 
 figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/figures)
 
-.PHONY: figures $(figures) table1 scorecard
+.PHONY: figures $(figures) table1 scorecard animation
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
@@ -145,3 +157,4 @@ relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relie
 error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m (SCENE: its first torque)
 sidebands: ## teeth that differ: transmission error over the hunting period, shaft orders and sidebands, 150 N m of parker2000-grade5 (SCENE: its first torque)
 crack: ## a cracked tooth: static transmission error with and without it, orders, 150 N m of parker2000-crack (SCENE: its first torque)
+animation: $(figure_folder)/animation/motion.gif ## one mesh period with contact loss, GIF and a PNG of each frame, 150 N m, 2400 Hz, upper branch of parker2000-calibrated (SCENE: first torque, at resonance)

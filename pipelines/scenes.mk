@@ -36,9 +36,10 @@ scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant
 
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
-  $(if $(filter mesh reduce static impact calibrate sweep lumped jump-map sensitivity harris-map out/bodies/%,$(goals)),$(own_scene)) \
+  $(if $(filter mesh reduce static loaded impact calibrate sweep lumped jump-map sensitivity harris-map out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
   $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scenes))) \
+  $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
   $(if $(filter crack out/figures/crack%,$(goals)),$(if $(SCENE),$(own_scene),$(cracked_scene))) \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \

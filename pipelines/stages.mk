@@ -53,6 +53,14 @@ out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)
 	$(B)/bin/gear-spectra --input $$< --output $$@
 endef
 
+# The phase stands in the path, as the torque does: loaded_0.25.h5.
+pair_meshes = $(patsubst %/body.h5,%/mesh.h5,$(pair_bodies))
+define loaded_rules # scene, torque
+out/$1/T$2/loaded_%.h5: out/$1/T$2/static.h5 $(pair_bodies) $(pair_meshes) $(call id,gear-loaded) | $(B)/bin/gear-loaded
+	$$(call run,loaded) --static out/$1/T$2/static.h5 $(pair_options) --driver-mesh out/$1/$(SCENE_$1_DRIVER)/mesh.h5 \
+	  --driven-mesh out/$1/$(SCENE_$1_DRIVEN)/mesh.h5 --mesh-phase $$* --output $$@
+endef
+
 # Options that stand in the makefiles, in files of their own that are replaced if they change: so that other options redo
 # what they made. $(call plan_rule,file,options)
 define plan_rule
@@ -89,7 +97,8 @@ endef
 DAMPING ?= 0.07
 STATE ?= two
 TORQUE ?= $(if $(SCENE),$(SCENE_$(own_scene)_REFERENCE_TORQUE),150)
-calibrated_torque = $(if $(filter calibrate,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
+PHASE ?= 0.25
+calibrated_torque = $(if $(filter calibrate loaded,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
 
 # Torques of a scene that have rules: those that it lists and those in the paths of goals and figures.
 path_torques = $(patsubst T%,%,$(foreach f,$(filter out/$1/T%,$(goals) $(figure_inputs)),$(word 3,$(subst /, ,$f))))
@@ -101,7 +110,7 @@ define scene_rules # scene
 $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
 $(foreach t,$(path_torques) $(calibrated_torque),$(call check_torque,$1,$t))
 $(foreach m,$(lumped_models),$(eval $(call plan_rule,$(call lumped_plan_file,$1,,$m),$(call lumped_plan,$1,,$m))))
-$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))\
+$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))$(eval $(call loaded_rules,$1,$t))\
   $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))\
     $(foreach m,$(lumped_models),$(eval $(call lumped_rules,$1,$t,$m,$d)))))
 $(call figure_rules,$1)
@@ -110,10 +119,11 @@ endef
 $(foreach h,$(sort $(BODIES)),$(eval $(call body_rules,$h)))
 $(foreach s,$(scenes),$(if $(SCENE_$s_GEARS),$(eval $(call scene_rules,$s))))
 
-.PHONY: mesh reduce static impact calibrate sweep lumped
+.PHONY: mesh reduce static loaded impact calibrate sweep lumped
 mesh: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/mesh.h5) ## mesh every gear of SCENE (default: the paper's)
 reduce: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/body.h5) ## modes and flexibility of every gear of SCENE
 static: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/static.h5) ## transmission error and stiffness, all torques of SCENE
+loaded: $(if $(filter loaded,$(goals)),out/$(own_scene)/T$(TORQUE)/loaded_$(PHASE).h5) ## both gears loaded and deformed, with contact pressure and stresses, for ParaView: PHASE=0.25 TORQUE=150
 impact: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/impact.h5) ## natural frequency and damping by ring-down, all torques of SCENE
 calibrate: $(if $(filter calibrate,$(goals)),$(call impact_inputs,$(own_scene),$(TORQUE))) | $(B)/bin/gear-impact ## print the eta that gives a damping ratio: DAMPING=0.07 TORQUE=150 STATE=two
 	@$| $(call impact_options,$(own_scene),$(TORQUE)) --calibrate $(DAMPING) --contact-state $(STATE)

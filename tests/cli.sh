@@ -7,6 +7,7 @@ bin=$PWD/$B/bin
 scene_of_paper=$PWD/data/scenes/parker2000.toml
 plots=$PWD/pipelines/plots
 readme=$PWD/README.md
+tests=$PWD/tests
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -48,9 +49,11 @@ lumped() { echo "$bin/gear-lumped --model $1 --static out/scene/T100/static.h5 -
 stage_map=("$bin/gear-jump-map" --params out/scene/params/map.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
   --contact line --corner-contact false --damping-ratio 0.05,0.1 --from 2700 --to 2900 --step 100 --loads-at 2800 --output out/scene/T100/jump_map_false.h5)
 stage_plot=("$bin/gear-plot" fig12 --plots "$plots" --output fig12 out/scene/T100/static.h5)
+stage_loaded=("$bin/gear-loaded" --static out/scene/T100/static.h5 "${pair[@]}" --driver-mesh out/scene/pinion/mesh.h5
+  --driven-mesh out/scene/wheel/mesh.h5 --mesh-phase 0.25 --output out/scene/T100/loaded_0.25.h5)
 chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
-    $(static scene 100) && "${stage_impact[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_plot[@]}"
+    $(static scene 100) && "${stage_impact[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}"
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
@@ -63,7 +66,7 @@ if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
   wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
 if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
   wrong "no artifact holds a path of the machine" "$found"; fi
-for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5; do
+for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5; do
   if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
@@ -80,11 +83,44 @@ for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100
   if [ -z "$bare" ]; then ok "$claim"; else wrong "$claim" "$bare"; fi
 done
 
+# --- every program's --help ends with examples, and they run, in the order of the flow on a coarse pair of the paper's name
+mkdir -p examples/data/scenes
+ln -s "$(dirname "$plots")" examples/pipelines
+sed "$coarse; s/^torque_Nm = .*/torque_Nm = [100, 150]/; s/from = 2000, to = 2100/from = 2350, to = 2400/" "$scene_of_paper" > examples/data/scenes/parker2000.toml
+flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard"
+examples_of() { "$bin/$1" --help | sed '1,/^Examples\{0,1\}:$/d; s/^ *//; /^$/d'; }
+run_example() { (cd examples && eval "timeout 120 $bin/$1") > said 2>&1 < /dev/null; }
+for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(ls "$bin" | grep '^gear-'); do
+  case " ${tried:-} " in *" $program "*) continue ;; esac
+  tried="${tried:-} $program"
+  claim="the examples in $program --help run"
+  examples_of "$program" > examples/lines
+  [ -s examples/lines ] || wrong "$claim" "there are none; end it with 'Example:' and a command line of the default scene"
+  broken=
+  while read -r line; do run_example "$line" || broken="$line: $(tail -n 1 said)"; done < examples/lines
+  if [ -z "$broken" ]; then [ ! -s examples/lines ] || ok "$claim"; else wrong "$claim" "$broken"; fi
+  # what later examples read besides
+  case $program in
+    gear-static) run_example "$(sed 's/150/100/g' examples/lines)" ;;
+    gear-sweep | gear-spectra) run_example "$(sed 's/\<up\>/down/g' examples/lines)" ;;
+  esac
+done
+
+# --- what ParaView sees
+if /usr/bin/python3 -c 'from vtkmodules.vtkIOHDF import vtkHDFReader' 2> /dev/null && command -v h5dump > /dev/null; then
+  at=examples/out/parker2000
+  load=$(h5dump -d /tooth_load -y -w 0 $at/T150/loaded_0.25.h5 | awk '/DATA/ { on = 1; next } on && /}/ { exit } on { gsub(",", " "); for (i = 1; i <= NF; i++) sum += $i } END { print sum }')
+  /usr/bin/python3 "$tests/vtk_reads.py" $at/pinion/mesh.hdf $at/pinion/body.hdf $at/T150/loaded_0.25.hdf "$load" 0.0254 2> said || wrong "VTK reads the artifacts" "$(tail -n 1 said)"
+else echo "skipped: VTK reads mesh, mode shapes and loaded gears (make deps-vtk installs it)"; fi
+rm -rf examples
+
 # --- the command line
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
   [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
   [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --output x out/scene/T100/static.h5"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
+  [gear-loaded]="${stage_loaded[*]}"
+  [gear-animate]="$bin/gear-animate --driver-mesh out/scene/pinion/mesh.h5 --driven-mesh out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-harris]="gear-harris --static-params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --design-torque 100 --output x")
 for program in "$bin"/gear-*; do
   name=$(basename "$program")
@@ -499,7 +535,7 @@ $(sweep scene up) > /dev/null 2>&1
 if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact and removes what killed runs left"; else
   wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi
 # A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
-for name in gear-mesh gear-reduce gear-static gear-impact gear-sweep gear-lumped gear-spectra gear-plot; do
+for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-lumped gear-spectra gear-plot; do
   before=$(contents)
   (ulimit -f 8; trap '' XFSZ; exec ${whole[$name]}) > /dev/null 2> said
   status=$?

@@ -5,9 +5,6 @@
 // Writes  harris_map.h5   the map at rest, the optimum for the design torque, its curve over torque (the Harris cusp), and
 //                         what a finer solution of some points differs by; with --dynamic the RMS at the worst speed
 // Equations: as gear-static; with --dynamic as gear-sweep
-// Example: gear-harris --static-params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
-//            --driven out/parker2000/wheel/body.h5 --torque 5:300:60 --relief-um 0:20:40 --design-torque 150
-//            --output out/parker2000/harris_map.h5
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <ctime>
@@ -91,6 +88,11 @@ void body(int argc, char** argv) {
   app.add_option("--reference-static", reference, "with --dynamic: static.h5 that sets the bearing dampers")
       ->needs(dynamic_option);
   app.add_option("--output", output, "harris_map.h5 to write")->required();
+  app.footer(
+      "Example:\n"
+      "  gear-harris --static-params out/parker2000/params/static.toml --driver "
+      "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 5:300:60 "
+      "--relief-um 0:20:40 --design-torque 150 --output out/parker2000/harris_map.h5");
   whine::parse(app, argc, argv);
 
   if (dynamic && (params.empty() || reference.empty()))

@@ -5,9 +5,6 @@
 // Writes  impact.h5   frequency, damping ratio and decay per contact state; both, with the eigenvalues, per mesh phase
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Eq. 13-20 at every step, Eq. 21; Table 1 of P2000.
 // With --calibrate: the eta of Eq. 21 that gives a damping ratio in one contact state, on standard output; no file.
-// Example: gear-impact --params out/parker2000/params/impact.toml --driver out/parker2000/pinion/body.h5
-//            --driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5
-//            --reference-static out/parker2000/T100/static.h5 --output out/parker2000/T150/impact.h5
 #include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
@@ -62,6 +59,12 @@ void body(int argc, char** argv) {
       ->needs(calibrate)
       ->capture_default_str();
   write->excludes(calibrate);
+  app.footer(
+      "Example:\n"
+      "  gear-impact --params out/parker2000/params/impact.toml --driver "
+      "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --static "
+      "out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output "
+      "out/parker2000/T150/impact.h5");
   whine::parse(app, argc, argv);
   if (output.empty() && ratio_word.empty())
     whine::fail(whine::Failure::usage, "--output or --calibrate is needed; see --help");

@@ -7,7 +7,6 @@
 //            With --check: a line on standard error for each fault, nothing if all is well. Exit status 3 if an
 //            artifact is damaged, of another version, not finite, or made from other files than those beside it
 // Equations  none
-// Example    gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -127,6 +126,9 @@ int body(int argc, char** argv) {
   app.add_option(
       "--scene", scene,
       "compare slices with this scene; default: the one that out/<scene>/ was made of, if it is there");
+  app.footer(
+      "Example:\n"
+      "  gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5");
   parse(app, argc, argv);
   if (checked) {
     if (paths.empty()) paths = {"out"};

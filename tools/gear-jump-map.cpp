@@ -5,9 +5,6 @@
 // Writes  jump_map.h5    per damping: ends of the branches, speeds that lose contact, tooth loads, jumps; the responses
 // Equations: as gear-static and gear-sweep; damping ratios are those of the slowest eigenvalue with two pairs in contact
 // and the contact frozen under the static load (Eq. 21 for eta).
-// Example: gear-jump-map --params out/parker2000/params/map.toml --static-params out/parker2000/params/static.toml
-//            --driver out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 150
-//            --corner-contact false --damping-ratio 0.05,0.07 --loads-at 2400 --output out/parker2000/T150/jump_map_false.h5
 #include <CLI/CLI.hpp>
 #include <limits>
 #include <numbers>
@@ -72,6 +69,12 @@ void body(int argc, char** argv) {
   app.add_option("--step", step, "step of the speeds in Hz")->capture_default_str();
   app.add_option("--loads-at", at, "speed in Hz whose tooth loads are stored apart; speeds fall on it");
   app.add_option("--output", output, "jump_map.h5 to write")->required();
+  app.footer(
+      "Example:\n"
+      "  gear-jump-map --params out/parker2000/params/map.toml --static-params "
+      "out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5 --driven "
+      "out/parker2000/wheel/body.h5 --torque 150 --corner-contact false --damping-ratio 0.05,0.07 "
+      "--loads-at 2400 --output out/parker2000/T150/jump_map_false.h5");
   whine::parse(app, argc, argv);
 
   plan.damping_ratio = numbers("--damping-ratio", ratios);

@@ -8,9 +8,6 @@
 // Equation: m x'' + c x' + F(t) = T / r, F(t) = k(t) x for x >= 0 and 0 for x < 0 (Eq. 23), integrated exactly from event to
 //         event (or by Newmark's method, Eq. 8); k(t) constant in cells of the mesh period;
 //         pairs: the sum of unilateral springs, with --hertz each a polygon of 16 chords of Hertz's law
-// Example: gear-lumped --model rectangular --static out/parker2000/T150/static.h5
-//            --reference-static out/parker2000/T100/static.h5 --params out/parker2000/params/lumped.toml --direction up
-//            --output out/parker2000/T150/rectangular/up/sweep.h5
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
@@ -96,6 +93,11 @@ void body(int argc, char** argv) {
                "out/<scene>/params/lumped_map.toml, each of --from, --to and --step has a default");
   app.add_option("--loads-at", at, "with --map: speed in Hz whose loads are stored apart; speeds fall on it");
   app.add_option("--output", output, "sweep.h5 to write, with --map jump_map.h5")->required();
+  app.footer(
+      "Example:\n"
+      "  gear-lumped --model rectangular --static out/parker2000/T150/static.h5 --reference-static "
+      "out/parker2000/T100/static.h5 --params out/parker2000/params/lumped.toml --direction up "
+      "--output out/parker2000/T150/rectangular/up/sweep.h5");
   whine::parse(app, argc, argv);
 
   const auto usage = [](const auto&... words) { whine::fail(whine::Failure::usage, words...); };

@@ -4,7 +4,6 @@
 // Writes     mesh.h5    nodes, elements, regions and node sets of the sector; the whole gear for ParaView
 //                       under /VTKHDF; the sector of the cracked tooth beside it if the gear has one
 // Equations  involute of the base circle, root cut by a rounded rack; the tooth is mirror symmetric
-// Example    gear-mesh --params out/parker2000/pinion/body.toml --output out/parker2000/pinion/mesh.h5
 #include <CLI/CLI.hpp>
 
 #include "base/error.h"
@@ -22,6 +21,9 @@ void body(int argc, char** argv) {
   std::string params, output;
   app.add_option("--params", params, "slice of the scene: out/bodies/<hash>/body.toml")->required();
   app.add_option("--output", output, "mesh.h5 to write")->required();
+  app.footer(
+      "Example:\n"
+      "  gear-mesh --params out/parker2000/pinion/body.toml --output out/parker2000/pinion/mesh.h5");
   whine::parse(app, argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params});

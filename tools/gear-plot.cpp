@@ -5,8 +5,6 @@
 // Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all; for table1 <output>.tsv and, to read,
 //            <output>.txt
 // Equations  k = (T / r_b) / STE
-// Example    gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5
-//                      out/parker2000/T150/down/response.h5
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -218,7 +216,10 @@ std::string footer() {
   std::string lines = "Figures, and the artifacts that they are drawn from:\n";
   for (const auto& [name, drawing] : drawings())
     lines += "  " + name + ": " + drawing.shows + ". From " + drawing.inputs + "\n";
-  return lines + "  " + kTable + ": natural frequencies, as a table. From impact.h5, one per torque\n";
+  return lines + "  " + kTable + ": natural frequencies, as a table. From impact.h5, one per torque\n" +
+         "Example:\n"
+         "  gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5 "
+         "out/parker2000/T150/down/response.h5";
 }
 
 // Scenes that all of a figure shows: not those that stand at their panels, nor variants of the first.

@@ -10,9 +10,6 @@
 //            --variant: a scene with the changes of --set, and nothing else
 //            --keys: prints the table of scene keys
 // Equations  none; units to SI as the key table says
-// Example    gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out
-//            gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant out/parker2000/variants/bore35.toml
-//            gear-scene --keys
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -69,6 +66,12 @@ void body(int argc, char** argv) {
   output_option->needs(scene_option)->excludes(variant_option);
   variant_option->needs(scene_option)->needs(set_option);
   set_option->needs(variant_option);
+  app.footer(
+      "Examples:\n"
+      "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
+      "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant "
+      "out/parker2000/variants/bore35.toml\n"
+      "  gear-scene --keys");
   parse(app, argc, argv);
   if (keys) {
     std::cout << scene_key_table();

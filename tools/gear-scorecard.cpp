@@ -3,7 +3,6 @@
 // Reads      the artifacts that `gear-scorecard --files` lists, of each scene
 // Writes     <output>.tsv, <output>.md, <output>.txt: every claim with its value in each scene, its deviation and its verdict,
 //            for programs, for the README and for a terminal
-// Example    gear-scorecard --output out/figures/scorecard out/parker2000/T100/static.h5 ...
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -25,6 +24,9 @@ void body(int argc, char** argv) {
   app.add_flag("--files", files, "print which artifacts of a scene are read");
   app.add_flag("--claims", claims,
                "print the claims as rows of a table: id, place, text, printed value, what decides");
+  app.footer(
+      "Example:\n"
+      "  gear-scorecard --claims");
   whine::parse(app, argc, argv);
 
   if (files)

@@ -6,8 +6,6 @@
 // With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
 // for information those by the other near field and the other contact.
 // With --next-rung: beside static.h5, in words, what contact = "strips" would change in the answer of contact = "line".
-// Example: gear-static --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
-//            --driven out/parker2000/wheel/body.h5 --torque 150 --output out/parker2000/T150/static.h5
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
@@ -56,6 +54,11 @@ void body(int argc, char** argv) {
                                  "refine one discretisation at a time and write error_budget.h5 instead");
   app.add_flag("--next-rung", next_rung, "for contact = \"line\": say what \"strips\" would change")
       ->excludes(of_budget);
+  app.footer(
+      "Example:\n"
+      "  gear-static --params out/parker2000/params/static.toml --driver "
+      "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 150 --output "
+      "out/parker2000/T150/static.h5");
   whine::parse(app, argc, argv);
 
   const double torque = whine::number_option("--torque", torque_word);

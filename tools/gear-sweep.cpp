@@ -5,9 +5,6 @@
 // Writes  sweep.h5    transmission error and tooth loads over one orbit at every speed, energy, certificate, jumps
 // With --next-rung: beside sweep.h5, in words, what the same sweep answers on the next rung of contact and on that of body.
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
-// Example: gear-sweep --params out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5
-//            --driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5
-//            --reference-static out/parker2000/T100/static.h5 --direction up --output out/parker2000/T150/up/sweep.h5
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iomanip>
@@ -112,6 +109,12 @@ void body(int argc, char** argv) {
   app.add_option("--output", output, "sweep.h5 to write")->required();
   app.add_flag("--next-rung", next_rung,
                "sweep on the next rung of contact and on that of body as well, and say what they change");
+  app.footer(
+      "Example:\n"
+      "  gear-sweep --params out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5 "
+      "--driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
+      "--reference-static out/parker2000/T100/static.h5 --direction up --output "
+      "out/parker2000/T150/up/sweep.h5");
   whine::parse(app, argc, argv);
 
   const whine::Provenance provenance =

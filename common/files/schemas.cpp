@@ -18,7 +18,7 @@ namespace {
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
 constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 4, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1,
-              kHarrisMapVersion = 1, kVariantVersion = 1, kStudyVersion = 1;
+              kHarrisMapVersion = 1, kVariantVersion = 1, kStudyVersion = 1, kLoadedVersion = 1;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -355,7 +355,7 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
           {"1", "relative asymmetry of the tables before symmetrisation", "", ""});
   out.put("/compliance/least_eigenvalue", a.least_eigenvalue,
           {"m N-1", "least eigenvalue of the compliance of all offsets less the stored modes", "", ""});
-  if (a.vtk_point.rows() > 0) put_vtk(out.file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}});
+  if (a.vtk_point.rows() > 0) put_vtk(out.file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}});
   out.publish();
   link_for_paraview(path);
 }
@@ -556,6 +556,100 @@ StaticArtifact read_static(const std::string& path) {
   a.least_force = in.number("/certificate/least_force");
   a.torque_residual = in.number("/certificate/torque_residual");
   a.backlash_margin = take_backlash(in);
+  return a;
+}
+
+void write(const std::string& path, const LoadedArtifact& a, const Provenance& provenance) {
+  const Eigen::Index pairs = a.pair.size(), strips = a.strip_pair.size();
+  want_rows("tooth_load", a.tooth_load.size(), pairs);
+  want_rows("tooth", a.tooth.rows(), pairs);
+  want_rows("root_stress", a.root_stress.rows(), pairs);
+  want_rows("strip/roll_angle", a.strip_roll.rows(), strips);
+  want_rows("strip/deflection", a.strip_deflection.rows(), strips);
+  for (const auto& [name, values] : {std::pair{"strip/width", &a.strip_width},
+                                     std::pair{"strip/force", &a.strip_force},
+                                     std::pair{"strip/pressure", &a.strip_pressure},
+                                     std::pair{"strip/separation", &a.strip_separation}})
+    want_rows(name, values->size(), strips);
+  ArtifactWriter out(path, "loaded", kLoadedVersion, "Loaded gears: " + pair_title(a.mesh, a.torque),
+                     provenance);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.contact = a.contact;
+  put_pair(out, a);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("discretisation", values, Part::contact);
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/parameters/operation/mesh_phase", a.mesh_phase,
+          {"1", "mesh phase; 0: reference pair at the pitch point, 1: one mesh period", "", ""});
+  out.put("/transmission_error", a.transmission_error,
+          {"m", "transmission error along the line of action, positive when the driver is ahead", "",
+           "r1 theta1 + r2 theta2"});
+  out.put("/pair", a.pair,
+          {"1", "number of the tooth pairs that carry load: -1 following, 0 reference, +1 preceding", "pair",
+           ""});
+  out.put("/tooth_load", a.tooth_load, {"N", "normal force of each tooth pair", "pair", ""});
+  out.put("/tooth", a.tooth, {"1", "teeth of the pairs, counter-clockwise from tooth 0", "pair gear", ""});
+  out.put("/root_stress", a.root_stress,
+          {"Pa", "largest principal stress at the nodes of the fillet below the loaded flank", "pair gear",
+           ""});
+  const std::string at = "/strip/";
+  out.put(at + "pair", a.strip_pair, {"1", "number of the tooth pair of each strip", "strip", ""});
+  out.put(at + "roll_angle", a.strip_roll,
+          {"rad", "roll angles of the strip's middle on both gears", "strip gear", ""});
+  out.put(at + "width", a.strip_width, {"m", "width of the strips along the flank", "strip", ""});
+  out.put(at + "force", a.strip_force, {"N", "normal force of the strips", "strip", "p of Eq. 18"});
+  out.put(at + "pressure", a.strip_pressure, {"Pa", "force over width and face width", "strip", ""});
+  out.put(at + "separation", a.strip_separation,
+          {"m", "gap of the loaded flanks, by the flank tables", "strip", "d of Eq. 18"});
+  out.put(at + "deflection", a.strip_deflection,
+          {"m", "how far the flank of each gear gives way, mean over the strip, by the whole field",
+           "strip gear", ""});
+  const auto of_gears = [&](const std::string& name, const Eigen::Vector2d& of, const std::string& units,
+                            const std::string& meaning) {
+    out.put("/certificate/" + name, Eigen::VectorXd(of), {units, meaning, "gear", ""});
+  };
+  of_gears("hub_torque", a.hub_torque, "N m", "moment that holds the hub, by the elements about the bore");
+  of_gears("contact_torque", a.contact_torque, "N m",
+           "moment of the strips' forces along the normals of the gear's own flanks");
+  of_gears("strain_energy", a.strain_energy, "J", "strain energy, by quadrature of the stresses");
+  of_gears("contact_work", a.contact_work, "J", "half of the sum of forces times deflections");
+  if (a.vtk_point.rows() > 0)
+    put_vtk(out.file(),
+            {a.vtk_point, a.vtk_cell, {}, {}, a.vtk_line, a.vtk_point_data, a.vtk_cell_data});
+  out.publish();
+  link_for_paraview(path);
+}
+
+LoadedArtifact read_loaded(const std::string& path) {
+  const ArtifactReader in(path, "loaded", kLoadedVersion);
+  LoadedArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("discretisation", values, Part::contact);
+  take_pair(in, a);
+  a.mesh = values.mesh;
+  a.contact = values.contact;
+  a.torque = in.number("/parameters/operation/torque");
+  a.mesh_phase = in.number("/parameters/operation/mesh_phase");
+  a.transmission_error = in.number("/transmission_error");
+  a.pair = in.whole_vector("/pair");
+  const Eigen::Index pairs = a.pair.size();
+  a.tooth_load = in.vector("/tooth_load", pairs);
+  a.tooth = in.whole_matrix("/tooth", pairs, 2);
+  a.root_stress = in.matrix("/root_stress", pairs, 2);
+  a.strip_pair = in.whole_vector("/strip/pair");
+  const Eigen::Index strips = a.strip_pair.size();
+  a.strip_roll = in.matrix("/strip/roll_angle", strips, 2);
+  a.strip_width = in.vector("/strip/width", strips);
+  a.strip_force = in.vector("/strip/force", strips);
+  a.strip_pressure = in.vector("/strip/pressure", strips);
+  a.strip_separation = in.vector("/strip/separation", strips);
+  a.strip_deflection = in.matrix("/strip/deflection", strips, 2);
+  a.hub_torque = in.vector("/certificate/hub_torque", 2);
+  a.contact_torque = in.vector("/certificate/contact_torque", 2);
+  a.strain_energy = in.vector("/certificate/strain_energy", 2);
+  a.contact_work = in.vector("/certificate/contact_work", 2);
   return a;
 }
 

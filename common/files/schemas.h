@@ -136,6 +136,41 @@ struct ErrorBudgetArtifact {
   std::string choice_missing;  // which of them could not be computed, and why; "" if all were
 };
 
+// loaded_<phase>.h5: both gears at rest in one mesh position, loaded and deformed, with the pressure of their contact. Gears
+// stand in their places: the driver's centre at the origin, the driven gear's above it. Strips are numbered pair after pair;
+// teeth count counter-clockwise on both gears.
+struct LoadedArtifact {
+  GearDesign driver, driven;
+  Material driver_material, driven_material;
+  BodyDiscretisation driver_body, driven_body;
+  GearMeshSpec mesh;
+  ContactDiscretisation contact;
+  double torque = 0;              // N m on the driver
+  double mesh_phase = 0;          // 1, whole part: the mesh period, for teeth that differ
+  double transmission_error = 0;  // m
+  Eigen::VectorXi pair;           // (pair) those that carry load
+  Eigen::VectorXd tooth_load;     // (pair) N
+  MatrixRMi tooth;                // (pair, gear)
+  MatrixRM root_stress;           // (pair, gear) Pa: largest principal stress at the nodes of the fillet below the loaded flank
+  Eigen::VectorXi strip_pair;     // (strip)
+  MatrixRM strip_roll;            // (strip, gear) rad, of the strip's middle
+  Eigen::VectorXd strip_width, strip_force, strip_pressure, strip_separation;  // (strip) m, N, Pa, m
+  MatrixRM strip_deflection;  // (strip, gear) m: inward, mean over the strip, by the whole field
+  // (gear) N m: what holds the hub, by the elements about the bore, and the moment of the forces along the flanks' normals
+  Eigen::Vector2d hub_torque = Eigen::Vector2d::Zero(), contact_torque = Eigen::Vector2d::Zero();
+  // (gear) J: by quadrature of the stresses, and half of what forces times deflections are
+  Eigen::Vector2d strain_energy = Eigen::Vector2d::Zero(), contact_work = Eigen::Vector2d::Zero();
+  // for looking; written, never read. Cells: elements of the driver, of the driven gear, then two-node lines, the strips of
+  // the driver's flanks and those of the driven gear's.
+  MatrixRM vtk_point;              // (point, 2) m
+  MatrixRMi vtk_cell, vtk_line;    // (cell, 4 or 9), (line, 2)
+  struct Field {
+    std::string name, units;
+    MatrixRM values;  // (point, or cell and line; 1, 2 or 3)
+  };
+  std::vector<Field> vtk_point_data, vtk_cell_data;
+};
+
 // impact.h5: free decay of the transmission error about the static equilibrium, gears held at a mesh phase. A
 // natural frequency is Im s / 2 pi, that of the decaying oscillation, and a damping ratio -Re s / |s| of the lowest
 // oscillating root s.
@@ -356,6 +391,7 @@ void write(const std::string& path, const MeshArtifact&, const Provenance&);
 void write(const std::string& path, const BodyArtifact&, const Provenance&);
 void write(const std::string& path, const StaticArtifact&, const Provenance&);
 void write(const std::string& path, const ErrorBudgetArtifact&, const Provenance&);
+void write(const std::string& path, const LoadedArtifact&, const Provenance&);
 void write(const std::string& path, const ImpactArtifact&, const Provenance&);
 void write(const std::string& path, const SweepArtifact&, const Provenance&);
 void write(const std::string& path, const ResponseArtifact&, const Provenance&);
@@ -365,6 +401,7 @@ MeshArtifact read_mesh(const std::string& path);
 BodyArtifact read_body(const std::string& path);
 StaticArtifact read_static(const std::string& path);
 ErrorBudgetArtifact read_error_budget(const std::string& path);
+LoadedArtifact read_loaded(const std::string& path);
 ImpactArtifact read_impact(const std::string& path);
 SweepArtifact read_sweep(const std::string& path);
 ResponseArtifact read_response(const std::string& path);

@@ -132,6 +132,24 @@ void show(Lines& lines, const StaticArtifact& a) {
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " um");
 }
 
+void show(Lines& lines, const LoadedArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", mesh phase ", a.mesh_phase);
+  show_modification(lines, a.mesh);
+  show_discretisation(lines, a.driver_body, a.driven_body);
+  add(lines, "transmission error", a.transmission_error * 1e6, " um");
+  for (Eigen::Index i = 0; i < a.pair.size(); ++i)
+    add(lines, text("pair ", a.pair[i]), a.tooth_load[i], " N on tooth ", a.tooth(i, 0), " of the driver, ",
+        a.tooth(i, 1), " of the driven gear; largest root stress ", a.root_stress(i, 0) * 1e-6, ", ",
+        a.root_stress(i, 1) * 1e-6, " MPa");
+  if (a.strip_pressure.size() > 0)
+    add(lines, "contact", (a.strip_force.array() > 0).count(), " strips with force, largest pressure ",
+        a.strip_pressure.maxCoeff() * 1e-6, " MPa");
+  for (int g = 0; g < 2; ++g)
+    add(lines, g == 0 ? "certificate, driver" : "certificate, driven gear", "hub holds ", a.hub_torque[g],
+        " N m of ", a.contact_torque[g], ", strain energy over work ",
+        a.strain_energy[g] / a.contact_work[g]);
+}
+
 void show(Lines& lines, const ErrorBudgetArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", contact ", a.fidelity.contact);
   const auto rows = [&](const StaticChanges& changes, const std::string& before) {
@@ -338,6 +356,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_body(path));
   } else if (schema == "whine/static") {
     show(lines, read_static(path));
+  } else if (schema == "whine/loaded") {
+    show(lines, read_loaded(path));
   } else if (schema == "whine/error_budget") {
     show(lines, read_error_budget(path));
   } else if (schema == "whine/impact") {

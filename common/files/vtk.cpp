@@ -1,5 +1,6 @@
 #include "files/vtk.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +12,7 @@
 namespace whine {
 namespace {
 
-constexpr std::uint8_t kQuad = 9, kBiquadraticQuad = 28;  // VTK cell types
+constexpr std::uint8_t kLine = 3, kQuad = 9, kBiquadraticQuad = 28;  // VTK cell types
 
 }  // namespace
 
@@ -110,7 +111,8 @@ VtkGrid whole_gear(const MeshArtifact& sector) {
 void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   const std::string group = "/VTKHDF/";
   const auto points = static_cast<std::size_t>(grid.point.rows());
-  const auto cells = static_cast<std::size_t>(grid.cell.rows());
+  const auto lines = static_cast<std::size_t>(grid.line.rows());
+  const auto cells = static_cast<std::size_t>(grid.cell.rows()) + lines;
   const auto corners = static_cast<std::size_t>(grid.cell.cols());
   if (corners != 4 && corners != 9) {
     fail(Failure::numerical, "cells of ", corners, " nodes cannot be shown; 4 or 9 are known");
@@ -125,7 +127,7 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   };
   count("NumberOfPoints", points, "number of points");
   count("NumberOfCells", cells, "number of cells");
-  count("NumberOfConnectivityIds", cells * corners, "length of Connectivity");
+  count("NumberOfConnectivityIds", (cells - lines) * corners + 2 * lines, "length of Connectivity");
 
   const auto in_space = [&](const MatrixRM& plane, auto zero) {
     std::vector<decltype(zero)> out(points * 3, zero);
@@ -141,23 +143,26 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
            {"m", "position of the points", "point xyz", ""});
 
   std::vector<std::int64_t> connectivity, offsets;
-  for (Eigen::Index e = 0; e < grid.cell.rows(); ++e) {
-    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-    for (Eigen::Index k = 0; k < grid.cell.cols(); ++k) {
-      const int node = grid.cell(e, k);
-      if (node < 0 || node >= grid.point.rows()) {
-        fail(Failure::numerical, "cell ", e, " names point ", node, " of ", points);
+  for (const MatrixRMi* kind : {&grid.cell, &grid.line}) {
+    for (Eigen::Index e = 0; e < kind->rows(); ++e) {
+      offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+      for (Eigen::Index k = 0; k < kind->cols(); ++k) {
+        const int node = (*kind)(e, k);
+        if (node < 0 || node >= grid.point.rows()) {
+          fail(Failure::numerical, "cell ", e, " names point ", node, " of ", points);
+        }
+        connectivity.push_back(node);
       }
-      connectivity.push_back(node);
     }
   }
   offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-  const std::vector<std::uint8_t> types(cells, corners == 4 ? kQuad : kBiquadraticQuad);
+  std::vector<std::uint8_t> types(cells, corners == 4 ? kQuad : kBiquadraticQuad);
+  std::fill(types.end() - static_cast<std::ptrdiff_t>(lines), types.end(), kLine);
   file.put(group + "Connectivity", connectivity.data(), {connectivity.size()},
            {"1", "points of each cell", "connectivity", ""});
   file.put(group + "Offsets", offsets.data(), {offsets.size()},
            {"1", "where each cell begins in Connectivity", "cell", ""});
-  file.put(group + "Types", types.data(), {types.size()}, {"1", "VTK cell type: 9 or 28", "cell", ""});
+  file.put(group + "Types", types.data(), {types.size()}, {"1", "VTK cell type: 3, 9 or 28", "cell", ""});
 
   for (const auto& [name, values] : grid.vectors) {
     if (values.rows() != grid.point.rows() || values.cols() != 2) {
@@ -170,6 +175,28 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   for (const auto& [name, values] : grid.cell_numbers) {
     file.put(group + "CellData/" + name, values.data(), {cells}, {"1", name + " of the cell", "cell", ""});
   }
+  const auto put_fields = [&](const std::vector<LoadedArtifact::Field>& fields, const std::string& of,
+                              const std::string& axis, std::size_t rows) {
+    for (const auto& [name, units, values] : fields) {
+      const auto columns = static_cast<std::size_t>(values.cols());
+      if (values.rows() != static_cast<Eigen::Index>(rows) || columns < 1 || columns > 3) {
+        fail(Failure::numerical, of, " '", name, "' is ", values.rows(), " x ", values.cols(), ", expected ",
+             rows, " x 1, 2 or 3");
+      }
+      const std::size_t width = columns == 2 ? 3 : columns;
+      std::vector<float> data(rows * width, 0.0F);
+      for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t k = 0; k < columns; ++k)
+          data[i * width + k] =
+              static_cast<float>(values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+      const h5::Shape shape = width == 1 ? h5::Shape{rows} : h5::Shape{rows, width};
+      file.put(
+          group + of + "/" + name, data.data(), shape,
+          {units, name + ", for looking: single precision", axis + (width == 1 ? "" : " component"), ""});
+    }
+  };
+  put_fields(grid.point_data, "PointData", "point", points);
+  put_fields(grid.cell_data, "CellData", "cell", cells);
 }
 
 void link_for_paraview(const std::string& path) {

@@ -16,6 +16,10 @@ struct VtkGrid {
   MatrixRMi cell;                                         // (cell, 4 or 9): corners, mid-sides, centre
   std::vector<std::pair<std::string, MatrixRM>> vectors;  // name, (point, 2)
   std::vector<std::pair<std::string, Eigen::VectorXi>> cell_numbers;  // name, (cell)
+  MatrixRMi line;                                                     // (line, 2) cells after those
+  // Of 1, 2 or 3 columns; two are a vector in the plane.
+  std::vector<LoadedArtifact::Field> point_data;  // (point, k)
+  std::vector<LoadedArtifact::Field> cell_data;   // (cell and line, k)
 };
 
 // The whole gear from one sector: copies turned counter-clockwise by 2 pi / teeth, edge nodes merged with

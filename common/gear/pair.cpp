@@ -1,5 +1,6 @@
 #include "gear/pair.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -231,6 +232,22 @@ double GearPair::tip_distance(const PairContact& c, int g) const {
   const double end = g == 0 ? c.x_max : c.x_min;
   const bool is_tip = std::abs(roll_at(g, c, end) - gear_[g].tip_roll_angle()) < 1e-9;
   return is_tip ? std::abs(end) : std::numeric_limits<double>::infinity();
+}
+
+Vec2 Placement::operator()(const Vec2& p) const {
+  return centre + Eigen::Rotation2Dd(angle) * p;
+}
+
+// At phase 0 the flank point of roll angle tan(alpha_w) stands on the line of centres. Seen from its own centre the driven
+// gear is the same construction, turned by half a turn.
+Placement placed(const GearPair& pair, int g, double phase) {
+  const Vec2 p = pair.gear(g).flank_point(std::tan(pair.working_pressure_angle()));
+  const double pitch = 2 * std::numbers::pi / pair.gear(g).design().teeth;
+  Placement at;
+  at.angle = 0.5 * std::numbers::pi - std::atan2(p.y(), p.x()) + (g == 1 ? std::numbers::pi : 0.0) +
+             (g == 0 ? phase : -phase) * pitch;
+  at.centre = Vec2(0.0, g == 1 ? pair.centre_distance() : 0.0);
+  return at;
 }
 
 }  // namespace whine

@@ -86,4 +86,16 @@ class GearPair {
   double centre_distance_, alpha_, path_start_, path_end_, backlash_;
 };
 
+// Where a gear stands: its body frame is turned counter-clockwise by angle, then moved to centre.
+struct Placement {
+  double angle = 0;            // rad
+  Vec2 centre = Vec2::Zero();  // m
+
+  Vec2 operator()(const Vec2& p) const;
+};
+
+// The unloaded gears of a pair with the driver's centre at the origin, the driven gear's above it, `phase` mesh periods after
+// tooth 0 of both met at the pitch point; the driver turns counter-clockwise.
+Placement placed(const GearPair& pair, int g, double phase = 0);
+
 }  // namespace whine

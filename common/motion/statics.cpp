@@ -261,29 +261,43 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   return result;
 }
 
-ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
-                         const StaticArtifact& statics) {
+std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArtifact& driven,
+                                       const StaticArtifact& statics, double phase, int period) {
   const GearMeshModel model(driver, driven, statics.mesh);
+  if (!(phase >= 0 && phase < 1))
+    fail(Failure::input, "mesh phase ", phase, " is not within a mesh period: 0 up to, not including, 1");
+  if (period < 0 || period >= statics.hunting_periods)
+    fail(Failure::input, "mesh period ", period, ": the same teeth meet after ", statics.hunting_periods,
+         " mesh periods, give one from 0 to ", statics.hunting_periods - 1);
   const double load = statics.torque / model.kinematics.gear(0).base_radius();
   const auto tables = strips_tables(model);
   ComplementaritySolver solver;
   double widening = 1;
   for (int attempt = 0; attempt < kWidenings; ++attempt, widening *= kWidening) {
     const ContactRange range = static_range(model, statics.contact.strips, load, 1, widening);
-    LoadedStrips s = loaded_strips(model, range, tables, 0.0);
-    if (const MatrixXd cracks = crack_compliance(model, s.position, 0); cracks.size() > 0)
+    LoadedStrips s = loaded_strips(model, range, tables, phase);
+    if (period > 0) s.position.gap = flank_gaps(model, s.position, period);
+    if (const MatrixXd cracks = crack_compliance(model, s.position, period); cracks.size() > 0)
       s = with_cracks(s, cracks);
     const Equilibrium e = equilibrium(s, load, 0.0, solver);
     if (s.position.reaches_window_end(e.p) || e.x > s.position.next_corner_gap) continue;
     const VectorXd separation = s.compliance * e.p + s.position.gap - e.x * s.approach;
-    for (size_t j = 0; j < s.position.pairs.size(); ++j)
-      if (s.position.pairs[j].pair == 0) {
-        const auto own = Eigen::seqN(s.position.first_strip[j], s.position.pairs[j].size());
-        return {s.position.pairs[j], e.p(own), separation(own), e.x};
-      }
+    std::vector<ContactZone> zones;
+    for (size_t j = 0; j < s.position.pairs.size(); ++j) {
+      const auto own = Eigen::seqN(s.position.first_strip[j], s.position.pairs[j].size());
+      zones.push_back({s.position.pairs[j], e.p(own), separation(own), e.x});
+    }
+    return zones;
   }
-  fail(Failure::numerical, "at mesh phase 0 and ", statics.torque,
+  fail(Failure::numerical, "at mesh phase ", phase, " and ", statics.torque,
        " N m contact leaves the flanks; lower the torque");
+}
+
+ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
+                         const StaticArtifact& statics) {
+  for (ContactZone& zone : contact_zones(driver, driven, statics, 0.0, 0))
+    if (zone.strips.pair == 0) return zone;
+  fail(Failure::numerical, "at mesh phase 0 the reference pair is out of reach");
 }
 
 }  // namespace whine

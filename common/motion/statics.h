@@ -21,8 +21,13 @@ struct ContactZone {
   double approach = 0;         // m: the transmission error at this phase
 };
 
-// Of the reference pair at mesh phase 0, with the strips of `statics`, whose contact may also be lines: its equilibrium is
-// solved again. Throws as static_transmission.
+// Of all pairs in reach at a mesh phase (0 to 1) of a mesh period, with the strips of `statics`, whose contact may also be
+// lines: the equilibrium is solved again. Throws as static_transmission, and Error(input) for a phase or a period that is
+// none of `statics`.
+std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArtifact& driven,
+                                       const StaticArtifact& statics, double phase, int period);
+
+// Of the reference pair at mesh phase 0.
 ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
                          const StaticArtifact& statics);
 

@@ -484,20 +484,6 @@ void require_same_gear(const char* role, const GearDesign& mesh, const GearDesig
          " m); give driver, driven, static in this order");
 }
 
-// Phase 0: the flank point of roll angle tan(alpha_w) stands on the line of centres. Seen from its own
-// centre the driven gear is the same construction, turned by half a turn.
-Placement placed(const GearPair& pair, int g) {
-  const Vec2 p = pair.gear(g).flank_point(std::tan(pair.working_pressure_angle()));
-  Placement at;
-  at.angle = 0.5 * std::numbers::pi - std::atan2(p.y(), p.x()) + (g == 1 ? std::numbers::pi : 0.0);
-  at.centre = Vec2(0.0, g == 1 ? pair.centre_distance() : 0.0);
-  return at;
-}
-
-Vec2 moved(const Vec2& p, const Placement& at) {
-  return at.centre + Eigen::Rotation2Dd(at.angle) * p;
-}
-
 // Closed outlines of the elements of tooth 0 in which the half-plane field is subtracted.
 Strokes tooth_elements(const MeshArtifact& mesh, const Placement& at, double scale) {
   Strokes rows;
@@ -506,7 +492,7 @@ Strokes tooth_elements(const MeshArtifact& mesh, const Placement& at, double sca
     if (mesh.element_region[e] != 1) continue;
     for (int k = 0; k <= 4 * sides; ++k) {
       const int corner = k / sides % 4, node = mesh.element_node(e, k % sides ? 4 + corner : corner);
-      const Vec2 p = moved(mesh.node_position.row(node).transpose(), at) * scale;
+      const Vec2 p = at(mesh.node_position.row(node).transpose()) * scale;
       rows.push_back({p.x(), p.y()});
     }
     rows.emplace_back();
@@ -597,8 +583,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
       const ToothGeometry& tooth = pair.gear(g);
       for (double t = 0; t <= 1.0001; t += 0.02) {
         const double roll = tooth.form_roll_angle() + t * (tooth.tip_roll_angle() - tooth.form_roll_angle());
-        const Vec2 p =
-            moved(tooth.flank_point(roll) - body.matching_depth * tooth.flank_normal(roll), at) * kMilli;
+        const Vec2 p = at(tooth.flank_point(roll) - body.matching_depth * tooth.flank_normal(roll)) * kMilli;
         inner.rows.push_back({p.x(), p.y()});
       }
     } else {
@@ -622,7 +607,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
       const ToothGeometry& gear = pair.gear(g);
       const Vec2 place =
           gear.flank_point(at.roll[g]) - deviation[g].at(at.roll[g], 0) * gear.flank_normal(at.roll[g]);
-      const Vec2 p = moved(place, placed(pair, g)) - touch;
+      const Vec2 p = placed(pair, g)(place) - touch;
       local[g] = Vec2(p.dot(tangent), p.dot(normal));
     }
     return local;

@@ -29,8 +29,14 @@ std::string quoted(const std::string& s) {
 std::string prelude(const Figure& figure, const std::string& tsv_path, Picture picture) {
   std::string script = "set encoding utf8; ";
   // A point of pngcairo is 4/3 of its pixels, one of svg is one pixel: the scale makes both pictures alike.
-  script += picture == Picture::png ? "set terminal pngcairo" : "set terminal svg fontscale 1.333";
-  script += text(" size 1600,", figure.height, " font 'DejaVu Sans,18' enhanced background '#ffffff'; ");
+  if (picture == Picture::gif) {
+    script += text("set terminal gif animate delay 8 loop 0 linewidth 0.5 size 800,", figure.height / 2,
+                   " font 'DejaVu Sans,9'");
+  } else {
+    script += picture == Picture::png ? "set terminal pngcairo" : "set terminal svg fontscale 1.333";
+    script += text(" size 1600,", figure.height, " font 'DejaVu Sans,18'");
+  }
+  script += " enhanced background '#ffffff'; ";
   script += text("height = real(", figure.height, "); ");
   script += text("tsv = ", quoted(tsv_path), "; title = ", quoted(figure.title), "; ");
   std::string heading = figure.title;
@@ -150,8 +156,9 @@ std::string draw(const Figure& figure, const std::string& tsv_path, const std::s
   const auto& [picture_bytes, complaints] = text_of;
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     fail(Failure::numerical, "gnuplot failed on ", template_path, ": ", first_line_that_matters(complaints));
-  const bool whole = picture == Picture::png ? picture_bytes.rfind("\x89PNG", 0) == 0
-                                             : picture_bytes.find("</svg>") != std::string::npos;
+  const bool whole = picture == Picture::svg   ? picture_bytes.find("</svg>") != std::string::npos
+                     : picture == Picture::png ? picture_bytes.rfind("\x89PNG", 0) == 0
+                                               : picture_bytes.rfind("GIF89a", 0) == 0;
   if (!whole)
     fail(Failure::numerical, "gnuplot drew no picture with ", template_path, ": ",
          first_line_that_matters(complaints));

@@ -6,7 +6,7 @@
 
 namespace whine {
 
-enum class Picture { svg, png };
+enum class Picture { svg, png, gif };  // gif: of half the width, an animation if the template draws several
 
 // Runs `gnuplot -d` (no user settings, locale C.UTF-8) on the template and returns the picture's bytes. The
 // template finds the string variables tsv, title, heading (title and scenes, a line each), note1.. and the figure's own

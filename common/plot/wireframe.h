@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "files/schemas.h"
-#include "gear/involute.h"
+#include "gear/pair.h"
 
 namespace whine {
-
-// Where a gear stands: its body frame is turned counter-clockwise by angle, then moved to centre.
-struct Placement {
-  double angle = 0;            // rad
-  Vec2 centre = Vec2::Zero();  // m
-};
 
 // Strokes are rows {x, y} in m times `scale`; an empty row lifts the pen.
 using Strokes = std::vector<std::vector<double>>;
@@ -30,6 +24,8 @@ class Wireframe {
   Strokes window(const Placement& at, double scale, const Vec2& point, double half) const;
   Strokes outline(const Placement& at, double scale) const;  // closed outer contour
   Strokes bore(const Placement& at, double scale) const;     // closed circle
+  // Nodes of the sector's outer edge, from its clockwise side to its counter-clockwise one.
+  const std::vector<int>& contour() const { return contour_; }
 
  private:
   Vec2 position(int node, int tooth, const Placement& at) const;

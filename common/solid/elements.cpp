@@ -131,6 +131,21 @@ Eigen::Matrix3d plane_elasticity(const Material& material) {
   return scale * d;
 }
 
+Eigen::Vector2d reference_node(int k) {
+  constexpr double kPlace[3] = {-1, 1, 0};  // of start, end, middle
+  return {kPlace[kNodeLine[k][0]], kPlace[kNodeLine[k][1]]};
+}
+
+Eigen::Vector3d element_strain(const Eigen::MatrixX2d& nodes, const Eigen::MatrixX2d& displacement, double a,
+                               double b) {
+  const Shape shape = shape_functions(static_cast<int>(nodes.rows()), a, b);
+  const Eigen::Matrix2d j = jacobian(shape, nodes);
+  checked_determinant(j, nodes);
+  // rows: directions of the derivative
+  const Eigen::Matrix2d gradient = j.inverse() * (shape.slope.transpose() * displacement);
+  return {gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0)};
+}
+
 Eigen::MatrixXd element_stiffness(const Eigen::MatrixX2d& nodes, const Material& material, double thickness) {
   const Quadrature& q = quadrature(static_cast<int>(nodes.rows()));
   const Eigen::Matrix3d d = thickness * plane_elasticity(material);

@@ -47,6 +47,13 @@ PlaneModuli plane_strain_equivalent(const Material& material);
 // Stress (xx, yy, xy) from strain (xx, yy, engineering xy). (3, 3) Pa
 Eigen::Matrix3d plane_elasticity(const Material& material);
 
+// Where node k of the element stands in the reference square: -1, 0 or 1 along each side.
+Eigen::Vector2d reference_node(int k);
+
+// Strain (xx, yy, engineering xy) 1 at a point of the reference square; nodes and their displacements: (4 or 9, 2) m.
+Eigen::Vector3d element_strain(const Eigen::MatrixX2d& nodes, const Eigen::MatrixX2d& displacement, double a,
+                               double b);
+
 // nodes: (4 or 9, 2) m. Results (2 node, 2 node) N m-1 and kg. Throw Error(numerical) where the Jacobian is
 // not positive.
 Eigen::MatrixXd element_stiffness(const Eigen::MatrixX2d& nodes, const Material& material, double thickness);

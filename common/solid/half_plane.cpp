@@ -37,4 +37,59 @@ Vec2 LineLoadField::traction(const Vec2& p, const Vec2& outward) const {
   return (-2 * inward_.dot(ray) / (kPi * r2) * ray.dot(outward) / r2) * ray;
 }
 
+StripLoadField::StripLoadField(const Vec2& point, const Vec2& normal, double width, const PlaneModuli& moduli,
+                               double thickness, double depth)
+    : point_(point),
+      inward_(-normal),
+      tangent_(-normal.y(), normal.x()),
+      half_width_(0.5 * width),
+      thickness_(thickness),
+      nu_(moduli.poisson_ratio) {
+  scale_ = (1 + nu_) / (kPi * moduli.youngs_modulus * thickness);
+  constant_ = scale_ * (2 * (1 - nu_) * std::log(depth) - 1);
+}
+
+namespace {
+
+// Antiderivatives in x, at a fixed z, of what a line load's field is made of.
+struct Antiderivative {
+  Antiderivative(double x, double z) {
+    const double r2 = x * x + z * z, angle = std::atan2(x, z);
+    const double z_ln_r = r2 > 0 ? 0.5 * z * std::log(r2) : 0;
+    ln_r = (r2 > 0 ? 0.5 * x * std::log(r2) : 0) - x + z * angle;
+    zz_over_r2 = z * angle;
+    xz_over_r2 = z_ln_r;
+    atan = x * angle - z_ln_r;
+    const double cross = r2 > 0 ? x * z / r2 : 0;
+    zzz_over_r4 = 0.5 * (angle + cross);
+    xxz_over_r4 = 0.5 * (angle - cross);
+    xzz_over_r4 = r2 > 0 ? -0.5 * z * z / r2 : 0;
+  }
+  double ln_r, zz_over_r2, xz_over_r2, atan, zzz_over_r4, xxz_over_r4, xzz_over_r4;
+};
+
+}  // namespace
+
+Vec2 StripLoadField::displacement(const Vec2& p) const {
+  const double x = tangent_.dot(p - point_), z = inward_.dot(p - point_);
+  const Antiderivative to(x + half_width_, z), from(x - half_width_, z);
+  const double scale = scale_ / (2 * half_width_);
+  const double along = scale * (to.xz_over_r2 - from.xz_over_r2 - (1 - 2 * nu_) * (to.atan - from.atan));
+  const double into =
+      scale * (-2 * (1 - nu_) * (to.ln_r - from.ln_r) + to.zz_over_r2 - from.zz_over_r2) + constant_;
+  return along * tangent_ + into * inward_;
+}
+
+Eigen::Vector3d StripLoadField::stress(const Vec2& p) const {
+  const double x = tangent_.dot(p - point_), z = inward_.dot(p - point_);
+  const Antiderivative to(x + half_width_, z), from(x - half_width_, z);
+  const double scale = -1 / (kPi * half_width_ * thickness_);
+  const double xx = scale * (to.xxz_over_r4 - from.xxz_over_r4),
+               zz = scale * (to.zzz_over_r4 - from.zzz_over_r4),
+               xz = scale * (to.xzz_over_r4 - from.xzz_over_r4);
+  const Eigen::Matrix2d turned = xx * tangent_ * tangent_.transpose() + zz * inward_ * inward_.transpose() +
+                                 xz * (tangent_ * inward_.transpose() + inward_ * tangent_.transpose());
+  return {turned(0, 0), turned(1, 1), turned(0, 1)};
+}
+
 }  // namespace whine

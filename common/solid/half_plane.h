@@ -33,4 +33,20 @@ class LineLoadField {
   double nu_, scale_, constant_;
 };
 
+// The same of a unit force that is spread evenly over `width` (m) of the surface about `point`; Johnson, section 2.5. Finite
+// everywhere. Displacements are those of the line load, averaged over the strip, with the same constant.
+class StripLoadField {
+ public:
+  StripLoadField(const Vec2& point, const Vec2& normal, double width, const PlaneModuli& moduli,
+                 double thickness, double depth);
+
+  const Vec2& point() const { return point_; }  // m
+  Vec2 displacement(const Vec2& p) const;       // m N-1
+  Eigen::Vector3d stress(const Vec2& p) const;  // m-2: xx, yy, xy, in the frame of p
+
+ private:
+  Vec2 point_, inward_, tangent_;
+  double half_width_, thickness_, nu_, scale_, constant_;
+};
+
 }  // namespace whine

@@ -190,9 +190,9 @@ FlankReader::FlankReader(const MeshArtifact& mesh) : mesh_(mesh), tooth_(mesh.de
          " roll angles, which do not make whole element sides; rebuild the mesh");
 }
 
-SparseReal FlankReader::outward(const Eigen::VectorXd& xi) const {
+SparseReal FlankReader::displacement(const Eigen::VectorXd& xi) const {
   const Eigen::Index step = mesh_.element_node.cols() == 9 ? 2 : 1, last = mesh_.flank_node.size() - 1;
-  SparseReal reading(xi.size(), 2 * mesh_.node_position.rows());
+  SparseReal reading(2 * xi.size(), 2 * mesh_.node_position.rows());
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i < xi.size(); ++i) {
     const double lowest = mesh_.flank_roll_angle[0], highest = mesh_.flank_roll_angle[last];
@@ -203,15 +203,20 @@ SparseReal FlankReader::outward(const Eigen::VectorXd& xi) const {
     while (side + step < last && mesh_.flank_roll_angle[side + step] < xi[i]) side += step;
     const double from = mesh_.flank_roll_angle[side], to = mesh_.flank_roll_angle[side + step];
     const SideShape shape = side_shape(static_cast<size_t>(step + 1), (2 * xi[i] - from - to) / (to - from));
-    const Vec2 normal = tooth_.flank_normal(xi[i]);
     const Eigen::Index node[3] = {side, side + step, side + 1};
     for (int k = 0; k < step + 1; ++k)
       for (int c = 0; c < 2; ++c)
-        entries.emplace_back(static_cast<int>(i), 2 * mesh_.flank_node[node[k]] + c,
-                             shape.value[k] * normal[c]);
+        entries.emplace_back(static_cast<int>(2 * i + c), 2 * mesh_.flank_node[node[k]] + c, shape.value[k]);
   }
   reading.setFromTriplets(entries.begin(), entries.end());
   return reading;
+}
+
+SparseReal FlankReader::outward(const Eigen::VectorXd& xi) const {
+  SparseReal normal(xi.size(), 2 * xi.size());
+  for (Eigen::Index i = 0; i < xi.size(); ++i)
+    for (int c = 0; c < 2; ++c) normal.insert(i, 2 * i + c) = tooth_.flank_normal(xi[i])[c];
+  return normal * displacement(xi);
 }
 
 Eigen::Index FlankReader::element_at(const Vec2& p, Vec2& reference) const {
@@ -263,8 +268,9 @@ FlankLoads make_matched_loads(const MeshArtifact& mesh, const Material& material
   const PlaneModuli moduli = plane_strain_equivalent(material);
   const double thickness = mesh.design.face_width;
   const Eigen::Index size = 2 * mesh.node_position.rows(), loads = xi.size();
-  FlankLoads result{-Eigen::MatrixXd(FlankReader(mesh).outward(xi)).transpose(),
-                    Eigen::MatrixXd::Zero(size, loads), MatrixRM::Zero(loads, loads)};
+  FlankLoads result{
+      -Eigen::MatrixXd(FlankReader(mesh).outward(xi)).transpose(), Eigen::MatrixXd::Zero(size, loads),
+      std::vector<char>(static_cast<size_t>(mesh.node_position.rows()), 0), MatrixRM::Zero(loads, loads)};
   for (Eigen::Index j = 0; j < loads; ++j) {
     const LineLoadField field(tooth.flank_point(xi[j]), tooth.flank_normal(xi[j]), moduli, thickness,
                               kReferenceDepth);
@@ -304,7 +310,7 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
   const TractionIntegral integral(mesh, tooth);
 
   FlankLoads result{Eigen::MatrixXd::Zero(2 * nodes, loads), Eigen::MatrixXd::Zero(2 * nodes, loads),
-                    MatrixRM::Zero(loads, loads)};
+                    holds_rest, MatrixRM::Zero(loads, loads)};
   for (Eigen::Index j = 0; j < loads; ++j) {
     const Vec2 load = tooth.flank_point(xi[j]);
     const LineLoadField field(load, tooth.flank_normal(xi[j]), moduli, thickness, kReferenceDepth);

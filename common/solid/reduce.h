@@ -38,7 +38,9 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
 class FlankReader {
  public:
   explicit FlankReader(const MeshArtifact& mesh);
-  // (points, 2 node) 1: outward normal displacement at roll angles xi from nodal displacements of the sector.
+  // (2 points, 2 node) 1: displacement x0, y0, x1, y1 .. at roll angles xi from nodal displacements of the sector.
+  SparseReal displacement(const Eigen::VectorXd& xi) const;
+  // (points, 2 node) 1: its outward normal component.
   SparseReal outward(const Eigen::VectorXd& xi) const;
   // The same for the points that lie `depth` (m) below the flank along its normals. Throws Error(input) if one of them
   // is not inside the tooth.
@@ -55,6 +57,7 @@ class FlankReader {
 struct FlankLoads {
   Eigen::MatrixXd force;       // (2 node, load) 1: the right-hand side K x = force
   Eigen::MatrixXd half_plane;  // (2 node, load) m N-1: u_hs at the nodes where x holds w, 0 where it holds u
+  std::vector<char> holds_rest;  // (node) whether x holds w there; of matched loads nowhere
   // (point, load) m N-1: inward u_hs at the points xi, less the flat surface displacement; of matched loads also less
   // u_hs at the depth
   MatrixRM subtracted;

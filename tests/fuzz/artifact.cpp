@@ -30,6 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   refused_or_read([&] { read_body(path); });
   refused_or_read([&] { read_static(path); });
   refused_or_read([&] { read_error_budget(path); });
+  refused_or_read([&] { read_loaded(path); });
   refused_or_read([&] { read_impact(path); });
   refused_or_read([&] { read_sweep(path); });
   refused_or_read([&] { read_response(path); });

@@ -1,0 +1,254 @@
+#include "solid/loaded_gear.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "solid/half_plane.h"
+#include "solid/reduce.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+using Complex = std::complex<double>;
+
+// What presses on one tooth, and the half-planes' field of all of it.
+struct LoadedTooth {
+  std::vector<Index> strip;  // numbers among the gear's loads
+  std::vector<StripLoadField> field;
+  VectorXd force;  // (strip) N
+
+  Vec2 displacement(const Vec2& p) const {
+    Vec2 sum = Vec2::Zero();
+    for (size_t i = 0; i < field.size(); ++i) sum += force[static_cast<Index>(i)] * field[i].displacement(p);
+    return sum;
+  }
+  // m: to the nearest strip
+  double nearest(const Vec2& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const StripLoadField& strip : field) least = std::min(least, (p - strip.point()).norm());
+    return least;
+  }
+  Vector3d stress(const Vec2& p) const {
+    Vector3d sum = Vector3d::Zero();
+    for (size_t i = 0; i < field.size(); ++i) sum += force[static_cast<Index>(i)] * field[i].stress(p);
+    return sum;
+  }
+};
+
+// Gauss points a side for the energy of an element in a loaded tooth: stresses are steep about the strips.
+constexpr int kNearPoints = 24, kFarPoints = 4;
+
+// (2 node) of one tooth -> (node of an element, 2)
+Eigen::MatrixX2d of_element(const VectorXd& field, const MatrixRMi& element_node, Index e) {
+  Eigen::MatrixX2d out(element_node.cols(), 2);
+  for (Index k = 0; k < out.rows(); ++k) out.row(k) = field.segment<2>(2 * element_node(e, k)).transpose();
+  return out;
+}
+
+}  // namespace
+
+StressMeasures stress_measures(const Vector3d& s, const Material& material) {
+  const double middle = 0.5 * (s[0] + s[1]), radius = std::hypot(0.5 * (s[0] - s[1]), s[2]);
+  const double across = material.plane_stress ? 0 : material.poisson_ratio * (s[0] + s[1]);
+  const double a = middle + radius, b = middle - radius;
+  return {a, b,
+          std::sqrt(0.5 * ((a - b) * (a - b) + (b - across) * (b - across) + (across - a) * (across - a)))};
+}
+
+std::vector<MatrixXd> teeth_under(const MeshArtifact& mesh, const Material& material, const MatrixXd& force) {
+  const int teeth = mesh.design.teeth;
+  const CyclicSector sector(
+      mesh, assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width));
+  std::vector<MatrixXd> out(static_cast<size_t>(teeth), MatrixXd::Zero(force.rows(), force.cols()));
+  HermitianFactor factor(sector.stiffness(0));
+  for (int n = 0; n < sector.harmonics(); ++n) {
+    factor.factorise(sector.stiffness(n), text("sector stiffness, harmonic ", n, " of ", teeth, " teeth"));
+    const Eigen::MatrixXcd solution = sector.expand(n, factor.solve(sector.gather(n, force)));
+    const double weight = (sector.single(n) ? 1.0 : 2.0) / teeth;
+    for (int d = 0; d < teeth; ++d)
+      out[static_cast<size_t>(d)] += weight * (std::polar(1.0, sector.phase(n) * d) * solution).real();
+  }
+  return out;
+}
+
+LoadedGear loaded_gear(const MeshArtifact& mesh, const Material& material,
+                       const std::vector<StripLoad>& loads) {
+  const int teeth = mesh.design.teeth;
+  if (loads.empty()) fail(Failure::input, "a gear without load has no deformed shape");
+  if (mesh.design.crack.depth > 0)
+    fail(Failure::input, "the gear has a crack in tooth ", mesh.design.crack.tooth,
+         ": its loaded shape is not available; set depth_mm = 0 in [gear.<name>.crack]");
+  const ToothGeometry tooth(mesh.design);
+  const PlaneModuli moduli = plane_strain_equivalent(material);
+  const double thickness = mesh.design.face_width;
+  const Index nodes = mesh.node_position.rows();
+
+  // 1. Loads by tooth, all strips of a tooth in one right-hand side.
+  std::map<int, LoadedTooth> loaded;
+  for (size_t i = 0; i < loads.size(); ++i)
+    loaded[((loads[i].tooth % teeth) + teeth) % teeth].strip.push_back(static_cast<Index>(i));
+  MatrixXd force(2 * nodes, static_cast<Index>(loaded.size()));
+  std::vector<char> holds_rest;
+  Index column = 0;
+  for (auto& [number, at] : loaded) {
+    const auto strips = static_cast<Index>(at.strip.size());
+    VectorXd roll(strips);
+    at.force.resize(strips);
+    for (Index i = 0; i < strips; ++i) {
+      const StripLoad& load = loads[static_cast<size_t>(at.strip[static_cast<size_t>(i)])];
+      if (!(load.width > 0)) fail(Failure::input, "a loaded strip is ", load.width, " m wide");
+      roll[i] = load.roll;
+      at.force[i] = load.force;
+      at.field.emplace_back(tooth.flank_point(load.roll), tooth.flank_normal(load.roll), load.width, moduli,
+                            thickness, kReferenceDepth);
+    }
+    const FlankLoads unit = make_flank_loads(mesh, material, roll);
+    force.col(column++) = unit.force * at.force;
+    holds_rest = unit.holds_rest;
+  }
+
+  // 2. The unknowns x of each tooth, in its own frame.
+  const SparseReal stiffness = assemble(mesh.node_position, mesh.element_node, material, thickness).stiffness;
+  const std::vector<MatrixXd> under = teeth_under(mesh, material, force);
+  std::vector<VectorXd> unknown(static_cast<size_t>(teeth), VectorXd::Zero(2 * nodes));
+  column = 0;
+  for (const auto& [number, at] : loaded) {
+    for (int j = 0; j < teeth; ++j)
+      unknown[static_cast<size_t>(j)] += under[static_cast<size_t>((j - number + teeth) % teeth)].col(column);
+    ++column;
+  }
+
+  LoadedGear out;
+  out.gear = replicate(mesh);
+  out.displacement = MatrixRM::Zero(out.gear.node_position.rows(), 2);
+  out.stress = MatrixRM::Zero(out.gear.node_position.rows(), 3);
+  out.deflection = VectorXd::Zero(static_cast<Index>(loads.size()));
+  out.strip_displacement = MatrixRM::Zero(static_cast<Index>(loads.size()), 2);
+  VectorXd elements_about = VectorXd::Zero(out.gear.node_position.rows());
+
+  // 3. What holds the hub: the elements' forces on the nodes of the bore.
+  column = 0;
+  for (int j = 0; j < teeth; ++j) {
+    VectorXd reaction = stiffness * unknown[static_cast<size_t>(j)];
+    if (loaded.contains(j)) reaction -= force.col(column++);
+    for (Index i = 0; i < mesh.bore_node.size(); ++i) {
+      const int node = mesh.bore_node[i];
+      out.hub_torque += mesh.node_position(node, 0) * reaction[2 * node + 1] -
+                        mesh.node_position(node, 1) * reaction[2 * node];
+    }
+  }
+
+  // 4. Displacements and stresses. Stresses of the elements are taken at 2 x 2 Gauss points, where they are best, and
+  // carried on to the nodes.
+  const Eigen::Matrix3d elasticity = plane_elasticity(material);
+  const GaussRule two = gauss_rule(2);
+  const double corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const int per_element = static_cast<int>(mesh.element_node.cols());
+  MatrixXd to_nodes(per_element, 4);
+  for (int k = 0; k < per_element; ++k) {
+    const Vec2 at = reference_node(k);
+    to_nodes.row(k) = shape_functions(4, at[0] / two.point[1], at[1] / two.point[1]).value.transpose();
+  }
+  const Eigen::Matrix3d compliance = elasticity.inverse();
+  const GaussRule fine = gauss_rule(kNearPoints), coarse = gauss_rule(kFarPoints);
+  for (int j = 0; j < teeth; ++j) {
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(2 * kPi * j / teeth).toRotationMatrix();
+    const VectorXd& x = unknown[static_cast<size_t>(j)];
+    const auto found = loaded.find(j);
+    const LoadedTooth* at = found == loaded.end() ? nullptr : &found->second;
+    VectorXd rest = x,
+             near = VectorXd::Zero(2 * nodes);  // w and the half-planes in the tooth; u and 0 elsewhere
+    MatrixRM near_stress = MatrixRM::Zero(nodes, 3);
+    std::vector<char> in_tooth(static_cast<size_t>(nodes), 0);
+    if (at) {
+      for (Index e = 0; e < mesh.element_node.rows(); ++e)
+        if (mesh.element_region[e] == 1)
+          for (Index k = 0; k < per_element; ++k) in_tooth[static_cast<size_t>(mesh.element_node(e, k))] = 1;
+      for (Index i = 0; i < nodes; ++i) {
+        if (!in_tooth[static_cast<size_t>(i)]) continue;
+        const Vec2 p = mesh.node_position.row(i);
+        near.segment<2>(2 * i) = at->displacement(p);
+        near_stress.row(i) = at->stress(p).transpose();
+        if (!holds_rest[static_cast<size_t>(i)]) rest.segment<2>(2 * i) -= near.segment<2>(2 * i);
+      }
+    }
+    for (Index i = 0; i < nodes; ++i) {
+      Vec2 u = x.segment<2>(2 * i);
+      if (at && holds_rest[static_cast<size_t>(i)]) u += near.segment<2>(2 * i);
+      out.displacement.row(out.gear.node(j, i)) = turn * u;
+    }
+    for (Index e = 0; e < mesh.element_node.rows(); ++e) {
+      const bool split = at && mesh.element_region[e] == 1;
+      const Eigen::MatrixX2d place = [&] {
+        Eigen::MatrixX2d p(per_element, 2);
+        for (Index k = 0; k < per_element; ++k) p.row(k) = mesh.node_position.row(mesh.element_node(e, k));
+        return p;
+      }();
+      const Eigen::MatrixX2d moved = of_element(split ? rest : x, mesh.element_node, e);
+      Eigen::Matrix<double, 4, 3> at_gauss;
+      for (int g = 0; g < 4; ++g)
+        at_gauss.row(g) = (elasticity * element_strain(place, moved, corner[g][0] * two.point[1],
+                                                       corner[g][1] * two.point[1]))
+                              .transpose();
+      const bool near_strip = split && at->nearest((place.row(0) + place.row(2)).transpose() / 2) <
+                                           3 * (place.row(0) - place.row(2)).norm();
+      const GaussRule& rule = near_strip ? fine : coarse;
+      for (Index m = 0; m < rule.point.size(); ++m)
+        for (Index n = 0; n < rule.point.size(); ++n) {
+          const Shape shape = shape_functions(per_element, rule.point[m], rule.point[n]);
+          Vector3d s = elasticity * element_strain(place, moved, rule.point[m], rule.point[n]);
+          if (split) s += at->stress(place.transpose() * shape.value);
+          out.strain_energy += 0.5 * thickness * rule.weight[m] * rule.weight[n] *
+                               (shape.slope.transpose() * place).determinant() * s.dot(compliance * s);
+        }
+      const Eigen::Matrix<double, Eigen::Dynamic, 3> at_node = to_nodes * at_gauss;
+      for (Index k = 0; k < per_element; ++k) {
+        const int node = mesh.element_node(e, k);
+        Vector3d s = at_node.row(k).transpose();
+        if (split) s += near_stress.row(node).transpose();
+        Eigen::Matrix2d tensor;
+        tensor << s[0], s[2], s[2], s[1];
+        tensor = (turn * tensor * turn.transpose()).eval();
+        const Index shown = out.gear.node(j, node);
+        out.stress.row(shown) += Eigen::RowVector3d(tensor(0, 0), tensor(1, 1), tensor(0, 1));
+        elements_about[shown] += 1;
+      }
+    }
+    // 5. How far the loaded flank gives way, strip by strip.
+    if (!at) continue;
+    const auto strips = static_cast<Index>(at->strip.size());
+    VectorXd roll(strips);
+    for (Index i = 0; i < strips; ++i)
+      roll[i] = loads[static_cast<size_t>(at->strip[static_cast<size_t>(i)])].roll;
+    const VectorXd smooth = FlankReader(mesh).displacement(roll) * x;
+    const GaussRule rule = gauss_rule(8);
+    for (Index i = 0; i < strips; ++i) {
+      const Index number = at->strip[static_cast<size_t>(i)];
+      const StripLoad& load = loads[static_cast<size_t>(number)];
+      Vec2 mean = smooth.segment<2>(2 * i);
+      for (Index g = 0; g < rule.point.size(); ++g) {
+        const double xi = load.roll + 0.5 * rule.point[g] * load.width / (tooth.base_radius() * load.roll);
+        mean += 0.5 * rule.weight[g] * at->displacement(tooth.flank_point(xi));
+      }
+      out.deflection[number] = -tooth.flank_normal(load.roll).dot(mean);
+      out.strip_displacement.row(number) = turn * mean;
+    }
+  }
+  out.stress.array().colwise() /= elements_about.array();
+  return out;
+}
+
+}  // namespace whine

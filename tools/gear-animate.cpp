@@ -1,0 +1,72 @@
+// gear-animate: a steady motion over its mesh period as pictures: teeth that roll, bend, part and touch again.
+//
+// Reads      mesh.h5 of driver and driven gear, sweep.h5; params/title.txt in the folder of the scene, if there is one;
+//            <plots>/animation.gp, the template
+// Writes     <output>.tsv, <output>.gif, and <output>-001.png .., a picture for each frame; each whole or not at all
+// Equations  none: the motion is the sweep's, deflections are K x = f under its tooth loads
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/provenance.h"
+#include "files/publish.h"
+#include "files/schemas.h"
+#include "files/summary.h"
+#include "plot/animation.h"
+#include "plot/gnuplot.h"
+
+namespace {
+
+void body(int argc, char** argv) {
+  CLI::App app{"Animation of a steady motion over its mesh period", "gear-animate"};
+  std::string driver, driven, sweep, output, plots = "pipelines/plots", frequency;
+  int frames = 48;
+  app.add_option("--driver-mesh", driver, "mesh.h5 of the driving gear")->required();
+  app.add_option("--driven-mesh", driven, "mesh.h5 of the driven gear")->required();
+  app.add_option("--sweep", sweep, "sweep.h5 of an elastic pair, up or down")->required();
+  app.add_option("--mesh-frequency", frequency,
+                 "speed in Hz, one of the sweep's; default: the one with the largest RMS");
+  app.add_option("--frames", frames, "number of pictures")->capture_default_str();
+  app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
+  app.add_option("--output", output, "path of the results without extension")->required();
+  app.footer(
+      "Example:\n"
+      "  gear-animate --driver-mesh out/parker2000/pinion/mesh.h5 --driven-mesh out/parker2000/wheel/mesh.h5 "
+      "--sweep out/parker2000/T150/down/sweep.h5 --frames 12 --output out/parker2000/report/animation");
+  whine::parse(app, argc, argv);
+
+  const double speed = frequency.empty() ? 0 : whine::number_option("--mesh-frequency", frequency);
+  if (!frequency.empty() && !(speed > 0))
+    whine::fail(whine::Failure::usage, "--mesh-frequency ", speed, ": it is in Hz, above 0");
+  whine::Figure figure = whine::animation_figure(whine::read_mesh(driver), whine::read_mesh(driven),
+                                                 whine::read_sweep(sweep), speed, frames);
+  const std::string scene = whine::scene_words(sweep);
+  if (!scene.empty()) figure.scenes = {scene};
+  for (const std::string& path : {driver, driven, sweep}) whine::require_fresh(path);
+
+  const std::string table = output + ".tsv", recipe = plots + "/animation.gp";
+  whine::publish(table, whine::tsv(figure, {whine::recorded_path(driver), whine::recorded_path(driven),
+                                            whine::recorded_path(sweep)}));
+  const auto of_frames = [&figure](int first, int last) {
+    whine::Figure part = figure;
+    part.numbers.emplace_back("first_frame", first);
+    part.numbers.emplace_back("last_frame", last);
+    return part;
+  };
+  for (int frame = 0; frame < frames; ++frame) {
+    char name[16];
+    std::snprintf(name, sizeof name, "-%03d.png", frame + 1);
+    whine::publish(output + name, whine::draw(of_frames(frame, frame), table, recipe, whine::Picture::png));
+  }
+  whine::publish(output + ".gif", whine::draw(of_frames(0, frames - 1), table, recipe, whine::Picture::gif));
+  whine::tell("gear-animate: ", figure.title, ", ", frames, " frames -> ", output, ".{tsv,gif}, ", output,
+              "-001.png ..");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}

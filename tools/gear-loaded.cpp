@@ -1,0 +1,67 @@
+// gear-loaded: both gears at rest in one mesh position, loaded: contact pressure, displacements and stresses.
+//
+// Reads      static.h5, body.h5 and mesh.h5 of driver and driven gear
+// Writes     loaded_<phase>.h5   contact strips, tooth loads, root stresses, balance of moment and energy; under /VTKHDF both
+//                       gears in their places for ParaView (loaded_<phase>.hdf is a link to it)
+// Equations  d = A p + e >= 0, p >= 0, p . d = 0 (Eq. 18); K x = f of the whole gear, by cyclic symmetry, with the half-planes
+//            of the strips in closed form
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/fit.h"
+#include "files/provenance.h"
+#include "files/schemas.h"
+#include "motion/loaded_pair.h"
+
+namespace {
+
+void body(int argc, char** argv) {
+  CLI::App app{"Loaded and deformed gears at one mesh position, with contact pressure and stresses",
+               "gear-loaded"};
+  std::string statics_path, driver, driven, driver_mesh, driven_mesh, output, phase_word;
+  app.add_option("--static", statics_path, "static.h5 of the pair at the torque")->required();
+  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
+  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
+  app.add_option("--driver-mesh", driver_mesh, "mesh.h5 of the driving gear")->required();
+  app.add_option("--driven-mesh", driven_mesh, "mesh.h5 of the driven gear")->required();
+  app.add_option(
+         "--mesh-phase", phase_word,
+         "mesh phase, from 0 (reference pair at the pitch point) up to, not including, 1; with teeth that "
+         "differ up to their hunting period")
+      ->required();
+  app.add_option("--output", output, "loaded_<phase>.h5 to write")->required();
+  app.footer(
+      "Example:\n  gear-loaded --static out/parker2000/T150/static.h5 --driver out/parker2000/pinion/body.h5 "
+      "--driven out/parker2000/wheel/body.h5 --driver-mesh out/parker2000/pinion/mesh.h5 "
+      "--driven-mesh out/parker2000/wheel/mesh.h5 --mesh-phase 0.25 --output "
+      "out/parker2000/T150/loaded_0.25.h5");
+  whine::parse(app, argc, argv);
+
+  const double position = whine::number_option("--mesh-phase", phase_word);
+  const whine::Provenance provenance =
+      whine::made_by(argc, argv,
+                     {"static=" + statics_path, "driver=" + driver, "driven=" + driven,
+                      "driver_mesh=" + driver_mesh, "driven_mesh=" + driven_mesh});
+  const whine::StaticArtifact statics = whine::read_static(statics_path);
+  const whine::LoadedArtifact result =
+      whine::loaded_pair(whine::read_mesh(driver_mesh), whine::read_mesh(driven_mesh),
+                         whine::read_body(driver), whine::read_body(driven), statics,
+                         position - std::floor(position), static_cast<int>(std::floor(position)));
+
+  whine::write(output, result, provenance);
+  whine::tell("gear-loaded: ", result.torque, " N m, mesh phase ", result.mesh_phase, ", ",
+              result.pair.size(), " pairs, transmission error ", result.transmission_error * 1e6,
+              " um, largest pressure ", result.strip_pressure.maxCoeff() * 1e-6, " MPa, root stress ",
+              result.root_stress.maxCoeff() * 1e-6, " MPa; hubs hold ", result.hub_torque[0], " and ",
+              result.hub_torque[1], " N m, strain energy ",
+              result.strain_energy.sum() / result.contact_work.sum(), " of the work -> ", output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
