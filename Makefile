@@ -109,8 +109,9 @@ $(B)/flags: $(if $(and $(findstring x$(flags)x,x$(flags_before)x),$(findstring x
 # differs, so that a program that was linked anew with the same bytes redoes nothing. `+`: also under make -n,
 # which would otherwise take every result for stale.
 id = $(if $(FREEZE),,$(B)/id/$1)
-# The number of the shell in the name: two makes on one tree do not write the same file.
-replace_if_changed = { cat > $1.new.$$$$; if cmp -s $1.new.$$$$ $1; then rm $1.new.$$$$; else mv $1.new.$$$$ $1; fi; }
+# Machine and number of the shell in the name: two makes on one tree do not write the same file.
+new = $1.new.$$HOSTNAME.$$$$
+replace_if_changed = { cat > $(new); if cmp -s $(new) $1; then rm $(new); else mv $(new) $1; fi; }
 
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi

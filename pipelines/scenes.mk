@@ -55,7 +55,7 @@ scene_fragments := $(scenes:%=$(B)/scenes/%.mk)
 $(foreach f,$(filter-out $(wildcard $(scene_fragments)),$(scene_fragments)),$(shell mkdir -p $(dir $f) && touch $f))
 
 $(scene_fragments): $(B)/scenes/%.mk: $(B)/bin/gear-scene FORCE
-	@new=$@.new.$$$$; said=$$($< --scene $(call scene_file,$*) --output $$new --out out 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
+	@new=$(call new,$@); said=$$($< --scene $(call scene_file,$*) --output $$new --out out 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
 	if cmp -s $$new $@; then rm $$new; else mv $$new $@; echo "$$said" >&2; fi
 
 # `+`: fragments are remade under -n as well.

@@ -32,7 +32,7 @@ $(foreach s,$(studies),$(if $(wildcard $(call study_file,$s)),,$(error STUDY=$s:
 study_fragments := $(studies:%=$(B)/studies/%.mk)
 $(foreach f,$(filter-out $(wildcard $(study_fragments)),$(study_fragments)),$(shell mkdir -p $(dir $f) && touch $f))
 $(study_fragments): $(B)/studies/%.mk: $(B)/bin/gear-study FORCE
-	@new=$@.new.$$$$; said=$$($< --study $(call study_file,$*) --output $$new --out out 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
+	@new=$(call new,$@); said=$$($< --study $(call study_file,$*) --output $$new --out out 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
 	if cmp -s $$new $@; then rm $$new; else mv $$new $@; echo "$$said" >&2; fi
 include $(study_fragments)
 
@@ -48,7 +48,7 @@ landed = $(if $(call launch,$1),&& { for second in $$(seq 0 $(LAUNCH_WAIT)); do 
 
 define study_pair_rules # study, pair, driver, driven
 $(STUDY_$1_$2:%=out/studies/$1/%.h5): %.h5: %.toml $(sort out/bodies/$3/body.h5 out/bodies/$4/body.h5) $(call id,gear-variant) | $(B)/bin/gear-variant
-	$$(call run,variant) --params $$< --driver out/bodies/$3/body.h5 --driven out/bodies/$4/body.h5 --plan out/studies/$1/plan.toml$(STUDY_$1_OPTIONS) \
+	$$(call run,variant) --params $$< --driver out/bodies/$3/body.h5 --driven out/bodies/$4/body.h5 --plan out/studies/$1/plan.toml $(STUDY_$1_OPTIONS) \
 	  --output $$@ $$(call landed,variant)
 endef
 

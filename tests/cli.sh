@@ -121,6 +121,8 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-loaded]="${stage_loaded[*]}"
   [gear-animate]="$bin/gear-animate --driver-mesh out/scene/pinion/mesh.h5 --driven-mesh out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
+  [gear-study]="gear-study --study scene.toml --output study.mk"
+  [gear-variant]="gear-variant --params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --output x"
   [gear-harris]="gear-harris --static-params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --design-torque 100 --output x")
 for program in "$bin"/gear-*; do
   name=$(basename "$program")

@@ -84,7 +84,7 @@ void plan(const std::string& path, const std::string& output, const std::string&
     out << "\n" << prefix << pair << " :=";
     for (const std::string& name : names) out << " " << variant_file(name);
   }
-  out << "\n" << prefix << "OPTIONS :=" << (study.marks_refusals ? " --mark-refusals" : "") << "\nBODIES +=";
+  out << "\n" << prefix << "OPTIONS :=" << (study.marks_refusals ? "--mark-refusals" : "") << "\nBODIES +=";
   for (const auto& [hash, text] : bodies) out << " " << hash;
   out << "\n";
   publish(output, out.str());

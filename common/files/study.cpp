@@ -1,6 +1,6 @@
 #include "files/study.h"
 
-#include <toml++/toml.h>
+#include "files/toml.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,9 +36,19 @@ bool among(const std::string& word, const Words& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+// Shortest text that reads back as the same number, as people write it: 150, 0.3, 5.5e-06.
+std::string number_text(double value) {
+  char buffer[40];
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+    if (std::strtod(buffer, nullptr) == value) break;
+  }
+  return buffer;
+}
+
 // A value as a scene has it, on one line.
 std::string toml_text(const toml::node& node) {
-  if (const auto* number = node.as_floating_point()) return exact_text(number->get());
+  if (const auto* number = node.as_floating_point()) return number_text(number->get());
   std::ostringstream out;
   if (const auto* list = node.as_array()) {
     for (const toml::node& item : *list) out << (out.str().empty() ? "[" : ", ") << toml_text(item);
@@ -61,7 +71,7 @@ std::string rounded_text(double value, int digits, bool whole) {
   if (whole) return std::to_string(std::llround(value));
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-  return exact_text(std::strtod(buffer, nullptr));
+  return number_text(std::strtod(buffer, nullptr));
 }
 
 class StudyFile {
@@ -173,7 +183,7 @@ void read_values(const StudyFile& file, const toml::table& table, VariedKey& var
                              varied.whole ? "whole number" : "number"));
     // 150 and 150.0 are one torque.
     const std::string value =
-        varied.number && !varied.whole ? exact_text(item.value<double>().value_or(0)) : toml_text(item);
+        varied.number && !varied.whole ? number_text(item.value<double>().value_or(0)) : toml_text(item);
     if (!seen.insert(value).second)
       file.refuse(item, text("'values' of ", varied.name, " holds ", toml_text(item), " twice"));
     varied.values.push_back(value);

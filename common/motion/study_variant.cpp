@@ -85,11 +85,13 @@ Eigen::VectorXd variant_answers(const BodyArtifact& driver, const BodyArtifact& 
   const StaticArtifact rest = static_transmission(driver, driven, slice.statics, slice.torque);
   add_static(answers, rest);
   if (!slice.directions.empty()) {
+    // Without bearing dampers nothing depends on the pair at the reference torque.
+    const bool alike =
+        slice.torque == slice.motion.reference_torque || slice.motion.damping.bearing_ratio == 0;
     const double bearing_stiffness =
-        slice.torque == slice.motion.reference_torque
-            ? rest.mean_stiffness
-            : static_transmission(driver, driven, slice.statics, slice.motion.reference_torque)
-                  .mean_stiffness;
+        alike ? rest.mean_stiffness
+              : static_transmission(driver, driven, slice.statics, slice.motion.reference_torque)
+                    .mean_stiffness;
     for (const std::string& direction : slice.directions)
       add_motion(answers,
                  response(sweep(driver, driven, rest, bearing_stiffness, slice.motion, direction, report)));

@@ -1,0 +1,117 @@
+# Studies from outside: one target per variant, bodies shared, the same numbers as the stages one by one, resumed after a kill, and
+# what is refused by which line. Works on a copy of the tree with the real programs and a coarse scene.
+set -uo pipefail
+B=${B:-build}
+base=$(mktemp -d)
+trap 'rm -rf "$base"' EXIT
+ok() { echo "ok: $1"; }
+wrong() { echo "FAILED: $1: $2"; }
+tree=$base/tree log=$base/log
+mkdir -p "$tree/$B"
+cp -a Makefile pipelines common tools tests data "$tree"
+cp -a "$B/bin" "$B/lib" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cd "$tree" || exit 1
+[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
+make_() { make $sanitize "$@" > "$log" 2>&1; }
+contents() { find out -type f -name '*.h5' -print0 | sort -z | xargs -0 -r sha256sum; }
+stages() { grep -c "^[^ ]*bin/gear-$1 " "$log"; }
+
+sed 's/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^modes = [^ ]*/modes = 5/
+  s/^\[discretisation\]/&\npositions = 32/; s/^steps_per_period = [^ ]*/steps_per_period = 32/
+  s/^min_sample_rate_kHz = [^ ]*/min_sample_rate_kHz = 50/; s/^torque_Nm = .*/torque_Nm = [100, 150]/
+  s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2200, to = 2400, step = 100 }/' data/scenes/parker2000.toml > own.toml
+cat > small.toml <<'STUDY'
+scene = "own.toml"
+stage = "sweep"
+directions = ["up"]
+[[vary]]
+key = "damping.rayleigh_stiffness_s"
+values = [5.5e-6, 7.7e-6]
+[[vary]]
+key = "operation.torque_Nm"
+values = [100, 150]
+STUDY
+
+# --- a study, and what it answers beside the stages
+if make_ STUDY=small.toml study && [ -s out/studies/small/study.png ] && [ -s out/studies/small/study.tsv ]; then
+  ok "a study of four variants gives a table and a figure"
+else
+  wrong "a study of four variants gives a table and a figure" "$(grep -m1 -E 'error|\*\*\*' "$log")"
+  exit 1
+fi
+[ "$(stages mesh) $(stages reduce) $(stages variant)" = "1 1 4" ] && ok "one body for all, one target per variant" ||
+  wrong "one body for all, one target per variant" "$(stages mesh) $(stages reduce) $(stages variant)"
+expected=$(contents)
+make_ -q STUDY=small.toml study && ok "and is up to date then" || wrong "and is up to date then" "$(make -n STUDY=small.toml study | head -n 2)"
+if ! command -v h5dump > /dev/null; then echo "skipped: answers of a variant beside those of the stages (h5dump is not installed)"
+elif make_ SCENE=own.toml out/own/T150/up/response.h5; then
+  [ "$(stages reduce)" = 0 ] && ok "a scene and its study share the body" || wrong "a scene and its study share the body" "$(stages reduce)"
+  number() { h5dump -y -w 0 -m %.17g -d "$1" "$2" | awk '/DATA {/ { on = 1; next } on && /}/ { exit } on' | tr -d ' ,'; }
+  rms=$(number /dte_rms out/own/T150/up/response.h5 | sort -g | tail -n 1) load=$(number /tooth_load_max out/own/T150/up/response.h5 | sort -g | tail -n 1)
+  stiffness=$(number /mean_stiffness out/own/T150/static.h5)
+  # Row of 7.7e-6 s at 150 N m: the last.
+  row() { number "/answer/$1" out/studies/small/study.h5 | tail -n 1; }
+  if [ -n "$rms" ] && [ "$rms $load $stiffness" = "$(row rms_max_up) $(row tooth_load_max_up) $(row mean_stiffness)" ]; then ok "answers of a variant are those of the stages, bit by bit"
+  else wrong "answers of a variant are those of the stages, bit by bit" "$rms $load $stiffness against $(row rms_max_up) $(row tooth_load_max_up) $(row mean_stiffness)"; fi
+else wrong "the stages of the same scene run" "$(tail -n 1 "$log")"; fi
+
+# --- what changes redo
+changed() { sed "$1" small.toml > small.new; mv small.new small.toml; make_ -n STUDY=small.toml study; }
+cp small.toml small.original
+changed 's/^values = \[100, 150\]/values = [150, 100, 200]/'
+[ "$(stages reduce) $(stages variant)" = "0 2" ] && ok "another torque computes its own variants, whatever the order" || wrong "another torque computes its own variants" "$(stages reduce) $(stages variant)"
+cp small.original small.toml
+make_ STUDY=small.toml study
+changed '1i # a comment'; [ "$(grep -c 'bin/gear-' "$log")" = 0 ] && ok "a comment redoes nothing" || wrong "a comment redoes nothing" "$(grep -m1 bin/gear- "$log")"
+changed '1i title = "Another"'; [ "$(stages variant) $(stages study) $(stages plot)" = "0 1 1" ] && ok "another title redoes table and figure only" || wrong "another title" "$(cat "$log")"
+cp small.original small.toml
+changed 's/^stage = .*/stage = "static"/; /^directions/d; s/^values = \[5.*/values = [7.7e-6, 5.5e-6]/'
+[ "$(stages variant)" = 2 ] && ok "at rest, variants that differ in damping alone are one" || wrong "at rest, variants that differ in damping alone are one" "$(stages variant)"
+cp small.original small.toml
+make_ STUDY=small.toml study
+
+# --- broken off
+rm -rf out/studies
+setsid make $sanitize -j1 STUDY=small.toml study > "$log" 2>&1 & job=$!
+for _ in $(seq 600); do [ -z "$(find out/studies/small/variants -name '*.h5' 2> /dev/null)" ] || break; sleep 0.05; done
+kill -KILL -- -$job; wait $job 2> /dev/null
+before=$(find out/studies -name '*.h5' | wc -l)
+make_ STUDY=small.toml study && [ "$(contents | grep studies)" = "$(grep studies <<< "$expected")" ] && [ "$before" -ge 1 ] && [ "$(stages variant)" -lt 4 ] &&
+  ok "a make that was killed goes on at what is missing and ends with the same bytes" || wrong "a make that was killed" "$before before, $(stages variant) made again: $(tail -n 1 "$log")"
+rm -rf out/studies
+make_ STUDY=small.toml SHARE=1/2 study && [ "$(stages variant) $(stages study)" = "2 0" ] && make_ STUDY=small.toml SHARE=2/2 study && [ "$(stages variant)" = 2 ] &&
+  make_ STUDY=small.toml study && [ "$(stages variant) $(stages study)" = "0 1" ] && ok "two shares and the table" || wrong "two shares and the table" "$(tail -n 1 "$log")"
+
+# --- refused
+# refused <claim> <pattern> <make arguments>: status not 0, the line, and no file of a study that was not there
+refused() {
+  local claim=$1 pattern=$2
+  shift 2
+  if make_ "$@"; then wrong "$claim" "make ended with status 0"
+  elif ! grep -q -E "$pattern" "$log"; then wrong "$claim" "no '$pattern' in: $(head -n 3 "$log" | tr '\n' ' ')"
+  else ok "$claim"; fi
+}
+refused "make study without STUDY lists the studies" 'which study\? .*there are: .*tolerances' study
+refused "a study that does not exist" 'there is no data/studies/nowhere.toml; +there are: ' STUDY=nowhere study
+sed 's/rayleigh_stiffness_s/rayleigh_stifness_s/' small.original > typo.toml
+refused "a key that no scene has, by file, line and the nearest" "typo.toml:5: no scene has the key 'damping.rayleigh_stifness_s'; did you mean 'damping.rayleigh_stiffness_s'" STUDY=typo.toml study
+sed 's/7.7e-6/7.7/' small.original > wide.toml
+refused "a value out of range, by variant and limit" "wide.toml:5: variant 2 \(damping.rayleigh_stiffness_s = 7.7, operation.torque_Nm = 100\): .*must be at most 1 s" STUDY=wide.toml study
+sed 's/^scene.*/scene = "gone.toml"/' small.original > lost.toml
+refused "a scene that is not there" "lost.toml: variant 0 .*gone.toml" STUDY=lost.toml study
+printf 'scene = "own.toml"\n[[vary]]\nkey = "mesh.centre_distance_mm"\nvalues = [150, 170]\n' > apart.toml
+refused "gears that do not reach each other, by the variant, before anything runs" "apart.toml: variant 1 \(mesh.centre_distance_mm = 170\): \[\[mesh\]\]" STUDY=apart.toml study
+[ ! -e out/studies/apart ] && [ ! -e out/studies/typo ] && ok "what is refused leaves no files" || wrong "what is refused leaves no files" "$(ls out/studies)"
+printf 'scene = "own.toml"\n[[vary]]\nkey = "damping.rayleigh_stiffness_s"\nvalues = [1e-6, 2e-6]\n' > alike.toml
+refused "keys that the stage does not depend on" "varies nothing: all 2 variants are alike" STUDY=alike.toml study
+mkdir -p other; cp small.toml other/tolerances.toml
+refused "a study of one's own does not take the place of one of the project" 'out/studies/tolerances is of data/studies/tolerances.toml, which says otherwise; rename the file' STUDY=other/tolerances.toml study
+refused "a share that is none" 'SHARE=3/2: it is i/n' STUDY=small.toml SHARE=3/2 study
+
+# A torque at which the flanks are not long enough: the stage refuses it.
+printf 'scene = "own.toml"\n[[vary]]\nkey = "operation.torque_Nm"\nvalues = [100, 900000]\n' > heavy.toml
+refused "a variant that a stage refuses, by its values" "gear-variant: error: .*: variant 1 \(operation.torque_Nm = 900000\): " -k STUDY=heavy.toml study
+[ "$(find out/studies/heavy -name '*.h5' | wc -l)" = 1 ] && ok "make -k computes the others, but no table" || wrong "make -k computes the others, but no table" "$(find out/studies/heavy -name '*.h5')"
+sed -i '1i refusals = "mark"' heavy.toml
+if make_ STUDY=heavy.toml study && grep -q 'warning: variant 1 (operation.torque_Nm = 900000) was refused: ' "$log" && grep -q '^# refused (1): ' out/studies/heavy/study.tsv; then
+  ok "refusals = \"mark\": a line of the table that says so"; else wrong "refusals = \"mark\"" "$(tail -n 2 "$log" | tr '\n' ' ')"; fi
