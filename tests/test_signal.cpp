@@ -288,16 +288,17 @@ FoundEnds ends_of(const Cusp& cusp, double first, double last, double step) {
   }
   for (size_t i = 1; i < sweep.size(); ++i) {
     if (!may_break(sweep, i)) continue;
-    double kept = x[i - 1], tried = 0;
+    double kept = x[i - 1];
+    std::vector<double> tried;
     BranchWalk walk;
     walk.step = direction * step;
     walk.limit = sweep.back().mesh_frequency;
-    walk.run = [&](double f) {
+    walk.run = [&](double f, double) {
       ++found.runs;
-      tried = cusp.settled(f, kept);
-      return motion(f, tried);
+      tried.push_back(cusp.settled(f, kept));
+      return motion(f, tried.back());
     };
-    walk.keep = [&] { kept = tried; };
+    walk.keep = [&](int n) { kept = tried.at(n); };
     if (const auto end = branch_end(walk, sweep, i)) found.ends.push_back(*end);
   }
   return found;
@@ -333,14 +334,14 @@ TEST_CASE("ends of branches: another multiple of the mesh period, a branch that 
   BranchWalk walk;
   walk.step = 10;
   walk.limit = 130;
-  walk.run = [](double f) { return BranchMotion{f, 1, f < 113.3 ? 1 : 2}; };
-  walk.keep = [] {};
+  walk.run = [](double f, double) { return BranchMotion{f, 1, f < 113.3 ? 1 : 2}; };
+  walk.keep = [](int) {};
   const auto doubling = branch_end(walk, sweep, 2);
   REQUIRE(doubling);
   CHECK(doubling->last < 113.3);
   CHECK(doubling->next >= 113.3);
   CHECK(doubling->next - doubling->last == relative(10.0 / 64, 1e-9));
-  walk.run = [](double f) { return BranchMotion{f, 1, 1}; };  // the sweep left it too early
+  walk.run = [](double f, double) { return BranchMotion{f, 1, 1}; };  // the sweep left it too early
   const auto beyond = branch_end(walk, sweep, 2);
   REQUIRE(beyond);
   CHECK(beyond->outlived);

@@ -101,22 +101,22 @@ std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const std::vec
   const double from = motions[i - 1].mesh_frequency, to = motions[i].mesh_frequency;
   const LumpedJump whole{0.5 * (from + to), std::abs(to - from), false, kept.start};
   if (kept.multiple == 0) return whole;
-  LumpedOrbit branch = kept, found;
+  LumpedOrbit branch = kept;
+  std::vector<std::pair<double, LumpedOrbit>> runs;  // by speed, Hz
   std::vector<BranchPoint> points;
   BranchWalk walk;
   walk.step = to - from;
   walk.limit = motions.back().mesh_frequency;
   while (std::abs(walk.step) > kFinest * walk.fineness) walk.fineness *= 2;
-  double ran = from;
-  walk.run = [&](double mesh_frequency) {
-    ran = mesh_frequency;
+  walk.run = [&](double mesh_frequency, double) {
     oscillator.set_speed(mesh_frequency);
-    found = settle(oscillator, branch.start, periodicity, march_only, kFollowPeriods);
-    return branch_motion(mesh_frequency, found);
+    runs.emplace_back(mesh_frequency,
+                      settle(oscillator, branch.start, periodicity, march_only, kFollowPeriods));
+    return branch_motion(mesh_frequency, runs.back().second);
   };
-  walk.keep = [&] {
-    branch = found;
-    points.push_back(branch_point(ran, branch));
+  walk.keep = [&](int n) {
+    branch = runs[n].second;
+    points.push_back(branch_point(runs[n].first, branch));
   };
   const auto end = branch_end(walk, motions, i);
   if (!end) return std::nullopt;

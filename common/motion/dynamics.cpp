@@ -15,7 +15,40 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
+
 constexpr double kTwoPi = 2 * std::numbers::pi;
+
+// Throws Error(input) if a range, with those beside it, takes more memory than a scene may.
+template <class... Words>
+void require_memory(double own, double beside, double most, const char* remedy, const Words&... what) {
+  if (own + beside <= most) return;
+  constexpr double kGB = 1e9;  // bytes
+  const std::string others =
+      beside > 0 ? text(" beside the ", beside / kGB, " GB of narrower contact windows, which stay") : "";
+  fail(Failure::input, what..., " need ", own / kGB, " GB", others, ", at most ", most / kGB, " are allowed",
+       beside > 0 ? " for all windows together" : "", "; ", remedy);
+}
+
+}  // namespace
+
+MotionBounds::MotionBounds(const GearMeshModel& model, const StaticArtifact& statics, double widening) {
+  constexpr double kBeyondStatics = 2.5;
+  force = kBeyondStatics * (statics.torque / model.kinematics.gear(0).base_radius()) * widening;
+  // Beside what load adds: teeth that differ are near or far as they are.
+  const VectorXd& without_load = statics.unloaded_error;
+  deflection = kBeyondStatics * (statics.hunting_periods == 1
+                                     ? statics.transmission_error.maxCoeff()
+                                     : (statics.transmission_error - without_load).maxCoeff());
+  if (statics.hunting_periods > 1) deflection += std::max(0.0, without_load.maxCoeff());
+  deflection *= widening;
+}
+
+ContactRange contact_range(const GearMeshModel& model, const StaticArtifact& statics,
+                           const MotionBounds& bounds) {
+  const double load = statics.torque / model.kinematics.gear(0).base_radius();
+  return contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+                       statics.contact.strips, load / model.kinematics.contact_ratio(), bounds.force,
+                       bounds.deflection, model.flanks());
 }
 
 RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParameters& parameters)
@@ -187,7 +220,7 @@ MatrixXd lagged_fields(const std::vector<MatrixXd>& tables, int g, int most, int
 
 }  // namespace
 
-void RollingDynamics::set_range(const ContactRange& range, int steps) {
+void RollingDynamics::set_range(const ContactRange& range, int steps, const WindowMemory& beside) {
   if (!lines() && range.strips % kLanes != 0)
     fail(Failure::numerical, range.strips, " strips in a window are no multiple of ", kLanes);
   const double depth = parameters_.damping.undamped_depth;
@@ -204,16 +237,16 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
 
   // Participation of every coordinate at the nodes of every position, once to look at and once packed for the steps.
   constexpr double kMostMemory = 12e9;  // bytes
-  double memory = 0;
+  memory_ = {};
   for (const Position& position : positions_)
-    memory += 8.0 * static_cast<double>(coordinates_.size()) *
-              (position.mesh.nodes() + (lines() ? 1.0 : static_cast<double>(kPairNodes)) *
-                                           static_cast<double>(position.mesh.pairs.size()));
-  if (memory > kMostMemory)
-    fail(Failure::input, coordinates_.size(), " coordinates at ", steps, " positions of a mesh period need ",
-         memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
-         " are allowed; set contact = \"line\", lower min_sample_rate_kHz or raise the lowest speed, or take "
-         "body = \"modal\"");
+    memory_.coordinates += 8.0 * static_cast<double>(coordinates_.size()) *
+                           (position.mesh.nodes() + (lines() ? 1.0 : static_cast<double>(kPairNodes)) *
+                                                        static_cast<double>(position.mesh.pairs.size()));
+  require_memory(
+      memory_.coordinates, beside.coordinates, kMostMemory,
+      "set contact = \"line\", lower min_sample_rate_kHz or raise the lowest speed, or take body = "
+      "\"modal\"",
+      coordinates_.size(), " coordinates at ", steps, " positions of a mesh period");
 
   std::array<std::vector<MatrixXd>, 2> tables;  // by offset between teeth, -2 reach..2 reach
   for (int g = 0; g < 2; ++g) {
@@ -281,7 +314,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
     }
   }
   step_data_.clear();
-  set_hunting_gaps();
+  set_hunting_gaps(beside.gaps);
   pack();
   turns_.clear();
   for (int i = 0; i < static_cast<int>(coordinates_.size()); ++i) {
@@ -295,7 +328,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps) {
   size_workspaces();
 }
 
-void RollingDynamics::set_hunting_gaps() {
+void RollingDynamics::set_hunting_gaps(double beside) {
   hunting_ = whine::hunting_periods(model_);
   hunting_gap_.clear();
   if (hunting_ == 1) return;
@@ -305,12 +338,12 @@ void RollingDynamics::set_hunting_gaps() {
     strips += static_cast<size_t>(position.mesh.strips());
   }
   constexpr double kMostMemory = 2e9;  // bytes
-  const double memory = 8.0 * static_cast<double>(strips) * hunting_;
-  if (memory > kMostMemory)
-    fail(Failure::input, "teeth that differ meet again after ", hunting_, " mesh periods, whose gaps at ",
-         positions_.size(), " positions each need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
-         " are allowed; set contact = \"line\", lower min_sample_rate_kHz and steps_per_period, or raise the "
-         "lowest speed");
+  memory_.gaps = 8.0 * static_cast<double>(strips) * hunting_;
+  require_memory(
+      memory_.gaps, beside, kMostMemory,
+      "set contact = \"line\", lower min_sample_rate_kHz and steps_per_period, or raise the lowest speed",
+      "teeth that differ meet again after ", hunting_, " mesh periods, whose gaps at ", positions_.size(),
+      " positions each");
   hunting_gap_.resize(strips * static_cast<size_t>(hunting_));
   for (int period = 0; period < hunting_; ++period)
     for (const Position& position : positions_)

@@ -49,6 +49,22 @@ struct DynamicParameters {
   Fidelity fidelity;
 };
 
+// What a motion at the torque of `statics` may want of its contact: 2.5 times the load and the deflection of rest, times
+// `widening`, which grows where a motion wants more.
+struct MotionBounds {
+  MotionBounds(const GearMeshModel& model, const StaticArtifact& statics, double widening = 1);
+  double force;       // N, of a pair
+  double deflection;  // m; of teeth that differ beside what they are ahead or behind without load
+};
+ContactRange contact_range(const GearMeshModel& model, const StaticArtifact& statics,
+                           const MotionBounds& bounds);
+
+// Bytes that a contact window takes as long as it is held, of what may grow beyond a machine.
+struct WindowMemory {
+  double coordinates = 0;  // at nodes of all positions
+  double gaps = 0;         // of teeth that differ
+};
+
 class RollingDynamics {
  public:
   // Throws Error(input) if a total inertia is not above what the body's modes carry or body = "full" finds a body that does
@@ -76,9 +92,10 @@ class RollingDynamics {
   };
 
   // Builds the strips, or the lines, at `steps` phases; keeps nothing of an earlier range. Of a range lines use the
-  // corner gap alone. Throws Error(input) if the coordinates of all steps need more than 12 GB,
-  // Error(numerical) if the lagged fields leave more than 1e-3 of a gear's residual flexibility to follow at once.
-  void set_range(const ContactRange& range, int steps);
+  // corner gap alone. beside: of other dynamics that are held at the same time. Throws Error(input) if, with these, the
+  // coordinates of all steps need more than 12 GB or gaps of teeth that differ more than 2 GB, Error(numerical) if the lagged fields leave more than 1e-3 of a gear's residual flexibility to follow at once.
+  void set_range(const ContactRange& range, int steps, const WindowMemory& beside = {});
+  const WindowMemory& memory() const { return memory_; }
   // mesh frequency: Hz; steps per period must divide the steps of the range.
   void set_speed(double mesh_frequency, int steps);
   // Static equilibrium at phase 0, at rest.
@@ -272,7 +289,7 @@ class RollingDynamics {
   Equilibrium equilibrium_at(const Position& position, const Eigen::MatrixXd& compliance,
                              const Eigen::VectorXd& offset);
   Eigen::VectorXd elastic_offset(const Position& position) const;
-  void set_hunting_gaps();
+  void set_hunting_gaps(double beside);
   // Gives a position the gaps of the teeth that meet there in a mesh period; nothing to do for teeth that are alike.
   void set_gap(Position& position, int period) {
     if (hunting_ > 1) put_gap(position, period);
@@ -302,6 +319,7 @@ class RollingDynamics {
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;
   Stream stream_;
+  WindowMemory memory_;
   int hunting_ = 1;
   std::vector<double> hunting_gap_;  // m: (mesh period, strip of all positions), of teeth that differ
   std::vector<Step> step_data_;

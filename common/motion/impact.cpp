@@ -114,12 +114,8 @@ class HeldPair {
     parameters.damping.rayleigh_stiffness = 0;
     parameters.fidelity = slice.fidelity;
     RollingDynamics dynamics(model, parameters);
-    const double load = statics.torque / model.kinematics.gear(0).base_radius();
     // As a sweep begins, so that the strips are the same.
-    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
-                                     statics.contact.strips, load / model.kinematics.contact_ratio(),
-                                     2.5 * load, 2.5 * statics.transmission_error.maxCoeff(), model.flanks()),
-                       plan_.phases);
+    dynamics.set_range(contact_range(model, statics, MotionBounds(model, statics)), plan_.phases);
     set_gears(blank_, driver, driven);
     blank_.mesh = statics.mesh;
     blank_.fidelity = slice.fidelity;

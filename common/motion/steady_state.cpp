@@ -21,6 +21,7 @@ constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in huntin
 constexpr int kStagnation = 50;     // periods over which a subharmonic must not come nearer to a shorter one
 constexpr int kColumns = 4;         // changes that one extrapolation combines: three multipliers go
 constexpr double kClose = 1e-2;     // change per period below which the motion counts as close to its orbit
+constexpr double kFarAlong = 2.5;   // of the last step along a branch: further it does not foretell
 constexpr int kLongestPause = 64;   // periods of plain marching after extrapolations that gained nothing
 
 double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
@@ -41,22 +42,33 @@ void begin_with_end_of(const RollingDynamics::Period& before, RollingDynamics::P
   if (before.pair_load.rows() == period.pair_load.rows()) period.pair_load.col(0) = before.pair_load.col(0);
 }
 
-// Sum of weight[i] times the state i, from the second on: the first is no image of another, and may come from another range.
-State combination(const std::deque<State>& states, const VectorXd& weight) {
-  State sum = states.back();
+// Sum of weight times state. States of another range know more or fewer teeth than the last, or have other strips, whose
+// forces are then those of the last; only a ledger reads them.
+State combination(const std::vector<const State*>& states, const VectorXd& weight) {
+  const State& last = *states.back();
+  State sum = last;
+  const Eigen::Index n = weight.size();
   const auto add = [&](auto&& part) {
     auto& total = part(sum);
-    total = weight[1] * part(states[1]);
-    for (int i = 2; i < weight.size(); ++i) total += weight[i] * part(states[i]);
+    total *= weight[n - 1];
+    for (Eigen::Index i = 0; i + 1 < n; ++i) {
+      const auto& other = part(*states[i]);
+      const Eigen::Index columns = std::min(total.cols(), other.cols());
+      total.middleCols((total.cols() - columns) / 2, columns) +=
+          weight[i] * other.middleCols((other.cols() - columns) / 2, columns);
+    }
   };
   add([](auto& s) -> auto& { return s.z; });
   add([](auto& s) -> auto& { return s.v; });
   add([](auto& s) -> auto& { return s.force; });
-  add([](auto& s) -> auto& { return s.p; });
-  add([](auto& s) -> auto& { return s.d; });
   for (int g = 0; g < 2; ++g) {
     add([g](auto& s) -> auto& { return s.lag[g]; });
     add([g](auto& s) -> auto& { return s.load[g]; });
+  }
+  if (std::all_of(states.begin(), states.end(),
+                  [&](const State* s) { return s->p.size() == last.p.size(); })) {
+    add([](auto& s) -> auto& { return s.p; });
+    add([](auto& s) -> auto& { return s.d; });
   }
   return sum;
 }
@@ -88,13 +100,15 @@ class Extrapolation {
       return std::nullopt;
     // Weights sum to 1: differences of neighbouring changes are free.
     const VectorXd share = solve(earlier - change.rightCols(n - 1), -change.col(n - 1));
-    VectorXd weight = VectorXd::Zero(n + 1);  // the first state is no image of another
-    weight[n] = 1;
+    VectorXd weight = VectorXd::Zero(n);
+    weight[n - 1] = 1;
     for (int i = 0; i + 1 < n; ++i) {
-      weight[i + 1] += share[i];
-      weight[i + 2] -= share[i];
+      weight[i] += share[i];
+      weight[i + 1] -= share[i];
     }
-    return combination(states_, weight);
+    std::vector<const State*> images;  // the first state is no image of another
+    for (int i = 1; i <= n; ++i) images.push_back(&states_[i]);
+    return combination(images, weight);
   }
 
  private:
@@ -113,10 +127,11 @@ class Extrapolation {
 // A subharmonic of order m is a motion whose state repeats after m hunting periods but, long since and without getting any
 // nearer, not after a divisor of m: a slow transient may look like one for a while.
 std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double periodicity,
-                            const std::string& method) {
+                            const std::string& method, const RmsRange& looked_for) {
   Orbit orbit;
   // The map whose orbits are looked for: a hunting period, which is a mesh period for teeth that are alike.
   const int hunting = dynamics.hunting_periods(), most = std::max(kMostPeriods / hunting, kLeastTurns);
+  const bool watched = hunting == 1 && (looked_for.least > 0 || std::isfinite(looked_for.most));
   std::deque<State> past{state};
   std::deque<std::array<double, kMostMultiple + 1>> history;  // change over m periods
   RollingDynamics::Period period;
@@ -145,6 +160,20 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
       if (!proposal.pending) return std::nullopt;
       reject();
       continue;
+    }
+    if (watched) {
+      const double rms = oscillating_rms({period});
+      if (!(rms >= looked_for.least && rms <= looked_for.most)) {
+        if (proposal.pending) {
+          reject();
+          continue;
+        }
+        orbit.multiple = 0;
+        orbit.periods = n;
+        orbit.rms = rms;
+        orbit.record.assign(1, period);
+        return orbit;
+      }
     }
     std::array<double, kMostMultiple + 1> change{};
     const int known = static_cast<int>(past.size());
@@ -209,6 +238,40 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
       }
     }
   }
+}
+
+State foretold(const RollingDynamics& dynamics, const std::vector<KnownOrbit>& branch,
+               double mesh_frequency) {
+  const size_t n = branch.size();
+  const KnownOrbit& last = branch[n - 1];
+  if (n < 2) return last.state;
+  const KnownOrbit& before = branch[n - 2];
+  const VectorXd step = dynamics.difference(last.state, before.state);
+  const double length = step.norm(), ahead = mesh_frequency - last.mesh_frequency,
+               run = last.mesh_frequency - before.mesh_frequency;
+  if (!(length > 0)) return last.state;
+  if (n > 2) {
+    // Way along the branch, from the last orbit on, as its last step sees it.
+    const KnownOrbit& first = branch[n - 3];
+    const double s1 = -length, s0 = s1 - dynamics.difference(before.state, first.state).dot(step) / length,
+                 rate = run / length, earlier = (before.mesh_frequency - first.mesh_frequency) / (s1 - s0),
+                 bend = (rate - earlier) / -s0, slope = rate - bend * s1;
+    if (s0 < s1 && slope * ahead > 0) {
+      const double inside = slope * slope + 4 * bend * ahead;
+      // At the fold where the speed lies beyond it.
+      const double s =
+          inside > 0 ? 2 * ahead / (slope + std::copysign(std::sqrt(inside), slope)) : -slope / (2 * bend);
+      if (s > 0 && s < kFarAlong * length) {
+        VectorXd weight(3);
+        weight << s * (s - s1) / (s0 * (s0 - s1)), s * (s - s0) / (s1 * (s1 - s0)),
+            (s - s0) * (s - s1) / (s0 * s1);
+        return combination({&first.state, &before.state, &last.state}, weight);
+      }
+    }
+  }
+  const double s = ahead / run;
+  if (!(s > 0 && s < kFarAlong)) return last.state;
+  return combination({&before.state, &last.state}, Eigen::Vector2d(-s, 1 + s));
 }
 
 }  // namespace whine

@@ -1,5 +1,6 @@
 // The periodic motion that a rolling pair settles into at one speed.
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,13 +20,31 @@ struct Orbit {
   std::vector<RollingDynamics::Period> record;
 };
 
+// What the RMS of a mesh period (m) may be of a motion that is looked for.
+struct RmsRange {
+  double least = 0, most = std::numeric_limits<double>::infinity();
+};
+
 // Marches from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance) over a hunting period, which is
 // a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method "march": plain
 // marching, as a rig would. "extrapolate": once the motion is close, reduced rank extrapolation (Sidi, Vector Extrapolation
 // Methods with Applications, SIAM 2017, ch. 2) takes the slow multipliers out. It is used only where the multipliers that it
-// sees lie inside the unit circle, and counts only if marching on comes closer still: an unstable orbit is left again. Empty if
-// contact wanted more than the range of the dynamics holds; the state is then spoiled.
+// sees lie inside the unit circle, and counts only if marching on comes closer still: an unstable orbit is left again. Of teeth
+// that are alike a motion whose RMS leaves `looked_for` is given up, not periodic, its last period as it is. Empty if contact
+// wanted more than the range of the dynamics holds; the state is then spoiled.
 std::optional<Orbit> settle(RollingDynamics& dynamics, RollingDynamics::State& state, double periodicity,
-                            const std::string& method);
+                            const std::string& method, const RmsRange& looked_for = {});
+
+// A state on the orbit of one mesh period at a speed.
+struct KnownOrbit {
+  double mesh_frequency = 0;  // Hz
+  RollingDynamics::State state;
+};
+
+// The state to start from at a mesh frequency (Hz) so as to stay on the branch of up to three orbits, the last one nearest:
+// state and speed as quadratics of the way along the branch, which a fold does not stop. The last orbit's own state where
+// they do not reach that far.
+RollingDynamics::State foretold(const RollingDynamics& dynamics, const std::vector<KnownOrbit>& branch,
+                                double mesh_frequency);
 
 }  // namespace whine

@@ -52,14 +52,7 @@ class Sweeper {
  public:
   Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
           const SweepSlice& slice)
-      : model_(model), parameters_(parameters), slice_(slice), strips_(statics.contact.strips) {
-    load_ = statics.torque / model.kinematics.gear(0).base_radius();
-    // Beside what load adds: teeth that differ are near or far as they are.
-    const Eigen::VectorXd& without_load = statics.unloaded_error;
-    corner_gap_ = statics.hunting_periods == 1
-                      ? kBeyondStatics * statics.transmission_error.maxCoeff()
-                      : kBeyondStatics * (statics.transmission_error - without_load).maxCoeff() +
-                            std::max(0.0, without_load.maxCoeff());
+      : model_(model), parameters_(parameters), statics_(statics), slice_(slice) {
     finest_ = steps_at(slice.time, slice.frequency_from);
     lowest_ = range(0);
     state_ = dynamics(0).rest();
@@ -80,31 +73,31 @@ class Sweeper {
   }
   RollingDynamics::State& state() { return state_; }
 
-  // Runs at this speed from the present state until the state repeats.
-  Orbit run(double mesh_frequency) {
+  // Runs at this speed from the present state until the state repeats, or as settle() has it.
+  Orbit run(double mesh_frequency, const RmsRange& looked_for = {}) {
     const RollingDynamics::State start = state_;
     for (;; ++level_) {
       if (level_ > kMostLevel)
         fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks: forces above ",
-             largest_force(kMostLevel), " N or deflections above ", corner_gap(kMostLevel) * 1e6,
+             bounds(kMostLevel).force, " N or deflections above ", bounds(kMostLevel).deflection * 1e6,
              " micrometres; lower the torque");
-      if (auto orbit = try_level(mesh_frequency)) return on_lowest_level(mesh_frequency, std::move(*orbit));
+      if (auto orbit = try_level(mesh_frequency, looked_for))
+        return on_lowest_level(mesh_frequency, std::move(*orbit));
       state_ = start;
     }
   }
 
  private:
-  static constexpr double kBeyondStatics = 2.5, kWidening = 1.6;
+  static constexpr double kWidening = 1.6;
   static constexpr int kMostLevel = 8;
 
-  double largest_force(int level) const { return kBeyondStatics * load_ * std::pow(kWidening, level); }
-  double corner_gap(int level) const { return corner_gap_ * std::pow(kWidening, level); }
+  MotionBounds bounds(int level) const { return {model_, statics_, std::pow(kWidening, level)}; }
 
-  std::optional<Orbit> try_level(double mesh_frequency) {
+  std::optional<Orbit> try_level(double mesh_frequency, const RmsRange& looked_for = {}) {
     try {
       RollingDynamics& dynamics = this->dynamics(level_);
       dynamics.set_speed(mesh_frequency, steps_at(slice_.time, mesh_frequency));
-      return settle(dynamics, state_, slice_.time.periodicity, slice_.time.steady_state);
+      return settle(dynamics, state_, slice_.time.periodicity, slice_.time.steady_state, looked_for);
     } catch (const Error& error) {
       fail(error.kind(), "at ", mesh_frequency, " Hz, ", error.what());
     }
@@ -133,9 +126,7 @@ class Sweeper {
   }
 
   ContactRange range(int level) const {
-    ContactRange range = contact_range(
-        model_.kinematics, model_.gear[0].half_plane(), model_.gear[1].half_plane(), strips_,
-        load_ / model_.kinematics.contact_ratio(), largest_force(level), corner_gap(level), model_.flanks());
+    ContactRange range = contact_range(model_, statics_, bounds(level));
     if (level > 0) {
       const double wider = range.half_window / lowest_.half_window;
       range.strips = padded(static_cast<int>(std::ceil(wider * lowest_.strips)));
@@ -151,8 +142,14 @@ class Sweeper {
     if (!levels_[level]) {
       if (keeps_one_level())
         for (auto& other : levels_) other.reset();
+      WindowMemory held;
+      for (const auto& other : levels_)
+        if (other) {
+          held.coordinates += other->memory().coordinates;
+          held.gaps += other->memory().gaps;
+        }
       levels_[level] = std::make_unique<RollingDynamics>(model_, parameters_);
-      levels_[level]->set_range(range(level), finest_);
+      levels_[level]->set_range(range(level), finest_, held);
       levels_[level]->rest();  // sets the scale of distances
       reach_ = std::max(reach_, levels_[level]->reach());
     }
@@ -161,9 +158,9 @@ class Sweeper {
 
   const GearMeshModel& model_;
   DynamicParameters parameters_;
+  const StaticArtifact& statics_;
   const SweepSlice& slice_;
-  int strips_, finest_ = 0, level_ = 0, reach_ = 0;
-  double load_ = 0, corner_gap_ = 0;
+  int finest_ = 0, level_ = 0, reach_ = 0;
   ContactRange lowest_;
   std::vector<std::unique_ptr<RollingDynamics>> levels_;
   RollingDynamics::State state_;
@@ -188,28 +185,41 @@ struct Jump {
   double frequency, width;
 };
 // Between the speeds i - 1 and i of a sweep, or beyond where the sweep left the branch early; nothing if the branch leads from
-// one to the other. kept: the state at the end of speed i - 1.
+// one to the other. reached: the states at the end of speeds.
 std::optional<Jump> find_jump(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
-                              const RollingDynamics::State& kept, std::vector<BranchPoint>* left_early) {
+                              const std::vector<RollingDynamics::State>& reached, bool march,
+                              std::vector<BranchPoint>* left_early) {
   const BranchMotion &from = motions[i - 1], &to = motions[i];
   const double width = std::abs(to.mesh_frequency - from.mesh_frequency);
   const Jump whole{0.5 * (from.mesh_frequency + to.mesh_frequency), width};
   if (from.multiple == 0) return whole;
-  RollingDynamics::State branch = kept;
-  BranchPoint point;
+  struct Run {
+    Orbit orbit;
+    KnownOrbit end;
+  };
+  std::vector<Run> runs;
+  std::vector<KnownOrbit> branch;
+  double rms = from.rms;
+  // Of a subharmonic nothing says in which of its periods a run ends.
+  const bool single = from.multiple == sweeper.dynamics().hunting_periods();
+  size_t first = i - 1;
+  while (single && first > 0 && i - first < 3 && motions[first - 1].multiple == from.multiple) --first;
+  for (size_t k = first; k < i; ++k) branch.push_back({motions[k].mesh_frequency, reached[k]});
   std::vector<BranchPoint> points;
   BranchWalk walk;
   walk.step = to.mesh_frequency - from.mesh_frequency;
   walk.limit = motions.back().mesh_frequency;
-  walk.run = [&](double mesh_frequency) {
-    sweeper.state() = branch;
-    const Orbit orbit = sweeper.run(mesh_frequency);
-    point = branch_point(mesh_frequency, orbit);
+  walk.run = [&](double mesh_frequency, double most) {
+    sweeper.state() = march ? branch.back().state : foretold(sweeper.dynamics(), branch, mesh_frequency);
+    const Orbit orbit = sweeper.run(mesh_frequency, single ? RmsRange{rms / most, rms * most} : RmsRange{});
+    runs.push_back({orbit, {mesh_frequency, sweeper.state()}});
     return branch_motion(mesh_frequency, orbit);
   };
-  walk.keep = [&] {
-    branch = sweeper.state();
-    points.push_back(point);
+  walk.keep = [&](int n) {
+    branch.push_back(runs[n].end);
+    if (!single || branch.size() > 3) branch.erase(branch.begin());
+    rms = runs[n].orbit.rms;
+    points.push_back(branch_point(runs[n].end.mesh_frequency, runs[n].orbit));
   };
   const auto end = branch_end(walk, motions, i);
   if (!end) return std::nullopt;
@@ -305,7 +315,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   std::vector<Jump> jumps;
   for (size_t i = 1; i < motions.size(); ++i)
     if (may_break(motions, i))
-      if (const auto jump = find_jump(sweeper, motions, i, reached[i - 1], left_early))
+      if (const auto jump =
+              find_jump(sweeper, motions, i, reached, slice.time.steady_state == "march", left_early))
         jumps.push_back(*jump);
 
   // Rows of one length: shorter orbits repeat to fill theirs.

@@ -38,6 +38,38 @@ const BranchMotion* at_or_none(const std::vector<BranchMotion>& sweep, size_t i)
   return i < sweep.size() ? &sweep[i] : nullptr;
 }
 
+// True if the change of level between the motions i - 1 and i is, to kBreak, what the two changes before and the two after it
+// have half-way between them, as cubic interpolation has it: a resonance whose width is a few steps. False where they are not
+// all there, of one orbit and one step.
+bool is_smooth(const std::vector<BranchMotion>& sweep, size_t i) {
+  if (i < 3 || i + 2 >= sweep.size()) return false;
+  const double step = sweep[i].mesh_frequency - sweep[i - 1].mesh_frequency;
+  double change[5];
+  for (size_t k = 0; k < 5; ++k) {
+    const BranchMotion &a = sweep[i + k - 3], &b = sweep[i + k - 2];
+    if (a.multiple != b.multiple ||
+        !(std::abs(b.mesh_frequency - a.mesh_frequency - step) < 1e-6 * std::abs(step)))
+      return false;
+    change[k] = level(b) - level(a);
+  }
+  // As in departure().
+  const double most = 2 * std::abs(change[2]), on = (4 * change[1] - change[0]) / 3,
+               back = (4 * change[3] - change[4]) / 3;
+  return std::abs(change[2] - 0.5 * (std::clamp(on, -most, most) + std::clamp(back, -most, most))) <= kBreak;
+}
+
+// Hz: where the branch of three motions folds back, if they foretell that: the speed as a quadratic of the level has its
+// end ahead.
+std::optional<double> fold_ahead(const BranchMotion& a, const BranchMotion& b, const BranchMotion& c) {
+  const double step = level(c) - level(b), before = level(b) - level(a);
+  if (!(step * before > 0)) return std::nullopt;
+  const double rate = (c.mesh_frequency - b.mesh_frequency) / step,
+               bend = (rate - (b.mesh_frequency - a.mesh_frequency) / before) / (step + before);
+  const double at_c = rate + bend * step;  // of the speed by the level
+  if (!(at_c * rate > 0) || !(at_c * bend * step < 0)) return std::nullopt;
+  return c.mesh_frequency - at_c * at_c / (4 * bend);
+}
+
 }  // namespace
 
 bool may_break(const std::vector<BranchMotion>& sweep, size_t i) {
@@ -45,54 +77,89 @@ bool may_break(const std::vector<BranchMotion>& sweep, size_t i) {
   if (a.multiple == 0 && b.multiple == 0)
     return false;  // the RMS of a motion that does not repeat differs from stretch to stretch
   const BranchMotion* after = at_or_none(sweep, i + 1);
-  return departure(at_or_none(sweep, i - 2), a, b, after ? after : &b) > kBreak;
+  return departure(at_or_none(sweep, i - 2), a, b, after ? after : &b) > kBreak && !is_smooth(sweep, i);
 }
 
 std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<BranchMotion>& sweep,
                                     size_t i) {
-  constexpr int kShrinking = 4;  // steps, in the finest, over which a flank is told from a jump
+  constexpr int kShrinking = 4;      // steps, in the finest, over which a flank is told from a jump
+  constexpr double kLost = 1.25;     // change of RMS of a step that is halved whatever it leads to
+  constexpr double kSurelyLost = 2;  // the same for kShrinking finest steps and fewer
+  constexpr double kToFold = 0.75;   // of the way to a fold that is foretold
   const double finest = walk.step / walk.fineness;
-  const BranchMotion &from = sweep[i - 1], *swept = at_or_none(sweep, i);
+  const BranchMotion from = sweep[i - 1];
+  const BranchMotion* const swept = at_or_none(sweep, i);
   const int widest = swept ? walk.fineness / 2 : walk.fineness;
-  std::optional<BranchMotion> earlier;
-  if (const BranchMotion* before = at_or_none(sweep, i - 2)) earlier = *before;
-  BranchMotion at = from;
-  double largest = 0;  // departure at steps of kShrinking finest ones or fewer
-  for (int place = 0, stride = widest;;) {
-    const double next = from.mesh_frequency + (place + stride) * finest;
-    if ((next - walk.limit) / finest > 1e-6) {
-      if (stride == 1) return BranchEnd{at.mesh_frequency, walk.limit, true};
+
+  // What stands ahead, nearest last: the sweep's next speed, and runs that left the branch or were too long to tell.
+  constexpr int kSwept = -1;
+  struct Known {
+    BranchMotion motion;
+    int place, from;  // in finest steps from motion i - 1; where its run began
+    int run;          // or kSwept
+  };
+  std::vector<Known> ahead;
+  if (swept) ahead.push_back({*swept, walk.fineness, 0, kSwept});
+  std::vector<BranchMotion> trail(sweep.begin() + static_cast<std::ptrdiff_t>(i < 3 ? 0 : i - 3),
+                                  sweep.begin() + static_cast<std::ptrdiff_t>(i));  // on the branch
+  int place = 0, runs = 0, stride = widest;
+  double largest = 0;  // departure over kShrinking finest steps or fewer
+
+  const auto beyond = [&](size_t n) -> const BranchMotion* {
+    const int there = ahead[n].place;
+    while (n-- > 0)
+      if (ahead[n].motion.multiple > 0) return &ahead[n].motion;
+    return swept && there == walk.fineness ? at_or_none(sweep, i + 1) : nullptr;
+  };
+  const auto to_fold = [&] {  // in finest steps
+    const size_t n = trail.size();
+    const auto fold = n < 3 ? std::nullopt : fold_ahead(trail[n - 3], trail[n - 2], trail[n - 1]);
+    return fold ? (*fold - trail.back().mesh_frequency) / finest : std::numeric_limits<double>::infinity();
+  };
+
+  for (;;) {
+    int reach = stride;
+    bool again = false;  // from nearer to what is known ahead
+    if (!ahead.empty()) {
+      const Known& next = ahead.back();
+      const int gap = next.place - place;
+      const BranchMotion* before = trail.size() > 1 ? &trail[trail.size() - 2] : nullptr;
+      const double off = departure(before, trail.back(), next.motion, beyond(ahead.size() - 1));
+      if (gap > kShrinking)
+        largest = 0;
+      else if (std::isfinite(off))
+        largest = std::max(largest, off);
+      const bool nearest = gap == 1 && next.from == place;
+      if (off <= kBreak || (nearest && off <= 0.5 * largest)) {
+        if (next.run == kSwept) return std::nullopt;
+        walk.keep(next.run);
+        trail.push_back(next.motion);
+        place = next.place;
+        ahead.pop_back();
+        stride = off < kBreak / 4 && 2 * gap <= widest && place % (2 * gap) == 0 ? 2 * gap : gap;
+        continue;
+      }
+      if (nearest) return BranchEnd{trail.back().mesh_frequency, next.motion.mesh_frequency, false};
+      again = gap == 1 || (next.run == kSwept && next.from == 0 && place > 0 && to_fold() > gap);
+      reach = again ? gap : std::max(1, gap / 2);
+    } else if ((from.mesh_frequency + (place + stride) * finest - walk.limit) / finest > 1e-6) {
+      if (stride == 1) return BranchEnd{trail.back().mesh_frequency, walk.limit, true};
       stride /= 2;
       continue;
     }
-    const BranchMotion found = walk.run(next);
-    const BranchMotion* after = !swept || place + stride > walk.fineness ? nullptr
-                                : place + stride < walk.fineness         ? swept
-                                                                         : at_or_none(sweep, i + 1);
-    const double off = departure(earlier ? &*earlier : nullptr, at, found, after);
-    if (off > kBreak) {
-      if (stride <= kShrinking && std::isfinite(off)) largest = std::max(largest, off);
-      if (stride > 1) {
-        stride /= 2;
-        continue;
-      }
-      if (off > 0.5 * largest || !std::isfinite(off)) return BranchEnd{at.mesh_frequency, next, false};
+    if (const double fold = to_fold(); !again && place > 0 && fold < 2 * reach)
+      reach = std::clamp(static_cast<int>(kToFold * fold), std::max(1, reach / 4), reach);
+    const Known found{
+        walk.run(from.mesh_frequency + (place + reach) * finest, reach > kShrinking ? kLost : kSurelyLost),
+        place + reach, place, runs++};
+    if (!again) {
+      ahead.push_back(found);
+      continue;
     }
-    walk.keep();
-    earlier = at;
-    at = found;
-    place += stride;
-    if (swept && place == walk.fineness && departure(nullptr, *swept, at, nullptr) <= kBreak)
-      return std::nullopt;
-    // The rest at one go, if the step before was as long: slopes next to a jump lead too far.
-    const BranchMotion* beyond = at_or_none(sweep, i + 1);
-    if (swept && place < walk.fineness && walk.fineness - place <= stride &&
-        departure(&*earlier, at, *swept, beyond ? beyond : swept) <= kBreak)
-      return std::nullopt;
-    if (off < kBreak / 4 && 2 * stride <= widest && place % (2 * stride) == 0) {
-      stride *= 2;
-      if (stride > kShrinking) largest = 0;
-    }
+    Known& next = ahead.back();
+    next.from = place;
+    const bool same = departure(nullptr, next.motion, found.motion, nullptr) <= kBreak;
+    if (found.motion.multiple > 0 && !(next.run == kSwept && same)) next = found;
   }
 }
 

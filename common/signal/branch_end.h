@@ -17,15 +17,18 @@ struct BranchMotion {
 };
 
 // True if the RMS of a sweep may step, or the orbit repeats otherwise, between the motions i - 1 and i: the motions before
-// lead to another RMS half-way than those after, by more than 4 %. Finer speeds say what it is.
+// lead to another RMS half-way than those after, by more than 4 %, in a straight line and, where there are two on each side,
+// in a curve. Finer speeds say what it is.
 bool may_break(const std::vector<BranchMotion>& sweep, size_t i);
 
 struct BranchWalk {
   double step = 0;    // Hz, below 0 for falling speed: between the speeds of the sweep, the largest taken
   double limit = 0;   // Hz, furthest speed
   int fineness = 64;  // a power of two: steps are halved down to this part
-  std::function<BranchMotion(double)> run;  // at a speed (Hz), from the motion kept last
-  std::function<void()> keep;               // of the motion that was run last, to go on from it
+  // At a speed (Hz), from the motion kept last. A run may give up, as a motion that is not periodic, once the RMS of its
+  // mesh periods differs by more than the factor `most` from that of the motion kept last.
+  std::function<BranchMotion(double mesh_frequency, double most)> run;
+  std::function<void(int n)> keep;  // the motion of run n, counted from 0, to go on from it
 };
 struct BranchEnd {
   double last = 0, next = 0;  // Hz: furthest speed on the branch, and that which the branch does not reach
@@ -34,7 +37,8 @@ struct BranchEnd {
 
 // Follows the branch of motion i - 1 of a sweep, the motion kept first, with steps that are halved where they leave it, to
 // where it ends. Nothing if it leads to motion i, where the sweep has one; or beyond, since a sweep leaves a branch whose
-// basin has become narrower than its step.
+// basin has become narrower than its step. Steps shrink in time where three motions foretell a fold, at which speed is
+// quadratic in the level of the motion.
 std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<BranchMotion>& sweep, size_t i);
 
 }  // namespace whine

@@ -132,14 +132,9 @@ class RollingRig {
  public:
   RollingRig(const GearMeshModel& model, const StaticArtifact& statics, const SweepSlice& slice)
       : dynamics_(model, parameters(statics, slice)), slice_(slice) {
-    const double load = statics.torque / model.kinematics.gear(0).base_radius();
     finest_ = slice.time.steps_per_period;
     while (finest_ * slice.frequency_from < slice.time.min_sample_rate) finest_ *= 2;
-    dynamics_.set_range(
-        contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
-                      statics.contact.strips, load / model.kinematics.contact_ratio(), 2.5 * load,
-                      2.5 * statics.transmission_error.maxCoeff()),
-        finest_);
+    dynamics_.set_range(contact_range(model, statics, MotionBounds(model, statics)), finest_);
   }
   void settle(double frequency) {
     steps = slice_.time.steps_per_period;
