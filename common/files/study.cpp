@@ -1,7 +1,5 @@
 #include "files/study.h"
 
-#include "files/toml.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,6 +14,7 @@
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/publish.h"
+#include "files/toml.h"
 #include "files/variant.h"
 
 namespace whine {
@@ -79,7 +78,7 @@ class StudyFile {
   explicit StudyFile(const std::string& path) : path_(path) {
     const std::string bytes = read_bytes(path, "check the path of the study");
     try {
-      root_ = toml::parse(std::string_view(bytes));
+      root_ = parse_toml(bytes);
     } catch (const toml::parse_error& error) {
       refuse_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
     }
