@@ -84,6 +84,7 @@ done
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
   [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
   [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --output x out/scene/T100/static.h5"
+  [gear-report]="gear-report --output x out/scene/T100/static.h5"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-harris]="gear-harris --static-params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --design-torque 100 --output x")
 for program in "$bin"/gear-*; do
@@ -106,6 +107,7 @@ gear-static out/scene/linked.h5
 gear-impact out/scene/T100/static.h5
 gear-sweep out/scene/../scene/T100/static.h5
 gear-spectra out/scene/T100/up/sweep.h5
+gear-report out/scene/T100/static.h5
 CASES
 rm out/scene/linked.h5
 refused "a map without a damping" 3 'no case' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")
