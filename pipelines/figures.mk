@@ -1,4 +1,5 @@
 # Figures and tables: the paper's in out/figures/, those of SCENE in out/<scene>/report/; a report by its path is of any scene.
+# The page of a report, index.html, is made of them and of artifacts, by gear-report.
 #
 # A new figure is a line of inputs, the paper's torques, a gnuplot template pipelines/plots/figNN.gp, a name in the list of
 # figures and a target with its line of help. Figures of one kind share a template: drawn_as_figNN names it.
@@ -35,6 +36,9 @@ inputs_fig10 = $(inputs_fig08)
 inputs_fig11 = $(inputs_fig08)
 inputs_fig12 = $(foreach t,$(call each,$2),out/$1/T$t/static.h5)
 inputs_fig13 = $(inputs_fig12)
+inputs_load-sharing = $(inputs_fig12)
+inputs_waterfall = out/$1/T$(firstword $2)/up/sweep.h5
+inputs_tooth-loads = $(inputs_fig08)
 inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
 inputs_fig14-elastic = $(inputs_fig07)
 inputs_fig15 = $(foreach m,rectangular-fig15 rectangular,out/$1/T$(firstword $2)/$m/down/sweep.h5)
@@ -69,8 +73,8 @@ paper_scenes_sidebands := $(graded_scene)
 paper_scenes_crack := $(cracked_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(paper_scenes) $(relief_scenes)
-$(foreach f,profile-chart relief-jumps fig03 fig05 fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
-$(foreach f,fig01 fig07 fig12 fig13 fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
+$(foreach f,profile-chart relief-jumps waterfall tooth-loads fig03 fig05 fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
+$(foreach f,fig01 fig07 fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
 published_table1 := data/published/parker2000-table1.tsv
 
@@ -78,7 +82,9 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 # at the paper's own speeds, torques or levels
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
-figures := $(paper_figures) error-budget profile-chart relief-jumps sidebands crack
+# of any pair, none of the paper's
+other_figures := load-sharing waterfall tooth-loads error-budget profile-chart sidebands crack
+figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
 # What gear-scorecard --files lists, of both scenes of the paper.
@@ -91,7 +97,7 @@ inputs_scorecard := $(foreach s,$(paper_scenes),$(scorecard_files:%=out/$s/%))
 figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inputs_scorecard)
 
 $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
-  $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) error-budget profile-chart sidebands crack table1)))
+  $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) $(other_figures) table1)))
 
 $(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
 	$(B)/bin/gear-scorecard --output out/figures/scorecard $(inputs_scorecard)
@@ -115,6 +121,20 @@ $1.tsv $1.gif $(animation_frames:%=$1-%.png) &: $(call of_gears,$2,mesh) out/$2/
 	  --sweep out/$2/T$3/down/sweep.h5 $4 --frames $(words $(animation_frames)) --output $1
 endef
 
+# A report shows what there is of a pair: with teeth that differ no figure of one mesh period, with a crack no motion.
+teeth = $(filter $2,$(SCENE_$1_TEETH))
+report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
+  $(if $(call teeth,$1,alike),fig12 fig13 load-sharing error-budget) \
+  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 waterfall tooth-loads $(if $(call teeth,$1,differ),sidebands))
+report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
+  $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
+report_inputs = $(call report_artifacts,$1,$(SCENE_$1_TORQUES)) $(patsubst %,out/$1/report/%.png,$(report_shows))
+
+define report_rule # scene
+out/$1/report/index.html out/$1/report/results.tsv &: $(report_inputs) out/$1/params/title.txt $(B)/scenes/$1.mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
+	$(B)/bin/gear-report --output out/$1/report/index.html $(report_inputs)
+endef
+
 # The fragment of a scene says its torques: a report depends on the list, too, not only on what stands at each.
 define figure_rules # scene; needs its fragment
 $(if $(filter $(paper_scene),$1),\
@@ -123,14 +143,16 @@ $(if $(filter $(paper_scene),$1),\
 $(if $(filter $(calibrated_scene),$1),\
   $(eval $(call animation_rule,out/figures/animation/motion,$1,150,--mesh-frequency 2400)))
 $(eval $(call animation_rule,out/$1/report/animation/motion,$1,$(firstword $(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
-$(foreach f,$(report_figures) error-budget profile-chart sidebands crack,\
+$(foreach f,$(report_figures) $(other_figures),\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
+$(eval $(call report_rule,$1))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef
 
 figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/figures)
 
-.PHONY: figures $(figures) table1 scorecard animation
+.PHONY: figures $(figures) table1 scorecard animation report
+report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
@@ -152,6 +174,9 @@ table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 
 	@cat $<
 scorecard: out/figures/scorecard.txt ## every number and statement of the paper, its value here in both scenes, whether it agrees
 	@cat $<
+load-sharing: ## the share of the load that a tooth pair carries on its way through the mesh, and the loads over a mesh period, at rest
+waterfall: ## spectra of the dynamic transmission error against mesh frequency, and its first orders, 150 N m (SCENE: its first torque)
+tooth-loads: ## tooth loads against mesh frequency, and over the mesh period at the resonance, 150 N m (SCENE: its first torque)
 profile-chart: ## what is taken off the driving flanks, as an inspection sheet shows it, of the paper's pair with relief from 20.9 deg (SCENE: of its gears)
 relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relief, at both dampings, 150 N m
 error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m (SCENE: its first torque)

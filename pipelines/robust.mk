@@ -4,6 +4,7 @@
 #   make test-faults          kills, full disks, damaged files, two makes at once; FAULT_KILLS=50
 #   make fuzz                 FUZZ_SECONDS=60 for each reader, from the corpus in tests/fuzz/corpus
 #   make stress               contact problems and whole scenes by the thousand; STRESS_PROBLEMS, STRESS_SCENES
+#   make test-report          reports of whole scenes, their pages in a headless browser
 #   make lint                 clang-tidy, include direction of the rooms, shellcheck
 
 .PHONY: deps-lint deps-fuzz
@@ -26,6 +27,15 @@ FAULT_KILLS ?= 50
 .PHONY: test-faults
 test-faults: build $(tools:%=$(B)/id/%) | $(with_deps) ## kills, full disks, damaged files, clocks set back, two makes: each ends in the same bytes or says why; FAULT_KILLS=50
 	@B=$(B) FAULTS=all FAULT_KILLS=$(FAULT_KILLS) MAKEFLAGS= MAKELEVEL= bash tests/faults.sh | tee $(B)/faults.log; ! grep -q '^FAILED' $(B)/faults.log
+
+# --- reports
+
+.PHONY: deps-browser test-report
+deps-browser: wanted := chromium
+deps-browser: | $(with_deps) ## install the browser that only `test-report` uses
+	$(install_wanted)
+test-report: build $(tools:%=$(B)/id/%) | $(with_deps) $(filter deps-browser,$(goals)) ## reports of FZG and NASA gears at coarse settings: known numbers, figures, pages in a headless browser
+	@B=$(B) MAKEFLAGS= MAKELEVEL= bash tests/report.sh | tee $(B)/report.log; ! grep -q '^FAILED' $(B)/report.log
 
 # --- numbers under stress
 

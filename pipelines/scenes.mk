@@ -3,7 +3,8 @@
 # gear-scene checks a scene and writes the parameter slices that stages depend on (out/S/params/*.toml), the
 # keys of each distinct gear (out/bodies/<hash>/body.toml), the links out/S/<gear>, and a fragment of make:
 #   SCENE_S_GEARS, SCENE_S_DRIVER, SCENE_S_DRIVEN, SCENE_S_BODY_<gear>, SCENE_S_TORQUES, SCENE_S_REFERENCE_TORQUE,
-#   SCENE_S_RINGS_DOWN (no: with its [fidelity] there is no gear-impact), BODIES.
+#   SCENE_S_RINGS_DOWN (no: with its [fidelity], or its teeth, there is no gear-impact), SCENE_S_TEETH (alike, or differ and
+#   cracked), SCENE_S_MODIFIED (yes: flanks are not as designed), BODIES.
 # Make remakes a fragment before anything else, under -n as well (gear-scene itself is then compiled, too). This
 # happens in every run and costs milliseconds: times cannot tell a scene of the same name in another folder, one that
 # went back in time, or a deleted slice. All that it writes keeps its time if its content stays.
@@ -36,7 +37,7 @@ scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant
 
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
-  $(if $(filter mesh reduce static loaded impact calibrate sweep lumped jump-map sensitivity harris-map out/bodies/%,$(goals)),$(own_scene)) \
+  $(if $(filter mesh reduce static loaded impact calibrate sweep lumped jump-map sensitivity harris-map report out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
   $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scenes))) \
   $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \

@@ -61,12 +61,13 @@ out/$1/T$2/loaded_%.h5: out/$1/T$2/static.h5 $(pair_bodies) $(pair_meshes) $(cal
 	  --driven-mesh out/$1/$(SCENE_$1_DRIVEN)/mesh.h5 --mesh-phase $$* --output $$@
 endef
 
-# Options that stand in the makefiles, in files of their own that are replaced if they change: so that other options redo
-# what they made. $(call plan_rule,file,options)
+# Options that stand in the makefiles, in files of their own that are made again if they say otherwise: so that other options
+# redo what they made. $(call plan_rule,file,options)
 define plan_rule
-$1: FORCE
-	+@mkdir -p $$(@D); echo '$(strip $2)' | $$(call replace_if_changed,$$@)
+$1: $(if $(filter xx,x$(call differs,$(file <$1),$(strip $2))x),,FORCE)
+	@mkdir -p $$(@D); echo '$(strip $2)' > $$@.new.$$$$$$$$; mv $$@.new.$$$$$$$$ $$@
 endef
+differs = $(if $(and $(findstring x$1x,x$2x),$(findstring x$2x,x$1x)),,differs)
 
 # Lumped models, out/<scene>/T<torque>/<model>/; what stands after a dash is a variant. The rectangular wave is P2000's: the
 # same at all torques.

@@ -52,7 +52,7 @@ done
 echo "$name $output" >> calls
 [ "${FAIL:-}" != "$output" ] || exit 1
 mkdir -p "$(dirname "$output")"
-case $name in gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
+case $name in gear-report) touch "$output" "${output%/*}/results.tsv" ;; gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
 SCRIPT
 done
 scene=data/scenes/parker2000.toml
@@ -84,6 +84,8 @@ if [ "$(sort calls | uniq -d | wc -l)" = 0 ] && [ "$(wc -l < calls)" = 92 ]; the
 else wrong "each stage runs once" "$(sort calls | uniq -d | head -n 3)"; fi
 make_ -n $all
 expect "nothing to do the second time" ""
+said=$(grep -v -E '^make: (Nothing to be done|.* is up to date)|/id/' "$log" | head -2)
+[ -z "$said" ] && ok "and make -n then says nothing else" || wrong "and make -n then says nothing else" "$said"
 make_ -q $all && ok "make -q agrees" || wrong "make -q agrees" "status $?"
 
 touch "$B"/bin/gear-*; make_ -n $all
@@ -166,6 +168,28 @@ make_ -n VARIANTS='bad:bore_radius=35' sensitivity
 grep -q "did you mean 'bore_radius_mm'" "$log" && ok "a variant of a key that is none is refused" || wrong "a bad variant is refused" "$(tail -n 1 "$log")"
 make_ -n LAUNCH='srun -n1' JUMP_MAP_STEP=10 jump-map
 [ "$(grep -c '^srun -n1 build.*/bin/gear-jump-map ' "$log")" = 24 ] && [ "$(grep -c '^srun -n1 build.*/bin/gear-lumped --map ' "$log")" = 64 ] && ok "LAUNCH carries the maps" || wrong "LAUNCH carries the maps" "$(tail -n 1 "$log")"
+
+# --- reports
+make_ -n report
+expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*8 gear-report*1 gear-static*1"
+make_ report; make_ -n report
+expect "a report is up to date" ""
+mkdir -p mine
+sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/plain.toml
+make_ -n SCENE=mine/plain.toml report
+expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/line.toml; make_ -n SCENE=mine/line.toml report
+expect "contact in lines: no ring-down" "gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; make_ -n SCENE=mine/relief.toml report
+expect "relief: a profile chart" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.toml > mine/graded.toml; make_ -n SCENE=mine/graded.toml report
+expect "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*5 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4"
+sed -E 's/^\[gear.wheel\]/[gear.pinion.crack]\ndepth_mm = 1.0\n&/' mine/plain.toml > mine/cracked.toml; make_ -n SCENE=mine/cracked.toml report
+expect "a cracked tooth: gears at rest only" "gear-mesh*1 gear-plot*2 gear-reduce*1 gear-report*1 gear-static*2"
+make_ -n SCENE=mine/graded.toml fig05
+expect "teeth that differ have no ring-down in other figures either" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2"
+make_ -n SCENE=mine/plain.toml out/plain/report/index.html
+expect "a page by its path" "gear-impact*2 gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 
 # --- any torque, other scenes
 make_ -n out/parker2000/T700/up/response.h5

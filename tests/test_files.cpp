@@ -764,7 +764,12 @@ TEST_CASE("the number of an option is decimal, finite and the whole word") {
 }
 
 TEST_CASE("only what lies below out/ has a make target") {
-  CHECK(rebuild_advice("out/s/T150/static.h5") == "rebuild it with: make out/s/T150/static.h5");
+  CHECK(rebuild_advice("out/parker2000/T150/static.h5") ==
+        "rebuild it with: make out/parker2000/T150/static.h5");
+  CHECK(rebuild_advice("out/bodies/0123/body.h5") == "rebuild it with: make out/bodies/0123/body.h5");
+  // Of a scene that is none of the project's.
+  CHECK(rebuild_advice("out/s/T150/static.h5") ==
+        "rebuild it with: make SCENE=path/to/s.toml out/s/T150/static.h5");
   CHECK(rebuild_advice("results/static.h5").find("make results") == std::string::npos);
   CHECK(rebuild_advice("results/static.h5").find("below out/ only") != std::string::npos);
 }

@@ -15,7 +15,7 @@
 #include "lumped/stiffness.h"
 #include "lumped/sweep.h"
 #include "paper_pair.h"
-#include "plot/figures.h"
+#include "plot/motion_figures.h"
 #include "relative.h"
 #include "signal/response.h"
 

@@ -6,6 +6,7 @@
 //                         what a finer solution of some points differs by; with --dynamic the RMS at the worst speed
 // Equations: as gear-static; with --dynamic as gear-sweep
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <numbers>
@@ -43,6 +44,35 @@ std::vector<double> numbers(const std::string& name, const std::string& word) {
   for (int i = 0; i < values[2]; ++i)
     out.push_back(values[0] + (values[1] - values[0]) * i / (values[2] - 1));
   return out;
+}
+
+// Lengths of roll to the tip edge, m, of starts given as roll angles of the driver. What does not fit a flank that is relieved is
+// refused in degrees, as it was given.
+std::vector<double> lengths_of(const std::string& word, const whine::GearDesign& driver,
+                               const whine::GearDesign& driven, const std::string& relieved) {
+  const double degree = std::numbers::pi / 180;
+  const whine::ToothGeometry gear(driver), other(driven);
+  const auto involute = [](const whine::ToothGeometry& g) {
+    return g.base_radius() * (g.tip_roll_angle() - g.form_roll_angle());
+  };
+  const double longest = relieved == "driver"   ? involute(gear)
+                         : relieved == "driven" ? involute(other)
+                                                : std::min(involute(gear), involute(other));
+  const double tip = gear.tip_roll_angle() / degree, least = tip - longest / gear.base_radius() / degree;
+  std::vector<double> lengths;
+  double before = tip;
+  for (const double start : numbers("--start-deg", word)) {
+    if (!(start >= least && start < tip))
+      whine::fail(whine::Failure::usage, "--start-deg is ", start, " deg; a relief starts between ", least,
+                  " deg, where the involute begins, and the tip edge at ", tip,
+                  " deg (roll angles of the driver)");
+    if (start >= before)
+      whine::fail(whine::Failure::usage, "--start-deg is ", start, " deg after ", before,
+                  " deg; the largest comes first");
+    before = start;
+    lengths.push_back(gear.base_radius() * (tip - start) * degree);
+  }
+  return lengths;
 }
 
 void body(int argc, char** argv) {
@@ -116,9 +146,7 @@ void body(int argc, char** argv) {
   whine::require_body(first, slice.driver_body, "driver", driver);
   whine::require_body(second, slice.driven_body, "driven", driven);
   if (!start.empty()) {
-    const whine::ToothGeometry gear(first.design);
-    for (double degrees : numbers("--start-deg", start))
-      plan.length.push_back(gear.base_radius() * (gear.tip_roll_angle() - degrees * std::numbers::pi / 180));
+    plan.length = lengths_of(start, first.design, second.design, plan.relieved);
   } else if (!length.empty()) {
     for (double mm : numbers("--length-mm", length)) plan.length.push_back(mm * 1e-3);
   } else {

@@ -16,9 +16,11 @@
 #include "files/publish.h"
 #include "files/schemas.h"
 #include "files/summary.h"
-#include "plot/figures.h"
+#include "plot/gear_figures.h"
 #include "plot/gnuplot.h"
 #include "plot/map_figures.h"
+#include "plot/motion_figures.h"
+#include "plot/static_figures.h"
 #include "plot/study_figure.h"
 #include "signal/response.h"
 
@@ -140,6 +142,24 @@ const std::map<std::string, Drawing>& drawings() {
        {"mesh stiffness and its spectrum", "as fig12", 0, 0,
         [](const Paths& in, const Frequencies&) {
           return whine::mesh_stiffness_figure(read_all(in, whine::read_static));
+        }}},
+      {"load-sharing",
+       {"the share of the load that a tooth pair carries on its way through the mesh", "as fig12", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return whine::load_sharing_figure(read_all(in, whine::read_static));
+        }}},
+      {"waterfall",
+       {"spectra of the dynamic transmission error against mesh frequency, and its first orders", "sweep.h5",
+        1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return whine::waterfall_figure(whine::read_sweep(in[0]));
+        }}},
+      {"tooth-loads",
+       {"tooth loads against mesh frequency, and over the mesh period at the speed with the largest RMS",
+        "sweep.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto told = read_sweeps(in);
+          return whine::dynamic_load_figure(told.sweeps, told.background);
         }}},
       {"fig15",
        {"net mesh force of lumped models at one or two speeds", "sweep.h5 of lumped models at one torque", 0,

@@ -124,8 +124,20 @@ void body(int argc, char** argv) {
   out << name("DRIVEN") << " := " << scene.mesh.driven << "\n" << bodies.str() << name("TORQUES") << " :=";
   for (double torque : scene.operation.torques) out << " " << short_number(torque);
   out << "\n" << name("REFERENCE_TORQUE") << " := " << short_number(scene.operation.torques.front()) << "\n";
-  const bool rings_down = scene.fidelity.contact == "strips" && scene.fidelity.body != "full";
+  const SceneGear &driver = scene.gear(scene.mesh.driver), &driven = scene.gear(scene.mesh.driven);
+  const bool differ = !driver.errors.none() || !driven.errors.none();
+  const bool cracked = driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
+  const bool modified =
+      driver.modification != FlankModification{} || driven.modification != FlankModification{};
+  const bool rings_down =
+      scene.fidelity.contact == "strips" && scene.fidelity.body != "full" && !differ && !cracked;
   out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";
+  out << name("TEETH") << " := "
+      << (differ    ? "differ"
+          : cracked ? ""
+                    : "alike")
+      << (cracked ? " cracked" : "") << "\n";
+  out << name("MODIFIED") << " := " << (modified ? "yes" : "no") << "\n";
   out << "BODIES +=";
   for (const auto& hash : hashes) out << " " << hash;
   out << "\n";

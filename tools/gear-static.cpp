@@ -96,14 +96,8 @@ void body(int argc, char** argv) {
     tell_change("where a pair carries load off the line of action", change->corner, slice.contact.strips);
     tell_change("elsewhere", change->elsewhere, slice.contact.strips);
   }
-  if (periods > 1)
-    whine::tell("gear-static: teeth differ: ", periods, " mesh periods, after which the same ones meet, of ",
-                slice.contact.positions, " positions each");
-  if (slice.mesh.corner.enabled == false)
-    whine::tell("gear-static: corner contact is off: only pairs on the line of action carry load");
-  if (result.driver.tooth_thinning + result.driven.tooth_thinning > 0 && result.backlash_margin <= 0)
-    whine::tell("gear-static: warning: the backlash is used up by ", -result.backlash_margin * 1e6,
-                " um; back flanks would touch, which is not modelled");
+  for (const whine::Remark& remark : whine::remarks(result))
+    whine::tell("gear-static: ", remark.warning ? "warning: " : "", remark.words);
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 // With --next-rung: beside sweep.h5, in words, what the same sweep answers on the next rung of contact and on that of body.
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <iomanip>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -48,51 +46,6 @@ void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
   whine::tell(rung, ": jumps ", in_words(here.jump_frequency), " against ", in_words(there.jump_frequency),
               "; on different branches at ", change.apart, " speeds, with other periods or none at ",
               change.uneven);
-}
-
-// The default eta is that of P2000's pair; on stiffer or lighter gears it damps what nobody meant to damp. Said once of a pair
-// of sweeps, by the one of rising speed.
-void tell_damping(const whine::StaticArtifact& statics, const whine::SweepSlice& slice,
-                  const std::string& direction) {
-  const bool damps = slice.fidelity.body != "rigid" && slice.fidelity.body != "quasi-static";
-  const double ratio = whine::stiffness_damping_ratio(statics, slice);
-  if (direction != "up" || !damps || (ratio >= 0.01 && ratio <= 0.12) ||
-      !whine::default_rayleigh_stiffness(slice.damping))
-    return;
-  std::ostringstream percent;
-  percent << std::setprecision(3) << ratio * 100;
-  whine::tell("gear-sweep: warning: rayleigh_stiffness_s = ", slice.damping.rayleigh_stiffness,
-              ", the default, is for the gears of P2000; these it gives a damping ratio of about ",
-              percent.str(),
-              " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate "
-              "DAMPING=0.07` prints the value for 7 %");
-}
-
-// Warnings of what a motion is not, and in words what is out of the ordinary.
-// without_load: m, least transmission error at which unloaded teeth touch.
-void tell_motion(const whine::SweepArtifact& result, double without_load) {
-  constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
-  const double steps = whine::steps_per_oscillation(result);
-  if (steps < kFewestSteps)
-    whine::tell("gear-sweep: warning: a time step is too long for the contact: ", steps,
-                " steps per oscillation at its natural frequency of ", result.natural_frequency, " Hz, ",
-                kFewestSteps, " are needed to follow it; raise min_sample_rate_kHz or steps_per_period");
-  for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
-    if (result.period_multiple[i] == 0)
-      whine::tell("gear-sweep: warning: at ", result.mesh_frequency[i],
-                  " Hz the motion is not periodic after ", result.periods[i],
-                  " mesh periods; the state still changes by ", result.residual[i], " per period");
-    else if (result.period_multiple[i] > result.hunting_periods)
-      whine::tell("gear-sweep: at ", result.mesh_frequency[i],
-                  " Hz the motion is subharmonic: it repeats after ", result.period_multiple[i],
-                  " mesh periods");
-  const double least = result.transmission_error.minCoeff() - without_load;
-  if (least < 0 && !std::isfinite(result.backlash_margin))
-    whine::tell("gear-sweep: the teeth swing ", std::round(-least * 1e7) / 10,
-                " um apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
-  if (result.backlash_margin <= 0)
-    whine::tell("gear-sweep: warning: the motion goes ", -result.backlash_margin * 1e6,
-                " um beyond the backlash; back flanks would touch, which is not modelled");
 }
 
 void body(int argc, char** argv) {
@@ -157,8 +110,8 @@ void body(int argc, char** argv) {
   whine::tell("gear-sweep: ", result.torque, " N m ", direction, ", ", result.mesh_frequency.size(),
               " speeds, ", result.periods.sum(), " mesh periods", jumps.empty() ? ", no jump" : jumps, " -> ",
               output);
-  tell_damping(at_torque, slice, direction);
-  tell_motion(result, at_torque.unloaded_error.minCoeff());
+  for (const whine::Remark& remark : whine::remarks(result, at_torque))
+    whine::tell("gear-sweep: ", remark.warning ? "warning: " : "", remark.words);
   for (const whine::NextSweep& s : next)
     if (s.missing.empty())
       tell_change(s, result, run(s.driver, s.driven, s.statics, s.mean_stiffness, s.slice, " " + s.to));

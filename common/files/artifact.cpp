@@ -134,7 +134,11 @@ std::string rebuild_advice(const std::string& path) {
     return "make has targets below out/ only, such as out/<scene>/T150/static.h5: give one of these, or make "
            "it again "
            "as it was made";
-  return "rebuild it with: make " + target;
+  // Of a scene that is none of the project's make has to be told where it is.
+  const std::string scene = target.substr(4, target.find('/', 4) - 4);
+  const bool known = scene == "bodies" || scene == "figures" || scene.find('.') != std::string::npos ||
+                     std::filesystem::exists("data/scenes/" + scene + ".toml");
+  return "rebuild it with: make " + (known ? "" : "SCENE=path/to/" + scene + ".toml ") + target;
 }
 
 Origin read_origin(const std::string& path) {

@@ -29,4 +29,7 @@ std::string read_bytes(const std::string& path, const std::string& hint = "");
 std::string sha256(const std::string& bytes);
 std::string sha256_of_file(const std::string& path);
 
+// Bytes as text, in one line.
+std::string base64(const std::string& bytes);
+
 }  // namespace whine

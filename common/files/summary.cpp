@@ -52,6 +52,30 @@ void show_modification(Lines& lines, const GearMeshSpec& mesh) {
       add(lines, g == 0 ? "driver's flanks" : "driven gear's flanks", in_words(mesh.modification[g]));
 }
 
+// Nothing for teeth that are all alike.
+void show_errors(Lines& lines, const GearMeshSpec& mesh) {
+  const auto largest = [](const std::vector<double>& teeth) {
+    double most = 0;
+    for (const double deviation : teeth) most = std::max(most, std::abs(deviation));
+    return most * 1e6;
+  };
+  for (int g = 0; g < 2; ++g) {
+    const ToothErrors& e = mesh.errors[g];
+    if (e.none()) continue;
+    std::string words;
+    const auto part = [&](const auto&... parts) { words += text(words.empty() ? "" : ", ", parts...); };
+    if (e.iso_class > 0)
+      part("class ", e.iso_class, " of ISO 1328-1, ", e.iso_share * 100, " % of its limits, seed ", e.seed);
+    if (e.eccentricity != 0)
+      part("eccentricity ", e.eccentricity * 1e6, " um towards tooth ", e.eccentric_tooth);
+    for (const auto& [name, teeth] :
+         {std::pair{"single pitch", &e.single_pitch}, std::pair{"cumulative pitch", &e.cumulative_pitch},
+          std::pair{"profile slope", &e.profile_slope}, std::pair{"profile form", &e.profile_form}})
+      if (largest(*teeth) > 0) part(name, " up to ", largest(*teeth), " um");
+    add(lines, g == 0 ? "driver's teeth" : "driven gear's teeth", words);
+  }
+}
+
 void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& body) {
   add(lines, "gear", gear.teeth, " teeth, module ", gear.module * 1e3, " mm, face width ",
       gear.face_width * 1e3, " mm, bore radius ", gear.bore_radius * 1e3, " mm");
@@ -108,6 +132,7 @@ void show(Lines& lines, const StaticArtifact& a) {
       a.mesh.centre_distance * 1e3, " mm");
   add(lines, "corner contact", corner_rule(a.mesh));
   show_modification(lines, a.mesh);
+  show_errors(lines, a.mesh);
   show_discretisation(lines, a.driver_body, a.driven_body);
   add(lines, "contact", a.fidelity.contact,
       a.fidelity.contact == "strips"
@@ -121,6 +146,8 @@ void show(Lines& lines, const StaticArtifact& a) {
         " um peak to peak");
     add(lines, "largest tooth load", a.tooth_load.size() ? a.tooth_load.maxCoeff() : 0.0, " N");
   }
+  if (a.hunting_periods > 1)
+    add(lines, "hunting period", a.hunting_periods, " mesh periods, after which the same teeth meet");
   if (a.contact_pressure.size() > 0) {
     Eigen::Index i = 0, j = 0;
     const double peak = a.contact_pressure.maxCoeff(&i, &j);
@@ -206,6 +233,7 @@ void show(Lines& lines, const SweepArtifact& a) {
   }
   add(lines, "corner contact", corner_rule(a.mesh));
   show_modification(lines, a.mesh);
+  show_errors(lines, a.mesh);
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0;
     const Eigen::VectorXd rms =
@@ -279,6 +307,7 @@ namespace {
 void show(Lines& lines, const HarrisMapArtifact& a) {
   show_gear(lines, a.driver, a.driver_body);
   show_modification(lines, a.mesh);
+  show_errors(lines, a.mesh);
   add(lines, "torque", a.torque.size(), " from ", a.torque[0], " to ", a.torque[a.torque.size() - 1], " N m");
   add(lines, "tip relief", a.relief.size(), " from ", a.relief[0] * 1e6, " to ",
       a.relief[a.relief.size() - 1] * 1e6, " um, ", a.shape, ", on ",

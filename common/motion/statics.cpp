@@ -261,6 +261,20 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   return result;
 }
 
+std::vector<Remark> remarks(const StaticArtifact& s) {
+  std::vector<Remark> out;
+  const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
+  if (s.hunting_periods > 1)
+    add(false, "teeth differ: ", s.hunting_periods, " mesh periods, after which the same ones meet, of ",
+        s.contact.positions, " positions each");
+  if (!s.mesh.corner.enabled)
+    add(false, "corner contact is off: only pairs on the line of action carry load");
+  if (s.driver.tooth_thinning + s.driven.tooth_thinning > 0 && s.backlash_margin <= 0)
+    add(true, "the backlash is used up by ", -s.backlash_margin * 1e6,
+        " um; back flanks would touch, which is not modelled");
+  return out;
+}
+
 std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArtifact& driven,
                                        const StaticArtifact& statics, double phase, int period) {
   const GearMeshModel model(driver, driven, statics.mesh);

@@ -1,5 +1,9 @@
 // Static equilibrium over a mesh period: transmission error, stiffness and tooth loads (Eq. 7, 13-20).
 #pragma once
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "files/schemas.h"
 #include "motion/rolling_mesh.h"
 
@@ -12,6 +16,23 @@ namespace whine {
 // Error(numerical) where no equilibrium within the flanks exists or a tip edge would leave the other's involute.
 StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
                                    const StaticSlice& slice, double torque, double window = 1);
+
+// What a reader of a result has to know beside its numbers, in words without a full stop.
+struct Remark {
+  bool warning = false;  // something is wrong or left out; else out of the ordinary only
+  std::string words;
+};
+
+// Numbers with 6 digits, as tell() writes them.
+template <class... Parts>
+Remark remark(bool warning, const Parts&... parts) {
+  std::ostringstream words;
+  (words << ... << parts);
+  return {warning, words.str()};
+}
+
+// Of the statics: teeth that differ, no corner contact, backlash used up.
+std::vector<Remark> remarks(const StaticArtifact& statics);
 
 // One pair's strips in static equilibrium.
 struct ContactZone {

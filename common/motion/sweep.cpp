@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "contact/lanes.h"
+#include "files/fit.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
 #include "signal/branch_end.h"
@@ -230,20 +233,61 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const std::vector<BranchMotion>&
 
 }  // namespace
 
-double stiffness_damping_ratio(const StaticArtifact& statics, const SweepSlice& slice) {
+double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping, double driver_inertia,
+                               double driven_inertia) {
   double inverse_mass = 0;
   for (const auto& [design, inertia] :
-       {std::pair{&statics.driver, slice.driver_inertia}, std::pair{&statics.driven, slice.driven_inertia}}) {
+       {std::pair{&statics.driver, driver_inertia}, std::pair{&statics.driven, driven_inertia}}) {
     const double r = ToothGeometry(*design).base_radius();
     inverse_mass += r * r / inertia;
   }
-  return 0.5 * slice.damping.rayleigh_stiffness * std::sqrt(statics.mean_stiffness * inverse_mass);
+  return 0.5 * damping.rayleigh_stiffness * std::sqrt(statics.mean_stiffness * inverse_mass);
 }
 
 double steps_per_oscillation(const SweepArtifact& sweep) {
   double rate = std::numeric_limits<double>::infinity();  // Hz, of time steps
   for (const double f : sweep.mesh_frequency) rate = std::min(rate, f * steps_at(sweep.time, f));
   return rate / sweep.natural_frequency;
+}
+
+std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& statics) {
+  constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
+  std::vector<Remark> out;
+  const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
+  // The default eta is that of P2000's pair; on stiffer or lighter gears it damps what nobody meant to damp. Said once of a
+  // pair of sweeps, by the one of rising speed.
+  const bool damps = s.fidelity.body != "rigid" && s.fidelity.body != "quasi-static";
+  const double ratio = stiffness_damping_ratio(statics, s.damping, s.driver_inertia, s.driven_inertia);
+  if (s.direction == "up" && damps && (ratio < 0.01 || ratio > 0.12) &&
+      default_rayleigh_stiffness(s.damping)) {
+    std::ostringstream percent;
+    percent << std::setprecision(3) << ratio * 100;
+    add(true, "rayleigh_stiffness_s = ", s.damping.rayleigh_stiffness,
+        ", the default, is for the gears of P2000; these it gives a damping ratio of about ", percent.str(),
+        " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` "
+        "prints the "
+        "value for 7 %");
+  }
+  if (const double steps = steps_per_oscillation(s); steps < kFewestSteps)
+    add(true, "a time step is too long for the contact: ", steps,
+        " steps per oscillation at its natural frequency of ", s.natural_frequency, " Hz, ", kFewestSteps,
+        " are needed to follow it; raise min_sample_rate_kHz or steps_per_period");
+  for (Eigen::Index i = 0; i < s.mesh_frequency.size(); ++i)
+    if (s.period_multiple[i] == 0)
+      add(true, "at ", s.mesh_frequency[i], " Hz the motion is not periodic after ", s.periods[i],
+          " mesh periods; the state still changes by ", s.residual[i], " per period");
+    else if (s.period_multiple[i] > s.hunting_periods)
+      add(false, "at ", s.mesh_frequency[i], " Hz the motion is subharmonic: it repeats after ",
+          s.period_multiple[i], " mesh periods");
+  // Against the least transmission error at which unloaded teeth touch.
+  const double least = s.transmission_error.minCoeff() - statics.unloaded_error.minCoeff();
+  if (least < 0 && !std::isfinite(s.backlash_margin))
+    add(false, "the teeth swing ", std::round(-least * 1e7) / 10,
+        " um apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
+  if (s.backlash_margin <= 0)
+    add(true, "the motion goes ", -s.backlash_margin * 1e6,
+        " um beyond the backlash; back flanks would touch, which is not modelled");
+  return out;
 }
 
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files/schemas.h"
+#include "motion/statics.h"
 #include "signal/branches.h"
 
 namespace whine {
@@ -23,7 +24,13 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
 
 // Damping ratio that eta of Eq. 21 alone gives the pair on its mean mesh stiffness k: eta w / 2 with w^2 = k (r1^2 / I1 +
 // r2^2 / I2). An estimate from above: flexibility that follows its load at once is not damped.
-double stiffness_damping_ratio(const StaticArtifact& statics, const SweepSlice& slice);
+double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping, double driver_inertia,
+                               double driven_inertia);
+
+// What a reader of a sweep of elastic gears has to know beside its numbers, in words: a default damping that is not for these
+// gears, steps too long for the contact, motions that do not repeat or after several mesh periods, backlash used up. `statics`
+// is of the same torque.
+std::vector<Remark> remarks(const SweepArtifact& sweep, const StaticArtifact& statics);
 
 // Time steps per oscillation at the natural frequency, at the speed with the fewest.
 double steps_per_oscillation(const SweepArtifact& sweep);

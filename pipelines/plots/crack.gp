@@ -1,11 +1,11 @@
 # A cracked tooth: static transmission error with and without its crack about the mesh periods in which it works (a), what the
-# crack adds (b), and the spectrum in orders of the mesh frequency (c). Variables from gear-plot: tsv, title, note1, note2,
+# crack adds (b), and the spectrum in orders of the mesh frequency (c). Variables from gear-plot: tsv, heading, note1, note2,
 # around, last_order.
 set datafile separator tab
 set datafile commentschars "#"
 
-set multiplot layout 3, 1 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.085, 0.985, 0.12, 0.85 spacing screen 0.12
+set multiplot layout 3, 1 title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
+  margins screen 0.085, 0.985, 0.12, 0.825 spacing screen 0.12
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror

@@ -15,7 +15,7 @@ set multiplot layout 1, 2 title heading . "\n{/*0.68 " . note1 . "}" offset 0, -
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
-set key Left reverse vertical maxrows 1 samplen 3 spacing 1.2 center bottom
+set key Left reverse vertical maxrows (curves > 4 ? 2 : 1) samplen 3 spacing 1.2 center bottom
 
 set key at screen 0.285, screen 0.02
 set xlabel "Mesh phase (mesh periods, 0: pitch point)\n{/:Bold (a)}"

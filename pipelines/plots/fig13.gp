@@ -11,11 +11,11 @@ set linetype 2 dt (10, 5)
 set linetype 3 dt solid
 
 set multiplot layout 1, 2 title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.085, 0.985, 0.245, 0.815 spacing screen 0.1
+  margins screen 0.085, 0.985, (curves > 3 ? 0.28 : 0.245), 0.815 spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
-set key Left reverse vertical maxrows 2 samplen 2.5 spacing 1.2 font ",14" center bottom
+set key Left reverse vertical maxrows (curves > 3 ? 3 : 2) samplen 2.5 spacing 1.2 font ",14" center bottom
 
 set key at screen 0.285, screen 0.012
 set xlabel "Mesh phase (mesh periods, 0: pitch point)\n{/:Bold (a)}"

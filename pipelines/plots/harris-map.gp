@@ -1,6 +1,6 @@
 # Harris map: peak-to-peak transmission error against tip relief and torque (a), and against torque for the best relief of the
 # design torque and none (b); with a dynamic part the RMS at the worst speed (c).
-# Variables from gear-plot: tsv, title, note1, note2, labels, curves, design_torque, largest, moving, height.
+# Variables from gear-plot: tsv, heading, note1, note2, labels, curves, design_torque, largest, moving, height.
 set datafile separator whitespace
 set datafile commentschars "#"
 
@@ -9,17 +9,19 @@ rows = moving > 0 ? 2 : 1
 step = largest > 12 ? 2 : largest > 5 ? 1 : largest > 2 ? 0.5 : 0.2
 set contour base
 unset surface
+# One label each, where the line has gone a little way from the edge of the map.
+set style textbox opaque margins 0.4, 0.3 fc rgb "#ffffff" noborder
 set cntrparam levels incremental step, step, 100 * step
 set table $level
 splot tsv index "[peak to peak]" using 1:2:3
 unset table
 unset contour
 set surface
-set multiplot title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
+set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
 set border 15 lw 1.6 front
 set tics out nomirror front
 set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
-set tmargin at screen 1 - 170.0 / height
+set tmargin at screen 1 - 195.0 / height
 set bmargin at screen (rows == 2 ? 0.55 : 0.13)
 set lmargin at screen 0.085
 set rmargin at screen 0.42
@@ -27,10 +29,11 @@ set xlabel "Tip relief (µm)\n{/:Bold (a)} peak-to-peak transmission error (µm)
 set ylabel "Torque (N m)"
 set xrange [*:*] noextend
 set yrange [*:*] noextend
-set colorbox user origin screen 0.435, (rows == 2 ? 0.55 : 0.13) size screen 0.014, (rows == 2 ? 0.36 : 0.70)
+set colorbox user origin screen 0.435, (rows == 2 ? 0.55 : 0.13) size screen 0.014, (rows == 2 ? 0.347 : 0.675)
 unset key
 plot tsv index "[peak to peak]" using 1:2:3 with image, \
   $level using 1:2 with lines lw 1.2 lc rgb "#ffffff", \
+  $level using 1:2:(sprintf("%g", $3)) every 100000::10 with labels boxed tc rgb "#303030" font ",12", \
   tsv index "[best relief]" using 1:2 with lines lw 2.4 dt (10, 6) lc rgb "#c8201e", \
   tsv index "[optimum]" using 1:2 with points pt 3 ps 2.6 lw 3 lc rgb "#c8201e"
 

@@ -28,8 +28,8 @@ do for [p = 1:int(panels)] {
   row = value(sprintf("row%d", p))
   set lmargin at screen left + column * width
   set rmargin at screen left + (column + 1) * width - 0.012
-  set tmargin at screen 0.92 - row * 0.29
-  set bmargin at screen 0.715 - row * 0.29
+  set tmargin at screen 0.905 - row * 0.29
+  set bmargin at screen 0.705 - row * 0.29
   set label 1 value(sprintf("panel%d", p)) at graph 0.5, graph 1.06 center font (row > 0 ? ",12" : ",14")
   set arrow 1 from marked, graph 0 to marked, graph 1 nohead dt 2 lw 1.5 lc rgb "#606060" front
   # Numbers of torques where nothing stands to the left of a panel.

@@ -1,10 +1,10 @@
 # Profile charts: material on the driving flanks against the roll angle, tip to the right, one panel per gear.
-# Variables from gear-plot: tsv, title, title_driver, title_driven, lowest, highest; for each gear g: form_g, sap_g, lpstc_g,
+# Variables from gear-plot: tsv, heading, title_driver, title_driven, lowest, highest; for each gear g: form_g, sap_g, lpstc_g,
 # pitch_g, hpstc_g, tip_g.
 set datafile separator tab
 set datafile commentschars "#"
 
-set multiplot layout 2, 1 title title offset 0, -0.3 margins screen 0.085, 0.975, 0.1, 0.86 spacing screen 0.19
+set multiplot layout 2, 1 title heading offset 0, -0.3 margins screen 0.085, 0.975, 0.1, 0.84 spacing screen 0.19
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5

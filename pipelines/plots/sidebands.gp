@@ -1,10 +1,10 @@
 # Sidebands: static transmission error over the hunting period (a), its spectrum in orders of the mesh frequency (b), and that
-# of the dynamic transmission error (c). Variables from gear-plot: tsv, title, note1, note2, periods, last_order, speed.
+# of the dynamic transmission error (c). Variables from gear-plot: tsv, heading, note1, note2, periods, last_order, speed.
 set datafile separator tab
 set datafile commentschars "#"
 
-set multiplot layout 3, 1 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.085, 0.985, 0.08, 0.85 spacing screen 0.1
+set multiplot layout 3, 1 title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
+  margins screen 0.085, 0.985, 0.08, 0.835 spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror

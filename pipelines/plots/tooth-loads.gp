@@ -1,0 +1,59 @@
+# Largest tooth load against mesh frequency for both directions of the sweep (a), and the loads of successive teeth over the mesh
+# phase at the speed with the largest RMS (b); shaded there, marked at the foot here: contact lost.
+# Variables from gear-plot: tsv, heading, note1, note2, height, frequency_from, frequency_to, load_max, worst_speed, contact_lost,
+# largest, static_force, phase_from, phase_to, first_tooth, last_tooth, title_b, result_b, lost_b, shown_b_0 ..
+set datafile separator tab
+set datafile commentschars "#"
+
+set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}" offset 0, -0.3
+set border 3 lw 1.6
+set tics out nomirror
+set mxtics 5
+set grid lt 1 lc rgb "#e4e4e4" lw 1
+set lmargin at screen 0.092
+set rmargin at screen 0.84
+set ylabel "Force (N)" offset 0.5
+
+span = frequency_to - frequency_from
+span = span > 0 ? span : 0.2 * frequency_to
+set tmargin at screen 0.852
+set bmargin at screen 0.555
+set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
+high = load_max > static_force ? load_max : static_force
+set yrange [0 : 1.08 * high]
+set xlabel "Mesh frequency (Hz)"
+set label 1 "{/:Bold (a)} largest load of a tooth pair" at graph 0, graph 1 offset 0, 0.9 font ",14"
+set arrow 1 from worst_speed, graph 0 to worst_speed, graph 1 nohead back lt 1 lw 1.4 dt (18, 10) lc rgb "#9a9a9a"
+set label 2 "(b)" at worst_speed, graph 1 offset 0, 0.5 center tc rgb "#505050" font ",14"
+set key at graph 1.02, graph 0.98 left top Left reverse samplen 2 spacing 1.2 font ",14"
+curve(direction, what) = sprintf('tsv index "[%s]" using 1:%s', direction, what)
+drawn = curve("down", "6") . ' with linespoints lt 1 lw 1.8 pt 10 ps 1.1 lc rgb "#d55e00" title "speed falling", ' \
+  . curve("up", "6") . ' with linespoints lt 1 lw 1.8 pt 9 ps 0.6 lc rgb "#0072b2" title "speed rising", ' \
+  . 'static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#009e73" title sprintf("T / r_b = %.0f N", static_force)'
+if (contact_lost > 0) {
+  drawn = drawn . ', ' . curve("down", '($4 > 0 ? 0.035 * high : NaN)') . ' with points pt 5 ps 0.6 lc rgb "#d55e00" notitle, ' \
+    . curve("up", '($4 > 0 ? 0.015 * high : NaN)') . ' with points pt 5 ps 0.6 lc rgb "#0072b2" notitle, ' \
+    . 'keyentry with points pt 5 ps 1 lc rgb "#444444" title "contact lost"'
+}
+eval("plot " . drawn)
+
+unset arrow
+unset label 2
+set tmargin at screen 0.425
+set bmargin at screen 0.085
+set xrange [phase_from:phase_to]
+set yrange [0 : 1.08 * largest]
+set xlabel "Phase of tooth i (mesh periods, 0: it touches at the pitch point)"
+set label 1 "{/:Bold (b)} " . title_b . "\n" . result_b at graph 0, graph 1 offset 0, 1.9 font ",14"
+colour(t) = t == 0 ? "#0072b2" : (t == 1 ? "#d55e00" : "#7f9fbf")
+shade = lost_b > 0 ? 'tsv index "[b contact lost]" using (0.5 * ($1 + $2)):(1.08 * largest):($2 - $1) ' \
+  . 'with boxes fs solid 1 noborder lc rgb "#f3d9a8" title "contact lost", ' : ''
+teeth = ''
+do for [t = first_tooth:last_tooth] {
+  if (value(sprintf("shown_b_%d", t - first_tooth)) == 0) { continue }
+  teeth = teeth . sprintf(', tsv index "[b tooth i%+d]" using 1:2 with lines lt 1 lw %g lc rgb "%s" %s', t, \
+    t == 0 || t == 1 ? 3.0 : 1.8, colour(t), t == 0 ? 'title "tooth i"' : (t == 1 ? 'title "tooth i + 1"' : (t == -1 ? 'title "other teeth"' : 'notitle')))
+}
+eval("plot " . shade . 'tsv index "[b mesh force]" using 1:2 with lines lt 1 lw 1.6 dt (5, 4) lc rgb "#444444" title "all teeth", ' \
+  . 'static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#009e73" title sprintf("T / r_b = %.0f N", static_force)' . teeth)
+unset multiplot

@@ -1,0 +1,257 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "failure_of.h"
+#include "files/publish.h"
+#include "motion/statics.h"
+#include "paper_pair.h"
+#include "plot/motion_figures.h"
+#include "plot/report.h"
+#include "plot/static_figures.h"
+#include "relative.h"
+#include "signal/response.h"
+#include "signal/spectrum.h"
+
+using namespace whine;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const FigureBlock& block(const Figure& figure, const std::string& name) {
+  for (const auto& b : figure.blocks)
+    if (b.name == name) return b;
+  FAIL("no block " << name);
+  return figure.blocks.front();
+}
+
+StaticArtifact statics_of_paper(double torque) {
+  constexpr int kPositions = 64;
+  StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(kPositions), torque);
+  const Harmonics h = harmonics(s.transmission_error, 10), k = harmonics(s.stiffness_secant, 10);
+  s.transmission_error_harmonic.resize(11);
+  s.transmission_error_harmonic << h.mean, h.amplitude;
+  s.stiffness_harmonic.resize(11);
+  s.stiffness_harmonic << k.mean, k.amplitude;
+  return s;
+}
+
+// Speeds of 1000, 1100, ... Hz; the transmission error has 3 um of order 1, 2 um of order 2 and, at the second speed, whose motion
+// repeats after two periods, 1 um of order 1/2. One pair carries the load, 10 N more at each speed, 5 N more in the second of
+// two periods.
+SweepArtifact some_sweep(const std::string& direction, int speeds = 4) {
+  constexpr int kSteps = 32;
+  SweepArtifact s;
+  s.driver = s.driven = paper_gear();
+  s.mesh.driver = "pinion";
+  s.mesh.driven = "wheel";
+  s.mesh.centre_distance = 0.150;
+  s.torque = 150;
+  s.direction = direction;
+  s.natural_frequency = 2900;
+  s.driver_inertia = s.driven_inertia = 0.0148;
+  s.time.steps_per_period = kSteps;
+  s.mesh_frequency = Eigen::VectorXd::LinSpaced(speeds, 1000, 1000 + 100 * (speeds - 1));
+  if (direction == "down") s.mesh_frequency.reverseInPlace();
+  s.pair.resize(1);
+  s.pair << 0;
+  s.transmission_error.resize(speeds, 2 * kSteps);
+  s.mesh_force.resize(speeds, 2 * kSteps);
+  s.period_multiple = Eigen::VectorXi::Ones(speeds);
+  s.period_multiple[1] = 2;
+  s.periods = Eigen::VectorXi::Constant(speeds, 10);
+  s.residual = s.energy_imbalance = s.drift_force = Eigen::VectorXd::Zero(speeds);
+  s.energy.setZero(speeds, kEnergyLines.size());
+  for (int i = 0; i < speeds; ++i) {
+    MatrixRM load(2 * kSteps, 1);
+    for (int t = 0; t < 2 * kSteps; ++t) {
+      const double phase = 2 * kPi * t / kSteps;
+      s.transmission_error(i, t) = 1e-6 * (5 + 3 * std::cos(phase) + 2 * std::cos(2 * phase + 1));
+      if (i == 1) s.transmission_error(i, t) += 1e-6 * std::cos(0.5 * phase);
+      load(t, 0) = 100 + 10 * i + (i == 1 && t >= kSteps ? 5 : 0);
+      s.mesh_force(i, t) = load(t, 0);
+    }
+    s.tooth_load.push_back(load);
+  }
+  return s;
+}
+
+ResponseArtifact curve(const std::vector<double>& rms) {
+  ResponseArtifact r;
+  const auto n = static_cast<Eigen::Index>(rms.size());
+  r.mesh_frequency = Eigen::VectorXd::LinSpaced(n, 1000, 1000 + 100 * static_cast<double>(n - 1));
+  r.dte_rms = Eigen::Map<const Eigen::VectorXd>(rms.data(), n);
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("load sharing: shares at a mesh phase add up to the whole load, periods follow each other") {
+  const StaticArtifact light = statics_of_paper(100), heavy = statics_of_paper(300);
+  const Figure figure = load_sharing_figure({heavy, light});
+  const FigureBlock& share = block(figure, "share");
+  std::map<long, std::array<double, 2>> sums;  // by mesh phase
+  for (const auto& row : share.rows) {
+    const long phase = std::lround((row[0] - std::floor(row[0])) * 64) % 64;
+    for (int t = 0; t < 2; ++t) sums[phase][static_cast<size_t>(t)] += row[static_cast<size_t>(t) + 1];
+    // At the pitch point one pair of the paper's gears carries all.
+    if (row[0] == 0) CHECK(row[1] == relative(100, 1e-12));
+  }
+  CHECK(sums.size() == 64);
+  for (const auto& [phase, sum] : sums)
+    for (const double whole : sum) CHECK(whole == relative(100, 1e-12));
+  // Torques ascend, and tip edges under more load share for longer.
+  CHECK(share.columns[1].find("100 N m") != std::string::npos);
+  const auto loaded = [&](size_t column) {
+    return std::count_if(share.rows.begin(), share.rows.end(),
+                         [&](const auto& row) { return row[column] > 0; });
+  };
+  CHECK(loaded(2) > loaded(1));
+  CHECK(static_cast<double>(loaded(1)) / 64 > light.contact_ratio);
+  // What a pair carries at the end of a period the one ahead of it carries at the start.
+  const FigureBlock& loads = block(figure, "loads");
+  REQUIRE(loads.rows.size() == 65);
+  for (size_t pair = 2; pair + 1 < loads.columns.size(); ++pair)
+    CHECK(loads.rows.back()[pair] == loads.rows.front()[pair + 1]);
+  for (const auto& row : loads.rows) {
+    double sum = 0;
+    for (size_t pair = 2; pair < row.size(); ++pair) sum += row[pair];
+    CHECK(sum == relative(row[1], 1e-12));
+  }
+}
+
+TEST_CASE(
+    "waterfall: lines stand at the orders of what is known, half orders where the motion repeats after two "
+    "periods") {
+  const Figure figure = waterfall_figure(some_sweep("up"));
+  std::map<std::pair<double, double>, double> lines;
+  for (const auto& row : block(figure, "spectra").rows) lines[{row[0], row[1]}] = row[2];
+  CHECK(lines.size() == 4 * 2 + 1);
+  for (const double f : {1000.0, 1100.0, 1200.0, 1300.0}) {
+    CHECK(lines.at({f, f}) == relative(3, 1e-12));
+    CHECK(lines.at({f, 2 * f}) == relative(2, 1e-12));
+  }
+  CHECK(lines.at({1100, 550}) == relative(1, 1e-12));
+  const FigureBlock& orders = block(figure, "orders");
+  REQUIRE(orders.rows.size() == 4);
+  for (const auto& row : orders.rows) {
+    CHECK(row[1] == relative(3, 1e-12));
+    CHECK(row[2] == relative(2, 1e-12));
+  }
+  // Of many speeds those with the largest RMS: every second one of 80, but that of the half order.
+  const Figure many = waterfall_figure(some_sweep("down", 80));
+  CHECK(block(many, "speeds").rows.size() == 40);
+  const auto& shown = block(many, "speeds").rows;
+  CHECK(std::find(shown.begin(), shown.end(), std::vector<double>{8800}) != shown.end());
+}
+
+TEST_CASE("tooth loads against speed: those of the sweeps, the period of the largest load in the middle") {
+  const Figure figure = dynamic_load_figure({some_sweep("down"), some_sweep("up")});
+  for (const char* direction : {"up", "down"}) {
+    const SweepArtifact sweep = some_sweep(direction);
+    const ResponseArtifact r = response(sweep);
+    size_t i = 0;
+    for (const auto& row : block(figure, direction).rows) {
+      if (row.empty()) continue;
+      CHECK(row[5] == r.tooth_load_max[static_cast<Eigen::Index>(i++)]);
+    }
+    CHECK(i == 4);
+  }
+  // The half order has the largest RMS; at 1100 Hz on the way up, with 115 N in the second period.
+  for (const auto& row : block(figure, "b tooth i+0").rows)
+    if (!row.empty() && row[0] >= 0 && row[0] < 1) CHECK(row[1] == 115);
+  SweepArtifact other = some_sweep("down");
+  other.torque = 200;
+  CHECK(failure_of([&] { dynamic_load_figure({some_sweep("up"), other}); }) == Failure::input);
+  SweepArtifact second = some_sweep("up");
+  second.torque = 200;
+  CHECK(failure_of([&] {
+          dynamic_load_figure({some_sweep("up"), some_sweep("down"), second, other});
+        }) == Failure::input);
+}
+
+TEST_CASE("resonances: peaks that stand out, no end of a sweep, in either order of the speeds") {
+  const auto at = [](const std::vector<double>& rms) {
+    std::vector<Eigen::Index> rows = resonances(curve(rms));
+    return std::vector<long>(rows.begin(), rows.end());
+  };
+  CHECK(at({1, 3, 1, 1.1, 1, 5, 2}) == std::vector<long>{1, 5});
+  CHECK(at({5, 3, 1}).empty());
+  CHECK(at({1, 3, 5}).empty());
+  CHECK(at({1, 5, 4.9, 5.1, 1}) == std::vector<long>{3});  // two tips of one
+  CHECK(at({1, 2, 2, 1}) == std::vector<long>{1});
+  ResponseArtifact down = curve({1, 3, 1, 1, 1, 5, 2});
+  down.mesh_frequency.reverseInPlace();
+  CHECK(resonances(down) == std::vector<Eigen::Index>{5, 1});  // ascending in frequency
+}
+
+TEST_CASE("base64: the vectors of RFC 4648") {
+  for (const auto& [bytes, words] : std::map<std::string, std::string>{
+           {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}})
+    CHECK(base64(bytes) == words);
+  CHECK(base64(std::string("\0\xff", 2)) == "AP8=");
+}
+
+TEST_CASE("report: numbers of the artifacts, words that are no marks, figures only of known names") {
+  ReportContent content;
+  content.scene = "pair: <Gears> & \"teeth\"";
+  content.statics = {statics_of_paper(150), statics_of_paper(100)};
+  const ResponseArtifact up = response(some_sweep("up")), down = response(some_sweep("down"));
+  content.sweeps = {{up, {remark(true, "back flanks < touch")}}, {down, {}}};
+  content.pictures = {{"fig12", "\x89PNG"}};
+  const std::string page = report_html(content);
+  const auto holds = [&](const std::string& words) { return page.find(words) != std::string::npos; };
+  CHECK(holds("<title>&lt;Gears&gt; &amp; &quot;teeth&quot;</title>"));
+  CHECK(holds("back flanks &lt; touch"));
+  CHECK(holds("src=\"data:image/png;base64,iVBORw==\""));
+  CHECK(holds("<td>bore_radius_mm</td><td class=\"number\">40</td><td class=\"number\">40</td>"));
+  CHECK_FALSE(holds("id=\"frequencies\""));
+  // The torque of the scene's first line stands first.
+  CHECK(page.find("<th>150 N m</th>") < page.find("<th>100 N m</th>"));
+  CHECK(report_html(content) == page);
+
+  const std::string table = report_tsv(content);
+  CHECK(table.find("150\tlargest tooth load, speed rising\t130\tN\n") != std::string::npos);
+  CHECK(table.find("100\tlargest tooth load") == std::string::npos);
+  CHECK(table.find("150\tcontact lost at\tnowhere\tHz\n") != std::string::npos);
+
+  const auto refused = [&](auto change) {
+    ReportContent other = content;
+    change(other);
+    return failure_of([&] { report_html(other); }) == Failure::input;
+  };
+  CHECK_FALSE(refused([](ReportContent&) {}));
+  CHECK(refused([](ReportContent& c) { c.statics.clear(); }));
+  CHECK(refused([](ReportContent& c) { c.pictures[0].name = "fig99"; }));
+  CHECK(refused([](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }));
+  CHECK(refused([](ReportContent& c) { c.statics[1].driven.teeth = 51; }));
+}
+
+TEST_CASE("keys of a scene from its artifacts: in the scene's units, motion only where there is one") {
+  const auto value = [](const std::vector<SceneKey>& keys, const std::string& name) {
+    for (const SceneKey& key : keys)
+      if (key.name == name) return key.driver + "|" + key.driven;
+    return std::string("none");
+  };
+  StaticArtifact s = statics_of_paper(100);
+  const std::vector<SceneKey> keys = scene_keys_of(s);
+  CHECK(value(keys, "teeth") == "50|50");
+  CHECK(value(keys, "youngs_modulus_GPa") == "207|207");
+  CHECK(value(keys, "pressure_angle_deg") == "20|20");
+  CHECK(value(keys, "centre_distance_mm") == "150|");
+  CHECK(value(keys, "corner_contact") == "true|");
+  CHECK(value(keys, "rayleigh_stiffness_s") == "none");
+  CHECK(value(keys, "tip_relief_um") == "none");
+  s.mesh.modification[1].points = {{0.3, 1e-6}, {0.4, 2e-6}};
+  s.mesh.errors[0].single_pitch = {1e-6, -1e-6};
+  CHECK(value(scene_keys_of(s), "points") == "|[[17.1887, 1], [22.9183, 2]]");
+  CHECK(value(scene_keys_of(s), "single_pitch_um") == "[1, -1]|");
+  const ResponseArtifact r = response(some_sweep("up"));
+  CHECK(value(scene_keys_of(r), "total_inertia_kgm2") == "0.0148|0.0148");
+  CHECK(value(scene_keys_of(r), "undamped_depth_mm") == "0.5|");
+}
