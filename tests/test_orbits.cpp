@@ -5,9 +5,12 @@
 #include <cmath>
 #include <string>
 
+#include "failure_of.h"
 #include "motion/steady_state.h"
 #include "motion/sweep.h"
 #include "paper_pair.h"
+#include "relative.h"
+#include "signal/branch_end.h"
 #include "signal/response.h"
 
 using namespace whine;
@@ -41,10 +44,10 @@ struct Rig {
     p.fidelity.integrator = integrator;
     return p;
   }
-  // The orbit that speeds from..to in steps of 50 Hz lead to, from rest.
-  State carried(double from, double to, int steps) {
+  // The orbit that speeds from..to in steps of `width` (Hz) lead to, from rest.
+  State carried(double from, double to, int steps, double width = 50) {
     State state = dynamics.rest();
-    const double step = to > from ? 50 : -50;
+    const double step = to > from ? width : -width;
     for (double f = from; step * (to - f) >= 0; f += step) {
       dynamics.set_speed(f, steps);
       REQUIRE(settle(dynamics, state, 1e-6, "march"));
@@ -56,6 +59,19 @@ struct Rig {
   GearMeshModel model;
   RollingDynamics dynamics;
 };
+
+// Least squares of log error over log steps.
+double order(const VectorXd& steps, const VectorXd& error) {
+  const VectorXd x = steps.array().log() - steps.array().log().mean(), y = error.array().log();
+  return -x.dot(y) / x.squaredNorm();
+}
+
+// The largest error with so many steps or more: kinks fall at other phases of a step from setting to setting, and an error
+// may pass through zero.
+VectorXd envelope(VectorXd error) {
+  for (Eigen::Index i = error.size() - 1; i-- > 0;) error[i] = std::max(error[i], error[i + 1]);
+  return error;
+}
 
 }  // namespace
 
@@ -104,26 +120,102 @@ TEST_CASE(
   // Against the other integrator at 4096 steps, which shares nothing but the contact positions.
   constexpr int kReference = 4096;
   Rig exact(kReference), newmark(kReference, kLightDamping, true, "newmark");
+  VectorXd steps(5), worst_rms = VectorXd::Zero(5);
+  steps << 64, 128, 256, 512, 1024;
   for (const double from : {2000.0, 2900.0}) {
     State state = exact.carried(from, from < 2400 ? 2350 : 2450, 128);
     newmark.dynamics.rest();  // sets the scale of distances
     State reference = state;
     newmark.dynamics.set_speed(2400, kReference);
-    REQUIRE(settle(newmark.dynamics, reference, 1e-10, "extrapolate"));
-    VectorXd steps(4), error(4);
-    steps << 64, 128, 256, 512;
-    for (int i = 0; i < 4; ++i) {
+    const auto referred = settle(newmark.dynamics, reference, 1e-10, "extrapolate");
+    REQUIRE(referred);
+    VectorXd error(5), rms_error(5);
+    for (int i = 0; i < 5; ++i) {
       exact.dynamics.set_speed(2400, static_cast<int>(steps[i]));
-      REQUIRE(settle(exact.dynamics, state, 1e-10, "extrapolate"));
+      const auto orbit = settle(exact.dynamics, state, 1e-10, "extrapolate");
+      REQUIRE(orbit);
       error[i] = exact.dynamics.distance(state, reference);
+      rms_error[i] = std::abs(orbit->rms / referred->rms - 1);
     }
-    const VectorXd x = steps.array().log() - steps.array().log().mean(), y = error.array().log();
-    const double order = -x.dot(y) / x.squaredNorm();
-    MESSAGE("from " << from << " Hz: order " << order << ", errors " << error.transpose());
-    CHECK(order > 1.8);
-    CHECK(order < 2.2);
+    MESSAGE("from " << from << " Hz: order " << order(steps, error) << ", errors " << error.transpose()
+                    << "; of RMS " << rms_error.transpose());
+    CHECK(order(steps, error) > 1.8);
+    CHECK(order(steps, error) < 2.2);
     CHECK(error[3] < 2e-3);
+    worst_rms = worst_rms.cwiseMax(rms_error);
   }
+  // The RMS of one motion passes through the right value at some step: on the lower branch at 128.
+  CHECK(order(steps, envelope(worst_rms)) > 1.8);
+  CHECK(worst_rms[1] < 5e-3);
+}
+
+TEST_CASE("second order in the time step: where the upper branch ends, an envelope of its errors") {
+  constexpr int kReference = 2048;
+  Rig rig(kReference);
+  const State at_2000 = rig.carried(2900, 2000, 128, 20);
+  // Hz: end of the branch, to 0.012 Hz.
+  const auto end_with = [&](int steps) {
+    State state = at_2000, kept;
+    std::vector<State> reached;
+    const auto run = [&](double f) {
+      rig.dynamics.set_speed(f, steps);
+      const auto orbit = settle(rig.dynamics, state, 1e-8, "extrapolate");
+      REQUIRE(orbit);
+      return BranchMotion{f, orbit->rms, orbit->multiple};
+    };
+    const std::vector<BranchMotion> known = {run(2000)};
+    REQUIRE(known[0].rms > 1e-5);
+    kept = state;
+    BranchWalk walk;
+    walk.step = -50;
+    walk.limit = 1500;
+    walk.fineness = 4096;
+    walk.run = [&](double f, double) {
+      state = kept;
+      const BranchMotion motion = run(f);
+      reached.push_back(state);
+      return motion;
+    };
+    walk.keep = [&](int n) { kept = reached[n]; };
+    const auto end = branch_end(walk, known, 1);
+    REQUIRE(end);
+    CHECK(!end->outlived);
+    return 0.5 * (end->last + end->next);
+  };
+  const double reference = end_with(kReference);
+  VectorXd steps(4), error(4);
+  steps << 64, 128, 256, 512;
+  for (int i = 0; i < 4; ++i) error[i] = std::abs(end_with(static_cast<int>(steps[i])) - reference);
+  MESSAGE("the branch ends at " << reference << " Hz: order " << order(steps, envelope(error)) << ", errors "
+                                << error.transpose() << " Hz");
+  CHECK(order(steps, envelope(error)) > 1.8);
+  CHECK(error[2] < 5);
+}
+
+TEST_CASE(
+    "a motion that never repeats is reported as such: by its sweep, its response and the summary of either") {
+  const BodyArtifact& body = paper_body();
+  const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
+  SweepSlice slice = paper_sweep(6000, 6000, 20);
+  slice.damping.rayleigh_stiffness = 2e-7;
+  slice.damping.bearing_ratio = 1e-4;
+  const SweepArtifact swept = sweep(body, body, statics, 463e6, slice, "up", no_report);
+  REQUIRE(swept.period_multiple[0] == 0);
+  CHECK(swept.residual[0] > 1e-3);
+  CHECK(swept.periods[0] == 3000);
+  // Whole periods are stored, each of its own.
+  const int samples = slice.time.steps_per_period;
+  REQUIRE(swept.transmission_error.cols() == 8 * samples);
+  const VectorXd row = swept.transmission_error.row(0);
+  const double size = row.maxCoeff() - row.minCoeff();
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < i; ++j)
+      CHECK((row.segment(i * samples, samples) - row.segment(j * samples, samples)).cwiseAbs().maxCoeff() >
+            1e-2 * size);
+  const ResponseArtifact answer = response(swept);
+  CHECK(answer.period_multiple[0] == 0);
+  CHECK(answer.dte_rms[0] == relative(rms(swept, 0), 1e-12));  // of all that is stored, not of one period
+  CHECK(answer.jump_frequency.size() == 0);
 }
 
 TEST_CASE("the end of a branch does not depend on the steps of the sweep that left it early") {
@@ -195,4 +287,18 @@ TEST_CASE("near the cusp: a jump of less than 20 % is found from wide steps, whe
     }
     CHECK(most < std::log(1.2));
   }
+}
+
+TEST_CASE("contact windows of one sweep share one limit of memory") {
+  Rig rig(128);
+  const ContactRange range = contact_range(rig.model, rig.statics, MotionBounds(rig.model, rig.statics));
+  const auto refused = [&](double beside) {
+    return failure_of([&] { rig.dynamics.set_range(range, 128, {beside, 0}); }) == Failure::input;
+  };
+  CHECK(!refused(0));
+  const double own = rig.dynamics.memory().coordinates;
+  // Participation of 11 or more coordinates at 6 nodes of a pair, and packed at 8, of two pairs or more.
+  CHECK(own > 128 * 8.0 * 11 * 2 * (6 + 8));
+  CHECK(!refused(12e9 - own));
+  CHECK(refused(12e9 - own + 1));
 }

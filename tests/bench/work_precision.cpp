@@ -6,9 +6,8 @@
 // reference in which everything is finer at once says what all of them make together; the same one level coarser says what
 // that reference is worth.
 //
-// Branches are followed here rather than by sweep(), whose speeds are equally spaced: near its end the basin of a branch is
-// narrower than a step of the sweep, so the frequency at which a sweep jumps depends on its step. Here the step is halved
-// until even the smallest one leaves the branch.
+// Motions settle and branches are followed to their ends as in a sweep, but by smaller last steps; each speed records one orbit
+// with its ledger.
 //
 // Reads   params of the static and of the sweep stage, body.h5 of both gears (for their design and material)
 // Writes  <output>.{tsv,svg,png}, and the same table in words on standard output
@@ -34,8 +33,11 @@
 #include "files/schemas.h"
 #include "motion/dynamics.h"
 #include "motion/statics.h"
+#include "motion/steady_state.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
+#include "signal/branch_end.h"
+#include "signal/response.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 
@@ -43,12 +45,11 @@ namespace {
 
 using namespace whine;
 
-constexpr double kFollowStep = 50;     // Hz, first step along a branch
-constexpr double kFoldWidth = 0.01;    // Hz, to which the end of a branch is enclosed
-constexpr double kLeavesBranch = 1.2;  // ratio of RMS across a step that leaves a branch
-constexpr int kMostPeriods = 600;      // per speed; what is not steady by then leaves its branch
-constexpr double kLeastSeconds = 1;    // of CPU per setting: shorter ones are run again
+constexpr double kFollowStep = 50;   // Hz, along a branch
+constexpr int kFineness = 4096;      // part of it to which the end of a branch is enclosed: 0.012 Hz
+constexpr double kLeastSeconds = 1;  // of CPU per setting: shorter ones are run again
 constexpr int kMostRuns = 3;
+constexpr int kMostRunsToEnd = 500;
 constexpr double kLowest = 1000, kHighest = 4000;  // Hz, in which branches are followed
 
 // Steady motions that are compared. Up to 2400 Hz and at 3300 Hz rest leads to them, to the upper branch only a march down.
@@ -61,7 +62,7 @@ struct Setting {
   int strips = 0, modes = 0, flank_points = 0;
   double element = 0;  // m
   double periodicity = 0;
-  std::string integrator, body, contact;
+  std::string steady_state, integrator, body, contact;
 };
 
 struct Answer {
@@ -107,10 +108,7 @@ class Rig {
  public:
   Rig(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
       const Setting& setting)
-      : model_(model), dynamics_(model, parameters), setting_(setting) {
-    load_ = statics.torque / model.kinematics.gear(0).base_radius();
-    largest_force_ = 2.5 * load_;
-    corner_gap_ = 2.5 * statics.transmission_error.maxCoeff();
+      : model_(model), statics_(statics), dynamics_(model, parameters), setting_(setting) {
     set_range();
   }
 
@@ -118,20 +116,17 @@ class Rig {
     Answer answer;
     RollingDynamics::State state = dynamics_.rest();
     answer.deflection = dynamics_.static_deflection();
-    if (settle(state, 1350)) note(k1350, answer);
-    state = dynamics_.rest();
-    if (settle(state, 3300)) note(k3300, answer);
-    state = dynamics_.rest();
-    if (settle(state, kRestAt))
-      answer.down = follow(state, kRestAt, -1, [&](double f) {
-        if (f == 2400) note(kUpper2400, answer);
-        if (f == 2000) note(kUpper2000, answer);
-      });
-    state = dynamics_.rest();
-    if (settle(state, 2400)) {
-      note(kLower2400, answer);
-      answer.up = follow(state, 2400, 1, [](double) {});
+    for (const auto& [motion, at] : {std::pair{k1350, 1350.0}, std::pair{k3300, 3300.0}}) {
+      state = dynamics_.rest();
+      note(motion, run(state, at), answer);
     }
+    answer.down = follow(kRestAt, -1, [&](double f, const Orbit& orbit) {
+      if (f == 2400) note(kUpper2400, orbit, answer);
+      if (f == 2000) note(kUpper2000, orbit, answer);
+    });
+    answer.up = follow(2400, 1, [&](double f, const Orbit& orbit) {
+      if (f == 2400) note(kLower2400, orbit, answer);
+    });
     return answer;
   }
 
@@ -143,71 +138,82 @@ class Rig {
   }
 
   void set_range() {
-    dynamics_.set_range(contact_range(model_.kinematics, model_.gear[0].half_plane(),
-                                      model_.gear[1].half_plane(), setting_.strips,
-                                      load_ / model_.kinematics.contact_ratio(), largest_force_, corner_gap_),
-                        steps_at(kLowest));
+    dynamics_.set_range(
+        contact_range(model_, statics_, MotionBounds(model_, statics_, std::pow(1.6, widened_))),
+        steps_at(kLowest));
   }
 
-  // Runs until the motion repeats; period_ then holds one period of it. False if it does not.
-  bool settle(RollingDynamics::State& state, double mesh_frequency) {
+  Orbit run(RollingDynamics::State& state, double mesh_frequency) {
     const RollingDynamics::State start = state;
-    dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
-    for (int n = 0; n < kMostPeriods; ++n) {
-      const RollingDynamics::State before = state;
-      if (!dynamics_.march(state, period_)) {
-        if (++widened_ > 8) fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks");
-        largest_force_ *= 1.6;
-        corner_gap_ *= 1.6;
-        set_range();
-        dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
-        state = start;
-        n = -1;
-      } else if (dynamics_.distance(state, before) < setting_.periodicity) {
-        return true;
-      }
+    for (;;) {
+      dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
+      if (auto orbit = settle(dynamics_, state, setting_.periodicity, setting_.steady_state)) return *orbit;
+      if (++widened_ > 8) fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks");
+      set_range();
+      state = start;
     }
-    return false;
   }
 
-  double rms() const {
-    const auto error = period_.transmission_error.array();
-    return std::sqrt((error - error.mean()).square().mean());
-  }
-  void note(Motion motion, Answer& answer) const {
-    answer.rms[motion] = rms();
-    answer.mean[motion] = period_.transmission_error.mean();
-    answer.peak[motion] = period_.pair_load.maxCoeff();
+  static void note(Motion motion, const Orbit& orbit, Answer& answer) {
+    if (orbit.multiple != 1) return;
+    const RollingDynamics::Period& period = orbit.record[0];
+    answer.rms[motion] = orbit.rms;
+    answer.mean[motion] = period.transmission_error.mean();
+    answer.peak[motion] = period.pair_load.maxCoeff();
   }
 
-  // Hz: where the branch ends on which period_ and the state are; below 0 if it does not within the limits.
+  // Hz: where the branch ends that rest leads to at a speed; below 0 if it does not within the limits. visit: of the motions on it.
   template <class Visit>
-  double follow(RollingDynamics::State& state, double at, int direction, Visit visit) {
-    double step = kFollowStep, present = rms();
-    while (step > kFoldWidth) {
-      const double next = at + direction * step;
-      if (next < kLowest || next > kHighest) return -1;
-      RollingDynamics::State trial = state;
-      const bool steady = settle(trial, next);
-      const double changed = rms();
-      if (steady && std::max(changed, present) < kLeavesBranch * std::min(changed, present)) {
-        at = next;
-        present = changed;
-        state = trial;
-        visit(at);
-      } else {
-        step *= 0.5;
+  double follow(double from, int direction, Visit visit) {
+    struct Run {
+      double mesh_frequency;
+      Orbit orbit;
+      RollingDynamics::State end;
+    };
+    std::vector<Run> sweep, runs;
+    std::vector<BranchMotion> motions;
+    RollingDynamics::State state = dynamics_.rest();
+    const auto run_at = [&](double f, std::vector<Run>& to) {
+      const Orbit orbit = run(state, f);
+      to.push_back({f, orbit, state});
+      return BranchMotion{f, orbit.rms, orbit.multiple};
+    };
+    for (double f = from; f >= kLowest && f <= kHighest; f += direction * kFollowStep) {
+      motions.push_back(run_at(f, sweep));
+      const size_t i = motions.size() - 1;
+      if (i > 0 && may_break(motions, i)) {
+        const Run* kept = &sweep[i - 1];
+        BranchWalk walk;
+        walk.step = direction * kFollowStep;
+        walk.limit = direction > 0 ? kHighest : kLowest;
+        walk.fineness = kFineness;
+        runs.clear();
+        runs.reserve(kMostRunsToEnd);
+        walk.run = [&](double at, double) {
+          if (runs.size() == runs.capacity())
+            fail(Failure::numerical, "the branch at ", sweep[i - 1].mesh_frequency,
+                 " Hz was not followed to its end in ", runs.size(), " runs");
+          state = kept->end;
+          return run_at(at, runs);
+        };
+        walk.keep = [&](int n) {
+          kept = &runs[n];
+          visit(kept->mesh_frequency, kept->orbit);
+        };
+        if (const auto end = branch_end(walk, motions, i))
+          return end->outlived ? -1 : 0.5 * (end->last + end->next);
+        state = sweep[i].end;
       }
+      visit(f, sweep[i].orbit);
     }
-    return at + 0.5 * direction * step;
+    return -1;
   }
 
   const GearMeshModel& model_;
+  const StaticArtifact& statics_;
   RollingDynamics dynamics_;
   Setting setting_;
-  RollingDynamics::Period period_;
   int widened_ = 0;
-  double load_ = 0, largest_force_ = 0, corner_gap_ = 0;
 };
 
 // The pair and its load; reduces a body anew for each discretisation and keeps it.
@@ -228,6 +234,7 @@ class Bench {
             static_cast<int>(driver_.flank_position.size()),
             driver_.discretisation.element_size,
             slice_.time.periodicity,
+            slice_.time.steady_state,
             slice_.fidelity.integrator,
             slice_.fidelity.body,
             slice_.fidelity.contact};
@@ -420,7 +427,7 @@ void body(int argc, char** argv) {
   const Setting usual = bench.usual();
   const Answer present = bench.run(usual, "the scene's settings");
   if (*std::min_element(present.rms.begin(), present.rms.end()) < 0 || present.down < 0 || present.up < 0 ||
-      present.rms[kUpper2400] < kLeavesBranch * present.rms[kLower2400])
+      !like_a_jump(present.rms[kUpper2400], present.rms[kLower2400]))
     fail(Failure::input, "at ", load, " N m and a Rayleigh stiffness of ", damping,
          " s there are no two branches at 2400 Hz; lower --rayleigh-stiffness");
 
@@ -469,7 +476,7 @@ void body(int argc, char** argv) {
         "all finer at once, by Newmark; 0: the scene's settings, 1: the reference one level coarser");
   figure.blocks.push_back(circles);
   figure.blocks.push_back(together);
-  figure.numbers = {{"axes", static_cast<double>(choices.size())}, {"fold_width", kFoldWidth}};
+  figure.numbers = {{"axes", static_cast<double>(choices.size())}, {"fold_width", kFollowStep / kFineness}};
   figure.words = {{"labels", labels}};
 
   const std::string table = output + ".tsv", recipe = plots + "/work-precision.gp";
