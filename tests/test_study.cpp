@@ -106,6 +106,8 @@ TEST_CASE("a study that says nothing sensible is refused by line, value and limi
   refuses("[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [1, 2]\nmean = 100\ndeviation = 10\n",
           "in two ways");
   refuses("[[vary]]\nkey = 'fidelity.modes'\nvalues = [5, 5.5]\n", "must be a whole number");
+  refuses("[[vary]]\nkey = 'gear.pinion.error.seed'\nfrom = 1\nto = 1e300\ncount = 2\n",
+          "cannot be beyond 2147483647");
   refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalue = [5, 5.5]\n",
           ":4: unknown key 'value' in [[vary]]; did you mean 'values'?");
   refuses("stage = 'sweeps'\n" + kDamping, ":2: 'stage' = sweeps: must be one of: static, sweep");

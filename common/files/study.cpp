@@ -48,17 +48,19 @@ std::string number_text(double value) {
 // A value as a scene has it, on one line.
 std::string toml_text(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return number_text(number->get());
-  std::ostringstream out;
   if (const auto* list = node.as_array()) {
-    for (const toml::node& item : *list) out << (out.str().empty() ? "[" : ", ") << toml_text(item);
-    return list->empty() ? "[]" : out.str() + "]";
+    std::string out;
+    for (const toml::node& item : *list) out += (out.empty() ? "" : ", ") + toml_text(item);
+    return "[" + out + "]";
   }
   if (const auto* table = node.as_table()) {
+    std::string out;
     for (const auto& [name, item] : *table)
-      out << (out.str().empty() ? "{ " : ", ") << name.str() << " = " << toml_text(item);
-    return table->empty() ? "{}" : out.str() + " }";
+      out += (out.empty() ? " " : ", ") + std::string(name.str()) + " = " + toml_text(item);
+    return "{" + out + " }";
   }
   if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
   std::string word = out.str();
   std::replace(word.begin(), word.end(), '\n', ' ');
@@ -72,6 +74,9 @@ std::string rounded_text(double value, int digits, bool whole) {
   std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
   return number_text(std::strtod(buffer, nullptr));
 }
+
+constexpr double kMostWhole = 2147483647;
+constexpr int kMostKeys = 32;
 
 class StudyFile {
  public:
@@ -189,6 +194,11 @@ void read_values(const StudyFile& file, const toml::table& table, VariedKey& var
   }
 }
 
+void require_size(const StudyFile& file, const toml::table& table, const VariedKey& varied) {
+  if (varied.whole && !(std::abs(varied.first) <= kMostWhole && std::abs(varied.second) <= kMostWhole))
+    file.refuse(table, text(varied.name, " is a whole number: it cannot be beyond ", kMostWhole));
+}
+
 void read_range(const StudyFile& file, const toml::table& table, bool random, VariedKey& varied) {
   const char* const known = "values = [..], from and to with step or count";
   if (!varied.number) file.refuse(table, text(varied.name, " is no number: give values = [..]"));
@@ -196,6 +206,7 @@ void read_range(const StudyFile& file, const toml::table& table, bool random, Va
     if (!table.get(end)) file.refuse(table, text(varied.name, " lacks '", end, "'; give ", known));
   varied.first = file.number(table, "from");
   varied.second = file.number(table, "to");
+  require_size(file, table, varied);
   if (varied.second < varied.first)
     file.refuse(*table.get("to"), text("the range of ", varied.name, " is empty: 'to' = ", varied.second,
                                        " is below 'from' = ", varied.first));
@@ -252,6 +263,7 @@ void read_normal(const StudyFile& file, const toml::table& table, bool random, V
   varied.normal = true;
   varied.first = file.number(table, "mean");
   varied.second = file.number(table, "deviation");
+  require_size(file, table, varied);
   if (!(varied.second > 0))
     file.refuse(*table.get("deviation"),
                 text("'deviation' of ", varied.name, " = ", varied.second, ": must be greater than 0"));
@@ -320,10 +332,9 @@ void read_fixed(const StudyFile& file, const toml::table& table, const std::stri
   }
 }
 
-// Whether two names may stand for one number of a scene: "bore_radius_mm" is that of every gear.
-bool same_key(const std::string& a, const std::string& b) {
-  const KeyPlace x = find_key(a), y = find_key(b);
-  return x.key == y.key && (x.owner == y.owner || x.owner.empty() || y.owner.empty());
+// Whether two places may hold one number of a scene: "bore_radius_mm" is that of every gear.
+bool overlap(const KeyPlace& a, const KeyPlace& b) {
+  return a.key == b.key && (a.owner == b.owner || a.owner.empty() || b.owner.empty());
 }
 
 void read_figure(const StudyFile& file, Study& study) {
@@ -478,15 +489,22 @@ Study read_study(const std::string& path) {
   const toml::array* list = vary->as_array();
   if (!list || !list->is_array_of_tables() || list->empty())
     file.refuse(*vary, "'vary' must be a list of sections: write [[vary]] before each key");
+  if (list->size() > kMostKeys)
+    file.refuse(*vary, text(list->size(), " keys vary; ", kMostKeys, " is the most"));
+  std::vector<KeyPlace> varied, fixed;
+  for (const auto& [name, value] : study.fixed) fixed.push_back(find_key(name));
   for (const toml::node& item : *list) {
     const VariedKey key = read_varied(file, *item.as_table(), study.random);
-    for (const VariedKey& other : study.keys)
-      if (same_key(key.name, other.name))
-        file.refuse_line(key.line,
-                         text("'", key.name, "' varies twice, as '", other.name, "' in line ", other.line));
-    for (const auto& [name, value] : study.fixed)
-      if (same_key(key.name, name) && find_key(name).key->name != std::string(kTorque))
+    const KeyPlace place = find_key(key.name);
+    for (size_t k = 0; k < varied.size(); ++k)
+      if (overlap(place, varied[k]))
+        file.refuse_line(key.line, text("'", key.name, "' varies twice, as '", study.keys[k].name,
+                                        "' in line ", study.keys[k].line));
+    // A torque of [set] is the one that sets the bearing dampers.
+    for (const KeyPlace& other : fixed)
+      if (overlap(place, other) && place.key->name != std::string(kTorque))
         file.refuse_line(key.line, text("'", key.name, "' varies and is in [set]; leave one of them out"));
+    varied.push_back(place);
     study.keys.push_back(key);
   }
 
