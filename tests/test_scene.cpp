@@ -673,6 +673,9 @@ TEST_CASE("errors of teeth from a measured file, as TOML and as CSV, beside the 
   CHECK(contains(refused("tooth, profile_slope_um\n0, 1, 5\n"),
                  "bad.csv:2: holds 3 numbers, 2 columns are named"));
   CHECK(contains(refused("tooth, profile_slope_um\n0, x\n"), "bad.csv:2: 'x' is no number"));
+  CHECK(contains(refused("# sheet 7\ntooth, profil_slope_um\n0, 1\n"),
+                 "bad.csv:2: unknown key 'profil_slope_um'"));
+  CHECK(contains(refused("tooth, profile_slope_um\n0, 1\n\n1, 5000\n"), "bad.csv:4: "));
   CHECK(contains(refused("tooth, profile_slop_um\n0, 1\n"), "did you mean 'profile_slope_um'?"));
   CHECK(contains(refused("tooth, profile_slope_um\n0, 1\n"), "holds 1 numbers, the gear has 5 teeth"));
   CHECK(contains(refused("1", "bad.txt"), "is neither a .toml nor a .csv"));

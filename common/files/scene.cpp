@@ -85,6 +85,7 @@ class Source {
       }
       if (names.empty()) {
         names = fields;
+        source.names_line_ = number;
         columns.resize(names.size());
         if (names.empty() || names[0] != "tooth")
           source.refuse_line(number, "the first column must be called tooth");
@@ -103,6 +104,7 @@ class Source {
                                           " is due; teeth are in order from 0"));
         if (i > 0) columns[i].push_back(value);
       }
+      source.row_line_.push_back(number);
       ++tooth;
     }
     if (names.empty()) source.refuse("is empty; name the columns in the first line, tooth first");
@@ -115,12 +117,13 @@ class Source {
   bool is_slice() const { return is_slice_; }
 
   [[noreturn]] void refuse(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
+  // Line 0 is of what has no place of its own: the name of a column.
   [[noreturn]] void refuse_line(toml::source_index line, const std::string& what) const {
     if (!lines_) refuse(what);
-    fail(Failure::input, path_, ":", line, ": ", what);
+    fail(Failure::input, path_, ":", line ? line : names_line_, ": ", what);
   }
   [[noreturn]] void refuse(const toml::node& at, const std::string& what) const {
-    refuse_line(at.source().begin.line, what);
+    refuse_line(at.source().begin ? at.source().begin.line : line_in_column(at), what);
   }
 
   // A section [name] as a table, nullptr if it is not there.
@@ -133,8 +136,20 @@ class Source {
 
  private:
   Source(std::string path, toml::table root) : path_(std::move(path)), root_(std::move(root)) {}
+
+  // Of a number in a table of teeth; 0 if it is none.
+  toml::source_index line_in_column(const toml::node& at) const {
+    for (const auto& [name, column] : root_)
+      if (const toml::array* numbers = column.as_array())
+        for (std::size_t i = 0; i < numbers->size() && i < row_line_.size(); ++i)
+          if (numbers->get(i) == &at) return row_line_[i];
+    return 0;
+  }
+
   std::string path_;
   toml::table root_;
+  toml::source_index names_line_ = 0;         // of a table of teeth
+  std::vector<toml::source_index> row_line_;  // of its rows
   bool is_slice_ = false, lines_ = true;
 };
 

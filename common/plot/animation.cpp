@@ -20,7 +20,6 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kMilli = 1e3, kMicro = 1e6;
 constexpr double kDrawnWidth = 0.1;  // of a module: over which a tooth's force is spread in the drawing
 
 // The outline of a gear near the mesh under given tooth loads.
@@ -50,9 +49,9 @@ class ElasticOutline {
   };
 
   // (x, y) m of the contour of tooth `j`, in the gear's frame: nodes moved by `magnified` times their displacement, those of
-  // the back flank first by drawn_back (m) towards the tooth's middle.
-  std::vector<Vec2> tooth(int j, const std::vector<Press>& presses, double magnified,
-                          double drawn_back) const {
+  // the back flank first by drawn_back (m) towards the tooth's middle; the tip leans by `lean` (m) away from the mating flank.
+  std::vector<Vec2> tooth(int j, const std::vector<Press>& presses, double magnified, double drawn_back,
+                          double lean) const {
     const int teeth = mesh_.design.teeth;
     Eigen::VectorXd u = Eigen::VectorXd::Zero(2 * static_cast<Index>(contour_.size()));
     for (const Press& press : presses) {
@@ -71,7 +70,11 @@ class ElasticOutline {
     std::vector<Vec2> out;
     for (size_t i = 0; i < contour_.size(); ++i) {
       const Vec2 p = mesh_.node_position.row(contour_[i]);
-      out.push_back(turn * (thinned(p, drawn_back) + magnified * u.segment<2>(2 * static_cast<Index>(i))));
+      const double high =
+          std::max(0.0, (p.norm() - tooth_.root_radius()) / (tooth_.tip_radius() - tooth_.root_radius()));
+      const Eigen::Rotation2Dd leaning(-lean * high / p.norm());
+      out.push_back(turn *
+                    (leaning * thinned(p, drawn_back) + magnified * u.segment<2>(2 * static_cast<Index>(i))));
     }
     return out;
   }
@@ -162,14 +165,23 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
   Figure figure;
   figure.height = 1200;
   // 2. What is below the teeth in every picture.
-  const double first_pair = s.pair[0];
+  Index first = loads.cols(), last = -1;  // columns of pairs that carry load at all
+  for (Index j = 0; j < loads.cols(); ++j)
+    if (loads.col(j).head(samples).maxCoeff() > 0) {
+      first = std::min(first, j);
+      last = j;
+    }
   FigureBlock history{"history", {"mesh period [1]", "dte [µm]", "mesh force [N]"}, {}};
-  for (Index j = 0; j < loads.cols(); ++j) history.columns.push_back(text("pair ", first_pair + j, " [N]"));
+  for (Index j = first; j <= last; ++j) history.columns.push_back(text("pair ", s.pair[j], " [N]"));
   FigureBlock lost{"contact lost", {"from [1]", "to [1]"}, {}};
   for (Index k = 0; k <= samples; ++k) {
     const Index at = k % samples;
     std::vector<double> values{static_cast<double>(k) / per_period, error[at] * kMicro, force[at]};
-    for (Index j = 0; j < loads.cols(); ++j) values.push_back(loads(at, j));
+    // A mesh period later every pair is one place further.
+    for (Index j = first; j <= last; ++j) {
+      const Index column = k == samples ? j + periods : j;
+      values.push_back(column < loads.cols() ? loads(at, column) : 0.0);
+    }
     history.rows.push_back(values);
     if (k == samples || force[at] > 0) continue;
     const double from = (k - 0.5) / per_period, to = (k + 0.5) / per_period;
@@ -202,6 +214,19 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
       for (int g = 0; g < 2; ++g)
         presses[g].push_back({g == 0 ? number : -number, contact.roll[static_cast<size_t>(g)], loads(k, j)});
     }
+    // Only displacements are magnified. A pair that is micrometres apart would be drawn as if it had run into each other: its
+    // gap is magnified, too, as far as that takes.
+    const auto lean_of = [&](int number) {
+      const double path = (phase + number) * pair.base_pitch(),
+                   tangent = std::tan(pair.working_pressure_angle());
+      if (tangent + path / pair.gear(0).base_radius() <= 0 ||
+          tangent - path / pair.gear(1).base_radius() <= 0)
+        return 0.0;
+      const PairContact contact = pair.contact(phase + number);
+      if (!(contact.gap > 0) || !contact.on_flank) return 0.0;
+      return 0.5 * std::min((magnified - 1) * contact.gap,
+                            std::max(0.0, magnified * error.maxCoeff() - contact.gap));
+    };
     for (int g = 0; g < 2; ++g) {
       Placement at = placed(pair, g, phase);
       const double share = inverse_mass[g] / (inverse_mass[0] + inverse_mass[1]);
@@ -220,7 +245,7 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
       const double deep = g == 0 ? -3 * half_window : 3 * half_window;
       std::vector<Vec2> line;
       for (int j = middle - 3; j <= middle + 3; ++j)
-        for (const Vec2& p : outline[g].tooth(j, presses[g], magnified, drawn_back))
+        for (const Vec2& p : outline[g].tooth(j, presses[g], magnified, drawn_back, lean_of(g == 0 ? j : -j)))
           line.push_back(at(p) - pitch_point);
       add({line.front().x(), deep});
       for (const Vec2& p : line) add(p);
@@ -259,8 +284,8 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
                     {"largest_force", force.maxCoeff()},
                     {"least_error", error.minCoeff() * kMicro},
                     {"largest_error", error.maxCoeff() * kMicro},
-                    {"pairs", static_cast<double>(loads.cols())},
-                    {"first_pair", first_pair},
+                    {"pairs", static_cast<double>(std::max<Index>(0, last - first + 1))},
+                    {"first_pair", first < loads.cols() ? s.pair[first] : 0.0},
                     {"losses", static_cast<double>(lost.rows.size())}};
   return figure;
 }

@@ -8,36 +8,33 @@ stats tsv index "[frames]" using 1 nooutput name "place"
 array at[int(frames)]; array error[int(frames)]; array force[int(frames)]
 stats tsv index "[frames]" using (at[int($0) + 1] = $1, error[int($0) + 1] = $2, force[int($0) + 1] = $3, $1) nooutput
 colour(pair) = pair == 0 ? "#0072b2" : (pair == 1 ? "#d55e00" : (pair == -1 ? "#009e73" : "#7f7f7f"))
-shade = losses > 0 ? 'tsv index "[contact lost]" using (0.5 * ($1 + $2)):(top):(bottom):(top):($2 - $1) with boxxyerror fs solid 1 noborder lc rgb "#f3d9a8" notitle, ' : ''
-set border 3 lw 1.6
-set tics out nomirror
-set style arrow 1 head filled size screen 0.012, 18 lw 4
+shade = losses > 0 ? 'tsv index "[contact lost]" using (0.5 * ($1 + $2)):(top):1:2:(bottom):(top) with boxxyerror fs solid 1 noborder lc rgb "#f3d9a8" notitle, ' : ''
 do for [frame = int(first_frame):int(last_frame)] {
   now = at[frame + 1]
   name = sprintf("%03d", frame)
   set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
 
   # the teeth
-  unset xlabel; unset ylabel; unset tics; unset border; unset key; unset grid
+  unset xlabel; unset ylabel; unset xtics; unset ytics; unset border; unset key; unset grid
   set lmargin at screen 0.04; set rmargin at screen 0.96
   set tmargin at screen 0.87; set bmargin at screen 0.42
   wide = half_window * 1.55
   set xrange [-wide : wide]; set yrange [-wide * (0.45 * height) / (0.92 * 1600) : wide * (0.45 * height) / (0.92 * 1600)]
   set object 1 rectangle from graph 0, 0 to graph 1, 1 behind fc rgb (force[frame + 1] > 0 ? "#ffffff" : "#fdf3df") fs solid border lc rgb "#bbbbbb"
-  set label 1 force[frame + 1] > 0 ? "" : "{/*1.2:Bold contact lost}" at graph 0.985, 0.93 right front tc rgb "#b07000"
-  set label 2 "driven" at graph 0.015, 0.93 left front
-  set label 3 "driver" at graph 0.015, 0.07 left front
+  set label 1 force[frame + 1] > 0 ? "" : "{/*1.2:Bold contact lost}" at graph 0.5, 0.85 center front tc rgb "#b07000"
+  set label 2 "driven" at graph 0.5, 0.94 center front
+  set label 3 "driver" at graph 0.5, 0.06 center front
   long = 0.5 * half_window / largest_force
-  plot tsv index "[" . name . " driven]" using 1:2 with filledcurves closed fs solid 1 border lc rgb "#e3e6ea" notitle, \
-       tsv index "[" . name . " driver]" using 1:2 with filledcurves closed fs solid 1 border lc rgb "#d3deeb" notitle, \
+  plot tsv index "[" . name . " driven]" using 1:2 with filledcurves closed fc rgb "#e3e6ea" fs solid 1 noborder notitle, \
+       tsv index "[" . name . " driver]" using 1:2 with filledcurves closed fc rgb "#d3deeb" fs solid 1 noborder notitle, \
        tsv index "[" . name . " driven]" using 1:2 with lines lw 2 lc rgb "#444444" notitle, \
        tsv index "[" . name . " driver]" using 1:2 with lines lw 2 lc rgb "#2f4f77" notitle, \
        for [p = int(first_pair):int(first_pair + pairs) - 1] tsv index "[" . name . " force]" \
-         using ($4 == p && $3 > 0 ? $1 : NaN):2:($3 * long * along_x):($3 * long * along_y) with vectors arrowstyle 1 lc rgb colour(p) notitle
+         using ($4 == p && $3 > 0 ? $1 : NaN):2:($3 * long * along_x):($3 * long * along_y) with vectors head filled size screen 0.01, 18 lw 5 lc rgb colour(p) notitle
   unset object 1; unset label 1; unset label 2; unset label 3
 
   # the whole period, a line where it is now
-  set border 3 lw 1.6; set tics out nomirror; set grid lt 1 lc rgb "#e4e4e4" lw 1
+  set border 3 lw 1.6; set xtics out nomirror autofreq; set ytics out nomirror autofreq; set grid lt 1 lc rgb "#e4e4e4" lw 1
   set xrange [0 : periods]
   set lmargin at screen 0.1; set rmargin at screen 0.83
   set arrow 9 from now, graph 0 to now, graph 1 nohead front lw 2.5 lc rgb "#cc0000"
@@ -46,7 +43,6 @@ do for [frame = int(first_frame):int(last_frame)] {
   set ylabel "DTE (µm)"
   bottom = least_error - 0.08 * (largest_error - least_error); top = largest_error + 0.08 * (largest_error - least_error)
   set yrange [bottom : top]
-  set ytics autofreq
   eval("plot " . shade . 'tsv index "[history]" using 1:2 with lines lw 3 lc rgb "#333333" notitle')
   set tmargin at screen 0.23; set bmargin at screen 0.07
   set format x "%g"
@@ -56,7 +52,7 @@ do for [frame = int(first_frame):int(last_frame)] {
   set yrange [bottom : top]
   set key at graph 1.02, graph 1.0 left top Left reverse samplen 2
   eval("plot " . shade . 'for [p = 0:int(pairs) - 1] tsv index "[history]" using 1:(1e-3 * column(4 + p)) with lines lw 3 lc rgb colour(int(first_pair) + p) ' \
-    . 'title sprintf("pair %+d", int(first_pair) + p), tsv index "[history]" using 1:(1e-3 * $3) with lines lw 1.6 dt (5, 4) lc rgb "#444444" title "all pairs", ' \
+    . 'title (int(first_pair) + p == 0 ? "pair 0" : sprintf("pair %+d", int(first_pair) + p)), tsv index "[history]" using 1:(1e-3 * $3) with lines lw 1.6 dt (5, 4) lc rgb "#444444" title "all pairs", ' \
     . '1e-3 * static_force with lines lw 1.4 dt (18, 8) lc rgb "#777777" title "static"')
   unset arrow 9
   unset multiplot
