@@ -68,10 +68,12 @@ share_of = $(shell bash -c 'IFS=/ read -r i n <<< "$(SHARE)"; [[ "$$i$$n" =~ ^[0
   echo $$(((i - 1) * $(words $1) / n + 1)) $$((i * $(words $1) / n))')
 shared = $(if $(share_of),,$(error SHARE=$(SHARE): it is i/n, the i-th of n shares, such as 3/10))$(wordlist $(word 1,$(share_of)),$(word 2,$(share_of)),$1)
 
+study_made := $(if $(filter study,$(goals)),$(if $(SHARE),$(call shared,$(call study_variants,$(study_stem))),\
+  $(foreach e,tsv svg png,out/studies/$(study_stem)/study.$e)))
+
 .PHONY: study study-bodies
 study-bodies: $(if $(filter study-bodies,$(goals)),$(call study_bodies,$(study_stem))) ## meshes and bodies that the variants of STUDY share
-study: $(if $(filter study,$(goals)),$(if $(SHARE),$(call shared,$(call study_variants,$(study_stem))),\
-  $(foreach e,tsv svg png,out/studies/$(study_stem)/study.$e))) ## variants of a scene, a table and a figure of their answers: STUDY=name or path; SHARE=3/10
+study: $(study_made) ## variants of a scene, a table and a figure of their answers: STUDY=name or path; SHARE=3/10
 
 .PHONY: deps-slurm test-slurm
 deps-slurm: wanted := munge slurmctld slurmd slurm-client
