@@ -42,8 +42,9 @@ class Folder {
   }
   ~Folder() {
     fs::current_path(before_);
+    std::error_code ignored;
     if (const char* place = std::getenv("WHINE_KEEP"))
-      fs::copy(path_, place, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+      fs::copy(path_, place, fs::copy_options::recursive | fs::copy_options::overwrite_existing, ignored);
     fs::remove_all(path_);
   }
   std::vector<std::string> names(const fs::path& where = ".") const {

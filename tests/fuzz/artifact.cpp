@@ -35,5 +35,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   refused_or_read([&] { read_sweep(path); });
   refused_or_read([&] { read_response(path); });
   refused_or_read([&] { read_jump_map(path); });
+  refused_or_read([&] { read_harris_map(path); });
   return 0;
 }
