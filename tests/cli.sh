@@ -90,7 +90,7 @@ sed "$coarse; s/^torque_Nm = .*/torque_Nm = [100, 150]/; s/from = 2000, to = 210
 flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard"
 examples_of() { "$bin/$1" --help | sed '1,/^Examples\{0,1\}:$/d; s/^ *//; /^$/d'; }
 run_example() { (cd examples && eval "timeout 120 $bin/$1") > said 2>&1 < /dev/null; }
-for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(ls "$bin" | grep '^gear-'); do
+for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin" && echo gear-*); do
   case " ${tried:-} " in *" $program "*) continue ;; esac
   tried="${tried:-} $program"
   claim="the examples in $program --help run"
@@ -240,6 +240,13 @@ sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" >
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
   wrong "the table of keys in README.md is up to date" "put the output of $B/bin/gear-scene --keys there: $(head -n 2 said | tr '\n' '|')"; fi
 rm -f keys
+
+# --- the targets
+claim="every target that make help lists stands in the table of README.md"
+sed -n '/^## Targets$/,/^## The flow$/p' "$readme" | grep '^|' | cut -d'|' -f2 | grep -o '`[^`]*`' | tr -d '`' | tr ' ' '\n' > targets
+missing=$(cat "$tests"/../Makefile "$tests"/../pipelines/*.mk | sed -n 's/^\([a-z0-9-]*\):.*## .*/\1/p' | grep -v -x -F -f targets | tr '\n' ' ')
+if [ -s targets ] && [ -z "$missing" ]; then ok "$claim"; else wrong "$claim" "$missing"; fi
+rm targets
 
 # --- the scorecard
 sed '1,/^<!-- gear-scorecard -->$/d; /^<!-- end of scorecard -->$/,$d' "$readme" > card

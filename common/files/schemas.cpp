@@ -355,7 +355,8 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
           {"1", "relative asymmetry of the tables before symmetrisation", "", ""});
   out.put("/compliance/least_eigenvalue", a.least_eigenvalue,
           {"m N-1", "least eigenvalue of the compliance of all offsets less the stored modes", "", ""});
-  if (a.vtk_point.rows() > 0) put_vtk(out.file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}});
+  if (a.vtk_point.rows() > 0)
+    put_vtk(out.file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}});
   out.publish();
   link_for_paraview(path);
 }
@@ -566,10 +567,9 @@ void write(const std::string& path, const LoadedArtifact& a, const Provenance& p
   want_rows("root_stress", a.root_stress.rows(), pairs);
   want_rows("strip/roll_angle", a.strip_roll.rows(), strips);
   want_rows("strip/deflection", a.strip_deflection.rows(), strips);
-  for (const auto& [name, values] : {std::pair{"strip/width", &a.strip_width},
-                                     std::pair{"strip/force", &a.strip_force},
-                                     std::pair{"strip/pressure", &a.strip_pressure},
-                                     std::pair{"strip/separation", &a.strip_separation}})
+  for (const auto& [name, values] :
+       {std::pair{"strip/width", &a.strip_width}, std::pair{"strip/force", &a.strip_force},
+        std::pair{"strip/pressure", &a.strip_pressure}, std::pair{"strip/separation", &a.strip_separation}})
     want_rows(name, values->size(), strips);
   ArtifactWriter out(path, "loaded", kLoadedVersion, "Loaded gears: " + pair_title(a.mesh, a.torque),
                      provenance);
@@ -590,9 +590,9 @@ void write(const std::string& path, const LoadedArtifact& a, const Provenance& p
            ""});
   out.put("/tooth_load", a.tooth_load, {"N", "normal force of each tooth pair", "pair", ""});
   out.put("/tooth", a.tooth, {"1", "teeth of the pairs, counter-clockwise from tooth 0", "pair gear", ""});
-  out.put("/root_stress", a.root_stress,
-          {"Pa", "largest principal stress at the nodes of the fillet below the loaded flank", "pair gear",
-           ""});
+  out.put(
+      "/root_stress", a.root_stress,
+      {"Pa", "largest principal stress at the nodes of the fillet below the loaded flank", "pair gear", ""});
   const std::string at = "/strip/";
   out.put(at + "pair", a.strip_pair, {"1", "number of the tooth pair of each strip", "strip", ""});
   out.put(at + "roll_angle", a.strip_roll,
@@ -615,8 +615,7 @@ void write(const std::string& path, const LoadedArtifact& a, const Provenance& p
   of_gears("strain_energy", a.strain_energy, "J", "strain energy, by quadrature of the stresses");
   of_gears("contact_work", a.contact_work, "J", "half of the sum of forces times deflections");
   if (a.vtk_point.rows() > 0)
-    put_vtk(out.file(),
-            {a.vtk_point, a.vtk_cell, {}, {}, a.vtk_line, a.vtk_point_data, a.vtk_cell_data});
+    put_vtk(out.file(), {a.vtk_point, a.vtk_cell, {}, {}, a.vtk_line, a.vtk_point_data, a.vtk_cell_data});
   out.publish();
   link_for_paraview(path);
 }

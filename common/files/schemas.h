@@ -151,9 +151,10 @@ struct LoadedArtifact {
   Eigen::VectorXi pair;           // (pair) those that carry load
   Eigen::VectorXd tooth_load;     // (pair) N
   MatrixRMi tooth;                // (pair, gear)
-  MatrixRM root_stress;           // (pair, gear) Pa: largest principal stress at the nodes of the fillet below the loaded flank
-  Eigen::VectorXi strip_pair;     // (strip)
-  MatrixRM strip_roll;            // (strip, gear) rad, of the strip's middle
+  MatrixRM
+      root_stress;  // (pair, gear) Pa: largest principal stress at the nodes of the fillet below the loaded flank
+  Eigen::VectorXi strip_pair;  // (strip)
+  MatrixRM strip_roll;         // (strip, gear) rad, of the strip's middle
   Eigen::VectorXd strip_width, strip_force, strip_pressure, strip_separation;  // (strip) m, N, Pa, m
   MatrixRM strip_deflection;  // (strip, gear) m: inward, mean over the strip, by the whole field
   // (gear) N m: what holds the hub, by the elements about the bore, and the moment of the forces along the flanks' normals
@@ -162,8 +163,8 @@ struct LoadedArtifact {
   Eigen::Vector2d strain_energy = Eigen::Vector2d::Zero(), contact_work = Eigen::Vector2d::Zero();
   // for looking; written, never read. Cells: elements of the driver, of the driven gear, then two-node lines, the strips of
   // the driver's flanks and those of the driven gear's.
-  MatrixRM vtk_point;              // (point, 2) m
-  MatrixRMi vtk_cell, vtk_line;    // (cell, 4 or 9), (line, 2)
+  MatrixRM vtk_point;            // (point, 2) m
+  MatrixRMi vtk_cell, vtk_line;  // (cell, 4 or 9), (line, 2)
   struct Field {
     std::string name, units;
     MatrixRM values;  // (point, or cell and line; 1, 2 or 3)

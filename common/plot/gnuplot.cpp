@@ -30,7 +30,7 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
   std::string script = "set encoding utf8; ";
   // A point of pngcairo is 4/3 of its pixels, one of svg is one pixel: the scale makes both pictures alike.
   if (picture == Picture::gif) {
-    script += text("set terminal gif animate delay 8 loop 0 linewidth 0.5 size 800,", figure.height / 2,
+    script += text("set terminal gif animate delay 8 loop 0 linewidth 0.8 size 800,", figure.height / 2,
                    " font 'DejaVu Sans,9'");
   } else {
     script += picture == Picture::png ? "set terminal pngcairo" : "set terminal svg fontscale 1.333";

@@ -52,8 +52,8 @@ do for [frame = int(first_frame):int(last_frame)] {
   set yrange [bottom : top]
   set key at graph 1.02, graph 1.0 left top Left reverse samplen 2
   eval("plot " . shade . 'for [p = 0:int(pairs) - 1] tsv index "[history]" using 1:(1e-3 * column(4 + p)) with lines lw 3 lc rgb colour(int(first_pair) + p) ' \
-    . 'title (int(first_pair) + p == 0 ? "pair 0" : sprintf("pair %+d", int(first_pair) + p)), tsv index "[history]" using 1:(1e-3 * $3) with lines lw 1.6 dt (5, 4) lc rgb "#444444" title "all pairs", ' \
-    . '1e-3 * static_force with lines lw 1.4 dt (18, 8) lc rgb "#777777" title "static"')
+    . 'title (int(first_pair) + p == 0 ? "pair 0" : sprintf("pair %+d", int(first_pair) + p)), tsv index "[history]" using 1:(1e-3 * $3) with lines lw 2 dt (5, 4) lc rgb "#000000" title "all pairs", ' \
+    . '1e-3 * static_force with lines lw 1.4 dt (18, 8) lc rgb "#aaaaaa" title "T / r_b"')
   unset arrow 9
   unset multiplot
 }
