@@ -32,7 +32,7 @@ confined hdf5 'common/files/.*\.cpp|common/files/h5\.h'
 confined gmsh 'common/solid/mesher\.cpp'
 confined cholmod 'common/solid/.*\.cpp'
 confined fftw3 'common/signal/.*\.cpp'
-confined toml 'common/files/.*\.cpp'
+confined toml 'common/files/.*\.cpp|common/files/toml\.h'
 confined CLI/ 'tools/.*\.cpp|common/base/tool\.cpp'
 
 found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/* tools/* | head -3)
