@@ -85,10 +85,12 @@ void record_scene(const std::string& home, const std::string& scene) {
   namespace fs = std::filesystem;
   std::error_code gone;
   const std::string before = recorded_scene(home);
-  const bool there = !before.empty() && fs::is_regular_file(before, gone);
-  if (there && !fs::equivalent(before, scene, gone) && read_bytes(before) != read_bytes(scene))
-    fail(Failure::input, scene, ": ", home, " is of ", before,
-         ", which says otherwise; rename one of the two, or delete ", home);
+  if (!before.empty() && fs::is_regular_file(before, gone) && !fs::equivalent(before, scene, gone)) {
+    if (read_bytes(before) != read_bytes(scene))
+      fail(Failure::input, scene, ": ", home, " is of ", before,
+           ", which says otherwise; rename one of the two, or delete ", home);
+    return;  // a copy: the folder stays that of the first
+  }
   const fs::path path = fs::absolute(scene).lexically_normal().lexically_relative(fs::current_path());
   publish_if_changed(home + kRecord, path.generic_string() + "\n");
 }
