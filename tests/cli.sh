@@ -86,8 +86,9 @@ done
 # --- every program's --help ends with examples, and they run, in the order of the flow on a coarse pair of the paper's name
 mkdir -p examples/data/scenes
 ln -s "$(dirname "$plots")" examples/pipelines
+cp -r "$(dirname "$scene_of_paper")/../studies" examples/data/
 sed "$coarse; s/^torque_Nm = .*/torque_Nm = [100, 150]/; s/from = 2000, to = 2100/from = 2350, to = 2400/" "$scene_of_paper" > examples/data/scenes/parker2000.toml
-flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard"
+flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard report study variant"
 examples_of() { "$bin/$1" --help | sed '1,/^Examples\{0,1\}:$/d; s/^ *//; /^$/d'; }
 run_example() { (cd examples && eval "timeout 120 $bin/$1") > said 2>&1 < /dev/null; }
 for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin" && echo gear-*); do
@@ -118,12 +119,12 @@ rm -rf examples
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
   [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
   [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --output x out/scene/T100/static.h5"
-  [gear-report]="gear-report --output x out/scene/T100/static.h5"
+  [gear-report]="$bin/gear-report --output x out/scene/T100/static.h5"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-loaded]="${stage_loaded[*]}"
   [gear-animate]="$bin/gear-animate --driver-mesh out/scene/pinion/mesh.h5 --driven-mesh out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
-  [gear-study]="gear-study --study scene.toml --output study.mk"
-  [gear-variant]="gear-variant --params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --output x"
+  [gear-study]="$bin/gear-study --study scene.toml --output study.mk"
+  [gear-variant]="$bin/gear-variant --params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --output x"
   [gear-harris]="gear-harris --static-params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --design-torque 100 --output x")
 for program in "$bin"/gear-*; do
   name=$(basename "$program")
@@ -447,7 +448,7 @@ refused "an artifact that is not there" '4' 'none.h5' "$bin/gear-spectra" --inpu
 mv out/scene/T100/up/sweep.h5 sweep_away.h5
 "$bin/gear-inspect" out/scene/T100/up/response.h5 > said 2>&1
 status=$?
-if [ $status = 3 ] && grep -q 'MISSING; .*make out/scene/T100/up/sweep.h5' said; then ok "gear-inspect: an input that is missing is status 3"; else
+if [ $status = 3 ] && grep -q 'MISSING; .*make SCENE=scene.toml out/scene/T100/up/sweep.h5' said; then ok "gear-inspect: an input that is missing is status 3"; else
   wrong "gear-inspect: an input that is missing is status 3" "status $status: $(grep input said)"; fi
 mv sweep_away.h5 out/scene/T100/up/sweep.h5
 if said=$("$bin/gear-inspect" --check out 2>&1) && [ -z "$said" ]; then ok "gear-inspect --check is silent when all is well"; else

@@ -49,11 +49,7 @@ std::string against_scene(const std::string& artifact, const InputRecord& input,
                 scene.empty() ? ", give --scene" : "");
   if (sha256(now) == input.sha256) return text("fresh: as the slice and as ", scene);
   fresh = false;
-  std::string advice = rebuild_advice(artifact);
-  const auto make = advice.find("make out/");
-  if (make != std::string::npos && scene.rfind("data/scenes/", 0) != 0)
-    advice.insert(make + 5, "SCENE=" + scene + " ");
-  return text("STALE: ", scene, " says otherwise now; ", advice);
+  return text("STALE: ", scene, " says otherwise now; ", rebuild_advice(artifact));
 }
 
 // What has become of an input since, in words; clears fresh if it is not what it was, or not there to tell.

@@ -47,6 +47,10 @@ void body(int argc, char** argv) {
   std::string output;
   app.add_option("inputs", inputs, "artifacts (.h5) and figures (.png) of one scene")->required();
   app.add_option("--output", output, "page to write (.html); results.tsv stands beside it")->required();
+  app.footer(
+      "Example:\n"
+      "  gear-report --output out/parker2000/report/index.html out/parker2000/T150/static.h5 "
+      "out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5");
   parse(app, argc, argv);
 
   // 1. Pictures, and artifacts in two passes: what a sweep warns of depends on the statics at its torque.

@@ -143,6 +143,10 @@ void body(int argc, char** argv) {
   app.add_option("--output", output, "make fragment to write; with --gather study.h5")->required();
   app.add_option("--out", folder, "folder of the artifacts")->capture_default_str();
   study_option->excludes(gather_option);
+  app.footer(
+      "Example:\n"
+      "  gear-study --study data/studies/damping-torque-relief.toml --output "
+      "build/studies/damping-torque-relief.mk");
   parse(app, argc, argv);
   if (path.empty() == plan_path.empty()) fail(Failure::usage, "--study or --gather is needed; see --help");
   if (!path.empty())

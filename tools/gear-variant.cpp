@@ -41,6 +41,10 @@ void body(int argc, char** argv) {
   app.add_option("--output", output, "artifact to write")->required();
   app.add_option("--plan", plan, "plan.toml of the study, so that errors name the variant and its values");
   app.add_flag("--mark-refusals", marks, "write why a stage refuses the variant, instead of failing");
+  app.footer(
+      "Example:\n"
+      "  gear-variant --params $(ls out/studies/damping-torque-relief/variants/*/*.toml | head -n 1) "
+      "--driver out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --output variant.h5");
   whine::parse(app, argc, argv);
 
   const whine::Provenance provenance =

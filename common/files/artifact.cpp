@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/fit.h"
 #include "files/provenance.h"
 #include "files/publish.h"
 
@@ -136,9 +137,16 @@ std::string rebuild_advice(const std::string& path) {
            "as it was made";
   // Of a scene that is none of the project's make has to be told where it is.
   const std::string scene = target.substr(4, target.find('/', 4) - 4);
-  const bool known = scene == "bodies" || scene == "figures" || scene.find('.') != std::string::npos ||
-                     std::filesystem::exists("data/scenes/" + scene + ".toml");
-  return "rebuild it with: make " + (known ? "" : "SCENE=path/to/" + scene + ".toml ") + target;
+  std::string file = recorded_scene("out/" + scene);
+  if (!std::filesystem::is_regular_file(file)) file = "data/scenes/" + scene + ".toml";
+  const bool of_none =
+      scene == "bodies" || scene == "figures" || scene == "studies" || scene.find('.') != std::string::npos;
+  std::string told;
+  if (!of_none && !std::filesystem::is_regular_file(file))
+    told = "SCENE=path/to/" + scene + ".toml ";
+  else if (!of_none && file.rfind("data/scenes/", 0) != 0)
+    told = "SCENE=" + file + " ";
+  return "rebuild it with: make " + told + target;
 }
 
 Origin read_origin(const std::string& path) {
