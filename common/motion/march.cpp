@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/huge_pages.h"
 #include "contact/lanes.h"
 #include "contact/line_contact.h"
 #include "motion/dynamics.h"
@@ -78,6 +77,17 @@ RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
   return sizes;
 }
 
+// Lays the numbers of each position side by side.
+void RollingDynamics::pack() {
+  stream_.clear();
+  size_t inner = std::numeric_limits<size_t>::max();  // windows without an edge are all alike
+  for (Position& position : positions_)
+    if (lines())
+      pack_lines(position);
+    else
+      pack_strips(position, inner);
+}
+
 namespace {
 
 template <class Stream>
@@ -101,29 +111,6 @@ struct RollingDynamics::LineRecord {
   int weight(int g) const { return own_reading(2) + g * kFields; }  // (field of its own)
   int size() const { return weight(2); }
 };
-
-// Lays the numbers of each position side by side.
-void RollingDynamics::pack() {
-  const int coordinates = padded(static_cast<int>(coordinates_.size()));
-  size_t most = 0;
-  for (const Position& position : positions_) {
-    const auto pairs = static_cast<int>(position.mesh.pairs.size());
-    most += static_cast<size_t>(lines() ? pairs * LineRecord{coordinates, all_fields()}.size()
-                                        : position.mesh.strips() * (1 + kPairNodes) +
-                                              pairs * (kShapeRows * coordinates + 2 * kPairNodes * kFields));
-  }
-  stream_.clear();
-  if (stream_.capacity() < most) {
-    stream_.reserve(most);
-    advise_huge_pages(stream_.data(), most * sizeof(double));
-  }
-  size_t inner = std::numeric_limits<size_t>::max();  // windows without an edge are all alike
-  for (Position& position : positions_)
-    if (lines())
-      pack_lines(position);
-    else
-      pack_strips(position, inner);
-}
 
 void RollingDynamics::pack_lines(Position& position) {
   const MeshPosition& mesh = position.mesh;
