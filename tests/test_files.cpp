@@ -710,7 +710,7 @@ TEST_CASE("a mesh of another gear, element size or order is refused with both va
   const Caught teeth = caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); });
   CHECK(teeth.kind == kInput);
   CHECK(teeth.says("its teeth is 12, the slice of the scene says 13"));
-  CHECK(teeth.says("make out/a/mesh.h5"));
+  CHECK(teeth.says("make SCENE=path/to/a.toml out/a/mesh.h5"));
   other = own;
   other.design.bore_radius = std::nextafter(own.design.bore_radius, 1.0);
   CHECK(caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); }).says("bore_radius"));
@@ -750,7 +750,7 @@ TEST_CASE("a static result of another contact rung than a later stage's is refus
   CHECK(refused.kind == kInput);
   CHECK(refused.says(
       "out/s/T100/static.h5: was made with contact = \"line\", the slice of this stage says \"strips\""));
-  CHECK(refused.says("make out/s/T100/static.h5"));
+  CHECK(refused.says("make SCENE=path/to/s.toml out/s/T100/static.h5"));
 }
 
 TEST_CASE("the number of an option is decimal, finite and the whole word") {
