@@ -63,13 +63,21 @@ objects := $(library) $(tool_objects) $(test_objects) $(hard_cases)
 .PHONY: build
 build: $(tools:%=$(B)/bin/%) ## compile the programs into build/bin
 
-folders := $(sort $(dir $(objects)) $(B)/bin/ $(B)/lib/ $(B)/id/ $(B)/scenes/)
+folders := $(sort $(B)/obj/ $(dir $(objects)) $(B)/bin/ $(B)/lib/ $(B)/id/ $(B)/scenes/)
 $(folders):
 	@mkdir -p $@
 .SECONDEXPANSION: # $$(@D)/ below
 
-$(objects): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
+# Half of a compilation is reading the headers in it.
+precompiled := $(B)/obj/precompiled.h
+$(precompiled).gch: common/base/precompiled.h $(B)/flags | $$(@D)/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ $<
+
+$(objects): $(B)/obj/%.o: %.cpp $(B)/flags $(precompiled).gch | $$(@D)/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -include $(precompiled) -MMD -MP -c -o $@ $<
+
+# Assertions as calls rather than as code in place: a third of the time of compiling them.
+$(filter $(B)/obj/tests/%,$(objects)): CPPFLAGS += -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 
 # HDF5 stays in one room: nobody else finds its headers.
 $(filter $(B)/obj/common/files/%,$(objects)): CPPFLAGS += $(HDF5_CFLAGS)

@@ -69,7 +69,7 @@ lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks 
 # --- fuzzing
 
 FUZZ_SECONDS ?= 60
-fuzz_targets := scene artifact sealed
+fuzz_targets := scene study artifact sealed
 fuzz_sources := $(wildcard common/base/*.cpp common/files/*.cpp)
 fuzz_flags := -std=c++20 -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
 
@@ -81,6 +81,7 @@ $(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base
 
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%: tests/fuzz/file_of.h $(fuzz_sources:%.cpp=$(B)/fuzz/%.o)
 $(B)/fuzz/whine-fuzz-scene: tests/fuzz/scene.cpp
+$(B)/fuzz/whine-fuzz-study: tests/fuzz/study.cpp
 $(B)/fuzz/whine-fuzz-artifact $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/artifact.cpp
 $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/edit.cpp
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
@@ -92,6 +93,7 @@ replay: $$(replays) ## the same readers against the same damaged files every tim
 	@B=$(B) bash tests/fuzz.sh
 replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
 $(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp
+$(B)/bin/whine-replay-study: tests/fuzz/study.cpp
 $(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp
 $(B)/bin/whine-replay-sealed: tests/fuzz/edit.cpp
 $(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(B)/lib/libfiles.a $(B)/lib/libbase.a | $(B)/bin/ $(with_deps)
@@ -100,10 +102,10 @@ $(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h 
 # HDF5 1.10 forgets some memory where it refuses a file: leaks are looked for where it takes no part.
 # The corpus stays as it is: what a run finds new goes to $(B)/fuzz, and a file that breaks a reader to $(B)/fuzz/found.
 .PHONY: fuzz
-fuzz: $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%) | $(B)/fuzz/found/ ## feed the readers of scenes and artifacts with damaged files, FUZZ_SECONDS=60 each
+fuzz: $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%) | $(B)/fuzz/found/ ## feed the readers of scenes, studies and artifacts with damaged files, FUZZ_SECONDS=60 each
 	@for target in $(fuzz_targets); do \
 	  mkdir -p $(B)/fuzz/new-$$target; \
-	  $(B)/fuzz/whine-fuzz-$$target -max_total_time=$(FUZZ_SECONDS) -timeout=10 -detect_leaks=$$([ $$target = scene ] && echo 1 || echo 0) -malloc_limit_mb=1024 -rss_limit_mb=2048 -max_len=1048576 \
+	  $(B)/fuzz/whine-fuzz-$$target -max_total_time=$(FUZZ_SECONDS) -timeout=10 -detect_leaks=$$({ [ $$target = scene ] || [ $$target = study ]; } && echo 1 || echo 0) -malloc_limit_mb=1024 -rss_limit_mb=2048 -max_len=1048576 \
 	    -print_final_stats=1 -artifact_prefix=$(B)/fuzz/found/$$target- $(B)/fuzz/new-$$target tests/fuzz/corpus/$$target > $(B)/fuzz/$$target.log 2>&1 || \
 	    { status=$$?; tail -n 30 $(B)/fuzz/$$target.log >&2; exit $$status; }; \
 	  echo "fuzz: $$target: $$(sed -n 's/^stat::number_of_executed_units: *//p' $(B)/fuzz/$$target.log) inputs, no crash, no hang, no more than 1 GiB taken"; \

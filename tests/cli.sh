@@ -513,7 +513,8 @@ refused "the wave of another scene" 3 'other_static.h5: is of another driver tha
 # Changed where HDF5 has a checksum of its own, then the content hash put right. (test_files.cpp: an older schema.)
 cp out/scene/T100/up/sweep.h5 out/old.h5
 place=$(grep -a -b -o -m1 schema_version out/old.h5 | head -n 1 | cut -d: -f1)
-printf '\0' | dd of=out/old.h5 bs=1 seek=$((place + 40)) conv=notrunc status=none
+byte=$(od -An -tu1 -j $((place + 40)) -N1 out/old.h5)
+printf "\\x$(printf %x $((byte ^ 1)))" | dd of=out/old.h5 bs=1 seek=$((place + 40)) conv=notrunc status=none
 refused "an artifact that was edited" 4 'out/old.h5: is not what was written: .*delete it; rebuild it with: make out/old.h5' "$bin/gear-spectra" --input out/old.h5 --output x.h5
 digits=$(($(grep -a -b -o -m1 'in place of these digits: ' out/old.h5 | head -n 1 | cut -d: -f1) + 26))
 printf '%064d' 0 | dd of=out/old.h5 bs=1 seek=$digits conv=notrunc status=none

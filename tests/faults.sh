@@ -176,9 +176,9 @@ refused_and_remade() { # <claim> <file>
   if [ -n "$goal" ]; then
     rm -f $goal; touch -r "$base/stamp" $file
     if make_ $goals; then wrong "$claim" "make did not notice"; restore; return; fi
-    one_line "$claim: make stops" "${file##*/}: .*(truncated|damaged|empty|no content hash).*make out/[^ ]*${file##*/}"
+    one_line "$claim: make stops" "${file##*/}: .*(truncated|damaged|empty|no content hash).*make (SCENE=own.toml )?out/[^ ]*${file##*/}"
   fi
-  if said=$("$inspect" --check 2>&1) || ! grep -q "$file: .*make $file" <<< "$said"; then wrong "$claim: gear-inspect --check names it" "$said"; fi
+  if said=$("$inspect" --check 2>&1) || ! grep -q -E "$file: .*make (SCENE=own.toml )?$file" <<< "$said"; then wrong "$claim: gear-inspect --check names it" "$said"; fi
   rm -f $file; again "$claim: deleted as it says, and made again"
 }
 for file in $victims; do
@@ -198,7 +198,7 @@ for file in $victims; do
       old=$(od -An -tu1 -j $place -N1 $file)
       printf "\\$(printf %03o $((old ^ (1 << RANDOM % 8))))" | dd of=$file bs=1 seek=$place conv=notrunc status=none
       flipped=$((flipped + 1))
-      if "$inspect" $file > /dev/null 2> "$log" || ! grep -q "$file: .*make $file" "$log"; then missed="$missed $dataset"; else found=$((found + 1)); fi
+      if "$inspect" $file > /dev/null 2> "$log" || ! grep -q -E "$file: .*make (SCENE=own.toml )?$file" "$log"; then missed="$missed $dataset"; else found=$((found + 1)); fi
       printf "\\$(printf %03o $old)" | dd of=$file bs=1 seek=$place conv=notrunc status=none
     done
   done < <("$base/layout" $file)
@@ -243,7 +243,7 @@ mixed "a mesh of another scene" 'make' "$B/bin/gear-reduce" --params out/own/pin
 mixed "bodies of another scene" 'make' "$B/bin/gear-static" --params out/own/params/static.toml "${two_pair[@]}" --torque 100 --output mixed.h5
 for stage in "gear-sweep --direction up" gear-impact; do
   name=${stage%% *}
-  mixed "$name with statics of another scene" 'stale.*make out/two/T100/static.h5' "$B"/bin/$stage --params out/own/params/${name#gear-}.toml \
+  mixed "$name with statics of another scene" 'stale.*make SCENE=two.toml out/two/T100/static.h5' "$B"/bin/$stage --params out/own/params/${name#gear-}.toml \
     "${one_pair[@]}" --static out/two/T100/static.h5 --reference-static $at/static.h5 --output mixed.h5
 done
 mixed "a lumped model with the wave of another scene" 'another driver' "$B/bin/gear-lumped" --model rectangular --static $at/static.h5 \

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "contact/complementarity.h"
 #include "motion/dynamics.h"
@@ -251,16 +252,16 @@ void all_modes(Table& table) {
   const auto amplitude = [&](int s) { return 900 * (1 + 1.7 * std::sin(2 * kPi * 9e3 * s * step)); };
 
   // By modes, as the library steps.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(k, m);
+  const SymmetricEigen eigen = symmetric_eigen(k, m);
   HeldMesh mesh;
-  mesh.frequency_squared = eigen.eigenvalues();
-  mesh.damping = mu + eta * eigen.eigenvalues().array();
-  mesh.participation = touching * eigen.eigenvectors();
+  mesh.frequency_squared = eigen.values;
+  mesh.damping = mu + eta * eigen.values.array();
+  mesh.participation = touching * eigen.vectors;
   mesh.local = local;
   mesh.residual = MatrixXd::Zero(2, 2);
   mesh.gap = gap;
   mesh.newmark = true;
-  mesh.torque = amplitude(0) * eigen.eigenvectors().transpose() * push;
+  mesh.torque = amplitude(0) * eigen.vectors.transpose() * push;
   HeldMotion modes(mesh, step);
 
   // In full space, with the sets of contact tried one by one.
@@ -286,7 +287,7 @@ void all_modes(Table& table) {
   double three_point = 0, one_step = 0, size = 0;
   int apart = 0;
   for (int s = 1; s <= kSteps; ++s) {
-    modes.set_torque(amplitude(s) * eigen.eigenvectors().transpose() * push);
+    modes.set_torque(amplitude(s) * eigen.vectors.transpose() * push);
     modes.advance();
     {
       const VectorXd u0 = u + step * v + 0.25 * step * step * a, v0 = v + 0.5 * step * a;
@@ -313,7 +314,7 @@ void all_modes(Table& table) {
     }
     older = old;
     old = now;
-    const VectorXd by_modes = eigen.eigenvectors() * modes.z;
+    const VectorXd by_modes = eigen.vectors * modes.z;
     three_point = std::max(three_point, (now - by_modes).norm());
     one_step = std::max(one_step, (u - by_modes).norm());
     size = std::max(size, by_modes.norm());
@@ -400,10 +401,10 @@ BarImpact bar_impact(int n, double courant) {
     k(i, i + 1) = k(i + 1, i) = -stiffness;
   }
   const VectorXd root = mass.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(root.asDiagonal() * k * root.asDiagonal());
-  const MatrixXd shape = root.asDiagonal() * eigen.eigenvectors();
+  const SymmetricEigen eigen = symmetric_eigen(root.asDiagonal() * k * root.asDiagonal());
+  const MatrixXd shape = root.asDiagonal() * eigen.vectors;
   HeldMesh mesh;
-  mesh.frequency_squared = eigen.eigenvalues();
+  mesh.frequency_squared = eigen.values;
   mesh.frequency_squared[0] = 0;
   mesh.damping = mesh.torque = VectorXd::Zero(n);
   mesh.participation = shape.row(0);
@@ -494,14 +495,12 @@ void step_lengths(Table& table) {
                    usual = released(period / 128, 0);
   table.at_most("steps of T / 1e6, 1 % of the torque let go: forces against steps of T / 4e6, relative",
                 1e-11, (tiny.p - finer.p).norm() / finer.p.norm());
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> shortest(tiny.compliance(), Eigen::EigenvaluesOnly),
-      local(tiny.mesh().local, Eigen::EigenvaluesOnly);
+  const SymmetricEigen shortest = symmetric_eigenvalues(tiny.compliance()),
+                       local = symmetric_eigenvalues(tiny.mesh().local);
   table.relative("their compliance: least eigenvalue, m/N, against that of what follows at once",
-                 local.eigenvalues()[0], shortest.eigenvalues()[0], 1e-3);
-  table.at_least(
-      "and at steps of T / 128 it is no smaller, over the same", 1,
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(usual.compliance(), Eigen::EigenvaluesOnly).eigenvalues()[0] /
-          local.eigenvalues()[0]);
+                 local.values[0], shortest.values[0], 1e-3);
+  table.at_least("and at steps of T / 128 it is no smaller, over the same", 1,
+                 symmetric_eigenvalues(usual.compliance()).values[0] / local.values[0]);
 
   const double static_error = 1e6 * at.dynamics.static_deflection();
   const RollingDynamics::State rest = at.dynamics.rest();
@@ -824,8 +823,7 @@ void perturbation(Table& table) {
         row += base[k].size();
       }
     }
-  const double multiplier =
-      Eigen::EigenSolver<MatrixXd>(monodromy, false).eigenvalues().cwiseAbs().maxCoeff();
+  const double multiplier = general_eigenvalues(monodromy).values.cwiseAbs().maxCoeff();
 
   RollingDynamics::State a = steady, b = steady;
   b.z[0] *= 1 + 1e-12;

@@ -1,7 +1,6 @@
 // solid/: elements, half-plane, cyclic symmetry, flank tables.
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "gear/involute.h"
 #include "relative.h"
@@ -634,14 +634,14 @@ TEST_CASE("cyclic symmetry: the spectra of all harmonics are the spectrum of the
     const Eigen::LLT<Eigen::MatrixXcd> llt(m);
     const Eigen::MatrixXcd half = llt.matrixL().solve(k);
     const Eigen::MatrixXcd reduced = llt.matrixL().solve(half.adjoint().eval());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> dense(reduced, Eigen::EigenvaluesOnly);
-    for (double value : dense.eigenvalues())
+    const SymmetricEigen dense = symmetric_eigenvalues(reduced);
+    for (double value : dense.values)
       for (int copy = 0; copy < (sector.single(n) ? 1 : 2); ++copy) by_sector.push_back(value);
     // The sparse eigensolver finds the lowest of them.
     HermitianFactor factor(sector.stiffness(n));
     factor.factorise(sector.stiffness(n), "test");
     const ComplexModes modes = lowest_modes(sector.stiffness(n), sector.mass(n), factor, 4, "test");
-    for (int i = 0; i < 4; ++i) CHECK(modes.omega_squared[i] == relative(dense.eigenvalues()[i], 1e-9));
+    for (int i = 0; i < 4; ++i) CHECK(modes.omega_squared[i] == relative(dense.values[i], 1e-9));
     CHECK((modes.shape.adjoint() * m * modes.shape - Eigen::MatrixXcd::Identity(4, 4)).norm() < 1e-9);
   }
   const WholeGear whole = replicate(mesh);
@@ -654,12 +654,12 @@ TEST_CASE("cyclic symmetry: the spectra of all harmonics are the spectrum of the
     if (!fixed[static_cast<size_t>(i)]) free.insert(free.end(), {2 * i, 2 * i + 1});
   const Eigen::MatrixXd k = Eigen::MatrixXd(full.stiffness)(free, free),
                         m = Eigen::MatrixXd(full.mass)(free, free);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(k, m, Eigen::EigenvaluesOnly);
+  const SymmetricEigen dense = symmetric_eigen(k, m);
   REQUIRE(by_sector.size() == free.size());
   std::sort(by_sector.begin(), by_sector.end());
   double worst = 0;
   for (size_t i = 0; i < free.size(); ++i)
-    worst = std::max(worst, std::abs(by_sector[i] / dense.eigenvalues()[static_cast<int>(i)] - 1));
+    worst = std::max(worst, std::abs(by_sector[i] / dense.values[static_cast<int>(i)] - 1));
   CHECK(worst < 1e-10);
 }
 
@@ -788,9 +788,9 @@ TEST_CASE(
   const CyclicSector sector(mesh, system);
   const Eigen::MatrixXd k = Eigen::MatrixXcd(sector.stiffness(0)).real(),
                         m = Eigen::MatrixXcd(sector.mass(0)).real();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(k, m);
+  const SymmetricEigen dense = symmetric_eigen(k, m);
   const Eigen::MatrixXd shape =
-      sector.expand(0, dense.eigenvectors().cast<Complex>()).real() / std::sqrt(50.0);  // over the whole gear
+      sector.expand(0, dense.vectors.cast<Complex>()).real() / std::sqrt(50.0);  // over the whole gear
   const Eigen::VectorXd rotation = rotation_field(mesh.node_position);
   const Eigen::VectorXd gamma = 50 * shape.transpose() * (system.mass * rotation);
   const FlankTable table(tooth, 10);
@@ -819,7 +819,7 @@ TEST_CASE(
   CHECK(body.nodal_diameter[0] == 0);
   Eigen::Index largest = 0;
   gamma.cwiseAbs().maxCoeff(&largest);
-  CHECK(2 * kPi * body.eigenfrequency[0] == relative(std::sqrt(dense.eigenvalues()[largest]), 1e-9));
+  CHECK(2 * kPi * body.eigenfrequency[0] == relative(std::sqrt(dense.values[largest]), 1e-9));
   CHECK(std::abs(body.inertia_coupling[0]) == relative(std::abs(gamma[largest]), 1e-8));
   CHECK(body.inertia_coupling[0] * body.flank_mode(5, 0) > 0);  // the sign that a wrong one would turn
   CHECK(body.inertia == relative(inertia, 1e-12));

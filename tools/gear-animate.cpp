@@ -4,7 +4,6 @@
 //            <plots>/animation.gp, the template
 // Writes     <output>.tsv, <output>.gif, and <output>-001.png .., a picture for each frame; each whole or not at all
 // Equations  none: the motion is the sweep's, deflections are K x = f under its tooth loads
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
 
@@ -20,22 +19,22 @@
 namespace {
 
 void body(int argc, char** argv) {
-  CLI::App app{"Animation of a steady motion over its mesh period", "gear-animate"};
+  whine::Options options{"Animation of a steady motion over its mesh period", "gear-animate"};
   std::string driver, driven, sweep, output, plots = "pipelines/plots", frequency;
   int frames = 48;
-  app.add_option("--driver-mesh", driver, "mesh.h5 of the driving gear")->required();
-  app.add_option("--driven-mesh", driven, "mesh.h5 of the driven gear")->required();
-  app.add_option("--sweep", sweep, "sweep.h5 of an elastic pair, up or down")->required();
-  app.add_option("--mesh-frequency", frequency,
-                 "speed in Hz, one of the sweep's; default: the one with the largest RMS");
-  app.add_option("--frames", frames, "number of pictures")->capture_default_str();
-  app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
-  app.add_option("--output", output, "path of the results without extension")->required();
-  app.footer(
+  options.add("--driver-mesh", driver, "mesh.h5 of the driving gear").required();
+  options.add("--driven-mesh", driven, "mesh.h5 of the driven gear").required();
+  options.add("--sweep", sweep, "sweep.h5 of an elastic pair, up or down").required();
+  options.add("--mesh-frequency", frequency,
+              "speed in Hz, one of the sweep's; default: the one with the largest RMS");
+  options.add("--frames", frames, "number of pictures").show_default();
+  options.add("--plots", plots, "folder of the gnuplot templates").show_default();
+  options.add("--output", output, "path of the results without extension").required();
+  options.footer(
       "Example:\n"
       "  gear-animate --driver-mesh out/parker2000/pinion/mesh.h5 --driven-mesh out/parker2000/wheel/mesh.h5 "
       "--sweep out/parker2000/T150/down/sweep.h5 --frames 4 --output out/parker2000/report/animation");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const double speed = frequency.empty() ? 0 : whine::number_option("--mesh-frequency", frequency);
   if (!frequency.empty() && !(speed > 0))

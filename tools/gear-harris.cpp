@@ -5,7 +5,6 @@
 // Writes  harris_map.h5   the map at rest, the optimum for the design torque, its curve over torque (the Harris cusp), and
 //                         what a finer solution of some points differs by; with --dynamic the RMS at the worst speed
 // Equations: as gear-static; with --dynamic as gear-sweep
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -76,54 +75,50 @@ std::vector<double> lengths_of(const std::string& word, const whine::GearDesign&
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Transmission error against torque and tip relief", "gear-harris"};
+  whine::Options options{"Transmission error against torque and tip relief", "gear-harris"};
   whine::HarrisPlan plan;
   std::string params, static_params, driver, driven, output, torque, relief, start, length, design,
       points = "0", reference;
   bool dynamic = false;
-  app.add_option("--static-params", static_params, "slice of the scene: out/<scene>/params/static.toml")
-      ->required();
-  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
-  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--torque", torque,
-                 "torques on the driver in N m, from:to:count or with commas (default: 60 up to twice the "
-                 "design torque)");
-  app.add_option("--relief-um", relief,
-                 "tip reliefs in micrometres, in the same way (default: 40 up to 1.2 times what the teeth "
-                 "bend under the largest torque)");
-  auto* start_option = app.add_option(
+  options.add("--static-params", static_params, "slice of the scene: out/<scene>/params/static.toml")
+      .required();
+  options.add("--driver", driver, "body.h5 of the driving gear").required();
+  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--torque", torque,
+              "torques on the driver in N m, from:to:count or with commas (default: 60 up to twice the "
+              "design torque)");
+  options.add("--relief-um", relief,
+              "tip reliefs in micrometres, in the same way (default: 40 up to 1.2 times what the teeth "
+              "bend under the largest torque)");
+  whine::Option start_option = options.add(
       "--start-deg", start,
       "roll angles of the driver at which they start, largest first, with commas; the driven gear's "
       "relief has the same length of roll (default: as in the scene, or the highest point of single-pair "
       "contact)");
-  app.add_option("--length-mm", length, "the same as lengths of roll to the tip, smallest first")
-      ->excludes(start_option);
-  app.add_option("--shape", plan.shape, "how the relief grows")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"linear", "parabolic"}));
-  app.add_option("--relieved", plan.relieved, "whose tips")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"driver", "driven", "both"}));
-  app.add_option("--design-torque", design,
-                 "torque in N m for which the optimum is sought (default: midway)");
-  app.add_option("--positions", plan.positions, "mesh positions")->capture_default_str();
-  app.add_option("--strips", plan.strips, "strips across the contact at the least load of a range of torques")
-      ->capture_default_str();
-  app.add_option("--check", points,
-                 "points to solve again with 3 times the strips and positions, beside the optimum")
-      ->capture_default_str();
-  auto* dynamic_option =
-      app.add_flag("--dynamic", dynamic, "sweep up and down at every point: minutes to hours");
-  app.add_option("--params", params, "with --dynamic: out/<scene>/params/sweep.toml")->needs(dynamic_option);
-  app.add_option("--reference-static", reference, "with --dynamic: static.h5 that sets the bearing dampers")
-      ->needs(dynamic_option);
-  app.add_option("--output", output, "harris_map.h5 to write")->required();
-  app.footer(
+  options.add("--length-mm", length, "the same as lengths of roll to the tip, smallest first")
+      .excludes(start_option);
+  options.add("--shape", plan.shape, "how the relief grows").show_default().one_of({"linear", "parabolic"});
+  options.add("--relieved", plan.relieved, "whose tips").show_default().one_of({"driver", "driven", "both"});
+  options.add("--design-torque", design, "torque in N m for which the optimum is sought (default: midway)");
+  options.add("--positions", plan.positions, "mesh positions").show_default();
+  options.add("--strips", plan.strips, "strips across the contact at the least load of a range of torques")
+      .show_default();
+  options
+      .add("--check", points,
+           "points to solve again with 3 times the strips and positions, beside the optimum")
+      .show_default();
+  whine::Option dynamic_option =
+      options.flag("--dynamic", dynamic, "sweep up and down at every point: minutes to hours");
+  options.add("--params", params, "with --dynamic: out/<scene>/params/sweep.toml").needs(dynamic_option);
+  options.add("--reference-static", reference, "with --dynamic: static.h5 that sets the bearing dampers")
+      .needs(dynamic_option);
+  options.add("--output", output, "harris_map.h5 to write").required();
+  options.footer(
       "Example:\n"
       "  gear-harris --static-params out/parker2000/params/static.toml --driver "
       "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 5:300:60 "
       "--relief-um 0:20:40 --design-torque 150 --output out/parker2000/harris_map.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   if (dynamic && (params.empty() || reference.empty()))
     whine::fail(whine::Failure::usage, "--dynamic needs --params and --reference-static");

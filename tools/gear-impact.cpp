@@ -5,7 +5,6 @@
 // Writes  impact.h5   frequency, damping ratio and decay per contact state; both, with the eigenvalues, per mesh phase
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Eq. 13-20 at every step, Eq. 21; Table 1 of P2000.
 // With --calibrate: the eta of Eq. 21 that gives a damping ratio in one contact state, on standard output; no file.
-#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 #include <optional>
@@ -40,32 +39,31 @@ void print_calibration(const whine::ImpactArtifact& a, double ratio, const std::
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Natural frequency and damping of the held pair by ring-down", "gear-impact"};
+  whine::Options options{"Natural frequency and damping of the held pair by ring-down", "gear-impact"};
   whine::ImpactPlan plan;
   std::string params, driver, driven, statics, reference, output, step_word = whine::text(plan.torque_step),
                                                                   ratio_word, state = "two";
-  app.add_option("--params", params, "slice of the scene: out/<scene>/params/impact.toml")->required();
-  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
-  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--static", statics, "static.h5 of the torque")->required();
-  app.add_option("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
-      ->required();
-  app.add_option("--torque-step", step_word, "what is let go, over the torque, up to 0.5")
-      ->capture_default_str();
-  auto* write = app.add_option("--output", output, "impact.h5 to write");
-  auto* calibrate =
-      app.add_option("--calibrate", ratio_word, "damping ratio to find the eta of Eq. 21 for; prints");
-  app.add_option("--contact-state", state, "where that ratio holds: loaded pairs in words, or mean")
-      ->needs(calibrate)
-      ->capture_default_str();
-  write->excludes(calibrate);
-  app.footer(
+  options.add("--params", params, "slice of the scene: out/<scene>/params/impact.toml").required();
+  options.add("--driver", driver, "body.h5 of the driving gear").required();
+  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--static", statics, "static.h5 of the torque").required();
+  options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
+      .required();
+  options.add("--torque-step", step_word, "what is let go, over the torque, up to 0.5").show_default();
+  whine::Option write = options.add("--output", output, "impact.h5 to write");
+  whine::Option calibrate =
+      options.add("--calibrate", ratio_word, "damping ratio to find the eta of Eq. 21 for; prints");
+  options.add("--contact-state", state, "where that ratio holds: loaded pairs in words, or mean")
+      .needs(calibrate)
+      .show_default();
+  write.excludes(calibrate);
+  options.footer(
       "Example:\n"
       "  gear-impact --params out/parker2000/params/impact.toml --driver "
       "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --static "
       "out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output "
       "out/parker2000/T150/impact.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
   if (output.empty() && ratio_word.empty())
     whine::fail(whine::Failure::usage, "--output or --calibrate is needed; see --help");
 

@@ -7,7 +7,6 @@
 //            With --check: a line on standard error for each fault, nothing if all is well. Exit status 3 if an
 //            artifact is damaged, of another version, not finite, or made from other files than those beside it
 // Equations  none
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -112,20 +111,20 @@ int check(const std::string& path, const std::string& scene) {
 
 int body(int argc, char** argv) {
   std::vector<std::string> paths;
-  CLI::App app{"Says what artifacts are, from what they were made, and whether they are stale",
-               "gear-inspect"};
-  app.add_option("artifact", paths, "artifacts (HDF5); with --check folders as well");
+  whine::Options options{"Says what artifacts are, from what they were made, and whether they are stale",
+                         "gear-inspect"};
+  options.add("artifact", paths, "artifacts (HDF5); with --check folders as well");
   bool checked = false;
-  app.add_flag("--check", checked,
+  options.flag("--check", checked,
                "say only what is wrong with the artifacts, those below folders included (default: out)");
   std::string scene;
-  app.add_option(
+  options.add(
       "--scene", scene,
       "compare slices with this scene; default: the one that out/<scene>/ was made of, if it is there");
-  app.footer(
+  options.footer(
       "Example:\n"
       "  gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5");
-  parse(app, argc, argv);
+  options.parse(argc, argv);
   if (checked) {
     if (paths.empty()) paths = {"out"};
     int faults = 0;

@@ -5,7 +5,6 @@
 // Writes  jump_map.h5    per damping: ends of the branches, speeds that lose contact, tooth loads, jumps; the responses
 // Equations: as gear-static and gear-sweep; damping ratios are those of the slowest eigenvalue with two pairs in contact
 // and the contact frozen under the static load (Eq. 21 for eta).
-#include <CLI/CLI.hpp>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -45,37 +44,36 @@ whine::CornerRule corner_rule(const std::string& word) {
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Jumps, contact loss and tooth loads of the primary resonance against damping",
-               "gear-jump-map"};
+  whine::Options options{"Jumps, contact loss and tooth loads of the primary resonance against damping",
+                         "gear-jump-map"};
   whine::JumpMapPlan plan;
   std::string params, static_params, driver, driven, output, torque_word, corner, contact, from, to, at,
       step = whine::text(plan.step);
   std::vector<std::string> ratios, factors;
-  app.add_option("--params", params, "slice of the scene: out/<scene>/params/map.toml")->required();
-  app.add_option("--static-params", static_params, "slice of the scene: out/<scene>/params/static.toml")
-      ->required();
-  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
-  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--torque", torque_word, "torque on the driver in N m, above 0")->required();
-  app.add_option("--corner-contact", corner, "true, false or degrees, instead of the scene's");
-  app.add_option("--contact", contact, "line or strips, instead of the scene's")
-      ->check(CLI::IsMember({"line", "strips"}));
-  app.add_option("--damping-ratio", ratios, "ratios with two pairs in contact, to find the eta of Eq. 21 for")
-      ->delimiter(',');
-  app.add_option("--rayleigh-stiffness", factors, "etas of Eq. 21 in s, as they are; cases before the ratios")
-      ->delimiter(',');
-  app.add_option("--from", from, "least speed in Hz (default: 0.57 of the rigid gears' frequency)");
-  app.add_option("--to", to, "largest speed in Hz (default: 1.2 of it)");
-  app.add_option("--step", step, "step of the speeds in Hz")->capture_default_str();
-  app.add_option("--loads-at", at, "speed in Hz whose tooth loads are stored apart; speeds fall on it");
-  app.add_option("--output", output, "jump_map.h5 to write")->required();
-  app.footer(
+  options.add("--params", params, "slice of the scene: out/<scene>/params/map.toml").required();
+  options.add("--static-params", static_params, "slice of the scene: out/<scene>/params/static.toml")
+      .required();
+  options.add("--driver", driver, "body.h5 of the driving gear").required();
+  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--torque", torque_word, "torque on the driver in N m, above 0").required();
+  options.add("--corner-contact", corner, "true, false or degrees, instead of the scene's");
+  options.add("--contact", contact, "line or strips, instead of the scene's").one_of({"line", "strips"});
+  options.add("--damping-ratio", ratios, "ratios with two pairs in contact, to find the eta of Eq. 21 for")
+      .separated_by(',');
+  options.add("--rayleigh-stiffness", factors, "etas of Eq. 21 in s, as they are; cases before the ratios")
+      .separated_by(',');
+  options.add("--from", from, "least speed in Hz (default: 0.57 of the rigid gears' frequency)");
+  options.add("--to", to, "largest speed in Hz (default: 1.2 of it)");
+  options.add("--step", step, "step of the speeds in Hz").show_default();
+  options.add("--loads-at", at, "speed in Hz whose tooth loads are stored apart; speeds fall on it");
+  options.add("--output", output, "jump_map.h5 to write").required();
+  options.footer(
       "Example:\n"
       "  gear-jump-map --params out/parker2000/params/map.toml --static-params "
       "out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5 --driven "
       "out/parker2000/wheel/body.h5 --torque 150 --corner-contact false --damping-ratio 0.05,0.07 "
       "--loads-at 2400 --output out/parker2000/T150/jump_map_false.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   plan.damping_ratio = numbers("--damping-ratio", ratios);
   plan.rayleigh_stiffness = numbers("--rayleigh-stiffness", factors);

@@ -5,7 +5,6 @@
 //                       gears in their places for ParaView (loaded_<phase>.hdf is a link to it)
 // Equations  d = A p + e >= 0, p >= 0, p . d = 0 (Eq. 18); K x = f of the whole gear, by cyclic symmetry, with the half-planes
 //            of the strips in closed form
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <string>
 
@@ -19,26 +18,26 @@
 namespace {
 
 void body(int argc, char** argv) {
-  CLI::App app{"Loaded and deformed gears at one mesh position, with contact pressure and stresses",
-               "gear-loaded"};
+  whine::Options options{"Loaded and deformed gears at one mesh position, with contact pressure and stresses",
+                         "gear-loaded"};
   std::string statics_path, driver, driven, driver_mesh, driven_mesh, output, phase_word;
-  app.add_option("--static", statics_path, "static.h5 of the pair at the torque")->required();
-  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
-  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--driver-mesh", driver_mesh, "mesh.h5 of the driving gear")->required();
-  app.add_option("--driven-mesh", driven_mesh, "mesh.h5 of the driven gear")->required();
-  app.add_option(
-         "--mesh-phase", phase_word,
-         "mesh phase, from 0 (reference pair at the pitch point) up to, not including, 1; with teeth that "
-         "differ up to their hunting period")
-      ->required();
-  app.add_option("--output", output, "loaded_<phase>.h5 to write")->required();
-  app.footer(
+  options.add("--static", statics_path, "static.h5 of the pair at the torque").required();
+  options.add("--driver", driver, "body.h5 of the driving gear").required();
+  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--driver-mesh", driver_mesh, "mesh.h5 of the driving gear").required();
+  options.add("--driven-mesh", driven_mesh, "mesh.h5 of the driven gear").required();
+  options
+      .add("--mesh-phase", phase_word,
+           "mesh phase, from 0 (reference pair at the pitch point) up to, not including, 1; with teeth that "
+           "differ up to their hunting period")
+      .required();
+  options.add("--output", output, "loaded_<phase>.h5 to write").required();
+  options.footer(
       "Example:\n  gear-loaded --static out/parker2000/T150/static.h5 --driver out/parker2000/pinion/body.h5 "
       "--driven out/parker2000/wheel/body.h5 --driver-mesh out/parker2000/pinion/mesh.h5 "
       "--driven-mesh out/parker2000/wheel/mesh.h5 --mesh-phase 0.25 --output "
       "out/parker2000/T150/loaded_0.25.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const double position = whine::number_option("--mesh-phase", phase_word);
   const whine::Provenance provenance =

@@ -8,7 +8,6 @@
 // Equation: m x'' + c x' + F(t) = T / r, F(t) = k(t) x for x >= 0 and 0 for x < 0 (Eq. 23), integrated exactly from event to
 //         event (or by Newmark's method, Eq. 8); k(t) constant in cells of the mesh period;
 //         pairs: the sum of unilateral springs, with --hertz each a polygon of 16 chords of Hertz's law
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -42,63 +41,63 @@ void require_same_pair(const std::string& one, const std::string& other) {
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Speed sweep of a lumped model with one degree of freedom (Eq. 23)", "gear-lumped"};
+  whine::Options options{"Speed sweep of a lumped model with one degree of freedom (Eq. 23)", "gear-lumped"};
   whine::LumpedOptions o;
   std::string statics, reference, params, output, levels, duty, torque, cells, steps, from, to, step;
   std::string mass, at;
   std::vector<std::string> ratios{"0.08"};
   bool map = false, hertz = false;
-  app.add_option("--model", o.model,
-                 "k(t): rectangular (two levels), secant or tangent (curve of the statics), pairs (a spring "
-                 "per pair)")
-      ->required()
-      ->check(CLI::IsMember({"rectangular", "secant", "tangent", "pairs"}));
-  app.add_option("--static", statics, "static.h5 of the torque to run")->required();
-  app.add_option("--reference-static", reference,
-                 "static.h5 that the levels of the rectangular wave are read from, instead of --static");
-  app.add_flag(
+  options
+      .add("--model", o.model,
+           "k(t): rectangular (two levels), secant or tangent (curve of the statics), pairs (a spring "
+           "per pair)")
+      .required()
+      .one_of({"rectangular", "secant", "tangent", "pairs"});
+  options.add("--static", statics, "static.h5 of the torque to run").required();
+  options.add("--reference-static", reference,
+              "static.h5 that the levels of the rectangular wave are read from, instead of --static");
+  options.flag(
       "--hertz", hertz,
       "pairs: each spring follows Hertz's law of a line contact through its static load and deflection, as a "
       "polygon of 16 chords; without it springs are linear, with the stiffness at the static load");
-  app.add_option(
-      "--levels", levels,
-      "other levels of the rectangular wave, N/m: fewer pairs, more pairs (k1,k2), k2 not below k1");
-  app.add_option("--duty", duty, "share of the mesh period with the second level, in (0, 1)");
-  app.add_option("--torque", torque, "torque in N m; refused if --static is of another one");
-  app.add_option("--mass", mass, "mass in kg; default: I1 I2 / (I1 r2^2 + I2 r1^2) of the gears of --params");
-  app.add_option("--damping-ratio", ratios, "c / (2 sqrt(mean stiffness x mass)); with --map several")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--damper", o.damper_acts, "always, as in Eq. 23, or in contact only")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"always", "contact"}));
-  app.add_option("--integrator", o.integrator, "exact: from event to event; newmark: Eq. 8")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"exact", "newmark"}));
-  app.add_option(
+  options.add("--levels", levels,
+              "other levels of the rectangular wave, N/m: fewer pairs, more pairs (k1,k2), k2 not below k1");
+  options.add("--duty", duty, "share of the mesh period with the second level, in (0, 1)");
+  options.add("--torque", torque, "torque in N m; refused if --static is of another one");
+  options.add("--mass", mass, "mass in kg; default: I1 I2 / (I1 r2^2 + I2 r1^2) of the gears of --params");
+  options.add("--damping-ratio", ratios, "c / (2 sqrt(mean stiffness x mass)); with --map several")
+      .separated_by(',')
+      .show_default();
+  options.add("--damper", o.damper_acts, "always, as in Eq. 23, or in contact only")
+      .show_default()
+      .one_of({"always", "contact"});
+  options.add("--integrator", o.integrator, "exact: from event to event; newmark: Eq. 8")
+      .show_default()
+      .one_of({"exact", "newmark"});
+  options.add(
       "--cells", cells,
       "cells of constant stiffness in a period; default: a multiple of the static positions, 1024 or more");
-  app.add_option(
+  options.add(
       "--steps", steps,
       "stored samples per mesh period, and least steps of newmark; default: as --params says, or 128");
-  app.add_option("--params", params,
-                 "slice of the scene with speeds and samples: out/<scene>/params/lumped.toml");
-  app.add_option("--from", from,
-                 "lowest mesh frequency in Hz; with --to and --step in place of those of --params");
-  app.add_option("--to", to, "highest mesh frequency in Hz");
-  app.add_option("--step", step, "step of the mesh frequency in Hz");
-  app.add_option("--direction", o.direction, "up or down")->check(CLI::IsMember({"up", "down"}));
-  app.add_flag("--map", map,
+  options.add("--params", params,
+              "slice of the scene with speeds and samples: out/<scene>/params/lumped.toml");
+  options.add("--from", from,
+              "lowest mesh frequency in Hz; with --to and --step in place of those of --params");
+  options.add("--to", to, "highest mesh frequency in Hz");
+  options.add("--step", step, "step of the mesh frequency in Hz");
+  options.add("--direction", o.direction, "up or down").one_of({"up", "down"});
+  options.flag("--map", map,
                "a map of jumps over the damping ratios instead of one sweep; --params is then "
                "out/<scene>/params/lumped_map.toml, each of --from, --to and --step has a default");
-  app.add_option("--loads-at", at, "with --map: speed in Hz whose loads are stored apart; speeds fall on it");
-  app.add_option("--output", output, "sweep.h5 to write, with --map jump_map.h5")->required();
-  app.footer(
+  options.add("--loads-at", at, "with --map: speed in Hz whose loads are stored apart; speeds fall on it");
+  options.add("--output", output, "sweep.h5 to write, with --map jump_map.h5").required();
+  options.footer(
       "Example:\n"
       "  gear-lumped --model rectangular --static out/parker2000/T150/static.h5 --reference-static "
       "out/parker2000/T100/static.h5 --params out/parker2000/params/lumped.toml --direction up "
       "--output out/parker2000/T150/rectangular/up/sweep.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const auto usage = [](const auto&... words) { whine::fail(whine::Failure::usage, words...); };
   const bool speeds = !from.empty() || !to.empty() || !step.empty(), stated = !levels.empty();

@@ -4,7 +4,6 @@
 // Writes     mesh.h5    nodes, elements, regions and node sets of the sector; the whole gear for ParaView
 //                       under /VTKHDF; the sector of the cracked tooth beside it if the gear has one
 // Equations  involute of the base circle, root cut by a rounded rack; the tooth is mirror symmetric
-#include <CLI/CLI.hpp>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -17,14 +16,14 @@
 namespace {
 
 void body(int argc, char** argv) {
-  CLI::App app{"Mesh of one tooth sector of a spur gear", "gear-mesh"};
+  whine::Options options{"Mesh of one tooth sector of a spur gear", "gear-mesh"};
   std::string params, output;
-  app.add_option("--params", params, "slice of the scene: out/bodies/<hash>/body.toml")->required();
-  app.add_option("--output", output, "mesh.h5 to write")->required();
-  app.footer(
+  options.add("--params", params, "slice of the scene: out/bodies/<hash>/body.toml").required();
+  options.add("--output", output, "mesh.h5 to write").required();
+  options.footer(
       "Example:\n"
       "  gear-mesh --params out/parker2000/pinion/body.toml --output out/parker2000/pinion/mesh.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params});
   const whine::BodySlice slice = whine::read_body_slice(params);

@@ -5,7 +5,6 @@
 // Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all; for table1 <output>.tsv and, to read,
 //            <output>.txt
 // Equations  k = (T / r_b) / STE
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -277,22 +276,22 @@ whine::Figure figure_of(const std::string& name, const Paths& inputs, const Freq
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Draws a figure of the paper from artifacts", "gear-plot"};
+  whine::Options options{"Draws a figure of the paper from artifacts", "gear-plot"};
   std::string name, output, published, plots = "pipelines/plots";
   Paths inputs;
   Frequencies mesh_frequencies;
-  app.add_option("figure", name, known())->required();
-  app.add_option("inputs", inputs, "artifacts, for each figure below")->required();
-  app.add_option("--output", output, "path of the results without extension")->required();
-  app.add_option("--mesh-frequency", mesh_frequencies,
-                 "speed of fig08 and fig10 in Hz, one of the sweeps'; one or two of fig15, of its panels "
-                 "(the sweeps' nearest)")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  app.add_option("--published", published, "file of frequencies that table1 compares with");
-  app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
-  app.footer(footer());
-  whine::parse(app, argc, argv);
+  options.add("figure", name, known()).required();
+  options.add("inputs", inputs, "artifacts, for each figure below").required();
+  options.add("--output", output, "path of the results without extension").required();
+  options
+      .add("--mesh-frequency", mesh_frequencies,
+           "speed of fig08 and fig10 in Hz, one of the sweeps'; one or two of fig15, of its panels "
+           "(the sweeps' nearest)")
+      .separated_by(',');
+  options.add("--published", published, "file of frequencies that table1 compares with");
+  options.add("--plots", plots, "folder of the gnuplot templates").show_default();
+  options.footer(footer());
+  options.parse(argc, argv);
 
   Paths sources;
   for (const std::string& path : inputs) sources.push_back(whine::recorded_path(path));

@@ -8,7 +8,6 @@
 // Equations  K u = omega^2 M u and M_fr of Eq. 3-6, sector by sector in the harmonics of cyclic symmetry;
 //            flexibility K x = f with the half-plane solution of the line load subtracted in the tooth, or matched
 //            at a depth
-#include <CLI/CLI.hpp>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -21,16 +20,16 @@
 namespace {
 
 void body(int argc, char** argv) {
-  CLI::App app{"Modes and flank flexibility of a gear by cyclic symmetry", "gear-reduce"};
+  whine::Options options{"Modes and flank flexibility of a gear by cyclic symmetry", "gear-reduce"};
   std::string params, mesh, output;
-  app.add_option("--params", params, "slice of the scene: out/bodies/<hash>/body.toml")->required();
-  app.add_option("--mesh", mesh, "mesh.h5 of the gear")->required();
-  app.add_option("--output", output, "body.h5 to write")->required();
-  app.footer(
+  options.add("--params", params, "slice of the scene: out/bodies/<hash>/body.toml").required();
+  options.add("--mesh", mesh, "mesh.h5 of the gear").required();
+  options.add("--output", output, "body.h5 to write").required();
+  options.footer(
       "Example:\n"
       "  gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5 "
       "--output out/parker2000/pinion/body.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params, "mesh=" + mesh});
   const whine::BodySlice slice = whine::read_body_slice(params);

@@ -6,7 +6,6 @@
 // Equations  none
 // Example    gear-report --output out/parker2000/report/index.html out/parker2000/T100/static.h5
 //              out/parker2000/T100/{up,down}/sweep.h5 out/parker2000/report/fig12.png
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -42,16 +41,16 @@ ReportSweep read_sweep_of(const ReportContent& content, const std::string& path)
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Writes the report of a scene from its artifacts and figures", "gear-report"};
+  whine::Options options{"Writes the report of a scene from its artifacts and figures", "gear-report"};
   std::vector<std::string> inputs;
   std::string output;
-  app.add_option("inputs", inputs, "artifacts (.h5) and figures (.png) of one scene")->required();
-  app.add_option("--output", output, "page to write (.html); results.tsv stands beside it")->required();
-  app.footer(
+  options.add("inputs", inputs, "artifacts (.h5) and figures (.png) of one scene").required();
+  options.add("--output", output, "page to write (.html); results.tsv stands beside it").required();
+  options.footer(
       "Example:\n"
       "  gear-report --output out/parker2000/report/index.html out/parker2000/T150/static.h5 "
       "out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5");
-  parse(app, argc, argv);
+  options.parse(argc, argv);
 
   // 1. Pictures, and artifacts in two passes: what a sweep warns of depends on the statics at its torque.
   ReportContent content;

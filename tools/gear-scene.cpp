@@ -10,7 +10,6 @@
 //            --variant: a scene with the changes of --set, and nothing else
 //            --keys: prints the table of scene keys
 // Equations  none; units to SI as the key table says
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -55,24 +54,24 @@ void body(int argc, char** argv) {
   std::string path, output, variant, folder = "out";
   std::vector<std::string> changes;
   bool keys = false;
-  CLI::App app{"Checks a scene and cuts it into the parts that the stages depend on", "gear-scene"};
-  auto* scene_option = app.add_option("--scene", path, "scene file (TOML)");
-  auto* output_option = app.add_option("--output", output, "make fragment to write");
-  app.add_option("--out", folder, "folder of the artifacts")->capture_default_str();
-  auto* keys_option = app.add_flag("--keys", keys, "print the table of scene keys and end");
-  auto* variant_option = app.add_option("--variant", variant, "scene to write with the changes of --set");
-  auto* set_option = app.add_option("--set", changes, "key=value, any number of times");
-  scene_option->excludes(keys_option);
-  output_option->needs(scene_option)->excludes(variant_option);
-  variant_option->needs(scene_option)->needs(set_option);
-  set_option->needs(variant_option);
-  app.footer(
+  whine::Options options{"Checks a scene and cuts it into the parts that the stages depend on", "gear-scene"};
+  Option scene_option = options.add("--scene", path, "scene file (TOML)");
+  Option output_option = options.add("--output", output, "make fragment to write");
+  options.add("--out", folder, "folder of the artifacts").show_default();
+  Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
+  Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
+  Option set_option = options.add("--set", changes, "key=value, any number of times");
+  scene_option.excludes(keys_option);
+  output_option.needs(scene_option).excludes(variant_option);
+  variant_option.needs(scene_option).needs(set_option);
+  set_option.needs(variant_option);
+  options.footer(
       "Examples:\n"
       "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
       "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant "
       "out/parker2000/variants/bore35.toml\n"
       "  gear-scene --keys");
-  parse(app, argc, argv);
+  options.parse(argc, argv);
   if (keys) {
     std::cout << scene_key_table();
     return;

@@ -3,7 +3,6 @@
 // Reads      the artifacts that `gear-scorecard --files` lists, of each scene
 // Writes     <output>.tsv, <output>.md, <output>.txt: every claim with its value in each scene, its deviation and its verdict,
 //            for programs, for the README and for a terminal
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "base/error.h"
@@ -15,19 +14,19 @@
 namespace {
 
 void body(int argc, char** argv) {
-  CLI::App app{"What P2000 prints beside what scenes answer", "gear-scorecard"};
+  whine::Options options{"What P2000 prints beside what scenes answer", "gear-scorecard"};
   std::string output;
   std::vector<std::string> inputs;
   bool files = false, claims = false;
-  app.add_option("inputs", inputs, "artifacts: <scene>/<file> for each file that --files lists");
-  app.add_option("--output", output, "path of the results without extension");
-  app.add_flag("--files", files, "print which artifacts of a scene are read");
-  app.add_flag("--claims", claims,
+  options.add("inputs", inputs, "artifacts: <scene>/<file> for each file that --files lists");
+  options.add("--output", output, "path of the results without extension");
+  options.flag("--files", files, "print which artifacts of a scene are read");
+  options.flag("--claims", claims,
                "print the claims as rows of a table: id, place, text, printed value, what decides");
-  app.footer(
+  options.footer(
       "Example:\n"
       "  gear-scorecard --claims");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   if (files)
     for (const std::string& file : whine::scorecard_files()) std::puts(file.c_str());

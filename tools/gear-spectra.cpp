@@ -5,7 +5,6 @@
 //                           largest loads, separations; the sweep's jumps
 // Equations  x = r1 theta1 + r2 theta2; mean = <x>, rms^2 = <(x - mean)^2>,
 //            amplitude_k = 2 |<x exp(-2 pi i k f t)>|, over a whole number of periods
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "base/tool.h"
@@ -16,15 +15,15 @@
 namespace {
 
 void body(int argc, char** argv) {
-  CLI::App app{"Mean, RMS, harmonics, loads and separations of a speed sweep", "gear-spectra"};
+  whine::Options options{"Mean, RMS, harmonics, loads and separations of a speed sweep", "gear-spectra"};
   std::string input, output;
-  app.add_option("--input", input, "sweep.h5")->required();
-  app.add_option("--output", output, "response.h5 to write")->required();
-  app.footer(
+  options.add("--input", input, "sweep.h5").required();
+  options.add("--output", output, "response.h5 to write").required();
+  options.footer(
       "Example:\n"
       "  gear-spectra --input out/parker2000/T150/up/sweep.h5 --output "
       "out/parker2000/T150/up/response.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});
   const whine::SweepArtifact sweep = whine::read_sweep(input);

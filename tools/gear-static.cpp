@@ -6,7 +6,6 @@
 // With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
 // for information those by the other near field and the other contact.
 // With --next-rung: beside static.h5, in words, what contact = "strips" would change in the answer of contact = "line".
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -41,25 +40,26 @@ void tell_change(const std::string& where, const whine::StaticDifference& change
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Static transmission error, mesh stiffness and tooth loads over a mesh period", "gear-static"};
+  whine::Options options{"Static transmission error, mesh stiffness and tooth loads over a mesh period",
+                         "gear-static"};
   std::string params, driver, driven, output;
   std::string torque_word;
   bool budget = false, next_rung = false;
-  app.add_option("--params", params, "slice of the scene: out/<scene>/params/static.toml")->required();
-  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
-  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--torque", torque_word, "torque on the driver in N m, above 0")->required();
-  app.add_option("--output", output, "static.h5 to write")->required();
-  auto* of_budget = app.add_flag("--error-budget", budget,
-                                 "refine one discretisation at a time and write error_budget.h5 instead");
-  app.add_flag("--next-rung", next_rung, "for contact = \"line\": say what \"strips\" would change")
-      ->excludes(of_budget);
-  app.footer(
+  options.add("--params", params, "slice of the scene: out/<scene>/params/static.toml").required();
+  options.add("--driver", driver, "body.h5 of the driving gear").required();
+  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--torque", torque_word, "torque on the driver in N m, above 0").required();
+  options.add("--output", output, "static.h5 to write").required();
+  whine::Option of_budget = options.flag(
+      "--error-budget", budget, "refine one discretisation at a time and write error_budget.h5 instead");
+  options.flag("--next-rung", next_rung, "for contact = \"line\": say what \"strips\" would change")
+      .excludes(of_budget);
+  options.footer(
       "Example:\n"
       "  gear-static --params out/parker2000/params/static.toml --driver "
       "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 150 --output "
       "out/parker2000/T150/static.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const double torque = whine::number_option("--torque", torque_word);
   const whine::Provenance provenance =

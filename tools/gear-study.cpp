@@ -9,7 +9,6 @@
 // Equations  none; variants are scenes as gear-scene --set makes them, draws as files/study.h says
 // Example    gear-study --study data/studies/damping-torque-relief.toml --output build/studies/damping-torque-relief.mk --out out
 //            gear-study --gather out/studies/damping-torque-relief/plan.toml --output out/studies/damping-torque-relief/study.h5
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -136,18 +135,17 @@ void gather(int argc, char** argv, const std::string& path, const std::string& o
 
 void body(int argc, char** argv) {
   std::string path, plan_path, output, folder = "out";
-  CLI::App app{"Expands a study into its variants, and gathers what they answer", "gear-study"};
-  auto* study_option = app.add_option("--study", path, "study file (TOML)");
-  auto* gather_option =
-      app.add_option("--gather", plan_path, "plan.toml of a study whose variants are there");
-  app.add_option("--output", output, "make fragment to write; with --gather study.h5")->required();
-  app.add_option("--out", folder, "folder of the artifacts")->capture_default_str();
-  study_option->excludes(gather_option);
-  app.footer(
+  whine::Options options{"Expands a study into its variants, and gathers what they answer", "gear-study"};
+  Option study_option = options.add("--study", path, "study file (TOML)");
+  Option gather_option = options.add("--gather", plan_path, "plan.toml of a study whose variants are there");
+  options.add("--output", output, "make fragment to write; with --gather study.h5").required();
+  options.add("--out", folder, "folder of the artifacts").show_default();
+  study_option.excludes(gather_option);
+  options.footer(
       "Example:\n"
       "  gear-study --study data/studies/damping-torque-relief.toml --output "
       "build/studies/damping-torque-relief.mk");
-  parse(app, argc, argv);
+  options.parse(argc, argv);
   if (path.empty() == plan_path.empty()) fail(Failure::usage, "--study or --gather is needed; see --help");
   if (!path.empty())
     plan(path, output, folder);

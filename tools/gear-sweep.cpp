@@ -5,7 +5,6 @@
 // Writes  sweep.h5    transmission error and tooth loads over one orbit at every speed, energy, certificate, jumps
 // With --next-rung: beside sweep.h5, in words, what the same sweep answers on the next rung of contact and on that of body.
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -49,26 +48,27 @@ void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Speed sweep of the dynamic response, with contact solved at every step", "gear-sweep"};
+  whine::Options options{"Speed sweep of the dynamic response, with contact solved at every step",
+                         "gear-sweep"};
   std::string params, driver, driven, statics, reference, direction, output;
   bool next_rung = false;
-  app.add_option("--params", params, "slice of the scene: out/<scene>/params/sweep.toml")->required();
-  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
-  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--static", statics, "static.h5 of the torque to run")->required();
-  app.add_option("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
-      ->required();
-  app.add_option("--direction", direction, "up or down")->required()->check(CLI::IsMember({"up", "down"}));
-  app.add_option("--output", output, "sweep.h5 to write")->required();
-  app.add_flag("--next-rung", next_rung,
+  options.add("--params", params, "slice of the scene: out/<scene>/params/sweep.toml").required();
+  options.add("--driver", driver, "body.h5 of the driving gear").required();
+  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--static", statics, "static.h5 of the torque to run").required();
+  options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
+      .required();
+  options.add("--direction", direction, "up or down").required().one_of({"up", "down"});
+  options.add("--output", output, "sweep.h5 to write").required();
+  options.flag("--next-rung", next_rung,
                "sweep on the next rung of contact and on that of body as well, and say what they change");
-  app.footer(
+  options.footer(
       "Example:\n"
       "  gear-sweep --params out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5 "
       "--driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
       "--reference-static out/parker2000/T100/static.h5 --direction up --output "
       "out/parker2000/T150/up/sweep.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const whine::Provenance provenance =
       whine::made_by(argc, argv,

@@ -7,7 +7,6 @@
 // Equations: as gear-static, gear-sweep and gear-spectra, whose numbers these are.
 // Example: gear-variant --params out/studies/relief/variants/3f/3f0c.toml --driver out/bodies/0123/body.h5
 //            --driven out/bodies/0123/body.h5 --output out/studies/relief/variants/3f/3f0c.h5
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
@@ -32,20 +31,20 @@ std::string name_in(const std::string& plan, const std::string& params) {
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Answers of one variant of a study, at rest and in motion", "gear-variant"};
+  whine::Options options{"Answers of one variant of a study, at rest and in motion", "gear-variant"};
   std::string params, driver, driven, output, plan;
   bool marks = false;
-  app.add_option("--params", params, "slice of the variant, as gear-study writes it")->required();
-  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
-  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--output", output, "artifact to write")->required();
-  app.add_option("--plan", plan, "plan.toml of the study, so that errors name the variant and its values");
-  app.add_flag("--mark-refusals", marks, "write why a stage refuses the variant, instead of failing");
-  app.footer(
+  options.add("--params", params, "slice of the variant, as gear-study writes it").required();
+  options.add("--driver", driver, "body.h5 of the driving gear").required();
+  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--output", output, "artifact to write").required();
+  options.add("--plan", plan, "plan.toml of the study, so that errors name the variant and its values");
+  options.flag("--mark-refusals", marks, "write why a stage refuses the variant, instead of failing");
+  options.footer(
       "Example:\n"
       "  gear-variant --params $(ls out/studies/damping-torque-relief/variants/*/*.toml | head -n 1) "
       "--driver out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --output variant.h5");
-  whine::parse(app, argc, argv);
+  options.parse(argc, argv);
 
   const whine::Provenance provenance =
       whine::made_by(argc, argv, {"params=" + params, "driver=" + driver, "driven=" + driven});

@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -17,9 +16,6 @@
 
 namespace whine {
 namespace {
-
-// Thrown when --help or --version has been answered.
-struct Answered {};
 
 std::string one_line(std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
@@ -51,35 +47,7 @@ void one_blas_thread() {
     reinterpret_cast<void (*)(int)>(found)(1);
 }
 
-// A stage that wrote over what it reads would leave nothing to make it from again.
-void require_output_apart(const CLI::App& app) {
-  const CLI::Option* output = app.get_option_no_throw("--output");
-  if (!output || output->count() == 0) return;
-  const std::string place = output->results().back();
-  for (const CLI::Option* option : app.get_options()) {
-    if (option == output) continue;
-    for (const std::string& word : option->results()) {
-      std::error_code ignored;
-      if (std::filesystem::is_regular_file(word, ignored) &&
-          std::filesystem::equivalent(word, place, ignored))
-        fail(Failure::usage, "--output ", place, " is the same file as the input ", option->get_name(), " ",
-             word, ", which would be lost; name another file to write");
-    }
-  }
-}
-
 }  // namespace
-
-void parse(CLI::App& app, int argc, char** argv) {
-  app.set_version_flag("--version", std::string(kVersion));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& asked) {  // help, version
-    app.exit(asked, std::cout, std::cerr);
-    throw Answered{};
-  }
-  require_output_apart(app);
-}
 
 double number_option(const std::string& name, const std::string& word) {
   double value = 0;
@@ -148,9 +116,6 @@ int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>
   } catch (const Error& error) {
     say(error.what());
     return static_cast<int>(error.kind());
-  } catch (const CLI::ParseError& error) {
-    say(text(error.what(), " (see ", program, " --help)"));
-    return static_cast<int>(Failure::usage);
   } catch (const std::bad_alloc&) {
     say("out of memory; a coarser [discretisation] needs less");
   } catch (const std::exception& error) {

@@ -1,9 +1,9 @@
 // What every program shares: one try/catch, one line per error, one exit status per kind of failure.
 //
 //   void body(int argc, char** argv) {
-//     CLI::App app{"What the program does", "gear-x"};
-//     app.add_option(...);
-//     whine::parse(app, argc, argv);  // --help and --version end here; wrong options are Failure::usage
+//     whine::Options options{"What the program does", "gear-x"};
+//     options.add(...);
+//     options.parse(argc, argv);  // --help and --version end here; wrong options are Failure::usage
 //     ...
 //   }
 //   int main(int argc, char** argv) { return whine::run_tool(argc, argv, body); }
@@ -13,18 +13,11 @@
 #include <string>
 #include <type_traits>
 
-namespace CLI {
-class App;
-}
+#include "base/options.h"
 
 namespace whine {
 
 inline constexpr const char* kVersion = "0.1.0";
-
-// Parses the options (adds --version). Prints help or version on standard output and ends the tool with
-// status 0 if asked to; CLI11's errors leave through run_tool with status 2. Error(usage) if --output is a file that another
-// option names, by whatever path.
-void parse(CLI::App& app, int argc, char** argv);
 
 // The value of an option as a number: decimal, finite, nothing before or after it. Error(usage) names option
 // and value.
@@ -57,7 +50,7 @@ void tell(const Parts&... parts) {
 }
 
 // Runs body, which returns void or the exit status. An Error prints "<program>: error: <message>" as one line
-// on standard error and returns its Failure code; CLI11's errors return 2; anything else thrown returns 1.
+// on standard error and returns its Failure code; anything else thrown returns 1.
 // BLAS is set to one thread first, because results are to be the same on any number of cores.
 int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>& body);
 

@@ -1,11 +1,11 @@
 #include "motion/dynamics.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "contact/lanes.h"
 
@@ -140,8 +140,8 @@ void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
       mass(0, i + 1) = mass(i + 1, 0) = gamma;
       stiffness(i + 1, i + 1) = w * w;
     }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(stiffness, mass);
-    if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[1] > 0))
+    const SymmetricEigen eigen = symmetric_eigen(stiffness, mass);
+    if (!eigen.converged || !(eigen.values[1] > 0))
       fail(Failure::numerical, "the ", k, " torsional modes of the ", g ? "driven gear" : "driver", ", from ",
            body.eigenfrequency[torsional[0]], " Hz with the hub fixed, have no frequencies at an inertia of ",
            parameters_.inertia[g], " kg m2, of which they couple ", mass.row(0).tail(k).squaredNorm(),
@@ -149,9 +149,9 @@ void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
     for (int i = 1; i <= k; ++i) {  // 0 is the rigid rotation
       Coordinate c;
       c.gear = g;
-      VectorXd shape = eigen.eigenvectors().col(i);
+      VectorXd shape = eigen.vectors.col(i);
       if (shape[0] < 0) shape = -shape;
-      c.frequency = std::sqrt(eigen.eigenvalues()[i]);
+      c.frequency = std::sqrt(eigen.values[i]);
       c.damping = damping(c.frequency);
       c.hub[g] = shape[0];
       c.torque = shape[0] * torque;
@@ -198,12 +198,12 @@ MatrixXd lagged_fields(const std::vector<MatrixXd>& tables, int g, int most, int
   MatrixXd importance = tables[max] * tables[max];
   for (int offset = -max; offset <= max; ++offset)
     if (offset != 0) importance += kNeighbourWeight * tables[offset + max] * tables[offset + max].transpose();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(importance);
-  if (eigen.info() != Eigen::Success)
+  const SymmetricEigen eigen = symmetric_eigen(importance);
+  if (!eigen.converged)
     fail(Failure::numerical, "the lagged fields of the ", g ? "driven gear" : "driver",
          " were not found: its ", m, " flank points have a flexibility of norm ", tables[max].norm(),
          " m/N; rebuild body.h5");
-  const MatrixXd fields = eigen.eigenvectors().rightCols(std::min(most, m)).rowwise().reverse();
+  const MatrixXd fields = eigen.vectors.rightCols(std::min(most, m)).rowwise().reverse();
   const double whole = tables[max].norm();
   for (int offset = -max; offset <= max; ++offset) {
     const MatrixXd& r = tables[offset + max];
@@ -523,12 +523,12 @@ double RollingDynamics::frozen_frequency(int i, int period) {
   if (full()) return std::sqrt(condensed_eigenvalue(compliance, touching)) / kTwoPi;
   MatrixXd stiffness = touching.transpose() * compliance.ldlt().solve(touching);
   stiffness.diagonal() += frequency_squared_;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(stiffness, Eigen::EigenvaluesOnly);
-  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 0))
+  const SymmetricEigen eigen = symmetric_eigenvalues(stiffness);
+  if (!eigen.converged || !(eigen.values[0] > 0))
     fail(Failure::numerical, "at mesh phase ", position.mesh.phase, " the pair with ", touch.size(),
-         " strips in contact has no natural frequency: least eigenvalue ", eigen.eigenvalues()[0],
+         " strips in contact has no natural frequency: least eigenvalue ", eigen.values[0],
          " rad2/s2 of a stiffness of norm ", stiffness.norm());
-  return std::sqrt(eigen.eigenvalues()[0]) / kTwoPi;
+  return std::sqrt(eigen.values[0]) / kTwoPi;
 }
 
 HeldMesh RollingDynamics::hold(int i) const {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "files/fit.h"
 #include "motion/rolling_mesh.h"
@@ -328,11 +329,11 @@ DampedRoot frozen_root(const HeldMesh& mesh) {
     system.block(2 * n, 2 * n, k, k) = -follow / mesh.relaxation;
     system.block(2 * n, 2 * n, k, k).diagonal().array() -= 1 / mesh.relaxation;
   }
-  const Eigen::EigenSolver<MatrixXd> eigen(system, false);
-  if (eigen.info() != Eigen::Success)
+  const GeneralEigenvalues eigen = general_eigenvalues(system);
+  if (!eigen.converged)
     fail(Failure::numerical, "at mesh phase ", mesh.phase, " the ", system.rows(),
          " eigenvalues of the held pair were not found: its matrix has a norm of ", system.norm(), " 1/s");
-  const Eigen::VectorXcd roots = eigen.eigenvalues();
+  const Eigen::VectorXcd& roots = eigen.values;
   // The slowest by its modulus: a high mode near critical damping has a small imaginary part, too.
   DampedRoot lowest;
   double least_modulus = std::numeric_limits<double>::infinity();

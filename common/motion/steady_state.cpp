@@ -1,11 +1,11 @@
 #include "motion/steady_state.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
+
+#include "base/dense.h"
 
 namespace whine {
 
@@ -95,9 +95,8 @@ class Extrapolation {
     MatrixXd companion = MatrixXd::Zero(n - 1, n - 1);
     companion.diagonal(-1).setOnes();
     companion.rightCols(1) = solve(earlier, change.col(n - 1));
-    const Eigen::EigenSolver<MatrixXd> multipliers(companion, false);
-    if (multipliers.info() != Eigen::Success || multipliers.eigenvalues().cwiseAbs().maxCoeff() >= 1)
-      return std::nullopt;
+    const GeneralEigenvalues multipliers = general_eigenvalues(companion);
+    if (!multipliers.converged || multipliers.values.cwiseAbs().maxCoeff() >= 1) return std::nullopt;
     // Weights sum to 1: differences of neighbouring changes are free.
     const VectorXd share = solve(earlier - change.rightCols(n - 1), -change.col(n - 1));
     VectorXd weight = VectorXd::Zero(n);
@@ -113,9 +112,7 @@ class Extrapolation {
 
  private:
   static VectorXd solve(const MatrixXd& a, const VectorXd& b) {
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
-    qr.setThreshold(1e-8);  // changes that repeat each other say nothing new
-    return qr.solve(b);
+    return least_squares(a, b, 1e-8);  // changes that repeat each other say nothing new
   }
 
   const RollingDynamics& dynamics_;

@@ -1,13 +1,11 @@
 #include "signal/decay.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "base/dense.h"
 #include "base/error.h"
 
 namespace whine {
@@ -35,23 +33,23 @@ Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step) {
 
   MatrixXd hankel(n - pencil, pencil + 1);
   for (Eigen::Index j = 0; j <= pencil; ++j) hankel.col(j) = samples.segment(j, n - pencil);
-  const Eigen::BDCSVD<MatrixXd> svd(hankel, Eigen::ComputeThinV);
-  const VectorXd& sigma = svd.singularValues();
-  if (svd.info() != Eigen::Success || !sigma.allFinite())
+  const SingularValues svd = singular_values(hankel);
+  const VectorXd& sigma = svd.values;
+  if (!svd.converged || !sigma.allFinite())
     fail(Failure::numerical, "the decay of ", n, " samples with a norm of ", norm, " has no singular values");
   const auto roots = std::min<Eigen::Index>(kMostRoots, (sigma.array() > kNoise * sigma[0]).count());
-  const MatrixXd rows = svd.matrixV().leftCols(roots);
-  const MatrixXd shift = rows.topRows(pencil).colPivHouseholderQr().solve(rows.bottomRows(pencil));
-  const Eigen::EigenSolver<MatrixXd> eigen(shift, false);
-  if (eigen.info() != Eigen::Success)
+  const MatrixXd rows = svd.right.leftCols(roots);
+  const MatrixXd shift = least_squares(MatrixXd(rows.topRows(pencil)), MatrixXd(rows.bottomRows(pencil)));
+  const GeneralEigenvalues eigen = general_eigenvalues(shift);
+  if (!eigen.converged)
     fail(Failure::numerical, "the ", roots, " roots of the decay of ", n,
          " samples were not found: the shift between its rows has a norm of ", shift.norm());
-  const VectorXcd z = eigen.eigenvalues();
+  const VectorXcd& z = eigen.values;
 
   MatrixXcd powers(n, roots);
   powers.row(0).setOnes();
   for (Eigen::Index i = 1; i < n; ++i) powers.row(i) = powers.row(i - 1).cwiseProduct(z.transpose());
-  const VectorXcd amplitude = powers.colPivHouseholderQr().solve(samples.cast<std::complex<double>>());
+  const VectorXcd amplitude = least_squares(powers, MatrixXcd(samples.cast<std::complex<double>>()));
 
   // Round-off may let an undamped one grow.
   const auto swings = [&](Eigen::Index k) {

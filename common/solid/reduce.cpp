@@ -1,6 +1,5 @@
 #include "solid/reduce.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "solid/crack.h"
 #include "solid/flank_table.h"
@@ -505,17 +505,16 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   body.least_eigenvalue = std::numeric_limits<double>::infinity();
   for (int n = 0; n < sector.harmonics(); ++n) {
     Eigen::MatrixXcd rest = flexibility[static_cast<size_t>(n)];
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> whole(rest, Eigen::EigenvaluesOnly);
-    if (!(whole.eigenvalues()[0] >= lowest))
+    const SymmetricEigen whole = symmetric_eigenvalues(rest);
+    if (!(whole.values[0] >= lowest))
       fail(Failure::numerical, "the flexibility of the flank is indefinite: least eigenvalue ",
-           whole.eigenvalues()[0], " m/N in harmonic ", n, ", at least ", lowest,
+           whole.values[0], " m/N in harmonic ", n, ", at least ", lowest,
            " m/N is allowed; lower element_mm (now ", mesh.discretisation.element_size * 1e3, ")");
     for (const KeptMode& mode : kept)
       if (mode.harmonic == n)
         rest -=
             (sector.single(n) ? 1.0 : 0.5) * teeth / mode.omega_squared * mode.flank * mode.flank.adjoint();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(rest, Eigen::EigenvaluesOnly);
-    body.least_eigenvalue = std::min(body.least_eigenvalue, solver.eigenvalues()[0]);
+    body.least_eigenvalue = std::min(body.least_eigenvalue, symmetric_eigenvalues(rest).values[0]);
   }
 
   show("displacement_unit_force", [&](int j) {

@@ -5,7 +5,6 @@
 // Reads   optionally params and two body.h5 for the static position; writes a table on standard output.
 // Example: whine-bench --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
 //            --driven out/parker2000/wheel/body.h5 --torque 150
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -458,18 +457,17 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Times complementarity, static positions and reductions", "whine-bench"};
+  whine::Options options{"Times complementarity, static positions and reductions", "whine-bench"};
   std::string params, driver, driven, torque = "150";
-  CLI::Option* slice =
-      app.add_option("--params", params, "slice of the scene: out/<scene>/params/static.toml");
-  CLI::Option* first = app.add_option("--driver", driver, "body.h5 of the driving gear")->needs(slice);
-  CLI::Option* second = app.add_option("--driven", driven, "body.h5 of the driven gear")->needs(first);
-  slice->needs(second);
+  whine::Option slice = options.add("--params", params, "slice of the scene: out/<scene>/params/static.toml");
+  whine::Option first = options.add("--driver", driver, "body.h5 of the driving gear").needs(slice);
+  whine::Option second = options.add("--driven", driven, "body.h5 of the driven gear").needs(first);
+  slice.needs(second);
   std::string sweep_params;
-  app.add_option("--sweep-params", sweep_params, "slice of the scene: out/<scene>/params/sweep.toml")
-      ->needs(slice);
-  app.add_option("--torque", torque, "torque on the driver in N m, above 0");
-  whine::parse(app, argc, argv);
+  options.add("--sweep-params", sweep_params, "slice of the scene: out/<scene>/params/sweep.toml")
+      .needs(slice);
+  options.add("--torque", torque, "torque on the driver in N m, above 0");
+  options.parse(argc, argv);
 
   std::printf(
       "Complementarity: two pairs of n / 2 strips, gaps that move; microseconds, %d repeats in turn\n",

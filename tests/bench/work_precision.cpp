@@ -14,7 +14,6 @@
 // Example: whine-work-precision --static-params out/parker2000/params/static.toml --sweep-params
 //            out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5 --driven
 //            out/parker2000/wheel/body.h5 --output out/figures/work-precision
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -403,20 +402,19 @@ void print(const FigureBlock& block, const std::string& against) {
 }
 
 void body(int argc, char** argv) {
-  CLI::App app{"Error against CPU time of each numerical choice", "whine-work-precision"};
+  whine::Options options{"Error against CPU time of each numerical choice", "whine-work-precision"};
   std::string statics, sweeps, driver, driven, output, torque = "150", damping = "5.5e-6",
                                                        plots = "pipelines/plots";
-  app.add_option("--static-params", statics, "slice of the scene: out/<scene>/params/static.toml")
-      ->required();
-  app.add_option("--sweep-params", sweeps, "slice of the scene: out/<scene>/params/sweep.toml")->required();
-  app.add_option("--driver", driver, "body.h5 of the driving gear")->required();
-  app.add_option("--driven", driven, "body.h5 of the driven gear")->required();
-  app.add_option("--output", output, "path of the results without extension")->required();
-  app.add_option("--torque", torque, "torque on the driver in N m, above 0")->capture_default_str();
-  app.add_option("--rayleigh-stiffness", damping, "in s; small enough for two branches at 2400 Hz")
-      ->capture_default_str();
-  app.add_option("--plots", plots, "folder of the gnuplot templates")->capture_default_str();
-  parse(app, argc, argv);
+  options.add("--static-params", statics, "slice of the scene: out/<scene>/params/static.toml").required();
+  options.add("--sweep-params", sweeps, "slice of the scene: out/<scene>/params/sweep.toml").required();
+  options.add("--driver", driver, "body.h5 of the driving gear").required();
+  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--output", output, "path of the results without extension").required();
+  options.add("--torque", torque, "torque on the driver in N m, above 0").show_default();
+  options.add("--rayleigh-stiffness", damping, "in s; small enough for two branches at 2400 Hz")
+      .show_default();
+  options.add("--plots", plots, "folder of the gnuplot templates").show_default();
+  options.parse(argc, argv);
 
   SweepSlice slice = read_sweep_slice(sweeps);
   slice.damping.rayleigh_stiffness = number_option("--rayleigh-stiffness", damping);

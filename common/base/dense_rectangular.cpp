@@ -1,0 +1,27 @@
+// Apart from dense.cpp so that a compiler works on both side by side.
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "base/dense.h"
+
+namespace whine {
+
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+
+SingularValues singular_values(const MatrixXd& a) {
+  const Eigen::BDCSVD<MatrixXd> svd(a, Eigen::ComputeThinV);
+  return {svd.info() == Eigen::Success, svd.singularValues(), svd.matrixV()};
+}
+
+MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b, double threshold) {
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
+  if (threshold > 0) qr.setThreshold(threshold);
+  return qr.solve(b);
+}
+
+MatrixXcd least_squares(const MatrixXcd& a, const MatrixXcd& b) {
+  return a.colPivHouseholderQr().solve(b);
+}
+
+}  // namespace whine

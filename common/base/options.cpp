@@ -1,0 +1,99 @@
+#include "base/options.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "base/error.h"
+#include "base/tool.h"
+
+namespace whine {
+namespace {
+
+// A stage that wrote over what it reads would leave nothing to make it from again.
+void require_output_apart(const CLI::App& app) {
+  const CLI::Option* output = app.get_option_no_throw("--output");
+  if (!output || output->count() == 0) return;
+  const std::string place = output->results().back();
+  for (const CLI::Option* option : app.get_options()) {
+    if (option == output) continue;
+    for (const std::string& word : option->results()) {
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(word, ignored) &&
+          std::filesystem::equivalent(word, place, ignored))
+        fail(Failure::usage, "--output ", place, " is the same file as the input ", option->get_name(), " ",
+             word, ", which would be lost; name another file to write");
+    }
+  }
+}
+
+}  // namespace
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option& Option::show_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& words) {
+  option_->check(CLI::IsMember(words));
+  return *this;
+}
+
+Option& Option::separated_by(char delimiter) {
+  option_->delimiter(delimiter)->allow_extra_args(false);
+  return *this;
+}
+
+Option& Option::needs(const Option& other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option& Option::excludes(const Option& other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Options::Options(const std::string& about, const std::string& program)
+    : app_(std::make_unique<CLI::App>(about, program)) {}
+
+Options::~Options() = default;
+
+template <class Target>
+Option Options::add(const std::string& name, Target& target, const std::string& help) {
+  return Option(app_->add_option(name, target, help));
+}
+
+template Option Options::add(const std::string&, std::string&, const std::string&);
+template Option Options::add(const std::string&, double&, const std::string&);
+template Option Options::add(const std::string&, int&, const std::string&);
+template Option Options::add(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Options::add(const std::string&, std::vector<double>&, const std::string&);
+
+Option Options::flag(const std::string& name, bool& target, const std::string& help) {
+  return Option(app_->add_flag(name, target, help));
+}
+
+void Options::footer(const std::string& text) {
+  app_->footer(text);
+}
+
+void Options::parse(int argc, char** argv) {
+  app_->set_version_flag("--version", std::string(kVersion));
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // help, version
+    app_->exit(asked, std::cout, std::cerr);
+    throw Answered{};
+  } catch (const CLI::ParseError& error) {
+    fail(Failure::usage, error.what(), " (see ", app_->get_name(), " --help)");
+  }
+  require_output_apart(*app_);
+}
+
+}  // namespace whine

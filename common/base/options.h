@@ -1,0 +1,65 @@
+// The options of a program. CLI11 stands behind them, in options.cpp alone: its header takes a compiler as long as all else
+// of a program together.
+//
+//   whine::Options options{"What the program does", "gear-x"};
+//   options.add("--input", input, "sweep.h5").required();
+//   options.footer("Example:\n  gear-x --input ...");
+//   options.parse(argc, argv);
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace whine {
+
+// Leaves Options::parse when --help or --version has been answered; run_tool ends with status 0.
+struct Answered {};
+
+// One option, as `add` gives it; each call returns the option itself.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+  Option& required();
+  // --help says the value that the target holds now.
+  Option& show_default();
+  // Any other word is an error, which names these.
+  Option& one_of(const std::vector<std::string>& words);
+  // Several values in one word, as in --speeds 1200,1350.
+  Option& separated_by(char delimiter);
+  // The other option must stand there as well, or must not.
+  Option& needs(const Option& other);
+  Option& excludes(const Option& other);
+
+ private:
+  CLI::Option* option_;
+};
+
+class Options {
+ public:
+  Options(const std::string& about, const std::string& program);
+  ~Options();
+  Options(const Options&) = delete;
+  Options& operator=(const Options&) = delete;
+
+  // An option "--name" or a positional "name" that sets target, which must outlive parse(). Target is a std::string, double,
+  // int or a vector of strings or doubles; a word that does not convert is an error of parse().
+  template <class Target>
+  Option add(const std::string& name, Target& target, const std::string& help);
+  Option flag(const std::string& name, bool& target, const std::string& help);
+  // Below the options in --help: an example that runs.
+  void footer(const std::string& text);
+
+  // Reads the command line (adds --help and --version, which are printed on standard output and leave as Answered; whatever
+  // is wrong is an Error(usage), also an --output that another option names as an input, by whatever path).
+  void parse(int argc, char** argv);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+};
+
+}  // namespace whine
