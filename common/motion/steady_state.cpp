@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <limits>
 
 #include "base/dense.h"
 
@@ -172,7 +173,8 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
         return orbit;
       }
     }
-    std::array<double, kMostMultiple + 1> change{};
+    std::array<double, kMostMultiple + 1> change;  // infinite: not known
+    change.fill(std::numeric_limits<double>::infinity());
     const int known = static_cast<int>(past.size());
     for (int m = 1; m <= std::min(known, n < kStagnation ? 1 : kMostMultiple); ++m)
       change[m] = dynamics.distance(state, past[known - m]);
@@ -182,7 +184,7 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
     };
     int multiple = 0;
     for (int m = 1; m <= std::min(known, kMostMultiple) && multiple == 0; ++m) {
-      if (change[m] == 0 || !(change[m] < periodicity)) continue;
+      if (!(change[m] < periodicity)) continue;
       multiple = m;
       for (int d = 1; d < m; ++d)
         if (m % d == 0 && !stagnates(d)) multiple = 0;

@@ -35,17 +35,19 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   return steps;
 }
 
-// All motions are kept until the sweep is written.
-void require_memory(int hunting, int speeds, const SweepSlice& slice, int pairs) {
+// All motions, and the state that each speed ended with, are kept until the sweep is written.
+void require_memory(int hunting, int speeds, const SweepSlice& slice, int pairs, double state) {
   constexpr double kMostMemory = 4e9;  // bytes
   double samples = 0;
   for (int i = 0; i < speeds; ++i)
     samples +=
         slice.time.steps_per_period + steps_at(slice.time, slice.frequency_from + i * slice.frequency_step);
-  const double memory = 8.0 * samples * hunting * (2 + pairs);
-  if (hunting > 1 && memory > kMostMemory)
-    fail(Failure::input, "teeth that differ meet again after ", hunting, " mesh periods; ", speeds,
-         " speeds of that length need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+  const double memory = 8.0 * (samples * hunting * (2 + pairs) + speeds * state);
+  if (memory > kMostMemory)
+    fail(Failure::input,
+         hunting > 1 ? text("teeth that differ meet again after ", hunting, " mesh periods; ") : "", speeds,
+         hunting > 1 ? " speeds of that length need " : " speeds need ", memory * 1e-9, " GB, at most ",
+         kMostMemory * 1e-9,
          " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period and min_sample_rate_kHz");
 }
 
@@ -325,7 +327,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   result.driven_bearing_damper = sweeper.dynamics().bearing_damper(1);
   result.natural_frequency = sweeper.natural_frequency();
   result.hunting_periods = sweeper.dynamics().hunting_periods();
-  require_memory(result.hunting_periods, speeds, slice, 2 * sweeper.dynamics().reach() + 1);
+  require_memory(result.hunting_periods, speeds, slice, 2 * sweeper.dynamics().reach() + 1,
+                 static_cast<double>(sweeper.dynamics().difference(sweeper.state(), sweeper.state()).size()));
   result.direction = direction;
   result.mesh_frequency.resize(speeds);
   result.periods.resize(speeds);

@@ -12,6 +12,11 @@ namespace {
 // Of the RMS. On the resonance flanks of P2000's pair at 7 % damping speeds 20 Hz apart foretell it within 4.3 %.
 constexpr double kBreak = 0.04;
 
+// Of a motion that did not settle the RMS alone tells: it may be a slow one of the same kind.
+bool of_other_kind(const BranchMotion& a, const BranchMotion& b) {
+  return a.multiple > 0 && b.multiple > 0 && a.multiple != b.multiple;
+}
+
 double level(const BranchMotion& m) {
   return std::log(std::max(m.rms, std::numeric_limits<double>::min()));
 }
@@ -20,10 +25,10 @@ double level(const BranchMotion& m) {
 // repeat otherwise. Without one after, those before are to lead to b itself.
 double departure(const BranchMotion* before, const BranchMotion& a, const BranchMotion& b,
                  const BranchMotion* after) {
-  if (a.multiple != b.multiple) return std::numeric_limits<double>::infinity();
+  if (of_other_kind(a, b)) return std::numeric_limits<double>::infinity();
   const double width = b.mesh_frequency - a.mesh_frequency, change = level(b) - level(a);
   const auto foretold = [&](const BranchMotion& c, const BranchMotion& d) {
-    return c.multiple != d.multiple || c.mesh_frequency == d.mesh_frequency
+    return of_other_kind(c, d) || c.mesh_frequency == d.mesh_frequency
                ? 0
                : (level(d) - level(c)) / (d.mesh_frequency - c.mesh_frequency) * width;
   };
@@ -47,7 +52,7 @@ bool is_smooth(const std::vector<BranchMotion>& sweep, size_t i) {
   double change[5];
   for (size_t k = 0; k < 5; ++k) {
     const BranchMotion &a = sweep[i + k - 3], &b = sweep[i + k - 2];
-    if (a.multiple != b.multiple ||
+    if (of_other_kind(a, b) ||
         !(std::abs(b.mesh_frequency - a.mesh_frequency - step) < 1e-6 * std::abs(step)))
       return false;
     change[k] = level(b) - level(a);
@@ -124,7 +129,10 @@ std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<Br
       const Known& next = ahead.back();
       const int gap = next.place - place;
       const BranchMotion* before = trail.size() > 1 ? &trail[trail.size() - 2] : nullptr;
-      const double off = departure(before, trail.back(), next.motion, beyond(ahead.size() - 1));
+      // A run that gave up has left the branch.
+      const double off = next.run != kSwept && next.motion.multiple == 0
+                             ? std::numeric_limits<double>::infinity()
+                             : departure(before, trail.back(), next.motion, beyond(ahead.size() - 1));
       if (gap > kShrinking)
         largest = 0;
       else if (std::isfinite(off))
