@@ -942,19 +942,27 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "what a killed process left beside a file goes with its next write; what a living one writes stays") {
+    "what a killed process left beside a file goes with its next write; what a living one or another machine "
+    "writes stays") {
   Folder folder;
   const pid_t gone = fork();
   if (gone == 0) _exit(0);
   REQUIRE(waitpid(gone, nullptr, 0) == gone);  // its number is free now
-  const std::string stale = text("x.txt.tmp.", gone), living = text("x.txt.tmp.", getppid());
-  for (const std::string& name : {stale, living, text("y.txt.tmp.", gone), std::string("x.txt.tmp.notes")})
+  char host[256] = {};
+  REQUIRE(gethostname(host, sizeof host - 1) == 0);
+  const std::string own = text(".tmp.", host, ".");
+  const std::string stale = text("x.txt", own, gone), living = text("x.txt", own, getppid()),
+                    of_another = text("y.txt", own, gone), of_none = text("x.txt", own, "notes"),
+                    elsewhere = text("x.txt.tmp.not-", host, ".", gone), nowhere = text("x.txt.tmp.", gone);
+  for (const std::string& name : {stale, living, of_another, of_none, elsewhere, nowhere})
     overwrite(name, "half");
   publish("x.txt", "whole");
   CHECK_FALSE(fs::exists(stale));
   CHECK(fs::exists(living));
-  CHECK(fs::exists(text("y.txt.tmp.", gone)));  // of another file
-  CHECK(fs::exists("x.txt.tmp.notes"));         // of no process
+  CHECK(fs::exists(of_another));
+  CHECK(fs::exists(of_none));
+  CHECK(fs::exists(elsewhere));
+  CHECK(fs::exists(nowhere));  // it does not say on which machine its process was
   CHECK(read_bytes("x.txt") == "whole");
 }
 

@@ -1,7 +1,7 @@
-// Files that are either the old one or the whole new one, never a part: temporary name `<path>.tmp.<pid>` in
-// the same folder, every write checked, fsync, rename, fsync of the folder. On any failure the temporary file
-// is removed, the earlier file stays, and Error(io) says what the system said. What a killed process has left
-// beside the file is removed by the next write of it.
+// Files that are either the old one or the whole new one, never a part: temporary name
+// `<path>.tmp.<host>.<pid>` in the same folder, every write checked, fsync, rename, fsync of the folder. On any failure
+// the temporary file is removed, the earlier file stays, and Error(io) says what the system said. What a killed process
+// has left beside the file is removed by the next write of it on the same host.
 #pragma once
 #include <string>
 
