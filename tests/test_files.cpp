@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -964,6 +965,23 @@ TEST_CASE(
   CHECK(fs::exists(elsewhere));
   CHECK(fs::exists(nowhere));  // it does not say on which machine its process was
   CHECK(read_bytes("x.txt") == "whole");
+}
+
+TEST_CASE("what is no regular file is refused and not waited for") {
+  Folder folder;
+  REQUIRE(mkfifo("pipe", 0600) == 0);
+  ::alarm(20);  // a reader of such files does not come back by itself
+  for (const std::string name : {"pipe", "/dev/zero", "/dev/null"}) {
+    const Caught refused = caught([&] { read_bytes(name, "look elsewhere"); });
+    CHECK(refused.kind == kIo);
+    CHECK(refused.says(name + ": cannot be read: it is no regular file"));
+    CHECK(refused.says("look elsewhere"));
+  }
+  CHECK(caught([] { read_bytes("."); }).says("it is a folder"));
+  fs::create_symlink("x.txt", "link");
+  publish("x.txt", "whole");
+  CHECK(read_bytes("link") == "whole");
+  ::alarm(0);
 }
 
 TEST_CASE("writing is all or nothing: a failure leaves the earlier file and no rubbish") {

@@ -193,11 +193,14 @@ std::string read_bytes(const std::string& path, const std::string& hint) {
   const auto refuse = [&](const std::string& reason) {
     fail(Failure::io, path, ": cannot be read: ", reason, hint.empty() ? "" : "; ", hint);
   };
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // A pipe without a writer would hold up the opening itself.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) refuse(system_says(errno));
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) refuse(system_says(errno));
   if (S_ISDIR(status.st_mode)) refuse("it is a folder");
+  // Others, such as a pipe or /dev/zero, need not end.
+  if (!S_ISREG(status.st_mode)) refuse("it is no regular file; give one");
   std::string bytes;
   if (status.st_size > 0) bytes.reserve(static_cast<std::size_t>(status.st_size));
   std::string block(1 << 16, '\0');

@@ -22,7 +22,7 @@ bool publish_link(const std::string& link, const std::string& target);
 // the same order: make would take them for newer than what changes from now on. The number of them.
 int bring_to_present(const std::string& folder);
 
-// The whole content of a file. Error(io) if it cannot be read; `hint` is appended to the message.
+// The whole content of a regular file. Error(io) if it cannot be read; `hint` is appended to the message.
 std::string read_bytes(const std::string& path, const std::string& hint = "");
 
 // SHA-256 in lower-case hexadecimal: of bytes, of a file's content.
