@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -850,6 +851,66 @@ TEST_CASE("what HDF5 would follow for ever is refused although the hash is right
              {"1", "bytes", "byte", ""});
   });
   CHECK(h5::Reader(read_bytes("out/numbers.h5"), "out/numbers.h5", "").shape("/bytes").at(0) == mark.size());
+}
+
+TEST_CASE("a file that is little else than marks of heaps is looked through in no time") {
+  h5::Writer file;
+  file.attribute("/", "schema", std::string("whine/none"));
+  std::string bytes = file.finish();
+  // What follows the end that the superblock names is not HDF5's concern. To some of so many places numbers before it refer by
+  // accident: then the file is refused.
+  for (const std::string mark : {"GCOL\1", "GCOL\1\2\3"}) {
+    std::string marks = bytes;
+    while (marks.size() < std::size_t(1) << 20) marks += mark;
+    const std::clock_t start = std::clock();
+    caught([&] { h5::Reader(marks, "marks.h5", ""); });
+    CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 1);
+  }
+
+  // Many heaps to which the file refers, one within the other, all with the same objects.
+  const std::size_t first = bytes.size();
+  constexpr std::size_t kHeaps = 2000, kHeap = 32, kObjects = 30000;
+  const auto number = [](std::uint64_t value) {
+    std::string out(8, '\0');
+    for (char& byte : out) {
+      byte = static_cast<char>(value & 255);
+      value >>= 8;
+    }
+    return out;
+  };
+  const std::size_t objects = first + kHeaps * kHeap, end = objects + kObjects * 16;
+  for (std::size_t at = first; at < objects; at += kHeap)
+    bytes += "GCOL\1" + std::string(3, '\0') + number(end - at) + std::string("\xff\xff", 2) +
+             std::string(6, '\0') + number(objects - at - kHeap);
+  for (std::size_t i = 0; i < kObjects; ++i) bytes += number(1 + i) + number(0);
+  for (std::size_t at = first; at < objects; at += kHeap) bytes += number(at);
+  const std::clock_t start = std::clock();
+  CHECK(caught([&] { h5::Reader(bytes, "nested.h5", ""); }).says("the file is damaged"));
+  CHECK(double(std::clock() - start) / CLOCKS_PER_SEC < 0.1);
+}
+
+TEST_CASE("a file that deflates to little is not read into a thousand times its size") {
+  Folder folder;
+  const std::vector<std::uint8_t> bytes(8 << 20);
+  const std::vector<std::string> words(1 << 20);
+  const std::vector<double> doubles(1 << 14);
+  write_static_like("out/wide.h5", [&](h5::Writer& file) {
+    const h5::Label label{"1", "zeros", "place", ""};
+    file.put("/bytes", bytes.data(), {bytes.size()}, label);
+    file.put("/words", words, label);
+    file.put("/doubles", doubles.data(), {doubles.size()}, label);
+  });
+  const std::string whole = read_bytes("out/wide.h5");
+  const h5::Reader file(whole, "out/wide.h5", "");
+  // As doubles 64 MiB, as whole numbers 32, as texts 34.
+  REQUIRE(whole.size() < (30 << 20) / 1020);
+  for (const auto& read : std::vector<std::function<void()>>{
+           [&] { file.doubles("/bytes"); }, [&] { file.ints("/bytes"); }, [&] { file.strings("/words"); }}) {
+    const Caught refused = caught(read);
+    CHECK(refused.kind == kInput);
+    CHECK(refused.says("of memory"));
+  }
+  CHECK(file.doubles("/doubles").size() == doubles.size());
 }
 
 TEST_CASE("an artifact without its hash is refused before HDF5 sees it") {
