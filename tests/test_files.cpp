@@ -1077,10 +1077,10 @@ TEST_CASE("a file that is little else than marks of heaps is looked through in n
   h5::Writer file;
   file.attribute("/", "schema", std::string("whine/none"));
   std::string bytes = file.finish();
-  // What follows the end that the superblock names is not HDF5's concern. To some of so many places numbers before it refer by
-  // accident: then the file is refused.
+  // What follows the end that the superblock names is not HDF5's concern. Numbers before it refer to some of so many places by
+  // accident, first of all that end itself: then the file is refused.
   for (const std::string mark : {"GCOL\1", "GCOL\1\2\3"}) {
-    std::string marks = bytes;
+    std::string marks = bytes + std::string(1 << 16, '-');
     while (marks.size() < std::size_t(1) << 20) marks += mark;
     const std::clock_t start = std::clock();
     caught([&] { h5::Reader(marks, "marks.h5", ""); });
