@@ -543,7 +543,7 @@ for signal in TERM KILL; do
   all_killed="${all_killed:-} $killed"
 done
 # Killed a moment later, amid writing, they would have left these.
-for killed in $all_killed; do head -c 1000 out/scene/T100/up/sweep.h5 > out/scene/T100/up/sweep.h5.tmp.$killed; done
+for killed in $all_killed; do head -c 1000 out/scene/T100/up/sweep.h5 > "out/scene/T100/up/sweep.h5.tmp.$(uname -n).$killed"; done
 $(sweep scene up) > /dev/null 2>&1
 if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact and removes what killed runs left"; else
   wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi

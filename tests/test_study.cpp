@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -244,6 +245,31 @@ TEST_CASE("plans come back as they were written") {
   CHECK(plan.keys[0].units == "s");
   const Written other("title = 'x'\n", "plan.toml");
   CHECK_THROWS_AS(read_plan(other.path), Error);
+}
+
+TEST_CASE("a plan with an answer, direction or key that the study does not have is refused") {
+  const Study study = study_of("stage = 'sweep'\nanswers = ['rms_max_up', 'jumps_up']\n" + kDamping);
+  std::vector<GatheredVariant> variants;
+  for (long i = 0; i < study.variants; ++i)
+    variants.push_back({"abcd" + std::to_string(i), variant_values(study, i)});
+  const auto refused = [&](const std::function<void(StudyPlan&)>& change) {
+    StudyPlan plan = study;
+    change(plan);
+    const Written file(plan_text(plan, variants), "plan.toml");
+    try {
+      read_plan(file.path);
+    } catch (const Error& error) {
+      return std::string(error.what()).find("is no plan of a study") != std::string::npos;
+    }
+    return false;
+  };
+  CHECK_FALSE(refused([](StudyPlan&) {}));
+  CHECK(refused([](StudyPlan& plan) { plan.answers.push_back("rms_max_sideways"); }));
+  CHECK(refused([](StudyPlan& plan) { plan.directions.push_back("sideways"); }));
+  CHECK(refused([](StudyPlan& plan) { plan.directions = {"down"}; }));
+  CHECK(refused([](StudyPlan& plan) { plan.figure_answers = {"te_mean"}; }));
+  CHECK(refused([](StudyPlan& plan) { plan.figure_keys = {"fidelity.contact"}; }));
+  CHECK(refused([](StudyPlan& plan) { plan.figure_colour = "fidelity.contact"; }));
 }
 
 TEST_CASE("what is gathered of a study comes back from its artifact") {

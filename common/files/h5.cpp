@@ -114,29 +114,49 @@ std::uint64_t number_at(const std::string& bytes, std::size_t at, int length) {
   return out;
 }
 
+// Where `mark` stands in `bytes`, ascending, as far as the address of that place stands somewhere in them, too. One pass for
+// all marks: a file may consist of little else.
+std::vector<std::size_t> referred(const std::string& bytes, const std::string& mark) {
+  std::vector<std::size_t> places, out;
+  for (std::size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1))
+    places.push_back(at);
+  if (places.empty()) return out;
+  std::vector<bool> found(places.size());
+  std::uint64_t address = 0;  // that ends at i
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    address = address >> 8 | std::uint64_t(static_cast<unsigned char>(bytes[i])) << 56;
+    if (i < 7 || address < places.front() || address > places.back()) continue;
+    const auto place = std::lower_bound(places.begin(), places.end(), address);
+    if (*place == address) found[static_cast<std::size_t>(place - places.begin())] = true;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (found[i]) out.push_back(places[i]);
+  return out;
+}
+
 // Global heaps, which hold texts of no fixed length, are the only structures without a checksum in the files that are
 // made here, and HDF5 follows the sizes in them unchecked: for ever, if one is damaged. Whether all are sound to which the
-// file refers: their mark (with the version, without which HDF5 does not take it for one) may also stand among numbers.
+// file refers, and none lies in another: their mark (with the version, without which HDF5 does not take it for one) may also
+// stand among numbers.
 bool heaps_are_sound(const std::string& bytes) {
-  constexpr std::size_t kHeader = 16;  // of a heap and of an object in it
-  const std::string mark = "GCOL\1";
-  for (std::size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) {
-    std::string address(8, '\0');
-    for (std::size_t i = 0; i < 8; ++i) address[i] = static_cast<char>(at >> 8 * i & 255);
-    if (bytes.find(address) == std::string::npos) continue;
-    if (bytes.size() - at < kHeader) return false;
+  constexpr std::size_t kHeader = 16;      // of a heap and of an object in it
+  std::vector<std::size_t> seen(1 << 16);  // index -> heap, counted from 1
+  std::size_t heap = 0, free_from = 0;
+  for (const std::size_t at : referred(bytes, "GCOL\1")) {
+    if (at < free_from || bytes.size() - at < kHeader) return false;
+    ++heap;
     std::size_t left = number_at(bytes, at + 8, 8);
     if (left < kHeader || left > bytes.size() - at) return false;
+    free_from = at + left;
     std::size_t object = at + kHeader;
-    std::vector<bool> seen(1 << 16);
     for (left -= kHeader; left >= kHeader;) {
       const std::size_t index = number_at(bytes, object, 2), size = number_at(bytes, object + 8, 8);
       if (index == 0) {  // the rest is free
         if (size != left) return false;
         break;
       }
-      if (seen[index] || size > left - kHeader) return false;
-      seen[index] = true;
+      if (seen[index] == heap || size > left - kHeader) return false;
+      seen[index] = heap;
       const std::size_t whole = std::min(left, kHeader + (size + 7) / 8 * 8);
       object += whole;
       left -= whole;
@@ -383,6 +403,7 @@ struct Reader::Impl {
       const std::size_t size = H5Tget_size(type);
       std::string block(size * count, '\0');
       if (count > 0 && read(object, type, block.data()) < 0) refuse(name + " cannot be read");
+      out.reserve(count);
       for (std::size_t i = 0; i < count; ++i) {
         const std::string item = block.substr(i * size, size);
         out.push_back(item.substr(0, item.find('\0')));
@@ -392,14 +413,22 @@ struct Reader::Impl {
   }
 
   // The number of values, before memory is taken for them. Deflate makes at most 1032 bytes of one, of the chunks that are
-  // written here at most 1010: a file of 1 MiB never asks for 1 GiB.
-  std::size_t stored_count(hid_t set, std::size_t item_bytes, const std::string& name) const {
+  // written here at most 1010: what a dataset holds is bounded by what is stored of it. In memory a value may be wider, a byte
+  // become a double or a text; all that is taken at a time is bounded by the whole file, because a table of empty texts is hardly
+  // stored at all: a file of 1 MiB never asks for 1 GiB.
+  std::size_t stored_count(hid_t set, std::size_t item_bytes, std::size_t memory_bytes,
+                           const std::string& name) const {
+    constexpr double kMost = 1020;
     const Shape shape = shape_of(set);
     const double stored = std::min(static_cast<double>(H5Dget_storage_size(set)), static_cast<double>(size));
-    double bytes = static_cast<double>(item_bytes);
-    for (std::size_t n : shape) bytes *= static_cast<double>(n);
-    if (bytes > 1020 * stored)
+    double count = 1;
+    for (std::size_t n : shape) count *= static_cast<double>(n);
+    const double bytes = count * static_cast<double>(item_bytes),
+                 memory = count * static_cast<double>(memory_bytes);
+    if (bytes > kMost * stored)
       refuse(text("dataset ", name, " says that it holds ", bytes, " bytes, but ", stored, " are stored"));
+    if (memory > kMost * static_cast<double>(size))
+      refuse(text("dataset ", name, " would take ", memory, " bytes of memory, but the file has ", size));
     return count_of(shape);
   }
 
@@ -411,7 +440,8 @@ struct Reader::Impl {
     if (kind != H5T_INTEGER && (whole || kind != H5T_FLOAT)) {
       refuse("dataset " + name + (whole ? " does not hold whole numbers" : " does not hold numbers"));
     }
-    std::vector<T> out(stored_count(set, H5Tget_size(type), name));
+    const std::size_t item = H5Tget_size(type);
+    std::vector<T> out(stored_count(set, item, std::max(item, sizeof(T)), name));
     if (!out.empty() && H5Dread(set, Types<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) {
       refuse("dataset " + name + " cannot be read (damaged file)");
     }
@@ -496,8 +526,9 @@ std::vector<std::string> Reader::strings(const std::string& path) const {
   const auto read = [](hid_t object, hid_t memory, void* out) {
     return H5Dread(object, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out);
   };
-  return impl_->take_strings(type, impl_->stored_count(set, H5Tget_size(type), path), "dataset " + path, read,
-                             set);
+  const std::size_t item = H5Tget_size(type);  // once in a block, once as a text
+  return impl_->take_strings(type, impl_->stored_count(set, item, 2 * item + sizeof(std::string), path),
+                             "dataset " + path, read, set);
 }
 
 std::string Reader::string_attribute(const std::string& path, const std::string& name) const {

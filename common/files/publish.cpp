@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -40,14 +41,23 @@ void make_folder_of(const std::string& path) {
   }
 }
 
-std::string temporary_name(const std::string& path) {
-  return text(path, ".tmp.", ::getpid());
+// A process has its number on one machine only, and a file system may be many machines': a temporary file is named
+// <path>.tmp.<host>.<process>.
+std::string own_suffix() {
+  char host[256] = {};
+  if (::gethostname(host, sizeof host - 1) != 0 || !*host) return ".tmp.unnamed.";
+  std::replace(std::begin(host), std::end(host), '/', '_');
+  return text(".tmp.", host, ".");
 }
 
-// Temporary files that killed runs have left for this very path: their process is gone. One whose process
-// lives, or whose number now belongs to another user, stays.
+std::string temporary_name(const std::string& path) {
+  return text(path, own_suffix(), ::getpid());
+}
+
+// Temporary files that killed runs have left for this very path: of this host, their process is gone. One whose process
+// lives, or whose number now belongs to another user, stays, and so does another host's, whose processes cannot be seen.
 void remove_stale_temporaries(const std::string& path) {
-  const std::string stem = fs::path(path).filename().string() + ".tmp.";
+  const std::string stem = fs::path(path).filename().string() + own_suffix();
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder_of(path), code)) {
     const std::string name = entry.path().filename().string();
@@ -183,11 +193,14 @@ std::string read_bytes(const std::string& path, const std::string& hint) {
   const auto refuse = [&](const std::string& reason) {
     fail(Failure::io, path, ": cannot be read: ", reason, hint.empty() ? "" : "; ", hint);
   };
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // A pipe without a writer would hold up the opening itself.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) refuse(system_says(errno));
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) refuse(system_says(errno));
   if (S_ISDIR(status.st_mode)) refuse("it is a folder");
+  // Others, such as a pipe or /dev/zero, need not end.
+  if (!S_ISREG(status.st_mode)) refuse("it is no regular file; give one");
   std::string bytes;
   if (status.st_size > 0) bytes.reserve(static_cast<std::size_t>(status.st_size));
   std::string block(1 << 16, '\0');

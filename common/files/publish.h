@@ -1,7 +1,7 @@
-// Files that are either the old one or the whole new one, never a part: temporary name `<path>.tmp.<pid>` in
-// the same folder, every write checked, fsync, rename, fsync of the folder. On any failure the temporary file
-// is removed, the earlier file stays, and Error(io) says what the system said. What a killed process has left
-// beside the file is removed by the next write of it.
+// Files that are either the old one or the whole new one, never a part: temporary name
+// `<path>.tmp.<host>.<pid>` in the same folder, every write checked, fsync, rename, fsync of the folder. On any failure
+// the temporary file is removed, the earlier file stays, and Error(io) says what the system said. What a killed process
+// has left beside the file is removed by the next write of it on the same host.
 #pragma once
 #include <string>
 
@@ -22,7 +22,7 @@ bool publish_link(const std::string& link, const std::string& target);
 // the same order: make would take them for newer than what changes from now on. The number of them.
 int bring_to_present(const std::string& folder);
 
-// The whole content of a file. Error(io) if it cannot be read; `hint` is appended to the message.
+// The whole content of a regular file. Error(io) if it cannot be read; `hint` is appended to the message.
 std::string read_bytes(const std::string& path, const std::string& hint = "");
 
 // SHA-256 in lower-case hexadecimal: of bytes, of a file's content.

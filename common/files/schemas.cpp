@@ -102,6 +102,27 @@ void take_pair(const ArtifactReader& in, Artifact& a) {
   take_gear(in, "driven", a.driven, a.driven_material, a.driven_body);
 }
 
+// What an artifact of a pair says of mesh, fidelity, accuracy and damping, as keys; of a pair at rest there is less of it.
+template <class Artifact>
+KeyValues settings_of(const Artifact& a) {
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.contact = a.contact;
+  if constexpr (requires { a.fidelity; }) values.fidelity = a.fidelity;
+  if constexpr (requires { a.time.steps_per_period; }) values.time = a.time;
+  if constexpr (requires { a.damping; }) values.damping = a.damping;
+  return values;
+}
+
+template <class Artifact>
+void take_settings(const KeyValues& values, Artifact& a) {
+  a.mesh = values.mesh;
+  a.contact = values.contact;
+  if constexpr (requires { a.fidelity; }) a.fidelity = values.fidelity;
+  if constexpr (requires { a.time.steps_per_period; }) a.time = values.time;
+  if constexpr (requires { a.damping; }) a.damping = values.damping;
+}
+
 void put_inertia(ArtifactWriter& out, const std::string& role, double inertia) {
   KeyValues values;
   values.total_inertia = inertia;
@@ -401,10 +422,7 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
   want_rows("tooth_load (columns)", a.tooth_load.cols(), a.pair.size());
   ArtifactWriter out(path, "static", kStaticVersion,
                      "Static transmission error: " + pair_title(a.mesh, a.torque), provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("fidelity", values, Part::contact_rung);
@@ -490,10 +508,7 @@ void write(const std::string& path, const ErrorBudgetArtifact& a, const Provenan
   ArtifactWriter out(path, "error_budget", kErrorBudgetVersion,
                      "Error budget of the static transmission error: " + pair_title(a.mesh, a.torque),
                      provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("fidelity", values, Part::contact_rung);
@@ -515,9 +530,7 @@ ErrorBudgetArtifact read_error_budget(const std::string& path) {
   in.parameters("fidelity", values, Part::contact_rung);
   in.parameters("discretisation", values, Part::contact);
   take_pair(in, a);
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
+  take_settings(values, a);
   a.torque = in.number("/parameters/operation/torque");
   a.refinement = take_changes(in, "/refinement");
   a.choice = take_changes(in, "/choice");
@@ -533,9 +546,7 @@ StaticArtifact read_static(const std::string& path) {
   in.parameters("fidelity", values, Part::contact_rung);
   in.parameters("discretisation", values, Part::contact);
   take_pair(in, a);
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
+  take_settings(values, a);
   a.torque = in.number("/parameters/operation/torque");
   a.contact_ratio = in.number("/contact_ratio");
   a.mesh_phase = in.vector("/mesh_phase");
@@ -573,9 +584,7 @@ void write(const std::string& path, const LoadedArtifact& a, const Provenance& p
     want_rows(name, values->size(), strips);
   ArtifactWriter out(path, "loaded", kLoadedVersion, "Loaded gears: " + pair_title(a.mesh, a.torque),
                      provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.contact = a.contact;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("discretisation", values, Part::contact);
@@ -627,8 +636,7 @@ LoadedArtifact read_loaded(const std::string& path) {
   in.parameters("mesh", values, Part::mesh);
   in.parameters("discretisation", values, Part::contact);
   take_pair(in, a);
-  a.mesh = values.mesh;
-  a.contact = values.contact;
+  take_settings(values, a);
   a.torque = in.number("/parameters/operation/torque");
   a.mesh_phase = in.number("/parameters/operation/mesh_phase");
   a.transmission_error = in.number("/transmission_error");
@@ -672,11 +680,7 @@ void write(const std::string& path, const ImpactArtifact& a, const Provenance& p
     want_rows(text("by_phase/", name).c_str(), size, phases);
   ArtifactWriter out(path, "impact", kImpactVersion, "Ring-down: " + pair_title(a.mesh, a.torque),
                      provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
-  values.damping = a.damping;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   put_inertia(out, "driver", a.driver_inertia);
   put_inertia(out, "driven", a.driven_inertia);
@@ -738,10 +742,7 @@ ImpactArtifact read_impact(const std::string& path) {
   in.parameters("fidelity", values, Part::contact_rung);
   in.parameters("discretisation", values, Part::contact);
   take_pair(in, a);
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
-  a.damping = values.damping;
+  take_settings(values, a);
   a.driver_inertia = take_inertia(in, "driver");
   a.driven_inertia = take_inertia(in, "driven");
   take_bearings(in, a);
@@ -791,12 +792,7 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
                      text("Sweep ", a.direction, lumped ? ", lumped model " + a.model : "", ": ",
                           pair_title(a.mesh, a.torque)),
                      provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
-  values.time = a.time;
-  values.damping = a.damping;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   put_inertia(out, "driver", a.driver_inertia);
   put_inertia(out, "driven", a.driven_inertia);
@@ -873,11 +869,7 @@ SweepArtifact read_sweep(const std::string& path) {
   in.parameters("discretisation", values, Part::contact);
   in.parameters("discretisation", values, Part::time);
   take_pair(in, a);
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
-  a.time = values.time;
-  a.damping = values.damping;
+  take_settings(values, a);
   a.driver_inertia = take_inertia(in, "driver");
   a.driven_inertia = take_inertia(in, "driven");
   take_bearings(in, a);
@@ -934,12 +926,7 @@ void write(const std::string& path, const ResponseArtifact& a, const Provenance&
   want_rows("jump_width", a.jump_width.size(), a.jump_frequency.size());
   ArtifactWriter out(path, "response", kResponseVersion,
                      text("Response, sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
-  values.time = a.time;
-  values.damping = a.damping;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   put_inertia(out, "driver", a.driver_inertia);
   put_inertia(out, "driven", a.driven_inertia);
@@ -995,11 +982,7 @@ ResponseArtifact read_response(const std::string& path) {
   take_pair(in, a);
   a.driver_inertia = take_inertia(in, "driver");
   a.driven_inertia = take_inertia(in, "driven");
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
-  a.time = values.time;
-  a.damping = values.damping;
+  take_settings(values, a);
   a.torque = in.number("/parameters/operation/torque");
   a.direction = in.word("/parameters/operation/direction");
   a.model = in.word("/parameters/fidelity/model");
@@ -1086,12 +1069,7 @@ void write(const std::string& path, const JumpMapArtifact& a, const Provenance& 
     want_rows(name, size, a.jump_frequency.size());
   ArtifactWriter out(path, "jump_map", kJumpMapVersion,
                      "Jumps against damping: " + pair_title(a.mesh, a.torque), provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
-  values.time = a.time;
-  values.damping = a.damping;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   put_inertia(out, "driver", a.driver_inertia);
   put_inertia(out, "driven", a.driven_inertia);
@@ -1165,11 +1143,7 @@ JumpMapArtifact read_jump_map(const std::string& path) {
   take_pair(in, a);
   a.driver_inertia = take_inertia(in, "driver");
   a.driven_inertia = take_inertia(in, "driven");
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
-  a.time = values.time;
-  a.damping = values.damping;
+  take_settings(values, a);
   a.bearing_stiffness = in.number("/parameters/damping/mean_stiffness");
   a.torque = in.number("/parameters/operation/torque");
   a.model = in.word("/parameters/fidelity/model");
@@ -1259,12 +1233,7 @@ void write(const std::string& path, const HarrisMapArtifact& a, const Provenance
   want_rows("unrelieved", a.unrelieved.size(), a.torque.size());
   ArtifactWriter out(path, "harris_map", kHarrisMapVersion,
                      text("Harris map: ", a.mesh.driver, " drives ", a.mesh.driven), provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
-  values.time = a.time;
-  values.damping = a.damping;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("fidelity", values, Part::contact_rung);
@@ -1326,11 +1295,7 @@ HarrisMapArtifact read_harris_map(const std::string& path) {
     in.parameters("discretisation", values, Part::time);
     take_speeds(in, a);
   }
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
-  a.time = values.time;
-  a.damping = values.damping;
+  take_settings(values, a);
   a.relieved = in.word("/parameters/relief/relieved");
   a.shape = in.word("/parameters/relief/shape");
   a.design_torque = in.number("/parameters/operation/design_torque");
@@ -1385,12 +1350,7 @@ void write(const std::string& path, const VariantArtifact& a, const Provenance& 
   if (a.refusal.empty()) want_rows("answer", a.answer.size(), static_cast<Eigen::Index>(kinds.size()));
   ArtifactWriter out(path, "variant", kVariantVersion, "Variant of a study: " + pair_title(a.mesh, a.torque),
                      provenance);
-  KeyValues values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
-  values.time = a.time;
-  values.damping = a.damping;
+  const KeyValues values = settings_of(a);
   put_pair(out, a);
   out.parameters("mesh", values, Part::mesh);
   out.parameters("fidelity", values, Part::contact_rung);
@@ -1438,11 +1398,7 @@ VariantArtifact read_variant(const std::string& path) {
     a.reference_torque = in.number("/parameters/operation/reference_torque");
     take_speeds(in, a);
   }
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
-  a.time = values.time;
-  a.damping = values.damping;
+  take_settings(values, a);
   a.refusal = in.word("/refusal");
   if (!a.refusal.empty()) return a;
   const std::vector<AnswerKind> kinds = answer_kinds(a.directions);
@@ -1560,20 +1516,13 @@ namespace {
 // What an artifact of a pair says to the keys of a scene, from the side of one of its gears. It need not know of motion.
 template <class Artifact>
 KeyValues keys_of(const Artifact& a, bool driver) {
-  KeyValues values;
+  KeyValues values = settings_of(a);
   values.design = driver ? a.driver : a.driven;
   values.material = driver ? a.driver_material : a.driven_material;
   values.body = driver ? a.driver_body : a.driven_body;
-  values.mesh = a.mesh;
   values.modification = a.mesh.modification[driver ? 0 : 1];
   values.errors = a.mesh.errors[driver ? 0 : 1];
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
-  if constexpr (requires { a.damping; }) {
-    values.total_inertia = driver ? a.driver_inertia : a.driven_inertia;
-    values.time = a.time;
-    values.damping = a.damping;
-  }
+  if constexpr (requires { a.damping; }) values.total_inertia = driver ? a.driver_inertia : a.driven_inertia;
   return values;
 }
 

@@ -647,6 +647,17 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   plan.figure_answers = words(root.get("figure_answers"));
   plan.figure_keys = words(root.get("figure_keys"));
   plan.figure_colour = root["figure_colour"].value_or(std::string());
+  // gear-study finds answers and keys by their names.
+  Words answers, keys;
+  const auto within = [](const Words& some, const Words& all) {
+    return std::all_of(some.begin(), some.end(), [&](const std::string& word) { return among(word, all); });
+  };
+  if (!within(plan.directions, {"up", "down"})) refuse();
+  for (const AnswerKind& kind : answer_kinds(plan.directions)) answers.push_back(kind.name);
+  for (const VariedKey& key : plan.keys) keys.push_back(key.name);
+  if (!within(plan.answers, answers) || !within(plan.figure_answers, plan.answers) ||
+      !within(plan.figure_keys, keys) || (!plan.figure_colour.empty() && !among(plan.figure_colour, keys)))
+    refuse();
   std::vector<GatheredVariant> variants;
   const toml::array* rows = root["variants"].as_array();
   if (!rows || rows->empty()) refuse();

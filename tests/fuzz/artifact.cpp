@@ -7,6 +7,7 @@
 #include "file_of.h"
 #include "files/provenance.h"
 #include "files/schemas.h"
+#include "files/study.h"
 #include "files/summary.h"
 
 using namespace whine;
@@ -36,5 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   refused_or_read([&] { read_response(path); });
   refused_or_read([&] { read_jump_map(path); });
   refused_or_read([&] { read_harris_map(path); });
+  refused_or_read([&] { read_variant(path); });
+  refused_or_read([&] { read_study_artifact(path); });
   return 0;
 }

@@ -190,9 +190,20 @@ class Edit {
   // schema, schema_version or title of the file.
   void attribute() {
     static const char* const roots[] = {"schema", "schema_version", "title"};
-    static const char* const words[] = {
-        "whine/mesh",     "whine/body",     "whine/static",       "whine/impact", "whine/sweep",
-        "whine/response", "whine/jump_map", "whine/error_budget", "whine/",       ""};
+    static const char* const words[] = {"whine/mesh",
+                                        "whine/body",
+                                        "whine/static",
+                                        "whine/impact",
+                                        "whine/sweep",
+                                        "whine/loaded",
+                                        "whine/response",
+                                        "whine/jump_map",
+                                        "whine/error_budget",
+                                        "whine/harris_map",
+                                        "whine/variant",
+                                        "whine/study",
+                                        "whine/",
+                                        ""};
     const char* name = roots[below(3)];
     H5Adelete(file_, name);
     if (below(8) == 0) return;
