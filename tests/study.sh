@@ -115,3 +115,29 @@ refused "a variant that a stage refuses, by its values" "gear-variant: error: .*
 sed -i '1i refusals = "mark"' heavy.toml
 if make_ STUDY=heavy.toml study && grep -q 'warning: variant 1 (operation.torque_Nm = 900000) was refused: ' "$log" && grep -q '^# refused (1): ' out/studies/heavy/study.tsv; then
   ok "refusals = \"mark\": a line of the table that says so"; else wrong "refusals = \"mark\"" "$(tail -n 2 "$log" | tr '\n' ' ')"; fi
+sed -i 's/^refusals = .*/refusals = "stop"/' heavy.toml
+refused "refusals = \"stop\" again: what was marked is an error, by variant and reason" \
+  'gear-study: error: out/studies/heavy/plan.toml: variant 1 \(operation.torque_Nm = 900000\) was refused: .*contact leaves the flanks' STUDY=heavy.toml study
+
+# Marked is what the pair refuses, not what this machine or a setting does.
+cat > large.toml <<'STUDY'
+scene = "own.toml"
+refusals = "mark"
+[set]
+"gear.pinion.error.iso_class" = 5
+"discretisation.positions" = 65536
+[[vary]]
+key = "operation.torque_Nm"
+values = [100, 150]
+STUDY
+refused "refusals = \"mark\" does not mark a setting that asks for too much" 'gear-variant: error: .*: variant [01] .* positions, at most 2097152 are allowed' -k STUDY=large.toml study
+[ -z "$(find out/studies/large -name '*.h5')" ] && ok "nor leaves it as an artifact" || wrong "nor leaves it as an artifact" "$(find out/studies/large -name '*.h5')"
+
+# --- what the stages warn of: here a motion that hardly anything damps
+sed 's/^values = \[5.*/values = [1e-10, 2e-10]/; s/^values = \[100.*/values = [100]/; s/^directions.*/&\n[set]\n"discretisation.steady_state" = "march"/' small.original > restless.toml
+if make_ STUDY=restless.toml study; then
+  grep -q -E 'gear-variant: warning: variant 1 \(damping.rayleigh_stiffness_s = 2e-10, .*\): speed up: at [0-9]* Hz the motion is not periodic' "$log" &&
+    ok "a variant warns of what gear-sweep warns of, by its name" || wrong "a variant warns of what gear-sweep warns of, by its name" "$(grep -m1 warning "$log")"
+  grep -q 'gear-study: warning: 2 variants have speeds at which no periodic motion was found' "$log" && grep -q '^# .*; 2 have speeds that did not settle' out/studies/restless/study.tsv &&
+    ok "and the table says which did not settle" || wrong "and the table says which did not settle" "$(head -n 3 out/studies/restless/study.tsv | tr '\n' ' ')"
+else wrong "a study of motions that do not settle" "$(tail -n 1 "$log")"; fi

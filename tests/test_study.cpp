@@ -243,6 +243,10 @@ TEST_CASE("plans come back as they were written") {
   const auto [plan, back] = read_plan(file.path);
   CHECK(plan_text(plan, back) == plan_text(study, variants));
   CHECK(plan.keys[0].units == "s");
+  CHECK(!plan.marks_refusals);
+  const Study marking = study_of("refusals = 'mark'\n" + kDamping);
+  const Written marked(plan_text(marking, {{"abcd0", variant_values(marking, 0)}}), "plan.toml");
+  CHECK(read_plan(marked.path).first.marks_refusals);
   const Written other("title = 'x'\n", "plan.toml");
   CHECK_THROWS_AS(read_plan(other.path), Error);
 }
@@ -284,11 +288,13 @@ TEST_CASE("what is gathered of a study comes back from its artifact") {
   a.answer = MatrixRM::Random(4, 2);
   a.answer.row(2).setZero();
   a.refusal = {"", "", "it jams", ""};
+  a.unsteady = Eigen::Vector4i(0, 3, 0, 0);
   const Written file("", "study.h5");
   write(file.path, a, {"test", "test", {}, {}});
   const StudyArtifact b = read_study_artifact(file.path);
   CHECK(b.answer == a.answer);
   CHECK(b.refusal == a.refusal);
+  CHECK(b.unsteady == a.unsteady);
   REQUIRE(b.variants.size() == 4);
   for (size_t v = 0; v < 4; ++v) {
     CHECK(b.variants[v].name == a.variants[v].name);
@@ -297,9 +303,18 @@ TEST_CASE("what is gathered of a study comes back from its artifact") {
   const Figure figure = study_figure(b);
   REQUIRE(figure.blocks[0].rows.size() == 4);
   CHECK(figure.blocks[0].rows[2][1] == 1);  // marked
-  size_t drawn = 0;
-  for (const auto& row : figure.blocks[1].rows) drawn += !row.empty();
+  CHECK(figure.blocks[0].rows[1][2] == 3);
+  CHECK(figure.notes[0].find("1 has speeds that did not settle") != std::string::npos);
+  size_t drawn = 0, crossed = 0;
+  for (const auto& row : figure.blocks[1].rows) {
+    drawn += !row.empty();
+    crossed += !row.empty() && row[3] > 0;
+  }
   CHECK(drawn == 3);
+  CHECK(crossed == 1);
+  StudyArtifact steady = b;
+  steady.unsteady.setZero();
+  CHECK(study_figure(steady).notes[0].find("settle") == std::string::npos);
   StudyArtifact none = b;
   none.refusal = {"a", "b", "c", "d"};
   CHECK_THROWS_AS(study_figure(none), Error);

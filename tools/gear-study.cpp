@@ -29,6 +29,7 @@ namespace {
 using namespace whine;
 
 constexpr int kShownRefusals = 5;
+constexpr const char* kUnsteady = "unsteady_";  // answers that count them begin so
 
 bool holds(const std::string& path, const std::string& bytes) {
   std::error_code code;
@@ -111,13 +112,19 @@ void gather(int argc, char** argv, const std::string& path, const std::string& o
         kinds.begin());
   study.answer.setZero(static_cast<Eigen::Index>(study.variants.size()),
                        static_cast<Eigen::Index>(column.size()));
-  long refused = 0;
+  study.unsteady.setZero(static_cast<Eigen::Index>(study.variants.size()));
+  long refused = 0, unsteady = 0;
   for (size_t v = 0; v < study.variants.size(); ++v) {
     const std::string file = home + variant_file(study.variants[v].name) + ".h5";
     const VariantArtifact variant = read_variant(file);
     if (variant.directions != study.plan.directions)
       fail(Failure::input, file, ": is of another stage than the study; ", rebuild_advice(file));
     study.refusal.push_back(variant.refusal);
+    // Marked when the study said so; its file is up to date, so nobody but this asks again.
+    if (!variant.refusal.empty() && !study.plan.marks_refusals)
+      fail(Failure::input, path, ": ",
+           variant_name(study.plan, static_cast<long>(v), study.variants[v].values),
+           " was refused: ", variant.refusal, "; take it out, or say refusals = \"mark\"");
     if (!variant.refusal.empty()) {
       if (++refused <= kShownRefusals)
         tell(
@@ -127,10 +134,19 @@ void gather(int argc, char** argv, const std::string& path, const std::string& o
     }
     for (size_t i = 0; i < column.size(); ++i)
       study.answer(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(i)) = variant.answer[column[i]];
+    // Counted whether or not the study asks for it: the other answers of such a speed are those of a motion that goes on changing.
+    for (size_t i = 0; i < kinds.size(); ++i)
+      if (kinds[i].name.starts_with(kUnsteady))
+        study.unsteady[static_cast<Eigen::Index>(v)] +=
+            static_cast<int>(variant.answer[static_cast<Eigen::Index>(i)]);
+    unsteady += study.unsteady[static_cast<Eigen::Index>(v)] > 0;
   }
   write(output, study, provenance);
   tell("gear-study: ", study.plan.title, ": ", study.variants.size(), " variants",
        refused > 0 ? text(", ", refused, " of them refused and marked so") : "", " -> ", output);
+  if (unsteady > 0)
+    tell("gear-study: warning: ", unsteady, " variants have speeds at which no periodic motion was found; ",
+         "they are marked so");
 }
 
 void body(int argc, char** argv) {

@@ -3,15 +3,17 @@
 // Reads   params (slice of the variant: mesh, contact, torque, and of motions damping, inertia, speeds, fidelity, time), body.h5
 //         of both gears
 // Writes  variant.h5    transmission error and stiffness at rest, and of each sweep RMS, loads, contact loss, jumps, as numbers
-// With --mark-refusals a variant that a stage refuses is an artifact, too, which says why.
+// With --mark-refusals a variant of what no pair can do is an artifact, too, which says why; whatever else fails is an error.
 // Equations: as gear-static, gear-sweep and gear-spectra, whose numbers these are.
 // Example: gear-variant --params out/studies/relief/variants/3f/3f0c.toml --driver out/bodies/0123/body.h5
 //            --driven out/bodies/0123/body.h5 --output out/studies/relief/variants/3f/3f0c.h5
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "base/refusal.h"
 #include "base/tool.h"
 #include "files/fit.h"
 #include "files/provenance.h"
@@ -39,7 +41,8 @@ void body(int argc, char** argv) {
   options.add("--driven", driven, "body.h5 of the driven gear").required();
   options.add("--output", output, "artifact to write").required();
   options.add("--plan", plan, "plan.toml of the study, so that errors name the variant and its values");
-  options.flag("--mark-refusals", marks, "write why a stage refuses the variant, instead of failing");
+  options.flag("--mark-refusals", marks,
+               "write why the pair cannot do what the variant asks, instead of failing");
   options.footer(
       "Example:\n"
       "  gear-variant --params $(ls out/studies/damping-torque-relief/variants/*/*.toml | head -n 1) "
@@ -56,17 +59,20 @@ void body(int argc, char** argv) {
   whine::require_body(first, slice.statics.driver_body, "driver", driver);
   whine::require_body(second, slice.statics.driven_body, "driven", driven);
   whine::VariantArtifact result = whine::variant_parameters(first, second, slice);
+  std::vector<whine::Remark> remarks;
   try {
     std::optional<whine::Progress> progress;
-    result.answer =
+    const whine::VariantAnswers answers =
         whine::variant_answers(first, second, slice, [&](long done, long total, const std::string& note) {
           if (!progress) progress.emplace("gear-variant", total);
           progress->update(done, note);
         });
+    result.answer = answers.answer;
+    remarks = answers.remarks;
   } catch (const whine::Error& error) {
-    const bool of_physics =
-        error.kind() == whine::Failure::numerical || error.kind() == whine::Failure::input;
-    if (!marks || !of_physics) whine::fail(error.kind(), params, ": ", name_in(plan, params), error.what());
+    // A solver's failure or too little memory says nothing of the pair, and a mark would keep it from being computed again.
+    if (!marks || !dynamic_cast<const whine::Refusal*>(&error))
+      whine::fail(error.kind(), params, ": ", name_in(plan, params), error.what());
     result.refusal = error.what();
   }
   whine::write(output, result, provenance);
@@ -74,6 +80,10 @@ void body(int argc, char** argv) {
     whine::tell("gear-variant: warning: refused: ", result.refusal, " -> ", output);
   else
     whine::tell("gear-variant: ", result.torque, " N m, ", result.answer.size(), " answers -> ", output);
+  const std::string name = remarks.empty() ? "" : name_in(plan, params);
+  for (const whine::Remark& remark : remarks)
+    whine::tell("gear-variant: ", remark.warning ? "warning: " : "", name.empty() ? params + ": " : name,
+                remark.words);
 }
 
 }  // namespace

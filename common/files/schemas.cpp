@@ -18,7 +18,7 @@ namespace {
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
 constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 4, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1,
-              kHarrisMapVersion = 1, kVariantVersion = 1, kStudyVersion = 1, kLoadedVersion = 1;
+              kHarrisMapVersion = 1, kVariantVersion = 1, kStudyVersion = 2, kLoadedVersion = 1;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -1413,6 +1413,7 @@ void write(const std::string& path, const StudyArtifact& a, const Provenance& pr
   want_rows("answer", a.answer.rows(), variants);
   want_rows("answer (columns)", a.answer.cols(), static_cast<Eigen::Index>(a.plan.answers.size()));
   want_rows("refusal", static_cast<Eigen::Index>(a.refusal.size()), variants);
+  want_rows("unsteady", a.unsteady.size(), variants);
   ArtifactWriter out(path, "study", kStudyVersion, "Study: " + a.plan.title, provenance);
   const auto put_words = [&](const std::string& name, const std::vector<std::string>& list,
                              const std::string& meaning, const std::string& axes) {
@@ -1464,6 +1465,8 @@ void write(const std::string& path, const StudyArtifact& a, const Provenance& pr
   }
   out.put("/refused", refused, {"1", "1: a stage refused the variant, it has no answers", kVariants, ""});
   put_words("/refusal", a.refusal, "why; empty where it was not refused", kVariants);
+  out.put("/unsteady", a.unsteady,
+          {"1", "speeds, of all sweeps, at which no periodic motion was found", kVariants, ""});
   out.publish();
 }
 
@@ -1508,6 +1511,7 @@ StudyArtifact read_study_artifact(const std::string& path) {
   for (size_t i = 0; i < a.plan.answers.size(); ++i)
     a.answer.col(static_cast<Eigen::Index>(i)) = in.vector("/answer/" + a.plan.answers[i], variants);
   a.refusal = want_words("/refusal");
+  a.unsteady = in.whole_vector("/unsteady", variants);
   return a;
 }
 

@@ -608,7 +608,8 @@ std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>
   for (const VariedKey& key : study.keys) names.push_back(key.name);
   out << kPlanStart << "\ntitle = " << quoted(study.title) << "\nscene = " << quoted(study.scene)
       << "\ndirections = " << quoted(study.directions) << "\nrandom = " << (study.random ? "true" : "false")
-      << "\nseed = " << study.seed << "\nanswers = " << quoted(study.answers) << "\nkeys = " << quoted(names)
+      << "\nseed = " << study.seed << "\nmarks_refusals = " << (study.marks_refusals ? "true" : "false")
+      << "\nanswers = " << quoted(study.answers) << "\nkeys = " << quoted(names)
       << "\nfigure_answers = " << quoted(study.figure_answers)
       << "\nfigure_keys = " << quoted(study.figure_keys)
       << "\nfigure_colour = " << quoted(study.figure_colour) << "\nvariants = [\n";
@@ -642,6 +643,7 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   plan.directions = words(root.get("directions"));
   plan.random = root["random"].value_or(false);
   plan.seed = root["seed"].value_or(0);
+  plan.marks_refusals = root["marks_refusals"].value_or(false);
   plan.answers = words(root.get("answers"));
   for (const std::string& name : words(root.get("keys"))) plan.keys.push_back(varied_key(name));
   plan.figure_answers = words(root.get("figure_answers"));

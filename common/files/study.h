@@ -61,7 +61,7 @@ struct StudyPlan {
   std::vector<std::string> directions;  // of sweeps; none: the pair at rest
   bool random = false;                  // a sample, else a grid
   int seed = 1;
-  bool marks_refusals = false;
+  bool marks_refusals = false;  // else a variant that is refused is an error
   std::vector<VariedKey> keys;
   std::vector<std::string> answers;  // gathered
   std::vector<std::string> figure_answers, figure_keys;
@@ -146,6 +146,7 @@ struct StudyArtifact {
   std::vector<GatheredVariant> variants;
   MatrixRM answer;                   // (variant, answer of the plan) SI; 0 where the variant was refused
   std::vector<std::string> refusal;  // (variant) why, "" if it was not
+  Eigen::VectorXi unsteady;  // (variant) speeds, of all its sweeps, at which no periodic motion was found
 };
 
 void write(const std::string& path, const VariantArtifact&, const Provenance&);

@@ -342,7 +342,8 @@ void show(Lines& lines, const StudyArtifact& a) {
   const auto refused =
       a.refusal.size() - static_cast<size_t>(std::count(a.refusal.begin(), a.refusal.end(), ""));
   add(lines, "study", a.variants.size(), " variants of ", a.plan.scene,
-      a.plan.random ? ", drawn at random" : ", all combinations", ", ", refused, " refused");
+      a.plan.random ? ", drawn at random" : ", all combinations", ", ", refused, " refused, ",
+      (a.unsteady.array() > 0).count(), " with speeds that did not settle");
   add(lines, "keys", keys);
   for (const AnswerKind& kind : answer_kinds(a.plan.directions)) {
     const auto found = std::find(a.plan.answers.begin(), a.plan.answers.end(), kind.name);

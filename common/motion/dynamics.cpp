@@ -7,6 +7,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/refusal.h"
 #include "contact/lanes.h"
 
 namespace whine {
@@ -69,9 +70,9 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
            "or take the "
            "section [gear.<name>.crack] out");
     if (!(parameters.inertia[g] > model.gear[g].body().inertia))
-      fail(Failure::input, "total_inertia_kgm2 = ", parameters.inertia[g], " of the ",
-           g ? "driven gear" : "driver", " lies below the inertia of its own body, ",
-           model.gear[g].body().inertia, " kg m2; raise it");
+      refuse(Failure::input, "total_inertia_kgm2 = ", parameters.inertia[g], " of the ",
+             g ? "driven gear" : "driver", " lies below the inertia of its own body, ",
+             model.gear[g].body().inertia, " kg m2; raise it");
     const double r = model.kinematics.gear(g).base_radius();
     inverse_mass += r * r / parameters.inertia[g];
   }

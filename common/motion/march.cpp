@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/refusal.h"
 #include "contact/lanes.h"
 #include "contact/line_contact.h"
 #include "motion/dynamics.h"
@@ -773,7 +774,7 @@ bool RollingDynamics::march(State& state, Period& period, Ledger* ledger) {
   } catch (const Error& error) {
     const std::string words = error.what(), start = "at mesh phase ";
     if (words.rfind(start, 0) == 0) throw;
-    fail(error.kind(), start, positions_[sample_ * stride_].mesh.phase, " ", words);
+    fail_as(error, start, positions_[sample_ * stride_].mesh.phase, " ", words);
   }
 }
 
@@ -878,10 +879,10 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
 
     period.transmission_error[sample] = error;
     if (error > position.frame.lost_corner_gap)
-      fail(Failure::numerical, "at mesh phase ", position.mesh.phase, " the transmission error ", error * 1e6,
-           " micrometres closes the gap of ", position.mesh.lost_corner_gap * 1e6,
-           " micrometres of a tip edge that would touch below the involute; lower the torque or set "
-           "corner_contact = false");
+      refuse(Failure::numerical, "at mesh phase ", position.mesh.phase, " the transmission error ",
+             error * 1e6, " micrometres closes the gap of ", position.mesh.lost_corner_gap * 1e6,
+             " micrometres of a tip edge that would touch below the involute; lower the torque or set "
+             "corner_contact = false");
     if (error > position.frame.next_corner_gap) return false;
   }
   give(state);

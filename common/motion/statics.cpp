@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/refusal.h"
 
 namespace whine {
 
@@ -178,9 +179,9 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
     start[period] = e.x;
     if (answer.leaves_window) return text("at mesh phase ", phase, " the pressure reaches the window's end");
     if (e.x > answer.lost_corner_gap)
-      fail(Failure::numerical, "at mesh phase ", phase, " the deflection ", e.x * 1e6,
-           " micrometres closes the gap of a tip edge that would touch below the involute (gap ",
-           answer.lost_corner_gap * 1e6, " micrometres); lower the torque or set corner_contact = false");
+      refuse(Failure::numerical, "at mesh phase ", phase, " the deflection ", e.x * 1e6,
+             " micrometres closes the gap of a tip edge that would touch below the involute (gap ",
+             answer.lost_corner_gap * 1e6, " micrometres); lower the torque or set corner_contact = false");
     if (e.x > answer.next_corner_gap)
       return text("at mesh phase ", phase, " the deflection ", e.x * 1e6,
                   " micrometres closes a tip edge's gap of ", answer.next_corner_gap * 1e6, " micrometres");
@@ -248,10 +249,13 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
     const std::string beyond = solve_period(model, range, load, positions, result);
     if (beyond.empty()) break;
     if (attempt == kWidenings)
-      fail(Failure::numerical, "at ", torque, " N m contact leaves the flanks: window ",
-           range.half_window * 1e3, " mm either side, tip edges up to ", range.corner_gap * 1e6,
-           " micrometres away, and still ", beyond, "; lower the torque",
-           result.hunting_periods > 1 ? " or the errors of the teeth" : "");
+      refuse(Failure::numerical, "at ", torque, " N m contact leaves the flanks: window ",
+             range.half_window * 1e3, " mm either side",
+             // Beyond, no tip edge is that far from a flank.
+             range.corner_gap < 1e-3 ? text(", tip edges up to ", range.corner_gap * 1e6, " micrometres away")
+                                     : "",
+             ", and still ", beyond, "; lower the torque",
+             result.hunting_periods > 1 ? " or the errors of the teeth" : "");
     widening *= kWidening;
   }
   result.mean_stiffness = result.stiffness_secant.mean();

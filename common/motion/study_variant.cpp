@@ -78,12 +78,17 @@ VariantArtifact variant_parameters(const BodyArtifact& driver, const BodyArtifac
   return out;
 }
 
-Eigen::VectorXd variant_answers(const BodyArtifact& driver, const BodyArtifact& driven,
-                                const VariantSlice& slice,
-                                const std::function<void(long, long, const std::string&)>& report) {
+VariantAnswers variant_answers(const BodyArtifact& driver, const BodyArtifact& driven,
+                               const VariantSlice& slice,
+                               const std::function<void(long, long, const std::string&)>& report) {
+  VariantAnswers out;
+  const auto add_remarks = [&](const std::string& where, const std::vector<Remark>& remarks) {
+    for (const Remark& r : remarks) out.remarks.push_back({r.warning, where + ": " + r.words});
+  };
   Answers answers;
   const StaticArtifact rest = static_transmission(driver, driven, slice.statics, slice.torque);
   add_static(answers, rest);
+  add_remarks("at rest", remarks(rest));
   if (!slice.directions.empty()) {
     // Without bearing dampers nothing depends on the pair at the reference torque.
     const bool alike =
@@ -92,13 +97,16 @@ Eigen::VectorXd variant_answers(const BodyArtifact& driver, const BodyArtifact& 
         alike ? rest.mean_stiffness
               : static_transmission(driver, driven, slice.statics, slice.motion.reference_torque)
                     .mean_stiffness;
-    for (const std::string& direction : slice.directions)
-      add_motion(answers,
-                 response(sweep(driver, driven, rest, bearing_stiffness, slice.motion, direction, report)));
+    for (const std::string& direction : slice.directions) {
+      const SweepArtifact motion =
+          sweep(driver, driven, rest, bearing_stiffness, slice.motion, direction, report);
+      add_motion(answers, response(motion));
+      add_remarks("speed " + direction, remarks(motion, rest));
+    }
   }
   const std::vector<AnswerKind> kinds = answer_kinds(slice.directions);
-  Eigen::VectorXd out(static_cast<Index>(kinds.size()));
-  for (size_t i = 0; i < kinds.size(); ++i) out[static_cast<Index>(i)] = answers.at(kinds[i].name);
+  out.answer.resize(static_cast<Index>(kinds.size()));
+  for (size_t i = 0; i < kinds.size(); ++i) out.answer[static_cast<Index>(i)] = answers.at(kinds[i].name);
   return out;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "files/study.h"
+#include "motion/statics.h"
 
 namespace whine {
 
@@ -11,11 +13,16 @@ namespace whine {
 VariantArtifact variant_parameters(const BodyArtifact& driver, const BodyArtifact& driven,
                                    const VariantSlice& slice);
 
-// The answers, in the order of answer_kinds(slice.directions), SI: those of static_transmission at the variant's torque and of
-// the response of sweep() in each direction; equal to what the stages one by one answer. report(done, total, note) is called
-// after each speed. Throws as static_transmission, sweep and response.
-Eigen::VectorXd variant_answers(const BodyArtifact& driver, const BodyArtifact& driven,
-                                const VariantSlice& slice,
-                                const std::function<void(long, long, const std::string&)>& report);
+struct VariantAnswers {
+  Eigen::VectorXd answer;       // SI, in the order of answer_kinds(slice.directions)
+  std::vector<Remark> remarks;  // of the statics and of each sweep, which they name
+};
+
+// The answers are those of static_transmission at the variant's torque and of the response of sweep() in each direction; equal
+// to what the stages one by one answer, and so are the remarks. report(done, total, note) is called after each speed. Throws as
+// static_transmission, sweep and response.
+VariantAnswers variant_answers(const BodyArtifact& driver, const BodyArtifact& driven,
+                               const VariantSlice& slice,
+                               const std::function<void(long, long, const std::string&)>& report);
 
 }  // namespace whine

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/refusal.h"
 #include "contact/lanes.h"
 #include "files/fit.h"
 #include "motion/dynamics.h"
@@ -83,9 +84,9 @@ class Sweeper {
     const RollingDynamics::State start = state_;
     for (;; ++level_) {
       if (level_ > kMostLevel)
-        fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks: forces above ",
-             bounds(kMostLevel).force, " N or deflections above ", bounds(kMostLevel).deflection * 1e6,
-             " micrometres; lower the torque");
+        refuse(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks: forces above ",
+               bounds(kMostLevel).force, " N or deflections above ", bounds(kMostLevel).deflection * 1e6,
+               " micrometres; lower the torque");
       if (auto orbit = try_level(mesh_frequency, looked_for))
         return on_lowest_level(mesh_frequency, std::move(*orbit));
       state_ = start;
@@ -104,7 +105,7 @@ class Sweeper {
       dynamics.set_speed(mesh_frequency, steps_at(slice_.time, mesh_frequency));
       return settle(dynamics, state_, slice_.time.periodicity, slice_.time.steady_state, looked_for);
     } catch (const Error& error) {
-      fail(error.kind(), "at ", mesh_frequency, " Hz, ", error.what());
+      fail_as(error, "at ", mesh_frequency, " Hz, ", error.what());
     }
   }
 

@@ -157,7 +157,7 @@ double percentile(const std::vector<double>& sorted, double share) {
 }
 
 FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
-  FigureBlock table{"variants", {"variant [1]", "refused [1]"}, {}};
+  FigureBlock table{"variants", {"variant [1]", "refused [1]", "unsteady speeds [1]"}, {}};
   for (const VariedKey& key : a.plan.keys)
     table.columns.push_back(key.name +
                             (key.number ? " [" + key.scene_units + "]" : " [place in the list above]"));
@@ -168,7 +168,8 @@ FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
     scale.push_back(unit.scale);
   }
   for (size_t v = 0; v < a.variants.size(); ++v) {
-    std::vector<double> row{static_cast<double>(v), a.refusal[v].empty() ? 0.0 : 1.0};
+    std::vector<double> row{static_cast<double>(v), a.refusal[v].empty() ? 0.0 : 1.0,
+                            static_cast<double>(a.unsteady[static_cast<Index>(v)])};
     for (const Axis& axis : axes) row.push_back(axis.at[v]);
     for (size_t i = 0; i < scale.size(); ++i)
       row.push_back(a.answer(static_cast<Index>(v), static_cast<Index>(i)) * scale[i]);
@@ -209,6 +210,10 @@ Figure study_figure(const StudyArtifact& a) {
       a.plan.random ? text(", drawn with seed ", a.plan.seed) : ", all combinations",
       refused > 0 ? text("; ", refused, " were refused (column 'refused' of the table) and are not drawn")
                   : ""));
+  const auto unsteady = (a.unsteady.array() > 0).count();
+  if (unsteady > 0)
+    figure.notes[0] += text("; ", unsteady, unsteady == 1 ? " has" : " have",
+                            " speeds that did not settle (column 'unsteady speeds'; crossed)");
   figure.words.emplace_back("subtitle", without_markup(figure.notes[0]));
   for (size_t k = 0; k < axes.size(); ++k)
     if (!a.plan.keys[k].number) {
@@ -283,6 +288,8 @@ Figure study_figure(const StudyArtifact& a) {
     const std::string& name = a.plan.figure_answers[r];
     const Shown unit = shown_units(kind_of(a, name).units);
     figure.words.emplace_back(text("y", r + 1), with_unit(label_of(name), unit.units));
+    // What the pair answers at rest does not depend on how its motion ends.
+    const bool of_motion = name.ends_with("_up") || name.ends_with("_down");
     std::vector<double> value(variants);
     std::vector<size_t> drawn;
     for (size_t v = 0; v < variants; ++v) {
@@ -291,8 +298,9 @@ Figure study_figure(const StudyArtifact& a) {
     }
     for (size_t c = 0; c < columns; ++c) {
       const size_t k = key_of(a, a.plan.figure_keys[c]);
-      FigureBlock panel{
-          text("panel", r + 1, "_", c + 1), {with_unit(a.plan.keys[k].name, ""), name, "colour [rgb]"}, {}};
+      FigureBlock panel{text("panel", r + 1, "_", c + 1),
+                        {with_unit(a.plan.keys[k].name, ""), name, "colour [rgb]", "unsteady speeds [1]"},
+                        {}};
       std::vector<size_t> order = drawn;
       // Those that agree in all other keys come one after the other.
       const auto others = [&](size_t v) {
@@ -305,11 +313,16 @@ Figure study_figure(const StudyArtifact& a) {
           const auto x = others(i), y = others(j);
           return x != y ? x < y : axes[k].at[i] < axes[k].at[j];
         });
+      double crossed = 0;
       for (size_t i = 0; i < order.size(); ++i) {
         if (i > 0 && !a.plan.random && others(order[i]) != others(order[i - 1])) panel.rows.emplace_back();
-        panel.rows.push_back({axes[k].at[order[i]], value[order[i]], rgb[order[i]]});
+        const int own_unsteady = a.unsteady[static_cast<Index>(order[i])];
+        crossed += of_motion && own_unsteady > 0;
+        panel.rows.push_back({axes[k].at[order[i]], value[order[i]], rgb[order[i]],
+                              of_motion ? static_cast<double>(own_unsteady) : 0.0});
       }
       figure.numbers.emplace_back(text("drawn", r + 1, "_", c + 1), static_cast<double>(order.size()));
+      figure.numbers.emplace_back(text("crossed", r + 1, "_", c + 1), crossed);
       figure.blocks.push_back(panel);
       std::vector<double> x, y;
       for (const size_t v : drawn) {

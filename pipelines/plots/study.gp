@@ -1,5 +1,5 @@
 # A study: a row of panels for each answer, a column for each key that varies; of a sample the distribution beside them.
-# Variables from gear-plot: tsv, heading, subtitle, height, rows, columns, random, x1.., ticks1.., y1.., drawn1_1.., correlation1_1..,
+# Variables from gear-plot: tsv, heading, subtitle, height, rows, columns, random, x1.., ticks1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
 # percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1..
 set datafile separator whitespace
 set datafile commentschars "#"
@@ -36,10 +36,12 @@ do for [r = 1:int(rows)] {
       set label 1 value(sprintf("correlation%d_%d", r, c)) at graph 0.97, 0.93 right font ",13" front
       if (value(sprintf("drawn%d_%d", r, c)) > 0) {
         panel = sprintf("[panel%d_%d]", r, c)
+        # A cross where the motion did not settle at one of the speeds; plotted only where there is one, lest gnuplot warn of none.
+        crosses = value(sprintf("crossed%d_%d", r, c)) > 0 ? ", tsv index panel using ($4 > 0 ? $1 * scale : NaN):2 with points pt 2 ps 1.8 lw 1.8 lc rgb '#c00000'" : ""
         if (random > 0) {
-          plot tsv index panel using ($1 * scale):2:3 with points pt 7 ps (rows > 2 ? 0.5 : 0.7) lc rgb variable
+          eval("plot tsv index panel using ($1 * scale):2:3 with points pt 7 ps (rows > 2 ? 0.5 : 0.7) lc rgb variable" . crosses)
         } else {
-          plot tsv index panel using ($1 * scale):2:3 with linespoints pt 7 ps 0.7 lw 1.6 lc rgb variable
+          eval("plot tsv index panel using ($1 * scale):2:3 with linespoints pt 7 ps 0.7 lw 1.6 lc rgb variable" . crosses)
         }
       } else {
         set label 2 "none" at graph 0.5, 0.5 center font ",14"
