@@ -319,11 +319,16 @@ void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifac
               reduction / peer.usage.seconds);
 }
 
-// One speed of one contact; the least times of the repeats, the methods in turn.
-void rolling_steps(whine::RollingRig& rig, double frequency, bool strips, double peak) {
+// One speed of one contact; the least times of the repeats, the methods in turn. reference: the same pair by the other
+// integrator in finer steps, which says at what error of the RMS these times were taken.
+void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double frequency, bool strips,
+                   double peak) {
   using namespace whine;
   constexpr int kCount = 8;  // periods a turn
   rig.settle(frequency);
+  reference.settle(frequency);
+  const auto rms = [](const VectorXd& x) { return std::sqrt((x.array() - x.mean()).square().mean()); };
+  const double error = rms(rig.period.transmission_error) / rms(reference.period.transmission_error) - 1;
   const int steps = rig.steps;
   std::vector<RollingDynamics::ContactProblem> problems;
   std::vector<ActiveSet> active;
@@ -385,7 +390,7 @@ void rolling_steps(whine::RollingRig& rig, double frequency, bool strips, double
   }
   std::printf("  %-6s %5.0f %6d %8.0f %8.0f %6.2f", strips ? "strips" : "line", frequency, steps,
               times[0].least * 1e9, times[1].least * 1e9, times[1].least / times[0].least);
-  std::printf(" %8.0f %8.1f %7.1f %7.1f %6.3f %5ld %ld", work.flops, work.bytes / 1024,
+  std::printf(" %7.2f %8.0f %8.1f %7.1f %7.1f %6.3f %5ld %ld", 100 * error, work.flops, work.bytes / 1024,
               work.flops / times[0].least * 1e-9, work.bytes / times[0].least * 1e-9,
               work.flops / times[0].least / peak, requests[0], requests[1]);
   if (strips) {
@@ -423,7 +428,9 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
   using namespace whine;
   const double peak = peak_flops();
   std::printf(
-      "Rolling dynamics: %g N m, Rayleigh %g s, %d modes a gear; least of %d repeats in turn; per step\n",
+      "Rolling dynamics: %g N m, Rayleigh %g s, %d modes a gear; least of %d repeats in turn; per step; RMS "
+      "against Newmark, "
+      "1024 steps a period\n",
       torque, sweep_slice.damping.rayleigh_stiffness, static_cast<int>(driver.eigenfrequency.size()),
       kRepeats);
   std::printf(
@@ -431,8 +438,8 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
       "from 16 kB, 512 kB, 8 MB\n",
       peak * 1e-9, load_bandwidth(16u << 10) * 1e-9, load_bandwidth(512u << 10) * 1e-9,
       load_bandwidth(8u << 20) * 1e-9);
-  std::printf("  %-6s %5s %6s %8s %8s %6s %8s %8s %7s %7s %6s %7s   %s\n", "", "Hz", "steps", "ns", "ledger",
-              "over", "flops", "kB", "Gflop/s", "GB/s", "limit", "mallocs",
+  std::printf("  %-6s %5s %6s %8s %8s %6s %7s %8s %8s %7s %7s %6s %7s   %s\n", "", "Hz", "steps", "ns",
+              "ledger", "over", "RMS %", "flops", "kB", "Gflop/s", "GB/s", "limit", "mallocs",
               "its contact problem alone: ns, share, LEMKE's time over it");
   std::vector<StaticArtifact> at_torque, at_reference;
   for (const char* contact : {"strips", "line"}) {
@@ -440,9 +447,12 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
     at_torque.push_back(static_transmission(driver, driven, slice, torque));
     at_reference.push_back(static_transmission(driver, driven, slice, sweep_slice.reference_torque));
     const GearMeshModel model(driver, driven, slice.mesh);
-    RollingRig rig(model, at_torque.back(), sweep_slice);
+    SweepSlice finer = sweep_slice;
+    finer.fidelity.integrator = "newmark";
+    finer.time.steps_per_period = 1024;
+    RollingRig rig(model, at_torque.back(), sweep_slice), reference(model, at_torque.back(), finer);
     for (double frequency : {1350.0, 2400.0, 3300.0})
-      rolling_steps(rig, frequency, slice.fidelity.contact == "strips", peak);
+      rolling_steps(rig, reference, frequency, slice.fidelity.contact == "strips", peak);
   }
   std::printf(
       "Sweeps up and down on one core, %g to %g Hz in steps of %g Hz; CPU without reading and writing\n",
