@@ -200,7 +200,7 @@ std::string read_bytes(const std::string& path, const std::string& hint) {
   if (::fstat(file.number(), &status) != 0) refuse(system_says(errno));
   if (S_ISDIR(status.st_mode)) refuse("it is a folder");
   // Others, such as a pipe or /dev/zero, need not end.
-  if (!S_ISREG(status.st_mode)) refuse("it is no regular file; give one");
+  if (!S_ISREG(status.st_mode)) refuse("it is no regular file");
   std::string bytes;
   if (status.st_size > 0) bytes.reserve(static_cast<std::size_t>(status.st_size));
   std::string block(1 << 16, '\0');
