@@ -183,7 +183,7 @@ make_ -n animation
 expect "an animation: one sweep, on the calibrated scene" "gear-animate*1"
 make_ animation; make_ -n animation
 expect "an animation is up to date" ""
-[ "$(find out/figures/animation -name 'motion-*.png' | wc -l)" = 48 ] && [ -e out/figures/animation/motion.gif ] && ok "with its 48 frames" || wrong "with its 48 frames" "$(ls out/figures/animation | wc -l) files"
+[ "$(find out/figures/animation -name 'motion-*.png' | wc -l)" = 48 ] && [ -e out/figures/animation/motion.gif ] && ok "with its 48 frames" || wrong "with its 48 frames" "$(find out/figures/animation -type f | wc -l) files"
 make_ -n -W out/parker2000-calibrated/T150/down/sweep.h5 animation
 expect "another sweep moves them anew" "gear-animate*1"
 mkdir -p mine; sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/moving.toml
