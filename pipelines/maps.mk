@@ -58,7 +58,7 @@ jump_map_options = --params out/$1/params/map.toml --static-params out/$1/params
 
 define jump_map_rules # scene, torque, corner rule, plan
 out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(jump_map_inputs) $(B)/plans/$(own_scene)/$4 | $(B)/bin/gear-jump-map
-	$$(call run,jump-map) $(jump_map_options) --torque $2 --corner-contact $3 $(plan_$4) --output $$@
+	$$(call run,jump-map) $(jump_map_options) --torque $2 --corner-contact $3 $(plan_$4) --output $$@ $$(call landed,jump-map)
 endef
 
 lumped_map_options = --model $(firstword $(subst -, ,$2)) $(if $(filter %-contact,$2),--damper contact) $(lumped_mass) $(lumped_options_$(patsubst %-contact,%,$2))
@@ -70,12 +70,12 @@ lumped_map_inputs = out/$1/params/lumped_map.toml out/$1/T$2/static.h5 $(if $(fi
 
 define lumped_map_rules # scene, torque, model, plan
 out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(lumped_map_inputs) $(call lumped_map_plan,$1,$3,$4) | $(B)/bin/gear-lumped
-	$$(call run,lumped) --map $(call lumped_map_options,$1,$3) --params $$< --static out/$1/T$2/static.h5 $(plan_$4) --output $$@
+	$$(call run,lumped) --map $(call lumped_map_options,$1,$3) --params $$< --static out/$1/T$2/static.h5 $(plan_$4) --output $$@ $$(call landed,lumped)
 endef
 
 define branches_rules # scene, torque, plan
 out/$1/T$2/$3.h5: $(jump_map_inputs) $(B)/plans/$(own_scene)/$3 | $(B)/bin/gear-jump-map
-	$$(call run,jump-map) $(jump_map_options) --torque $2 $(plan_$3) --output $$@
+	$$(call run,jump-map) $(jump_map_options) --torque $2 $(plan_$3) --output $$@ $$(call landed,jump-map)
 endef
 
 map_torques := $(if $(call fineness,JUMP_MAP),$(fine_torques),$(JUMP_MAP_TORQUES))
@@ -97,11 +97,11 @@ harris_options = --static-params out/$1/params/static.toml $(pair_options)
 
 define harris_rules # scene
 out/$1/harris_map.h5: $(harris_inputs) $(B)/plans/$1/harris_map | $(B)/bin/gear-harris
-	$$(call run,harris) $(harris_options) $(plan_harris_map) --output $$@
+	$$(call run,harris) $(harris_options) $(plan_harris_map) --output $$@ $$(call landed,harris)
 
 out/$1/harris_dynamic.h5: $(harris_inputs) out/$1/params/sweep.toml $(reference_static) $(B)/plans/$1/harris_dynamic | $(B)/bin/gear-harris
 	$$(call run,harris) $(harris_options) $(plan_harris_dynamic) --params out/$1/params/sweep.toml \
-	  --reference-static $(reference_static) --output $$@
+	  --reference-static $(reference_static) --output $$@ $$(call landed,harris)
 endef
 $(if $(SCENE_$(own_scene)_GEARS),$(eval $(call harris_rules,$(own_scene))))
 

@@ -1,11 +1,11 @@
 # What machine and input may do to a result: sanitizers, faults, fuzzing, numbers under stress, static checks.
 #
-#   make test-sanitize        the tests of the programs' parts under ASan, UBSan and -D_GLIBCXX_ASSERTIONS
+#   make test-sanitize        the tests of the programs' parts under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, without tests/unsanitized
 #   make test-faults          kills, full disks, damaged files, two makes at once; FAULT_KILLS=50
 #   make fuzz                 FUZZ_SECONDS=60 for each reader, from the corpus in tests/fuzz/corpus
 #   make stress               contact problems and whole scenes by the thousand; STRESS_PROBLEMS, STRESS_SCENES
 #   make test-report          reports of whole scenes, their pages in a headless browser
-#   make lint                 clang-tidy, include direction of the rooms, shellcheck
+#   make lint                 clang-tidy of common/ and tools/, include direction of the rooms, shellcheck
 
 .PHONY: deps-lint deps-fuzz
 deps-lint: wanted := clang-tidy clang-format shellcheck

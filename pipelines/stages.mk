@@ -8,12 +8,19 @@
 launch = $(or $(LAUNCH_$1),$(LAUNCH))
 run = $(if $(call launch,$1),$(call launch,$1) )$(B)/bin/gear-$1
 
+# $(call landed,stage): behind it. A launcher that has ended well without its program having run ends the recipe, also where an
+# earlier file is still there; a file that another machine has written may be seen late, so it is waited for, in seconds.
+LAUNCH_WAIT ?= 60
+landed = $(if $(call launch,$1),&& { for second in $$(seq 0 $(LAUNCH_WAIT)); do \
+  fresh=yes; for input in $^; do [ -e $@ ] && [ ! $$input -nt $@ ] || fresh=; done; [ -z "$$fresh" ] || exit 0; sleep 1; done; \
+  echo "$@: the launcher '$(call launch,$1)' has ended$(,) but its result is not there after $(LAUNCH_WAIT) s" >&2; exit 1; })
+
 define body_rules # hash
 out/bodies/$1/mesh.h5: out/bodies/$1/body.toml $(call id,gear-mesh) | $(B)/bin/gear-mesh
-	$$(call run,mesh) --params $$< --output $$@
+	$$(call run,mesh) --params $$< --output $$@ $$(call landed,mesh)
 
 out/bodies/$1/body.h5: out/bodies/$1/body.toml out/bodies/$1/mesh.h5 $(call id,gear-reduce) | $(B)/bin/gear-reduce
-	$$(call run,reduce) --params $$< --mesh out/bodies/$1/mesh.h5 --output $$@
+	$$(call run,reduce) --params $$< --mesh out/bodies/$1/mesh.h5 --output $$@ $$(call landed,reduce)
 endef
 
 define gear_rules # scene, gear: the same files, seen through the link out/<scene>/<gear>
@@ -27,12 +34,12 @@ reference_static = out/$1/T$(SCENE_$1_REFERENCE_TORQUE)/static.h5
 
 define static_rules # scene, torque
 out/$1/T$2/static.h5: out/$1/params/static.toml $(pair_bodies) $(call id,gear-static) | $(B)/bin/gear-static
-	$$(call run,static) --params $$< $(pair_options) --torque $2 --output $$@
+	$$(call run,static) --params $$< $(pair_options) --torque $2 --output $$@ $$(call landed,static)
 endef
 
 define budget_rules # scene, torque
 out/$1/T$2/error_budget.h5: out/$1/params/static.toml $(pair_bodies) $(call id,gear-static) | $(B)/bin/gear-static
-	$$(call run,static) --error-budget --params $$< $(pair_options) --torque $2 --output $$@
+	$$(call run,static) --error-budget --params $$< $(pair_options) --torque $2 --output $$@ $$(call landed,static)
 endef
 
 impact_inputs = out/$1/params/impact.toml $(pair_bodies) out/$1/T$2/static.h5 $(reference_static)
@@ -40,14 +47,14 @@ impact_options = --params out/$1/params/impact.toml $(pair_options) --static out
 
 define impact_rules # scene, torque
 out/$1/T$2/impact.h5: $(impact_inputs) $(call id,gear-impact) | $(B)/bin/gear-impact
-	$$(call run,impact) $(impact_options) --output $$@
+	$$(call run,impact) $(impact_options) --output $$@ $$(call landed,impact)
 endef
 
 define sweep_rules # scene, torque, direction
 out/$1/T$2/$3/sweep.h5: out/$1/params/sweep.toml $(pair_bodies) \
     out/$1/T$2/static.h5 $(reference_static) $(call id,gear-sweep) | $(B)/bin/gear-sweep
 	$$(call run,sweep) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
-	  --reference-static $(reference_static) --direction $3 --output $$@
+	  --reference-static $(reference_static) --direction $3 --output $$@ $$(call landed,sweep)
 
 out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)/bin/gear-spectra
 	$(B)/bin/gear-spectra --input $$< --output $$@
@@ -58,7 +65,7 @@ pair_meshes = $(patsubst %/body.h5,%/mesh.h5,$(pair_bodies))
 define loaded_rules # scene, torque
 out/$1/T$2/loaded_%.h5: out/$1/T$2/static.h5 $(pair_bodies) $(pair_meshes) $(call id,gear-loaded) | $(B)/bin/gear-loaded
 	$$(call run,loaded) --static out/$1/T$2/static.h5 $(pair_options) --driver-mesh out/$1/$(SCENE_$1_DRIVER)/mesh.h5 \
-	  --driven-mesh out/$1/$(SCENE_$1_DRIVEN)/mesh.h5 --mesh-phase $$* --output $$@
+	  --driven-mesh out/$1/$(SCENE_$1_DRIVEN)/mesh.h5 --mesh-phase $$* --output $$@ $$(call landed,loaded)
 endef
 
 # Options that stand in the makefiles, in files of their own that are made again if they say otherwise: so that other options
@@ -88,7 +95,7 @@ lumped_plan_file = $(B)/plans/$1/lumped_$3
 define lumped_rules # scene, torque, model, direction
 out/$1/T$2/$3/$4/sweep.h5: out/$1/params/lumped.toml out/$1/T$2/static.h5 $(if $(filter rectangular,$3),$(reference_static)) \
     $(lumped_plan_file) $(call id,gear-lumped) | $(B)/bin/gear-lumped
-	$$(call run,lumped) $(lumped_plan) --static out/$1/T$2/static.h5 --params $$< --direction $4 --output $$@
+	$$(call run,lumped) $(lumped_plan) --static out/$1/T$2/static.h5 --params $$< --direction $4 --output $$@ $$(call landed,lumped)
 
 out/$1/T$2/$3/$4/response.h5: out/$1/T$2/$3/$4/sweep.h5 $(call id,gear-spectra) | $(B)/bin/gear-spectra
 	$(B)/bin/gear-spectra --input $$< --output $$@

@@ -39,13 +39,6 @@ include $(study_fragments)
 study_variants = $(foreach p,$(STUDY_$1_PAIRS),$(STUDY_$1_$p:%=out/studies/$1/%.h5))
 study_bodies = $(sort $(foreach p,$(STUDY_$1_PAIRS),$(foreach h,$(subst _, ,$p),out/bodies/$h/body.h5)))
 
-# A launcher that has ended without its program having run ends the recipe; a file that another machine has written may be seen
-# late, so it is waited for, in seconds.
-LAUNCH_WAIT ?= 60
-landed = $(if $(call launch,$1),&& { for second in $$(seq 0 $(LAUNCH_WAIT)); do \
-  fresh=yes; for input in $^; do [ -e $@ ] && [ ! $$input -nt $@ ] || fresh=; done; [ -z "$$fresh" ] || exit 0; sleep 1; done; \
-  echo "$@: the launcher '$(call launch,$1)' has ended$(,) but its result is not there after $(LAUNCH_WAIT) s" >&2; exit 1; })
-
 define study_pair_rules # study, pair, driver, driven
 $(STUDY_$1_$2:%=out/studies/$1/%.h5): %.h5: %.toml $(sort out/bodies/$3/body.h5 out/bodies/$4/body.h5) $(call id,gear-variant) | $(B)/bin/gear-variant
 	$$(call run,variant) --params $$< --driver out/bodies/$3/body.h5 --driven out/bodies/$4/body.h5 --plan out/studies/$1/plan.toml $(STUDY_$1_OPTIONS) \

@@ -107,6 +107,9 @@ for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin"
   esac
 done
 
+grep -q '^# .*gaps are drawn wider than at scale' examples/out/parker2000/report/animation.tsv && ok "an animation says what is drawn wider than at scale" ||
+  wrong "an animation says what is drawn wider than at scale" "$(head -n 4 examples/out/parker2000/report/animation.tsv 2>&1 | tr '\n' ' ')"
+
 # --- what ParaView sees
 if /usr/bin/python3 -c 'from vtkmodules.vtkIOHDF import vtkHDFReader' 2> /dev/null && command -v h5dump > /dev/null; then
   at=examples/out/parker2000

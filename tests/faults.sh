@@ -35,6 +35,7 @@ plant "$tree"
 cd "$tree" || exit 1
 at=out/own/T100
 goals="$at/impact.h5 $at/down/response.h5 $at/pairs/up/response.h5 fig12"
+[ -n "$short" ] || goals="$goals $at/loaded_0.25.h5"
 make_() { make $sanitize SCENE=own.toml "$@" > "$log" 2>&1; }
 # Of out, which may be a link; of links in it nothing.
 contents() { find -H out -type f ! -name '*.tmp.*' -print0 | sort -z | xargs -0 -r sha256sum; }
@@ -86,6 +87,7 @@ fi
 # --- kills: make and all that it runs, at a moment of the run that is left when a stage has yet to be done
 stages=("out/bodies/*/mesh.h5" "out/bodies/*/body.h5" "$at/static.h5" "$at/impact.h5" "$at/down/sweep.h5" "$at/pairs/up/sweep.h5"
   "$at/down/response.h5" "out/own/report/fig12.*")
+[ -n "$short" ] || stages+=("$at/loaded_0.25.h5")
 declare -A lasts
 for stage in "${stages[@]}"; do
   rm -f $stage; begin=$(date +%s%N); make_ $goals; lasts[$stage]=$((($(date +%s%N) - begin) / 1000000))
@@ -112,8 +114,10 @@ for ((k = 0; killed < kills && late < 3 * kills; )); do
     late=$((late + 1)) # it had ended already: another moment
   fi
 done
-if [ $survived = "$kills" ]; then ok "$kills kills, seed ${FAULT_SEED:-1}, at random moments of ${#stages[@]} stages: $survived survived"; else
-  wrong "$kills kills, seed ${FAULT_SEED:-1}" "$survived of $killed survived; $faults"; fi
+if [ $survived != $killed ]; then wrong "$kills kills, seed ${FAULT_SEED:-1}" "$survived of $killed survived; $faults"
+elif [ $killed -gt 0 ]; then ok "$killed kills, seed ${FAULT_SEED:-1}, at random moments of ${#stages[@]} stages: $survived survived"; fi
+# Moments are shares of times measured before: where these were long, because others had the machine, makes end before they are hit.
+[ $killed = "$kills" ] || skip "$((kills - killed)) of $kills kills: $late came after make had ended"
 
 # --- disks
 if [ -n "$short" ]; then :; elif [ "$(id -u)" = 0 ] && mkdir -p "$base/disk" && mount -t tmpfs -o size=8m tmpfs "$base/disk" 2> /dev/null; then

@@ -52,7 +52,7 @@ done
 echo "$name $output" >> calls
 [ "${FAIL:-}" != "$output" ] || exit 1
 mkdir -p "$(dirname "$output")"
-case $name in gear-report) touch "$output" "${output%/*}/results.tsv" ;; gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
+case $name in gear-animate) touch "$output".{tsv,gif} "$output"-{000..047}.png ;; gear-report) touch "$output" "${output%/*}/results.tsv" ;; gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
 SCRIPT
 done
 scene=data/scenes/parker2000.toml
@@ -168,6 +168,27 @@ make_ -n VARIANTS='bad:bore_radius=35' sensitivity
 grep -q "did you mean 'bore_radius_mm'" "$log" && ok "a variant of a key that is none is refused" || wrong "a bad variant is refused" "$(tail -n 1 "$log")"
 make_ -n LAUNCH='srun -n1' JUMP_MAP_STEP=10 jump-map
 [ "$(grep -c '^srun -n1 build.*/bin/gear-jump-map ' "$log")" = 24 ] && [ "$(grep -c '^srun -n1 build.*/bin/gear-lumped --map ' "$log")" = 64 ] && ok "LAUNCH carries the maps" || wrong "LAUNCH carries the maps" "$(tail -n 1 "$log")"
+
+# --- loaded gears, moving gears
+make_ static; make_ -n loaded
+expect "loaded gears rest on statics and meshes that are there" "gear-loaded*1"
+make_ PHASE=0.5 TORQUE=170 loaded
+grep -q '^.*bin/gear-loaded --static out/parker2000/T170/static.h5 .*--mesh-phase 0.5 --output out/parker2000/T170/loaded_0.5.h5' <(sed ':a;/\\$/{N;s/\\\n//;ba}' "$log") &&
+  ok "at a phase and a torque of one's own" || wrong "at a phase and a torque of one's own" "$(tail -n 1 "$log")"
+make_ -n PHASE=0.5 TORQUE=170 loaded
+expect "loaded gears are up to date then" ""
+make_ -n -W out/parker2000/T170/static.h5 PHASE=0.5 TORQUE=170 loaded
+expect "other statics load them anew" "gear-loaded*1"
+make_ -n animation
+expect "an animation: one sweep, on the calibrated scene" "gear-animate*1"
+make_ animation; make_ -n animation
+expect "an animation is up to date" ""
+[ "$(find out/figures/animation -name 'motion-*.png' | wc -l)" = 48 ] && [ -e out/figures/animation/motion.gif ] && ok "with its 48 frames" || wrong "with its 48 frames" "$(find out/figures/animation -type f | wc -l) files"
+make_ -n -W out/parker2000-calibrated/T150/down/sweep.h5 animation
+expect "another sweep moves them anew" "gear-animate*1"
+mkdir -p mine; sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/moving.toml
+make_ -n SCENE=mine/moving.toml animation
+grep -q -e '--sweep out/moving/T90/down/sweep.h5 .*--output out/moving/report/animation/motion' <(sed ':a;/\\$/{N;s/\\\n//;ba}' "$log") && ok "of a scene at its first torque" || wrong "of a scene at its first torque" "$(tail -n 1 "$log")"
 
 # --- reports
 make_ -n report
@@ -298,6 +319,35 @@ expect "FREEZE=1 keeps them" ""
 make_ -n LAUNCH='srun -n1 --exact' out/parker2000/T50/up/response.h5
 [ "$(grep -c '^srun -n1 --exact build.*/bin/gear-\(static\|sweep\) ' "$log")" = 2 ] && ok "LAUNCH carries the heavy stages" ||
   wrong "LAUNCH carries the heavy stages" "$(grep bin/ "$log")"
+
+# A launcher that ends well and has run nothing, stage by stage: with nothing there, and with an earlier file that is stale.
+lost() { grep -q "$2: the launcher 'true' has ended, but its result is not there after 0 s" "$log" || missed="$missed $1"; }
+missed=
+while read -r stage file; do
+  make_ $file; mv $file kept
+  make_ LAUNCH_$stage=true LAUNCH_WAIT=0 $file && missed="$missed $stage(status)"; lost $stage $file
+  mv kept $file; touch -d 2000-01-01 $file
+  make_ LAUNCH_$stage=true LAUNCH_WAIT=0 $file && missed="$missed $stage(stale)"; lost "$stage(stale)" $file
+  make_ LAUNCH=env LAUNCH_WAIT=0 $file || missed="$missed $stage(env)"
+done << STAGES
+mesh $(readlink -f out/parker2000/pinion | sed "s|^$PWD/||")/mesh.h5
+reduce $(readlink -f out/parker2000/pinion | sed "s|^$PWD/||")/body.h5
+static out/parker2000/T50/static.h5
+static out/parker2000/T50/error_budget.h5
+impact out/parker2000/T50/impact.h5
+sweep out/parker2000/T50/up/sweep.h5
+loaded out/parker2000/T50/loaded_0.5.h5
+lumped out/parker2000/T50/secant/up/sweep.h5
+lumped out/parker2000/T150/jump_map_secant.h5
+jump-map out/parker2000/T150/jump_map_true.h5
+jump-map out/parker2000/T150/branches.h5
+harris out/parker2000/harris_map.h5
+harris out/parker2000/harris_dynamic.h5
+animate out/parker2000-calibrated/report/animation/motion.tsv
+STAGES
+[ -z "$missed" ] && ok "a launcher that has ended well without a result is found out for every stage, beside a stale file, too" ||
+  wrong "a launcher that has ended well without a result is found out for every stage, beside a stale file, too" "not for$missed"
+make_ LAUNCH=true LAUNCH_WAIT=0 out/parker2000/T55/static.h5 && wrong "LAUNCH=true fails at its first stage" "status 0" || ok "LAUNCH=true fails at its first stage"
 
 # --- a fresh machine: deps runs before whatever needs a package, in any order of the goals
 mkdir machine

@@ -40,6 +40,11 @@ if [ -z "$found" ]; then echo "ok: no date is compiled in"; else echo "FAILED: a
 # gmsh's library has an Eigen of its own, compiled for another processor: a template that a program exports would take its place.
 exported=$(for program in "$B"/bin/gear-* "$B"/bin/whine-*; do nm -D --defined-only "$program" | grep -q Eigen && echo "$program"; done)
 if [ -z "$exported" ]; then echo "ok: programs export nothing of Eigen"; else echo "FAILED: Eigen's symbols are exported by $exported"; fi
+if [ -x "$B/bin/whine-tests" ]; then
+  found=$(grep -v '^#' tests/unsanitized | while read -r pattern; do
+    [ "$("$B/bin/whine-tests" --no-colors=true -c -tc="$pattern" | sed -n 's/.*current filters: *//p')" = 1 ] || echo "$pattern"; done)
+  if [ -z "$found" ]; then echo "ok: each line of tests/unsanitized is a case"; else echo "FAILED: tests/unsanitized: not one case: $found"; fi
+fi
 found=$(grep -n -w Approx tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp | grep -v '^tests/relative\.h:' | head -3)
 if [ -z "$found" ]; then echo "ok: tests compare numbers by relative() only"; else echo "FAILED: Approx adds 1 to the scale, use relative(): $found"; fi
 if ! command -v clang-format > /dev/null; then

@@ -62,7 +62,7 @@ changed 's/^values = \[100, 150\]/values = [150, 100, 200]/'
 [ "$(stages reduce) $(stages variant)" = "0 2" ] && ok "another torque computes its own variants, whatever the order" || wrong "another torque computes its own variants" "$(stages reduce) $(stages variant)"
 cp small.original small.toml
 make_ STUDY=small.toml study
-changed '1i # a comment'; [ "$(grep -c 'bin/gear-' "$log")" = 0 ] && ok "a comment redoes nothing" || wrong "a comment redoes nothing" "$(grep -m1 bin/gear- "$log")"
+changed '1i # a comment'; [ "$(grep -c '^[^ ]*bin/gear-' "$log")" = 0 ] && ok "a comment redoes nothing" || wrong "a comment redoes nothing" "$(grep -m1 bin/gear- "$log")"
 changed '1i title = "Another"'; [ "$(stages variant) $(stages study) $(stages plot)" = "0 1 1" ] && ok "another title redoes table and figure only" || wrong "another title" "$(cat "$log")"
 cp small.original small.toml
 changed 's/^stage = .*/stage = "static"/; /^directions/d; s/^values = \[5.*/values = [7.7e-6, 5.5e-6]/'
@@ -110,7 +110,7 @@ refused "a share that is none" 'SHARE=3/2: it is i/n' STUDY=small.toml SHARE=3/2
 
 # A torque at which the flanks are not long enough: the stage refuses it.
 printf 'scene = "own.toml"\n[[vary]]\nkey = "operation.torque_Nm"\nvalues = [100, 900000]\n' > heavy.toml
-refused "a variant that a stage refuses, by its values" "gear-variant: error: .*: variant 1 \(operation.torque_Nm = 900000\): " -k STUDY=heavy.toml study
+refused "a variant that a stage refuses, by its values" "gear-variant: error: .*: variant 1 \(operation.torque_Nm = 900000\): at 900000 N m contact leaves the flanks: window [0-9.]* mm either side, and still " -k STUDY=heavy.toml study
 [ "$(find out/studies/heavy -name '*.h5' | wc -l)" = 1 ] && ok "make -k computes the others, but no table" || wrong "make -k computes the others, but no table" "$(find out/studies/heavy -name '*.h5')"
 sed -i '1i refusals = "mark"' heavy.toml
 if make_ STUDY=heavy.toml study && grep -q 'warning: variant 1 (operation.torque_Nm = 900000) was refused: ' "$log" && grep -q '^# refused (1): ' out/studies/heavy/study.tsv; then

@@ -268,7 +268,8 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
   figure.title = text("Gears at ", speed, " Hz mesh frequency, ", s.torque, " N m, speed ",
                       s.direction == "up" ? "rising" : "falling");
   figure.notes = {text("Vibration and deflection magnified ", magnified,
-                       " times; teeth bend as at rest under the loads of the moment"),
+                       " times; teeth bend as at rest under the loads of the moment; gaps are "
+                       "drawn wider than at scale as far as teeth would overlap"),
                   text("Arrows: force of each pair on the driven gear",
                        drawn_back > 0 ? text("; back flanks are drawn ", std::round(drawn_back * 1e5) / 1e2,
                                              " mm thinner, the model has none")
