@@ -12,7 +12,7 @@ run = $(if $(call launch,$1),$(call launch,$1) )$(B)/bin/gear-$1
 # earlier file is still there; a file that another machine has written may be seen late, so it is waited for, in seconds.
 LAUNCH_WAIT ?= 60
 landed = $(if $(call launch,$1),&& { for second in $$(seq 0 $(LAUNCH_WAIT)); do \
-  fresh=yes; for input in $^; do [ -e $@ ] && [ ! $$input -nt $@ ] || fresh=; done; [ -z "$$fresh" ] || exit 0; sleep 1; done; \
+  fresh=yes; for input in $^; do [ -e $@ ] && [ ! $$input -nt $@ ] || fresh=; done; [ -z "$$fresh" ] || exit 0; [ $$second = $(LAUNCH_WAIT) ] || sleep 1; done; \
   echo "$@: the launcher '$(call launch,$1)' has ended$(,) but its result is not there after $(LAUNCH_WAIT) s" >&2; exit 1; })
 
 define body_rules # hash
