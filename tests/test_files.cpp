@@ -450,6 +450,7 @@ StudyArtifact small_study() {
   a.answer = odd_matrix(3, 2, 1e-6);
   a.answer.row(1).setZero();
   a.refusal = {"", "it jams", ""};
+  a.unsteady = Eigen::Vector3i(2, 0, 1);
   return a;
 }
 
@@ -821,6 +822,7 @@ TEST_CASE("study.h5 gives back every value bit by bit") {
   }
   CHECK(a.answer == b.answer);
   CHECK(a.refusal == b.refusal);
+  CHECK(a.unsteady == b.unsteady);
 }
 
 TEST_CASE("two writes of the same values give the same bytes, another value others") {
