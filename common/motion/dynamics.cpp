@@ -1,5 +1,6 @@
 #include "motion/dynamics.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
