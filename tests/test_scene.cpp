@@ -287,6 +287,7 @@ TEST_CASE("names must lead somewhere: gears, materials, like") {
   CHECK(contains(file.refusal(scene_with("like = \"pinion\"", "like = \"wheel\"")), "is like itself"));
   CHECK(
       contains(file.refusal(scene_with("like = \"pinion\"", "like = \"pinoin\"")), "did you mean 'pinion'?"));
+  CHECK(contains(file.refusal(scene_with("bore_radius_mm", "bore_mm")), "did you mean 'bore_radius_mm'?"));
   CHECK(contains(file.refusal(with_section("[gear.third]\nlike = \"wheel\"\n")), "name the first gear"));
   CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.T150]")), "cannot be called 'T150'"));
   CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.params]")), "cannot be called 'params'"));

@@ -301,9 +301,13 @@ std::string next_rung(const std::string& key, const std::string& choice) {
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t least = word.size() / 2 + 2;
+  auto least = static_cast<std::ptrdiff_t>(word.size() / 2 + 2);
   for (const auto& candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
+    // Words that both begin with bring them nearer: bore_mm is meant for bore_radius_mm, not for module_mm.
+    const auto apart = std::mismatch(word.begin(), word.end(), candidate.begin(), candidate.end()).first;
+    const std::size_t shared = std::string(word.begin(), apart).rfind('_') + 1;
+    const auto distance =
+        static_cast<std::ptrdiff_t>(edit_distance(word, candidate)) - static_cast<std::ptrdiff_t>(shared);
     if (distance < least) {
       least = distance;
       best = candidate;
