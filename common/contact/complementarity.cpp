@@ -10,13 +10,12 @@
 
 namespace whine {
 
-using Eigen::Ref;
 using Eigen::VectorXd;
 
 void GrowingMatrix::reserve(int n) {
   const int stride = padded(n);
   if (stride <= stride_) return;
-  store_.setZero(static_cast<Eigen::Index>(stride) * stride);
+  store_.assign(static_cast<size_t>(stride) * static_cast<size_t>(stride), 0.0);
   stride_ = stride;
   size_ = 0;
 }
@@ -298,13 +297,12 @@ void ComplementaritySolver::verify(const Matrix& a, const Vector& e, const std::
     fail(Failure::numerical, "the gaps of ", n, " strips are not finite with ", k,
          " of them in contact: the compliance or the unloaded gap (largest ", scale_, " m) holds no number");
 
-  defect_ = 0;
-  double sum = 0, diagonal = 0, least_force = kInfinity, least_product = kInfinity;
+  double defect = 0, sum = 0, diagonal = 0, least_force = kInfinity, least_product = kInfinity;
   for (int i = 0; i < k; ++i) {
     const int strip = strips[i];
     const double force = p_active_[i], own = a(strip, strip);
     p[strip] = force;
-    defect_ = std::max(defect_, std::abs(d[strip]));
+    defect = std::max(defect, std::abs(d[strip]));
     sum += std::abs(force);
     diagonal = std::max(diagonal, own);
     least_force = std::min(least_force, force);
@@ -312,6 +310,7 @@ void ComplementaritySolver::verify(const Matrix& a, const Vector& e, const std::
     right_[i] = d[strip];
     d[strip] = kInfinity;  // so that the least gap is that of the others
   }
+  defect_ = defect;
   const double least_gap = n > k ? d.minCoeff() : 0;
   for (int i = 0; i < k; ++i) d[strips[i]] = 0;  // exact by the solve, round-off otherwise
   gap_tolerance_ = 1e-12 * scale_ + 16 * std::numeric_limits<double>::epsilon() * diagonal * sum;

@@ -12,6 +12,7 @@
 // Memory is taken when the number of strips grows, never afterwards.
 #pragma once
 #include <Eigen/Core>
+#include <memory_resource>
 #include <vector>
 
 namespace whine {
@@ -22,6 +23,9 @@ class GrowingMatrix {
  public:
   using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
   using ConstBlock = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+  explicit GrowingMatrix(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : store_(memory) {}
 
   // Room for (n, n). Loses the contents if it has to grow.
   void reserve(int n);
@@ -40,13 +44,16 @@ class GrowingMatrix {
   }
 
  private:
-  Eigen::VectorXd store_;
+  std::pmr::vector<double> store_;
   int size_ = 0, stride_ = 0;
 };
 
 // The active set of a solve and the inverse of A on it. One per problem family (for instance: one per mesh
 // position); `forget` when A changes.
 struct ActiveSet {
+  explicit ActiveSet(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : inverse(memory) {}
+
   std::vector<int> strips;  // indices with force, ascending
   GrowingMatrix inverse;    // (active, active) of A on them; valid if `known`
   bool known = false;

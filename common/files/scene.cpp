@@ -442,6 +442,7 @@ std::vector<std::pair<std::string, const toml::table*>> named_sections(const Sou
 
 std::vector<std::string> names_of(const std::vector<std::pair<std::string, const toml::table*>>& sections) {
   std::vector<std::string> names;
+  names.reserve(sections.size());
   for (const auto& section : sections) names.push_back(section.first);
   return names;
 }

@@ -431,23 +431,34 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   // Memory stays; so do the active strips, or the forces, of a step at the same phase, as a first guess.
   const int before = static_cast<int>(step_data_.size());
   if (before != steps) {
-    std::vector<Step> other(steps);
-    for (int i = 0; i < steps && before > 0; ++i)
-      if (i * before % steps == 0) {
-        other[i].active.strips = step_data_[i * before / steps].active.strips;
-        other[i].force = step_data_[i * before / steps].force;
+    size_t numbers = 0;
+    for (int i = 0; i < steps; ++i) {
+      const auto strips = static_cast<size_t>(positions_[i * stride_].mesh.strips());
+      numbers += strips * strips + static_cast<size_t>(padded(static_cast<int>(strips))) *
+                                       static_cast<size_t>(padded(static_cast<int>(strips)));
+    }
+    auto memory = std::make_unique<std::pmr::monotonic_buffer_resource>(
+        std::max<size_t>(1, numbers) * sizeof(double), &huge_pages());
+    std::vector<Step> other;
+    other.reserve(steps);
+    for (int i = 0; i < steps; ++i) {
+      Step& step = other.emplace_back(positions_[i * stride_].mesh.strips(), memory.get());
+      if (before > 0 && i * before % steps == 0) {
+        step.active.strips = step_data_[i * before / steps].active.strips;
+        step.force = step_data_[i * before / steps].force;
       }
+    }
     step_data_ = std::move(other);
+    step_memory_ = std::move(memory);
   }
   MatrixXd at_nodes;
   for (int i = 0; i < steps; ++i) {
     const Position& position = positions_[i * stride_];
     step_data_[i].active.forget();
     step_data_[i].start.forget();
-    step_data_[i].compliance = position.local;
     at_nodes = lag_.from_new * position.lagged;
     add_response(position, at_nodes);
-    position.mesh.add_to_strips(at_nodes, step_data_[i].compliance);
+    position.mesh.add_to_strips(at_nodes, position.local, step_data_[i].compliance);
   }
 }
 

@@ -29,8 +29,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <map>
+#include <memory>
+#include <memory_resource>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "contact/lanes.h"
 #include "contact/line_contact.h"
 #include "files/schemas.h"
@@ -153,8 +156,15 @@ class RollingDynamics {
     int partner = -1;                             // other half of a doublet
     double turn = 0;                              // rad: its turn per mesh period (0 if single)
   };
-  struct Step {                  // one position at one speed
-    Eigen::MatrixXd compliance;  // (strip, strip)
+  struct Step {  // one position at one speed
+    Step(int strips, std::pmr::memory_resource* memory)
+        : store(static_cast<size_t>(strips) * static_cast<size_t>(strips), memory),
+          compliance(store.data(), strips, strips),
+          active(memory) {
+      active.inverse.reserve(strips);
+    }
+    std::pmr::vector<double> store;
+    Eigen::Map<Eigen::MatrixXd> compliance;  // (strip, strip)
     ActiveSet active;
     PairVector force;  // (pair) N, of lines: what they carried here last; empty: not known
     LineStart start;   // of lines, at this speed
@@ -185,7 +195,7 @@ class RollingDynamics {
     size_t hunting = 0;  // place of its gaps in each mesh period's part of hunting_gap_
     Frame frame;
   };
-  using Stream = std::vector<double, Eigen::aligned_allocator<double>>;  // lanes in one cache line
+  using Stream = std::pmr::vector<double>;  // on huge_pages(), so lanes stand in one cache line
   struct LineRecord;
   struct ShapeLanes;
   static const ShapeLanes kShape;
@@ -318,11 +328,12 @@ class RollingDynamics {
   double rigid_frequency_ = 0;  // rad s-1: sqrt(mean stiffness / reduced mass)
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;
-  Stream stream_;
+  Stream stream_{&huge_pages()};
   WindowMemory memory_;
   int hunting_ = 1;
   std::vector<double> hunting_gap_;  // m: (mesh period, strip of all positions), of teeth that differ
-  std::vector<Step> step_data_;
+  std::unique_ptr<std::pmr::monotonic_buffer_resource> step_memory_;
+  std::vector<Step> step_data_;  // in it
   SpeedCoefficients speed_;
   DampingIntegrals damping_;
   Lag lag_{};

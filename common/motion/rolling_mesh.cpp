@@ -120,8 +120,9 @@ VectorXd MeshPosition::to_nodes(const Eigen::Ref<const VectorXd>& on_strips) con
 
 namespace {
 
-// y += sum over k of f[k apart] * column k of six columns of `rows`.
-void add_six_columns(double* y, const double* columns, int rows, const double* f, int apart) {
+// y = before + sum over k of f[k apart] * column k of six columns of `rows`.
+void add_six_columns(double* y, const double* before, const double* columns, int rows, const double* f,
+                     int apart) {
   static_assert(kWindowNodes == 6);
   const double *c0 = columns, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows, *c4 = c3 + rows,
                *c5 = c4 + rows;
@@ -129,17 +130,18 @@ void add_six_columns(double* y, const double* columns, int rows, const double* f
                f5 = f[5 * apart];
   int i = 0;
   for (; i + kLanes <= rows; i += kLanes)
-    lanes(y + i) += (f0 * lanes(c0 + i) + f1 * lanes(c1 + i) + f2 * lanes(c2 + i)) +
-                    (f3 * lanes(c3 + i) + f4 * lanes(c4 + i) + f5 * lanes(c5 + i));
+    lanes(y + i) = lanes(before + i) + ((f0 * lanes(c0 + i) + f1 * lanes(c1 + i) + f2 * lanes(c2 + i)) +
+                                        (f3 * lanes(c3 + i) + f4 * lanes(c4 + i) + f5 * lanes(c5 + i)));
   for (; i < rows; ++i)
-    y[i] += (f0 * c0[i] + f1 * c1[i] + f2 * c2[i]) + (f3 * c3[i] + f4 * c4[i] + f5 * c5[i]);
+    y[i] = before[i] + ((f0 * c0[i] + f1 * c1[i] + f2 * c2[i]) + (f3 * c3[i] + f4 * c4[i] + f5 * c5[i]));
 }
 
 }  // namespace
 
-void MeshPosition::add_to_strips(const MatrixXd& at_nodes, MatrixXd& a) const {
+void MeshPosition::add_to_strips(const MatrixXd& at_nodes, const MatrixXd& before,
+                                 Eigen::Ref<MatrixXd> a) const {
   if (!law.empty()) {
-    a += at_nodes;
+    a = before + at_nodes;
     return;
   }
   Eigen::Matrix<double, Eigen::Dynamic, kWindowNodes> half;
@@ -147,11 +149,11 @@ void MeshPosition::add_to_strips(const MatrixXd& at_nodes, MatrixXd& a) const {
     for (size_t j = 0; j < pairs.size(); ++j) {
       half.setZero(pairs[i].size(), kWindowNodes);
       for (int k = 0; k < kWindowNodes; ++k)
-        add_six_columns(half.col(k).data(), pairs[i].interpolation.data(), pairs[i].size(),
-                        &at_nodes(i * kWindowNodes, j * kWindowNodes + k), 1);
+        add_six_columns(half.col(k).data(), half.col(k).data(), pairs[i].interpolation.data(),
+                        pairs[i].size(), &at_nodes(i * kWindowNodes, j * kWindowNodes + k), 1);
       for (int c = 0; c < pairs[j].size(); ++c)
-        add_six_columns(&a(first_strip[i], first_strip[j] + c), half.data(), pairs[i].size(),
-                        &pairs[j].interpolation(c, 0), pairs[j].size());
+        add_six_columns(&a(first_strip[i], first_strip[j] + c), &before(first_strip[i], first_strip[j] + c),
+                        half.data(), pairs[i].size(), &pairs[j].interpolation(c, 0), pairs[j].size());
     }
 }
 
