@@ -67,14 +67,15 @@ std::string scene_variant(const std::string& path, const std::vector<std::string
     }
     const bool in_gear = section == "modification" || section == "error" || section == "crack";
     const std::string group = in_gear ? "gear" : section;
+    const bool in_list = group == "mesh", has_owner = group == "gear" || group == "material";
     toml::node* node = scene.get(group);
-    if (!node && (group == "gear" || group == "material" || group == "mesh"))
+    if (!node && (in_list || has_owner))
       fail(Failure::input, path, ": lacks the section [", group, "] of the key '", name, "'");
-    if (section == "mesh") {
+    if (in_list) {
       if (toml::array* list = node->as_array())
         for (toml::node& mesh : *list)
           if (toml::table* table = mesh.as_table()) set(*table, leaf, value);
-    } else if (group == "gear" || group == "material") {
+    } else if (has_owner) {
       toml::table* members = node->as_table();
       if (!members) continue;  // what it is instead is told when the scene is read
       require_member(*members, group, owner, path);

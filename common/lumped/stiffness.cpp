@@ -208,6 +208,7 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
   };
   const double coefficient = surface(s.driver_material, s.driver) + surface(s.driven_material, s.driven);
   const int springs = std::max(1, chords);
+  const int up_to_static = chords / 2, beyond = chords - up_to_static;
   const auto add_pair = [&](const Point& p, double gap, Eigen::Index row, Eigen::Index first,
                             LumpedParameters& to) {
     to.gap(row, first) = gap;
@@ -215,10 +216,9 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
     double before = 0, reached = 0, slope = 0;
     for (int i = 0; i < chords; ++i) {
       const int below =
-          chords / 2 - 1 - i;  // halvings from the static load; from it on equal ratios to the last load
-      const double load = below >= 0
-                              ? std::ldexp(p.load, -below)
-                              : p.load * std::pow(4 * force / p.load, -below / double(chords - chords / 2));
+          up_to_static - 1 - i;  // halvings from the static load; from it on equal ratios to the last load
+      const double load = below >= 0 ? std::ldexp(p.load, -below)
+                                     : p.load * std::pow(4 * force / p.load, -below / double(beyond));
       const double deflection = hertz_deflection(load, p.load, p.stiffness, coefficient);
       const double chord = (load - before) / (deflection - reached);
       if (!(chord > slope))
