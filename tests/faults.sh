@@ -29,13 +29,26 @@ plant() {
     s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2000, to = 2100, step = 50 }/
     s/^modes = [^ ]*/modes = 5/; s/^\[discretisation\]/&\npositions = 16/; s/^steps_per_period = [^ ]*/steps_per_period = 32/
     s/^min_sample_rate_kHz = [^ ]*/min_sample_rate_kHz = 50/' data/scenes/parker2000.toml > "$1/own.toml"
+  cat > "$1/few.toml" << 'END'
+title = "Two loads, two dampings"
+scene = "own.toml"
+stage = "sweep"
+plan = "grid"
+answers = ["te_peak_to_peak", "rms_max_up"]
+[[vary]]
+key = "operation.torque_Nm"
+values = [100, 150]
+[[vary]]
+key = "damping.rayleigh_stiffness_s"
+values = [5.5e-6, 7.7e-6]
+END
 }
 tree=$base/tree log=$base/log
 plant "$tree"
 cd "$tree" || exit 1
 at=out/own/T100
 goals="$at/impact.h5 $at/down/response.h5 $at/pairs/up/response.h5 fig12"
-[ -n "$short" ] || goals="$goals $at/loaded_0.25.h5"
+[ -n "$short" ] || goals="$goals $at/loaded_0.25.h5 study STUDY=few.toml"
 make_() { make $sanitize SCENE=own.toml "$@" > "$log" 2>&1; }
 # Of out, which may be a link; of links in it nothing.
 contents() { find -H out -type f ! -name '*.tmp.*' -print0 | sort -z | xargs -0 -r sha256sum; }
@@ -87,7 +100,7 @@ fi
 # --- kills: make and all that it runs, at a moment of the run that is left when a stage has yet to be done
 stages=("out/bodies/*/mesh.h5" "out/bodies/*/body.h5" "$at/static.h5" "$at/impact.h5" "$at/down/sweep.h5" "$at/pairs/up/sweep.h5"
   "$at/down/response.h5" "out/own/report/fig12.*")
-[ -n "$short" ] || stages+=("$at/loaded_0.25.h5")
+[ -n "$short" ] || stages+=("$at/loaded_0.25.h5" "out/studies/few/variants/*/*.h5" "out/studies/few/study.h5")
 declare -A lasts
 for stage in "${stages[@]}"; do
   rm -f $stage; begin=$(date +%s%N); make_ $goals; lasts[$stage]=$((($(date +%s%N) - begin) / 1000000))
@@ -180,9 +193,9 @@ refused_and_remade() { # <claim> <file>
   if [ -n "$goal" ]; then
     rm -f $goal; touch -r "$base/stamp" $file
     if make_ $goals; then wrong "$claim" "make did not notice"; restore; return; fi
-    one_line "$claim: make stops" "${file##*/}: .*(truncated|damaged|empty|no content hash).*make (SCENE=own.toml )?out/[^ ]*${file##*/}"
+    one_line "$claim: make stops" "${file##*/}: .*(truncated|damaged|empty|no content hash).*make ((SCENE=own|STUDY=path/to/few).toml )?out/[^ ]*${file##*/}"
   fi
-  if said=$("$inspect" --check 2>&1) || ! grep -q -E "$file: .*make (SCENE=own.toml )?$file" <<< "$said"; then wrong "$claim: gear-inspect --check names it" "$said"; fi
+  if said=$("$inspect" --check 2>&1) || ! grep -q -E "$file: .*make ((SCENE=own|STUDY=path/to/few).toml )?$file" <<< "$said"; then wrong "$claim: gear-inspect --check names it" "$said"; fi
   rm -f $file; again "$claim: deleted as it says, and made again"
 }
 for file in $victims; do
@@ -202,7 +215,7 @@ for file in $victims; do
       old=$(od -An -tu1 -j $place -N1 $file)
       printf "\\$(printf %03o $((old ^ (1 << RANDOM % 8))))" | dd of=$file bs=1 seek=$place conv=notrunc status=none
       flipped=$((flipped + 1))
-      if "$inspect" $file > /dev/null 2> "$log" || ! grep -q -E "$file: .*make (SCENE=own.toml )?$file" "$log"; then missed="$missed $dataset"; else found=$((found + 1)); fi
+      if "$inspect" $file > /dev/null 2> "$log" || ! grep -q -E "$file: .*make ((SCENE=own|STUDY=path/to/few).toml )?$file" "$log"; then missed="$missed $dataset"; else found=$((found + 1)); fi
       printf "\\$(printf %03o $old)" | dd of=$file bs=1 seek=$place conv=notrunc status=none
     done
   done < <("$base/layout" $file)

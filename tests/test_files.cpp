@@ -995,6 +995,10 @@ TEST_CASE("only what lies below out/ has a make target") {
   // Of a scene that is none of the project's.
   CHECK(rebuild_advice("out/s/T150/static.h5") ==
         "rebuild it with: make SCENE=path/to/s.toml out/s/T150/static.h5");
+  CHECK(rebuild_advice("out/studies/thousand/study.h5") ==
+        "rebuild it with: make out/studies/thousand/study.h5");
+  CHECK(rebuild_advice("out/studies/own/variants/ab/abcd.h5") ==
+        "rebuild it with: make STUDY=path/to/own.toml out/studies/own/variants/ab/abcd.h5");
   CHECK(rebuild_advice("results/static.h5").find("make results") == std::string::npos);
   CHECK(rebuild_advice("results/static.h5").find("below out/ only") != std::string::npos);
 }

@@ -135,12 +135,17 @@ std::string rebuild_advice(const std::string& path) {
     return "make has targets below out/ only, such as out/<scene>/T150/static.h5: give one of these, or make "
            "it again "
            "as it was made";
-  // Of a scene that is none of the project's make has to be told where it is.
+  // Of a scene or a study that is none of the project's make has to be told where it is.
   const std::string scene = target.substr(4, target.find('/', 4) - 4);
+  if (const std::string studies = "out/studies/"; target.rfind(studies, 0) == 0) {
+    const std::string study =
+        target.substr(studies.size(), target.find('/', studies.size()) - studies.size());
+    const bool own = !std::filesystem::is_regular_file("data/studies/" + study + ".toml");
+    return "rebuild it with: make " + (own ? "STUDY=path/to/" + study + ".toml " : "") + target;
+  }
   std::string file = recorded_scene("out/" + scene);
   if (!std::filesystem::is_regular_file(file)) file = "data/scenes/" + scene + ".toml";
-  const bool of_none =
-      scene == "bodies" || scene == "figures" || scene == "studies" || scene.find('.') != std::string::npos;
+  const bool of_none = scene == "bodies" || scene == "figures" || scene.find('.') != std::string::npos;
   std::string told;
   if (!of_none && !std::filesystem::is_regular_file(file))
     told = "SCENE=path/to/" + scene + ".toml ";
