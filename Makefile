@@ -76,11 +76,12 @@ $(precompiled).gch: common/base/precompiled.h $(B)/flags | $$(@D)/ $(with_deps)
 $(objects): $(B)/obj/%.o: %.cpp $(B)/flags $(precompiled).gch | $$(@D)/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -include $(precompiled) -MMD -MP -c -o $@ $<
 
+# (private: not for the precompiled header, if a test is the first that wants it)
 # Assertions as calls rather than as code in place: a third of the time of compiling them.
-$(filter $(B)/obj/tests/%,$(objects)): CPPFLAGS += -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+$(filter $(B)/obj/tests/%,$(objects)): private CPPFLAGS += -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 
 # HDF5 stays in one room: nobody else finds its headers.
-$(filter $(B)/obj/common/files/%,$(objects)): CPPFLAGS += $(HDF5_CFLAGS)
+$(filter $(B)/obj/common/files/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
 # A library for each room, from the top floor down as the linker wants them. The folder stands for its list of files: a
 # source that goes away leaves the library, too.

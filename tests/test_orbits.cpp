@@ -248,6 +248,45 @@ TEST_CASE("the end of a branch does not depend on the steps of the sweep that le
   CHECK(std::abs(ends[1] - ends[0]) < 2);
 }
 
+TEST_CASE(
+    "a sweep that foretells the next speed keeps a branch to its end; one that marches on leaves it "
+    "earlier") {
+  const BodyArtifact& body = paper_body();
+  StaticSlice coarse = paper_statics(128);
+  coarse.contact.strips = 8;
+  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  const auto swept = [&](const char* method) {
+    SweepSlice slice = paper_sweep(1700, 2900, 20);
+    slice.damping.rayleigh_stiffness = kLightDamping;
+    slice.time.steady_state = method;
+    return response(sweep(body, body, statics, 463e6, slice, "down", no_report));
+  };
+  const ResponseArtifact foretold = swept("extrapolate"), marched = swept("march");
+  REQUIRE(foretold.jump_frequency.size() == 1);
+  REQUIRE(marched.jump_frequency.size() == 1);
+  CHECK(std::abs(marched.jump_frequency[0] - foretold.jump_frequency[0]) < 1);
+  double apart = 0;
+  int early = 0, compared = 0;
+  for (Eigen::Index i = 0; i < foretold.mesh_frequency.size(); ++i) {
+    const double f = foretold.mesh_frequency[i];
+    const bool upper = foretold.dte_rms[i] > 5e-6;
+    if (f > 2700) continue;  // the branches are one
+    CHECK(upper == (f > foretold.jump_frequency[0]));
+    if ((marched.dte_rms[i] > 5e-6) != upper) {
+      CHECK(upper);
+      ++early;
+      continue;
+    }
+    apart = std::max(apart, std::abs(marched.dte_rms[i] / foretold.dte_rms[i] - 1));
+    ++compared;
+  }
+  MESSAGE("marched sweep: " << early << " speeds early, apart by " << apart << " at " << compared
+                            << " others");
+  CHECK(early <= 3);
+  CHECK(compared > 40);
+  CHECK(apart < 2e-5);
+}
+
 TEST_CASE("on one branch sweeps up and down agree, though one of them came from motions with wider contact") {
   const BodyArtifact& body = paper_body();
   StaticSlice coarse = paper_statics(128);

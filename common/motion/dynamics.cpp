@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "base/dense.h"
 #include "base/error.h"
@@ -431,25 +433,23 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
   // Memory stays; so do the active strips, or the forces, of a step at the same phase, as a first guess.
   const int before = static_cast<int>(step_data_.size());
   if (before != steps) {
-    size_t numbers = 0;
-    for (int i = 0; i < steps; ++i) {
-      const auto strips = static_cast<size_t>(positions_[i * stride_].mesh.strips());
-      numbers += strips * strips + static_cast<size_t>(padded(static_cast<int>(strips))) *
-                                       static_cast<size_t>(padded(static_cast<int>(strips)));
-    }
-    auto memory = std::make_unique<std::pmr::monotonic_buffer_resource>(
-        std::max<size_t>(1, numbers) * sizeof(double), &huge_pages());
-    std::vector<Step> other;
-    other.reserve(steps);
-    for (int i = 0; i < steps; ++i) {
-      Step& step = other.emplace_back(positions_[i * stride_].mesh.strips(), memory.get());
-      if (before > 0 && i * before % steps == 0) {
-        step.active.strips = step_data_[i * before / steps].active.strips;
-        step.force = step_data_[i * before / steps].force;
+    std::vector<std::pair<std::vector<int>, PairVector>> known(steps);
+    for (int i = 0; i < steps && before > 0; ++i)
+      if (i * before % steps == 0) {
+        Step& step = step_data_[i * before / steps];
+        known[i] = {std::move(step.active.strips), step.force};
       }
+    step_data_.clear();
+    size_t numbers = 0;
+    for (int i = 0; i < steps; ++i) numbers += Step::numbers(positions_[i * stride_].mesh.strips());
+    if (step_memory_.size() < numbers) step_memory_.resize(numbers);
+    step_pool_ = std::make_unique<std::pmr::monotonic_buffer_resource>(
+        step_memory_.data(), step_memory_.size() * sizeof(double), std::pmr::null_memory_resource());
+    step_data_.reserve(steps);
+    for (int i = 0; i < steps; ++i) {
+      Step& step = step_data_.emplace_back(positions_[i * stride_].mesh.strips(), step_pool_.get());
+      std::tie(step.active.strips, step.force) = std::move(known[i]);
     }
-    step_data_ = std::move(other);
-    step_memory_ = std::move(memory);
   }
   MatrixXd at_nodes;
   for (int i = 0; i < steps; ++i) {

@@ -156,7 +156,11 @@ class RollingDynamics {
     int partner = -1;                             // other half of a doublet
     double turn = 0;                              // rad: its turn per mesh period (0 if single)
   };
-  struct Step {  // one position at one speed
+  struct Step {                          // one position at one speed
+    static size_t numbers(int strips) {  // that it takes of its memory
+      const auto n = static_cast<size_t>(strips), whole = static_cast<size_t>(padded(strips));
+      return n * n + whole * whole;
+    }
     Step(int strips, std::pmr::memory_resource* memory)
         : store(static_cast<size_t>(strips) * static_cast<size_t>(strips), memory),
           compliance(store.data(), strips, strips),
@@ -332,8 +336,9 @@ class RollingDynamics {
   WindowMemory memory_;
   int hunting_ = 1;
   std::vector<double> hunting_gap_;  // m: (mesh period, strip of all positions), of teeth that differ
-  std::unique_ptr<std::pmr::monotonic_buffer_resource> step_memory_;
-  std::vector<Step> step_data_;  // in it
+  std::pmr::vector<double> step_memory_{&huge_pages()};
+  std::unique_ptr<std::pmr::monotonic_buffer_resource> step_pool_;  // on it
+  std::vector<Step> step_data_;                                     // in it
   SpeedCoefficients speed_;
   DampingIntegrals damping_;
   Lag lag_{};

@@ -187,6 +187,21 @@ BranchMotion branch_motion(double mesh_frequency, const Orbit& orbit) {
   return {mesh_frequency, orbit.rms, orbit.multiple};
 }
 
+// Where the motions of the last two speeds lead, while they are of one branch: nearer to the motion at the next speed than where
+// the last one ended, and on the branch up to where it ends.
+void start_ahead(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
+                 const std::vector<RollingDynamics::State>& reached, double mesh_frequency) {
+  const size_t n = motions.size();
+  const int single = sweeper.dynamics().hunting_periods();
+  if (n < 2 || motions[n - 2].multiple != single || motions[n - 1].multiple != single ||
+      may_break(motions, n - 1))
+    return;
+  sweeper.state() = foretold(
+      sweeper.dynamics(),
+      {{motions[n - 2].mesh_frequency, reached[n - 2]}, {motions[n - 1].mesh_frequency, reached[n - 1]}},
+      mesh_frequency);
+}
+
 struct Jump {
   double frequency, width;
 };
@@ -345,6 +360,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   std::vector<RollingDynamics::State> reached;
   for (int i = 0; i < speeds; ++i) {
     const double f = speed(direction == "up" ? i : speeds - 1 - i);
+    if (slice.time.steady_state != "march") start_ahead(sweeper, motions, reached, f);
     steady.push_back(sweeper.run(f));
     motions.push_back(branch_motion(f, steady.back()));
     reached.push_back(sweeper.state());
