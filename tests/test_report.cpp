@@ -128,26 +128,35 @@ TEST_CASE("load sharing: shares at a mesh phase add up to the whole load, period
 TEST_CASE(
     "waterfall: lines stand at the orders of what is known, half orders where the motion repeats after two "
     "periods") {
-  const Figure figure = waterfall_figure(some_sweep("up"));
+  const Figure figure = waterfall_figure({some_sweep("up")});
   std::map<std::pair<double, double>, double> lines;
-  for (const auto& row : block(figure, "spectra").rows) lines[{row[0], row[1]}] = row[2];
+  for (const auto& row : block(figure, "spectra up").rows) lines[{row[0], row[1]}] = row[2];
   CHECK(lines.size() == 4 * 2 + 1);
   for (const double f : {1000.0, 1100.0, 1200.0, 1300.0}) {
     CHECK(lines.at({f, f}) == relative(3, 1e-12));
     CHECK(lines.at({f, 2 * f}) == relative(2, 1e-12));
   }
   CHECK(lines.at({1100, 550}) == relative(1, 1e-12));
-  const FigureBlock& orders = block(figure, "orders");
+  const FigureBlock& orders = block(figure, "orders up");
   REQUIRE(orders.rows.size() == 4);
   for (const auto& row : orders.rows) {
     CHECK(row[1] == relative(3, 1e-12));
     CHECK(row[2] == relative(2, 1e-12));
   }
   // Of many speeds those with the largest RMS: every second one of 80, but that of the half order.
-  const Figure many = waterfall_figure(some_sweep("down", 80));
-  CHECK(block(many, "speeds").rows.size() == 40);
-  const auto& shown = block(many, "speeds").rows;
+  const Figure many = waterfall_figure({some_sweep("down", 80)});
+  CHECK(block(many, "speeds down").rows.size() == 40);
+  const auto& shown = block(many, "speeds down").rows;
   CHECK(std::find(shown.begin(), shown.end(), std::vector<double>{8800}) != shown.end());
+  // Of two sweeps the rising one comes first, each with blocks of its own.
+  const Figure both = waterfall_figure({some_sweep("down"), some_sweep("up")});
+  REQUIRE(both.blocks.size() == 6);
+  CHECK(both.blocks[0].rows == block(figure, "spectra up").rows);
+  CHECK(block(both, "orders down").rows.front()[0] == 1300);
+  CHECK_THROWS_AS(waterfall_figure({some_sweep("up"), some_sweep("up")}), Error);
+  SweepArtifact heavier = some_sweep("down");
+  heavier.torque = 300;
+  CHECK_THROWS_AS(waterfall_figure({some_sweep("up"), heavier}), Error);
 }
 
 TEST_CASE("tooth loads against speed: those of the sweeps, the period of the largest load in the middle") {

@@ -148,10 +148,10 @@ const std::map<std::string, Drawing>& drawings() {
           return whine::load_sharing_figure(read_all(in, whine::read_static));
         }}},
       {"waterfall",
-       {"spectra of the dynamic transmission error against mesh frequency, and its first orders", "sweep.h5",
-        1, 0,
+       {"spectra of the dynamic transmission error against mesh frequency, and its first orders",
+        "sweep.h5 of a sweep, or of those up and down of one torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return whine::waterfall_figure(whine::read_sweep(in[0]));
+          return whine::waterfall_figure(read_all(in, whine::read_sweep));
         }}},
       {"tooth-loads",
        {"tooth loads against mesh frequency, and over the mesh period at the speed with the largest RMS",
