@@ -36,7 +36,8 @@ ReportPicture read_picture(const std::string& path) {
 ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
   const SweepArtifact sweep = read_sweep(path);
   for (const StaticArtifact& statics : content.statics)
-    if (statics.torque == sweep.torque) return {response(sweep), remarks(sweep, statics)};
+    if (statics.torque == sweep.torque)
+      return {response(sweep), remarks(sweep, statics), backlash_left(sweep)};
   fail(Failure::input, path, ": is at ", sweep.torque, " N m, at which no static.h5 is given; give it, too");
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -16,6 +17,7 @@
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
 #include "signal/branch_end.h"
+#include "signal/response.h"
 
 namespace whine {
 
@@ -253,6 +255,12 @@ double steps_per_oscillation(const SweepArtifact& sweep) {
   return rate / sweep.natural_frequency;
 }
 
+Eigen::VectorXd backlash_left(const SweepArtifact& s) {
+  // The margin of the whole sweep is that of its farthest swing back.
+  return s.transmission_error.rowwise().minCoeff().array() - s.transmission_error.minCoeff() +
+         s.backlash_margin;
+}
+
 std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& statics) {
   constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
   std::vector<Remark> out;
@@ -287,9 +295,13 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
   if (least < 0 && !std::isfinite(s.backlash_margin))
     add(false, "the teeth swing ", std::round(-least * 1e7) / 10,
         " um apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
-  if (s.backlash_margin <= 0)
-    add(true, "the motion goes ", -s.backlash_margin * 1e6,
-        " um beyond the backlash; back flanks would touch, which is not modelled");
+  if (s.backlash_margin <= 0) {
+    std::map<double, bool> beyond;
+    const Eigen::VectorXd left = backlash_left(s);
+    for (Eigen::Index i = 0; i < left.size(); ++i) beyond[s.mesh_frequency[i]] = left[i] <= 0;
+    add(true, "at ", speed_ranges(beyond), " Hz the motion goes up to ", -s.backlash_margin * 1e6,
+        " um beyond the backlash; back flanks would touch there, which is not modelled");
+  }
   return out;
 }
 

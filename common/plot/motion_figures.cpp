@@ -426,15 +426,7 @@ std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down
   for (const ResponseArtifact* r : {&up, &down})
     for (Eigen::Index f = 0; f < r->mesh_frequency.size(); ++f)
       parts[r->mesh_frequency[f]] |= r->separation_fraction[f] > 0;
-  std::string ranges;
-  for (auto first = parts.begin(); first != parts.end(); ++first) {
-    if (!first->second) continue;
-    auto last = first;
-    while (std::next(last) != parts.end() && std::next(last)->second) ++last;
-    ranges += (ranges.empty() ? "" : ", ") + fixed(first->first, 0);
-    if (last != first) ranges += " to " + fixed(last->first, 0);
-    first = last;
-  }
+  const std::string ranges = speed_ranges(parts);
   return ranges.empty() ? "nowhere" : ranges;
 }
 
