@@ -539,7 +539,6 @@ std::string of_budget(const ReportContent& c) {
 
 struct Explained {
   const char *name, *section, *title;
-  const char* of_paper;  // figure of P2000 that shows the same, or ""
   std::function<std::string(const ReportContent&)> words;
 };
 
@@ -549,39 +548,39 @@ std::function<std::string(const ReportContent&)> plain(const char* words) {
 
 const std::vector<Explained>& explained() {
   static const std::vector<Explained> all{
-      {"fig01", "gears", "Mesh of the pair", "Figure 1",
+      {"fig01", "gears", "Mesh of the pair",
        plain("Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the "
              "contact; the mesh carries their bending.")},
-      {"profile-chart", "gears", "Profile charts", "",
+      {"profile-chart", "gears", "Profile charts",
        plain("Profile charts of the driving flanks as an inspection sheet shows them: material against roll "
              "angle, the tip to the right.")},
-      {"fig03", "rest", "Contact zone", "Figure 3",
+      {"fig03", "rest", "Contact zone",
        plain("Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside "
              "Hertz's.")},
-      {"fig12", "rest", "Static transmission error", "Figure 12", of_transmission_error},
-      {"fig13", "rest", "Mesh stiffness", "Figure 13", of_stiffness},
-      {"load-sharing", "rest", "Load sharing", "", of_load_sharing},
-      {"sidebands", "rest", "Sidebands", "",
+      {"fig12", "rest", "Static transmission error", of_transmission_error},
+      {"fig13", "rest", "Mesh stiffness", of_stiffness},
+      {"load-sharing", "rest", "Load sharing", of_load_sharing},
+      {"sidebands", "rest", "Sidebands",
        plain("Teeth that differ: transmission error over the period after which the same teeth meet, and the "
              "shafts' orders and sidebands at rest and in motion.")},
-      {"crack", "rest", "The cracked tooth", "",
+      {"crack", "rest", "The cracked tooth",
        plain("The mark of the cracked tooth in the static transmission error, and its orders.")},
-      {"fig05", "motion", "Vibration over speed", "Figure 5", of_response},
-      {"fig07", "motion", "Vibration over speed", "Figure 7", of_response},
-      {"fig14-elastic", "motion", "RMS and mean over speed", "",
+      {"fig05", "motion", "Vibration over speed", of_response},
+      {"fig07", "motion", "Vibration over speed", of_response},
+      {"fig14-elastic", "motion", "RMS and mean over speed",
        plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
-      {"waterfall", "motion", "Waterfall", "", of_waterfall},
-      {"tooth-loads", "motion", "Tooth loads in motion", "", of_tooth_loads},
-      {"error-budget", "errors", "Error budget", "", of_budget}};
+      {"waterfall", "motion", "Waterfall", of_waterfall},
+      {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
+      {"error-budget", "errors", "Error budget", of_budget}};
   return all;
 }
 
 // By its name, which is that of its files: numbers of the page would be taken for those of P2000's figures.
 std::string figure(const ReportContent& c, const ReportPicture& picture, const Explained& kind) {
   std::string words = escaped(kind.words(c));
-  if (*kind.of_paper)
-    words +=
-        text(" ", picture.name, " shows of this pair what ", kind.of_paper, " of P2000 shows of its own.");
+  if (const std::string paper = paper_figure(picture.name); !paper.empty())
+    words += text(" ", picture.name, " shows of this pair what ", paper, " of P2000 ",
+                  paper.starts_with("Figures") ? "show" : "shows", " of its own.");
   return text("<figure id=\"", picture.name, "\">\n<img alt=\"", escaped(picture.name),
               "\" src=\"data:image/png;base64,", base64(picture.bytes), "\">\n<figcaption><strong>",
               kind.title, " (", picture.name, ").</strong> ", words, " <span class=\"files\">", "<a href=\"",
