@@ -14,6 +14,7 @@
 #include "base/refusal.h"
 #include "contact/lanes.h"
 #include "files/fit.h"
+#include "gear/scene_geometry.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
 #include "signal/branch_end.h"
@@ -316,6 +317,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     fail(Failure::input, "the speed range from ", slice.frequency_from, " to ", slice.frequency_to,
          " Hz in steps of ", slice.frequency_step, " Hz is empty");
 
+  require_inertia(statics.mesh, {&driver, &driven}, {slice.driver_inertia, slice.driven_inertia});
   const GearMeshModel model(driver, driven, statics.mesh);
   DynamicParameters parameters;
   parameters.torque = statics.torque;
