@@ -238,7 +238,7 @@ std::string footer() {
     lines += "  " + name + ": " + drawing.shows + ". From " + drawing.inputs + "\n";
   return lines + "  " + kTable + ": natural frequencies, as a table. From impact.h5, one per torque\n" +
          "Example:\n"
-         "  gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5 "
+         "  gear-plot fig05 --output fig05 out/parker2000/T150/up/response.h5 "
          "out/parker2000/T150/down/response.h5";
 }
 
