@@ -275,7 +275,7 @@ whine::Figure figure_of(const std::string& name, const std::string& stem, const 
       whine::fail(whine::Failure::usage, name, ": --mesh-frequency ", f, "; it is in Hz, above 0");
   whine::Figure figure = drawing.draw(inputs, mesh_frequencies);
   if (const std::string paper = whine::paper_figure(stem); !paper.empty())
-    figure.title += " (as " + paper + " of P2000)";
+    figure.title += ", as " + paper + " of P2000";
   figure.scenes = scenes_of(name, inputs, figure);
   return figure;
 }

@@ -15,9 +15,10 @@
 namespace whine {
 namespace {
 
-std::string too_light(double inertia, double least) {
-  return text("total_inertia_kgm2 = ", inertia, " lies below the inertia of its own body, ",
-              shown_number(least), " kg m2: it is that of all that turns with the gear; raise it");
+// least: words for the body's own, without the unit.
+std::string too_light(double inertia, const std::string& least) {
+  return text("total_inertia_kgm2 = ", shown_number(inertia), " lies below the inertia of its own body, ",
+              least, " kg m2: it is that of all that turns with the gear; raise it");
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ void check_geometry(const Scene& scene, const std::string& where, bool is_file) 
       const ToothGeometry tooth(gear.design);
       if (gear.design.crack.depth > 0) crack_slit(tooth);
       if (const double least = least_body_inertia(tooth, gear.material); gear.total_inertia < least)
-        fail(Failure::input, too_light(gear.total_inertia, least));
+        fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
     });
     in_part(".modification", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
     in_part(".error", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
@@ -79,7 +80,7 @@ void require_inertia(const GearMeshSpec& mesh, const std::array<const BodyArtifa
   for (size_t g = 0; g < 2; ++g)
     if (!(inertia[g] > bodies[g]->inertia))
       refuse(Failure::input, "[gear.", g ? mesh.driven : mesh.driver,
-             "] of the scene: ", too_light(inertia[g], bodies[g]->inertia));
+             "] of the scene: ", too_light(inertia[g], shown_number(bodies[g]->inertia)));
 }
 
 }  // namespace whine

@@ -300,7 +300,8 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
     std::map<double, bool> beyond;
     const Eigen::VectorXd left = backlash_left(s);
     for (Eigen::Index i = 0; i < left.size(); ++i) beyond[s.mesh_frequency[i]] = left[i] <= 0;
-    add(true, "at ", speed_ranges(beyond), " Hz the motion goes up to ", -s.backlash_margin * 1e6,
+    add(true, "at ", speed_ranges(beyond), " Hz the motion goes up to ",
+        std::round(-s.backlash_margin * 1e8) / 100,
         " um beyond the backlash; back flanks would touch there, which is not modelled");
   }
   return out;

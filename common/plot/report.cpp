@@ -496,6 +496,7 @@ std::string of_response(const ReportContent& c) {
       out += "no jumps; ";
     out += loss == "nowhere" ? "contact is never lost. " : "contact is lost at " + loss + " Hz. ";
   }
+  while (out.ends_with(' ')) out.pop_back();
   return out + beyond_words(c, 0);
 }
 
@@ -569,7 +570,7 @@ const std::vector<Explained>& explained() {
       {"fig07", "motion", "Vibration over speed", of_response},
       {"fig14-elastic", "motion", "RMS and mean over speed",
        plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
-      {"waterfall", "motion", "Waterfall", of_waterfall},
+      {"waterfall", "motion", "Spectra over speed", of_waterfall},
       {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
       {"error-budget", "errors", "Error budget", of_budget}};
   return all;
