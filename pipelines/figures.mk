@@ -37,7 +37,7 @@ inputs_fig11 = $(inputs_fig08)
 inputs_fig12 = $(foreach t,$(call each,$2),out/$1/T$t/static.h5)
 inputs_fig13 = $(inputs_fig12)
 inputs_load-sharing = $(inputs_fig12)
-inputs_waterfall = out/$1/T$(firstword $2)/up/sweep.h5
+inputs_waterfall = $(call both_ways,$1,$(firstword $2),sweep)
 inputs_tooth-loads = $(inputs_fig08)
 inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
 inputs_fig14-elastic = $(inputs_fig07)
@@ -151,8 +151,12 @@ endef
 
 figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/figures)
 
+# $(call stands,words): where a goal is to be found, also when nothing was to be made. By $(info): `make -q` and `make -n` stay as they are.
+stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
+
 .PHONY: figures $(figures) table1 scorecard animation report
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html
+	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
@@ -175,7 +179,7 @@ table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 
 scorecard: out/figures/scorecard.txt ## every number and statement of the paper, its value here in both scenes, whether it agrees
 	@cat $<
 load-sharing: ## the share of the load that a tooth pair carries on its way through the mesh, and the loads over a mesh period, at rest
-waterfall: ## spectra of the dynamic transmission error against mesh frequency, and its first orders, 150 N m (SCENE: its first torque)
+waterfall: ## spectra of the dynamic transmission error against mesh frequency, rising and falling, and its first orders, 150 N m (SCENE: its first torque)
 tooth-loads: ## tooth loads against mesh frequency, and over the mesh period at the resonance, 150 N m (SCENE: its first torque)
 profile-chart: ## what is taken off the driving flanks, as an inspection sheet shows it, of the paper's pair with relief from 20.9 deg (SCENE: of its gears)
 relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relief, at both dampings, 150 N m

@@ -67,6 +67,7 @@ study_made := $(if $(filter study,$(goals)),$(if $(SHARE),$(call shared,$(call s
 .PHONY: study study-bodies
 study-bodies: $(if $(filter study-bodies,$(goals)),$(call study_bodies,$(study_stem))) ## meshes and bodies that the variants of STUDY share
 study: $(study_made) ## variants of a scene, a table and a figure of their answers: STUDY=name or path; SHARE=3/10
+	$(call stands,study: $(if $(SHARE),share $(SHARE) of its variants is there,table and figure are $(basename $<).{tsv$(,)png$(,)svg}))
 
 .PHONY: deps-slurm test-slurm
 deps-slurm: wanted := munge slurmctld slurmd slurm-client

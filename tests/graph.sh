@@ -195,6 +195,7 @@ make_ -n report
 expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*8 gear-report*1 gear-static*1"
 make_ report; make_ -n report
 expect "a report is up to date" ""
+make_ report; grep -q '^report: .*out/parker2000/report/index.html' "$log" && ok "and says where it stands" || wrong "and says where it stands" "$(tail -n 1 "$log")"
 mkdir -p mine
 sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/plain.toml
 make_ -n SCENE=mine/plain.toml report

@@ -69,7 +69,7 @@ for case in 'fzg 200 33.829 50.743 3.2e-4 1.6e-3' 'nasa 71.8 41.769 41.769 3.1e-
   read -r scene torque r1 r2 i1 i2 <<< "$case"
   rigid=$(awk -v k="$(value $scene "$torque" 'mean mesh stiffness')" -v a="$r1" -v b="$r2" -v i="$i1" -v j="$i2" \
     'BEGIN { print sqrt(k * 1e6 * (a * a / i + b * b / j) * 1e-6) / 6.283185307 }')
-  between "$scene: natural frequency somewhat above that of a mass on the mean stiffness" "$(value "$scene" "$torque" 'natural frequency, mean over the period')" \
+  between "$scene: natural frequency somewhat above that of a mass on the mean stiffness" "$(value "$scene" "$torque" 'natural frequency by ring-down, mean over the period')" \
     "$(awk "BEGIN { print 1.02 * $rigid }")" "$(awk "BEGIN { print 1.25 * $rigid }")"
 done
 

@@ -130,6 +130,15 @@ long segments(const Strokes& strokes) {
 
 }  // namespace
 
+TEST_CASE("which figure of P2000 a figure is beside, by its name") {
+  CHECK(paper_figure("fig07") == "Figure 7");
+  CHECK(paper_figure("fig07-600") == "Figure 7");
+  CHECK(paper_figure("fig12") == "Figure 12");
+  CHECK(paper_figure("fig14-elastic") == "Figures 14 and 16");
+  for (const char* name : {"waterfall", "fig", "figure", "fig1", "fig071", "figs07"})
+    CHECK(paper_figure(name).empty());
+}
+
 TEST_CASE(
     "rectangular wave: switches at the ends of the path of contact, levels in the middle of the zones") {
   const StaticArtifact s = some_static(100);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include "failure_of.h"
 #include "files/publish.h"
 #include "motion/statics.h"
+#include "motion/sweep.h"
 #include "paper_pair.h"
 #include "plot/motion_figures.h"
 #include "plot/report.h"
@@ -128,26 +130,35 @@ TEST_CASE("load sharing: shares at a mesh phase add up to the whole load, period
 TEST_CASE(
     "waterfall: lines stand at the orders of what is known, half orders where the motion repeats after two "
     "periods") {
-  const Figure figure = waterfall_figure(some_sweep("up"));
+  const Figure figure = waterfall_figure({some_sweep("up")});
   std::map<std::pair<double, double>, double> lines;
-  for (const auto& row : block(figure, "spectra").rows) lines[{row[0], row[1]}] = row[2];
+  for (const auto& row : block(figure, "spectra up").rows) lines[{row[0], row[1]}] = row[2];
   CHECK(lines.size() == 4 * 2 + 1);
   for (const double f : {1000.0, 1100.0, 1200.0, 1300.0}) {
     CHECK(lines.at({f, f}) == relative(3, 1e-12));
     CHECK(lines.at({f, 2 * f}) == relative(2, 1e-12));
   }
   CHECK(lines.at({1100, 550}) == relative(1, 1e-12));
-  const FigureBlock& orders = block(figure, "orders");
+  const FigureBlock& orders = block(figure, "orders up");
   REQUIRE(orders.rows.size() == 4);
   for (const auto& row : orders.rows) {
     CHECK(row[1] == relative(3, 1e-12));
     CHECK(row[2] == relative(2, 1e-12));
   }
   // Of many speeds those with the largest RMS: every second one of 80, but that of the half order.
-  const Figure many = waterfall_figure(some_sweep("down", 80));
-  CHECK(block(many, "speeds").rows.size() == 40);
-  const auto& shown = block(many, "speeds").rows;
+  const Figure many = waterfall_figure({some_sweep("down", 80)});
+  CHECK(block(many, "speeds down").rows.size() == 40);
+  const auto& shown = block(many, "speeds down").rows;
   CHECK(std::find(shown.begin(), shown.end(), std::vector<double>{8800}) != shown.end());
+  // Of two sweeps the rising one comes first, each with blocks of its own.
+  const Figure both = waterfall_figure({some_sweep("down"), some_sweep("up")});
+  REQUIRE(both.blocks.size() == 6);
+  CHECK(both.blocks[0].rows == block(figure, "spectra up").rows);
+  CHECK(block(both, "orders down").rows.front()[0] == 1300);
+  CHECK_THROWS_AS(waterfall_figure({some_sweep("up"), some_sweep("up")}), Error);
+  SweepArtifact heavier = some_sweep("down");
+  heavier.torque = 300;
+  CHECK_THROWS_AS(waterfall_figure({some_sweep("up"), heavier}), Error);
 }
 
 TEST_CASE("tooth loads against speed: those of the sweeps, the period of the largest load in the middle") {
@@ -231,6 +242,69 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   CHECK(refused([](ReportContent& c) { c.pictures[0].name = "fig99"; }));
   CHECK(refused([](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }));
   CHECK(refused([](ReportContent& c) { c.statics[1].driven.teeth = 51; }));
+}
+
+TEST_CASE("report: numbers of motions beyond the backlash are marked, with the speeds") {
+  ReportContent content;
+  content.scene = "pair: gears";
+  content.statics = {statics_of_paper(150)};
+  content.pictures = {{"fig07", "\x89PNG"}};
+  SweepArtifact up = some_sweep("up"), down = some_sweep("down");
+  // The half order at the second speed swings farthest back.
+  up.backlash_margin = -1e-7;
+  down.backlash_margin = std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd left = backlash_left(up);
+  CHECK(left.minCoeff() == relative(-1e-7, 1e-9));
+  CHECK((left.array() <= 0).count() == 1);
+  CHECK(left[1] < 0);
+  CHECK(std::isinf(backlash_left(down).minCoeff()));
+  const std::vector<Remark> said = remarks(up, content.statics[0]);
+  CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
+    return r.warning && r.words.find("at 1100 Hz the motion goes up to 0.1 um beyond") != std::string::npos;
+  }));
+  for (const SweepArtifact& s : {up, down})
+    content.sweeps.push_back({response(s), remarks(s, content.statics[0]), backlash_left(s)});
+  const std::string table = report_tsv(content), page = report_html(content);
+  CHECK(table.find("mesh frequency there, speed rising\t1100\tHz\tbeyond the backlash\n") !=
+        std::string::npos);
+  CHECK(table.find("150\tmotion beyond the backlash, speed rising\t1100\tHz\n") != std::string::npos);
+  CHECK(table.find("150\tlargest tooth load, speed rising\t130\tN\n") != std::string::npos);  // at 1300 Hz
+  CHECK(table.find("motion beyond the backlash, speed falling") == std::string::npos);
+  CHECK(page.find(">1100 *</td>") != std::string::npos);
+  CHECK(page.find("not modelled: 150 N m, speed rising: 1100 Hz.") != std::string::npos);  // below fig07
+  CHECK(page.find("what Figure 7 of P2000 shows") != std::string::npos);
+  for (ReportSweep& s : content.sweeps) s.backlash_left.setConstant(1e-6);
+  CHECK(report_html(content).find(" *</td>") == std::string::npos);
+}
+
+TEST_CASE(
+    "report: Hertz's pressure of the largest load is that of the statics, and warned of where no steel "
+    "carries it") {
+  ReportContent content;
+  content.scene = "pair: gears";
+  content.statics = {statics_of_paper(150)};
+  const StaticArtifact& s = content.statics[0];
+  Eigen::Index pair = 0;
+  const double load = s.tooth_load.row(0).maxCoeff(&pair);  // at the pitch point, of one pair alone
+  SweepArtifact sweep = some_sweep("up");
+  for (MatrixRM& loads : sweep.tooth_load) loads.setConstant(load);
+  sweep.mesh_force.setConstant(load);
+  content.sweeps = {{response(sweep), {}}};
+  const std::string table = report_tsv(content),
+                    name = "its contact pressure (Hertz, at the pitch point), speed rising\t";
+  const size_t at = table.find(name);
+  REQUIRE(at != std::string::npos);
+  CHECK(std::stod(table.substr(at + name.size())) == relative(s.contact_pressure(0, pair) * 1e-6, 5e-3));
+
+  CHECK(report_html(content).find("hardened steel") == std::string::npos);
+  StaticArtifact pressed = s;
+  pressed.contact_pressure(0, pair) = 1.6e9;
+  const std::vector<Remark> said = remarks(pressed);
+  CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
+    return r.warning && r.words.find("of 1.6 GPa is more than") != std::string::npos;
+  }));
+  content.sweeps[0].response.tooth_load_max *= 20;
+  CHECK(report_html(content).find("hardened steel") != std::string::npos);
 }
 
 TEST_CASE("keys of a scene from its artifacts: in the scene's units, motion only where there is one") {

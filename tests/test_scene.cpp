@@ -15,6 +15,8 @@
 #include "base/error.h"
 #include "files/publish.h"
 #include "files/scene.h"
+#include "files/scene_place.h"
+#include "gear/scene_geometry.h"
 #include "relative.h"
 
 using namespace whine;
@@ -195,8 +197,10 @@ TEST_CASE("a missing key is refused, all of a section in one line") {
 TEST_CASE("a value outside its range is refused with value and limit") {
   const SceneFile file;
   CHECK(file.refusal(scene_with("module_mm = 3", "module_mm = -3")) ==
-        "x.toml:3: 'module_mm' in [gear.pinion] = -3: must be greater than 0 mm");
-  CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = 0.0")), "greater than 0"));
+        "x.toml:3: 'module_mm' in [gear.pinion] = -3: must be at least 0.05 mm: drawings have 0.05 to 50 mm; "
+        "0.003 would be 3 mm in metres");
+  CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = 0.003")), "at least 0.05 mm"));
+  CHECK(contains(file.refusal(scene_with("face_width_mm = 25.4", "face_width_mm = 0.0")), "greater than 0"));
   CHECK(contains(file.refusal(scene_with("poisson_ratio = 0.3", "poisson_ratio = 0.5")),
                  "must be at most 0.495"));
   CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 3")), "must be at least 5"));
@@ -681,4 +685,44 @@ TEST_CASE("errors of teeth from a measured file, as TOML and as CSV, beside the 
   CHECK(contains(refused("tooth, profile_slope_um\n0, 1\n"), "holds 1 numbers, the gear has 5 teeth"));
   CHECK(contains(refused("1", "bad.txt"), "is neither a .toml nor a .csv"));
   CHECK_THROWS_AS(file.read(small + names + "\"none.csv\"\n"), Error);
+}
+
+TEST_CASE("what only the geometry refuses is named with the line of its key, through like, too") {
+  SceneFile file;
+  const auto refused = [&](const std::string& scene, bool is_file = true) {
+    const std::string path = file.path(scene);
+    try {
+      check_geometry(read_scene(path), path, is_file);
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      return message.substr(message.find("x.toml"));
+    }
+    return std::string("accepted");
+  };
+  const auto starts = [&](const std::string& message, const std::string& words) {
+    INFO(message);
+    return message.starts_with(words);
+  };
+  CHECK(refused(kScene) == "accepted");
+  CHECK(starts(refused(scene_with("bore_radius_mm = 40", "bore_radius_mm = 74")),
+               "x.toml:6: [gear.pinion]: bore_radius_mm = 74 is not below the root radius"));
+  CHECK(starts(refused(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149")),
+               "x.toml:19: [[mesh]]: the gears jam"));
+  // Of the wheel its own section, not that of the pinion, which it is like.
+  CHECK(starts(refused(scene_with("like = \"pinion\"", "like = \"pinion\"\nmodule_mm = 3.02")),
+               "x.toml:11: [[mesh]]: base pitches differ"));
+  CHECK(starts(refused(scene_with("like = \"pinion\"", "like = \"pinion\"\ntotal_inertia_kgm2 = 0.001")),
+               "x.toml:11: [gear.wheel]: total_inertia_kgm2 = 0.001 lies below"));
+  CHECK(starts(refused(scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.001")),
+               "x.toml:7: [gear.pinion]: total_inertia_kgm2 = 0.001 lies below"));
+  // Undercut by keys that are left out: the line of what is there.
+  CHECK(starts(refused(scene_with("teeth = 50", "teeth = 8")), "x.toml:"));
+  CHECK(starts(refused(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149"), false),
+               "x.toml: [[mesh]]: the gears jam"));
+
+  const std::string path = file.path(kScene);
+  CHECK(scene_place(path, {"gear.wheel"}, "raise face_width_mm") == path + ":5");  // by like
+  CHECK(scene_place(path, {"gear.wheel"}, "no key of it") == path + ":9");
+  CHECK(scene_place(path, {"gear.hub"}, "teeth") == path);
+  CHECK(scene_place("no/such.toml", {"gear.hub"}, "teeth") == "no/such.toml");
 }

@@ -320,6 +320,49 @@ TEST_CASE("what is gathered of a study comes back from its artifact") {
   CHECK_THROWS_AS(study_figure(none), Error);
 }
 
+TEST_CASE("keys without effect: those of variants that differ in them alone and are the same") {
+  const Study study = study_of(kDamping + "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 200]\n");
+  const std::string damping = study.keys[0].name;
+  const std::vector<GatheredVariant> grid{
+      {"aa", {"4e-06", "100"}}, {"bb", {"4e-06", "200"}}, {"aa", {"5e-06", "100"}}, {"bb", {"5e-06", "200"}}};
+  CHECK(keys_without_effect(study, grid) == std::vector<std::string>{damping});
+  std::vector<GatheredVariant> acts = grid;
+  acts[3].name = "cc";  // at one torque of two
+  CHECK(keys_without_effect(study, acts).empty());
+  // Where no two variants differ in one key alone nothing is known.
+  CHECK(keys_without_effect(study, {grid[0], grid[3]}).empty());
+}
+
+TEST_CASE("a study's figure has no panel for what never varies and no column for a key that does nothing") {
+  StudyArtifact a;
+  a.plan = study_of(kDamping + "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 200]\n");
+  REQUIRE(a.plan.answers[0] == "contact_ratio");
+  for (const char* eta : {"4e-06", "5e-06"})
+    for (const char* torque : {"100", "200"})
+      a.variants.push_back({std::string("ab") + torque, {eta, torque}});
+  a.refusal.resize(4);
+  a.unsteady = Eigen::VectorXi::Zero(4);
+  a.answer = MatrixRM::Constant(4, static_cast<Eigen::Index>(a.plan.answers.size()), 1.7);
+  a.answer.rightCols(a.answer.cols() - 1) = MatrixRM::Random(4, a.answer.cols() - 1);
+  const Figure figure = study_figure(a);
+  const auto number = [&](const std::string& name) {
+    for (const auto& [key, value] : figure.numbers)
+      if (key == name) return value;
+    return -1.0;
+  };
+  CHECK(number("rows") == a.plan.figure_answers.size());  // another answer has taken the place
+  CHECK(number("columns") == 1);
+  REQUIRE(figure.notes.size() >= 2);
+  CHECK(figure.notes[1].find("contact ratio 1.7") != std::string::npos);
+  CHECK(figure.notes[1].find(a.plan.keys[0].name + " changes nothing") != std::string::npos);
+  for (const FigureBlock& block : figure.blocks)
+    if (block.name.starts_with("panel")) CHECK(block.columns[1] != "contact_ratio");
+  a.answer.setConstant(1.7);
+  const Figure level = study_figure(a);
+  CHECK(std::count_if(level.blocks.begin(), level.blocks.end(),
+                      [](const FigureBlock& block) { return block.name.starts_with("panel"); }) == 1);
+}
+
 TEST_CASE("rank correlation: known values, ties, what does not vary") {
   CHECK(rank_correlation({1, 2, 3, 4}, {1, 8, 27, 64}) == relative(1.0, 1e-15));
   CHECK(rank_correlation({1, 2, 3, 4}, {9, 7, 3, 1}) == relative(-1.0, 1e-15));

@@ -33,7 +33,7 @@ void body(int argc, char** argv) {
   options.footer(
       "Example:\n"
       "  gear-animate --driver-mesh out/parker2000/pinion/mesh.h5 --driven-mesh out/parker2000/wheel/mesh.h5 "
-      "--sweep out/parker2000/T150/down/sweep.h5 --frames 4 --output out/parker2000/report/animation");
+      "--sweep out/parker2000/T150/down/sweep.h5 --frames 4 --output animation");
   options.parse(argc, argv);
 
   const double speed = frequency.empty() ? 0 : whine::number_option("--mesh-frequency", frequency);

@@ -117,7 +117,7 @@ void body(int argc, char** argv) {
       "Example:\n"
       "  gear-harris --static-params out/parker2000/params/static.toml --driver "
       "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 5:300:60 "
-      "--relief-um 0:20:40 --design-torque 150 --output out/parker2000/harris_map.h5");
+      "--relief-um 0:20:40 --design-torque 150 --output harris_map.h5");
   options.parse(argc, argv);
 
   if (dynamic && (params.empty() || reference.empty()))

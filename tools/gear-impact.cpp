@@ -62,7 +62,7 @@ void body(int argc, char** argv) {
       "  gear-impact --params out/parker2000/params/impact.toml --driver "
       "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --static "
       "out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output "
-      "out/parker2000/T150/impact.h5");
+      "impact.h5");
   options.parse(argc, argv);
   if (output.empty() && ratio_word.empty())
     whine::fail(whine::Failure::usage, "--output or --calibrate is needed; see --help");

@@ -72,7 +72,7 @@ void body(int argc, char** argv) {
       "  gear-jump-map --params out/parker2000/params/map.toml --static-params "
       "out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5 --driven "
       "out/parker2000/wheel/body.h5 --torque 150 --corner-contact false --damping-ratio 0.05,0.07 "
-      "--loads-at 2400 --output out/parker2000/T150/jump_map_false.h5");
+      "--loads-at 2400 --output jump_map.h5");
   options.parse(argc, argv);
 
   plan.damping_ratio = numbers("--damping-ratio", ratios);

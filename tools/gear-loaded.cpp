@@ -36,7 +36,7 @@ void body(int argc, char** argv) {
       "Example:\n  gear-loaded --static out/parker2000/T150/static.h5 --driver out/parker2000/pinion/body.h5 "
       "--driven out/parker2000/wheel/body.h5 --driver-mesh out/parker2000/pinion/mesh.h5 "
       "--driven-mesh out/parker2000/wheel/mesh.h5 --mesh-phase 0.25 --output "
-      "out/parker2000/T150/loaded_0.25.h5");
+      "loaded.h5");
   options.parse(argc, argv);
 
   const double position = whine::number_option("--mesh-phase", phase_word);

@@ -22,7 +22,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "mesh.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-mesh --params out/parker2000/pinion/body.toml --output out/parker2000/pinion/mesh.h5");
+      "  gear-mesh --params out/parker2000/pinion/body.toml --output mesh.h5");
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params});

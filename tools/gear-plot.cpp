@@ -7,6 +7,7 @@
 // Equations  k = (T / r_b) / STE
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "base/error.h"
@@ -148,10 +149,10 @@ const std::map<std::string, Drawing>& drawings() {
           return whine::load_sharing_figure(read_all(in, whine::read_static));
         }}},
       {"waterfall",
-       {"spectra of the dynamic transmission error against mesh frequency, and its first orders", "sweep.h5",
-        1, 0,
+       {"spectra of the dynamic transmission error against mesh frequency, and its first orders",
+        "sweep.h5 of a sweep, or of those up and down of one torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return whine::waterfall_figure(whine::read_sweep(in[0]));
+          return whine::waterfall_figure(read_all(in, whine::read_sweep));
         }}},
       {"tooth-loads",
        {"tooth loads against mesh frequency, and over the mesh period at the speed with the largest RMS",
@@ -237,7 +238,7 @@ std::string footer() {
     lines += "  " + name + ": " + drawing.shows + ". From " + drawing.inputs + "\n";
   return lines + "  " + kTable + ": natural frequencies, as a table. From impact.h5, one per torque\n" +
          "Example:\n"
-         "  gear-plot fig05 --output out/figures/fig05 out/parker2000/T150/up/response.h5 "
+         "  gear-plot fig05 --output fig05 out/parker2000/T150/up/response.h5 "
          "out/parker2000/T150/down/response.h5";
 }
 
@@ -253,7 +254,9 @@ Paths scenes_of(const std::string& name, const Paths& inputs, const whine::Figur
   return scenes;
 }
 
-whine::Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies& mesh_frequencies) {
+// stem: what its files are called.
+whine::Figure figure_of(const std::string& name, const std::string& stem, const Paths& inputs,
+                        const Frequencies& mesh_frequencies) {
   const auto found = drawings().find(name);
   if (found == drawings().end())
     whine::fail(whine::Failure::usage, "unknown figure '", name, "'; known are ", known());
@@ -271,6 +274,8 @@ whine::Figure figure_of(const std::string& name, const Paths& inputs, const Freq
     if (!(f > 0) || !std::isfinite(f))
       whine::fail(whine::Failure::usage, name, ": --mesh-frequency ", f, "; it is in Hz, above 0");
   whine::Figure figure = drawing.draw(inputs, mesh_frequencies);
+  if (const std::string paper = whine::paper_figure(stem); !paper.empty())
+    figure.title += ", as " + paper + " of P2000";
   figure.scenes = scenes_of(name, inputs, figure);
   return figure;
 }
@@ -305,7 +310,8 @@ void body(int argc, char** argv) {
     whine::tell("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
     return;
   }
-  const whine::Figure figure = figure_of(name, inputs, mesh_frequencies);
+  const whine::Figure figure =
+      figure_of(name, std::filesystem::path(output).filename().string(), inputs, mesh_frequencies);
   for (const std::string& path : inputs) whine::require_fresh(path);
   const std::string table = output + ".tsv", recipe = plots + "/" + name + ".gp";
   whine::publish(table, whine::tsv(figure, sources));

@@ -28,7 +28,7 @@ void body(int argc, char** argv) {
   options.footer(
       "Example:\n"
       "  gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5 "
-      "--output out/parker2000/pinion/body.h5");
+      "--output body.h5");
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params, "mesh=" + mesh});

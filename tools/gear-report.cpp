@@ -4,7 +4,7 @@
 //            gear-plot has drawn, as .png; params/title.txt in the folder of the scene, if there is one
 // Writes     --output: the page; results.tsv beside it, the numbers of its first table
 // Equations  none
-// Example    gear-report --output out/parker2000/report/index.html out/parker2000/T100/static.h5
+// Example    gear-report --output report/index.html out/parker2000/T100/static.h5
 //              out/parker2000/T100/{up,down}/sweep.h5 out/parker2000/report/fig12.png
 #include <filesystem>
 #include <string>
@@ -36,7 +36,8 @@ ReportPicture read_picture(const std::string& path) {
 ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
   const SweepArtifact sweep = read_sweep(path);
   for (const StaticArtifact& statics : content.statics)
-    if (statics.torque == sweep.torque) return {response(sweep), remarks(sweep, statics)};
+    if (statics.torque == sweep.torque)
+      return {response(sweep), remarks(sweep, statics), backlash_left(sweep)};
   fail(Failure::input, path, ": is at ", sweep.torque, " N m, at which no static.h5 is given; give it, too");
 }
 
@@ -48,7 +49,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "page to write (.html); results.tsv stands beside it").required();
   options.footer(
       "Example:\n"
-      "  gear-report --output out/parker2000/report/index.html out/parker2000/T150/static.h5 "
+      "  gear-report --output report/index.html out/parker2000/T150/static.h5 "
       "out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5");
   options.parse(argc, argv);
 

@@ -86,7 +86,7 @@ void body(int argc, char** argv) {
   // 1. The whole scene is checked before anything is written.
   const std::string stem = checked_stem(path);
   const Scene scene = read_scene(path);
-  check_geometry(scene, path);
+  check_geometry(scene, path, true);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
 

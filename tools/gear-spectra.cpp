@@ -22,7 +22,7 @@ void body(int argc, char** argv) {
   options.footer(
       "Example:\n"
       "  gear-spectra --input out/parker2000/T150/up/sweep.h5 --output "
-      "out/parker2000/T150/up/response.h5");
+      "response.h5");
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});

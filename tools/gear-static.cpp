@@ -58,7 +58,7 @@ void body(int argc, char** argv) {
       "Example:\n"
       "  gear-static --params out/parker2000/params/static.toml --driver "
       "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 150 --output "
-      "out/parker2000/T150/static.h5");
+      "static.h5");
   options.parse(argc, argv);
 
   const double torque = whine::number_option("--torque", torque_word);

@@ -36,6 +36,25 @@ bool holds(const std::string& path, const std::string& bytes) {
   return std::filesystem::is_regular_file(path, code) && read_bytes(path) == bytes;
 }
 
+// Variants of a sample with the value of one key taken from another variant: with them, keys without effect show.
+void add_probes(const Study& study, std::vector<GatheredVariant>& variants) {
+  constexpr size_t kProbes = 8;  // a key may act with some values of the others only
+  const size_t count = variants.size();
+  for (size_t k = 0; k < study.keys.size(); ++k)
+    for (size_t i = 0; i < std::min(count, kProbes); ++i) {
+      std::vector<std::string> values = variants[i].values;
+      for (size_t j = 1; j < count && values[k] == variants[i].values[k]; ++j)
+        values[k] = variants[(i + j) % count].values[k];
+      try {
+        const StudyVariant probe = study_variant(study, static_cast<long>(i), values);
+        variants.push_back({body_hash(variant_slice(probe.scene, probe.torque, study.directions)), values});
+      } catch (const Error&) {
+        // The values do not go together; so the key matters.
+        variants.push_back({"", values});
+      }
+    }
+}
+
 void plan(const std::string& path, const std::string& output, const std::string& folder) {
   const std::string stem = std::filesystem::path(path).stem().string();
   if (!plain_name(stem))
@@ -60,7 +79,7 @@ void plan(const std::string& path, const std::string& output, const std::string&
     const std::string slice = variant_slice(variant.scene, variant.torque, study.directions);
     // One whose slice is there has been checked before.
     if (!holds(home + variant_file(body_hash(slice)) + ".toml", slice))
-      check_geometry(variant.scene, path + ": " + variant_name(study, i, values));
+      check_geometry(variant.scene, path + ": " + variant_name(study, i, values), false);
     variants.push_back({body_hash(slice), values});
     if (slices.emplace(variants.back().name, slice).second) of_pair[pair].push_back(variants.back().name);
   }
@@ -88,6 +107,11 @@ void plan(const std::string& path, const std::string& output, const std::string&
   for (const auto& [hash, text] : bodies) out << " " << hash;
   out << "\n";
   publish(output, out.str());
+  std::vector<GatheredVariant> compared = variants;
+  if (study.random) add_probes(study, compared);
+  for (const std::string& key : keys_without_effect(study, compared))
+    tell("gear-study: warning: ", path, ": ", key, " changes nothing that this study computes",
+         study.directions.empty() ? ", the pair at rest; if it acts in motion, say stage = \"sweep\"" : "");
   tell("gear-study: ", path, ": ", study.variants, " variants, ",
        slices.size() < variants.size() ? text(slices.size(), " of them different, ") : "", bodies.size(),
        bodies.size() == 1 ? " body" : " bodies");

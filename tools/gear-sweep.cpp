@@ -67,7 +67,7 @@ void body(int argc, char** argv) {
       "  gear-sweep --params out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5 "
       "--driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
       "--reference-static out/parker2000/T100/static.h5 --direction up --output "
-      "out/parker2000/T150/up/sweep.h5");
+      "sweep.h5");
   options.parse(argc, argv);
 
   const whine::Provenance provenance =

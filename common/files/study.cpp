@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <random>
 #include <set>
@@ -601,6 +602,25 @@ std::string quoted(const Words& words) {
 constexpr const char* kPlanStart = "# What is gathered of a study; made by gear-study.";
 
 }  // namespace
+
+std::vector<std::string> keys_without_effect(const StudyPlan& study,
+                                             const std::vector<GatheredVariant>& variants) {
+  Words idle;
+  for (size_t k = 0; k < study.keys.size(); ++k) {
+    std::map<Words, const GatheredVariant*> first;  // by the values of all other keys
+    bool compared = false, changes = false;
+    for (const GatheredVariant& variant : variants) {
+      Words others = variant.values;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      const auto [at, added] = first.emplace(others, &variant);
+      if (added || at->second->values[k] == variant.values[k]) continue;
+      compared = true;
+      changes = changes || at->second->name != variant.name;
+    }
+    if (compared && !changes) idle.push_back(study.keys[k].name);
+  }
+  return idle;
+}
 
 std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>& variants) {
   std::ostringstream out;

@@ -101,6 +101,12 @@ struct GatheredVariant {
   std::string name;  // of its slice and its artifact: the first 16 digits of the slice's SHA-256
   std::vector<std::string> values;  // of the keys
 };
+
+// Keys of which the variants show that they change nothing: those that differ in one of them alone have the same slice, and
+// there are such. In a sample hardly any two differ in one key alone; the caller adds some that do.
+std::vector<std::string> keys_without_effect(const StudyPlan& study,
+                                             const std::vector<GatheredVariant>& variants);
+
 std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>& variants);
 
 // Reads what plan_text wrote. Error(input) for anything else.

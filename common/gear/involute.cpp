@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/numbers.h"
 
 namespace whine {
 
@@ -27,8 +28,8 @@ ToothGeometry::ToothGeometry(const GearDesign& design) : design_(design) {
   rack_radius_ = m * design.rack_tip_radius;
 
   if (ra_ <= rb_)
-    fail(Failure::input, "tip radius ", ra_ * 1e3, " mm lies below the base radius ", rb_ * 1e3,
-         " mm: there is no involute; raise addendum or profile_shift");
+    fail(Failure::input, "tip radius ", millimetres(ra_), " lies below the base radius ", millimetres(rb_),
+         ": there is no involute; raise addendum or profile_shift");
   const double thickness = m * (0.5 * kPi + 2 * x * std::tan(alpha)) - design.tooth_thinning;  // pitch circle
   half_base_ = thickness / (2 * rp_) + involute_function(alpha);
   xi_tip_ = roll_angle_at_radius(ra_);
@@ -40,25 +41,26 @@ ToothGeometry::ToothGeometry(const GearDesign& design) : design_(design) {
   tip_centre_side_ = half_width - rack_radius_ / std::cos(alpha);
   if (tip_centre_side_ < 0)
     fail(Failure::input, "rack_tip_radius ", design.rack_tip_radius, " modules does not fit the rack tooth (",
-         -tip_centre_side_ * 1e3, " mm too wide); lower rack_tip_radius or dedendum");
+         millimetres(-tip_centre_side_), " too wide); lower rack_tip_radius or dedendum");
 
   // The straight part of the rack ends at this depth; what it cuts there is the lowest involute point.
   const double straight_depth = tip_centre_depth_ + rack_radius_ * std::sin(alpha);
   const double form_curvature = rp_ * std::sin(alpha) - straight_depth / std::sin(alpha);
   if (form_curvature <= 0)
     fail(Failure::input, "the rack undercuts the flank: with teeth = ", design.teeth,
-         " and profile_shift = ", x, " it reaches ", -form_curvature * 1e3,
-         " mm beyond the base circle's tangent point; raise profile_shift or teeth, or lower dedendum");
+         " and profile_shift = ", x, " it reaches ", millimetres(-form_curvature),
+         " beyond the base circle's tangent point; raise profile_shift or teeth, or lower dedendum");
   xi_form_ = form_curvature / rb_;
   if (xi_form_ >= xi_tip_)
     fail(Failure::input, "no involute is left: the root ends at radius ",
-         rb_ * std::sqrt(1 + xi_form_ * xi_form_) * 1e3, " mm, the tip is at ", ra_ * 1e3, " mm");
+         millimetres(rb_ * std::sqrt(1 + xi_form_ * xi_form_)), ", the tip is at ", millimetres(ra_),
+         "; raise addendum or lower dedendum");
   if (thickness_at_radius(ra_) <= 0)
-    fail(Failure::input, "tip thickness is ", thickness_at_radius(ra_) * 1e3,
-         " mm, below zero: the flanks cross under the tip circle; lower addendum or profile_shift");
+    fail(Failure::input, "tip thickness is ", millimetres(thickness_at_radius(ra_)),
+         ", below zero: the flanks cross under the tip circle; lower addendum or profile_shift");
   if (design.bore_radius >= rf_)
-    fail(Failure::input, "bore_radius_mm = ", design.bore_radius * 1e3, " is not below the root radius ",
-         rf_ * 1e3, " mm; lower it");
+    fail(Failure::input, "bore_radius_mm = ", shown_number(design.bore_radius * 1e3),
+         " is not below the root radius ", millimetres(rf_), "; lower it");
 
   double length = 0;
   constexpr int kPieces = 200;
@@ -70,8 +72,8 @@ ToothGeometry::ToothGeometry(const GearDesign& design) : design_(design) {
 
 double ToothGeometry::roll_angle_at_radius(double r) const {
   if (r < rb_)
-    fail(Failure::input, "radius ", r * 1e3, " mm lies below the base radius ", rb_ * 1e3,
-         " mm: no involute there");
+    fail(Failure::input, "radius ", millimetres(r), " lies below the base radius ", millimetres(rb_),
+         ": no involute there");
   return std::sqrt((r / rb_) * (r / rb_) - 1);
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/numbers.h"
 
 namespace whine {
 
@@ -37,16 +38,16 @@ GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double ce
   const auto& [a, b] = gear_;
   const double rb1 = a.base_radius(), rb2 = b.base_radius();
   if (std::abs(a.base_pitch() - b.base_pitch()) > 1e-9 * a.base_pitch())
-    fail(Failure::input, "base pitches differ: driver ", a.base_pitch() * 1e3, " mm, driven gear ",
-         b.base_pitch() * 1e3, " mm; give both gears the same module and pressure angle");
+    fail(Failure::input, "base pitches differ: driver ", millimetres(a.base_pitch()), ", driven gear ",
+         millimetres(b.base_pitch()), "; give both gears the same module_mm and pressure_angle_deg");
   if (a.tip_radius() + b.tip_radius() <= centre_distance)
     fail(Failure::input, "the gears do not reach each other: tip radii add up to ",
-         (a.tip_radius() + b.tip_radius()) * 1e3, " mm, centre_distance_mm is ", centre_distance * 1e3,
-         "; lower the centre distance");
+         millimetres(a.tip_radius() + b.tip_radius()), ", centre_distance_mm is ",
+         shown_number(centre_distance * 1e3), "; lower centre_distance_mm");
   const double cosine = (rb1 + rb2) / centre_distance;
   if (cosine >= 1)
-    fail(Failure::input, "the gears jam: centre_distance_mm = ", centre_distance * 1e3,
-         " is not above the sum of the base radii ", (rb1 + rb2) * 1e3, " mm; raise the centre distance");
+    fail(Failure::input, "the gears jam: centre_distance_mm = ", shown_number(centre_distance * 1e3),
+         " is not above the sum of the base radii ", millimetres(rb1 + rb2), "; raise centre_distance_mm");
   alpha_ = std::acos(cosine);
 
   const double tangent = std::tan(alpha_);
@@ -58,25 +59,26 @@ GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double ce
   backlash_ =
       cosine * (2 * kPi * rw1 / driver.teeth - a.thickness_at_radius(rw1) - b.thickness_at_radius(rw2));
   if (backlash_ < -1e-6)
-    fail(Failure::input, "the gears jam: backlash on the line of action is ", backlash_ * 1e6,
+    fail(Failure::input, "the gears jam: backlash on the line of action is ", shown_number(backlash_ * 1e6),
          " micrometres (limit -1); raise centre_distance_mm or tooth_thinning_mm, or lower profile_shift");
   for (int g = 0; g < 2; ++g) {
     const double clearance = centre_distance - gear_[g].tip_radius() - gear_[1 - g].root_radius();
     if (clearance < 0)
-      fail(Failure::input, "the gears jam: the tip of the ", kGearName[g], " stands ", -clearance * 1e3,
-           " mm inside the root of the ", kGearName[1 - g],
+      fail(Failure::input, "the gears jam: the tip of the ", kGearName[g], " stands ",
+           millimetres(-clearance), " inside the root of the ", kGearName[1 - g],
            "; lower its addendum or raise the other's dedendum");
   }
   if (contact_ratio() < 1)
-    fail(Failure::input, "the contact ratio is ", contact_ratio(),
+    fail(Failure::input, "the contact ratio is ", shown_number(contact_ratio()),
          ", below 1: teeth would leave before the next ones touch; raise addendum or lower "
          "centre_distance_mm");
   const double lowest[2] = {tangent + path_start_ / rb1, tangent - path_end_ / rb2};
   for (int g = 0; g < 2; ++g)
     if (lowest[g] < gear_[g].form_roll_angle())
       fail(Failure::input, "the gears jam: the tip of the ", kGearName[1 - g], " reaches roll angle ",
-           lowest[g] * 180 / kPi, " deg of the ", kGearName[g], ", below its involute, which begins at ",
-           gear_[g].form_roll_angle() * 180 / kPi, " deg; lower the addendum or raise the dedendum");
+           shown_number(lowest[g] * 180 / kPi), " deg of the ", kGearName[g],
+           ", below its involute, which begins at ", shown_number(gear_[g].form_roll_angle() * 180 / kPi),
+           " deg; lower the addendum or raise the dedendum");
 }
 
 double GearPair::relative_curvature_radius(double path) const {
@@ -104,8 +106,8 @@ PairContact GearPair::contact(double phase) const {
   const double rb[2] = {gear_[0].base_radius(), gear_[1].base_radius()};
   c.nominal = {tangent + path / rb[0], tangent - path / rb[1]};
   if (c.nominal[0] <= 0 || c.nominal[1] <= 0)
-    fail(Failure::numerical, "a contact ", path * 1e3,
-         " mm from the pitch point lies beyond the base circles");
+    fail(Failure::numerical, "a contact ", millimetres(path),
+         " from the pitch point lies beyond the base circles");
   c.roll = c.nominal;
   c.lever = {rb[0], rb[1]};
 
@@ -164,7 +166,7 @@ double GearPair::roll_at(int g, const PairContact& c, double x) const {
   // Newton on a nearly straight curve ends in 3 steps; the last steps only dither within round-off.
   const double miss = rotated(flank_in_nominal_frame(g, c.nominal[g], roll) - c.origin, c.tilt).x() - x;
   if (std::abs(miss) > 1e-14)
-    fail(Failure::numerical, "no flank point at tangential distance ", x * 1e3, " mm (missed by ", miss,
+    fail(Failure::numerical, "no flank point at tangential distance ", millimetres(x), " (missed by ", miss,
          " m)");
   return roll;
 }

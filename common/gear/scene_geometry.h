@@ -1,12 +1,26 @@
 // Whether a scene's gears can exist and run together, told before minutes of work.
 #pragma once
+#include <array>
 #include <string>
 
 #include "files/scene.h"
+#include "files/schemas.h"
 
 namespace whine {
 
-// Throws what ToothGeometry, crack_slit, FlankDeviation and GearPair throw, with `path` and the section of the scene before it.
-void check_geometry(const Scene& scene, const std::string& path);
+class ToothGeometry;
+
+// Throws what ToothGeometry, crack_slit, FlankDeviation and GearPair throw, and Error(input) for a total inertia that lies below
+// least_body_inertia, with the section of the scene before it and `where` before that: the file and the line of the key that it
+// is about if `is_file`, else as it stands.
+void check_geometry(const Scene& scene, const std::string& where, bool is_file);
+
+// kg m2: what the body of a gear has at least, from the bore to the tip, its fillets left out.
+double least_body_inertia(const ToothGeometry& tooth, const Material& material);
+
+// Refusal that names section, key and limit unless the gears' total inertias (kg m2) are above those of their bodies, which a
+// stage knows that has them.
+void require_inertia(const GearMeshSpec& mesh, const std::array<const BodyArtifact*, 2>& bodies,
+                     const std::array<double, 2>& inertia);
 
 }  // namespace whine

@@ -276,6 +276,9 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
   if (s.driver.tooth_thinning + s.driven.tooth_thinning > 0 && s.backlash_margin <= 0)
     add(true, "the backlash is used up by ", -s.backlash_margin * 1e6,
         " um; back flanks would touch, which is not modelled");
+  if (s.contact_pressure.size() > 0 && s.contact_pressure.maxCoeff() > kHardenedSteelPressure)
+    add(true, "the contact pressure of ", std::round(s.contact_pressure.maxCoeff() * 1e-7) / 100,
+        kBeyondSteel);
   return out;
 }
 

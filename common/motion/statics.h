@@ -31,7 +31,14 @@ Remark remark(bool warning, const Parts&... parts) {
   return {warning, words.str()};
 }
 
-// Of the statics: teeth that differ, no corner contact, backlash used up.
+// Pa: what flanks of hardened steel carry in the long run; the strongest go to 2 GPa.
+inline constexpr double kHardenedSteelPressure = 1.5e9;
+inline constexpr const char* kBeyondSteel =
+    " GPa is more than flanks of hardened steel carry (about 1.5 to 2 GPa); the teeth are elastic here and "
+    "know of no "
+    "yielding: check the torque and the face width";
+
+// Of the statics: teeth that differ, no corner contact, backlash used up, a pressure that no steel carries.
 std::vector<Remark> remarks(const StaticArtifact& statics);
 
 // One pair's strips in static equilibrium.

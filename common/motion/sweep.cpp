@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -13,9 +14,11 @@
 #include "base/refusal.h"
 #include "contact/lanes.h"
 #include "files/fit.h"
+#include "gear/scene_geometry.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
 #include "signal/branch_end.h"
+#include "signal/response.h"
 
 namespace whine {
 
@@ -268,6 +271,12 @@ double steps_per_oscillation(const SweepArtifact& sweep) {
   return rate / sweep.natural_frequency;
 }
 
+Eigen::VectorXd backlash_left(const SweepArtifact& s) {
+  // The margin of the whole sweep is that of its farthest swing back.
+  return s.transmission_error.rowwise().minCoeff().array() - s.transmission_error.minCoeff() +
+         s.backlash_margin;
+}
+
 std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& statics) {
   constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
   std::vector<Remark> out;
@@ -302,9 +311,14 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
   if (least < 0 && !std::isfinite(s.backlash_margin))
     add(false, "the teeth swing ", std::round(-least * 1e7) / 10,
         " um apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
-  if (s.backlash_margin <= 0)
-    add(true, "the motion goes ", -s.backlash_margin * 1e6,
-        " um beyond the backlash; back flanks would touch, which is not modelled");
+  if (s.backlash_margin <= 0) {
+    std::map<double, bool> beyond;
+    const Eigen::VectorXd left = backlash_left(s);
+    for (Eigen::Index i = 0; i < left.size(); ++i) beyond[s.mesh_frequency[i]] = left[i] <= 0;
+    add(true, "at ", speed_ranges(beyond), " Hz the motion goes up to ",
+        std::round(-s.backlash_margin * 1e8) / 100,
+        " um beyond the backlash; back flanks would touch there, which is not modelled");
+  }
   return out;
 }
 
@@ -319,6 +333,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     fail(Failure::input, "the speed range from ", slice.frequency_from, " to ", slice.frequency_to,
          " Hz in steps of ", slice.frequency_step, " Hz is empty");
 
+  require_inertia(statics.mesh, {&driver, &driven}, {slice.driver_inertia, slice.driven_inertia});
   const GearMeshModel model(driver, driven, statics.mesh);
   DynamicParameters parameters;
   parameters.torque = statics.torque;

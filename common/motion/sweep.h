@@ -32,6 +32,10 @@ double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& dam
 // is of the same torque.
 std::vector<Remark> remarks(const SweepArtifact& sweep, const StaticArtifact& statics);
 
+// (speed) m: backlash that the motion leaves, below 0 where back flanks would touch, which is not modelled; infinite where the
+// scene counts no backlash.
+Eigen::VectorXd backlash_left(const SweepArtifact& sweep);
+
 // Time steps per oscillation at the natural frequency, at the speed with the fewest.
 double steps_per_oscillation(const SweepArtifact& sweep);
 

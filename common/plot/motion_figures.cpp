@@ -426,15 +426,7 @@ std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down
   for (const ResponseArtifact* r : {&up, &down})
     for (Eigen::Index f = 0; f < r->mesh_frequency.size(); ++f)
       parts[r->mesh_frequency[f]] |= r->separation_fraction[f] > 0;
-  std::string ranges;
-  for (auto first = parts.begin(); first != parts.end(); ++first) {
-    if (!first->second) continue;
-    auto last = first;
-    while (std::next(last) != parts.end() && std::next(last)->second) ++last;
-    ranges += (ranges.empty() ? "" : ", ") + fixed(first->first, 0);
-    if (last != first) ranges += " to " + fixed(last->first, 0);
-    first = last;
-  }
+  const std::string ranges = speed_ranges(parts);
   return ranges.empty() ? "nowhere" : ranges;
 }
 
@@ -644,58 +636,87 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   return figure;
 }
 
-Figure waterfall_figure(const SweepArtifact& sweep) {
+Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
   constexpr Eigen::Index kMostSpectra = 40;
   constexpr int kOrders = 5;
   constexpr double kLeast = 1e-4;  // of the largest amplitude
-  const ResponseArtifact r = response(sweep);
-  const Eigen::Index speeds = r.mesh_frequency.size(), group = (speeds + kMostSpectra - 1) / kMostSpectra;
-  const double fastest = r.mesh_frequency.maxCoeff(), slowest = r.mesh_frequency.minCoeff();
-  const double end = std::max(2.5 * sweep.natural_frequency, 1.5 * fastest);
+  if (sweeps.empty() || sweeps.size() > 2)
+    fail(Failure::input, "figure: ", sweeps.size(),
+         " sweep.h5 given; a waterfall is of a sweep, or of those up and down");
+  if (sweeps.size() == 2) panels_of(sweeps, Background{{}, lumped_of(sweeps), {}});
+  std::vector<const SweepArtifact*> shown;
+  for (const char* direction : {"up", "down"})
+    for (const SweepArtifact& sweep : sweeps)
+      if (sweep.direction == direction) shown.push_back(&sweep);
+  if (shown.empty())
+    fail(Failure::input, "figure: a sweep of direction '", sweeps[0].direction, "'; up and down are known");
+  const auto words_of = [](const SweepArtifact& sweep) {
+    return std::string("speed ") + (sweep.direction == "up" ? "rising" : "falling");
+  };
+  const SweepArtifact& first = *shown.front();
   Figure figure;
-  figure.title = text("Spectra of the dynamic transmission error against mesh frequency, ",
-                      torque_words(sweep.torque), ", speed ", sweep.direction == "up" ? "rising" : "falling");
-  figure.notes.push_back(elastic(sweep) ? choice_words(sweep)
-                                        : choice_words(sweep) + "; " + lumped_words(sweep.lumped));
+  figure.title =
+      text("Spectra of the dynamic transmission error against mesh frequency, ", torque_words(first.torque),
+           ", ", shown.size() == 1 ? words_of(first) : "speed rising and falling");
+  figure.notes.push_back(elastic(first) ? choice_words(first)
+                                        : choice_words(first) + "; " + lumped_words(first.lumped));
+  figure.height = shown.size() == 1 ? 1000 : 1760;
+
+  double largest = 0, slowest = std::numeric_limits<double>::infinity(), fastest = 0, end = 0;
+  Eigen::Index group = 1, known = kOrders;
+  for (const SweepArtifact* sweep : shown) {
+    slowest = std::min(slowest, sweep->mesh_frequency.minCoeff());
+    fastest = std::max(fastest, sweep->mesh_frequency.maxCoeff());
+    end = std::max({end, 2.5 * sweep->natural_frequency, 1.5 * fastest});
+    group = std::max(group, (sweep->mesh_frequency.size() + kMostSpectra - 1) / kMostSpectra);
+  }
+  std::string directions;
+  for (const SweepArtifact* sweep : shown) {
+    const ResponseArtifact r = response(*sweep);
+    const Eigen::Index speeds = r.mesh_frequency.size();
+    const std::string& d = sweep->direction;
+    FigureBlock lines{"spectra " + d, {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"}, {}};
+    FigureBlock shown_speeds{"speeds " + d, {"mesh_frequency [Hz]"}, {}};
+    for (Eigen::Index g = 0; g < speeds; g += group) {
+      Eigen::Index row = 0;
+      r.dte_rms.segment(g, std::min(group, speeds - g)).maxCoeff(&row);
+      const double f = r.mesh_frequency[g + row];
+      const Motion m = motion_at(*sweep, f);
+      const Eigen::VectorXd x = m.orbit(sweep->transmission_error);
+      const int count = resolved_harmonics(x.size(), static_cast<int>(std::floor(end / f * m.periods)));
+      const Harmonics h = harmonics(x, count);
+      shown_speeds.rows.push_back({f});
+      for (int k = 1; k <= count; ++k) {
+        lines.rows.push_back({f, k * f / m.periods, h.amplitude[k - 1] * kMicro});
+        largest = std::max(largest, lines.rows.back()[2]);
+      }
+    }
+    FigureBlock orders{"orders " + d, {"mesh_frequency [Hz]"}, {}};
+    known = std::min(known, r.dte_harmonic.cols());
+    for (Eigen::Index k = 1; k <= known; ++k)
+      orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
+    const std::vector<bool> broken = broken_after(r);
+    for (Eigen::Index i = 0; i < speeds; ++i) {
+      std::vector<double> row{r.mesh_frequency[i]};
+      for (Eigen::Index k = 0; k < known; ++k) row.push_back(r.dte_harmonic(i, k) * kMicro);
+      orders.rows.push_back(row);
+      if (broken[i]) orders.rows.emplace_back();
+    }
+    figure.blocks.insert(figure.blocks.end(), {lines, shown_speeds, orders});
+    directions += (directions.empty() ? "" : " ") + d;
+  }
   figure.notes.push_back(
       group == 1 ? "a spectrum at each speed"
                  : text("of ", group, " neighbouring speeds the spectrum of the one with the largest RMS"));
-
-  FigureBlock lines{"spectra", {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"}, {}};
-  FigureBlock shown_speeds{"speeds", {"mesh_frequency [Hz]"}, {}};
-  double largest = 0;
-  for (Eigen::Index g = 0; g < speeds; g += group) {
-    Eigen::Index row = 0;
-    r.dte_rms.segment(g, std::min(group, speeds - g)).maxCoeff(&row);
-    const Motion m = motion_at(sweep, r.mesh_frequency[g + row]);
-    const double f = r.mesh_frequency[g + row];
-    const Eigen::VectorXd x = m.orbit(sweep.transmission_error);
-    const int count = resolved_harmonics(x.size(), static_cast<int>(std::floor(end / f * m.periods)));
-    const Harmonics h = harmonics(x, count);
-    shown_speeds.rows.push_back({f});
-    for (int k = 1; k <= count; ++k) {
-      lines.rows.push_back({f, k * f / m.periods, h.amplitude[k - 1] * kMicro});
-      largest = std::max(largest, lines.rows.back()[2]);
-    }
-  }
-  std::erase_if(lines.rows, [&](const std::vector<double>& row) { return row[2] < kLeast * largest; });
-
-  FigureBlock orders{"orders", {"mesh_frequency [Hz]"}, {}};
-  const Eigen::Index known = std::min<Eigen::Index>(kOrders, r.dte_harmonic.cols());
-  for (Eigen::Index k = 1; k <= known; ++k) orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
-  const std::vector<bool> broken = broken_after(r);
-  for (Eigen::Index i = 0; i < speeds; ++i) {
-    std::vector<double> row{r.mesh_frequency[i]};
-    for (Eigen::Index k = 0; k < known; ++k) row.push_back(r.dte_harmonic(i, k) * kMicro);
-    orders.rows.push_back(row);
-    if (broken[i]) orders.rows.emplace_back();
-  }
-  figure.blocks = {lines, shown_speeds, orders};
+  for (FigureBlock& block : figure.blocks)
+    if (block.name.starts_with("spectra"))
+      std::erase_if(block.rows, [&](const std::vector<double>& row) { return row[2] < kLeast * largest; });
+  figure.words = {{"directions", directions}};
   figure.numbers = {{"orders", static_cast<double>(known)},
                     {"largest", largest},
-                    {"natural_frequency", sweep.natural_frequency},
+                    {"natural_frequency", first.natural_frequency},
                     {"frequency_end", end},
-                    {"spectra", static_cast<double>(shown_speeds.rows.size())},
+                    {"rows", static_cast<double>(shown.size())},
                     {"frequency_from", slowest},
                     {"frequency_to", fastest}};
   return figure;

@@ -35,8 +35,9 @@ Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_f
 Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background told = {});
 
 // Spectra of the DTE, one above the other by mesh frequency (40 at most), and the amplitudes of the first orders of the mesh
-// frequency at every speed. Amplitudes below 1e-4 of the largest are left out of the spectra.
-Figure waterfall_figure(const SweepArtifact& sweep);
+// frequency at every speed, of one sweep or of both directions of one. Amplitudes below 1e-4 of the largest are left out of the
+// spectra. Throws Error(input) for more sweeps, or two that are not of one torque and set of choices.
+Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps);
 
 // Net mesh force over two mesh periods of lumped models, a panel for each of one or two mesh frequencies (Hz) at the stored
 // speed nearest to it. Throws Error(input) for sweeps of elastic gears, of two torques, or another number of frequencies.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -14,6 +15,7 @@
 #include "gear/pair.h"
 #include "plot/figures.h"
 #include "plot/motion_figures.h"
+#include "signal/response.h"
 
 namespace whine {
 namespace {
@@ -130,16 +132,50 @@ std::string jumps_of(const ResponseArtifact& r) {
   return out.empty() ? "none" : out;
 }
 
+// Hertz's pressure (Pa) of a force (N) on one tooth pair at the pitch point.
+double hertz_pressure(const StaticArtifact& s, double force) {
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double tangent = std::tan(pair.working_pressure_angle());
+  const double curvature = (1 / pair.gear(0).base_radius() + 1 / pair.gear(1).base_radius()) / tangent;
+  const auto compliance = [](const Material& m) {
+    return (m.plane_stress ? 1 : 1 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus;
+  };
+  return std::sqrt(
+      force * curvature /
+      (face_width(s) * std::numbers::pi * (compliance(s.driver_material) + compliance(s.driven_material))));
+}
+
+// Whether the motion at a row of the sweep goes beyond the backlash.
+bool beyond_backlash(const ReportSweep& s, Index row) {
+  return row < s.backlash_left.size() && s.backlash_left[row] <= 0;
+}
+
+std::string way_words(const ReportSweep& s) {
+  return s.response.direction == "up" ? "speed rising" : "speed falling";
+}
+
+// In Hz; "" if there are none.
+std::string speeds_beyond_backlash(const ReportSweep& s) {
+  std::map<double, bool> beyond;
+  for (Index i = 0; i < s.response.mesh_frequency.size(); ++i)
+    beyond[s.response.mesh_frequency[i]] = beyond_backlash(s, i);
+  return speed_ranges(beyond);
+}
+
+constexpr const char* kBeyond = "beyond the backlash";
+
 struct Result {
   double torque;  // N m
   std::string quantity, unit, value;
+  std::string remark = "";
 };
 
 std::vector<Result> results_of(const ReportContent& c) {
   std::vector<Result> out;
   for (const StaticArtifact& s : c.statics) {
-    const auto add = [&](const std::string& quantity, const std::string& unit, const std::string& value) {
-      out.push_back({s.torque, quantity, unit, value});
+    const auto add = [&](const std::string& quantity, const std::string& unit, const std::string& value,
+                         const std::string& remark = "") {
+      out.push_back({s.torque, quantity, unit, value, remark});
     };
     add("mean mesh stiffness", "N/µm", fixed(s.mean_stiffness * 1e-6, 1));
     add("the same per face width", "N/(mm µm)", fixed(s.mean_stiffness * 1e-6 / (face_width(s) * kMilli), 2));
@@ -160,8 +196,8 @@ std::vector<Result> results_of(const ReportContent& c) {
             at < a->state_phase.size()
                 ? a->contact_state[i] + (i == 0 && a->contact_state[i] == "one" ? " pair" : " pairs")
                 : "mean over the period";
-        add("natural frequency, " + state, "Hz", hertz(a->natural_frequency[at]));
-        add("damping ratio, " + state, "%", fixed(a->damping_ratio[at] * kPercent, 2));
+        add("natural frequency by ring-down, " + state, "Hz", hertz(a->natural_frequency[at]));
+        add("damping ratio by ring-down, " + state, "%", fixed(a->damping_ratio[at] * kPercent, 2));
       }
     const ReportSweep *up = sweep_of(c, s.torque, "up"), *down = sweep_of(c, s.torque, "down");
     for (const ReportSweep* sweep : {up, down}) {
@@ -169,13 +205,19 @@ std::vector<Result> results_of(const ReportContent& c) {
       const ResponseArtifact& r = sweep->response;
       const std::string way = r.direction == "up" ? ", speed rising" : ", speed falling";
       Index at = 0;
-      add("largest RMS of the dynamic transmission error" + way, "µm",
-          significant(r.dte_rms.maxCoeff(&at) * kMicro, 3));
-      add("mesh frequency there" + way, "Hz", hertz(r.mesh_frequency[at]));
+      const double rms = r.dte_rms.maxCoeff(&at);
+      std::string beyond = beyond_backlash(*sweep, at) ? kBeyond : "";
+      add("largest RMS of the dynamic transmission error" + way, "µm", significant(rms * kMicro, 3), beyond);
+      add("mesh frequency there" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
       const double load = r.tooth_load_max.maxCoeff(&at);
-      add("largest tooth load" + way, "N", fixed(load, 0));
-      add("the same over T / r_b" + way, "1", fixed(load / static_force(s), 2));
+      beyond = beyond_backlash(*sweep, at) ? kBeyond : "";
+      add("largest tooth load" + way, "N", fixed(load, 0), beyond);
+      add("the same over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
+      add("its contact pressure (Hertz, at the pitch point)" + way, "MPa",
+          fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
       add("jumps" + way, "Hz", jumps_of(r));
+      if (const std::string speeds = speeds_beyond_backlash(*sweep); !speeds.empty())
+        add("motion beyond the backlash" + way, "Hz", speeds);
     }
     if (up && down) add("contact lost at", "Hz", loss_ranges(up->response, down->response));
   }
@@ -188,6 +230,7 @@ std::string results_table(const ReportContent& c) {
   std::vector<std::string> head{"", "unit"};
   for (const auto& s : c.statics) head.push_back(torque_words(s.torque));
   Rows rows;
+  bool remarked = false;
   for (const Result& result : results) {
     auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r[0] == result.quantity; });
     if (row == rows.end()) {
@@ -196,9 +239,14 @@ std::string results_table(const ReportContent& c) {
       row = rows.end() - 1;
     }
     for (size_t t = 0; t < c.statics.size(); ++t)
-      if (c.statics[t].torque == result.torque) (*row)[t + 2] = result.value;
+      if (c.statics[t].torque == result.torque)
+        (*row)[t + 2] = result.value + (result.remark.empty() ? "" : " *");
+    remarked = remarked || !result.remark.empty();
   }
-  return table("Results by torque on the driver; results.tsv holds the same numbers.", head, rows);
+  return table("Results by torque on the driver; results.tsv holds the same numbers.", head, rows) +
+         (remarked ? paragraph("* At this speed the motion is larger than the backlash: back flanks would "
+                               "touch, which is not modelled, so the number is not to be trusted.")
+                   : "");
 }
 
 std::string gears_table(const StaticArtifact& s) {
@@ -246,11 +294,17 @@ std::string natural_frequencies_table(const ReportContent& c) {
            fixed(a.natural_frequency[i], 1), fixed(a.damping_ratio[i] * kPercent, 3),
            fixed(a.undamped_frequency[i], 1)});
   return table(
-      "Natural frequency and damping ratio of the mesh by ring-down: the gears are held at a mesh phase, a "
-      "part of the "
-      "torque is let go, and the decay is fitted. Undamped: the same with the contact frozen.",
-      {"torque (N m)", "loaded tooth pairs", "natural frequency (Hz)", "damping ratio (%)", "undamped (Hz)"},
-      rows);
+             "Natural frequency and damping ratio of the mesh by ring-down: the gears are held at a mesh "
+             "phase, a part of the torque is let go, and the decay is fitted.",
+             {"torque (N m)", "loaded tooth pairs", "by ring-down (Hz)", "damping ratio (%)",
+              "contact frozen, undamped (Hz)"},
+             rows) +
+         paragraph(
+             "Three kinds of natural frequency stand on this page. By ring-down: of the decay, damped, the "
+             "contact free to change. Contact frozen, undamped: the eigenvalue at the same phases, with the "
+             "contact that the load leaves kept as it is. f_n in the figures of motion: the mean of that "
+             "eigenvalue over phases of the mesh period that need not be those of the ring-downs, under the "
+             "static load; resonances stand near it and its fractions.");
 }
 
 std::string budget_table(const ErrorBudgetArtifact& b) {
@@ -345,10 +399,19 @@ std::string remarks_list(const ReportContent& c) {
                                " %, outside 1 to 12 %; `make calibrate` finds the damping for a ratio"));
     add("ring-down, " + torque_words(a.torque), found);
   }
-  for (const ReportSweep& s : c.sweeps)
-    add(text(s.response.direction == "up" ? "speed rising, " : "speed falling, ",
-             torque_words(s.response.torque)),
-        s.remarks);
+  for (const ReportSweep& s : c.sweeps) {
+    std::vector<Remark> found = s.remarks;
+    for (const StaticArtifact& at : c.statics) {
+      if (at.torque != s.response.torque) continue;
+      if (const double pressure = hertz_pressure(at, s.response.tooth_load_max.maxCoeff());
+          pressure > kHardenedSteelPressure)
+        found.push_back(remark(true,
+                               "the contact pressure of the largest tooth load (Hertz, at the pitch "
+                               "point) of ",
+                               fixed(pressure * 1e-9, 2), kBeyondSteel));
+    }
+    add(text(way_words(s), ", ", torque_words(s.response.torque)), found);
+  }
   if (c.budget && !c.budget->choice_missing.empty())
     out += tagged("li", escaped("error budget: not computed: " + c.budget->choice_missing)) + "\n";
   return (warned ? "" : paragraph("No stage warns of anything.")) +
@@ -394,10 +457,26 @@ std::string of_load_sharing(const ReportContent& c) {
       fixed(s.contact_ratio, 3), ".");
 }
 
+// Where sweeps at a torque (0: at any) go beyond the backlash; "" if none does.
+std::string beyond_words(const ReportContent& c, double torque) {
+  std::string list;
+  for (const ReportSweep& s : c.sweeps) {
+    const std::string speeds = speeds_beyond_backlash(s);
+    if (speeds.empty() || (torque > 0 && s.response.torque != torque)) continue;
+    list += text(list.empty() ? "" : "; ", torque > 0 ? "" : torque_words(s.response.torque) + ", ",
+                 way_words(s), ": ", speeds, " Hz");
+  }
+  return list.empty()
+             ? ""
+             : " Beyond the backlash, where back flanks would touch, which is not modelled: " + list + ".";
+}
+
 std::string of_response(const ReportContent& c) {
   std::string out =
       "RMS of the oscillating part of the dynamic transmission error against mesh frequency, with speed "
-      "rising and falling. ";
+      "rising and falling; f_n is the natural frequency with the contact frozen under the static load, mean "
+      "over the "
+      "mesh period. ";
   for (const StaticArtifact& s : c.statics) {
     const ReportSweep *up = sweep_of(c, s.torque, "up"), *down = sweep_of(c, s.torque, "down");
     if (!up || !down) continue;
@@ -417,19 +496,20 @@ std::string of_response(const ReportContent& c) {
       out += "no jumps; ";
     out += loss == "nowhere" ? "contact is never lost. " : "contact is lost at " + loss + " Hz. ";
   }
-  return out;
+  while (out.ends_with(' ')) out.pop_back();
+  return out + beyond_words(c, 0);
 }
 
 std::string of_waterfall(const ReportContent& c) {
   const ReportSweep& s = c.sweeps[0];
   return text("Spectra of the dynamic transmission error at ", torque_words(s.response.torque),
-              ", speed rising, stacked by mesh frequency (left), and "
+              ", speed rising (above) and falling (below), stacked by mesh frequency (left), and "
               "the amplitudes of the first orders of the mesh frequency (right). Orders run along rays; each "
               "is strong where it crosses the natural frequency of ",
               hertz(s.response.natural_frequency),
               " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
               s.response.driver.teeth, " times the speed of the driver: 1000 Hz are ",
-              fixed(60000.0 / s.response.driver.teeth, 0), " 1/min.");
+              fixed(60000.0 / s.response.driver.teeth, 0), " 1/min.", beyond_words(c, s.response.torque));
 }
 
 std::string of_tooth_loads(const ReportContent& c) {
@@ -445,7 +525,7 @@ std::string of_tooth_loads(const ReportContent& c) {
     out += text(" At ", torque_words(s.torque), " it reaches ", fixed(load, 0), " N, ",
                 fixed(load / static_force(s), 2), " times T / r_b = ", fixed(static_force(s), 0), " N.");
   }
-  return out;
+  return out + beyond_words(c, s.torque);
 }
 
 std::string of_budget(const ReportContent& c) {
@@ -459,7 +539,7 @@ std::string of_budget(const ReportContent& c) {
 }
 
 struct Explained {
-  const char *name, *section;
+  const char *name, *section, *title;
   std::function<std::string(const ReportContent&)> words;
 };
 
@@ -469,41 +549,44 @@ std::function<std::string(const ReportContent&)> plain(const char* words) {
 
 const std::vector<Explained>& explained() {
   static const std::vector<Explained> all{
-      {"fig01", "gears",
+      {"fig01", "gears", "Mesh of the pair",
        plain("Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the "
              "contact; the mesh carries their bending.")},
-      {"profile-chart", "gears",
+      {"profile-chart", "gears", "Profile charts",
        plain("Profile charts of the driving flanks as an inspection sheet shows them: material against roll "
              "angle, the tip to the right.")},
-      {"fig03", "rest",
+      {"fig03", "rest", "Contact zone",
        plain("Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside "
              "Hertz's.")},
-      {"fig12", "rest", of_transmission_error},
-      {"fig13", "rest", of_stiffness},
-      {"load-sharing", "rest", of_load_sharing},
-      {"sidebands", "rest",
+      {"fig12", "rest", "Static transmission error", of_transmission_error},
+      {"fig13", "rest", "Mesh stiffness", of_stiffness},
+      {"load-sharing", "rest", "Load sharing", of_load_sharing},
+      {"sidebands", "rest", "Sidebands",
        plain("Teeth that differ: transmission error over the period after which the same teeth meet, and the "
              "shafts' orders and sidebands at rest and in motion.")},
-      {"crack", "rest",
+      {"crack", "rest", "The cracked tooth",
        plain("The mark of the cracked tooth in the static transmission error, and its orders.")},
-      {"fig05", "motion", of_response},
-      {"fig07", "motion", of_response},
-      {"fig14-elastic", "motion",
+      {"fig05", "motion", "Vibration over speed", of_response},
+      {"fig07", "motion", "Vibration over speed", of_response},
+      {"fig14-elastic", "motion", "RMS and mean over speed",
        plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
-      {"waterfall", "motion", of_waterfall},
-      {"tooth-loads", "motion", of_tooth_loads},
-      {"error-budget", "errors", of_budget}};
+      {"waterfall", "motion", "Spectra over speed", of_waterfall},
+      {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
+      {"error-budget", "errors", "Error budget", of_budget}};
   return all;
 }
 
-// 1-based, in the order of explained().
-std::string figure(const ReportContent& c, const ReportPicture& picture, const Explained& kind, int number) {
-  const std::string words = escaped(kind.words(c));
+// By its name, which is that of its files: numbers of the page would be taken for those of P2000's figures.
+std::string figure(const ReportContent& c, const ReportPicture& picture, const Explained& kind) {
+  std::string words = escaped(kind.words(c));
+  if (const std::string paper = paper_figure(picture.name); !paper.empty())
+    words += text(" ", picture.name, " shows of this pair what ", paper, " of P2000 ",
+                  paper.starts_with("Figures") ? "show" : "shows", " of its own.");
   return text("<figure id=\"", picture.name, "\">\n<img alt=\"", escaped(picture.name),
-              "\" src=\"data:image/png;base64,", base64(picture.bytes), "\">\n<figcaption><strong>Figure ",
-              number, ".</strong> ", words, " <span class=\"files\">", "<a href=\"", picture.name,
-              ".tsv\">numbers</a> <a href=\"", picture.name, ".svg\">svg</a> <a href=\"", picture.name,
-              ".png\">png</a></span></figcaption>\n</figure>\n");
+              "\" src=\"data:image/png;base64,", base64(picture.bytes), "\">\n<figcaption><strong>",
+              kind.title, " (", picture.name, ").</strong> ", words, " <span class=\"files\">", "<a href=\"",
+              picture.name, ".tsv\">numbers</a> <a href=\"", picture.name, ".svg\">svg</a> <a href=\"",
+              picture.name, ".png\">png</a></span></figcaption>\n</figure>\n");
 }
 
 std::string introduction(const ReportContent& c) {
@@ -626,9 +709,10 @@ std::vector<Index> resonances(const ResponseArtifact& r) {
 
 std::string report_tsv(const ReportContent& c) {
   require_whole(c);
-  std::string out = "# " + c.scene + "\n# torque [N m]\tquantity\tvalue\tunit\n";
+  std::string out = "# " + c.scene + "\n# torque [N m]\tquantity\tvalue\tunit\tremark\n";
   for (const Result& r : results_of(c))
-    out += text(shown(r.torque, 6), "\t", r.quantity, "\t", r.value, "\t", r.unit, "\n");
+    out += text(shown(r.torque, 6), "\t", r.quantity, "\t", r.value, "\t", r.unit,
+                r.remark.empty() ? "" : "\t", r.remark, "\n");
   return out;
 }
 
@@ -638,12 +722,11 @@ std::string report_html(const ReportContent& c) {
   const std::string file = c.scene.substr(0, colon),
                     title = colon == std::string::npos ? c.scene : c.scene.substr(colon + 2);
 
-  int number = 0;
   const auto figures_of = [&](const std::string& section) {
     std::string out;
     for (const Explained& kind : explained())
       for (const ReportPicture& picture : c.pictures)
-        if (section == kind.section && picture.name == kind.name) out += figure(c, picture, kind, ++number);
+        if (section == kind.section && picture.name == kind.name) out += figure(c, picture, kind);
     return out;
   };
   struct Section {

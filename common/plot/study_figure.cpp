@@ -43,6 +43,19 @@ AxisUnits axis_units(const VariedKey& key, double largest) {
   return {text("10^{", power, "} ", unit), std::pow(10, -power)};
 }
 
+// What an engineer calls a key, where its name in a scene is not that.
+std::string axis_name(const VariedKey& key) {
+  static const std::map<std::string, std::string> known{{"rayleigh stiffness", "Rayleigh stiffness damping"},
+                                                        {"rayleigh mass", "Rayleigh mass damping"},
+                                                        {"bearing ratio", "damping ratio of the bearings"},
+                                                        {"youngs modulus", "Young's modulus"},
+                                                        {"poisson ratio", "Poisson's ratio"}};
+  const size_t comma = key.label.find(", ");  // after the gear or the material
+  const size_t at = comma == std::string::npos ? 0 : comma + 2;
+  const auto found = known.find(key.label.substr(at));
+  return found == known.end() ? key.label : key.label.substr(0, at) + found->second;
+}
+
 std::string with_unit(const std::string& name, const std::string& units) {
   return units.empty() || units == "1" ? name : name + " (" + units + ")";
 }
@@ -122,16 +135,59 @@ AnswerKind kind_of(const StudyArtifact& a, const std::string& name) {
   fail(Failure::input, "there is no answer '", name, "'");
 }
 
-// From dark blue to orange, of equal steps in lightness, readable without colour.
+constexpr size_t kFewLevels = 6;  // have a colour and a mark each
+
+// From indigo by blue, green and yellow to dark red: as many hues as there are levels to be told apart, in the order of values.
 double colour(double share) {
-  static const int stops[][3] = {
-      {0x0d, 0x2a, 0x63}, {0x00, 0x72, 0xb2}, {0x00, 0x9e, 0x73}, {0xe6, 0x9f, 0x00}, {0xd5, 0x5e, 0x00}};
-  const double at = std::clamp(share, 0.0, 1.0) * 4;
-  const int i = std::min(3, static_cast<int>(at));
+  static const int stops[kFewLevels][3] = {{0x33, 0x22, 0x88}, {0x00, 0x84, 0xc8}, {0x00, 0x96, 0x50},
+                                           {0xc9, 0xa4, 0x00}, {0xe8, 0x62, 0x10}, {0xa0, 0x10, 0x30}};
+  constexpr int kLast = static_cast<int>(kFewLevels) - 1;
+  const double at = std::clamp(share, 0.0, 1.0) * kLast;
+  const int i = std::min(kLast - 1, static_cast<int>(at));
   double rgb = 0;
   for (int c = 0; c < 3; ++c)
     rgb = rgb * 256 + std::round(stops[i][c] + (at - i) * (stops[i + 1][c] - stops[i][c]));
   return rgb;
+}
+
+// gnuplot's filled marks, each other in form, for those who cannot tell the colours.
+double mark(size_t place) {
+  constexpr int kMarks[kFewLevels] = {7, 5, 9, 13, 11, 15};
+  return kMarks[place % kFewLevels];
+}
+
+// Answers that the figure has room for: those that do not vary at all leave their row to others that were gathered, if the
+// study did not choose them itself.
+struct ShownAnswers {
+  std::vector<std::string> rows, constant;
+};
+
+ShownAnswers shown_answers(const StudyArtifact& a) {
+  const auto varies = [&](const std::string& name) {
+    double least = 0, most = 0;
+    bool any = false;
+    for (size_t v = 0; v < a.variants.size(); ++v) {
+      if (!a.refusal[v].empty()) continue;
+      const double value = a.answer(static_cast<Index>(v), answer_of(a, name));
+      least = any ? std::min(least, value) : value;
+      most = any ? std::max(most, value) : value;
+      any = true;
+    }
+    constexpr double kRoundOff = 1e-9;
+    return most - least > kRoundOff * std::max(std::abs(least), std::abs(most));
+  };
+  const std::vector<std::string>& wanted = a.plan.figure_answers;
+  ShownAnswers out;
+  for (const std::string& name : wanted) (varies(name) ? out.rows : out.constant).push_back(name);
+  const bool chosen = !std::equal(wanted.begin(), wanted.end(), a.plan.answers.begin(),
+                                  a.plan.answers.begin() + static_cast<std::ptrdiff_t>(wanted.size()));
+  for (size_t i = wanted.size(); !chosen && i < a.plan.answers.size() && out.rows.size() < wanted.size(); ++i)
+    if (varies(a.plan.answers[i])) out.rows.push_back(a.plan.answers[i]);
+  if (out.rows.empty()) {
+    out.rows.push_back(wanted.front());
+    out.constant.erase(out.constant.begin());
+  }
+  return out;
 }
 
 std::vector<double> ranks(const std::vector<double>& values) {
@@ -215,6 +271,28 @@ Figure study_figure(const StudyArtifact& a) {
     figure.notes[0] += text("; ", unsteady, unsteady == 1 ? " has" : " have",
                             " speeds that did not settle (column 'unsteady speeds'; crossed)");
   figure.words.emplace_back("subtitle", without_markup(figure.notes[0]));
+  const ShownAnswers answers = shown_answers(a);
+  std::string second_line;
+  if (!answers.constant.empty()) {
+    second_line = "the same in all variants, without a panel:";
+    for (size_t i = 0; i < answers.constant.size(); ++i) {
+      const std::string& name = answers.constant[i];
+      const auto drawn = std::find(a.refusal.begin(), a.refusal.end(), "") - a.refusal.begin();
+      const Shown unit = shown_units(kind_of(a, name).units);
+      char value[32];
+      std::snprintf(value, sizeof value, "%.5g", a.answer(drawn, answer_of(a, name)) * unit.scale);
+      second_line += text(i ? ", " : " ", label_of(name), " ", value, *unit.units ? " " : "", unit.units);
+    }
+  }
+  // A column of a key that does nothing would only repeat all lines as level ones.
+  std::vector<std::string> columns_of = a.plan.figure_keys;
+  const std::vector<std::string> idle = keys_without_effect(a.plan, a.variants);
+  for (const std::string& name : idle) {
+    second_line += text(second_line.empty() ? "" : "; ", name, " changes nothing that the study computes");
+    if (columns_of.size() > 1) std::erase(columns_of, name);
+  }
+  if (!second_line.empty()) figure.notes.push_back(second_line);
+  figure.words.emplace_back("second_line", without_markup(second_line));
   for (size_t k = 0; k < axes.size(); ++k)
     if (!a.plan.keys[k].number) {
       std::string list;
@@ -236,27 +314,30 @@ Figure study_figure(const StudyArtifact& a) {
 
   const bool coloured = !a.plan.figure_colour.empty();
   const size_t by = coloured ? key_of(a, a.plan.figure_colour) : 0;
-  std::vector<double> rgb(variants, colour(0.25));
+  std::vector<double> rgb(variants, colour(0.2)), marks(variants, mark(0));
   if (coloured) {
     const std::vector<double>& at = axes[by].at;
     const auto [least, most] = std::minmax_element(at.begin(), at.end());
     // By place among few levels, by value where there are many.
-    constexpr size_t kFew = 6;
     const size_t levels = axes[by].levels.size();
     const auto share = [&](double value, size_t place) {
-      if (levels <= kFew)
-        return levels > 1 ? static_cast<double>(place) / static_cast<double>(levels - 1) : 0.25;
-      return *most > *least ? (value - *least) / (*most - *least) : 0.25;
+      if (levels <= kFewLevels)
+        return levels > 1 ? static_cast<double>(place) / static_cast<double>(levels - 1) : 0.2;
+      return *most > *least ? (value - *least) / (*most - *least) : 0.2;
     };
     const auto place_of = [&](const std::string& level) {
       return static_cast<size_t>(std::find(axes[by].levels.begin(), axes[by].levels.end(), level) -
                                  axes[by].levels.begin());
     };
-    for (size_t v = 0; v < variants; ++v) rgb[v] = colour(share(at[v], place_of(a.variants[v].values[by])));
+    for (size_t v = 0; v < variants; ++v) {
+      const size_t place = place_of(a.variants[v].values[by]);
+      rgb[v] = colour(share(at[v], place));
+      if (levels <= kFewLevels) marks[v] = mark(place);
+    }
     const VariedKey& key = a.plan.keys[by];
     const AxisUnits units = axis_units(key, *most);
-    figure.words.emplace_back("colour_label", with_unit(key.label, units.words));
-    const size_t entries = std::min(levels, kFew);
+    figure.words.emplace_back("colour_label", with_unit(axis_name(key), units.words));
+    const size_t entries = std::min(levels, kFewLevels);
     for (size_t e = 0; e < entries; ++e) {
       const size_t place = entries > 1 ? e * (levels - 1) / (entries - 1) : 0;
       const std::string& level = axes[by].levels[place];
@@ -265,18 +346,21 @@ Figure study_figure(const StudyArtifact& a) {
       std::snprintf(short_number, sizeof short_number, "%.5g", value * units.scale);
       figure.words.emplace_back(text("colour_name", e + 1), key.number ? short_number : level);
       figure.numbers.emplace_back(text("colour_rgb", e + 1), colour(share(value, place)));
+      figure.numbers.emplace_back(text("colour_mark", e + 1), mark(levels <= kFewLevels ? place : 0));
     }
     figure.numbers.emplace_back("colours", static_cast<double>(entries));
   } else {
     figure.numbers.emplace_back("colours", 0);
   }
 
-  const size_t rows = a.plan.figure_answers.size(), columns = a.plan.figure_keys.size();
+  const size_t rows = answers.rows.size(), columns = columns_of.size();
   for (size_t c = 0; c < columns; ++c) {
-    const size_t k = key_of(a, a.plan.figure_keys[c]);
+    const size_t k = key_of(a, columns_of[c]);
     const VariedKey& key = a.plan.keys[k];
+    // Along the key that colours, a line between points of two colours would have the colour of neither.
+    figure.numbers.emplace_back(text("own_colour", c + 1), coloured && k == by);
     const AxisUnits units = axis_units(key, *std::max_element(axes[k].at.begin(), axes[k].at.end()));
-    figure.words.emplace_back(text("x", c + 1), with_unit(key.label, units.words));
+    figure.words.emplace_back(text("x", c + 1), with_unit(axis_name(key), units.words));
     figure.numbers.emplace_back(text("scale", c + 1), units.scale);
     std::string ticks;
     if (!key.number)
@@ -285,9 +369,10 @@ Figure study_figure(const StudyArtifact& a) {
     figure.words.emplace_back(text("ticks", c + 1), ticks);
   }
   for (size_t r = 0; r < rows; ++r) {
-    const std::string& name = a.plan.figure_answers[r];
+    const std::string& name = answers.rows[r];
     const Shown unit = shown_units(kind_of(a, name).units);
-    figure.words.emplace_back(text("y", r + 1), with_unit(label_of(name), unit.units));
+    figure.words.emplace_back(text("y", r + 1),
+                              label_of(name) + (*unit.units ? text("\n(", unit.units, ")") : ""));
     // What the pair answers at rest does not depend on how its motion ends.
     const bool of_motion = name.ends_with("_up") || name.ends_with("_down");
     std::vector<double> value(variants);
@@ -297,10 +382,11 @@ Figure study_figure(const StudyArtifact& a) {
       if (a.refusal[v].empty() && !absent(name, value[v])) drawn.push_back(v);
     }
     for (size_t c = 0; c < columns; ++c) {
-      const size_t k = key_of(a, a.plan.figure_keys[c]);
-      FigureBlock panel{text("panel", r + 1, "_", c + 1),
-                        {with_unit(a.plan.keys[k].name, ""), name, "colour [rgb]", "unsteady speeds [1]"},
-                        {}};
+      const size_t k = key_of(a, columns_of[c]);
+      FigureBlock panel{
+          text("panel", r + 1, "_", c + 1),
+          {with_unit(a.plan.keys[k].name, ""), name, "colour [rgb]", "unsteady speeds [1]", "mark [1]"},
+          {}};
       std::vector<size_t> order = drawn;
       // Those that agree in all other keys come one after the other.
       const auto others = [&](size_t v) {
@@ -319,7 +405,7 @@ Figure study_figure(const StudyArtifact& a) {
         const int own_unsteady = a.unsteady[static_cast<Index>(order[i])];
         crossed += of_motion && own_unsteady > 0;
         panel.rows.push_back({axes[k].at[order[i]], value[order[i]], rgb[order[i]],
-                              of_motion ? static_cast<double>(own_unsteady) : 0.0});
+                              of_motion ? static_cast<double>(own_unsteady) : 0.0, marks[order[i]]});
       }
       figure.numbers.emplace_back(text("drawn", r + 1, "_", c + 1), static_cast<double>(order.size()));
       figure.numbers.emplace_back(text("crossed", r + 1, "_", c + 1), crossed);
@@ -351,7 +437,7 @@ Figure study_figure(const StudyArtifact& a) {
   figure.numbers.emplace_back("rows", static_cast<double>(rows));
   figure.numbers.emplace_back("columns", static_cast<double>(columns));
   figure.numbers.emplace_back("random", a.plan.random ? 1 : 0);
-  figure.height = 320 + 270 * static_cast<int>(rows);
+  figure.height = 340 + 270 * static_cast<int>(rows);
   return figure;
 }
 

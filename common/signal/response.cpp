@@ -57,6 +57,19 @@ bool like_a_jump(double rms, double other) {
   return std::max(rms, other) > kRatio * std::min(rms, other);
 }
 
+std::string speed_ranges(const std::map<double, bool>& speeds) {
+  std::string ranges;
+  for (auto first = speeds.begin(); first != speeds.end(); ++first) {
+    if (!first->second) continue;
+    auto last = first;
+    while (std::next(last) != speeds.end() && std::next(last)->second) ++last;
+    ranges += text(ranges.empty() ? "" : ", ", std::lround(first->first));
+    if (last != first) ranges += text(" to ", std::lround(last->first));
+    first = last;
+  }
+  return ranges;
+}
+
 Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
   for (Eigen::Index i = 0; i + 1 < frequency.size(); ++i)
     if ((frequency[i] - f) * (frequency[i + 1] - f) <= 0) return i;

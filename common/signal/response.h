@@ -4,6 +4,8 @@
 // of the paper's Figs. 4-7), over one orbit, so that subharmonics count; over all stored periods where
 // the motion is not periodic.
 #pragma once
+#include <map>
+#include <string>
 #include <vector>
 
 #include "files/schemas.h"
@@ -17,6 +19,9 @@ inline constexpr int kResponseHarmonics = 10;
 // which hold the shafts' orders and the sidebands of the mesh frequency. Jumps are the sweep's own: it bisects them. Throws
 // Error(input) for a sweep without speeds, arrays whose lengths disagree, values that are not finite, or negative forces.
 ResponseArtifact response(const SweepArtifact& sweep);
+
+// Ranges of neighbouring speeds (Hz) of which something is true: "2820 to 2980, 3100"; "" if it is of none.
+std::string speed_ranges(const std::map<double, bool>& speeds);
 
 // The row after which the march crosses f (Hz); -1 if it never does.
 Eigen::Index row_before(const Eigen::VectorXd& frequency, double f);

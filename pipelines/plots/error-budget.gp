@@ -3,11 +3,11 @@
 # Variables from gear-plot: tsv, heading, note1, note2, labels, entries, choice_labels, choices.
 set datafile separator tab
 set datafile commentschars "#"
-set title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, 0.4
+set title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.2
 set lmargin screen 0.1
 set rmargin screen 0.97
 set bmargin screen 0.2
-set tmargin screen 0.85
+set tmargin screen 0.81
 set border 3 lw 1.6
 set tics out nomirror
 set grid ytics lt 1 dt solid lc rgb "#e4e4e4" lw 1

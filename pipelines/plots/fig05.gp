@@ -62,6 +62,8 @@ do for [p = 1:panels] {
   set bmargin at screen (height - 90 - p * panel_height + 120) / height
   peak = of("rms_max", letter)
   top = (peak > 0 ? peak : 1.0) * (curves > 3 ? 1.6 : 1.36)
+  # The legend stands above all that is drawn.
+  reach = 1.06 * (peak > 0 ? peak : 1.0)
   rows = 2 * curves
   foot = 0.014
   set yrange [-(foot * rows + 0.02) * top : top]
@@ -76,10 +78,10 @@ do for [p = 1:panels] {
     do for [n = 1:3] {
       f = of_curve("natural_frequency", letter, i) / n
       if (f > frequency_from && f < frequency_to) {
-        set arrow from f, graph 0 to f, graph 1 nohead back lt 1 lc rgb (curves > 1 ? torque_colour[i] : grey) lw 1.2 dt (18, 10)
+        set arrow from f, graph 0 to f, first reach nohead back lt 1 lc rgb (curves > 1 ? torque_colour[i] : grey) lw 1.2 dt (18, 10)
         if (i == (curves + 1) / 2) {
           fraction = n == 1 ? "f_n" : sprintf("f_n/%d", n)
-          set label n + 10 fraction at f, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14"
+          set label n + 10 fraction at f, first reach offset 0, 0.55 center tc rgb "#505050" font ",14"
         }
       }
     }
@@ -105,7 +107,7 @@ do for [p = 1:panels] {
     . ' size screen 0.008, 24 fixed lt 1 lw 2.4 lc rgb "%s" notitle, ', \
     letter, word(of("labels", letter), i), direction, colour(i, direction))
 
-  set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.15 font ",14" noenhanced opaque
+  set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.15 font ",14" noenhanced
   drawn = ''
   do for [i = 1:curves] {
     drawn = drawn . branch(i, "down") . branch(i, "up")

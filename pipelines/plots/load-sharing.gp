@@ -4,7 +4,8 @@
 set datafile separator tab
 set datafile commentschars "#"
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
+array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
+array pair_colour[6] = ["#882255", "#332288", "#88a000", "#44aa99", "#b07030", "#777777"]
 set multiplot layout 1, 2 title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
   margins screen 0.085, 0.985, 0.26, 0.815 spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
@@ -24,7 +25,9 @@ do for [x in sprintf("%.6f %.6f %.6f %.6f", path_start, path_end - 1, path_start
   n = n + 1
   set arrow n from real(x), graph 0 to real(x), graph 1 nohead back lw 1.4 dt (8, 6) lc rgb (n == 1 || n == 4 ? "#505050" : "#9a9a9a")
 }
-plot for [i = 1:curves] tsv index "[share]" using 1:i + 1 with lines lt 1 lw 2.6 lc rgb colour[i] title word(labels, i)
+# Curves lie on each other over much of the path: what is drawn first shows on either side of what is drawn on it.
+thick(i) = 1.8 + 1.1 * (curves - i)
+plot for [i = 1:curves] tsv index "[share]" using 1:i + 1 with lines lt 1 lw thick(i) lc rgb colour[i] title word(labels, i)
 
 do for [i = 1:4] { unset arrow i }
 set key at screen 0.785, screen 0.012 maxrows 3
@@ -35,5 +38,5 @@ set yrange [0:*]
 name(j) = j == 0 ? "reference pair" : sprintf("%s pair%s", j > 0 ? "preceding" : "following", abs(j) > 1 ? sprintf(" %d", abs(j)) : "")
 plot tsv index "[loads]" using 1:2 with lines lt 1 lw 1.8 dt (5, 4) lc rgb "#444444" title "all pairs", \
   static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#009e73" title sprintf("T / r_b = %.0f N", static_force), \
-  for [p = 1:pairs] tsv index "[loads]" using 1:2 + p with lines lt 1 lw 2.6 lc rgb colour[int(p - 1) % 6 + 1] title name(int(first_pair + p - 1))
+  for [p = 1:pairs] tsv index "[loads]" using 1:2 + p with lines lt 1 lw 2.6 lc rgb pair_colour[int(p - 1) % 6 + 1] title name(int(first_pair + p - 1))
 unset multiplot

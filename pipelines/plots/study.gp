@@ -1,16 +1,16 @@
 # A study: a row of panels for each answer, a column for each key that varies; of a sample the distribution beside them.
-# Variables from gear-plot: tsv, heading, subtitle, height, rows, columns, random, x1.., ticks1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
-# percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1..
+# Variables from gear-plot: tsv, heading, subtitle, second_line, height, rows, columns, random, x1.., ticks1.., own_colour1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
+# percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1.., colour_mark1..
 set datafile separator whitespace
 set datafile commentschars "#"
-set multiplot title heading . "\n{/*0.62 " . subtitle . "}"
+set multiplot title heading . "\n{/*0.62 " . subtitle . "}\n{/*0.62 " . second_line . "}"
 set border 3 lw 1.4
 set tics out nomirror font ",13"
 set grid lt 1 lc rgb "#e4e4e4" lw 1
 all = columns + random
-left = 0.09
+left = 0.1
 width = (0.985 - left) / all
-top = 1 - 110.0 / height
+top = 1 - 130.0 / height
 bottom = (colours > 0 ? 110.0 : 75.0) / height
 tall = (top - bottom) / rows
 set key off
@@ -19,8 +19,8 @@ do for [r = 1:int(rows)] {
   set bmargin at screen top - r * tall + 72.0 / height
   do for [c = 1:int(all)] {
     set lmargin at screen left + (c - 1) * width
-    set rmargin at screen left + c * width - 0.024
-    if (c == 1) { set ylabel value(sprintf("y%d", r)) font ",13" offset 0.5, 0; set format y "%g" } else { unset ylabel; set format y "" }
+    set rmargin at screen left + c * width - 0.03
+    if (c == 1) { set ylabel value(sprintf("y%d", r)) font ",13" offset 0, 0; set format y "%g" } else { unset ylabel; set format y "" }
     set autoscale
     set offsets graph 0.03, graph 0.03, graph 0.12, graph 0.06
     set ytics autofreq
@@ -39,9 +39,11 @@ do for [r = 1:int(rows)] {
         # A cross where the motion did not settle at one of the speeds; plotted only where there is one, lest gnuplot warn of none.
         crosses = value(sprintf("crossed%d_%d", r, c)) > 0 ? ", tsv index panel using ($4 > 0 ? $1 * scale : NaN):2 with points pt 2 ps 1.8 lw 1.8 lc rgb '#c00000'" : ""
         if (random > 0) {
-          eval("plot tsv index panel using ($1 * scale):2:3 with points pt 7 ps (rows > 2 ? 0.5 : 0.7) lc rgb variable" . crosses)
+          eval("plot tsv index panel using ($1 * scale):2:5:3 with points pt variable ps (rows > 2 ? 0.5 : 0.7) lc rgb variable" . crosses)
         } else {
-          eval("plot tsv index panel using ($1 * scale):2:3 with linespoints pt 7 ps 0.7 lw 1.6 lc rgb variable" . crosses)
+          grey = value(sprintf("own_colour%d", c)) > 0
+          lines = grey ? "with lines lw 1.2 lc rgb '#b0b0b0'" : "with lines lw 1.8 lc rgb variable"
+          eval("plot tsv index panel using ($1 * scale):2" . (grey ? " " : ":3 ") . lines . ", tsv index panel using ($1 * scale):2:5:3 with points pt variable ps 1.1 lc rgb variable" . crosses)
         }
       } else {
         set label 2 "none" at graph 0.5, 0.5 center font ",14"
@@ -85,8 +87,8 @@ if (colours > 0) {
   set yrange [0:1]
   set label 1 colour_label . ":" at left, 30.0 / height left font ",14"
   do for [e = 1:int(colours)] {
-    at = left + 0.24 + 0.115 * (e - 1)
-    set label 10 + e "" at at, 30.0 / height point pt 7 ps 1.4 lc rgb int(value(sprintf("colour_rgb%d", e)))
+    at = left + 0.29 + 0.1 * (e - 1)
+    set label 10 + e "" at at, 30.0 / height point pt int(value(sprintf("colour_mark%d", e))) ps 1.4 lc rgb int(value(sprintf("colour_rgb%d", e)))
     set label 20 + e value(sprintf("colour_name%d", e)) at at + 0.012, 30.0 / height left font ",14"
   }
   plot NaN

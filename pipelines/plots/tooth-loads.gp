@@ -10,21 +10,21 @@ set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set lmargin at screen 0.092
+set lmargin at screen 0.108
 set rmargin at screen 0.84
-set ylabel "Force (N)" offset 0.5
+set ylabel "Force (N)"
 
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
-set tmargin at screen 0.852
+set tmargin at screen 0.838
 set bmargin at screen 0.555
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
 high = load_max > static_force ? load_max : static_force
 set yrange [0 : 1.08 * high]
 set xlabel "Mesh frequency (Hz)"
-set label 1 "{/:Bold (a)} largest load of a tooth pair" at graph 0, graph 1 offset 0, 0.9 font ",14"
+set label 1 "{/:Bold (a)} largest load of a tooth pair" at graph 0, graph 1 offset 0, 1.6 font ",14"
 set arrow 1 from worst_speed, graph 0 to worst_speed, graph 1 nohead back lt 1 lw 1.4 dt (18, 10) lc rgb "#9a9a9a"
-set label 2 "(b)" at worst_speed, graph 1 offset 0, 0.5 center tc rgb "#505050" font ",14"
+set label 2 "(b)" at worst_speed, graph 1 offset 0, 0.4 center tc rgb "#505050" font ",14"
 set key at graph 1.02, graph 0.98 left top Left reverse samplen 2 spacing 1.2 font ",14"
 curve(direction, what) = sprintf('tsv index "[%s]" using 1:%s', direction, what)
 drawn = curve("down", "6") . ' with linespoints lt 1 lw 1.8 pt 10 ps 1.1 lc rgb "#d55e00" title "speed falling", ' \
