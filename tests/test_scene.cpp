@@ -693,6 +693,7 @@ TEST_CASE("what only the geometry refuses is named with the line of its key, thr
     const std::string path = file.path(scene);
     try {
       check_geometry(read_scene(path), path, is_file);
+      check_inertia(read_scene(path), path, is_file);
     } catch (const Error& error) {
       const std::string message = error.what();
       return message.substr(message.find("x.toml"));

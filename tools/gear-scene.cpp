@@ -87,6 +87,7 @@ void body(int argc, char** argv) {
   const std::string stem = checked_stem(path);
   const Scene scene = read_scene(path);
   check_geometry(scene, path, true);
+  check_inertia(scene, path, true);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
 

@@ -78,8 +78,12 @@ void plan(const std::string& path, const std::string& output, const std::string&
     }
     const std::string slice = variant_slice(variant.scene, variant.torque, study.directions);
     // One whose slice is there has been checked before.
-    if (!holds(home + variant_file(body_hash(slice)) + ".toml", slice))
-      check_geometry(variant.scene, path + ": " + variant_name(study, i, values), false);
+    if (!holds(home + variant_file(body_hash(slice)) + ".toml", slice)) {
+      const std::string where = path + ": " + variant_name(study, i, values);
+      check_geometry(variant.scene, where, false);
+      // Where refusals are marked its stage does so.
+      if (!study.directions.empty() && !study.marks_refusals) check_inertia(variant.scene, where, false);
+    }
     variants.push_back({body_hash(slice), values});
     if (slices.emplace(variants.back().name, slice).second) of_pair[pair].push_back(variants.back().name);
   }

@@ -21,18 +21,23 @@ std::string too_light(double inertia, const std::string& least) {
               least, " kg m2: it is that of all that turns with the gear; raise it");
 }
 
+// What `make` throws, with the place and the heading of a section before it.
+template <class Make>
+void in_section(const std::string& where, bool is_file, const std::string& heading,
+                const std::vector<std::string>& sections, const Make& make) {
+  try {
+    make();
+  } catch (const Error& error) {
+    fail(error.kind(), is_file ? scene_place(where, sections, error.what()) : where, ": ", heading, ": ",
+         error.what());
+  }
+}
+
 }  // namespace
 
 void check_geometry(const Scene& scene, const std::string& where, bool is_file) {
   const auto in = [&](const std::string& heading, const std::vector<std::string>& sections,
-                      const auto& make) {
-    try {
-      make();
-    } catch (const Error& error) {
-      fail(error.kind(), is_file ? scene_place(where, sections, error.what()) : where, ": ", heading, ": ",
-           error.what());
-    }
-  };
+                      const auto& make) { in_section(where, is_file, heading, sections, make); };
   for (const SceneGear& gear : scene.gears) {
     const auto in_part = [&](const std::string& part, const auto& make) {
       const std::string section = "gear." + gear.name + part;
@@ -41,8 +46,6 @@ void check_geometry(const Scene& scene, const std::string& where, bool is_file) 
     in_part("", [&] {
       const ToothGeometry tooth(gear.design);
       if (gear.design.crack.depth > 0) crack_slit(tooth);
-      if (const double least = least_body_inertia(tooth, gear.material); gear.total_inertia < least)
-        fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
     });
     in_part(".modification", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
     in_part(".error", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
@@ -51,6 +54,17 @@ void check_geometry(const Scene& scene, const std::string& where, bool is_file) 
     GearPair pair(scene.gear(scene.mesh.driver).design, scene.gear(scene.mesh.driven).design,
                   scene.mesh.centre_distance);
   });
+}
+
+void check_inertia(const Scene& scene, const std::string& where, bool is_file) {
+  for (const SceneGear& gear : scene.gears) {
+    const std::string section = "gear." + gear.name;
+    in_section(where, is_file, "[" + section + "]", {section}, [&] {
+      const double least = least_body_inertia(ToothGeometry(gear.design), gear.material);
+      if (gear.total_inertia < least)
+        fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
+    });
+  }
 }
 
 double least_body_inertia(const ToothGeometry& tooth, const Material& material) {

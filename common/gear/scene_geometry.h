@@ -10,10 +10,13 @@ namespace whine {
 
 class ToothGeometry;
 
-// Throws what ToothGeometry, crack_slit, FlankDeviation and GearPair throw, and Error(input) for a total inertia that lies below
-// least_body_inertia, with the section of the scene before it and `where` before that: the file and the line of the key that it
-// is about if `is_file`, else as it stands.
+// Throws what ToothGeometry, crack_slit, FlankDeviation and GearPair throw, with the section of the scene before it and `where`
+// before that: the file and the line of the key that it is about if `is_file`, else as it stands.
 void check_geometry(const Scene& scene, const std::string& where, bool is_file);
+
+// Error(input), in the same words, for a gear whose total inertia lies below least_body_inertia; of gears that check_geometry
+// has passed. Statics do not depend on it.
+void check_inertia(const Scene& scene, const std::string& where, bool is_file);
 
 // kg m2: what the body of a gear has at least, from the bore to the tip, its fillets left out.
 double least_body_inertia(const ToothGeometry& tooth, const Material& material);
