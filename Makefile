@@ -76,8 +76,8 @@ $(precompiled).gch: common/base/precompiled.h $(B)/flags | $$(@D)/ $(with_deps)
 $(objects): $(B)/obj/%.o: %.cpp $(B)/flags $(precompiled).gch | $$(@D)/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -include $(precompiled) -MMD -MP -c -o $@ $<
 
-# (private: not for the precompiled header, if a test is the first that wants it)
-# Assertions as calls rather than as code in place: a third of the time of compiling them.
+# Assertions as calls rather than as code in place: a third of the time of compiling them. Private: the precompiled header, of
+# which a test may be the first that wants it, is not of the tests.
 $(filter $(B)/obj/tests/%,$(objects)): private CPPFLAGS += -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 
 # HDF5 stays in one room: nobody else finds its headers.

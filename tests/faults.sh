@@ -114,7 +114,10 @@ for ((k = 0; killed < kills && late < 3 * kills; )); do
   sleep "$(printf '%d.%03d' $((lasts[$stage] * RANDOM / 32768 / 1000)) $((lasts[$stage] * RANDOM / 32768 % 1000)))"
   kill -KILL -- "-$group" 2> /dev/null
   wait "$group" 2> /dev/null
-  if [ $? = 137 ]; then
+  status=$?
+  # A program that waits for the disk dies after it, and its temporary file is nobody's from then on only.
+  for ((wait = 0; wait < 200; ++wait)); do kill -0 -- "-$group" 2> /dev/null || break; sleep 0.05; done
+  if [ $status = 137 ]; then
     killed=$((killed + 1)) k=$((k + 1))
     part=$(whole)
     if [ -n "$part" ]; then faults="$faults killed at $stage: $part"
@@ -234,7 +237,11 @@ sed -i 's/^corner_contact = true/corner_contact = false/' own.toml; make_ $goals
 if make_ -n $goals && ! contents | grep -q -x -F "$(grep static.h5 <<< "$expected")" && "$inspect" --check --scene own.toml; then
   ok "a scene that changes when the clock was set back redoes what depends on it"; else
   wrong "a scene that changes when the clock was set back redoes what depends on it" "$(tail -n 1 "$log")"; fi
-sed -i 's/^corner_contact = false/corner_contact = true/' own.toml; again "and the same when it changes back"
+sed -i 's/^corner_contact = false/corner_contact = true/' own.toml
+# Variants that no study asks for any more stay, for the day when it asks again.
+[ -n "$short" ] || find out/studies -path '*/variants/*' -type f | while read -r file; do
+  grep -q -F "  $file" <<< "$expected" || rm "$file"; done
+again "and the same when it changes back"
 touch -d 1990-01-01 own.toml out/own/params/*.toml; again "a scene and slices from 1990"
 touch -d 1990-01-01 out/own/pinion/body.h5; again "a body older than its mesh"
 
@@ -267,6 +274,6 @@ mixed "a lumped model with the wave of another scene" 'another driver' "$B/bin/g
   --reference-static out/two/T100/static.h5 --params out/own/params/sweep.toml --direction up --output mixed.h5
 cp out/two/pinion/body.h5 "$(readlink -f out/own/pinion)/body.h5"
 mixed "an input that another scene's file was copied over" 'make' "$B/bin/gear-spectra" --input $at/down/sweep.h5 --output mixed.h5
-make_ $goals && wrong "make with a body of another scene in place of its own" "make did not fail" ||
+make_ ${goals% study *} && wrong "make with a body of another scene in place of its own" "make did not fail" ||
   one_line "make with a body of another scene in place of its own" 'body.h5.*make'
 rm -rf "$(readlink -f out/two/pinion)" out/two out/own/pinion/body.h5; again "deleted as it says, and made again"

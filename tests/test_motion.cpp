@@ -8,6 +8,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "gear/numbers.h"
 #include "gear/scene_geometry.h"
 #include "motion/dynamics.h"
 #include "motion/error_budget.h"
@@ -853,8 +854,10 @@ TEST_CASE("a total inertia below the body's own is refused with both numbers") {
     } catch (const Error& e) {
       message = e.what();
     }
-    CHECK(message.find("[gear." + statics.mesh.driven + "] of the scene: total_inertia_kgm2 = ") !=
-          std::string::npos);
+    INFO(message);
+    CHECK(message.find(text("[gear.", statics.mesh.driven, "] of the scene: total_inertia_kgm2 = ",
+                            shown_number(slice.driven_inertia), " ")) != std::string::npos);
+    CHECK(message.find(shown_number(body.inertia)) != std::string::npos);
   }
 }
 

@@ -717,7 +717,8 @@ TEST_CASE("what only the geometry refuses is named with the line of its key, thr
   CHECK(starts(refused(scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.001")),
                "x.toml:7: [gear.pinion]: total_inertia_kgm2 = 0.001 lies below"));
   // Undercut by keys that are left out: the line of what is there.
-  CHECK(starts(refused(scene_with("teeth = 50", "teeth = 8")), "x.toml:"));
+  CHECK(
+      starts(refused(scene_with("teeth = 50", "teeth = 8")), "x.toml:2: [gear.pinion]: the rack undercuts"));
   CHECK(starts(refused(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149"), false),
                "x.toml: [[mesh]]: the gears jam"));
 

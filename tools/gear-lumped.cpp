@@ -96,7 +96,7 @@ void body(int argc, char** argv) {
       "Example:\n"
       "  gear-lumped --model rectangular --static out/parker2000/T150/static.h5 --reference-static "
       "out/parker2000/T100/static.h5 --params out/parker2000/params/lumped.toml --direction up "
-      "--output sweep.h5");
+      "--output lumped_sweep.h5");
   options.parse(argc, argv);
 
   const auto usage = [](const auto&... words) { whine::fail(whine::Failure::usage, words...); };

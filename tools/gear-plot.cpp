@@ -7,7 +7,6 @@
 // Equations  k = (T / r_b) / STE
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include "base/error.h"
@@ -254,9 +253,7 @@ Paths scenes_of(const std::string& name, const Paths& inputs, const whine::Figur
   return scenes;
 }
 
-// stem: what its files are called.
-whine::Figure figure_of(const std::string& name, const std::string& stem, const Paths& inputs,
-                        const Frequencies& mesh_frequencies) {
+whine::Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies& mesh_frequencies) {
   const auto found = drawings().find(name);
   if (found == drawings().end())
     whine::fail(whine::Failure::usage, "unknown figure '", name, "'; known are ", known());
@@ -274,7 +271,7 @@ whine::Figure figure_of(const std::string& name, const std::string& stem, const 
     if (!(f > 0) || !std::isfinite(f))
       whine::fail(whine::Failure::usage, name, ": --mesh-frequency ", f, "; it is in Hz, above 0");
   whine::Figure figure = drawing.draw(inputs, mesh_frequencies);
-  if (const std::string paper = whine::paper_figure(stem); !paper.empty())
+  if (const std::string paper = whine::paper_figure(name); !paper.empty())
     figure.title += ", as " + paper + " of P2000";
   figure.scenes = scenes_of(name, inputs, figure);
   return figure;
@@ -310,8 +307,7 @@ void body(int argc, char** argv) {
     whine::tell("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
     return;
   }
-  const whine::Figure figure =
-      figure_of(name, std::filesystem::path(output).filename().string(), inputs, mesh_frequencies);
+  const whine::Figure figure = figure_of(name, inputs, mesh_frequencies);
   for (const std::string& path : inputs) whine::require_fresh(path);
   const std::string table = output + ".tsv", recipe = plots + "/" + name + ".gp";
   whine::publish(table, whine::tsv(figure, sources));

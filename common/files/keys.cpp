@@ -254,7 +254,7 @@ std::vector<Key> make_keys() {
      "relative change of the state over a mesh period at which a speed counts as steady; round-off is 1e-14",
      [](V& v) -> Slot { return &v.time.periodicity; }},
     {Part::time, "discretisation", "steady_state", kNone, "extrapolate", 0, 0, false, "extrapolate march",
-     "start where the last speeds lead and, once close, skip the rest of a transient, or march through it as a rig would; same orbits",
+     "start where the last speeds lead and, once close, skip the rest of a transient, or march through it as a rig would; the same orbits but for a speed or two at the end of a branch",
      [](V& v) -> Slot { return &v.time.steady_state; }},
   };
   // clang-format on

@@ -73,9 +73,9 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
            "or take the "
            "section [gear.<name>.crack] out");
     if (!(parameters.inertia[g] > model.gear[g].body().inertia))
-      refuse(Failure::input, "total_inertia_kgm2 = ", parameters.inertia[g], " of the ",
-             g ? "driven gear" : "driver", " lies below the inertia of its own body, ",
-             model.gear[g].body().inertia, " kg m2; raise it");
+      fail(Failure::input, "total_inertia_kgm2 = ", parameters.inertia[g], " of the ",
+           g ? "driven gear" : "driver", " lies below the inertia of its own body, ",
+           model.gear[g].body().inertia, " kg m2; raise it");
     const double r = model.kinematics.gear(g).base_radius();
     inverse_mass += r * r / parameters.inertia[g];
   }
@@ -442,7 +442,7 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
     step_data_.clear();
     size_t numbers = 0;
     for (int i = 0; i < steps; ++i) numbers += Step::numbers(positions_[i * stride_].mesh.strips());
-    if (step_memory_.size() < numbers) step_memory_.resize(numbers);
+    if (step_memory_.size() < numbers) step_memory_.clear(), step_memory_.resize(numbers);
     step_pool_ = std::make_unique<std::pmr::monotonic_buffer_resource>(
         step_memory_.data(), step_memory_.size() * sizeof(double), std::pmr::null_memory_resource());
     step_data_.reserve(steps);

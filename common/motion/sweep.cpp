@@ -65,9 +65,11 @@ class Sweeper {
     finest_ = steps_at(slice.time, slice.frequency_from);
     lowest_ = range(0);
     state_ = dynamics(0).rest();
+    hunting_ = dynamics(0).hunting_periods();
   }
 
-  const RollingDynamics& dynamics() { return dynamics(0); }
+  const RollingDynamics& dynamics() { return dynamics(level_); }
+  int hunting_periods() const { return hunting_; }
   int reach() const { return reach_; }  // largest |pair| that any level can touch
   // Mean over the mesh period with the contact frozen as the static load leaves it. Hz
   double natural_frequency() {
@@ -94,6 +96,21 @@ class Sweeper {
         return on_lowest_level(mesh_frequency, std::move(*orbit));
       state_ = start;
     }
+  }
+
+  // The same from a state that is foretold; from the present one if that leads beyond what the contact holds.
+  Orbit run_from(const RollingDynamics::State& foretold, double mesh_frequency) {
+    const RollingDynamics::State present = state_;
+    const int level = level_;
+    state_ = foretold;
+    try {
+      return run(mesh_frequency);
+    } catch (const Error& error) {
+      if (error.kind() != Failure::numerical) throw;
+    }
+    state_ = present;
+    level_ = level;
+    return run(mesh_frequency);
   }
 
  private:
@@ -169,7 +186,7 @@ class Sweeper {
   DynamicParameters parameters_;
   const StaticArtifact& statics_;
   const SweepSlice& slice_;
-  int finest_ = 0, level_ = 0, reach_ = 0;
+  int finest_ = 0, level_ = 0, reach_ = 0, hunting_ = 1;
   ContactRange lowest_;
   std::vector<std::unique_ptr<RollingDynamics>> levels_;
   RollingDynamics::State state_;
@@ -190,19 +207,21 @@ BranchMotion branch_motion(double mesh_frequency, const Orbit& orbit) {
   return {mesh_frequency, orbit.rms, orbit.multiple};
 }
 
-// Where the motions of the last two speeds lead, while they are of one branch: nearer to the motion at the next speed than where
-// the last one ended, and on the branch up to where it ends.
-void start_ahead(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
-                 const std::vector<RollingDynamics::State>& reached, double mesh_frequency) {
+// Runs from where the motions of the last two speeds lead, which is nearer to the motion at the next speed than where the last
+// one ended, and on the branch up to where it ends; from where that one ended where the RMS does not go on evenly (by more than
+// some 8 % a step, or as across a jump).
+Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
+             const std::vector<RollingDynamics::State>& reached, double mesh_frequency) {
   const size_t n = motions.size();
-  const int single = sweeper.dynamics().hunting_periods();
+  const int single = sweeper.hunting_periods();
   if (n < 2 || motions[n - 2].multiple != single || motions[n - 1].multiple != single ||
       may_break(motions, n - 1))
-    return;
-  sweeper.state() = foretold(
-      sweeper.dynamics(),
-      {{motions[n - 2].mesh_frequency, reached[n - 2]}, {motions[n - 1].mesh_frequency, reached[n - 1]}},
-      mesh_frequency);
+    return sweeper.run(mesh_frequency);
+  return sweeper.run_from(foretold(sweeper.dynamics(),
+                                   {{motions[n - 2].mesh_frequency, reached[n - 2]},
+                                    {motions[n - 1].mesh_frequency, reached[n - 1]}},
+                                   mesh_frequency),
+                          mesh_frequency);
 }
 
 struct Jump {
@@ -225,7 +244,7 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const std::vector<BranchMotion>&
   std::vector<KnownOrbit> branch;
   double rms = from.rms;
   // Of a subharmonic nothing says in which of its periods a run ends.
-  const bool single = from.multiple == sweeper.dynamics().hunting_periods();
+  const bool single = from.multiple == sweeper.hunting_periods();
   size_t first = i - 1;
   while (single && first > 0 && i - first < 3 && motions[first - 1].multiple == from.multiple) --first;
   for (size_t k = first; k < i; ++k) branch.push_back({motions[k].mesh_frequency, reached[k]});
@@ -272,7 +291,7 @@ double steps_per_oscillation(const SweepArtifact& sweep) {
 }
 
 Eigen::VectorXd backlash_left(const SweepArtifact& s) {
-  // The margin of the whole sweep is that of its farthest swing back.
+  // By the samples that are stored: between them a motion swings back further by the square of their distance.
   return s.transmission_error.rowwise().minCoeff().array() - s.transmission_error.minCoeff() +
          s.backlash_margin;
 }
@@ -357,7 +376,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   result.driver_bearing_damper = sweeper.dynamics().bearing_damper(0);
   result.driven_bearing_damper = sweeper.dynamics().bearing_damper(1);
   result.natural_frequency = sweeper.natural_frequency();
-  result.hunting_periods = sweeper.dynamics().hunting_periods();
+  result.hunting_periods = sweeper.hunting_periods();
   require_memory(result.hunting_periods, speeds, slice, 2 * sweeper.dynamics().reach() + 1,
                  static_cast<double>(sweeper.dynamics().difference(sweeper.state(), sweeper.state()).size()));
   result.direction = direction;
@@ -375,8 +394,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   std::vector<RollingDynamics::State> reached;
   for (int i = 0; i < speeds; ++i) {
     const double f = speed(direction == "up" ? i : speeds - 1 - i);
-    if (slice.time.steady_state != "march") start_ahead(sweeper, motions, reached, f);
-    steady.push_back(sweeper.run(f));
+    steady.push_back(slice.time.steady_state == "march" ? sweeper.run(f)
+                                                        : run_on(sweeper, motions, reached, f));
     motions.push_back(branch_motion(f, steady.back()));
     reached.push_back(sweeper.state());
     const Orbit& s = steady.back();

@@ -47,7 +47,8 @@ std::string paper_figure(const std::string& name) {
   const std::string number = name.substr(3, 2);
   if (number.find_first_not_of("0123456789") != std::string::npos || (name.size() > 5 && name[5] != '-'))
     return "";
-  return text("Figure ", std::stoi(number));
+  constexpr int kLast = 16;  // of P2000
+  return std::stoi(number) <= kLast ? text("Figure ", std::stoi(number)) : "";
 }
 
 std::string without_markup(const std::string& words) {

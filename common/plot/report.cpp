@@ -503,8 +503,11 @@ std::string of_response(const ReportContent& c) {
 std::string of_waterfall(const ReportContent& c) {
   const ReportSweep& s = c.sweeps[0];
   return text("Spectra of the dynamic transmission error at ", torque_words(s.response.torque),
-              ", speed rising (above) and falling (below), stacked by mesh frequency (left), and "
-              "the amplitudes of the first orders of the mesh frequency (right). Orders run along rays; each "
+              sweep_of(c, s.response.torque, "up") && sweep_of(c, s.response.torque, "down")
+                  ? ", speed rising (above) and falling (below)"
+                  : ", " + way_words(s),
+              ", stacked by mesh frequency (left), and the amplitudes of the first orders of the mesh "
+              "frequency (right). Orders run along rays; each "
               "is strong where it crosses the natural frequency of ",
               hertz(s.response.natural_frequency),
               " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",

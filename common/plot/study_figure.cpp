@@ -179,8 +179,8 @@ ShownAnswers shown_answers(const StudyArtifact& a) {
   const std::vector<std::string>& wanted = a.plan.figure_answers;
   ShownAnswers out;
   for (const std::string& name : wanted) (varies(name) ? out.rows : out.constant).push_back(name);
-  const bool chosen = !std::equal(wanted.begin(), wanted.end(), a.plan.answers.begin(),
-                                  a.plan.answers.begin() + static_cast<std::ptrdiff_t>(wanted.size()));
+  const bool chosen = wanted.size() > a.plan.answers.size() ||
+                      !std::equal(wanted.begin(), wanted.end(), a.plan.answers.begin());
   for (size_t i = wanted.size(); !chosen && i < a.plan.answers.size() && out.rows.size() < wanted.size(); ++i)
     if (varies(a.plan.answers[i])) out.rows.push_back(a.plan.answers[i]);
   if (out.rows.empty()) {
@@ -281,7 +281,10 @@ Figure study_figure(const StudyArtifact& a) {
       const Shown unit = shown_units(kind_of(a, name).units);
       char value[32];
       std::snprintf(value, sizeof value, "%.5g", a.answer(drawn, answer_of(a, name)) * unit.scale);
-      second_line += text(i ? ", " : " ", label_of(name), " ", value, *unit.units ? " " : "", unit.units);
+      second_line += text(i ? ", " : " ", label_of(name), " ");
+      second_line += absent(name, a.answer(drawn, answer_of(a, name)))
+                         ? std::string("none")
+                         : text(value, *unit.units ? " " : "", unit.units);
     }
   }
   // A column of a key that does nothing would only repeat all lines as level ones.
