@@ -440,6 +440,7 @@ Figure study_figure(const StudyArtifact& a) {
   figure.numbers.emplace_back("rows", static_cast<double>(rows));
   figure.numbers.emplace_back("columns", static_cast<double>(columns));
   figure.numbers.emplace_back("random", a.plan.random ? 1 : 0);
+  figure.numbers.emplace_back("variants", static_cast<double>(a.variants.size()));
   figure.height = 340 + 270 * static_cast<int>(rows);
   return figure;
 }

@@ -1,5 +1,5 @@
 # A study: a row of panels for each answer, a column for each key that varies; of a sample the distribution beside them.
-# Variables from gear-plot: tsv, heading, subtitle, second_line, height, rows, columns, random, x1.., ticks1.., own_colour1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
+# Variables from gear-plot: tsv, heading, subtitle, second_line, height, rows, columns, random, variants, x1.., ticks1.., own_colour1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
 # percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1.., colour_mark1..
 set datafile separator whitespace
 set datafile commentschars "#"
@@ -39,7 +39,7 @@ do for [r = 1:int(rows)] {
         # A cross where the motion did not settle at one of the speeds; plotted only where there is one, lest gnuplot warn of none.
         crosses = value(sprintf("crossed%d_%d", r, c)) > 0 ? ", tsv index panel using ($4 > 0 ? $1 * scale : NaN):2 with points pt 2 ps 1.8 lw 1.8 lc rgb '#c00000'" : ""
         if (random > 0) {
-          eval("plot tsv index panel using ($1 * scale):2:5:3 with points pt variable ps (rows > 2 ? 0.5 : 0.7) lc rgb variable" . crosses)
+          eval("plot tsv index panel using ($1 * scale):2:5:3 with points pt variable ps (variants < 100 ? 1.0 : rows > 2 ? 0.5 : 0.7) lc rgb variable" . crosses)
         } else {
           grey = value(sprintf("own_colour%d", c)) > 0
           lines = grey ? "with lines lw 1.2 lc rgb '#b0b0b0'" : "with lines lw 1.8 lc rgb variable"
