@@ -281,6 +281,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
       HarrisPlan finer = plan;
       finer.strips *= 2;
       std::vector<Range> ranges;
+      ranges.reserve(relief_ends.size());
       for (const double end : relief_ends) ranges.emplace_back(model, unit, end, tables, load, finer);
       const auto value = [&](double relief) {
         return peak_to_peak(ranges[range_of(relief) - relief_ends.begin()].error(relief).col(0));

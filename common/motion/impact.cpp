@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "base/dense.h"
 #include "base/error.h"
@@ -157,7 +158,8 @@ class HeldPair {
     if (contact_state != "mean")
       fail(Failure::input, "the contact state '", contact_state, "' does not occur at ", blank_.torque,
            " N m; choose one of: ", known, "mean");
-    for (int i = 0; i < plan_.phases; ++i) phases.push_back(i);
+    phases.resize(static_cast<size_t>(plan_.phases));
+    std::iota(phases.begin(), phases.end(), 0);
     return phases;
   }
 

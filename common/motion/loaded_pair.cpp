@@ -184,7 +184,10 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
     append(grid.pressure, part.pressure);
     const Index per_tooth = mesh[g]->element_node.rows();
     MatrixRM numbers(cell.rows(), 1);
-    for (Index e = 0; e < cell.rows(); ++e) numbers(e, 0) = static_cast<double>(e / per_tooth);
+    for (Index e = 0; e < cell.rows(); ++e) {
+      const Index tooth = e / per_tooth;
+      numbers(e, 0) = static_cast<double>(tooth);
+    }
     append(cell_tooth, numbers);
     append(cell_gear, MatrixRM(MatrixRM::Constant(cell.rows(), 1, g + 1)));
     MatrixRM of_lines(strips, 1);

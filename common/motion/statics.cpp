@@ -172,8 +172,9 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
   result.least_gap = result.least_force = std::numeric_limits<double>::infinity();
   result.torque_residual = 0;
   for (int row = 0; row < rows; ++row) {
-    const int period = row % result.hunting_periods, i = period * positions + row / result.hunting_periods;
-    const double phase = static_cast<double>(row / result.hunting_periods) / positions;
+    const int period = row % result.hunting_periods, position = row / result.hunting_periods,
+              i = period * positions + position;
+    const double phase = static_cast<double>(position) / positions;
     const PositionAnswer answer = solve(phase, period, start[period]);
     const Equilibrium& e = answer.equilibrium;
     start[period] = e.x;

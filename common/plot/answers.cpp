@@ -136,11 +136,12 @@ struct SceneReader {
                         a.damping.undamped_depth);
     };
     const auto same_damping = [&](const auto& artifacts) {
-      for (const auto& [file, a] : artifacts) {
-        if constexpr (requires { a.model; })
-          if (a.model != "finite elements") continue;
-        if (damping_of(a) != damping_of(answers.ring_down(kTorques[0])))
-          fail(Failure::input, paths.at(file), ": has another damping than ",
+      for (const auto& entry : artifacts) {
+        const auto& artifact = entry.second;
+        if constexpr (requires { artifact.model; })
+          if (artifact.model != "finite elements") continue;
+        if (damping_of(artifact) != damping_of(answers.ring_down(kTorques[0])))
+          fail(Failure::input, paths.at(entry.first), ": has another damping than ",
                paths.at(text("T", kTorques[0], "/impact.h5")), "; give results of one scene");
       }
     };
