@@ -142,7 +142,7 @@ TEST_CASE(
         // The run-out may be what is used most: then neither pitch is.
         std::complex<double> once = 0;
         for (int i = 0; i < teeth; ++i)
-          once += std::polar(d.cumulative_pitch[i], -2 * kPi * i / teeth) * (2.0 / teeth);
+          once += d.cumulative_pitch[i] * std::polar(1.0, -2 * kPi * i / teeth) * (2.0 / teeth);
         const double run_out = 2 * std::abs(once) * std::cos(design.pressure_angle) / limit.run_out;
         CHECK(run_out <= share);
         CHECK(std::max({single, total, run_out}) > share - digit);

@@ -54,7 +54,7 @@ double run_out(const std::vector<double>& cumulative, double pressure_angle) {
   std::complex<double> sum = 0;
   const double n = static_cast<double>(cumulative.size());
   for (size_t i = 0; i < cumulative.size(); ++i)
-    sum += std::polar(cumulative[i], -2 * std::numbers::pi * static_cast<double>(i) / n);
+    sum += cumulative[i] * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(i) / n);
   return 2 * (2 / n) * std::abs(sum) * std::cos(pressure_angle);
 }
 
