@@ -158,7 +158,7 @@ TEST_CASE("an empty scene is told what a scene needs") {
   for (const char* section : {"[gear.<name>]", "[material.<name>]", "[[mesh]]", "[operation]"}) {
     CHECK(contains(said, section));
   }
-  CHECK(contains(said, "data/scenes/parker2000.toml"));
+  CHECK(contains(said, "data/scenes/first-pair.toml"));
   CHECK(contains(file.refusal("# only a comment\n"), "lacks"));
   CHECK_THROWS_AS(read_scene("/nowhere/x.toml"), Error);
 }
@@ -200,7 +200,9 @@ TEST_CASE("a value outside its range is refused with value and limit") {
         "x.toml:3: 'module_mm' in [gear.pinion] = -3: must be at least 0.05 mm: drawings have 0.05 to 50 mm; "
         "0.003 would be 3 mm in metres");
   CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = 0.003")), "at least 0.05 mm"));
-  CHECK(contains(file.refusal(scene_with("face_width_mm = 25.4", "face_width_mm = 0.0")), "greater than 0"));
+  CHECK(contains(file.refusal(scene_with("face_width_mm = 25.4", "face_width_mm = 0.025")),
+                 "0.025 would be 25 mm in metres"));
+  CHECK(contains(file.refusal(scene_with("density_kgm3 = 7600", "density_kgm3 = 7.6")), "g/cm3"));
   CHECK(contains(file.refusal(scene_with("poisson_ratio = 0.3", "poisson_ratio = 0.5")),
                  "must be at most 0.495"));
   CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 3")), "must be at least 5"));

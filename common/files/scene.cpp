@@ -20,7 +20,7 @@
 namespace whine {
 namespace {
 
-const char* const kExample = "data/scenes/parker2000.toml shows a whole scene";
+const char* const kExample = "data/scenes/first-pair.toml explains a whole scene line by line";
 
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ") {
   std::string out;

@@ -14,6 +14,7 @@
 #include "base/refusal.h"
 #include "contact/lanes.h"
 #include "files/fit.h"
+#include "gear/numbers.h"
 #include "gear/scene_geometry.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
@@ -35,7 +36,7 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   if (steps > kMostSteps)
     fail(Failure::input, "at ", mesh_frequency, " Hz min_sample_rate_kHz = ", time.min_sample_rate * 1e-3,
          " needs ", steps, " steps per mesh period, ", kMostSteps,
-         " at most; raise the lowest mesh_frequency_Hz, or lower min_sample_rate_kHz");
+         " at most; raise the lowest mesh_frequency_Hz (Hz, not kHz), or lower min_sample_rate_kHz");
   return steps;
 }
 
@@ -314,6 +315,18 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
         "prints the "
         "value for 7 %");
   }
+  constexpr double kFlywheel =
+      100;  // times the inertia of the drawing: more than what shafts and couplings add
+  if (s.direction == "up" && s.model == "finite elements")
+    for (int g = 0; g < 2; ++g) {
+      const double own = least_body_inertia(ToothGeometry(g ? s.driven : s.driver),
+                                            g ? s.driven_material : s.driver_material);
+      const double whole = g ? s.driven_inertia : s.driver_inertia;
+      if (whole > kFlywheel * own)
+        add(true, "total_inertia_kgm2 = ", whole, " of [gear.", g ? s.mesh.driven : s.mesh.driver, "] is ",
+            std::round(whole / own), " times that of the gear as drawn, ", shown_number(own),
+            "; check its unit, kg m2");
+    }
   if (const double steps = steps_per_oscillation(s); steps < kFewestSteps)
     add(true, "a time step is too long for the contact: ", steps,
         " steps per oscillation at its natural frequency of ", s.natural_frequency, " Hz, ", kFewestSteps,

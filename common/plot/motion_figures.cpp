@@ -427,7 +427,8 @@ std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down
     for (Eigen::Index f = 0; f < r->mesh_frequency.size(); ++f)
       parts[r->mesh_frequency[f]] |= r->separation_fraction[f] > 0;
   const std::string ranges = speed_ranges(parts);
-  return ranges.empty() ? "nowhere" : ranges;
+  if (ranges.empty()) return "nowhere";
+  return parts.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too
 }
 
 Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told) {

@@ -439,7 +439,8 @@ std::string of_transmission_error(const ReportContent& c) {
 }
 
 std::string of_stiffness(const ReportContent& c) {
-  return "Mesh stiffness, the load over the static transmission error, over a mesh period and its harmonics; "
+  return "Mesh stiffness, the load over what it adds to the transmission error, over a mesh period and its "
+         "harmonics; "
          "black: the rectangular "
          "wave that lumped models take instead. Its mean is " +
          at_torques(c, [](const auto& s) { return fixed(s.mean_stiffness * 1e-6, 1) + " N/µm"; }) + ".";

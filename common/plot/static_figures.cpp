@@ -101,7 +101,7 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
   sort_by_torque(statics);
   const RectangularWave wave = rectangular_wave(statics[0]);
   Figure figure;
-  figure.title = "Mesh stiffness: torque / (base radius × static transmission error)";
+  figure.title = "Mesh stiffness: torque / (base radius × (static − unloaded transmission error))";
   figure.notes.push_back(pair_words(statics[0]));
   figure.notes.push_back(
       text("rectangular wave: levels at the middle of the zones of few and of many pairs at ",

@@ -4,7 +4,7 @@
 set datafile separator tab
 set datafile commentschars "#"
 
-set multiplot layout 2, 1 title heading offset 0, -0.3 margins screen 0.085, 0.975, 0.1, 0.84 spacing screen 0.19
+set multiplot layout 2, 1 title heading . "\n{/*0.62 form: where the involute begins; SAP: start of the active profile; LPSTC, HPSTC: lowest and highest point of single tooth contact}" offset 0, -0.3 margins screen 0.11, 0.975, 0.1, 0.82 spacing screen 0.19
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
@@ -12,7 +12,7 @@ set mytics 2
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set ylabel "Material (µm)"
 span = highest - lowest > 0 ? highest - lowest : 1
-set yrange [lowest - 0.12 * span : highest + 0.3 * span]
+set yrange [lowest - 0.12 * span : highest + 0.42 * span]
 unset key
 do for [g in "driver driven"] {
   set title value("title_" . g) offset 0, 0.2
@@ -27,8 +27,9 @@ do for [g in "driver driven"] {
     n = n + 1
     x = value(m . "_" . g)
     set arrow n from x, graph 0 to x, graph 1 nohead back lw 1.4 dt (8, 6) lc rgb "#808080"
+    # Two rows, since the pitch point may stand close to an end of single tooth contact, and SAP to the form point.
     set label n m eq "sap" || m eq "lpstc" || m eq "hpstc" ? (m eq "sap" ? "SAP" : m eq "lpstc" ? "LPSTC" : "HPSTC") : m \
-      at x, graph 0.95 offset 0.5, 0 left font ",13" tc rgb "#505050"
+      at x, graph (m eq "pitch" || m eq "form" ? 0.86 : 0.95) offset 0.5, 0 left font ",13" tc rgb "#505050"
   }
   set arrow 20 from from, 0 to to, 0 nohead back lw 1.6 lc rgb "#1a7f37"
   plot sprintf("%s", tsv) index "[" . g . "]" using 1:3 with lines lw 3 lc rgb "#1f4e9c"
