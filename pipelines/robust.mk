@@ -55,11 +55,14 @@ stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 20
 lint_sources := $(wildcard common/*/*.cpp tools/*.cpp)
 lint_scripts := $(wildcard tests/*.sh tests/*/*.sh) tests/run .ci/run
 lint_checked := $(lint_sources:%=$(B)/lint/%)
-# __builtin_shuffle is g++'s alone. A file that passed is checked again when it, a header or the list of checks has changed.
-$(lint_checked): $(B)/lint/%: % .clang-tidy $(wildcard common/*/*.h)
+# __builtin_shuffle is g++'s alone. A file that passed is checked again when it, a header that it sees or the list of checks has
+# changed.
+$(lint_checked): $(B)/lint/%: % .clang-tidy
 	@mkdir -p $(@D)
+	@$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) -std=c++20 -MM -MP -MT $@ -MF $@.d $<
 	@clang-tidy --quiet $< -- -std=c++20 $(CPPFLAGS) $(HDF5_CFLAGS) '-D__builtin_shuffle(a,b,order)=((a)+(b))' 2> /dev/null > $@.new || { cat $@.new >&2; exit 1; }
 	@mv $@.new $@
+-include $(lint_checked:=.d)
 
 .PHONY: lint
 lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks and why), include direction of the rooms, shellcheck

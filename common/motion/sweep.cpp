@@ -104,11 +104,13 @@ class Sweeper {
     const RollingDynamics::State present = state_;
     const int level = level_;
     state_ = foretold;
+    std::optional<Orbit> orbit;
     try {
-      return run(mesh_frequency);
+      orbit = run(mesh_frequency);
     } catch (const Error& error) {
       if (error.kind() != Failure::numerical) throw;
     }
+    if (orbit) return std::move(*orbit);
     state_ = present;
     level_ = level;
     return run(mesh_frequency);

@@ -391,7 +391,8 @@ Finding softening(const SceneAnswers& s) {
   for (double f : speeds_with_two(b)) {
     if (f < kSecondaryEnd * b.up.natural_frequency || f > b.up.jump_frequency.maxCoeff()) continue;
     any = true;
-    all = all && motions(b, f).upper.sweep->direction == "down";
+    const auto* larger = motions(b, f).upper.sweep;
+    all = all && larger && larger->direction == "down";
   }
   return {any && all ? 1.0 : 0.0, jumps_text(b)};
 }

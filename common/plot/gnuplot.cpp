@@ -110,6 +110,7 @@ std::string draw(const Figure& figure, const std::string& tsv_path, const std::s
   std::vector<std::string> environment = plain_environment();
   const auto pointers = [](std::vector<std::string>& strings) {
     std::vector<char*> p;
+    p.reserve(strings.size() + 1);
     for (auto& s : strings) p.push_back(s.data());
     p.push_back(nullptr);
     return p;

@@ -291,6 +291,7 @@ Motion motion_at(const SweepArtifact& s, double frequency) {
 
 std::vector<LumpedParameters> lumped_of(const std::vector<SweepArtifact>& sweeps) {
   std::vector<LumpedParameters> lumped;
+  lumped.reserve(sweeps.size());
   for (const SweepArtifact& s : sweeps) lumped.push_back(s.lumped);
   return lumped;
 }

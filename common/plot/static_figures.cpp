@@ -51,7 +51,7 @@ FigureBlock period_block(const std::vector<StaticArtifact>& statics, const std::
   const Eigen::Index n = statics[0].mesh_phase.size();
   for (Eigen::Index i = 0; i <= n; ++i) {
     std::vector<double> row{i < n ? statics[0].mesh_phase[i] : 1.0};
-    for (const auto& s : statics) row.push_back((s.*curve)[i % n] * factor);
+    for (const auto& s : statics) row.push_back((s.*curve)[i < n ? i : 0] * factor);
     block.rows.push_back(row);
   }
   return block;

@@ -320,13 +320,14 @@ Figure study_figure(const StudyArtifact& a) {
   std::vector<double> rgb(variants, colour(0.2)), marks(variants, mark(0));
   if (coloured) {
     const std::vector<double>& at = axes[by].at;
-    const auto [least, most] = std::minmax_element(at.begin(), at.end());
+    const double least = *std::min_element(at.begin(), at.end()),
+                 most = *std::max_element(at.begin(), at.end());
     // By place among few levels, by value where there are many.
     const size_t levels = axes[by].levels.size();
     const auto share = [&](double value, size_t place) {
       if (levels <= kFewLevels)
         return levels > 1 ? static_cast<double>(place) / static_cast<double>(levels - 1) : 0.2;
-      return *most > *least ? (value - *least) / (*most - *least) : 0.2;
+      return most > least ? (value - least) / (most - least) : 0.2;
     };
     const auto place_of = [&](const std::string& level) {
       return static_cast<size_t>(std::find(axes[by].levels.begin(), axes[by].levels.end(), level) -
@@ -338,7 +339,7 @@ Figure study_figure(const StudyArtifact& a) {
       if (levels <= kFewLevels) marks[v] = mark(place);
     }
     const VariedKey& key = a.plan.keys[by];
-    const AxisUnits units = axis_units(key, *most);
+    const AxisUnits units = axis_units(key, most);
     figure.words.emplace_back("colour_label", with_unit(axis_name(key), units.words));
     const size_t entries = std::min(levels, kFewLevels);
     for (size_t e = 0; e < entries; ++e) {

@@ -128,7 +128,7 @@ Hole find_hole(const MeshArtifact& mesh, const Slit& slit, double reach) {
   for (const auto& [node, side] : next)
     if (on_root(side)) {
       const auto before =
-          std::find_if(next.begin(), next.end(), [&](const auto& s) { return s.second.to == node; });
+          std::find_if(next.begin(), next.end(), [at = node](const auto& s) { return s.second.to == at; });
       if (before == next.end() || !on_root(before->second)) first.push_back(&side);
     }
   if (first.size() != 1)
@@ -226,8 +226,8 @@ Condensed condense(const MeshArtifact& mesh, const Material& material, const Eig
     if (held[static_cast<size_t>(low)]) continue;
     held[static_cast<size_t>(low)] = held[static_cast<size_t>(high)] = 1;
     for (int c = 0; c < 2; ++c) {
-      edge_unknown[static_cast<size_t>(2 * low + c)] = at + c;
-      edge_unknown[static_cast<size_t>(2 * high + c)] = edge + at + c;
+      edge_unknown[2 * static_cast<size_t>(low) + static_cast<size_t>(c)] = at + c;
+      edge_unknown[2 * static_cast<size_t>(high) + static_cast<size_t>(c)] = edge + at + c;
     }
     at += 2;
   }

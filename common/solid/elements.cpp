@@ -184,6 +184,7 @@ Eigen::MatrixXd element_mass(const Eigen::MatrixX2d& nodes, double density, doub
 double least_jacobian(const MatrixRM& node_position, const MatrixRMi& element_node) {
   const int n = static_cast<int>(element_node.cols());
   std::vector<Shape> corners;
+  corners.reserve(4);
   for (int k = 0; k < 4; ++k)
     corners.push_back(shape_functions(n, kNodeLine[k][0] ? 1 : -1, kNodeLine[k][1] ? 1 : -1));
   const Quadrature& q = quadrature(n);

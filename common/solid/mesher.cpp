@@ -673,6 +673,7 @@ MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation
     }
   auto sorted = [](const std::map<int, double>& set) {
     std::vector<std::pair<double, int>> list;
+    list.reserve(set.size());
     for (const auto& [i, value] : set) list.emplace_back(value, i);
     std::sort(list.begin(), list.end());
     return list;
