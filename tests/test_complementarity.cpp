@@ -8,11 +8,16 @@
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "contact/strip_compliance.h"
+#include "failure_of.h"
 #include "memory.h"
 #include "peer/strip_problems.h"
 #include "relative.h"
@@ -407,4 +412,154 @@ TEST_CASE("complementarity: what has no solution is refused with its numbers") {
   CHECK(says(MatrixXd::Identity(2, 2), VectorXd{{-1, std::nan("")}}).find("finite") != std::string::npos);
   CHECK(says(MatrixXd{{1, std::nan("")}, {std::nan(""), 1}}, VectorXd{{-1, 1}}) != "");
   CHECK(says(MatrixXd::Identity(3, 3), VectorXd{{-1, -1}}).find("3 x 3") != std::string::npos);
+}
+
+namespace {
+
+// Three pairs' windows, one of them at a tip edge, on bodies whose nodes give way by a random positive definite C.
+struct WindowProblem {
+  static constexpr int kPairs = 3, kStrips = 20, kNodes = StripCompliance::kPairNodes;
+  std::vector<double> half_plane[kPairs], interpolation[kPairs], at_nodes;
+  StripCompliance parts;
+  MatrixXd a;    // put together here
+  VectorXd gap;  // m
+
+  explicit WindowProblem(std::mt19937& random) {
+    GearDesign design;
+    design.teeth = 50;
+    design.module = 3e-3;
+    design.pressure_angle = 20 * std::numbers::pi / 180;
+    design.face_width = 25.4e-3;
+    design.bore_radius = 40e-3;
+    const GearPair gears(design, design, 0.150);
+    const HalfPlaneSurface surface({207e9, 0.3, 7600, false}, design.face_width);
+    const int n = kPairs * kStrips, nodes = kPairs * kWindowNodes;
+    std::normal_distribution<double> normal;
+    const MatrixXd root = MatrixXd::NullaryExpr(nodes, nodes, [&] { return normal(random); });
+    const MatrixXd c = 1e-10 * (root * root.transpose() + MatrixXd::Identity(nodes, nodes));
+    MatrixXd l = MatrixXd::Zero(n, nodes);
+    a = MatrixXd::Zero(n, n);
+    gap.resize(n);
+    parts.pairs = kPairs;
+    parts.strips = kStrips;
+    const double phase = std::uniform_real_distribution<double>(-0.3, 0.3)(random);
+    for (int j = 0; j < kPairs; ++j) {
+      const PairStrips s = make_strips(gears, j - 1, gears.contact(phase + j - 1), {2e-4, kStrips, 1e-5});
+      const MatrixXd h = half_plane_compliance(s, surface, surface, 1e-3);
+      half_plane[j].assign(h.data(), h.data() + h.size());
+      interpolation[j].assign(kStrips * kNodes, 0.0);
+      std::copy(s.interpolation.data(), s.interpolation.data() + s.interpolation.size(),
+                interpolation[j].begin());
+      l.block(j * kStrips, j * kWindowNodes, kStrips, kWindowNodes) = s.interpolation;
+      a.block(j * kStrips, j * kStrips, kStrips, kStrips) = h;
+      gap.segment(j * kStrips, kStrips) = s.gap;
+      parts.half_plane[j] = half_plane[j].data();
+      parts.interpolation[j] = interpolation[j].data();
+    }
+    a += l * c * l.transpose();
+    MatrixXd padded_c = MatrixXd::Zero(kPairs * kNodes, nodes);
+    for (int j = 0; j < kPairs; ++j)
+      padded_c.middleRows<kWindowNodes>(j * kNodes) = c.middleRows<kWindowNodes>(j * kWindowNodes);
+    at_nodes.assign(padded_c.data(), padded_c.data() + padded_c.size());
+    parts.at_nodes = at_nodes.data();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("compliance in parts: product, matrix and columns are those of the matrix put together") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> force(0, 1);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const WindowProblem problem(random);
+    const int n = problem.parts.size();
+    MatrixXd whole(n, n);
+    problem.parts.assemble(whole.data());
+    CHECK((whole - problem.a).cwiseAbs().maxCoeff() <= 1e-15 * problem.a.cwiseAbs().maxCoeff());
+    VectorXd p = VectorXd::NullaryExpr(n, [&] { return force(random) < 0.5 ? 0.0 : force(random); });
+    if (repeat % 4 == 0) p.segment(20, 20).setZero();
+    VectorXd d = problem.gap, nodes = VectorXd::Constant(WindowProblem::kPairs * WindowProblem::kNodes, -1);
+    problem.parts.add_product(p.data(), nodes.data(), d.data());
+    const VectorXd expected = problem.a * p + problem.gap;
+    CHECK((d - expected).cwiseAbs().maxCoeff() <= 1e-14 * expected.cwiseAbs().maxCoeff());
+    CHECK(nodes.sum() == doctest::Approx(p.sum()).epsilon(1e-12));  // weights of a strip sum to 1
+    std::vector<int> some;
+    for (int i = 0; i < n; ++i)
+      if (p[i] > 0) some.push_back(i);
+    MatrixXd columns = MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
+    problem.parts.assemble_columns(some, columns.data());
+    CHECK(columns(some, some) == whole(some, some));
+  }
+}
+
+TEST_CASE("strips in parts: the solution of the matrix, whatever set they start from") {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> approach(-2e-6, 12e-6), share(0, 1);
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    const WindowProblem problem(random);
+    const int n = problem.parts.size();
+    ComplementaritySolver solver;
+    ActiveSet active, generic;
+    VectorXd p(n), d(n), nodes(WindowProblem::kPairs * WindowProblem::kNodes), expected(n), gaps(n);
+    for (int step = 0; step < 6; ++step) {
+      // Steps move on a little, jump, start from a set that is wrong, or from one without its inverse.
+      const VectorXd e = problem.gap.array() - approach(random);
+      if (step == 3) active.forget();
+      if (step == 4) {
+        active.forget();
+        active.strips.clear();
+        for (int i = 0; i < n; ++i)
+          if (share(random) < 0.3) active.strips.push_back(i);
+      }
+      const Certificate certificate = solver.solve(problem.parts, e, active, p, d, nodes.data());
+      const Certificate reference = solver.solve(problem.a, e, generic, expected, gaps);
+      const double largest = std::max(1e-300, expected.maxCoeff());
+      CHECK((p - expected).cwiseAbs().maxCoeff() <= 1e-8 * largest);
+      CHECK(kkt_residual(problem.a, e, p) <= 1e-11);
+      CHECK(certificate.residual <= 1e-11);
+      CHECK(certificate.least_gap >= -1e-17);
+      CHECK(p.minCoeff() >= 0);
+      CHECK(certificate.degenerate == reference.degenerate);
+      CHECK(nodes.sum() == doctest::Approx(p.sum()).epsilon(1e-12));
+      std::vector<int> touching;
+      for (int i = 0; i < n; ++i)
+        if (p[i] > 0) touching.push_back(i);
+      CHECK(active.strips == touching);
+      // The same again needs no other set.
+      const Certificate again = solver.solve(problem.parts, e, active, p, d, nodes.data());
+      if (reference.degenerate == 0) {
+        CHECK(again.factorisations == 0);
+        CHECK(again.iterations == 1);
+      }
+    }
+  }
+}
+
+TEST_CASE("strips in parts: a number that is none is refused, wherever it stands") {
+  std::mt19937 random(7);
+  for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (int strip : {0, 27, 33, 59}) {
+      WindowProblem problem(random);
+      const int n = problem.parts.size();
+      ComplementaritySolver solver;
+      ActiveSet active;
+      VectorXd p(n), d(n), nodes(WindowProblem::kPairs * WindowProblem::kNodes);
+      VectorXd e = problem.gap.array() - 5e-6;
+      solver.solve(problem.parts, e, active, p, d, nodes.data());
+      e[strip] = bad;
+      CHECK(failure_of([&] { solver.solve(problem.parts, e, active, p, d, nodes.data()); }) ==
+            Failure::numerical);
+      e = problem.gap.array() - 5e-6;
+      problem.half_plane[strip / 20][static_cast<size_t>(strip % 20 * 21)] = bad;
+      active.forget();
+      bool refused = false;
+      try {
+        solver.solve(problem.parts, e, active, p, d, nodes.data());
+      } catch (const Error& error) {
+        CHECK(error.kind() == Failure::numerical);
+        refused = true;
+      }
+      // A column that is not looked at may stand as it likes as long as its strip carries nothing.
+      if (!refused) CHECK(p[strip] == 0);
+    }
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "contact/lanes.h"
+#include "contact/strip_compliance.h"
 
 namespace whine {
 
@@ -269,6 +270,24 @@ void ComplementaritySolver::apply(const ActiveSet& active, const double* right, 
     result[j] = (y[j] - dot(factor_.column(j), result, j / kLanes * kLanes, end)) * reciprocal_[j];
 }
 
+namespace {
+
+// m. scale: largest |e|; diagonal: largest A_ii of the set; sum: of its |p|.
+double tolerance_of_gaps(double scale, double diagonal, double sum) {
+  return 1e-12 * scale + 16 * std::numeric_limits<double>::epsilon() * diagonal * sum;
+}
+
+void note_diagonal(const Eigen::Ref<const Eigen::MatrixXd>& a, ActiveSet& active) {
+  active.least_diagonal = std::numeric_limits<double>::infinity();
+  active.largest_diagonal = 0;
+  for (int i : active.strips) {
+    active.least_diagonal = std::min(active.least_diagonal, a(i, i));
+    active.largest_diagonal = std::max(active.largest_diagonal, a(i, i));
+  }
+}
+
+}  // namespace
+
 // Fills p and d for the set, lists in wrong_ what breaks a sign and measures how well the set itself is met.
 void ComplementaritySolver::verify(const Matrix& a, const Vector& e, const std::vector<int>& strips, Result p,
                                    Result d, Certificate& certificate) {
@@ -313,7 +332,7 @@ void ComplementaritySolver::verify(const Matrix& a, const Vector& e, const std::
   defect_ = defect;
   const double least_gap = n > k ? d.minCoeff() : 0;
   for (int i = 0; i < k; ++i) d[strips[i]] = 0;  // exact by the solve, round-off otherwise
-  gap_tolerance_ = 1e-12 * scale_ + 16 * std::numeric_limits<double>::epsilon() * diagonal * sum;
+  gap_tolerance_ = tolerance_of_gaps(scale_, diagonal, sum);
   certificate.least_gap = least_gap;
   certificate.least_force = k > 0 ? least_force : 0;
   certificate.degenerate = 0;
@@ -362,16 +381,124 @@ void require_residual(const Certificate& certificate) {
 
 // What solve hands out: nothing that the problem does not determine.
 Certificate ComplementaritySolver::certified(const Certificate& certificate, const Matrix& a,
-                                             const ActiveSet& active) const {
+                                             ActiveSet& active) const {
   require_residual(certificate);
-  if (certificate.shifted && singular_ == Singular::refuse) {
-    double largest = 0;
-    for (int i : active.strips) largest = std::max(largest, a(i, i));
+  note_diagonal(a, active);
+  if (certificate.shifted && singular_ == Singular::refuse)
     fail(Failure::numerical, "the compliance of the ", active.strips.size(),
-         " strips that touch is singular to round-off (largest diagonal ", largest,
+         " strips that touch is singular to round-off (largest diagonal ", active.largest_diagonal,
          " m/N) and does not say how they share the load: strips coincide, or the body's table is wrong");
-  }
   return certificate;
+}
+
+Certificate ComplementaritySolver::solve(const StripCompliance& a, const Vector& e, ActiveSet& active,
+                                         Result p, Result d, double* nodes) {
+  const int n = a.size();
+  if (e.size() != n || p.size() != n || d.size() != n)
+    fail(Failure::numerical, "a contact problem of ", e.size(), " gaps has a compliance of ", n,
+         " strips and room for ", p.size(), " forces and ", d.size(), " gaps");
+  reserve(n);
+  if (assembled_.size() < static_cast<Eigen::Index>(n) * n)
+    assembled_.setZero(static_cast<Eigen::Index>(n) * n);
+  const Eigen::Map<const Eigen::MatrixXd> whole(assembled_.data(), n, n);
+  constexpr int kTries = 4;  // sets that follow from each other's wrong signs
+  Certificate certificate;
+  const auto take = [&] {  // next_, with its inverse
+    a.assemble_columns(next_, assembled_.data());
+    if (!active.known || !border(whole, active)) {
+      active.strips = next_;
+      factorise(whole, active);
+      ++certificate.factorisations;
+      if (active.shifted) return false;
+      invert(active.inverse);
+      active.known = true;
+    }
+    note_diagonal(whole, active);
+    return true;
+  };
+  active.strips.reserve(n);
+  active.inverse.reserve(n);
+  if (static_cast<int>(active.strips.size()) != active.inverse.rows()) active.known = false;
+  bool tried = active.known && !active.shifted;
+  if (!tried && !active.strips.empty()) {
+    if (active.strips.front() < 0 || active.strips.back() >= n)
+      fail(Failure::numerical, "strips ", active.strips.front(), " to ", active.strips.back(),
+           " of the first guess are not all among the ", n, " strips");
+    active.known = false;
+    next_ = active.strips;
+    tried = take();
+  }
+  for (int n_tried = 1; tried; ++n_tried) {
+    if (repeat(a, e, active, p, d, nodes, certificate)) return certificate;
+    if (n_tried == kTries || wrong_.empty()) break;
+    std::fill(in_.begin(), in_.end(), 0);
+    for (int i : active.strips) in_[i] = 1;
+    for (int i : wrong_) in_[i] ^= 1;
+    list(next_);
+    tried = take();
+  }
+  a.assemble(assembled_.data());
+  const Certificate before = certificate;
+  certificate = solve(whole, e, active, p, d);
+  certificate.factorisations += before.factorisations;
+  certificate.iterations += before.iterations;
+  for (int j = 0; j < a.pairs; ++j)
+    dot_columns(nodes + j * StripCompliance::kPairNodes, a.interpolation[j], a.strips,
+                StripCompliance::kPairNodes, p.data() + j * a.strips, a.strips);
+  return certificate;
+}
+
+// The kept set once more. If it is not right beyond doubt, false, and the strips of wrong sign in wrong_.
+bool ComplementaritySolver::repeat(const StripCompliance& a, const Vector& e, const ActiveSet& active,
+                                   Result p, Result d, double* nodes, Certificate& certificate) {
+  const int n = a.size(), k = static_cast<int>(active.strips.size());
+  const int* strips = active.strips.data();
+  ++certificate.iterations;
+  wrong_.clear();
+  double *gap = d.data(), *force = p.data(), *of_set = p_active_.data();
+  const auto larger = [](Lanes x, Lanes y) { return x > y ? x : y; };
+  const auto smaller = [](Lanes x, Lanes y) { return x < y ? x : y; };
+  const auto size = [](Lanes x) { return x < 0 ? -x : x; };
+  Lanes largest{};
+  for (int i = 0; i < n; i += kLanes) {
+    lanes(gap + i) = lanes(e.data() + i);
+    largest = larger(size(lanes(gap + i)), largest);
+    lanes(force + i) = Lanes{};
+  }
+  for (int i = 0; i < k; ++i) right_[i] = -e[strips[i]];
+  factored_ = false;
+  apply(active, right_.data(), of_set);
+  for (int i = 0; i < k; ++i) force[strips[i]] = of_set[i];
+  a.add_product(force, nodes, gap);
+
+  // A strip of the set whose force is 0 counts as one without, whose gap is then within the tolerance: not beyond doubt.
+  const Lanes infinity = Lanes{} + std::numeric_limits<double>::infinity();
+  Lanes all{}, forces{}, defects{}, least_gaps = infinity, least_forces = infinity;
+  for (int i = 0; i < n; i += kLanes) {
+    const Lanes x = lanes(gap + i), f = lanes(force + i);
+    const auto loaded = f != 0;
+    all += x;
+    forces += size(f);
+    defects = larger(loaded ? size(x) : Lanes{}, defects);
+    least_gaps = smaller(loaded ? infinity : x, least_gaps);
+    least_forces = smaller(loaded ? f : infinity, least_forces);
+    lanes(gap + i) = loaded ? Lanes{} : x;  // exact by the solve, round-off otherwise
+  }
+  const auto most = [](Lanes x) { return std::max(std::max(x[0], x[1]), std::max(x[2], x[3])); };
+  const auto least = [](Lanes x) { return std::min(std::min(x[0], x[1]), std::min(x[2], x[3])); };
+  const double scale = most(largest), defect = most(defects), least_gap = least(least_gaps),
+               least_force = least(least_forces),
+               tolerance = tolerance_of_gaps(scale, active.largest_diagonal, sum(forces));
+  if (!(std::isfinite(sum(all)) && defect <= tolerance && defect <= kMostResidual * scale &&
+        least_gap > tolerance && (k == 0 || least_force * active.least_diagonal > tolerance))) {
+    for (int i = 0; i < n; ++i)
+      if (force[i] < 0 || gap[i] < 0) wrong_.push_back(i);
+    return false;
+  }
+  certificate.least_gap = n > k ? least_gap : 0;
+  certificate.least_force = k > 0 ? least_force : 0;
+  certificate.residual = scale > 0 ? defect / scale : 0;
+  return true;
 }
 
 Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, ActiveSet& active, Result p,

@@ -17,6 +17,8 @@
 
 namespace whine {
 
+struct StripCompliance;
+
 // A square matrix that changes its size without changing its memory. Columns stand `stride` apart, a multiple
 // of 4; what lies between their ends and the next multiple of 4 is finite.
 class GrowingMatrix {
@@ -59,6 +61,7 @@ struct ActiveSet {
   bool known = false;
   bool shifted = false;  // the inverse is that of A + shift I
   int updates = 0;       // strips that came or went since the inverse was computed from A
+  double least_diagonal = 0, largest_diagonal = 0;  // of A on them, as `inverse`
   void forget() { known = false; }
 };
 
@@ -101,6 +104,12 @@ class ComplementaritySolver {
   Certificate solve(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::VectorXd>& e,
                     ActiveSet& active, Eigen::Ref<Eigen::VectorXd> p, Eigen::Ref<Eigen::VectorXd> d);
 
+  // The same for the strips of all pairs, whose A is made up only as far as the problem needs it: a set that is right beyond
+  // doubt, forces and gaps of all strips clear of the tolerances, needs its own rows and columns, once. nodes: as
+  // StripCompliance::add_product, of the solution.
+  Certificate solve(const StripCompliance& a, const Eigen::Ref<const Eigen::VectorXd>& e, ActiveSet& active,
+                    Eigen::Ref<Eigen::VectorXd> p, Eigen::Ref<Eigen::VectorXd> d, double* nodes);
+
  private:
   using Matrix = Eigen::Ref<const Eigen::MatrixXd>;
   using Vector = Eigen::Ref<const Eigen::VectorXd>;
@@ -114,7 +123,9 @@ class ComplementaritySolver {
   void apply(const ActiveSet& active, const double* right, double* result);
   bool attempt(const Matrix& a, const Vector& e, const ActiveSet& active, Result p, Result d,
                Certificate& certificate);
-  Certificate certified(const Certificate& certificate, const Matrix& a, const ActiveSet& active) const;
+  Certificate certified(const Certificate& certificate, const Matrix& a, ActiveSet& active) const;
+  bool repeat(const StripCompliance& a, const Vector& e, const ActiveSet& active, Result p, Result d,
+              double* nodes, Certificate& certificate);
   void verify(const Matrix& a, const Vector& e, const std::vector<int>& strips, Result p, Result d,
               Certificate& certificate);
   void lawson_hanson(const Matrix& a, const Vector& e, ActiveSet& active);
@@ -128,6 +139,7 @@ class ComplementaritySolver {
   Eigen::VectorXd reciprocal_;               // 1 / L_jj
   Eigen::VectorXd right_, p_active_, work_;  // (n, padded)
   Eigen::VectorXd force_, target_;           // (n) of Lawson-Hanson
+  Eigen::VectorXd assembled_;                // (n, n) of a StripCompliance, as far as it is needed
   double gap_tolerance_ = 0, scale_ = 0;     // m
   double defect_ = 0;                        // m: largest |d| on the active strips
   bool factored_ = false;                    // factor_ belongs to the set, otherwise its inverse does

@@ -298,8 +298,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps, const Wind
           position.lagged(mesh.nodes_of(i), mesh.nodes_of(j)) += rows(i) * block * rows(j).transpose();
         }
     }
-    position.local = local_compliance(model_, mesh, depth);
-    mesh.add_to_strips(whole - position.lagged, position.local);
+    position.at_once = whole - position.lagged;
     if (mesh.pairs.size() > kMostPairs)
       fail(Failure::numerical, "at mesh phase ", mesh.phase, " ", mesh.pairs.size(),
            " pairs are in reach, at most ", kMostPairs, " are foreseen");
@@ -318,6 +317,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps, const Wind
     }
   }
   step_data_.clear();
+  step_memory_ = std::pmr::vector<double>(&huge_pages());
   set_hunting_gaps(beside.gaps);
   pack();
   turns_.clear();
@@ -383,18 +383,9 @@ const MatrixXd& RollingDynamics::shape_on_tooth(int g, int tooth) const {
 
 MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
   MatrixXd h = MatrixXd::Zero(mesh.nodes(), static_cast<int>(coordinates_.size()));
-  for (size_t c = 0; c < coordinates_.size(); ++c) {
+  for (size_t c = 0; c < coordinates_.size(); ++c)
     for (int g = 0; g < 2; ++g) h.col(c) += coordinates_[c].hub[g] * mesh.node_lever[g];
-    if (full()) continue;
-    const int g = coordinates_[c].gear;
-    for (size_t i = 0; i < mesh.pairs.size(); ++i)
-      for (const auto& [column, share] : coordinates_[c].columns)
-        h.col(c)(mesh.nodes_of(i)) +=
-            share * mesh.table_weights[g](mesh.nodes_of(i), Eigen::all) *
-            model_.gear[g].mode_on_tooth(column, GearMeshModel::tooth(g, mesh.pairs[i].pair));
-  }
-  // Every mode: one product with a matrix that is kept per tooth.
-  for (int g = 0; full() && g < 2; ++g)
+  for (int g = 0; g < 2; ++g)
     for (size_t i = 0; i < mesh.pairs.size(); ++i) {
       const MatrixXd& shape = shape_on_tooth(g, GearMeshModel::tooth(g, mesh.pairs[i].pair));
       h.middleCols(first_coordinate_[g], shape.cols())(mesh.nodes_of(i), Eigen::all) +=
@@ -440,14 +431,22 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
         known[i] = {std::move(step.active.strips), step.force};
       }
     step_data_.clear();
-    size_t numbers = 0;
-    for (int i = 0; i < steps; ++i) numbers += Step::numbers(positions_[i * stride_].mesh.strips());
-    if (step_memory_.size() < numbers) step_memory_.clear(), step_memory_.resize(numbers);
+    const auto size_of = [this](const Position& position) {
+      const int pairs = position.frame.present;
+      return lines() ? Step::Size{pairs, pairs, 0}
+                     : Step::Size{pairs * kPairNodes, pairs * kWindowNodes, position.mesh.strips()};
+    };
+    // Once for all speeds, and as bare memory: only what a speed has steps for is ever touched.
+    if (step_memory_.capacity() == 0) {
+      size_t numbers = 0;
+      for (const Position& position : positions_) numbers += size_of(position).numbers();
+      step_memory_.reserve(numbers);
+    }
     step_pool_ = std::make_unique<std::pmr::monotonic_buffer_resource>(
-        step_memory_.data(), step_memory_.size() * sizeof(double), std::pmr::null_memory_resource());
+        step_memory_.data(), step_memory_.capacity() * sizeof(double), std::pmr::null_memory_resource());
     step_data_.reserve(steps);
     for (int i = 0; i < steps; ++i) {
-      Step& step = step_data_.emplace_back(positions_[i * stride_].mesh.strips(), step_pool_.get());
+      Step& step = step_data_.emplace_back(size_of(positions_[i * stride_]), step_pool_.get());
       std::tie(step.active.strips, step.force) = std::move(known[i]);
     }
   }
@@ -456,10 +455,19 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
     const Position& position = positions_[i * stride_];
     step_data_[i].active.forget();
     step_data_[i].start.forget();
-    at_nodes = lag_.from_new * position.lagged;
+    at_nodes = position.at_once + lag_.from_new * position.lagged;
     add_response(position, at_nodes);
-    position.mesh.add_to_strips(at_nodes, position.local, step_data_[i].compliance);
+    if (lines())
+      step_data_[i].compliance = at_nodes;
+    else
+      put_at_nodes(at_nodes, step_data_[i].compliance.data());
   }
+}
+
+MatrixXd RollingDynamics::local_compliance(const Position& position) const {
+  MatrixXd a = whine::local_compliance(model_, position.mesh, parameters_.damping.undamped_depth);
+  position.mesh.add_to_strips(position.at_once, a);
+  return a;
 }
 
 VectorXd RollingDynamics::flexibility() const {
@@ -470,7 +478,7 @@ VectorXd RollingDynamics::flexibility() const {
 
 // Elastic coordinates follow their force, z = (torque - h f) / w^2; the rigid one carries the load.
 MatrixXd RollingDynamics::static_compliance(const Position& position) const {
-  MatrixXd a = position.local;
+  MatrixXd a = local_compliance(position);
   position.mesh.add_to_strips(position.lagged + position.participation * flexibility().asDiagonal() *
                                                     position.participation.transpose(),
                               a);
@@ -526,7 +534,7 @@ double RollingDynamics::frozen_frequency(int i, int period) {
   for (int k = 0; k < p.size(); ++k)
     if (p[k] > 0) touch.push_back(k);
   // d = 0 on the active strips: p = (A + R)^-1 h z there, and z'' + (w^2 + h^T (A + R)^-1 h) z = 0.
-  MatrixXd a = position.local;
+  MatrixXd a = local_compliance(position);
   position.mesh.add_to_strips(position.lagged, a);
   for (size_t j = 0; j < position.mesh.law.size(); ++j) a(j, j) += position.mesh.law[j].at(p[j]).slope;
   const MatrixXd compliance = a(touch, touch);
@@ -562,7 +570,7 @@ HeldMesh RollingDynamics::hold(int i) const {
   }
   held.torque = torque_force_;
   held.error_weight = error_weight_;
-  held.local = position.local;
+  held.local = local_compliance(position);
   held.residual = MatrixXd::Zero(mesh.strips(), mesh.strips());
   mesh.add_to_strips(position.lagged, held.residual);
   held.gap = mesh.gap;

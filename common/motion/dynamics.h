@@ -36,6 +36,7 @@
 #include "base/huge_pages.h"
 #include "contact/lanes.h"
 #include "contact/line_contact.h"
+#include "contact/strip_compliance.h"
 #include "files/schemas.h"
 #include "motion/held_motion.h"
 #include "motion/ledger.h"
@@ -156,19 +157,24 @@ class RollingDynamics {
     int partner = -1;                             // other half of a doublet
     double turn = 0;                              // rad: its turn per mesh period (0 if single)
   };
-  struct Step {                          // one position at one speed
-    static size_t numbers(int strips) {  // that it takes of its memory
-      const auto n = static_cast<size_t>(strips), whole = static_cast<size_t>(padded(strips));
-      return n * n + whole * whole;
-    }
-    Step(int strips, std::pmr::memory_resource* memory)
-        : store(static_cast<size_t>(strips) * static_cast<size_t>(strips), memory),
-          compliance(store.data(), strips, strips),
+  struct Step {  // one position at one speed
+    struct Size {
+      int rows, columns;        // of the compliance
+      int strips;               // of all pairs; 0 for lines
+      size_t numbers() const {  // that a step takes of its memory
+        const auto whole = static_cast<size_t>(padded(strips));
+        return static_cast<size_t>(rows) * static_cast<size_t>(columns) + whole * whole;
+      }
+    };
+    Step(Size size, std::pmr::memory_resource* memory)
+        : store(static_cast<size_t>(size.rows) * static_cast<size_t>(size.columns), memory),
+          compliance(store.data(), size.rows, size.columns),
           active(memory) {
-      active.inverse.reserve(strips);
+      active.inverse.reserve(size.strips);
     }
     std::pmr::vector<double> store;
-    Eigen::Map<Eigen::MatrixXd> compliance;  // (strip, strip)
+    // Of lines (pair, pair), of strips that between nodes: StripCompliance::at_nodes.
+    Eigen::Map<Eigen::MatrixXd> compliance;
     ActiveSet active;
     PairVector force;  // (pair) N, of lines: what they carried here last; empty: not known
     LineStart start;   // of lines, at this speed
@@ -179,12 +185,14 @@ class RollingDynamics {
     struct Pair {
       double drift_lever = 0;    // 1: a1 / r1 - a2 / r2
       size_t interpolation = 0;  // (strip of the pair, node of the pair)
+      size_t half_plane = 0;     // (strip of the pair, strip of the pair)
       size_t field = 0;          // of strips: per gear (node of the pair, field)
       int slot = 0;              // its column in lag and load
       bool low_is_edge = false, high_is_edge = false;
     };
     int present = 0, of_pair = 0;  // pairs; strips of a pair
     size_t gap = 0;                // (strip)
+    size_t at_once = 0;            // of strips: StripCompliance::at_nodes, of what follows at once
     size_t shape = 0;              // (pair, coordinate, shape row), four coordinates side by side
     size_t line = 0;               // of lines: (pair) LineRecord
     double next_corner_gap = 0, lost_corner_gap = 0;
@@ -192,7 +200,7 @@ class RollingDynamics {
   };
   struct Position {
     MeshPosition mesh;
-    Eigen::MatrixXd local;                        // (strip, strip): all that follows at once
+    Eigen::MatrixXd at_once;                      // (node, node): of bodies, what follows at once
     Eigen::MatrixXd participation;                // (node, coordinate)
     Eigen::MatrixXd lagged;                       // (node, node): of both gears, when nothing moves
     std::array<Eigen::MatrixXd, 2> field_weight;  // (node, field)
@@ -222,8 +230,8 @@ class RollingDynamics {
   } hub_lanes_;
   static constexpr int kFields = 12;       // lagged, per tooth
   static constexpr int kSharedFields = 8;  // the first of them: what teeth of a gear do to each other
-  static constexpr int kPairNodes = 8;     // columns of nodes: kWindowNodes and zeros up to whole lanes
-  static constexpr int kShapeRows = 4;     // per pair: what modes are read and loaded through
+  static constexpr int kPairNodes = StripCompliance::kPairNodes;  // columns of nodes
+  static constexpr int kShapeRows = 4;  // per pair: what modes are read and loaded through
   static_assert(kFields == 12 && kSharedFields == 8 && kPairNodes == 8 && kPairNodes >= kWindowNodes);
   static_assert(kShapeRows == kLanes && kShapeRows <= kWindowNodes);
   // (node, shape row) orthonormal: the first Chebyshev polynomials on the Chebyshev points of a window.
@@ -311,7 +319,15 @@ class RollingDynamics {
   void put_gap(Position& position, int period);
   void pack();
   void pack_gap(const Position& position);
-  void pack_strips(Position& position, size_t& inner);
+  struct Windows;
+  void pack_strips(Position& position, Windows& known);
+  size_t most_numbers(const Position& position) const;
+  static void put_at_nodes(const Eigen::MatrixXd& at_nodes, double* to);
+  // Of strips; at_nodes: StripCompliance's.
+  StripCompliance strip_compliance(const Position& position, const double* at_nodes) const;
+  // result: (strip) m, of all that follows at once, without laws of lines; p: (strip) N.
+  void displace_locally(const Position& position, const double* p, Eigen::VectorXd& result) const;
+  Eigen::MatrixXd local_compliance(const Position& position) const;  // (strip, strip) m N-1, the same
   void pack_lines(Position& position);
   void add_modes(int g, const std::vector<int>& columns);
   const Eigen::MatrixXd& shape_on_tooth(int g, int tooth) const;

@@ -94,6 +94,17 @@ RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
   return result;
 }
 
+void RollingDynamics::displace_locally(const Position& position, const double* p, VectorXd& result) const {
+  const int strips = position.mesh.strips();
+  if (lines()) {
+    result.head(strips).noalias() = position.at_once.lazyProduct(Eigen::Map<const VectorXd>(p, strips));
+    return;
+  }
+  result.head(strips).setZero();
+  alignas(Lanes) double nodes[kPairNodes * kMostPairs];
+  strip_compliance(position, &stream_[position.frame.at_once]).add_product(p, nodes, result.data());
+}
+
 // The instant that the workspace holds; p, d: (strip). What lagged loads displace goes on from the instant before as the lag
 // itself does; without one it is computed anew.
 void RollingDynamics::fill(Instant& now, const Instant* before, const Position& position, const double* p,
@@ -115,18 +126,9 @@ void RollingDynamics::fill(Instant& now, const Instant* before, const Position& 
   for (int g = 0; !before && g < 2; ++g) displace(g, &now.lag[g * of_gear], &now.field[g * of_gear]);
   std::copy(p, p + strips, now.p.data());
   std::copy(d, d + strips, now.d.data());
-  std::fill(now.local.data(), now.local.data() + strips, 0.0);
-  if (lines()) now.local.head(strips).noalias() = position.local.lazyProduct(now.p.head(strips));
+  displace_locally(position, now.p.data(), now.local);
   alignas(Lanes) double unused[2 * kFields];
   for (size_t j = 0; j < position.mesh.pairs.size(); ++j) {
-    if (!lines()) {  // from the first strip with force to the last
-      int first = position.mesh.first_strip[j], last = position.mesh.first_strip[j + 1];
-      while (first < last && p[first] == 0) ++first;
-      while (first < last && p[last - 1] == 0) --last;
-      if (first < last)
-        add_columns(now.local.data(), position.local.data() + first * strips, strips, p + first, last - first,
-                    0, strips);
-    }
     lanes(&now.moment[j * kLanes]) = collect(position, j, p + position.mesh.first_strip[j], unused);
     lanes(&now.reading[j * kLanes]) = reading(position, j, now.z.data());
   }

@@ -78,15 +78,34 @@ RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
   return sizes;
 }
 
+// Windows without an edge are alike if they are of one width; near a root they are narrower.
+struct RollingDynamics::Windows {
+  struct Place {
+    double width;  // m
+    size_t interpolation, half_plane;
+  };
+  std::vector<Place> inner;
+  const Place* find(const PairStrips& s) const {
+    constexpr double kSame = 1e-12;
+    const double width = s.border[s.size()] - s.border[0];
+    for (const Place& place : inner)
+      if (std::abs(width - place.width) <= kSame * width) return &place;
+    return nullptr;
+  }
+};
+
 // Lays the numbers of each position side by side.
 void RollingDynamics::pack() {
   stream_.clear();
-  size_t inner = std::numeric_limits<size_t>::max();  // windows without an edge are all alike
+  size_t most = 0;
+  for (const Position& position : positions_) most += most_numbers(position);
+  stream_.reserve(most);
+  Windows known;
   for (Position& position : positions_)
     if (lines())
       pack_lines(position);
     else
-      pack_strips(position, inner);
+      pack_strips(position, known);
 }
 
 namespace {
@@ -185,13 +204,15 @@ void interpolate(double* result, const double* gap, const double* interpolation,
 
 }  // namespace
 
-void RollingDynamics::pack_strips(Position& position, size_t& inner) {
+void RollingDynamics::pack_strips(Position& position, Windows& known) {
   const int coordinates = padded(static_cast<int>(coordinates_.size()));
   const MeshPosition& mesh = position.mesh;
   const int pairs = static_cast<int>(mesh.pairs.size());
   position.frame.gap = place(stream_, mesh.strips());
   std::copy(mesh.gap.begin(), mesh.gap.end(),
             stream_.begin() + static_cast<std::ptrdiff_t>(position.frame.gap));
+  position.frame.at_once = place(stream_, pairs * kPairNodes * pairs * kWindowNodes);
+  put_at_nodes(position.at_once, &stream_[position.frame.at_once]);
   position.frame.shape = place(stream_, pairs * kShapeRows * coordinates);
   for (int j = 0; j < pairs; ++j) {
     const MatrixXd shape =
@@ -202,14 +223,23 @@ void RollingDynamics::pack_strips(Position& position, size_t& inner) {
         rows[(c / kLanes * kShapeRows + r) * kLanes + c % kLanes] = shape(r, c);
     const PairStrips& s = mesh.pairs[j];
     const bool edge = s.low_is_edge || s.high_is_edge;
-    if (edge || inner == std::numeric_limits<size_t>::max()) {
-      const size_t at = place(stream_, s.size() * kPairNodes);
-      for (int k = 0; k < kWindowNodes; ++k)
-        for (int i = 0; i < s.size(); ++i) stream_[at + k * s.size() + i] = s.interpolation(i, k);
-      position.frame.pair[j].interpolation = at;
-      if (!edge) inner = at;
+    Frame::Pair& pair = position.frame.pair[j];
+    const Windows::Place* alike = edge ? nullptr : known.find(s);
+    if (alike) {
+      pair.interpolation = alike->interpolation;
+      pair.half_plane = alike->half_plane;
     } else {
-      position.frame.pair[j].interpolation = inner;
+      pair.interpolation = place(stream_, s.size() * kPairNodes);
+      for (int k = 0; k < kWindowNodes; ++k)
+        for (int i = 0; i < s.size(); ++i)
+          stream_[pair.interpolation + k * s.size() + i] = s.interpolation(i, k);
+      const MatrixXd half_plane = half_plane_compliance(
+          s, model_.gear[0].half_plane(), model_.gear[1].half_plane(), parameters_.damping.undamped_depth);
+      pair.half_plane = place(stream_, half_plane.size());
+      std::copy(half_plane.data(), half_plane.data() + half_plane.size(),
+                stream_.begin() + static_cast<std::ptrdiff_t>(pair.half_plane));
+      if (!edge)
+        known.inner.push_back({s.border[s.size()] - s.border[0], pair.interpolation, pair.half_plane});
     }
     position.frame.pair[j].field = place(stream_, 2 * kPairNodes * kFields);
     for (int g = 0; g < 2; ++g) {
@@ -219,6 +249,36 @@ void RollingDynamics::pack_strips(Position& position, size_t& inner) {
           stream_[at + r * kPairNodes + k] = position.field_weight[g](j * kWindowNodes + k, r);
     }
   }
+}
+
+// That a position may take of the stream, if no other has a window like its own.
+size_t RollingDynamics::most_numbers(const Position& position) const {
+  const int coordinates = padded(static_cast<int>(coordinates_.size())), pairs = position.frame.present,
+            strips = position.frame.of_pair;
+  if (lines()) return static_cast<size_t>(pairs * LineRecord{coordinates, all_fields()}.size());
+  return static_cast<size_t>(pairs) *
+         static_cast<size_t>(strips + kPairNodes * pairs * kWindowNodes + kShapeRows * coordinates +
+                             strips * kPairNodes + strips * strips + 2 * kPairNodes * kFields);
+}
+
+// Lays (node, node) out as StripCompliance::at_nodes, whose other rows stay 0.
+void RollingDynamics::put_at_nodes(const MatrixXd& at_nodes, double* to) {
+  const auto pairs = at_nodes.cols() / kWindowNodes;
+  for (Eigen::Index c = 0; c < at_nodes.cols(); ++c)
+    for (Eigen::Index j = 0; j < pairs; ++j, to += kPairNodes)
+      for (int k = 0; k < kWindowNodes; ++k) to[k] = at_nodes(j * kWindowNodes + k, c);
+}
+
+StripCompliance RollingDynamics::strip_compliance(const Position& position, const double* at_nodes) const {
+  StripCompliance a;
+  a.pairs = position.frame.present;
+  a.strips = position.frame.of_pair;
+  for (int j = 0; j < a.pairs; ++j) {
+    a.half_plane[j] = &stream_[position.frame.pair[j].half_plane];
+    a.interpolation[j] = &stream_[position.frame.pair[j].interpolation];
+  }
+  a.at_nodes = at_nodes;
+  return a;
 }
 
 // Adds h (bq / 2) h^T, what the modes give way at the end of a step. at_nodes: (node, node) m N-1.
@@ -558,8 +618,9 @@ struct RollingDynamics::StripContact {
       interpolate(e.data() + j * of_pair, stream + position.frame.gap + j * of_pair,
                   stream + position.frame.pair[j].interpolation, of_pair, at_node);
     }
-    return dynamics.solver_.solve(step.compliance, e.head(strips), step.active, p.head(strips),
-                                  d.head(strips));
+    const StripCompliance a = dynamics.strip_compliance(position, step.compliance.data());
+    return dynamics.solver_.solve(a, e.head(strips), step.active, p.head(strips), d.head(strips),
+                                  nodes.data());
   }
 
   // N, of pair j. False if force stands on a window's end that is no tip edge.
@@ -571,9 +632,6 @@ struct RollingDynamics::StripContact {
     Lanes total{};
     for (int k = 0; k < of_pair; k += kLanes) total += lanes(own + k);
     force = sum(total);
-    if (force != 0)
-      dot_columns(&nodes[j * kPairNodes], &dynamics.stream_[pair.interpolation], of_pair, kPairNodes, own,
-                  of_pair);
     return true;
   }
 
@@ -605,7 +663,7 @@ struct RollingDynamics::StripContact {
   RollingDynamics& dynamics;
   int coordinates, fields;
   VectorXd &e, &p, &d;  // (strip)
-  VectorXd& nodes;      // (node) forces
+  VectorXd& nodes;      // (node) forces, filled with p
 
  private:
   double* field_of(const Position& position, int g, int j) const {
@@ -646,7 +704,9 @@ struct RollingDynamics::RecordedContact : StripContact {
   Certificate solve(const Position& position, Step& step, const double* z, const ModalReading& modal,
                     const double* lag) {
     const Certificate certificate = StripContact::solve(position, step, z, modal, lag);
-    problems.push_back({step.compliance, e.head(position.mesh.strips()), step.active});
+    const StripCompliance a = dynamics.strip_compliance(position, step.compliance.data());
+    problems.push_back({MatrixXd(a.size(), a.size()), e.head(a.size()), step.active});
+    a.assemble(problems.back().compliance.data());
     return certificate;
   }
   std::vector<ContactProblem>& problems;
