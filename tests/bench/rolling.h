@@ -101,11 +101,11 @@ inline double load_bandwidth(size_t bytes) {
 //   modes read     2 P r n        and loaded: 2 L r n
 //   lag read       strips: 4 P F N + 6 P F;                        lines, which hold the product: 4 P (T S + F - S)
 //   lag loaded     strips: 4 L F N + 4 L (F^2 + (P - 1) S^2);      lines: 2 L F
-//   strips only: basis 2 (P + L) N r, interpolation 2 s (6 P + N L), contact problem 2 k^2 + 2 M k (inverse; gaps of all
-//   strips)
+//   strips only: basis 2 (P + L) N r, interpolation 2 s (6 P + N L), contact problem 2 k^2 (inverse) and the gaps of all strips:
+//   2 s k + 12 N P L + 12 s P (half-planes, between nodes, to strips)
 // Laws and Newton steps of lines, signs and certificates are not counted. Bytes are those of other places in memory at each
-// step: shapes, weights, gaps, interpolation, active columns of A and the inverse of their block; what steps share (modal
-// vectors and fields) stays in the first caches.
+// step: shapes, weights, gaps, compliance between nodes and the inverse on the strips that touch; what steps share (modal
+// vectors and fields, windows without an edge) stays in the first caches.
 struct StepWork {
   double flops = 0, bytes = 0;
 };
@@ -117,8 +117,9 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
   w.bytes = P * r * n;
   if (N > 1) {
     w.flops += 4 * P * F * N + 6 * P * F + 4 * L * F * N + 4 * L * (F * F + (P - 1) * S * S) +
-               2 * (P + L) * N * r + 2 * s.strips * (kWindowNodes * P + N * L) + 2 * k * k + 2 * M * k;
-    w.bytes += 2 * P * N * F + M * N + M + M * k + k * padded(touching);
+               2 * (P + L) * N * r + 2 * s.strips * (kWindowNodes * P + N * L) + 2 * k * k +
+               2 * s.strips * k + 12 * N * P * L + 12 * s.strips * P;
+    w.bytes += 2 * P * N * F + M + 6 * N * P * P + k * padded(touching);
   } else {
     w.flops += 4 * P * (T * S + F - S) + 2 * L * F;
     w.bytes += P * (2 * (T * S + F - S) + 2 * F + kLanes) + P * P;
