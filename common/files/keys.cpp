@@ -253,7 +253,7 @@ std::vector<Key> make_keys() {
     {Part::time, "discretisation", "min_sample_rate_kHz", kKilohertz, "250", 0, 1e6, false, "",
      "least rate of time steps",
      [](V& v) -> Slot { return &v.time.min_sample_rate; }},
-    {Part::time, "discretisation", "periodicity", kNone, "1e-6", 1e-12, 1, false, "",
+    {Part::time, "discretisation", "periodicity", kNone, "1e-5", 1e-12, 1, false, "",
      "relative change of the state over a mesh period at which a speed counts as steady; round-off is 1e-14",
      [](V& v) -> Slot { return &v.time.periodicity; }},
     {Part::time, "discretisation", "steady_state", kNone, "extrapolate", 0, 0, false, "extrapolate march",

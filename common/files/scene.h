@@ -154,7 +154,7 @@ struct ContactDiscretisation {
 struct TimeDiscretisation {
   int steps_per_period = 128;                // stored samples per mesh period
   double min_sample_rate = 250e3;            // Hz; steps per period are doubled until it is reached
-  double periodicity = 1e-6;                 // relative change of the state at which a speed counts as steady
+  double periodicity = 1e-5;                 // relative change of the state at which a speed counts as steady
   std::string steady_state = "extrapolate";  // or "march": every period on the way, as a rig would
 };
 

@@ -152,7 +152,7 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
       const double change = away(y, past[past.size() - m]);
       bool shorter = false;
       for (int d = 1; d < m; ++d)
-        shorter = shorter || (m % d == 0 && away(y, past[past.size() - d]) < 100 * periodicity);
+        shorter = shorter || (m % d == 0 && away(y, past[past.size() - d]) < 10 * periodicity);
       if (shorter) continue;
       if (!march_only && change < kClose && pause == 0) {
         LumpedOrbit tried = orbit;

@@ -179,7 +179,7 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
     for (int m = 1; m <= std::min(known, n < kStagnation ? 1 : kMostMultiple); ++m)
       change[m] = dynamics.distance(state, past[known - m]);
     const auto stagnates = [&](int m) {
-      return static_cast<int>(history.size()) == kStagnation && change[m] > 100 * periodicity &&
+      return static_cast<int>(history.size()) == kStagnation && change[m] > 10 * periodicity &&
              change[m] > 0.999 * history.front()[m];
     };
     int multiple = 0;
