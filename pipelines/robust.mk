@@ -42,7 +42,7 @@ test-report: build $(tools:%=$(B)/id/%) | $(with_deps) $(filter deps-browser,$(g
 STRESS_PROBLEMS ?= 1000000
 STRESS_SCENES ?= 200
 STRESS_SEED ?= 1
-$(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests/peer/strip_problems.h $(B)/flags $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/ $(with_deps)
+$(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests/peer/strip_problems.h tests/peer/window_problem.h $(B)/flags $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/ $(with_deps)
 	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS)
 
 .PHONY: stress

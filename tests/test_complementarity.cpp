@@ -9,17 +9,16 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "contact/strip_compliance.h"
 #include "failure_of.h"
 #include "memory.h"
 #include "peer/strip_problems.h"
+#include "peer/window_problem.h"
 #include "relative.h"
 
 using namespace whine;
@@ -416,54 +415,16 @@ TEST_CASE("complementarity: what has no solution is refused with its numbers") {
 
 namespace {
 
-// Three pairs' windows, one of them at a tip edge, on bodies whose nodes give way by a random positive definite C.
-struct WindowProblem {
-  static constexpr int kPairs = 3, kStrips = 20, kNodes = StripCompliance::kPairNodes;
-  std::vector<double> half_plane[kPairs], interpolation[kPairs], at_nodes;
-  StripCompliance parts;
-  MatrixXd a;    // put together here
-  VectorXd gap;  // m
-
-  explicit WindowProblem(std::mt19937& random) {
-    GearDesign design;
-    design.teeth = 50;
-    design.module = 3e-3;
-    design.pressure_angle = 20 * std::numbers::pi / 180;
-    design.face_width = 25.4e-3;
-    design.bore_radius = 40e-3;
-    const GearPair gears(design, design, 0.150);
-    const HalfPlaneSurface surface({207e9, 0.3, 7600, false}, design.face_width);
-    const int n = kPairs * kStrips, nodes = kPairs * kWindowNodes;
-    std::normal_distribution<double> normal;
-    const MatrixXd root = MatrixXd::NullaryExpr(nodes, nodes, [&] { return normal(random); });
-    const MatrixXd c = 1e-10 * (root * root.transpose() + MatrixXd::Identity(nodes, nodes));
-    MatrixXd l = MatrixXd::Zero(n, nodes);
-    a = MatrixXd::Zero(n, n);
-    gap.resize(n);
-    parts.pairs = kPairs;
-    parts.strips = kStrips;
-    const double phase = std::uniform_real_distribution<double>(-0.3, 0.3)(random);
-    for (int j = 0; j < kPairs; ++j) {
-      const PairStrips s = make_strips(gears, j - 1, gears.contact(phase + j - 1), {2e-4, kStrips, 1e-5});
-      const MatrixXd h = half_plane_compliance(s, surface, surface, 1e-3);
-      half_plane[j].assign(h.data(), h.data() + h.size());
-      interpolation[j].assign(kStrips * kNodes, 0.0);
-      std::copy(s.interpolation.data(), s.interpolation.data() + s.interpolation.size(),
-                interpolation[j].begin());
-      l.block(j * kStrips, j * kWindowNodes, kStrips, kWindowNodes) = s.interpolation;
-      a.block(j * kStrips, j * kStrips, kStrips, kStrips) = h;
-      gap.segment(j * kStrips, kStrips) = s.gap;
-      parts.half_plane[j] = half_plane[j].data();
-      parts.interpolation[j] = interpolation[j].data();
-    }
-    a += l * c * l.transpose();
-    MatrixXd padded_c = MatrixXd::Zero(kPairs * kNodes, nodes);
-    for (int j = 0; j < kPairs; ++j)
-      padded_c.middleRows<kWindowNodes>(j * kNodes) = c.middleRows<kWindowNodes>(j * kWindowNodes);
-    at_nodes.assign(padded_c.data(), padded_c.data() + padded_c.size());
-    parts.at_nodes = at_nodes.data();
-  }
-};
+MatrixXd random_bodies(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  const int nodes = WindowProblem::kPairs * kWindowNodes;
+  const MatrixXd root = MatrixXd::NullaryExpr(nodes, nodes, [&] { return normal(random); });
+  return 1e-10 * (root * root.transpose() + MatrixXd::Identity(nodes, nodes));
+}
+WindowProblem random_windows(std::mt19937& random) {
+  const double phase = std::uniform_real_distribution<double>(-0.3, 0.3)(random);
+  return {phase, random_bodies(random)};
+}
 
 }  // namespace
 
@@ -471,7 +432,7 @@ TEST_CASE("compliance in parts: product, matrix and columns are those of the mat
   std::mt19937 random(5);
   std::uniform_real_distribution<double> force(0, 1);
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const WindowProblem problem(random);
+    const WindowProblem problem = random_windows(random);
     const int n = problem.parts.size();
     MatrixXd whole(n, n);
     problem.parts.assemble(whole.data());
@@ -496,7 +457,7 @@ TEST_CASE("strips in parts: the solution of the matrix, whatever set they start 
   std::mt19937 random(6);
   std::uniform_real_distribution<double> approach(-2e-6, 12e-6), share(0, 1);
   for (int repeat = 0; repeat < 200; ++repeat) {
-    const WindowProblem problem(random);
+    const WindowProblem problem = random_windows(random);
     const int n = problem.parts.size();
     ComplementaritySolver solver;
     ActiveSet active, generic;
@@ -539,7 +500,7 @@ TEST_CASE("strips in parts: a number that is none is refused, wherever it stands
   std::mt19937 random(7);
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (int strip : {0, 27, 33, 59}) {
-      WindowProblem problem(random);
+      WindowProblem problem = random_windows(random);
       const int n = problem.parts.size();
       ComplementaritySolver solver;
       ActiveSet active;

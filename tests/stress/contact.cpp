@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "contact/complementarity.h"
 #include "paper_pair.h"
 #include "peer/strip_problems.h"
+#include "peer/window_problem.h"
 
 namespace {
 
@@ -29,6 +31,7 @@ struct Problem {
   VectorXd known;     // a solution, to round-off of e; empty: none is known
   bool hard = false;  // may be refused
   std::vector<int> start;
+  std::shared_ptr<WindowProblem> windows;  // the same in parts, to be solved so; null: there are none
 };
 
 class Problems {
@@ -52,11 +55,13 @@ class Problems {
         return strips();
       case 6:
         return recorded_step();
+      case 7:
+        return windows_of_three();
       default:
         return cornered();
     }
   }
-  static constexpr int kKinds = 8;
+  static constexpr int kKinds = 9;
   static const char* name(int kind) {
     static const char* const names[kKinds] = {"condition up to 1e3",
                                               "condition 1e8 to 1e14",
@@ -65,6 +70,7 @@ class Problems {
                                               "badly scaled, all open, all closed",
                                               "strips of a gear pair, any phase",
                                               "steps of a march, moved gaps",
+                                              "three windows in parts",
                                               "Hilbert and Fathi"};
     return names[kind];
   }
@@ -95,7 +101,7 @@ class Problems {
     const int n = static_cast<int>(a.rows());
     VectorXd p = VectorXd::Zero(n), d = VectorXd::Zero(n);
     for (int i = 0; i < n; ++i) (whole(0, 1) ? p : d)[i] = std::abs(normal());
-    return {a, d - a * p, p, hard, some(n)};
+    return {a, d - a * p, p, hard, some(n), nullptr};
   }
   std::vector<int> some(int n) {
     std::vector<int> set;
@@ -159,7 +165,7 @@ class Problems {
   Problem strips() {
     const StripProblem strips = strip_problem(uniform(-0.95, 0.95), 4 * whole(1, 6));
     const int n = static_cast<int>(strips.gap.size());
-    return {strips.a, strips.gap.array() - std::pow(10, uniform(-8, -4.5)), {}, false, some(n)};
+    return {strips.a, strips.gap.array() - std::pow(10, uniform(-8, -4.5)), {}, false, some(n), nullptr};
   }
   void record() {
     const SweepSlice slice = paper_sweep(2900, 2900, 1);
@@ -183,9 +189,33 @@ class Problems {
     const auto& step = recorded_[static_cast<size_t>(whole(0, static_cast<int>(recorded_.size()) - 1))];
     const double size = step.offset.cwiseAbs().maxCoeff(),
                  move = whole(0, 3) ? std::pow(10, uniform(-6, 0)) * size : 0;
-    Problem problem{step.compliance, step.offset, {}, false, step.active.strips};
+    Problem problem{step.compliance, step.offset, {}, false, step.active.strips, nullptr};
     for (double& e : problem.e) e += move * normal();
     if (whole(0, 2) == 0) problem.start = some(static_cast<int>(problem.e.size()));
+    return problem;
+  }
+  // Bodies from stiff to soft beside the half-planes, whole or between few of their nodes; gaps of gears, or with a solution
+  // that is known and may be degenerate.
+  Problem windows_of_three() {
+    constexpr int kNodes = WindowProblem::kPairs * kWindowNodes;
+    const double decades = uniform(0, 14);
+    const MatrixXd c = std::pow(10, uniform(-13, -8)) * spectrum(kNodes, decades);
+    const auto windows = std::make_shared<WindowProblem>(uniform(-0.45, 0.45), c);
+    if (whole(0, 1)) {
+      const int n = static_cast<int>(windows->gap.size());
+      return {windows->a, windows->gap.array() - std::pow(10, uniform(-8, -4.5)), {}, false, some(n),
+              windows};
+    }
+    Problem problem = with_solution(windows->a, true);
+    if (whole(0, 2) == 0) {  // what neither carries nor gapes
+      VectorXd d = problem.a * problem.known + problem.e;
+      for (double& gap : d) gap *= whole(0, 3) > 0;
+      for (double& force : problem.known) force *= whole(0, 3) > 0;
+      for (Eigen::Index i = 0; i < d.size(); ++i)
+        if (problem.known[i] > 0) d[i] = 0;
+      problem.e = d - problem.a * problem.known;
+    }
+    problem.windows = windows;
     return problem;
   }
   Problem cornered() {
@@ -290,9 +320,11 @@ int main(int argc, char** argv) {
     active.strips = problem.start;
     // The same A with other gaps uses the kept inverse.
     for (int again = problems.whole(1, 4); again > 0 && done < count; --again, ++done) {
-      VectorXd p(n), d(n);
+      VectorXd p(n), d(n), nodes(WindowProblem::kPairs * WindowProblem::kNodes);
       try {
-        const Certificate certificate = solver.solve(problem.a, problem.e, active, p, d);
+        const Certificate certificate =
+            problem.windows ? solver.solve(problem.windows->parts, problem.e, active, p, d, nodes.data())
+                            : solver.solve(problem.a, problem.e, active, p, d);
         ++certified[kind];
         fallbacks += certificate.fallback;
         if (const char* what = fault(problem, p, d, certificate)) {
