@@ -69,6 +69,17 @@ MatrixXd hilbert(int n) {
   return a;
 }
 
+MatrixXd random_bodies(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  const int nodes = WindowProblem::kPairs * kWindowNodes;
+  const MatrixXd root = MatrixXd::NullaryExpr(nodes, nodes, [&] { return normal(random); });
+  return 1e-10 * (root * root.transpose() + MatrixXd::Identity(nodes, nodes));
+}
+WindowProblem random_windows(std::mt19937& random) {
+  const double phase = std::uniform_real_distribution<double>(-0.3, 0.3)(random);
+  return {phase, random_bodies(random)};
+}
+
 // Projected Gauss-Seidel until a sweep moves no force by more than 1e-13 of the largest; linear convergence,
 // nothing in common with pivoting.
 VectorXd gauss_seidel(const MatrixXd& a, const VectorXd& e) {
@@ -382,6 +393,28 @@ TEST_CASE("complementarity: no memory is taken once the size is known") {
   CHECK(taken == 0);
   CHECK(factorisations > 100);  // the loop went through all the ways to a set
   CHECK(sets > 1500);
+
+  std::mt19937 random(8);
+  const WindowProblem windows = random_windows(random);
+  VectorXd gaps(windows.parts.size()), force(gaps.size()), open(gaps.size()),
+      nodes(WindowProblem::kPairs * WindowProblem::kNodes);
+  ActiveSet set;
+  gaps = windows.gap.array() - 1e-7;
+  solver.solve(windows.parts, gaps, set, force, open, nodes.data());
+  factorisations = sets = 0;
+  before = memory_requests;
+  for (int step = 0; step < 1000; ++step) {
+    gaps.array() = windows.gap.array() - 4e-6 * (1 + std::sin(0.37 * step));
+    if (step % 7 == 0) set.forget();
+    if (step % 11 == 0) set.strips.clear();
+    const Certificate c = solver.solve(windows.parts, gaps, set, force, open, nodes.data());
+    factorisations += c.factorisations;
+    sets += c.iterations;
+  }
+  const long taken_in_parts = memory_requests - before;
+  CHECK(taken_in_parts == 0);
+  CHECK(factorisations > 100);
+  CHECK(sets > 1500);
 #else
   MESSAGE("not counted: this program brings its own malloc");
 #endif
@@ -412,21 +445,6 @@ TEST_CASE("complementarity: what has no solution is refused with its numbers") {
   CHECK(says(MatrixXd{{1, std::nan("")}, {std::nan(""), 1}}, VectorXd{{-1, 1}}) != "");
   CHECK(says(MatrixXd::Identity(3, 3), VectorXd{{-1, -1}}).find("3 x 3") != std::string::npos);
 }
-
-namespace {
-
-MatrixXd random_bodies(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  const int nodes = WindowProblem::kPairs * kWindowNodes;
-  const MatrixXd root = MatrixXd::NullaryExpr(nodes, nodes, [&] { return normal(random); });
-  return 1e-10 * (root * root.transpose() + MatrixXd::Identity(nodes, nodes));
-}
-WindowProblem random_windows(std::mt19937& random) {
-  const double phase = std::uniform_real_distribution<double>(-0.3, 0.3)(random);
-  return {phase, random_bodies(random)};
-}
-
-}  // namespace
 
 TEST_CASE("compliance in parts: product, matrix and columns are those of the matrix put together") {
   std::mt19937 random(5);
@@ -523,4 +541,39 @@ TEST_CASE("strips in parts: a number that is none is refused, wherever it stands
       // A column that is not looked at may stand as it likes as long as its strip carries nothing.
       if (!refused) CHECK(p[strip] == 0);
     }
+}
+
+TEST_CASE(
+    "strips in parts that do not say how they share the load are refused, or shared as their matrix is") {
+  std::mt19937 random(9);
+  WindowProblem problem = random_windows(random);
+  const int n = problem.parts.size();
+  // Nothing but three rigid bodies in a row: every strip of a window gives way as the others.
+  for (auto& half_plane : problem.half_plane) std::fill(half_plane.begin(), half_plane.end(), 1e-9);
+  std::fill(problem.at_nodes.begin(), problem.at_nodes.end(), 0.0);
+  MatrixXd a(n, n);
+  problem.parts.assemble(a.data());
+  const VectorXd e = VectorXd::Constant(n, -1e-6);
+  VectorXd p(n), d(n), nodes(WindowProblem::kPairs * WindowProblem::kNodes);
+  std::vector<int> all(static_cast<size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  for (const std::vector<int>& start : {std::vector<int>{}, std::vector<int>{3, 25}, all}) {
+    ActiveSet active;
+    active.strips = start;
+    ComplementaritySolver shifting(Singular::shift);
+    const Certificate certificate = shifting.solve(problem.parts, e, active, p, d, nodes.data());
+    CHECK(certificate.residual <= 1e-10);
+    CHECK(kkt_residual(a, e, p) <= 1e-9);
+    for (int j = 0; j < WindowProblem::kPairs; ++j)
+      CHECK(p.segment(j * WindowProblem::kStrips, WindowProblem::kStrips).sum() == relative(1000, 1e-6));
+  }
+  ActiveSet active;
+  active.strips = all;
+  ComplementaritySolver refusing;
+  CHECK(failure_of([&] { refusing.solve(problem.parts, e, active, p, d, nodes.data()); }) ==
+        Failure::numerical);
+  active.strips = {5, 1000, 3};
+  active.forget();
+  CHECK(failure_of([&] { refusing.solve(problem.parts, e, active, p, d, nodes.data()); }) ==
+        Failure::numerical);
 }

@@ -208,6 +208,19 @@ TEST_CASE("lumped: folds at level ratios 1.6 and 1.7575, the second beside Newma
   CHECK(slope(step, error) > 1.7);
 }
 
+TEST_CASE("lumped: a slow transient near twice its natural frequency is no subharmonic") {
+  // It turns by half a circle a mesh period and dies slowly: two periods bring it near its beginning, one does not.
+  LumpedOscillator light = oscillator(4e8, 4.1e8, 0.75, 0.02);
+  const double twice = 2 * light.natural_frequency();
+  for (double periodicity : {1e-5, 1e-6})
+    for (double f : {0.99 * twice, 0.997 * twice, twice, 1.003 * twice}) {
+      light.set_speed(f);
+      const LumpedOrbit orbit = settle(light, light.rest(), periodicity, true);
+      INFO((f / twice) << " of twice, " << orbit.periods << " periods");
+      CHECK(orbit.multiple == 1);
+    }
+}
+
 TEST_CASE("lumped: motions scale with the torque") {
   LumpedOscillator one = oscillator(kLow, kHigh, 0.75, 0.07),
                    seven = oscillator(kLow, kHigh, 0.75, 0.07, 1050);

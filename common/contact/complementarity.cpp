@@ -382,8 +382,8 @@ void require_residual(const Certificate& certificate) {
 // What solve hands out: nothing that the problem does not determine.
 Certificate ComplementaritySolver::certified(const Certificate& certificate, const Matrix& a,
                                              ActiveSet& active) const {
-  require_residual(certificate);
   note_diagonal(a, active);
+  require_residual(certificate);
   if (certificate.shifted && singular_ == Singular::refuse)
     fail(Failure::numerical, "the compliance of the ", active.strips.size(),
          " strips that touch is singular to round-off (largest diagonal ", active.largest_diagonal,
@@ -403,7 +403,7 @@ Certificate ComplementaritySolver::solve(const StripCompliance& a, const Vector&
   const Eigen::Map<const Eigen::MatrixXd> whole(assembled_.data(), n, n);
   constexpr int kTries = 4;  // sets that follow from each other's wrong signs
   Certificate certificate;
-  const auto take = [&] {  // next_, with its inverse
+  const auto take = [&] {  // next_, with its inverse; false if it has none without a shift
     a.assemble_columns(next_, assembled_.data());
     if (!active.known || !border(whole, active)) {
       active.strips = next_;
@@ -420,17 +420,23 @@ Certificate ComplementaritySolver::solve(const StripCompliance& a, const Vector&
   active.inverse.reserve(n);
   if (static_cast<int>(active.strips.size()) != active.inverse.rows()) active.known = false;
   bool tried = active.known && !active.shifted;
-  if (!tried && !active.strips.empty()) {
-    if (active.strips.front() < 0 || active.strips.back() >= n)
-      fail(Failure::numerical, "strips ", active.strips.front(), " to ", active.strips.back(),
-           " of the first guess are not all among the ", n, " strips");
-    active.known = false;
+  if (!active.known && !active.strips.empty()) {
+    for (size_t i = 0; i < active.strips.size(); ++i)
+      if (active.strips[i] < (i > 0 ? active.strips[i - 1] + 1 : 0) || active.strips[i] >= n)
+        fail(Failure::numerical, "strip ", active.strips[i], " of the first guess is none of the ", n,
+             " strips, or not in their order");
     next_ = active.strips;
     tried = take();
   }
+  bool renewed = false;
   for (int n_tried = 1; tried; ++n_tried) {
     if (repeat(a, e, active, p, d, nodes, certificate)) return certificate;
-    if (n_tried == kTries || wrong_.empty()) break;
+    if (n_tried == kTries) break;
+    if (wrong_.empty()) {  // a set within the tolerances, or an inverse that has lost digits
+      if (renewed || defect_ <= gap_tolerance_) break;
+      renewed = true;
+      active.known = false;
+    }
     std::fill(in_.begin(), in_.end(), 0);
     for (int i : active.strips) in_[i] = 1;
     for (int i : wrong_) in_[i] ^= 1;
@@ -492,7 +498,9 @@ bool ComplementaritySolver::repeat(const StripCompliance& a, const Vector& e, co
   if (!(std::isfinite(sum(all)) && defect <= tolerance && defect <= kMostResidual * scale &&
         least_gap > tolerance && (k == 0 || least_force * active.least_diagonal > tolerance))) {
     for (int i = 0; i < n; ++i)
-      if (force[i] < 0 || gap[i] < 0) wrong_.push_back(i);
+      if (force[i] * active.least_diagonal < -tolerance || gap[i] < -tolerance) wrong_.push_back(i);
+    defect_ = defect;
+    gap_tolerance_ = tolerance;
     return false;
   }
   certificate.least_gap = n > k ? least_gap : 0;

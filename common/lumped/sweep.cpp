@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -140,6 +141,7 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
   LumpedOrbit orbit;
   State y = start;
   std::deque<State> past{y};
+  std::deque<std::array<double, kMostMultiple + 1>> history;
   int pause = 0, patience = 1;
   const auto away = [&](const State& a, const State& b) {
     return oscillator.size(a - b) / std::max(1e-300, oscillator.size(b));
@@ -148,11 +150,18 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
     oscillator.march(y);
     ++orbit.periods;
     const int known = std::min(static_cast<int>(past.size()), n < kSubharmonic ? 1 : kMostMultiple);
+    std::array<double, kMostMultiple + 1> changes;  // infinite: not known
+    changes.fill(std::numeric_limits<double>::infinity());
+    for (int m = 1; m <= known; ++m) changes[m] = away(y, past[past.size() - m]);
+    // Over d periods the state neither repeats nor comes any nearer to it, as a slow transient would.
+    const auto stagnates = [&](int d) {
+      return static_cast<int>(history.size()) == kSubharmonic && changes[d] > 0.999 * history.front()[d];
+    };
     for (int m = 1; m <= known; ++m) {
-      const double change = away(y, past[past.size() - m]);
+      const double change = changes[m];
       bool shorter = false;
       for (int d = 1; d < m; ++d)
-        shorter = shorter || (m % d == 0 && away(y, past[past.size() - d]) < 10 * periodicity);
+        shorter = shorter || (m % d == 0 && (changes[d] < 10 * periodicity || (march_only && !stagnates(d))));
       if (shorter) continue;
       if (!march_only && change < kClose && pause == 0) {
         LumpedOrbit tried = orbit;
@@ -181,6 +190,8 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
       }
     }
     pause = std::max(0, pause - 1);
+    if (n >= kSubharmonic) history.push_back(changes);
+    if (static_cast<int>(history.size()) > kSubharmonic) history.pop_front();
     past.push_back(y);
     if (static_cast<int>(past.size()) > kMostMultiple) past.pop_front();
   }

@@ -317,7 +317,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps, const Wind
     }
   }
   step_data_.clear();
-  step_memory_ = std::pmr::vector<double>(&huge_pages());
+  step_memory_ = HugeBlock();
   set_hunting_gaps(beside.gaps);
   pack();
   turns_.clear();
@@ -436,14 +436,14 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
       return lines() ? Step::Size{pairs, pairs, 0}
                      : Step::Size{pairs * kPairNodes, pairs * kWindowNodes, position.mesh.strips()};
     };
-    // Once for all speeds, and as bare memory: only what a speed has steps for is ever touched.
-    if (step_memory_.capacity() == 0) {
+    // Once for all speeds: only what a speed has steps for is ever touched.
+    if (!step_memory_.data()) {
       size_t numbers = 0;
       for (const Position& position : positions_) numbers += size_of(position).numbers();
-      step_memory_.reserve(numbers);
+      step_memory_ = HugeBlock(numbers * sizeof(double));
     }
     step_pool_ = std::make_unique<std::pmr::monotonic_buffer_resource>(
-        step_memory_.data(), step_memory_.capacity() * sizeof(double), std::pmr::null_memory_resource());
+        step_memory_.data(), step_memory_.bytes(), std::pmr::null_memory_resource());
     step_data_.reserve(steps);
     for (int i = 0; i < steps; ++i) {
       Step& step = step_data_.emplace_back(size_of(positions_[i * stride_]), step_pool_.get());

@@ -124,6 +124,7 @@ class RollingDynamics {
     int rows = 0;         // functions of a pair that modes go through
     int nodes = 0;        // of a pair
     int strips = 0;       // of a pair
+    int edges = 0;        // windows that end at a tip edge, and are like no other
     int fields = 0;       // lagged, of one tooth
     int shared = 0;       // of them, those that other teeth depend on
     int teeth = 0;        // whose lag is followed, per gear
@@ -352,7 +353,7 @@ class RollingDynamics {
   WindowMemory memory_;
   int hunting_ = 1;
   std::vector<double> hunting_gap_;  // m: (mesh period, strip of all positions), of teeth that differ
-  std::pmr::vector<double> step_memory_{&huge_pages()};
+  HugeBlock step_memory_;            // for as many steps as the range has positions
   std::unique_ptr<std::pmr::monotonic_buffer_resource> step_pool_;  // on it
   std::vector<Step> step_data_;                                     // in it
   SpeedCoefficients speed_;

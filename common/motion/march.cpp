@@ -72,6 +72,8 @@ RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
   sizes.rows = lines() ? 1 : kShapeRows;
   sizes.nodes = lines() ? 1 : kPairNodes;
   sizes.strips = sizes.pairs > 0 ? mesh.strips() / sizes.pairs : 0;
+  for (int j = 0; !lines() && j < sizes.pairs; ++j)
+    sizes.edges += mesh.pairs[j].low_is_edge || mesh.pairs[j].high_is_edge;
   sizes.fields = kFields;
   sizes.shared = kSharedFields;
   sizes.teeth = 2 * reach_ + 1;

@@ -119,7 +119,7 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
     w.flops += 4 * P * F * N + 6 * P * F + 4 * L * F * N + 4 * L * (F * F + (P - 1) * S * S) +
                2 * (P + L) * N * r + 2 * s.strips * (kWindowNodes * P + N * L) + 2 * k * k +
                2 * s.strips * k + 12 * N * P * L + 12 * s.strips * P;
-    w.bytes += 2 * P * N * F + M + 6 * N * P * P + k * padded(touching);
+    w.bytes += 2 * P * N * F + M + 6 * N * P * P + k * padded(touching) + s.edges * s.strips * (s.strips + N);
   } else {
     w.flops += 4 * P * (T * S + F - S) + 2 * L * F;
     w.bytes += P * (2 * (T * S + F - S) + 2 * F + kLanes) + P * P;

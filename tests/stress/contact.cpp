@@ -206,7 +206,7 @@ class Problems {
       return {windows->a, windows->gap.array() - std::pow(10, uniform(-8, -4.5)), {}, false, some(n),
               windows};
     }
-    Problem problem = with_solution(windows->a, true);
+    Problem problem = with_solution(windows->a, false);
     if (whole(0, 2) == 0) {  // what neither carries nor gapes
       VectorXd d = problem.a * problem.known + problem.e;
       for (double& gap : d) gap *= whole(0, 3) > 0;
