@@ -426,6 +426,7 @@ Figure study_figure(const StudyArtifact& a) {
     }
     if (!a.plan.random) continue;
     std::vector<double> sorted;
+    sorted.reserve(drawn.size());
     for (const size_t v : drawn) sorted.push_back(value[v]);
     std::sort(sorted.begin(), sorted.end());
     FigureBlock spread{text("spread", r + 1), {"share [%]", name}, {}};
