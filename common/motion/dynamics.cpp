@@ -465,8 +465,9 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
 }
 
 MatrixXd RollingDynamics::local_compliance(const Position& position) const {
-  MatrixXd a = whine::local_compliance(model_, position.mesh, parameters_.damping.undamped_depth);
-  position.mesh.add_to_strips(position.at_once, a);
+  if (lines()) return position.at_once;
+  MatrixXd a(position.mesh.strips(), position.mesh.strips());
+  strip_compliance(position, &stream_[position.frame.at_once]).assemble(a.data());
   return a;
 }
 
