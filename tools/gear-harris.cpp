@@ -40,6 +40,7 @@ std::vector<double> numbers(const std::string& name, const std::string& word) {
     whine::fail(whine::Failure::usage, name, " is ", word,
                 "; write from:to:count, as in 5:300:60, or numbers with commas");
   std::vector<double> out;
+  out.reserve(static_cast<size_t>(values[2]));
   for (int i = 0; i < values[2]; ++i)
     out.push_back(values[0] + (values[1] - values[0]) * i / (values[2] - 1));
   return out;

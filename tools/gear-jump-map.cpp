@@ -24,6 +24,7 @@ namespace {
 
 std::vector<double> numbers(const std::string& name, const std::vector<std::string>& words) {
   std::vector<double> values;
+  values.reserve(words.size());
   for (const std::string& word : words) values.push_back(whine::number_option(name, word));
   return values;
 }

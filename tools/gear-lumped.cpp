@@ -122,6 +122,7 @@ void body(int argc, char** argv) {
   if (hertz && o.model != "pairs") usage("--hertz is of the model pairs, not of ", o.model);
   if (mass.empty() && params.empty()) usage("--mass is needed without --params, which has the inertias");
   std::vector<double> damping_ratio;
+  damping_ratio.reserve(ratios.size());
   for (const std::string& word : ratios)
     damping_ratio.push_back(whine::number_option("--damping-ratio", word));
   o.damping_ratio = damping_ratio.front();

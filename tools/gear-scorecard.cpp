@@ -39,6 +39,7 @@ void body(int argc, char** argv) {
   const whine::Scorecard card = whine::score(whine::paper_claims(), whine::read_answers(inputs));
   for (const std::string& path : inputs) whine::require_fresh(path);
   std::vector<std::string> sources;
+  sources.reserve(inputs.size());
   for (const std::string& path : inputs) sources.push_back(whine::recorded_path(path));
   whine::publish(output + ".tsv", whine::scorecard_tsv(card, sources));
   whine::publish(output + ".md", whine::scorecard_markdown(card));
