@@ -9,6 +9,16 @@
 
 namespace whine {
 
+inline GearDesign strip_gear() {
+  GearDesign design;
+  design.teeth = 50;
+  design.module = 3e-3;
+  design.pressure_angle = 20 * std::numbers::pi / 180;
+  design.face_width = 25.4e-3;
+  design.bore_radius = 40e-3;
+  return design;
+}
+
 struct StripProblem {
   Eigen::MatrixXd a;    // (strip, strip) m N-1
   Eigen::VectorXd gap;  // (strip) m; e = gap - approach
@@ -16,12 +26,7 @@ struct StripProblem {
 
 // phase: of the first pair, within -1 and 1; strips: per pair.
 inline StripProblem strip_problem(double phase, int strips) {
-  GearDesign design;
-  design.teeth = 50;
-  design.module = 3e-3;
-  design.pressure_angle = 20 * std::numbers::pi / 180;
-  design.face_width = 25.4e-3;
-  design.bore_radius = 40e-3;
+  const GearDesign design = strip_gear();
   const GearPair gears(design, design, 0.150);
   const HalfPlaneSurface surface({207e9, 0.3, 7600, false}, design.face_width);
   const double neighbour = phase > 0 ? phase - 1 : phase + 1;

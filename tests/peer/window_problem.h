@@ -3,12 +3,12 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
 #include "contact/half_plane_strip.h"
 #include "contact/strip_compliance.h"
 #include "contact/strips.h"
+#include "strip_problems.h"
 
 namespace whine {
 
@@ -23,12 +23,7 @@ struct WindowProblem {
   WindowProblem(WindowProblem&&) = default;
   // phase: of the middle pair; c: (node, node) m N-1.
   WindowProblem(double phase, const Eigen::MatrixXd& c) {
-    GearDesign design;
-    design.teeth = 50;
-    design.module = 3e-3;
-    design.pressure_angle = 20 * std::numbers::pi / 180;
-    design.face_width = 25.4e-3;
-    design.bore_radius = 40e-3;
+    const GearDesign design = strip_gear();
     const GearPair gears(design, design, 0.150);
     const HalfPlaneSurface surface({207e9, 0.3, 7600, false}, design.face_width);
     const int n = kPairs * kStrips, nodes = kPairs * kWindowNodes;
