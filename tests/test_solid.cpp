@@ -540,7 +540,8 @@ TEST_CASE("matching: nodal forces are a unit normal force, the half-plane is tak
 
 TEST_CASE(
     "matching at a depth against subtraction: a per cent mid flank, and it converges as element and depth "
-    "shrink") {
+    "shrink" *
+    doctest::skip()) {
   // Under the load itself, with the 0.3 nm/N of a strip's contact added, as a share of the compliance. The half-plane
   // cannot know the corner of the tip: points closer to it than the depth have an error that hardly shrinks.
   const GearDesign design = gear(24, 3e-3, 20e-3);
