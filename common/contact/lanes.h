@@ -123,6 +123,21 @@ inline void dot_rows_twice(const double* first, const double* second, int length
   result[1] = sums(a1, b1, c1, d1);
 }
 
+// y[0..rows) = before + sum over k of f[k apart] * column k of six, `stride` apart; any number of rows.
+inline void add_six_columns(double* y, const double* before, const double* columns, int stride,
+                            const double* f, int apart, int rows) {
+  const double *c0 = columns, *c1 = c0 + stride, *c2 = c1 + stride, *c3 = c2 + stride, *c4 = c3 + stride,
+               *c5 = c4 + stride;
+  const double f0 = f[0], f1 = f[apart], f2 = f[2 * apart], f3 = f[3 * apart], f4 = f[4 * apart],
+               f5 = f[5 * apart];
+  int i = 0;
+  for (; i + kLanes <= rows; i += kLanes)
+    lanes(y + i) = (lanes(before + i) + f0 * lanes(c0 + i) + f1 * lanes(c1 + i) + f2 * lanes(c2 + i)) +
+                   (f3 * lanes(c3 + i) + f4 * lanes(c4 + i) + f5 * lanes(c5 + i));
+  for (; i < rows; ++i)
+    y[i] = (before[i] + f0 * c0[i] + f1 * c1[i] + f2 * c2[i]) + (f3 * c3[i] + f4 * c4[i] + f5 * c5[i]);
+}
+
 // y[0..12) += sum over j < count of f[j] * column j, all of y in registers; count even.
 inline void add_columns_of_12(double* y, const double* columns, int stride, const double* f, int count) {
   Lanes a0 = lanes(y), a1 = lanes(y + 4), a2 = lanes(y + 8), b0{}, b1{}, b2{};

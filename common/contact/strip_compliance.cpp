@@ -6,6 +6,8 @@ namespace whine {
 
 namespace {
 
+static_assert(kWindowNodes == 6);  // as add_six_columns has it
+
 bool any(const double* x) {
   return x[0] != 0 || x[1] != 0 || x[2] != 0 || x[3] != 0;
 }
@@ -13,9 +15,9 @@ bool any(const double* x) {
 }  // namespace
 
 void StripCompliance::add_product(const double* p, double* nodes, double* gap) const {
-  static_assert(kWindowNodes == 6 && kPairNodes == 2 * kLanes);
   const int rows = kPairNodes * pairs;
-  alignas(Lanes) double at_node[kPairNodes * kMostPairs] = {};
+  alignas(Lanes) double at_node[kPairNodes * kMostPairs];
+  std::fill(at_node, at_node + rows, 0.0);
   for (int j = 0; j < pairs; ++j) {
     const double* own = p + j * strips;
     bool loaded = false;
@@ -33,41 +35,28 @@ void StripCompliance::add_product(const double* p, double* nodes, double* gap) c
     }
   }
   for (int j = 0; j < pairs; ++j) {
-    const double* y = at_node + j * kPairNodes;
-    const double y0 = y[0], y1 = y[1], y2 = y[2], y3 = y[3], y4 = y[4], y5 = y[5];
     double* own = gap + j * strips;
-    for (int i = 0; i < strips; i += kLanes) {
-      const double* w = interpolation[j] + i;
-      lanes(own + i) =
-          (lanes(own + i) + y0 * lanes(w) + y1 * lanes(w + strips) + y2 * lanes(w + 2 * strips)) +
-          (y3 * lanes(w + 3 * strips) + y4 * lanes(w + 4 * strips) + y5 * lanes(w + 5 * strips));
-    }
+    add_six_columns(own, own, interpolation[j], strips, at_node + j * kPairNodes, 1, strips);
   }
 }
 
 void StripCompliance::put_column(int strip, const int* first, const int* last, double* column) const {
-  static_assert(kWindowNodes == 6);
   const int rows = kPairNodes * pairs, own = strip / strips, s = strip % strips;
-  const double *from = at_nodes + own * kWindowNodes * rows, *w = interpolation[own] + s;
-  const double w0 = w[0], w1 = w[strips], w2 = w[2 * strips], w3 = w[3 * strips], w4 = w[4 * strips],
-               w5 = w[5 * strips];
+  alignas(Lanes) double at_node[kPairNodes * kMostPairs];
+  constexpr double kNothing[kPairNodes] = {};
+  for (int j = 0; j < pairs; ++j)
+    add_six_columns(at_node + j * kPairNodes, kNothing, at_nodes + own * kWindowNodes * rows + j * kPairNodes,
+                    rows, interpolation[own] + s, strips, kPairNodes);
   for (int j = 0; j < pairs; ++j) {
-    alignas(Lanes) double y[kPairNodes];
-    for (int i = 0; i < kPairNodes; i += kLanes) {
-      const double* c = from + j * kPairNodes + i;
-      lanes(y + i) = (w0 * lanes(c) + w1 * lanes(c + rows) + w2 * lanes(c + 2 * rows)) +
-                     (w3 * lanes(c + 3 * rows) + w4 * lanes(c + 4 * rows) + w5 * lanes(c + 5 * rows));
-    }
-    const double y0 = y[0], y1 = y[1], y2 = y[2], y3 = y[3], y4 = y[4], y5 = y[5];
     double* to = column + j * strips;
-    for (int i = first[j]; i < last[j]; i += kLanes) {
-      const double* x = interpolation[j] + i;
-      lanes(to + i) = (y0 * lanes(x) + y1 * lanes(x + strips) + y2 * lanes(x + 2 * strips)) +
-                      (y3 * lanes(x + 3 * strips) + y4 * lanes(x + 4 * strips) + y5 * lanes(x + 5 * strips));
-    }
+    const double* before = to;
+    if (j == own)
+      before = half_plane[own] + s * strips;
+    else
+      std::fill(to + first[j], to + last[j], 0.0);
+    add_six_columns(to + first[j], before + first[j], interpolation[j] + first[j], strips,
+                    at_node + j * kPairNodes, 1, last[j] - first[j]);
   }
-  const double* h = half_plane[own] + s * strips;
-  for (int i = first[own]; i < last[own]; i += kLanes) lanes(column + own * strips + i) += lanes(h + i);
 }
 
 void StripCompliance::assemble(double* a) const {

@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kMostMultiple = 8;     // longest subharmonic looked for, in mesh periods
 constexpr int kSubharmonic = 50;     // periods before one is looked for
+constexpr double kApart = 10;        // times periodicity: from there on two states may be a subharmonic's
 constexpr double kClose = 1e-2;      // change per period from which Newton's method is tried
 constexpr double kFarthest = 0.1;    // that it may lead away
 constexpr double kRoundOff = 1e-13;  // of the state
@@ -161,7 +162,8 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
       const double change = changes[m];
       bool shorter = false;
       for (int d = 1; d < m; ++d)
-        shorter = shorter || (m % d == 0 && (changes[d] < 10 * periodicity || (march_only && !stagnates(d))));
+        shorter =
+            shorter || (m % d == 0 && (changes[d] < kApart * periodicity || (march_only && !stagnates(d))));
       if (shorter) continue;
       if (!march_only && change < kClose && pause == 0) {
         LumpedOrbit tried = orbit;

@@ -189,23 +189,6 @@ struct RollingDynamics::ShapeLanes {
 };
 const RollingDynamics::ShapeLanes RollingDynamics::kShape;
 
-namespace {
-
-// result = gap + interpolation nodes; (strip), (strip), (strip, node)
-void interpolate(double* result, const double* gap, const double* interpolation, int strips,
-                 const double* nodes) {
-  static_assert(kWindowNodes == 6);
-  const double f0 = nodes[0], f1 = nodes[1], f2 = nodes[2], f3 = nodes[3], f4 = nodes[4], f5 = nodes[5];
-  for (int i = 0; i < strips; i += kLanes) {
-    const double* c = interpolation + i;
-    lanes(result + i) =
-        (lanes(gap + i) + f0 * lanes(c) + f1 * lanes(c + strips) + f2 * lanes(c + 2 * strips)) +
-        (f3 * lanes(c + 3 * strips) + f4 * lanes(c + 4 * strips) + f5 * lanes(c + 5 * strips));
-  }
-}
-
-}  // namespace
-
 void RollingDynamics::pack_strips(Position& position, Windows& known) {
   const int coordinates = padded(static_cast<int>(coordinates_.size()));
   const MeshPosition& mesh = position.mesh;
@@ -617,8 +600,8 @@ struct RollingDynamics::StripContact {
       for (int g = 0; g < 2; ++g)
         add_columns_of_8(at_node, stream + position.frame.pair[j].field + g * kPairNodes * kFields,
                          field_of(position, g, j), kFields);
-      interpolate(e.data() + j * of_pair, stream + position.frame.gap + j * of_pair,
-                  stream + position.frame.pair[j].interpolation, of_pair, at_node);
+      add_six_columns(e.data() + j * of_pair, stream + position.frame.gap + j * of_pair,
+                      stream + position.frame.pair[j].interpolation, of_pair, at_node, 1, of_pair);
     }
     const StripCompliance a = dynamics.strip_compliance(position, step.compliance.data());
     return dynamics.solver_.solve(a, e.head(strips), step.active, p.head(strips), d.head(strips),

@@ -118,30 +118,9 @@ VectorXd MeshPosition::to_nodes(const Eigen::Ref<const VectorXd>& on_strips) con
   return out;
 }
 
-namespace {
-
-// y = before + sum over k of f[k apart] * column k of six columns of `rows`.
-void add_six_columns(double* y, const double* before, const double* columns, int rows, const double* f,
-                     int apart) {
-  static_assert(kWindowNodes == 6);
-  const double *c0 = columns, *c1 = c0 + rows, *c2 = c1 + rows, *c3 = c2 + rows, *c4 = c3 + rows,
-               *c5 = c4 + rows;
-  const double f0 = f[0], f1 = f[apart], f2 = f[2 * apart], f3 = f[3 * apart], f4 = f[4 * apart],
-               f5 = f[5 * apart];
-  int i = 0;
-  for (; i + kLanes <= rows; i += kLanes)
-    lanes(y + i) = lanes(before + i) + ((f0 * lanes(c0 + i) + f1 * lanes(c1 + i) + f2 * lanes(c2 + i)) +
-                                        (f3 * lanes(c3 + i) + f4 * lanes(c4 + i) + f5 * lanes(c5 + i)));
-  for (; i < rows; ++i)
-    y[i] = before[i] + ((f0 * c0[i] + f1 * c1[i] + f2 * c2[i]) + (f3 * c3[i] + f4 * c4[i] + f5 * c5[i]));
-}
-
-}  // namespace
-
-void MeshPosition::add_to_strips(const MatrixXd& at_nodes, const MatrixXd& before,
-                                 Eigen::Ref<MatrixXd> a) const {
+void MeshPosition::add_to_strips(const MatrixXd& at_nodes, MatrixXd& a) const {
   if (!law.empty()) {
-    a = before + at_nodes;
+    a += at_nodes;
     return;
   }
   Eigen::Matrix<double, Eigen::Dynamic, kWindowNodes> half;
@@ -150,10 +129,13 @@ void MeshPosition::add_to_strips(const MatrixXd& at_nodes, const MatrixXd& befor
       half.setZero(pairs[i].size(), kWindowNodes);
       for (int k = 0; k < kWindowNodes; ++k)
         add_six_columns(half.col(k).data(), half.col(k).data(), pairs[i].interpolation.data(),
-                        pairs[i].size(), &at_nodes(i * kWindowNodes, j * kWindowNodes + k), 1);
-      for (int c = 0; c < pairs[j].size(); ++c)
-        add_six_columns(&a(first_strip[i], first_strip[j] + c), &before(first_strip[i], first_strip[j] + c),
-                        half.data(), pairs[i].size(), &pairs[j].interpolation(c, 0), pairs[j].size());
+                        pairs[i].size(), &at_nodes(i * kWindowNodes, j * kWindowNodes + k), 1,
+                        pairs[i].size());
+      for (int c = 0; c < pairs[j].size(); ++c) {
+        double* column = &a(first_strip[i], first_strip[j] + c);
+        add_six_columns(column, column, half.data(), pairs[i].size(), &pairs[j].interpolation(c, 0),
+                        pairs[j].size(), pairs[i].size());
+      }
     }
 }
 

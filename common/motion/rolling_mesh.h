@@ -119,12 +119,8 @@ struct MeshPosition {
   }
   Eigen::VectorXd to_strips(const Eigen::Ref<const Eigen::VectorXd>& at_nodes) const;
   Eigen::VectorXd to_nodes(const Eigen::Ref<const Eigen::VectorXd>& on_strips) const;
-  // a = before + L C L^T, C (node, node), the others (strip, strip) and maybe one.
-  void add_to_strips(const Eigen::MatrixXd& at_nodes, const Eigen::MatrixXd& before,
-                     Eigen::Ref<Eigen::MatrixXd> a) const;
-  void add_to_strips(const Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& a) const {
-    add_to_strips(at_nodes, a, a);
-  }
+  // a += L C L^T, C (node, node), a (strip, strip).
+  void add_to_strips(const Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& a) const;
   // (pair) N: sum of the strips' forces.
   Eigen::VectorXd pair_loads(const Eigen::Ref<const Eigen::VectorXd>& p) const;
   // True if force stands on a window's end that is no tip edge: the window is too narrow.

@@ -20,6 +20,7 @@ constexpr int kMostPeriods = 3000;  // mesh periods per speed, before it counts 
 constexpr int kLeastTurns = 100;    // but this many hunting periods
 constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in hunting periods
 constexpr int kStagnation = 50;     // periods over which a subharmonic must not come nearer to a shorter one
+constexpr double kApart = 10;       // times periodicity: from there on two states may be a subharmonic's
 constexpr int kColumns = 3;         // changes that one extrapolation combines: two multipliers go
 constexpr double kClose = 1e-2;     // change per period below which the motion counts as close to its orbit
 constexpr double kFarAlong = 2.5;   // of the last step along a branch: further it does not foretell
@@ -179,7 +180,7 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
     for (int m = 1; m <= std::min(known, n < kStagnation ? 1 : kMostMultiple); ++m)
       change[m] = dynamics.distance(state, past[known - m]);
     const auto stagnates = [&](int m) {
-      return static_cast<int>(history.size()) == kStagnation && change[m] > 10 * periodicity &&
+      return static_cast<int>(history.size()) == kStagnation && change[m] > kApart * periodicity &&
              change[m] > 0.999 * history.front()[m];
     };
     int multiple = 0;

@@ -104,8 +104,8 @@ class Sweeper {
     const RollingDynamics::State present = state_;
     const int level = level_;
     state_ = foretold;
-    std::optional<Orbit>
-        orbit;  // returned behind the catch, or clang-tidy takes what follows for never reached
+    // Returned behind the catch, or clang-tidy takes what follows for never reached.
+    std::optional<Orbit> orbit;
     try {
       orbit = run(mesh_frequency);
     } catch (const Error& error) {
