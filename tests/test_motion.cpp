@@ -578,7 +578,9 @@ TEST_CASE("at rest the modal form gives the static transmission error, whatever 
                         3 * statics.transmission_error.maxCoeff()),
           1);
       const RollingDynamics::State state = dynamics.rest();
-      CHECK(dynamics.static_deflection() == relative(statics.transmission_error[0], 1e-9));
+      // Of what the torques bend within a window modes keep mean and slope: 4e-8 is left out. A line has one node.
+      CHECK(dynamics.static_deflection() ==
+            relative(statics.transmission_error[0], contact == std::string("line") ? 1e-12 : 1e-7));
       for (int k = 0; k < state.p.size(); ++k)
         CHECK((state.p[k] > 0 ? std::abs(state.d[k]) : -state.d[k]) < 1e-16);
     }

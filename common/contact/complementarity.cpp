@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -26,6 +27,7 @@ void ComplementaritySolver::reserve(int n) {
   in_.resize(n);
   wrong_.reserve(n);
   next_.reserve(n);
+  fresh_.reserve(n);
   factor_.reserve(n);
   grown_.reserve(n);
   for (VectorXd* v : {&right_, &p_active_, &work_, &reciprocal_, &force_, &target_}) v->setZero(padded(n));
@@ -277,13 +279,19 @@ double tolerance_of_gaps(double scale, double diagonal, double sum) {
   return 1e-12 * scale + 16 * std::numeric_limits<double>::epsilon() * diagonal * sum;
 }
 
-void note_diagonal(const Eigen::Ref<const Eigen::MatrixXd>& a, ActiveSet& active) {
-  active.least_diagonal = std::numeric_limits<double>::infinity();
-  active.largest_diagonal = 0;
-  for (int i : active.strips) {
+// Bounds once more, with these strips.
+void note_diagonal(const Eigen::Ref<const Eigen::MatrixXd>& a, const std::vector<int>& strips,
+                   ActiveSet& active) {
+  for (int i : strips) {
     active.least_diagonal = std::min(active.least_diagonal, a(i, i));
     active.largest_diagonal = std::max(active.largest_diagonal, a(i, i));
   }
+}
+
+void note_diagonal(const Eigen::Ref<const Eigen::MatrixXd>& a, ActiveSet& active) {
+  active.least_diagonal = std::numeric_limits<double>::infinity();
+  active.largest_diagonal = 0;
+  note_diagonal(a, active.strips, active);
 }
 
 }  // namespace
@@ -405,15 +413,23 @@ Certificate ComplementaritySolver::solve(const StripCompliance& a, const Vector&
   constexpr int kTries = 4;  // sets that follow from each other's wrong signs
   Certificate certificate;
   const auto take = [&] {  // next_, with its inverse; false if it has none without a shift
-    a.assemble_columns(next_, assembled_.data());
-    if (!active.known || !border(whole, active)) {
-      active.strips = next_;
-      factorise(whole, active);
-      ++certificate.factorisations;
-      if (active.shifted) return false;
-      invert(active.inverse);
-      active.known = true;
+    if (active.known) {
+      fresh_.clear();
+      std::set_difference(next_.begin(), next_.end(), active.strips.begin(), active.strips.end(),
+                          std::back_inserter(fresh_));
+      a.assemble_columns(fresh_, next_, assembled_.data());
+      if (border(whole, active)) {
+        note_diagonal(whole, fresh_, active);
+        return true;
+      }
     }
+    a.assemble_columns(next_, next_, assembled_.data());
+    active.strips = next_;
+    factorise(whole, active);
+    ++certificate.factorisations;
+    if (active.shifted) return false;
+    invert(active.inverse);
+    active.known = true;
     note_diagonal(whole, active);
     return true;
   };

@@ -61,7 +61,7 @@ struct ActiveSet {
   bool known = false;
   bool shifted = false;  // the inverse is that of A + shift I
   int updates = 0;       // strips that came or went since the inverse was computed from A
-  double least_diagonal = 0, largest_diagonal = 0;  // of A on them, as `inverse`
+  double least_diagonal = 0, largest_diagonal = 0;  // bounds of A's on them, as `inverse`
   void forget() { known = false; }
 };
 
@@ -133,7 +133,7 @@ class ComplementaritySolver {
   Singular singular_;
   std::vector<char> in_;                     // (n) 1: in the active set
   std::vector<int> wrong_;                   // indices that break a sign
-  std::vector<int> next_;                    // the set that `border` goes to
+  std::vector<int> next_, fresh_;            // the set that `border` goes to; what comes to it
   GrowingMatrix factor_;                     // L of A = L L^T on the set
   GrowingMatrix grown_;                      // its rows for all strips, in `grow`
   Eigen::VectorXd reciprocal_;               // 1 / L_jj

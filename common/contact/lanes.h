@@ -20,21 +20,49 @@ inline Lanes& lanes(double* x) {
   return *reinterpret_cast<Lanes*>(x);
 }
 
+// y[0..4 kBlock) += sum over j < count of f[j] * column j, all of y in registers.
+template <int kBlock>
+inline void add_to_block(double* y, const double* columns, int stride, const double* f, int count) {
+  Lanes even[kBlock], odd[kBlock] = {};
+#pragma GCC unroll 5
+  for (int k = 0; k < kBlock; ++k) even[k] = lanes(y + k * kLanes);
+  int j = 0;
+  for (; j + 2 <= count; j += 2, columns += 2 * static_cast<std::ptrdiff_t>(stride))
+#pragma GCC unroll 5
+    for (int k = 0; k < kBlock; ++k) {
+      even[k] += f[j] * lanes(columns + k * kLanes);
+      odd[k] += f[j + 1] * lanes(columns + stride + k * kLanes);
+    }
+#pragma GCC unroll 5
+  for (int k = 0; k < kBlock; ++k) {
+    if (j < count) even[k] += f[j] * lanes(columns + k * kLanes);
+    lanes(y + k * kLanes) = even[k] + odd[k];
+  }
+}
+
 // y[first..last) += sum over j < count of f[j] * column j; first and last multiples of 4.
 inline void add_columns(double* y, const double* columns, int stride, const double* f, int count, int first,
                         int last) {
-  int j = 0;
-  for (; j + 4 <= count; j += 4) {
-    const double *c0 = columns + static_cast<std::ptrdiff_t>(j) * stride, *c1 = c0 + stride,
-                 *c2 = c1 + stride, *c3 = c2 + stride;
-    const double f0 = f[j], f1 = f[j + 1], f2 = f[j + 2], f3 = f[j + 3];
-    for (int i = first; i < last; i += kLanes)
-      lanes(y + i) += f0 * lanes(c0 + i) + f1 * lanes(c1 + i) + f2 * lanes(c2 + i) + f3 * lanes(c3 + i);
-  }
-  for (; j < count; ++j) {
-    const double* c = columns + static_cast<std::ptrdiff_t>(j) * stride;
-    const double f0 = f[j];
-    for (int i = first; i < last; i += kLanes) lanes(y + i) += f0 * lanes(c + i);
+  for (int i = first; i < last;) {
+    const int left = (last - i) / kLanes;  // in blocks as large as registers hold, none of them small
+    switch (left <= 5 ? left : left < 9 ? 4 : 5) {
+      case 1:
+        add_to_block<1>(y + i, columns + i, stride, f, count);
+        return;
+      case 2:
+        add_to_block<2>(y + i, columns + i, stride, f, count);
+        return;
+      case 3:
+        add_to_block<3>(y + i, columns + i, stride, f, count);
+        return;
+      case 4:
+        add_to_block<4>(y + i, columns + i, stride, f, count);
+        i += 4 * kLanes;
+        break;
+      default:
+        add_to_block<5>(y + i, columns + i, stride, f, count);
+        i += 5 * kLanes;
+    }
   }
 }
 
@@ -79,48 +107,20 @@ inline void dot_columns(double* result, const double* columns, int stride, int c
   }
 }
 
-// Four rows of `length`, a multiple of 4, that stand side by side: four numbers of each in turn. Row j . x in lane j.
+// kRows rows of `length`, a multiple of 4, that stand side by side: four numbers of each in turn. Row j . x in lane j.
+template <int kRows>
 inline Lanes dot_rows(const double* rows, int length, const double* x) {
-  Lanes a{}, b{}, c{}, d{}, a1{}, b1{}, c1{}, d1{};
+  static_assert(kRows <= kLanes);
+  Lanes even[kLanes] = {}, odd[kLanes] = {};
   int i = 0;
-  for (; i + 2 * kLanes <= length; i += 2 * kLanes, rows += 8 * kLanes) {
-    const Lanes x0 = lanes(x + i), x1 = lanes(x + i + kLanes);
-    a += lanes(rows) * x0;
-    b += lanes(rows + kLanes) * x0;
-    c += lanes(rows + 2 * kLanes) * x0;
-    d += lanes(rows + 3 * kLanes) * x0;
-    a1 += lanes(rows + 4 * kLanes) * x1;
-    b1 += lanes(rows + 5 * kLanes) * x1;
-    c1 += lanes(rows + 6 * kLanes) * x1;
-    d1 += lanes(rows + 7 * kLanes) * x1;
-  }
-  if (i < length) {
-    const Lanes x0 = lanes(x + i);
-    a += lanes(rows) * x0;
-    b += lanes(rows + kLanes) * x0;
-    c += lanes(rows + 2 * kLanes) * x0;
-    d += lanes(rows + 3 * kLanes) * x0;
-  }
-  return sums(a + a1, b + b1, c + c1, d + d1);
-}
-
-// The same of two blocks of rows; result: (block).
-inline void dot_rows_twice(const double* first, const double* second, int length, const double* x,
-                           Lanes* result) {
-  Lanes a{}, b{}, c{}, d{}, a1{}, b1{}, c1{}, d1{};
-  for (int i = 0; i < length; i += kLanes, first += 4 * kLanes, second += 4 * kLanes) {
-    const Lanes right = lanes(x + i);
-    a += lanes(first) * right;
-    b += lanes(first + kLanes) * right;
-    c += lanes(first + 2 * kLanes) * right;
-    d += lanes(first + 3 * kLanes) * right;
-    a1 += lanes(second) * right;
-    b1 += lanes(second + kLanes) * right;
-    c1 += lanes(second + 2 * kLanes) * right;
-    d1 += lanes(second + 3 * kLanes) * right;
-  }
-  result[0] = sums(a, b, c, d);
-  result[1] = sums(a1, b1, c1, d1);
+  for (; i + 2 * kLanes <= length; i += 2 * kLanes, rows += 2 * kRows * kLanes)
+#pragma GCC unroll 4
+    for (int r = 0; r < kRows; ++r) {
+      even[r] += lanes(rows + r * kLanes) * lanes(x + i);
+      odd[r] += lanes(rows + (kRows + r) * kLanes) * lanes(x + i + kLanes);
+    }
+  for (int r = 0; i < length && r < kRows; ++r) even[r] += lanes(rows + r * kLanes) * lanes(x + i);
+  return sums(even[0] + odd[0], even[1] + odd[1], even[2] + odd[2], even[3] + odd[3]);
 }
 
 // y[0..rows) = before + sum over k of f[k apart] * column k of six, `stride` apart; any number of rows.

@@ -20,14 +20,16 @@ void StripCompliance::add_product(const double* p, double* nodes, double* gap) c
   std::fill(at_node, at_node + rows, 0.0);
   for (int j = 0; j < pairs; ++j) {
     const double* own = p + j * strips;
-    bool loaded = false;
+    int first = strips, last = 0;  // lanes that have force
     for (int s = 0; s < strips; s += kLanes)
       if (any(own + s)) {
-        loaded = true;
-        add_columns(gap + j * strips, half_plane[j] + s * strips, strips, own + s, kLanes, 0, strips);
+        first = std::min(first, s);
+        last = s + kLanes;
       }
     double* moment = nodes + j * kPairNodes;
-    if (loaded) {
+    if (first < last) {
+      add_columns(gap + j * strips, half_plane[j] + first * strips, strips, own + first, last - first, 0,
+                  strips);
       dot_columns(moment, interpolation[j], strips, kPairNodes, own, strips);
       add_columns(at_node, at_nodes + j * kWindowNodes * rows, rows, moment, kWindowNodes, 0, rows);
     } else {
@@ -65,14 +67,15 @@ void StripCompliance::assemble(double* a) const {
   for (int s = 0; s < size(); ++s) put_column(s, first, last, a + s * size());
 }
 
-void StripCompliance::assemble_columns(const std::vector<int>& of, double* a) const {
+void StripCompliance::assemble_columns(const std::vector<int>& columns, const std::vector<int>& rows,
+                                       double* a) const {
   int first[kMostPairs] = {}, last[kMostPairs] = {};
-  for (int s : of) {
+  for (int s : rows) {
     const int j = s / strips, i = s % strips / kLanes * kLanes;
     if (last[j] == 0) first[j] = i;
     last[j] = i + kLanes;
   }
-  for (int s : of) put_column(s, first, last, a + s * size());
+  for (int s : columns) put_column(s, first, last, a + s * size());
 }
 
 }  // namespace whine

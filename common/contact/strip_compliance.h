@@ -25,8 +25,8 @@ struct StripCompliance {
   void add_product(const double* p, double* nodes, double* gap) const;
   // a: (strip, strip) of all pairs, result: A.
   void assemble(double* a) const;
-  // The same, of the columns and at least the rows of these strips, ascending; what else a holds means nothing.
-  void assemble_columns(const std::vector<int>& of, double* a) const;
+  // The same, in some columns and at least these rows (strips, ascending); what else a holds stays or means nothing.
+  void assemble_columns(const std::vector<int>& columns, const std::vector<int>& rows, double* a) const;
 
  private:
   // Column `strip` in rows first[j] to last[j] - 1, whole lanes, of each pair j.

@@ -278,11 +278,15 @@ void RollingDynamics::set_range(const ContactRange& range, int steps, const Wind
   for (Position& position : positions_) {
     const MeshPosition& mesh = position.mesh;
     position.participation = participation(mesh);
-    if (!lines())
+    MatrixXd left_out = MatrixXd::Zero(mesh.nodes(), mesh.nodes());
+    if (!lines()) {
+      left_out = modal_flexibility(position);
       for (size_t i = 0; i < mesh.pairs.size(); ++i) {
         auto rows = position.participation.middleRows<kWindowNodes>(i * kWindowNodes);
         rows = (shape_basis() * (shape_basis().transpose() * rows)).eval();
       }
+      left_out -= modal_flexibility(position);
+    }
     position.lagged = MatrixXd::Zero(mesh.nodes(), mesh.nodes());
     MatrixXd whole = position.lagged;
     for (int g = 0; g < 2; ++g) {
@@ -298,13 +302,14 @@ void RollingDynamics::set_range(const ContactRange& range, int steps, const Wind
           position.lagged(mesh.nodes_of(i), mesh.nodes_of(j)) += rows(i) * block * rows(j).transpose();
         }
     }
-    position.at_once = whole - position.lagged;
+    position.at_once = whole - position.lagged + left_out;
     if (mesh.pairs.size() > kMostPairs)
       fail(Failure::numerical, "at mesh phase ", mesh.phase, " ", mesh.pairs.size(),
            " pairs are in reach, at most ", kMostPairs, " are foreseen");
     Frame& frame = position.frame;
     frame.present = static_cast<int>(mesh.pairs.size());
     frame.of_pair = frame.present > 0 ? mesh.strips() / frame.present : 0;
+    frame.law = mesh.law;
     frame.next_corner_gap = mesh.next_corner_gap;
     frame.lost_corner_gap = mesh.lost_corner_gap;
     for (int j = 0; j < frame.present; ++j) {
@@ -414,6 +419,8 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
     speed_.at(SpeedCoefficients::a12, i) = a.a12;
     speed_.at(SpeedCoefficients::a21, i) = a.a21;
     speed_.at(SpeedCoefficients::a22, i) = a.a22;
+    speed_.at(SpeedCoefficients::push_z, i) = a.a11 * a.bq + a.a12 * a.a12 + a.bq;
+    speed_.at(SpeedCoefficients::push_v, i) = a.a21 * a.bq + a.a22 * a.a12 + a.a12;
     speed_.at(SpeedCoefficients::bq, i) = a.bq;
     speed_.at(SpeedCoefficients::torque, i) = torque_force_[i];
     speed_.at(SpeedCoefficients::weight, i) = error_weight_[i];
@@ -477,12 +484,14 @@ VectorXd RollingDynamics::flexibility() const {
   return f;
 }
 
+MatrixXd RollingDynamics::modal_flexibility(const Position& position) const {
+  return position.participation * flexibility().asDiagonal() * position.participation.transpose();
+}
+
 // Elastic coordinates follow their force, z = (torque - h f) / w^2; the rigid one carries the load.
 MatrixXd RollingDynamics::static_compliance(const Position& position) const {
   MatrixXd a = local_compliance(position);
-  position.mesh.add_to_strips(position.lagged + position.participation * flexibility().asDiagonal() *
-                                                    position.participation.transpose(),
-                              a);
+  position.mesh.add_to_strips(position.lagged + modal_flexibility(position), a);
   return a;
 }
 

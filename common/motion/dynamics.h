@@ -17,8 +17,9 @@
 // A_local p. It is relative to the undamped depth and follows at once, as they do.
 //
 // Modes are smooth over a window: what they move there, and what force does on them, goes through kShapeRows functions
-// per pair, the first Chebyshev polynomials on the window's nodes. Four of them put the RMS of a sweep within 3e-7 of that
-// with all six nodes. Residual flexibility is not that smooth near a tip edge and keeps all nodes.
+// per pair, the first Chebyshev polynomials on the window's nodes: mean and slope. The flexibility of what these leave out
+// follows at once. That puts the RMS of a sweep within 4e-5 of that with all six nodes; without it two functions are 1.2e-4
+// off, three 1e-6. Residual flexibility is not that smooth near a tip edge and keeps all nodes.
 //
 // All that a step streams lies packed by position, in rows and columns of whole lanes; neither steps nor periods
 // allocate memory, with a ledger or without, once a range, a speed and a state have been seen.
@@ -31,6 +32,7 @@
 #include <map>
 #include <memory>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "base/huge_pages.h"
@@ -191,11 +193,12 @@ class RollingDynamics {
       int slot = 0;              // its column in lag and load
       bool low_is_edge = false, high_is_edge = false;
     };
-    int present = 0, of_pair = 0;  // pairs; strips of a pair
-    size_t gap = 0;                // (strip)
-    size_t at_once = 0;            // of strips: StripCompliance::at_nodes, of what follows at once
-    size_t shape = 0;              // (pair, coordinate, shape row), four coordinates side by side
-    size_t line = 0;               // of lines: (pair) LineRecord
+    int present = 0, of_pair = 0;    // pairs; strips of a pair
+    size_t gap = 0;                  // (strip)
+    size_t at_once = 0;              // of strips: StripCompliance::at_nodes, of what follows at once
+    size_t shape = 0;                // (pair, coordinate, shape row), four coordinates side by side
+    size_t line = 0;                 // of lines: (pair) LineRecord
+    std::span<const HertzLine> law;  // of lines: (pair)
     double next_corner_gap = 0, lost_corner_gap = 0;
     std::array<Pair, kMostPairs> pair;
   };
@@ -216,12 +219,21 @@ class RollingDynamics {
   struct StripContact;
   struct LineContact;
   struct RecordedContact;
-  // Four coordinates in turn, so that a step runs down one array: what it takes them on with, and what they count for.
+  // Four coordinates in turn, so that a step runs down one array: what it takes them on with, and what they count for. Those
+  // from bq on are of hubs and of the ends of periods, and stand apart.
   struct SpeedCoefficients {
-    enum Of { a11, a12, a21, a22, bq, torque, weight, kCount };  // bv is a12 in either propagator
+    // bv is a12 in either propagator. push_z, push_v: what half a new force takes off z and v by the end of the next step.
+    enum Of { a11, a12, a21, a22, push_z, push_v, kOften, bq = kOften, torque, weight, kCount };
+    static constexpr int kSeldom = kCount - kOften;
+    // Of four coordinates from c on, of `coordinates` in whole lanes.
+    static constexpr int place(Of of, int c, int coordinates) {
+      return of < kOften ? c * kOften + of * kLanes
+                         : coordinates * kOften + c * kSeldom + (of - kOften) * kLanes;
+    }
     Eigen::VectorXd number;
     double& at(Of of, int coordinate) {
-      return number[(coordinate / kLanes * kCount + of) * kLanes + coordinate % kLanes];
+      return number[place(of, coordinate / kLanes * kLanes, static_cast<int>(number.size()) / kCount) +
+                    coordinate % kLanes];
     }
   };
   // Whole lanes of coordinates that turn a hub, 0 to first_end and second to second_end: the others see no torque and do not
@@ -232,9 +244,9 @@ class RollingDynamics {
   static constexpr int kFields = 12;       // lagged, per tooth
   static constexpr int kSharedFields = 8;  // the first of them: what teeth of a gear do to each other
   static constexpr int kPairNodes = StripCompliance::kPairNodes;  // columns of nodes
-  static constexpr int kShapeRows = 4;  // per pair: what modes are read and loaded through
+  static constexpr int kShapeRows = 2;  // per pair: what modes are read and loaded through
   static_assert(kFields == 12 && kSharedFields == 8 && kPairNodes == 8 && kPairNodes >= kWindowNodes);
-  static_assert(kShapeRows == kLanes && kShapeRows <= kWindowNodes);
+  static_assert(kShapeRows <= kLanes && kShapeRows <= kWindowNodes);
   // (node, shape row) orthonormal: the first Chebyshev polynomials on the Chebyshev points of a window.
   using ShapeBasis = Eigen::Matrix<double, kWindowNodes, kShapeRows>;
   static const ShapeBasis& shape_basis();
@@ -262,7 +274,7 @@ class RollingDynamics {
     double stored_forgotten = 0;        // J: change of G R G / 2 by it
     double forgotten = 0;               // J: that, and the work of loads that went with it
     Eigen::VectorXd p, d, local;        // (strip) N, m, m: local p
-    Eigen::VectorXd moment, reading;    // (pair, shape row): of p on modes; of z
+    Eigen::VectorXd moment, reading;    // (pair, shape row in lanes): of p on modes; of z
     double at_once = 0;                 // J: stored by half-planes, laws and all else that follows at once
   };
   struct LedgerWorkspace {
@@ -333,6 +345,8 @@ class RollingDynamics {
   void add_modes(int g, const std::vector<int>& columns);
   const Eigen::MatrixXd& shape_on_tooth(int g, int tooth) const;
   Eigen::VectorXd flexibility() const;  // (coordinate) s2: 1 / w^2, 0 for the rigid rotation
+  Eigen::MatrixXd modal_flexibility(
+      const Position& position) const;  // (node, node) m N-1, of its participation
   Eigen::MatrixXd static_compliance(const Position& position) const;
   double condensed_eigenvalue(const Eigen::MatrixXd& compliance, const Eigen::MatrixXd& h) const;  // s-2
 

@@ -47,7 +47,7 @@ void RollingDynamics::size_workspaces() {
          {&instant.lag, &instant.load, &instant.field, &instant.moved_load, &instant.forgotten_field})
       x->setZero(2 * fields);
     for (VectorXd* x : {&instant.p, &instant.d, &instant.local}) x->setZero(strips);
-    for (VectorXd* x : {&instant.moment, &instant.reading}) x->setZero(pairs * kShapeRows);
+    for (VectorXd* x : {&instant.moment, &instant.reading}) x->setZero(pairs * kLanes);
   }
   for (VectorXd* x : {&l.turned_back, &l.frequency_squared, &l.damping}) x->setZero(coordinates);
   l.frequency_squared.head(own) = frequency_squared_;
@@ -176,10 +176,16 @@ void RollingDynamics::pack_gap(const Position& position) {
 
 // A window's basis in lanes: what a pair's shape rows move its nodes by, and what its nodes' forces are in them.
 struct RollingDynamics::ShapeLanes {
-  double column[kShapeRows][kPairNodes] = {}, row[kPairNodes][kShapeRows] = {};
+  double column[kShapeRows][kPairNodes] = {}, row[kPairNodes][kLanes] = {};
   ShapeLanes() {
     for (int k = 0; k < kWindowNodes; ++k)
       for (int m = 0; m < kShapeRows; ++m) column[m][k] = row[k][m] = shape_basis()(k, m);
+  }
+  // m: (kPairNodes) of nodes that are moved by -moved (shape row).
+  void put_moved(const double* moved, double* at_node) const {
+    static_assert(kShapeRows == 2 && kPairNodes == 2 * kLanes);
+    lanes(at_node) = -(moved[0] * lanes(column[0]) + moved[1] * lanes(column[1]));
+    lanes(at_node + kLanes) = -(moved[0] * lanes(column[0] + kLanes) + moved[1] * lanes(column[1] + kLanes));
   }
   Lanes moments(const double* nodes) const {
     static_assert(kWindowNodes == 6);
@@ -266,51 +272,51 @@ StripCompliance RollingDynamics::strip_compliance(const Position& position, cons
   return a;
 }
 
+namespace {
+
+// Two pairs' rows of coordinates against each other, (row of a, row of b), each coordinate with half its coefficient.
+template <int kRows>
+Eigen::Matrix<double, kRows, kRows> weighted(const double* a, const double* b, const double* coefficient,
+                                             int apart, int coordinates) {
+  Lanes sums_of[kRows][kRows] = {};
+  for (int c = 0; c < coordinates; c += kLanes) {
+    const Lanes half = 0.5 * lanes(coefficient + c * apart);
+    for (int r = 0; r < kRows; ++r)
+      for (int m = 0; m < kRows; ++m)
+        sums_of[r][m] += half * lanes(a + c * kRows + r * kLanes) * lanes(b + c * kRows + m * kLanes);
+  }
+  Eigen::Matrix<double, kRows, kRows> result;
+  for (int r = 0; r < kRows; ++r)
+    for (int m = 0; m < kRows; ++m) result(r, m) = sum(sums_of[r][m]);
+  return result;
+}
+
+}  // namespace
+
 // Adds h (bq / 2) h^T, what the modes give way at the end of a step. at_nodes: (node, node) m N-1.
 void RollingDynamics::add_response(const Position& position, MatrixXd& at_nodes) {
   const int coordinates = padded(static_cast<int>(coordinates_.size())), present = position.frame.present;
-  double* weighted = work_.response.data();
-  // 0.5 bq of a row; its next numbers stand `apart` lanes behind.
-  const auto weigh = [&](const double* row, int apart) {
-    const double* bq = &speed_.number[SpeedCoefficients::bq * kLanes];
-    for (int c = 0; c < coordinates; c += kLanes)
-      lanes(weighted + c) = 0.5 * lanes(bq + c * SpeedCoefficients::kCount) * lanes(row + c * apart);
+  const double* bq = &speed_.number[SpeedCoefficients::place(SpeedCoefficients::bq, 0, coordinates)];
+  const LineRecord record{coordinates, all_fields()};
+  const auto row = [&](int j) {
+    return lines() ? &stream_[position.frame.line + j * record.size() + LineRecord::kShape]
+                   : &stream_[position.frame.shape + j * kShapeRows * coordinates];
   };
-  if (lines()) {
-    for (int i = 0; i < present; ++i) {
-      const LineRecord record{coordinates, all_fields()};
-      const auto row = [&](int j) {
-        return &stream_[position.frame.line + j * record.size() + LineRecord::kShape];
-      };
-      weigh(row(i), 1);
-      for (int j = 0; j <= i; ++j) {
-        const double add = dot(row(j), weighted, 0, coordinates);
-        at_nodes(i, j) += add;
-        if (i != j) at_nodes(j, i) += add;
-      }
-    }
-    return;
-  }
-  const auto rows = [&](int j) { return &stream_[position.frame.shape + j * kShapeRows * coordinates]; };
-  for (int i = 0; i < present; ++i) {
-    Eigen::Matrix<double, kShapeRows, kShapeRows> share[kMostPairs];
-    for (int r = 0; r < kShapeRows; ++r) {
-      weigh(rows(i) + r * kLanes, kShapeRows);
-      Lanes dots[kMostPairs];
-      int j = 0;
-      for (; j + 1 <= i; j += 2) dot_rows_twice(rows(j), rows(j + 1), coordinates, weighted, dots + j);
-      if (j <= i) dots[j] = dot_rows(rows(j), coordinates, weighted);
-      for (j = 0; j <= i; ++j)
-        for (int m = 0; m < kShapeRows; ++m) share[j](r, m) = dots[j][m];
-    }
+  for (int i = 0; i < present; ++i)
     for (int j = 0; j <= i; ++j) {
-      const Eigen::Matrix<double, kWindowNodes, kWindowNodes> block =
-          shape_basis() * share[j] * shape_basis().transpose();
-      at_nodes.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes) += block;
+      if (lines()) {
+        const double share = weighted<1>(row(i), row(j), bq, SpeedCoefficients::kSeldom, coordinates)(0, 0);
+        at_nodes(i, j) += share;
+        if (i != j) at_nodes(j, i) += share;
+        continue;
+      }
+      const Eigen::Matrix<double, kWindowNodes, kWindowNodes> share =
+          shape_basis() * weighted<kShapeRows>(row(i), row(j), bq, SpeedCoefficients::kSeldom, coordinates) *
+          shape_basis().transpose();
+      at_nodes.block<kWindowNodes, kWindowNodes>(i * kWindowNodes, j * kWindowNodes) += share;
       if (i != j)
-        at_nodes.block<kWindowNodes, kWindowNodes>(j * kWindowNodes, i * kWindowNodes) += block.transpose();
+        at_nodes.block<kWindowNodes, kWindowNodes>(j * kWindowNodes, i * kWindowNodes) += share.transpose();
     }
-  }
 }
 
 void RollingDynamics::turn_doublets(double* y, int direction) const {
@@ -339,10 +345,10 @@ void RollingDynamics::advance_fields(double* fields) const {
 Lanes RollingDynamics::reading(const Position& position, size_t j, const double* z) const {
   const int coordinates = padded(static_cast<int>(coordinates_.size()));
   if (!lines())
-    return dot_rows(&stream_[position.frame.shape + j * kShapeRows * coordinates], coordinates, z);
+    return dot_rows<kShapeRows>(&stream_[position.frame.shape + j * kShapeRows * coordinates], coordinates,
+                                z);
   const LineRecord record{coordinates, all_fields()};
-  return Lanes{
-      dot(&stream_[position.frame.line + j * record.size() + LineRecord::kShape], z, 0, coordinates)};
+  return dot_rows<1>(&stream_[position.frame.line + j * record.size() + LineRecord::kShape], coordinates, z);
 }
 
 Lanes RollingDynamics::collect(const Position& position, size_t j, const double* p, double* fields) const {
@@ -396,11 +402,12 @@ struct ModalLoad {
   }
 };
 
-// What modes move pairs by that have one row each: (pair) row and m.
+// What modes move pairs by: rows as above, and m.
+template <int kRows>
 struct ModalReading {
   int count = 0;
   const double* rows[kMostPairs];
-  double moved[kMostPairs];
+  double moved[kMostPairs][kRows];
 };
 
 }  // namespace
@@ -441,6 +448,7 @@ RollingDynamics::LiveTeeth RollingDynamics::live_teeth() {
 // Modal vectors of a march and what a step does to them. A pair has kRows rows.
 template <int kRows>
 struct RollingDynamics::Modes {
+  using Reading = ModalReading<kRows>;
   int coordinates;
   double *z, *v, *force;
   const double* coefficients;
@@ -449,8 +457,7 @@ struct RollingDynamics::Modes {
   // To the next instant, without new contact force.
   void propagate() const {
     for (int c = 0; c < coordinates; c += kLanes) {
-      const double* k = coefficients + c * SpeedCoefficients::kCount;
-      go_on(k, c, lanes(z + c), lanes(v + c), 0.5 * (lanes(force + c) + of(k, SpeedCoefficients::torque)));
+      go_on(c, lanes(z + c), lanes(v + c), 0.5 * (lanes(force + c) + of(c, SpeedCoefficients::torque)));
     }
   }
 
@@ -458,23 +465,22 @@ struct RollingDynamics::Modes {
   double push(const ModalLoad& load) const {
     Lanes error{};
     for (int c = 0; c < coordinates; c += kLanes) {
-      const double* k = coefficients + c * SpeedCoefficients::kCount;
       Lanes half{};
       for (int j = 0; j < load.count; ++j)
         for (int r = 0; r < kRows; ++r)
           half += load.half[j][r] * lanes(load.rows[j] + c * kRows + r * kLanes);
-      const Lanes z1 = lanes(z + c) - of(k, SpeedCoefficients::bq) * half;
-      lanes(v + c) -= of(k, SpeedCoefficients::a12) * half;
+      const Lanes z1 = lanes(z + c) - of(c, SpeedCoefficients::bq) * half;
+      lanes(v + c) -= of(c, SpeedCoefficients::a12) * half;
       lanes(z + c) = z1;
-      lanes(force + c) = of(k, SpeedCoefficients::torque) - 2 * half;
-      error += of(k, SpeedCoefficients::weight) * z1;
+      lanes(force + c) = of(c, SpeedCoefficients::torque) - 2 * half;
+      error += of(c, SpeedCoefficients::weight) * z1;
     }
     return sum(error);
   }
 
   // Both in one go, and `next` read off what comes out while it is in registers; the force itself is not kept.
   // rest: (coordinate), of the loads of more pairs than there are registers.
-  double push_and_propagate(const ModalLoad& load, ModalReading& next, double* rest) const {
+  double push_and_propagate(const ModalLoad& load, Reading& next, double* rest) const {
     switch (load.count) {
       case 0:
         return both<0, kRows>(load.rows, load.half, next);
@@ -495,21 +501,26 @@ struct RollingDynamics::Modes {
     return both<1, 1>(&row, &one, next);
   }
 
-  void read(ModalReading& reading) const {
-    for (int j = 0; j < reading.count; ++j) reading.moved[j] = dot(reading.rows[j], z, 0, coordinates);
+  void read(Reading& reading) const {
+    for (int j = 0; j < reading.count; ++j) {
+      const Lanes moved = dot_rows<kRows>(reading.rows[j], coordinates, z);
+      for (int r = 0; r < kRows; ++r) reading.moved[j][r] = moved[r];
+    }
   }
 
  private:
-  static const Lanes& of(const double* k, SpeedCoefficients::Of which) { return lanes(k + which * kLanes); }
-  Lanes go_on(const double* k, int c, Lanes z0, Lanes v0, Lanes mean) const {
-    const Lanes bq = of(k, SpeedCoefficients::bq), a12 = of(k, SpeedCoefficients::a12),
-                z1 = of(k, SpeedCoefficients::a11) * z0 + a12 * v0 + bq * mean;
+  const Lanes& of(int c, SpeedCoefficients::Of which) const {
+    return lanes(coefficients + SpeedCoefficients::place(which, c, coordinates));
+  }
+  Lanes go_on(int c, Lanes z0, Lanes v0, Lanes mean) const {
+    const Lanes bq = of(c, SpeedCoefficients::bq), a12 = of(c, SpeedCoefficients::a12),
+                z1 = of(c, SpeedCoefficients::a11) * z0 + a12 * v0 + bq * mean;
     lanes(z + c) = z1;
-    lanes(v + c) = of(k, SpeedCoefficients::a21) * z0 + of(k, SpeedCoefficients::a22) * v0 + a12 * mean;
+    lanes(v + c) = of(c, SpeedCoefficients::a21) * z0 + of(c, SpeedCoefficients::a22) * v0 + a12 * mean;
     return z1;
   }
   template <int kCount, int kRowsEach>
-  double both(const double* const* rows, const Lanes* factor, ModalReading& next) const {
+  double both(const double* const* rows, const Lanes* factor, Reading& next) const {
     switch (next.count) {
       case 0:
         return both<kCount, kRowsEach, 0>(rows, factor, next);
@@ -525,7 +536,7 @@ struct RollingDynamics::Modes {
     return error;
   }
   template <int kCount, int kRowsEach, int kRead>
-  double both(const double* const* rows, const Lanes* factor, ModalReading& next) const {
+  double both(const double* const* rows, const Lanes* factor, Reading& next) const {
     const Modes here = *this;  // stores of lanes may change anything for all that the compiler knows
     const double *row[kCount + 1], *read_row[kRead + 1];
     double f[kCount + 1][kRowsEach];
@@ -534,36 +545,44 @@ struct RollingDynamics::Modes {
       for (int r = 0; r < kRowsEach; ++r) f[j][r] = factor[j][r];
     }
     for (int j = 0; j < kRead; ++j) read_row[j] = next.rows[j];
-    Lanes error{}, moved[kRead + 1] = {};
+    Lanes error{}, moved[kRead + 1][kRows] = {};
     const auto run = [&](auto with_hub, int from, int to) __attribute__((always_inline)) {
-      const double* k = here.coefficients + from * SpeedCoefficients::kCount;
-      for (int c = from; c < to; c += kLanes, k += SpeedCoefficients::kCount * kLanes) {
+      for (int c = from; c < to; c += kLanes) {
         Lanes half{};
         for (int j = 0; j < kCount; ++j)
           for (int r = 0; r < kRowsEach; ++r) half += f[j][r] * lanes(row[j] + c * kRowsEach + r * kLanes);
-        const Lanes z1 = lanes(here.z + c) - of(k, SpeedCoefficients::bq) * half,
-                    v1 = lanes(here.v + c) - of(k, SpeedCoefficients::a12) * half;
+        const Lanes z0 = lanes(here.z + c), v0 = lanes(here.v + c);
         Lanes z2;
         if constexpr (with_hub) {
-          error += of(k, SpeedCoefficients::weight) * z1;
-          z2 = here.go_on(k, c, z1, v1, of(k, SpeedCoefficients::torque) - half);
+          const Lanes z1 = z0 - here.of(c, SpeedCoefficients::bq) * half;
+          error += here.of(c, SpeedCoefficients::weight) * z1;
+          z2 = here.go_on(c, z1, v0 - here.of(c, SpeedCoefficients::a12) * half,
+                          here.of(c, SpeedCoefficients::torque) - half);
         } else {
-          z2 = here.go_on(k, c, z1, v1, -half);
+          z2 = here.of(c, SpeedCoefficients::a11) * z0 + here.of(c, SpeedCoefficients::a12) * v0 -
+               here.of(c, SpeedCoefficients::push_z) * half;
+          lanes(here.z + c) = z2;
+          lanes(here.v + c) = here.of(c, SpeedCoefficients::a21) * z0 +
+                              here.of(c, SpeedCoefficients::a22) * v0 -
+                              here.of(c, SpeedCoefficients::push_v) * half;
         }
-        for (int j = 0; j < kRead; ++j) moved[j] += z2 * lanes(read_row[j] + c);
+        for (int j = 0; j < kRead; ++j)
+          for (int r = 0; r < kRows; ++r) moved[j][r] += z2 * lanes(read_row[j] + c * kRows + r * kLanes);
       }
     };
     run(std::true_type{}, 0, here.hub.first_end);
     run(std::false_type{}, here.hub.first_end, here.hub.second);
     run(std::true_type{}, here.hub.second, here.hub.second_end);
     run(std::false_type{}, here.hub.second_end, here.coordinates);
-    for (int j = 0; j < kRead; ++j) next.moved[j] = sum(moved[j]);
+    for (int j = 0; j < kRead; ++j)
+      for (int r = 0; r < kRows; ++r) next.moved[j][r] = sum(moved[j][r]);
     return sum(error);
   }
 };
 
 struct RollingDynamics::StripContact {
   static constexpr int kRows = kShapeRows;
+  using Reading = ModalReading<kRows>;
 
   explicit StripContact(RollingDynamics& of)
       : dynamics(of),
@@ -578,25 +597,20 @@ struct RollingDynamics::StripContact {
 
   // All that can be known of a position before its modes are: its lag, and a start; and which rows of the modes to read. lag:
   // (field of all pairs) of one gear after the other, without new contact force; no tooth but the live ones has any.
-  void read_ahead(const Position&, Step&, const double*, LiveTeeth, ModalReading& modal) { modal.count = 0; }
+  void read_ahead(const Position& position, Step&, const double* lag, LiveTeeth, Reading& modal) {
+    follow(position, lag);
+    const double* rows = dynamics.stream_.data() + position.frame.shape;
+    modal.count = position.frame.present;
+    for (int j = 0; j < modal.count; ++j) modal.rows[j] = rows + j * kShapeRows * coordinates;
+  }
 
-  // Fills p and d. z: (coordinate), modal: the rows of read_ahead, and lag as there; all without new contact force.
-  Certificate solve(const Position& position, Step& step, const double* z, const ModalReading&,
-                    const double* lag) {
+  // Fills p and d. modal: the rows of read_ahead, without new contact force.
+  Certificate solve(const Position& position, Step& step, const Reading& modal) {
     const double* stream = dynamics.stream_.data();
     const int present = position.frame.present, of_pair = position.frame.of_pair, strips = present * of_pair;
-    follow(position, lag);
-    Lanes read[kMostPairs];
-    const double* rows = stream + position.frame.shape;
-    const int of_rows = kShapeRows * coordinates;
-    int j = 0;
-    for (; j + 2 <= present; j += 2)
-      dot_rows_twice(rows + j * of_rows, rows + (j + 1) * of_rows, coordinates, z, read + j);
-    if (j < present) read[j] = dot_rows(rows + j * of_rows, coordinates, z);
-    for (j = 0; j < present; ++j) {
-      double moved[kShapeRows], at_node[kPairNodes] = {};
-      lanes(moved) = -read[j];
-      add_columns_of_8(at_node, kShape.column[0], moved, kShapeRows);
+    for (int j = 0; j < present; ++j) {
+      double at_node[kPairNodes];
+      kShape.put_moved(modal.moved[j], at_node);
       for (int g = 0; g < 2; ++g)
         add_columns_of_8(at_node, stream + position.frame.pair[j].field + g * kPairNodes * kFields,
                          field_of(position, g, j), kFields);
@@ -620,8 +634,9 @@ struct RollingDynamics::StripContact {
     return true;
   }
 
-  // After `carried` of all pairs, force: (pair) N. load: as lag, of the pairs that are present.
-  void spread(const Position& position, const double* force, double* load, ModalLoad& on_modes) {
+  // After `carried` of all pairs, force: (pair) N. load: as lag, of the pairs that have force; `share` of it goes to the lag.
+  void spread(const Position& position, const double* force, double* load, double share, double* lag,
+              ModalLoad& on_modes) {
     const double* stream = dynamics.stream_.data();
     const int present = position.frame.present;
     on_modes.count = 0;
@@ -642,6 +657,9 @@ struct RollingDynamics::StripContact {
           if (force[j] != 0)
             dynamics.add_displacement(g, position.frame.pair[i].slot - position.frame.pair[j].slot,
                                       load + g * fields + position.frame.pair[j].slot * kFields, moved);
+        const int at = g * fields + position.frame.pair[i].slot * kFields;
+        for (int k = at; force[i] != 0 && k < at + kFields; k += kLanes)
+          lanes(lag + k) += share * lanes(load + k);
       }
   }
 
@@ -686,9 +704,8 @@ struct RollingDynamics::StripContact {
 // Strips whose problems are kept.
 struct RollingDynamics::RecordedContact : StripContact {
   RecordedContact(RollingDynamics& of, std::vector<ContactProblem>& to) : StripContact(of), problems(to) {}
-  Certificate solve(const Position& position, Step& step, const double* z, const ModalReading& modal,
-                    const double* lag) {
-    const Certificate certificate = StripContact::solve(position, step, z, modal, lag);
+  Certificate solve(const Position& position, Step& step, const Reading& modal) {
+    const Certificate certificate = StripContact::solve(position, step, modal);
     const StripCompliance a = dynamics.strip_compliance(position, step.compliance.data());
     problems.push_back({MatrixXd(a.size(), a.size()), e.head(a.size()), step.active});
     a.assemble(problems.back().compliance.data());
@@ -707,6 +724,7 @@ std::vector<RollingDynamics::ContactProblem> RollingDynamics::contact_problems(S
 
 struct RollingDynamics::LineContact {
   static constexpr int kRows = 1;
+  using Reading = ModalReading<kRows>;
 
   explicit LineContact(RollingDynamics& of)
       : dynamics(of),
@@ -718,8 +736,7 @@ struct RollingDynamics::LineContact {
   void rename() {}
 
   // As of strips, all four.
-  void read_ahead(const Position& position, Step& step, const double* lag, LiveTeeth live,
-                  ModalReading& modal) {
+  void read_ahead(const Position& position, Step& step, const double* lag, LiveTeeth live, Reading& modal) {
     const double* line = dynamics.stream_.data() + position.frame.line;
     modal.count = position.frame.present;
     for (int j = 0; j < modal.count; ++j, line += record.size()) {
@@ -742,14 +759,13 @@ struct RollingDynamics::LineContact {
     }
     if (step.start.known()) return;
     if (step.force.size() != modal.count) step.force.setZero(modal.count);
-    step.start.look(step.compliance, position.mesh.law, step.force);
+    step.start.look(step.compliance, position.frame.law, step.force);
   }
 
-  Certificate solve(const Position& position, Step& step, const double*, const ModalReading& modal,
-                    const double*) {
+  Certificate solve(const Position& position, Step& step, const Reading& modal) {
     const int present = position.frame.present;
-    for (int j = 0; j < present; ++j) e[j] -= modal.moved[j];
-    const Certificate certificate = solve_line_contact(step.compliance, position.mesh.law, e.head(present),
+    for (int j = 0; j < present; ++j) e[j] -= modal.moved[j][0];
+    const Certificate certificate = solve_line_contact(step.compliance, position.frame.law, e.head(present),
                                                        step.start, step.force, d.head(present));
     for (int j = 0; j < present; ++j) p[j] = step.force[j];
     return certificate;
@@ -762,17 +778,22 @@ struct RollingDynamics::LineContact {
     return true;
   }
 
-  void spread(const Position& position, const double* force, double* load, ModalLoad& on_modes) const {
+  void spread(const Position& position, const double* force, double* load, double share, double* lag,
+              ModalLoad& on_modes) const {
     const int present = position.frame.present;
     const double* line = dynamics.stream_.data() + position.frame.line;
     on_modes.count = 0;
     for (int j = 0; j < present; ++j, line += record.size()) {
       if (force[j] == 0) continue;
       on_modes.add(line + LineRecord::kShape, Lanes{force[j]});
-      for (int g = 0; g < 2; ++g)
-        for (int k = 0; k < kFields; k += kLanes)
-          lanes(load + g * record.fields + position.frame.pair[j].slot * kFields + k) =
-              force[j] * lanes(line + record.weight(g) + k);
+      for (int g = 0; g < 2; ++g) {
+        const int at = g * record.fields + position.frame.pair[j].slot * kFields;
+        for (int k = 0; k < kFields; k += kLanes) {
+          const Lanes own = force[j] * lanes(line + record.weight(g) + k);
+          lanes(load + at + k) = own;
+          lanes(lag + at + k) += share * own;
+        }
+      }
     }
   }
 
@@ -846,14 +867,15 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
   // Stores of lanes may change anything for all that the compiler knows; it need not look these up again.
   double *const lag_at = work_.lag.data(), *const load_at = work_.load.data();
   const Lag lag_step = lag_;
+  const double share_ahead = lag_step.decay * lag_step.from_new + lag_step.from_old;
   ModalLoad on_modes;
-  ModalReading modal;
+  ModalReading<Contact::kRows> modal;
   LiveTeeth live = live_teeth();
-  const auto relax = [&] {
+  const auto relax = [&](bool loaded) {
     for (int g = 0; g < 2; ++g)
       for (int k = g * fields + live.first * kFields; k < g * fields + live.last * kFields; k += kLanes) {
-        lanes(lag_at + k) = lag_step.decay * lanes(lag_at + k) + lag_step.from_old * lanes(load_at + k);
-        lanes(load_at + k) = Lanes{};
+        lanes(lag_at + k) *= lag_step.decay;
+        if (loaded) lanes(lag_at + k) += lag_step.from_old * lanes(load_at + k);
       }
   };
 
@@ -875,21 +897,24 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     sample_ = sample;
     Position& position = positions_[sample * stride_];
     const int present = position.frame.present;
+    // Where nobody looks at the instant that this step ends at, the next one begins before its contact is known.
+    const bool ahead = !ledger && i + 1 < steps_;
 
     // What the step would bring without new contact force.
     if (!propagated) {
       set_gap(position, state.period);
       modes.propagate();
-      relax();
+      relax(true);
       contact.read_ahead(position, step_data_[sample], lag_at, live, modal);
       modes.read(modal);
     }
-    const Certificate certificate = contact.solve(position, step_data_[sample], modes.z, modal, lag_at);
+    if (ahead) relax(false);
+    const Certificate certificate = contact.solve(position, step_data_[sample], modal);
     period.least_gap = std::min(period.least_gap, certificate.least_gap);
     period.least_force = std::min(period.least_force, certificate.least_force);
     period.fallbacks += certificate.fallback;
 
-    // The new force's own share, and where nobody looks at the instant the next step's beginning.
+    // The new force's own share.
     double drift = 0, carried[kMostPairs];
     for (int j = 0; j < present; ++j) {
       if (!contact.carried(position, j, carried[j])) return false;
@@ -898,17 +923,11 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       if (carried[j] != 0) live.add(position.frame.pair[j].slot);
     }
     period.drift_force = std::max(period.drift_force, std::abs(drift));
-    contact.spread(position, carried, load_at, on_modes);
-    for (int g = 0; g < 2; ++g)
-      for (int j = 0; j < present; ++j) {
-        const int own_fields = g * fields + position.frame.pair[j].slot * kFields;
-        for (int k = own_fields; k < own_fields + kFields; k += kLanes)
-          lanes(lag_at + k) += lag_step.from_new * lanes(load_at + k);
-      }
-    propagated = !ledger && i + 1 < steps_;
+    if (!ahead) std::fill(load_at, load_at + 2 * fields, 0.0);  // of pairs that have no force now
+    contact.spread(position, carried, load_at, ahead ? share_ahead : lag_step.from_new, lag_at, on_modes);
+    propagated = ahead;
     double error;
-    if (propagated) {
-      relax();
+    if (ahead) {
       Position& next = positions_[(i + 1) * stride_];
       set_gap(next, state.period);
       contact.read_ahead(next, step_data_[i + 1], lag_at, live, modal);
