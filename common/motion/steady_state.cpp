@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
 
 #include "base/dense.h"
@@ -21,10 +20,10 @@ constexpr int kLeastTurns = 100;    // but this many hunting periods
 constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in hunting periods
 constexpr int kStagnation = 50;     // periods over which a subharmonic must not come nearer to a shorter one
 constexpr double kApart = 10;       // times periodicity: from there on two states may be a subharmonic's
-constexpr int kColumns = 3;         // changes that one extrapolation combines: two multipliers go
+constexpr int kSecants = 2;         // as many multipliers go at once: the slowest two, of one resonance
 constexpr double kClose = 1e-2;     // change per period below which the motion counts as close to its orbit
 constexpr double kFarAlong = 2.5;   // of the last step along a branch: further it does not foretell
-constexpr int kLongestPause = 64;   // periods of plain marching after extrapolations that gained nothing
+constexpr int kLongestPause = 64;   // periods of plain marching after proposals that gained nothing
 
 double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
   double sum = 0, square = 0;
@@ -75,81 +74,82 @@ State combination(const std::vector<const State*>& states, const VectorXd& weigh
   return sum;
 }
 
-// Reduced rank extrapolation over successive states.
-class Extrapolation {
- public:
-  explicit Extrapolation(const RollingDynamics& dynamics) : dynamics_(dynamics) {}
-
-  void forget() { states_.clear(); }
-  bool ready() const { return static_cast<int>(states_.size()) == kColumns + 1; }
-  void take(const State& state) {
-    states_.push_back(state);
-    if (static_cast<int>(states_.size()) > kColumns + 1) states_.pop_front();
-  }
-  // Of the affine combinations of the states that the map brought forth, the one whose combined change is least. Nothing if
-  // a multiplier that the changes show is not below 1: what lies at the end of them is no orbit that marching could find.
-  std::optional<State> propose() const {
-    const int n = kColumns;
-    MatrixXd change(dynamics_.difference(states_[1], states_[0]).size(), n);
-    for (int i = 0; i < n; ++i) change.col(i) = dynamics_.difference(states_[i + 1], states_[i]);
-    // The map takes each change to the next: the last as a sum of those before it gives the characteristic polynomial.
-    const auto earlier = change.leftCols(n - 1);
-    MatrixXd companion = MatrixXd::Zero(n - 1, n - 1);
-    companion.diagonal(-1).setOnes();
-    companion.rightCols(1) = solve(earlier, change.col(n - 1));
-    const GeneralEigenvalues multipliers = general_eigenvalues(companion);
-    if (!multipliers.converged || multipliers.values.cwiseAbs().maxCoeff() >= 1) return std::nullopt;
-    // Weights sum to 1: differences of neighbouring changes are free.
-    const VectorXd share = solve(earlier - change.rightCols(n - 1), -change.col(n - 1));
-    VectorXd weight = VectorXd::Zero(n);
-    weight[n - 1] = 1;
-    for (int i = 0; i + 1 < n; ++i) {
-      weight[i] += share[i];
-      weight[i + 1] -= share[i];
-    }
-    std::vector<const State*> images;  // the first state is no image of another
-    for (int i = 1; i <= n; ++i) images.push_back(&states_[i]);
-    return combination(images, weight);
-  }
-
- private:
-  static VectorXd solve(const MatrixXd& a, const VectorXd& b) {
-    return least_squares(a, b, 1e-8);  // changes that repeat each other say nothing new
-  }
-
-  const RollingDynamics& dynamics_;
-  std::deque<State> states_;
-};
-
 }  // namespace
+
+bool Secants::ready() const {
+  return last_ && static_cast<int>(known_.size()) == kSecants;
+}
+
+void Secants::take(const RollingDynamics& dynamics, const State& start, const State& end) {
+  const VectorXd change = dynamics.difference(end, start);
+  in_a_row_ = last_ && dynamics.distance(start, last_->end) == 0 ? in_a_row_ + 1 : 1;
+  if (last_) {
+    known_.push_back({combination({&last_->end, &end}, Eigen::Vector2d(-1, 1)),
+                      dynamics.difference(start, last_->start), change - last_->change});
+    if (static_cast<int>(known_.size()) > kSecants) known_.pop_front();
+  }
+  last_ = {start, end, change};
+}
+
+std::optional<State> Secants::propose() const {
+  constexpr double kAlike = 1e-3;  // columns of unit length that differ by less say nothing new
+  // Turns in a row come to show the slowest multipliers; of others, some of them of another speed, one may seem to be smaller
+  // than it is, by some hundredths.
+  constexpr double kSurelyInside = 0.9;
+  const double most = in_a_row_ > kSecants ? 1 : kSurelyInside;
+  const int n = static_cast<int>(known_.size());
+  MatrixXd start(last_->change.size(), n), change(last_->change.size(), n);
+  VectorXd length(n);
+  for (int i = 0; i < n; ++i) {
+    length[i] = known_[i].change.norm();
+    if (!(length[i] > 0)) return std::nullopt;
+    start.col(i) = known_[i].start / length[i];
+    change.col(i) = known_[i].change / length[i];
+  }
+  const MatrixXd map = MatrixXd::Identity(n, n) + least_squares(start, change, kAlike);
+  const GeneralEigenvalues multipliers = general_eigenvalues(map);
+  if (!multipliers.converged || !(multipliers.values.cwiseAbs().maxCoeff() < most)) return std::nullopt;
+  VectorXd weight(n + 1);
+  weight << -least_squares(change, last_->change, kAlike).cwiseQuotient(length), 1;
+  std::vector<const State*> states;
+  for (const Secant& secant : known_) states.push_back(&secant.end);
+  states.push_back(&last_->end);
+  return combination(states, weight);
+}
 
 // A subharmonic of order m is a motion whose state repeats after m hunting periods but, long since and without getting any
 // nearer, not after a divisor of m: a slow transient may look like one for a while.
 std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double periodicity,
-                            const std::string& method, const RmsRange& looked_for) {
+                            const std::string& method, const RmsRange& looked_for, Secants* shared) {
   Orbit orbit;
+  Secants own;
+  Secants& secants = shared ? *shared : own;
+  secants.interrupt();
   // The map whose orbits are looked for: a hunting period, which is a mesh period for teeth that are alike.
   const int hunting = dynamics.hunting_periods(), most = std::max(kMostPeriods / hunting, kLeastTurns);
   const bool watched = hunting == 1 && (looked_for.least > 0 || std::isfinite(looked_for.most));
   std::deque<State> past{state};
   std::deque<std::array<double, kMostMultiple + 1>> history;  // change over m periods
   RollingDynamics::Period period;
-  Extrapolation extrapolation(dynamics);
-  extrapolation.take(state);
+  State start = state;  // of the last turn
   struct Proposal {
     State marched;         // where marching had come to
     double change = 0;     // in its last period
-    bool pending = false;  // the present state descends from an extrapolation
+    bool pending = false;  // the present state descends from a proposal
   } proposal;
   int pause = 0, patience = 0;
-  const auto reject = [&] {
-    state = proposal.marched;
+  const auto march_on = [&] {
     proposal.pending = false;
-    pause = patience = std::min(2 * patience + kColumns, kLongestPause);
-    extrapolation.forget();
+    pause = patience = std::min(2 * patience + kSecants, kLongestPause);
+    secants.forget();
+  };
+  const auto reject = [&] {
+    march_on();
+    state = proposal.marched;
     past.assign(1, state);
   };
   const auto turn = [&] {
+    start = state;
     for (int k = 0; k < hunting; ++k)
       if (!dynamics.march(state, period)) return false;
     return true;
@@ -202,13 +202,13 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
       const int recorded = hunting * (multiple > 0 ? multiple : hunting > 1 ? 1 : kMostMultiple);
       RollingDynamics::Period before = period;
       for (int k = 0; k < recorded; ++k) {
-        if (!dynamics.march(state, period, &orbit.ledger)) return std::nullopt;
+        if (!dynamics.march(state, period, watched ? nullptr : &orbit.ledger)) return std::nullopt;
         orbit.record.push_back(period);
         // A march ends with the first sample of the period after it.
         if (recorded > 1) begin_with_end_of(before, orbit.record.back());
         before = period;
       }
-      // An extrapolation may have hit an unstable orbit: then the period just recorded was a step away from it.
+      // A proposal may have hit an unstable orbit: then the period just recorded was a step away from it.
       const bool leaves =
           proposal.pending && multiple == 1 && n < most && dynamics.distance(state, reached) > orbit.residual;
       if (!leaves) {
@@ -216,6 +216,7 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
         return orbit;
       }
       ++n;
+      march_on();
     }
     past.push_back(state);
     if (known == kMostMultiple) past.pop_front();
@@ -223,19 +224,21 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
     if (static_cast<int>(history.size()) > kStagnation) history.pop_front();
 
     if (method == "march") continue;
-    if (proposal.pending && change[1] > proposal.change) reject();
-    extrapolation.take(state);
+    if (proposal.pending && change[1] > proposal.change) {
+      reject();
+      continue;
+    }
     if (pause > 0) {
       --pause;
-    } else if (extrapolation.ready() && change[1] < kClose) {
-      if (const auto proposed = extrapolation.propose()) {
-        proposal = {state, change[1], true};
-        state = *proposed;
-        extrapolation.forget();
-        extrapolation.take(state);
-        past.assign(1, state);
-        history.clear();
-      }
+      continue;
+    }
+    secants.take(dynamics, start, state);
+    if (!secants.ready() || change[1] >= kClose) continue;
+    if (const auto proposed = secants.propose()) {
+      proposal = {state, change[1], true};
+      state = *proposed;
+      past.assign(1, state);
+      history.clear();
     }
   }
 }

@@ -1,5 +1,6 @@
 // The periodic motion that a rolling pair settles into at one speed.
 #pragma once
+#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
@@ -25,15 +26,45 @@ struct RmsRange {
   double least = 0, most = std::numeric_limits<double>::infinity();
 };
 
+// How the change of a state in a period depends on the state, as the last periods have shown it: of neighbouring speeds nearly
+// the same, so a speed begins with what the one before it has shown.
+class Secants {
+ public:
+  void forget() { *this = {}; }
+  // What comes is of another speed, or does not go on from what was taken last.
+  void interrupt() { last_.reset(); }
+  void take(const RollingDynamics& dynamics, const RollingDynamics::State& start,
+            const RollingDynamics::State& end);
+  bool ready() const;  // for propose()
+  // Where the change vanishes, as far as the secants see it (Anderson's method; Fang and Saad, Numer. Linear Algebra Appl. 16
+  // (2009) 197, type II). Nothing if a multiplier that they show is not inside the unit circle: what lies there is no orbit
+  // that marching could find.
+  std::optional<RollingDynamics::State> propose() const;
+
+ private:
+  struct Turn {
+    RollingDynamics::State start, end;
+    Eigen::VectorXd change;
+  };
+  struct Secant {  // differences of two turns
+    RollingDynamics::State end;
+    Eigen::VectorXd start, change;
+  };
+  std::optional<Turn> last_;
+  int in_a_row_ = 0;  // turns, each from where the one before it ended
+  std::deque<Secant> known_;
+};
+
 // Marches from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance) over a hunting period, which is
 // a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method "march": plain
-// marching, as a rig would. "extrapolate": once the motion is close, reduced rank extrapolation (Sidi, Vector Extrapolation
-// Methods with Applications, SIAM 2017, ch. 2) takes the slow multipliers out. It is used only where the multipliers that it
-// sees lie inside the unit circle, and counts only if marching on comes closer still: an unstable orbit is left again. Of teeth
-// that are alike a motion whose RMS leaves `looked_for` is given up, not periodic, its last period as it is. Empty if contact
-// wanted more than the range of the dynamics holds; the state is then spoiled.
+// marching, as a rig would. "extrapolate": once the motion is close, secants of the map that a period is take its slow
+// multipliers out. They are used only where these lie inside the unit circle, and a state that they propose counts only if
+// marching on comes closer still: an unstable orbit is left again. Of teeth that are alike a motion whose RMS leaves
+// `looked_for` is given up, not periodic, its last period as it is; no ledger is kept of it. Empty if contact wanted more than the range of the dynamics
+// holds; the state is then spoiled. shared: secants of a speed nearby to begin with, then of this one.
 std::optional<Orbit> settle(RollingDynamics& dynamics, RollingDynamics::State& state, double periodicity,
-                            const std::string& method, const RmsRange& looked_for = {});
+                            const std::string& method, const RmsRange& looked_for = {},
+                            Secants* shared = nullptr);
 
 // A state on the orbit of one mesh period at a speed.
 struct KnownOrbit {

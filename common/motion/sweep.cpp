@@ -127,7 +127,8 @@ class Sweeper {
     try {
       RollingDynamics& dynamics = this->dynamics(level_);
       dynamics.set_speed(mesh_frequency, steps_at(slice_.time, mesh_frequency));
-      return settle(dynamics, state_, slice_.time.periodicity, slice_.time.steady_state, looked_for);
+      return settle(dynamics, state_, slice_.time.periodicity, slice_.time.steady_state, looked_for,
+                    &secants_);
     } catch (const Error& error) {
       fail_as(error, "at ", mesh_frequency, " Hz, ", error.what());
     }
@@ -194,6 +195,7 @@ class Sweeper {
   ContactRange lowest_;
   std::vector<std::unique_ptr<RollingDynamics>> levels_;
   RollingDynamics::State state_;
+  Secants secants_;  // of the speeds so far
 };
 
 BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
@@ -211,21 +213,23 @@ BranchMotion branch_motion(double mesh_frequency, const Orbit& orbit) {
   return {mesh_frequency, orbit.rms, orbit.multiple};
 }
 
-// Runs from where the motions of the last two speeds lead, which is nearer to the motion at the next speed than where the last
+// Runs from where the motions of the last speeds lead, which is nearer to the motion at the next speed than where the last
 // one ended, and on the branch up to where it ends; from where that one ended where the RMS does not go on evenly (by more than
 // some 8 % a step, or as across a jump).
 Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
              const std::vector<RollingDynamics::State>& reached, double mesh_frequency) {
+  constexpr size_t kMostKnown = 3;
   const size_t n = motions.size();
-  const int single = sweeper.hunting_periods();
-  if (n < 2 || motions[n - 2].multiple != single || motions[n - 1].multiple != single ||
-      may_break(motions, n - 1))
-    return sweeper.run(mesh_frequency);
-  return sweeper.run_from(foretold(sweeper.dynamics(),
-                                   {{motions[n - 2].mesh_frequency, reached[n - 2]},
-                                    {motions[n - 1].mesh_frequency, reached[n - 1]}},
-                                   mesh_frequency),
-                          mesh_frequency);
+  const auto even = [&](size_t i) {
+    const int single = sweeper.hunting_periods();
+    return motions[i - 1].multiple == single && motions[i].multiple == single && !may_break(motions, i);
+  };
+  size_t first = n;
+  while (first > 1 && n - first < kMostKnown - 1 && even(first - 1)) --first;
+  if (first == n) return sweeper.run(mesh_frequency);
+  std::vector<KnownOrbit> known;
+  for (size_t i = first - 1; i < n; ++i) known.push_back({motions[i].mesh_frequency, reached[i]});
+  return sweeper.run_from(foretold(sweeper.dynamics(), known, mesh_frequency), mesh_frequency);
 }
 
 struct Jump {
