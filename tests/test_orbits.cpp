@@ -96,20 +96,46 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("the secants of one speed save periods at the next, on the same orbits") {
+  Rig rig(128);
+  int alone = 0, together = 0;
+  State state = rig.carried(2000, 2100, 128), shared_state = state;
+  Secants secants;
+  for (double f = 2120; f <= 2400; f += 20) {
+    rig.dynamics.set_speed(f, 128);
+    const auto one = settle(rig.dynamics, state, 1e-7, "extrapolate"),
+               other = settle(rig.dynamics, shared_state, 1e-7, "extrapolate", {}, &secants);
+    REQUIRE(one);
+    REQUIRE(other);
+    INFO(f << " Hz: " << one->periods << " and " << other->periods << " periods");
+    CHECK(other->multiple == 1);
+    CHECK(std::abs(other->rms - one->rms) < 1e-6 * one->rms);
+    alone += one->periods;
+    together += other->periods;
+  }
+  MESSAGE(alone << " mesh periods, " << together << " with the secants of the speed before");
+  CHECK(together < 0.95 * alone);
+}
+
 TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unstable orbit of one period") {
   Rig rig(128, 2e-6, false);
   bool subharmonic = false;
   State state = rig.dynamics.rest();
+  Secants secants;  // of the speeds where mesh periods do not alternate
   for (double f = 5500; f <= 6200; f += 100) {
     rig.dynamics.set_speed(f, 128);
-    State extrapolated = state;
-    const auto slow = settle(rig.dynamics, state, 1e-6, "march"),
-               fast = settle(rig.dynamics, extrapolated, 1e-6, "extrapolate");
+    const State start = state;
+    const auto slow = settle(rig.dynamics, state, 1e-6, "march");
     REQUIRE(slow);
-    REQUIRE(fast);
-    INFO(f << " Hz: orbits of " << slow->multiple << " and " << fast->multiple << " mesh periods");
-    CHECK(fast->multiple == slow->multiple);
-    if (slow->multiple > 0) CHECK(std::abs(fast->rms - slow->rms) < 1e-4 * slow->rms);
+    for (Secants* known : {static_cast<Secants*>(nullptr), &secants}) {
+      State extrapolated = start;
+      const auto fast = settle(rig.dynamics, extrapolated, 1e-6, "extrapolate", {}, known);
+      REQUIRE(fast);
+      INFO(f << " Hz: orbits of " << slow->multiple << " and " << fast->multiple << " mesh periods, "
+             << (known ? "with" : "without") << " the secants of other speeds");
+      CHECK(fast->multiple == slow->multiple);
+      if (slow->multiple > 0) CHECK(std::abs(fast->rms - slow->rms) < 1e-4 * slow->rms);
+    }
     if (slow->multiple == 2 && !subharmonic) {
       // An orbit that has come to repeat to round-off, or bit by bit, is as periodic as one that nearly does.
       RollingDynamics::Period period;
