@@ -155,9 +155,9 @@ TEST_CASE("every mode: at rest the static transmission error, on lines and strip
                                      3 * statics.transmission_error.maxCoeff()),
                        1);
     dynamics.rest();
-    // Modes reach strips through four functions of the window, which the highest modes of a mesh are not: 4e-6.
+    // Of what the torques bend within a window modes keep mean and slope: 1.4e-6 is left out.
     CHECK(dynamics.static_deflection() ==
-          relative(statics.transmission_error[0], std::string(contact) == "line" ? 1e-8 : 1e-5));
+          relative(statics.transmission_error[0], std::string(contact) == "line" ? 1e-8 : 5e-6));
   }
 }
 

@@ -410,7 +410,7 @@ void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact&
   slice.time.steady_state = method;
   long periods = 0;
   double imbalance = 0;
-  const double seconds = least_seconds(3, [&] {
+  const double seconds = least_seconds(5, [&] {
     periods = 0;
     for (const char* direction : {"up", "down"}) {
       const SweepArtifact result = sweep(driver, driven, statics, mean_stiffness, slice, direction,

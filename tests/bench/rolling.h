@@ -96,8 +96,8 @@ inline double load_bandwidth(size_t bytes) {
 // Work of one step, counted from sizes. n coordinates, T teeth of F fields (S of them shared by neighbours) followed per gear,
 // P pairs of r shape rows, N nodes and s strips each, L of them with force, M = P s, k strips that touch. Flops, a
 // multiply-add as two:
-//   modes          19 n (propagator 12, share of the new force 7)
-//   lag            6 T F + 4 P F (both gears)
+//   modes          12 n (propagator 8, share of the new force 4)
+//   lag            2 T F + 4 L F (both gears)
 //   modes read     2 P r n        and loaded: 2 L r n
 //   lag read       strips: 4 P F N + 6 P F;                        lines, which hold the product: 4 P (T S + F - S)
 //   lag loaded     strips: 4 L F N + 4 L (F^2 + (P - 1) S^2);      lines: 2 L F
@@ -113,7 +113,7 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
   const double n = s.coordinates, P = s.pairs, L = loaded, r = s.rows, F = s.fields, S = s.shared,
                T = s.teeth, N = s.nodes, M = P * s.strips, k = touching;
   StepWork w;
-  w.flops = 19 * n + 6 * T * F + 4 * P * F + 2 * (P + L) * r * n;
+  w.flops = 12 * n + 2 * T * F + 4 * L * F + 2 * (P + L) * r * n;
   w.bytes = P * r * n;
   if (N > 1) {
     w.flops += 4 * P * F * N + 6 * P * F + 4 * L * F * N + 4 * L * (F * F + (P - 1) * S * S) +
