@@ -153,6 +153,33 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
 }
 
 TEST_CASE(
+    "where mesh periods begin to alternate, an orbit of one period that is found stays one when marched on") {
+  Rig rig(128, 2e-6, false);
+  State state = rig.carried(5500, 5600, 128);
+  Secants secants;
+  int single = 0, alternating = 0;
+  for (double f = 5610; f <= 5720; f += 10) {
+    rig.dynamics.set_speed(f, 128);
+    const auto orbit = settle(rig.dynamics, state, 1e-5, "extrapolate", {}, &secants);
+    REQUIRE(orbit);
+    single += orbit->multiple == 1;
+    alternating += orbit->multiple == 2;
+    if (orbit->multiple != 1) continue;
+    State later = state, before;
+    RollingDynamics::Period period;
+    for (int k = 0; k < 300; ++k) {
+      before = later;
+      REQUIRE(rig.dynamics.march(later, period));
+    }
+    INFO(f << " Hz: the state changed by " << orbit->residual << " in a period and "
+           << rig.dynamics.distance(later, before) << " in one 300 periods later");
+    CHECK(rig.dynamics.distance(later, before) < orbit->residual);
+  }
+  CHECK(single > 0);
+  CHECK(alternating > 0);
+}
+
+TEST_CASE(
     "second order in the time step: state of the orbit at a fixed phase, least squares, both branches") {
   // Against the other integrator at 4096 steps, which shares nothing but the contact positions.
   constexpr int kReference = 4096;

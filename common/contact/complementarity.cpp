@@ -402,10 +402,11 @@ Certificate ComplementaritySolver::certified(const Certificate& certificate, con
 Certificate ComplementaritySolver::solve(const StripCompliance& a, const Vector& e, ActiveSet& active,
                                          Result p, Result d, double* nodes) {
   const int n = a.size();
-  if (e.size() != n || p.size() != n || d.size() != n || a.strips % kLanes != 0)
-    fail(Failure::numerical, "a contact problem of ", e.size(), " gaps has a compliance of ", a.pairs,
-         " times ", a.strips, " strips, a multiple of ", kLanes, ", and room for ", p.size(), " forces and ",
-         d.size(), " gaps");
+  if (a.strips % kLanes != 0)
+    fail(Failure::numerical, "a contact problem has pairs of ", a.strips, " strips, no multiple of ", kLanes);
+  if (e.size() != n || p.size() != n || d.size() != n)
+    fail(Failure::numerical, "a contact problem of ", e.size(), " gaps has a compliance of ", n,
+         " strips and room for ", p.size(), " forces and ", d.size(), " gaps");
   reserve(n);
   if (assembled_.size() < static_cast<Eigen::Index>(n) * n)
     assembled_.setZero(static_cast<Eigen::Index>(n) * n);

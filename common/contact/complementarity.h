@@ -61,7 +61,7 @@ struct ActiveSet {
   bool known = false;
   bool shifted = false;  // the inverse is that of A + shift I
   int updates = 0;       // strips that came or went since the inverse was computed from A
-  double least_diagonal = 0, largest_diagonal = 0;  // bounds of A's on them, as `inverse`
+  double least_diagonal = 0, largest_diagonal = 0;  // bounds of A's diagonal on them, as `inverse`
   void forget() { known = false; }
 };
 

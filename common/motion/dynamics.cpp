@@ -244,7 +244,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps, const Wind
   memory_ = {};
   for (const Position& position : positions_)
     memory_.coordinates += 8.0 * static_cast<double>(coordinates_.size()) *
-                           (position.mesh.nodes() + (lines() ? 1.0 : static_cast<double>(kPairNodes)) *
+                           (position.mesh.nodes() + (lines() ? 1.0 : static_cast<double>(kShapeRows)) *
                                                         static_cast<double>(position.mesh.pairs.size()));
   require_memory(
       memory_.coordinates, beside.coordinates, kMostMemory,

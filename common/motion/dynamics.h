@@ -17,8 +17,8 @@
 // A_local p. It is relative to the undamped depth and follows at once, as they do.
 //
 // Modes are smooth over a window: what they move there, and what force does on them, goes through kShapeRows functions
-// per pair, the first Chebyshev polynomials on the window's nodes: mean and slope. The flexibility of what these leave out
-// follows at once. That puts the RMS of a sweep within 4e-5 of that with all six nodes; without it two functions are 1.2e-4
+// per pair, the first Chebyshev polynomials on the window's nodes: mean and slope. What these leave out of the
+// modes' flexibility, between the nodes of a position as a whole, follows at once. That puts the RMS of a sweep within 4e-5 of that with all six nodes; without it two functions are 1.2e-4
 // off, three 1e-6. Residual flexibility is not that smooth near a tip edge and keeps all nodes.
 //
 // All that a step streams lies packed by position, in rows and columns of whole lanes; neither steps nor periods
@@ -256,7 +256,8 @@ class RollingDynamics {
   };
   // Vectors of a march, sized by the range; coordinates in whole lanes, fields of one gear after the other.
   struct Workspace {
-    Eigen::VectorXd z, v, force, torque, response;  // (coordinate)
+    Eigen::VectorXd z, v, force, torque;  // (coordinate)
+    Eigen::VectorXd rest;                 // (coordinate) halved forces of pairs beyond the first two
     Eigen::VectorXd lag,
         load;  // (field of all pairs of both gears) N: without and with the new load; the new load
     Eigen::VectorXd field, moved_load;  // as lag, m: displacement that lagged, and present, loads cause

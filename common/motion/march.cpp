@@ -35,7 +35,7 @@ void RollingDynamics::size_workspaces() {
     pairs = std::max(pairs, static_cast<int>(position.mesh.pairs.size()));
   }
   Workspace& w = work_;
-  for (VectorXd* x : {&w.z, &w.v, &w.force, &w.torque, &w.response}) x->setZero(coordinates);
+  for (VectorXd* x : {&w.z, &w.v, &w.force, &w.torque, &w.rest}) x->setZero(coordinates);
   w.torque.head(own) = torque_force_;
   for (VectorXd* x : {&w.lag, &w.load, &w.field, &w.moved_load}) x->setZero(2 * fields);
   for (VectorXd* x : {&w.e, &w.p, &w.d}) x->setZero(strips);
@@ -931,7 +931,7 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
       Position& next = positions_[(i + 1) * stride_];
       set_gap(next, state.period);
       contact.read_ahead(next, step_data_[i + 1], lag_at, live, modal);
-      error = modes.push_and_propagate(on_modes, modal, work_.response.data());
+      error = modes.push_and_propagate(on_modes, modal, work_.rest.data());
     } else {
       error = modes.push(on_modes);
     }

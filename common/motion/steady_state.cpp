@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/dense.h"
+#include "base/error.h"
 
 namespace whine {
 
@@ -135,23 +136,30 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
   struct Proposal {
     State marched;         // where marching had come to
     double change = 0;     // in its last period
-    bool pending = false;  // the present state descends from a proposal
+    bool pending = false;  // the present state descends from it
   } proposal;
+  bool proposed = false;  // the present state may descend from one, also where another one was rejected since
   int pause = 0, patience = 0;
   const auto march_on = [&] {
-    proposal.pending = false;
     pause = patience = std::min(2 * patience + kSecants, kLongestPause);
     secants.forget();
   };
   const auto reject = [&] {
     march_on();
+    proposal.pending = false;
     state = proposal.marched;
     past.assign(1, state);
+    history.clear();
   };
   const auto turn = [&] {
     start = state;
-    for (int k = 0; k < hunting; ++k)
-      if (!dynamics.march(state, period)) return false;
+    try {
+      for (int k = 0; k < hunting; ++k)
+        if (!dynamics.march(state, period)) return false;
+    } catch (const Error& error) {  // a proposal may lie where no motion does
+      if (!proposal.pending || error.kind() != Failure::numerical) throw;
+      return false;
+    }
     return true;
   };
   for (int n = 1;; ++n) {
@@ -210,7 +218,7 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
       }
       // A proposal may have hit an unstable orbit: then the period just recorded was a step away from it.
       const bool leaves =
-          proposal.pending && multiple == 1 && n < most && dynamics.distance(state, reached) > orbit.residual;
+          proposed && multiple == 1 && n < most && dynamics.distance(state, reached) > orbit.residual;
       if (!leaves) {
         orbit.rms = oscillating_rms(orbit.record);
         return orbit;
@@ -234,9 +242,10 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
     }
     secants.take(dynamics, start, state);
     if (!secants.ready() || change[1] >= kClose) continue;
-    if (const auto proposed = secants.propose()) {
+    if (const auto foretold = secants.propose()) {
       proposal = {state, change[1], true};
-      state = *proposed;
+      proposed = true;
+      state = *foretold;
       past.assign(1, state);
       history.clear();
     }

@@ -60,8 +60,9 @@ class Secants {
 // marching, as a rig would. "extrapolate": once the motion is close, secants of the map that a period is take its slow
 // multipliers out. They are used only where these lie inside the unit circle, and a state that they propose counts only if
 // marching on comes closer still: an unstable orbit is left again. Of teeth that are alike a motion whose RMS leaves
-// `looked_for` is given up, not periodic, its last period as it is; no ledger is kept of it. Empty if contact wanted more than the range of the dynamics
-// holds; the state is then spoiled. shared: secants of a speed nearby to begin with, then of this one.
+// `looked_for` is given up, not periodic, its last period as it is; with `looked_for` no ledger is kept. Empty if contact
+// wanted more than the range of the dynamics holds; the state is then spoiled. shared: secants of a speed nearby to begin
+// with, then of this one.
 std::optional<Orbit> settle(RollingDynamics& dynamics, RollingDynamics::State& state, double periodicity,
                             const std::string& method, const RmsRange& looked_for = {},
                             Secants* shared = nullptr);

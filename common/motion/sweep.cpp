@@ -84,6 +84,7 @@ class Sweeper {
     return sum / positions;
   }
   RollingDynamics::State& state() { return state_; }
+  Secants& secants() { return secants_; }  // to begin the next run with
 
   // Runs at this speed from the present state until the state repeats, or as settle() has it.
   Orbit run(double mesh_frequency, const RmsRange& looked_for = {}) {
@@ -114,6 +115,7 @@ class Sweeper {
     if (orbit) return std::move(*orbit);
     state_ = present;
     level_ = level;
+    secants_.forget();
     return run(mesh_frequency);
   }
 
@@ -195,7 +197,7 @@ class Sweeper {
   ContactRange lowest_;
   std::vector<std::unique_ptr<RollingDynamics>> levels_;
   RollingDynamics::State state_;
-  Secants secants_;  // of the speeds so far
+  Secants secants_;
 };
 
 BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
@@ -226,7 +228,10 @@ Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
   };
   size_t first = n;
   while (first > 1 && n - first < kMostKnown - 1 && even(first - 1)) --first;
-  if (first == n) return sweeper.run(mesh_frequency);
+  if (first == n) {
+    sweeper.secants().forget();
+    return sweeper.run(mesh_frequency);
+  }
   std::vector<KnownOrbit> known;
   for (size_t i = first - 1; i < n; ++i) known.push_back({motions[i].mesh_frequency, reached[i]});
   return sweeper.run_from(foretold(sweeper.dynamics(), known, mesh_frequency), mesh_frequency);
@@ -247,9 +252,11 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const std::vector<BranchMotion>&
   struct Run {
     Orbit orbit;
     KnownOrbit end;
+    Secants secants;
   };
   std::vector<Run> runs;
   std::vector<KnownOrbit> branch;
+  Secants secants;  // of the branch
   double rms = from.rms;
   // Of a subharmonic nothing says in which of its periods a run ends.
   const bool single = from.multiple == sweeper.hunting_periods();
@@ -262,12 +269,14 @@ std::optional<Jump> find_jump(Sweeper& sweeper, const std::vector<BranchMotion>&
   walk.limit = motions.back().mesh_frequency;
   walk.run = [&](double mesh_frequency, double most) {
     sweeper.state() = march ? branch.back().state : foretold(sweeper.dynamics(), branch, mesh_frequency);
+    sweeper.secants() = secants;
     const Orbit orbit = sweeper.run(mesh_frequency, single ? RmsRange{rms / most, rms * most} : RmsRange{});
-    runs.push_back({orbit, {mesh_frequency, sweeper.state()}});
+    runs.push_back({orbit, {mesh_frequency, sweeper.state()}, sweeper.secants()});
     return branch_motion(mesh_frequency, orbit);
   };
   walk.keep = [&](int n) {
     branch.push_back(runs[n].end);
+    secants = runs[n].secants;
     if (!single || branch.size() > 3) branch.erase(branch.begin());
     rms = runs[n].orbit.rms;
     points.push_back(branch_point(runs[n].end.mesh_frequency, runs[n].orbit));
