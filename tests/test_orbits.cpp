@@ -404,8 +404,8 @@ TEST_CASE("contact windows of one sweep share one limit of memory") {
   };
   CHECK(!refused(0));
   const double own = rig.dynamics.memory().coordinates;
-  // Participation of 11 or more coordinates at 6 nodes of a pair, and packed at 8, of two pairs or more.
-  CHECK(own > 128 * 8.0 * 11 * 2 * (6 + 8));
+  // Participation of 11 or more coordinates at 6 nodes of a pair, and packed in 2 rows, of two pairs or more.
+  CHECK(own > 128 * 8.0 * 11 * 2 * (6 + 2));
   CHECK(!refused(12e9 - own));
   CHECK(refused(12e9 - own + 1));
 }
