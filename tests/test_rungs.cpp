@@ -138,6 +138,14 @@ TEST_CASE("every mode: a mesh that is too fine is refused with its numbers and w
           no_report);
   });
   CHECK(lacking.find("holds " + std::to_string(few.eigenfrequency.size()) + " modes") != std::string::npos);
+  // Steps of a slice that somebody edited: no number that is doubled until it is large enough.
+  for (int steps : {0, -128}) {
+    SweepSlice none = coarse_sweep(3000, 3000, 1, "modal", "line");
+    none.time.steps_per_period = steps;
+    CHECK(refusal([&] {
+            sweep(few, few, statics, statics.mean_stiffness, none, "up", no_report);
+          }).find("steps_per_period = " + std::to_string(steps)) != std::string::npos);
+  }
 }
 
 TEST_CASE("every mode: at rest the static transmission error, on lines and strips") {

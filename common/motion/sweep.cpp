@@ -32,6 +32,9 @@ constexpr int kMostSteps = 65536;  // per mesh period, as of steps_per_period
 
 int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   int steps = time.steps_per_period;
+  if (steps < 1)  // a scene cannot say so, a slice that was edited can
+    fail(Failure::input, "steps_per_period = ", steps,
+         " must be at least 1; cut the slice from a scene anew");
   while (steps * mesh_frequency < time.min_sample_rate) steps *= 2;
   if (steps > kMostSteps)
     fail(Failure::input, "at ", mesh_frequency, " Hz min_sample_rate_kHz = ", time.min_sample_rate * 1e-3,
