@@ -1,12 +1,16 @@
 # Whine: one graph from a scene to the figures. `make` prints the targets; pipelines/*.mk hold the stages.
 #
 #   programs   tools/gear-x.cpp and common/*/*.cpp -> build/bin/gear-x           (this file)
+#   names      what a user's paths may hold                                  (pipelines/names.mk)
 #   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
 #   studies    variants of a scene -> a table of their answers                   (pipelines/studies.mk)
 #   stages     scene -> mesh -> body -> static -> sweep -> response              (pipelines/stages.mk)
 #   figures    artifacts -> out/figures, out/<scene>/report                      (pipelines/figures.mk)
 #
 # Results depend on the contents of the programs and of the scenes, never on their time stamps alone.
+
+# Before any shell runs: what the user has named is looked at there.
+include pipelines/names.mk
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
@@ -23,13 +27,20 @@ export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
 goals := $(or $(MAKECMDGOALS),help)
+# a literal comma for $(if)
+, := ,
 $(if $(filter clean%,$(goals)),$(if $(filter-out clean%,$(goals)),\
   $(error $(filter clean%,$(goals)) goes alone: first `make $(filter clean%,$(goals))`, then `make $(filter-out clean%,$(goals))`)))
 
+# A goal that is neither a path nor a target: the targets that are spelt alike.
+documented := $(shell sed -n 's/^\([a-z0-9-]*\):.*\#\# .*/\1/p' Makefile pipelines/*.mk)
+near_target = $(shell printf '%s\n' $(documented) | awk -v word='$(subst ','\'',$1)' -f pipelines/nearest.awk)
+no_such_target = $(error $1: $(if $(filter %.toml,$1),a scene is given by SCENE in front of a target: make SCENE=$1 report,$(strip \
+  there is no such target;$(foreach n,$(firstword $(call near_target,$1)), did you mean $n?) `make help` lists them)))
+$(foreach g,$(filter-out $(documented) FORCE fig%,$(goals)),$(if $(or $(findstring /,$g),$(filter-out %.toml,$(wildcard $g))),,$(call no_such_target,$g)))
+
 # --- programs -------------------------------------------------------------------------------------------------
 
-# a literal comma for $(if)
-, := ,
 # Sanitized objects do not fit others.
 SANITIZE := $(or $(SANITIZE),$(filter test-sanitize,$(goals)))
 B := build$(if $(SANITIZE),/sanitize)
@@ -93,7 +104,7 @@ $(filter $(B)/obj/common/files/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
 # A library for each room, from the top floor down as the linker wants them. The folder stands for its list of files: a
 # source that goes away leaves the library, too.
-rooms := plot lumped motion signal contact solid gear files base
+rooms := paper plot lumped motion signal contact solid gear files base
 rooms := $(filter $(notdir $(wildcard common/*)),$(rooms)) $(filter-out $(rooms),$(notdir $(wildcard common/*)))
 define room_rules # room
 $(B)/lib/lib$1.a: $(filter $(B)/obj/common/$1/%,$(library)) common/$1 | $(B)/lib/
@@ -133,13 +144,13 @@ replace_if_changed = { cat > $(new); if cmp -s $(new) $1; then rm $(new); else m
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
 
-include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk
+include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk pipelines/reading.mk
 
 # Figures of P2000 that are none of ours, and what is of its scenes only.
 $(foreach f,$(filter-out figures $(figures),$(filter fig%,$(goals))),\
   $(error $f: there is no such figure; there are $(figures) and table1 (Figures 2, 4 and 6 of P2000 are a sketch and measurements)))
 $(if $(SCENE),$(if $(filter scorecard out/figures/scorecard%,$(goals)),\
-  $(error scorecard: it is what P2000 prints beside its own two scenes, $(paper_scenes); leave SCENE out)))
+  $(error scorecard: it is what P2000 prints beside its own scenes, $(paper_scenes); leave SCENE out)))
 
 # --- packages -------------------------------------------------------------------------------------------------
 
@@ -189,9 +200,9 @@ check-format: ## fail if clang-format would change a source
 	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
 
 .PHONY: help clean clean-figures clean-studies clean-motion clean-out
-help: ## print this list
-	@echo 'Whine: gear whine from elastic teeth that touch, part and touch again. Targets:'
-	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  %-15s %s\n", $$1, $$2 }' pipelines/figures.mk pipelines/stages.mk pipelines/studies.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk Makefile
+help: ## print this list (its order: pipelines/help.txt)
+	@echo 'Whine: gear whine from elastic teeth that touch, part and touch again. Targets by task:'
+	@awk -f pipelines/help.awk pipelines/help.txt Makefile pipelines/*.mk
 	@echo 'Any artifact is a target, at any torque in N m; the scene stands in its path:'
 	@echo '  make out/parker2000/T600/up/response.h5'
 	@echo '  make SCENE=path/to/scene.toml sweep'

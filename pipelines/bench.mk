@@ -20,9 +20,9 @@ $(B)/bin/whine-bench: tests/bench/bench.cpp tests/bench/calculix.h tests/bench/r
 	  $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS) $(call bench_siconos,-lsiconos_numerics)
 
 .PHONY: bench
-bench: $(B)/bin/whine-bench $(call pair_bodies,$(paper_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
-	@$< --params out/$(paper_scene)/params/static.toml --sweep-params out/$(paper_scene)/params/sweep.toml --torque 150 \
-	  --driver out/$(paper_scene)/pinion/body.h5 --driven out/$(paper_scene)/wheel/body.h5
+bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
+	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml --torque 150 \
+	  --driver out/$(standard_scene)/pinion/body.h5 --driven out/$(standard_scene)/wheel/body.h5
 
 $(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS)
@@ -30,4 +30,4 @@ $(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(rooms
 .PHONY: work-precision
 work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(paper_scene)) ## error against CPU time of each numerical choice, at a damping with two branches
 	@$< --static-params out/$(paper_scene)/params/static.toml --sweep-params out/$(paper_scene)/params/sweep.toml \
-	  $(call pair_options,$(paper_scene)) --torque 150 --rayleigh-stiffness 5.5e-6 --output out/figures/work-precision
+	  $(call pair_options,$(paper_scene)) --torque 150 --rayleigh-stiffness 2.0e-6 --output out/figures/work-precision

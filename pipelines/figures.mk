@@ -5,12 +5,18 @@
 # figures and a target with its line of help. Figures of one kind share a template: drawn_as_figNN names it.
 # options_figNN: operating points, in words of gear-plot.
 
+# The reading of P2000 that agrees best; its pair with a standard tooth, as printed and with less damping.
 paper_scene := parker2000
+standard_scene := parker2000-standard-tooth
 calibrated_scene := parker2000-calibrated
-paper_scenes := $(paper_scene) $(calibrated_scene)
+paper_scenes := $(paper_scene) $(standard_scene) $(calibrated_scene)
+# What figures of motions show below the paper's scene: BESIDE='parker2000-standard-tooth parker2000-calibrated'.
+BESIDE ?=
+$(if $(filter-out $(paper_scenes),$(BESIDE)),$(error BESIDE=$(BESIDE): it is one or more of $(paper_scenes)))
+shown_scenes := $(paper_scene) $(filter-out $(paper_scene),$(BESIDE))
 graded_scene := parker2000-grade5
-# The same two with tip relief.
-relief_scenes := $(foreach s,$(paper_scenes),$(foreach r,20_9 22_2 23_6,$s-relief-$r))
+# The standard tooth with tip relief, at both dampings.
+relief_scenes := $(foreach s,$(standard_scene) $(calibrated_scene),$(foreach r,20_9 22_2 23_6,$s-relief-$r))
 cracked_scene := parker2000-crack
 
 # $(call both_ways,scenes,torques,artifact): sweeps up and down
@@ -59,20 +65,22 @@ drawn_as_fig14 := fig16
 drawn_as_fig14-elastic := fig16
 drawn_as_profile-chart := profile
 drawn_as_relief-jumps := fig05
+drawn_as_histories := fig08
+drawn_as_history-loads := fig10
 
 $(foreach f,fig08 fig10,$(eval options_$f := --mesh-frequency 2400))
 $(foreach f,fig09 fig11,$(eval options_$f := --mesh-frequency 1300))
+# Time histories at a speed of the user's choice, one of the sweep's: figures of their own for each speed.
+$(foreach f,histories history-loads,$(eval options_$f = --mesh-frequency $$(AT)))
+history_figures = $(foreach f,histories history-loads,$(figure_folder)/$f-$(AT)Hz-T$(TORQUE))
 # upper and lower branch
 options_fig15 := --mesh-frequency 2200,2150
 
-# Where the paper's figures show motions they show them as printed and calibrated; branches at a speed are first those of
-# the scene that has two of them.
-$(foreach f,fig05 fig07 fig07-600 fig14-elastic,$(eval paper_scenes_$f := $(paper_scenes)))
-$(foreach f,fig08 fig09 fig10 fig11,$(eval paper_scenes_$f := $(calibrated_scene) $(paper_scene)))
+$(foreach f,fig05 fig07 fig07-600 fig08 fig09 fig10 fig11 fig14-elastic,$(eval paper_scenes_$f := $(shown_scenes)))
 paper_scenes_sidebands := $(graded_scene)
 paper_scenes_crack := $(cracked_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
-paper_scenes_relief-jumps := $(paper_scenes) $(relief_scenes)
+paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
 $(foreach f,profile-chart relief-jumps waterfall tooth-loads fig03 fig05 fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
@@ -99,12 +107,12 @@ figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inpu
 $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
   $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) $(other_figures) table1)))
 
-$(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
-	$(B)/bin/gear-scorecard --output out/figures/scorecard $(inputs_scorecard)
+$(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) data/published/fitted.toml $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
+	$(B)/bin/gear-scorecard --fitted data/published/fitted.toml --output out/figures/scorecard $(inputs_scorecard)
 
 define figure_rule # figure, path without extension, inputs, what else it depends on
 $2.tsv $2.svg $2.png &: $3 $4 $(call titles,$3) pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
-	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $3
+	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $(if $(filter out/figures/fig%,$2),--paper-figure $1) $3
 endef
 
 define table_rule # path without extension, inputs, published values, what else it depends on
@@ -145,6 +153,8 @@ $(if $(filter $(calibrated_scene),$1),\
 $(eval $(call animation_rule,out/$1/report/animation/motion,$1,$(firstword $(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 $(foreach f,$(report_figures) $(other_figures),\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
+$(if $(filter histories,$(goals)),$(if $(filter $1,$(own_scene)),$(foreach f,$(history_figures),\
+  $(eval $(call figure_rule,$(firstword $(subst -$(AT)Hz, ,$(notdir $f))),$f,$(call inputs_fig08,$1,$(TORQUE)))))))
 $(eval $(call report_rule,$1))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef
@@ -154,7 +164,7 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # $(call stands,words): where a goal is to be found, also when nothing was to be made. By $(info): `make -q` and `make -n` stay as they are.
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
-.PHONY: figures $(figures) table1 scorecard animation report
+.PHONY: figures $(figures) table1 scorecard animation report histories
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
@@ -163,7 +173,7 @@ fig01: ## the finite element mesh of the pair
 fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m (SCENE: its first torque)
 fig05: ## RMS of the dynamic transmission error against mesh frequency, speed up and down, 150 N m (SCENE: its first torque)
 fig07: ## the same at 100, 200 and 300 N m (SCENE: its torques)
-fig07-600: ## the same at 300 and 600 N m
+fig07-600: ## RMS of the dynamic transmission error against mesh frequency at 300 and 600 N m
 fig08: ## dynamic transmission error over time and its spectrum, both branches at 2400 Hz, 150 N m
 fig09: ## the same at 1300 Hz
 fig10: ## tooth loads over the mesh phase, both branches at 2400 Hz, 150 N m
@@ -171,7 +181,7 @@ fig11: ## the same at 1300 Hz
 fig12: ## static transmission error over a mesh period and its spectrum
 fig13: ## mesh stiffness over a mesh period and its spectrum
 fig14: ## lumped model, rectangular stiffness: RMS and mean of the transmission error against mesh frequency
-fig14-elastic: ## the same of the elastic pair at 100, 200 and 300 N m (SCENE: its torques)
+fig14-elastic: ## RMS and mean of the dynamic transmission error of the elastic pair at 100, 200 and 300 N m (SCENE: its torques)
 fig15: ## lumped model, rectangular stiffness: net mesh force on the upper and the lower branch, 150 N m
 fig16: ## lumped model, stiffness of the statics at each torque: RMS and mean of the transmission error
 table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 200 and 300 N m beside those of the paper (SCENE: its torques)
@@ -186,4 +196,6 @@ relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relie
 error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m (SCENE: its first torque)
 sidebands: ## teeth that differ: transmission error over the hunting period, shaft orders and sidebands, 150 N m of parker2000-grade5 (SCENE: its first torque)
 crack: ## a cracked tooth: static transmission error with and without it, orders, 150 N m of parker2000-crack (SCENE: its first torque)
+histories: $(if $(filter histories,$(goals)),$(foreach f,$(history_figures),$f.png)) ## DTE over time, its spectrum and the tooth loads at one mesh frequency in Hz, both branches: AT=1250 TORQUE=150 (SCENE: its first torque)
+	$(call stands,histories: $(addsuffix .{png$(,)svg$(,)tsv},$(history_figures)))
 animation: $(figure_folder)/animation/motion.gif ## one mesh period with contact loss, GIF and a PNG of each frame, 150 N m, 2400 Hz, upper branch of parker2000-calibrated (SCENE: first torque, at resonance)

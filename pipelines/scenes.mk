@@ -12,9 +12,9 @@
 # SCENE: the user's scene; out/<its stem>/ is made from it. Without it `static`, `fig05` ... are of the paper's scene.
 scene_stem := $(basename $(notdir $(SCENE)))
 ifneq ($(words $(SCENE)),0)
-  $(if $(filter-out 1,$(words $(SCENE))),$(error SCENE=$(SCENE): make cannot handle blanks in a path; rename the file))
   $(if $(wildcard $(SCENE)),,$(error SCENE=$(SCENE): there is no such file))
   $(if $(filter %.toml,$(SCENE)),,$(error SCENE=$(SCENE): a scene is a .toml file))
+  $(call plain_stem,SCENE)
   $(if $(filter figures bodies studies,$(scene_stem)),$(error SCENE=$(SCENE): out/$(scene_stem) has another use; rename the file))
   # Scenes of one name share out/<name>: one's own must not take the place of the project's.
   scene_of_name := $(wildcard data/scenes/$(scene_stem).toml)
@@ -25,8 +25,8 @@ own_scene := $(or $(scene_stem),$(paper_scene))
 
 # Variants for `sensitivity`: name:key=value (more keys after commas) is the scene <own scene>-<name>. Those listed are
 # what P2000 leaves open, about its scene; half of the damping from mass is 955 1/s at 5 % and 3040 Hz.
-VARIANTS ?= bore35:bore_radius_mm=35 bore45:bore_radius_mm=45 dedendum120:dedendum=1.2 dedendum140:dedendum=1.4 \
-  fillet25:rack_tip_radius=0.25 fillet45:rack_tip_radius=0.45 poisson27:poisson_ratio=0.27 poisson33:poisson_ratio=0.33 \
+VARIANTS ?= bore35:bore_radius_mm=35 bore45:bore_radius_mm=45 dedendum140:dedendum=1.4 dedendum160:dedendum=1.6 \
+  fillet05:rack_tip_radius=0.05 fillet20:rack_tip_radius=0.2 poisson27:poisson_ratio=0.27 poisson33:poisson_ratio=0.33 \
   strain:plane=strain inertia139:total_inertia_kgm2=0.0139 inertia157:total_inertia_kgm2=0.0157 \
   mass955:rayleigh_mass_per_s=955 depth025:undamped_depth_mm=0.25 depth100:undamped_depth_mm=1.0 \
   corner_1deg:corner_contact=1 corner_off:corner_contact=false corner_off_mass955:corner_contact=false,rayleigh_mass_per_s=955
@@ -37,16 +37,16 @@ scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant
 
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
-  $(if $(filter mesh reduce static loaded impact calibrate sweep lumped jump-map sensitivity harris-map report out/bodies/%,$(goals)),$(own_scene)) \
+  $(if $(filter mesh reduce static loaded impact calibrate sweep histories lumped jump-map sensitivity harris-map report out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
-  $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scenes))) \
+  $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(shown_scenes))) \
   $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
   $(if $(filter crack out/figures/crack%,$(goals)),$(if $(SCENE),$(own_scene),$(cracked_scene))) \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
-  $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes))) \
-  $(if $(filter bench work-precision,$(goals)),$(paper_scene)) \
-  $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
+  $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes) $(standard_scene) $(calibrated_scene))) \
+  $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
+  $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
 $(foreach s,$(filter-out $(variant_scenes),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\
   $(error out/$s: there is no data/scenes/$s.toml; for a scene elsewhere say SCENE=path/to/$s.toml)))
@@ -56,14 +56,14 @@ scene_fragments := $(scenes:%=$(B)/scenes/%.mk)
 $(foreach f,$(filter-out $(wildcard $(scene_fragments)),$(scene_fragments)),$(shell mkdir -p $(dir $f) && touch $f))
 
 $(scene_fragments): $(B)/scenes/%.mk: $(B)/bin/gear-scene FORCE
-	@new=$(call new,$@); said=$$($< --scene $(call scene_file,$*) --output $$new --out out 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
+	@new=$(call new,$@); said=$$($< --scene '$(call scene_file,$*)' --output $$new --out out --ids $(B)/id 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
 	if cmp -s $$new $@; then rm $$new; else mv $$new $@; echo "$$said" >&2; fi
 
 # `+`: fragments are remade under -n as well.
 define variant_rules # name, changes
 $(B)/scenes/$(own_scene)-$1.mk: $(call variant_file,$(own_scene)-$1)
 $(call variant_file,$(own_scene)-$1): $(call scene_file,$(own_scene)) $(B)/bin/gear-scene FORCE
-	+@mkdir -p $$(@D); $(B)/bin/gear-scene --scene $$< $(patsubst %,--set %,$(subst $(,), ,$2)) --variant $$@
+	+@mkdir -p $$(@D); $(B)/bin/gear-scene --scene '$$<' $(patsubst %,--set %,$(subst $(,), ,$2)) --variant $$@
 endef
 $(foreach v,$(VARIANTS),$(if $(filter $(own_scene)-$(firstword $(subst :, ,$v)),$(scenes)),\
   $(eval $(call variant_rules,$(firstword $(subst :, ,$v)),$(lastword $(subst :, ,$v))))))

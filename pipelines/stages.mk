@@ -106,12 +106,20 @@ DAMPING ?= 0.07
 STATE ?= two
 TORQUE ?= $(if $(SCENE),$(SCENE_$(own_scene)_REFERENCE_TORQUE),150)
 PHASE ?= 0.25
-calibrated_torque = $(if $(filter calibrate loaded,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
+# $(call outside,number,least,limit): a word if it is no number of [least, limit)
+outside = $(shell awk -v x='$(subst ','\'',$1)' 'BEGIN { if (x !~ /^[0-9]*[.]?[0-9]+([eE][-+]?[0-9]+)?$$/ || x + 0 < $2 || x + 0 >= $3) print "outside" }')
+$(if $(filter calibrate,$(goals)),$(if $(call outside,$(DAMPING),1e-12,1),\
+  $(error DAMPING=$(DAMPING): it is a share of critical damping, above 0 and below 1: 0.05 for 5 %)))
+$(if $(filter histories,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
+  $(error histories: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make histories AT=1250)))
+$(if $(filter loaded,$(goals)),$(if $(filter alike,$(SCENE_$(own_scene)_TEETH)),$(if $(call outside,$(PHASE),0,1),\
+  $(error PHASE=$(PHASE): it is a share of the mesh period, 0 up to, not including, 1))))
+calibrated_torque = $(if $(filter calibrate loaded histories,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
 
 # Torques of a scene that have rules: those that it lists and those in the paths of goals and figures.
 path_torques = $(patsubst T%,%,$(foreach f,$(filter out/$1/T%,$(goals) $(figure_inputs)),$(word 3,$(subst /, ,$f))))
 torques = $(sort $(SCENE_$1_TORQUES) $(SCENE_$1_REFERENCE_TORQUE) $(path_torques) $(calibrated_torque))
-check_torque = $(if $(filter-out $2,$(shell printf %g '$2' 2>/dev/null || echo no number)),\
+check_torque = $(if $(filter-out $2,$(shell LC_ALL=C printf %g '$2' 2>/dev/null || echo no number)),\
   $(error out/$1/T$2: the torque in a path is a number in N m as printed by %g, such as T150 or T62.5))
 
 define scene_rules # scene
@@ -131,9 +139,9 @@ $(foreach s,$(scenes),$(if $(SCENE_$s_GEARS),$(eval $(call scene_rules,$s))))
 mesh: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/mesh.h5) ## mesh every gear of SCENE (default: the paper's)
 reduce: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/body.h5) ## modes and flexibility of every gear of SCENE
 static: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/static.h5) ## transmission error and stiffness, all torques of SCENE
-loaded: $(if $(filter loaded,$(goals)),out/$(own_scene)/T$(TORQUE)/loaded_$(PHASE).h5) ## both gears loaded and deformed, with contact pressure and stresses, for ParaView: PHASE=0.25 TORQUE=150
+loaded: $(if $(filter loaded,$(goals)),out/$(own_scene)/T$(TORQUE)/loaded_$(PHASE).h5) ## both gears loaded and deformed, with contact pressure and stresses, for ParaView: PHASE=0.25 (0 up to 1) TORQUE=150
 impact: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/impact.h5) ## natural frequency and damping by ring-down, all torques of SCENE
-calibrate: $(if $(filter calibrate,$(goals)),$(call impact_inputs,$(own_scene),$(TORQUE))) | $(B)/bin/gear-impact ## print the eta that gives a damping ratio: DAMPING=0.07 TORQUE=150 STATE=two
+calibrate: $(if $(filter calibrate,$(goals)),$(call impact_inputs,$(own_scene),$(TORQUE))) | $(B)/bin/gear-impact ## print the rayleigh_stiffness_s that gives a damping ratio by ring-down: DAMPING=0.07 TORQUE=150 STATE=two
 	@$| $(call impact_options,$(own_scene),$(TORQUE)) --calibrate $(DAMPING) --contact-state $(STATE)
 sweep: $(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$d/response.h5)) ## speed sweeps, all torques of SCENE
-lumped: $(foreach m,$(filter-out %-fig15,$(lumped_models)),$(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$m/$d/response.h5))) ## the same of the lumped models, one degree of freedom
+lumped: $(foreach m,$(filter-out %-fig15,$(lumped_models)),$(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$m/$d/response.h5))) ## speed sweeps of the lumped models, one degree of freedom, all torques of SCENE

@@ -15,8 +15,8 @@ study_goals := $(filter study study-bodies,$(goals))
 # Like scenes: a study of one's own does not take the place of one of the project.
 own_study := $(if $(filter %.toml,$(STUDY)),$(STUDY))
 ifneq ($(words $(STUDY)),0)
-  $(if $(filter-out 1,$(words $(STUDY))),$(error STUDY=$(STUDY): make cannot handle blanks in a path; rename the file))
   $(if $(or $(own_study),$(findstring /,$(STUDY))),$(if $(filter %.toml,$(STUDY)),,$(error STUDY=$(STUDY): a study is a .toml file)))
+  $(call plain_stem,STUDY)
   study_of_name := $(if $(own_study),$(wildcard data/studies/$(study_stem).toml))
   $(if $(study_of_name),$(if $(shell cmp -s '$(STUDY)' $(study_of_name) || echo differs),\
     $(error STUDY=$(STUDY): out/studies/$(study_stem) is of $(study_of_name), which says otherwise; rename the file)))
@@ -32,7 +32,7 @@ $(foreach s,$(studies),$(if $(wildcard $(call study_file,$s)),,$(error STUDY=$s:
 study_fragments := $(studies:%=$(B)/studies/%.mk)
 $(foreach f,$(filter-out $(wildcard $(study_fragments)),$(study_fragments)),$(shell mkdir -p $(dir $f) && touch $f))
 $(study_fragments): $(B)/studies/%.mk: $(B)/bin/gear-study FORCE
-	@new=$(call new,$@); said=$$($< --study $(call study_file,$*) --output $$new --out out 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
+	@new=$(call new,$@); said=$$($< --study '$(call study_file,$*)' --output $$new --out out --ids $(B)/id 2>&1) || { status=$$?; echo "$$said" >&2; exit $$status; }; \
 	if cmp -s $$new $@; then rm $$new; else mv $$new $@; echo "$$said" >&2; fi
 include $(study_fragments)
 

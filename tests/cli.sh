@@ -4,9 +4,10 @@
 set -uo pipefail
 B=${B:-build}
 bin=$PWD/$B/bin
-scene_of_paper=$PWD/data/scenes/parker2000.toml
+scene_of_paper=$PWD/data/scenes/parker2000-standard-tooth.toml
 plots=$PWD/pipelines/plots
 readme=$PWD/README.md
+published=$PWD/data/published/README.md
 tests=$PWD/tests
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -60,7 +61,7 @@ if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   exit 1
 fi
 rm -f log
-first=$(contents); rm -rf out fig12.*
+first=$(contents); rm -rf out fig12.* fig12-*
 chain > /dev/null 2>&1
 if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
   wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
@@ -117,6 +118,8 @@ for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin"
   esac
 done
 
+found=$(cd "$bin" && for program in gear-*; do "./$program" --help | grep -n -o -i -w -E 'rungs?|slices?|rooms?|ledger|foretold|answers?|march|told|held|settles?|secants' | sed "s/^/$program: /"; done | tr '\n' ' ')
+[ -z "$found" ] && ok "--help speaks of gears, not of the insides" || wrong "--help speaks of gears, not of the insides" "$found"
 grep -q '^# .*gaps are drawn wider than at scale' examples/animation.tsv && ok "an animation says what is drawn wider than at scale" ||
   wrong "an animation says what is drawn wider than at scale" "$(head -n 4 examples/animation.tsv 2>&1 | tr '\n' ' ')"
 
@@ -141,6 +144,7 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-loaded]="${stage_loaded[*]}"
   [gear-animate]="$bin/gear-animate --driver-mesh out/scene/pinion/mesh.h5 --driven-mesh out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-study]="$bin/gear-study --study scene.toml --output study.mk"
+  [gear-reading]="$bin/gear-reading --plan scene.toml --output x"
   [gear-variant]="$bin/gear-variant --params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --output x"
   [gear-harris]="gear-harris --static-params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --design-torque 100 --output x")
 for program in "$bin"/gear-*; do
@@ -201,22 +205,22 @@ refused "a damping ratio that no eta gives" 3 'the largest is near' "${ring_down
 refused "a contact state that does not occur" 3 "'five' does not occur.*one, two, mean" "${ring_down[@]}" --calibrate 0.05 --contact-state five
 at_torque=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --output x.h5 --torque)
 for torque in ten nan inf 0x10 '' '100 ' 1e999; do
-  refused "a torque of '$torque', which is no finite number" 2 "torque.*'$torque'" "${at_torque[@]}" "$torque"; done
+  refused "a torque of '$torque', which is no finite number" 2 "torque.*('$torque'|is empty)" "${at_torque[@]}" "$torque"; done
 refused "a torque below zero" 3 'torque' "${at_torque[@]}" -5
 refused "a torque whose contact leaves the flanks" 1 '400000 N m contact leaves the flanks: window [0-9.]+ mm' "${at_torque[@]}" 400000
 for stage in static sweep impact; do
   mkdir -p line; sed 's/^contact = .*/contact = "line"/' out/scene/params/$stage.toml > line/$stage.toml; done
 mkdir -p full; for stage in sweep impact; do sed 's/^body = .*/body = "full"/' out/scene/params/$stage.toml > full/$stage.toml; done
 line_static=("$bin/gear-static" --params line/static.toml "${pair[@]}" --torque 100 --output line/static.h5)
-if "${line_static[@]}" --next-rung > said 2>&1 && grep -q ' 8 strips change, elsewhere' said; then ok "gear-static --next-rung"; else
-  wrong "gear-static --next-rung" "$(head -n 1 said)"; fi
+if "${line_static[@]}" --next-level > said 2>&1 && grep -q ' 8 strips change, elsewhere' said; then ok "gear-static --next-level"; else
+  wrong "gear-static --next-level" "$(head -n 1 said)"; fi
 budget=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --torque 100 --error-budget --output budget.h5)
 if "${budget[@]}" > said 2>&1 && "$bin/gear-inspect" budget.h5 > said 2>&1 && grep -q '^ *or contact line ' said &&
   grep -q '^ *or matching at 1 mm ' said && "$bin/gear-plot" error-budget --plots "$plots" --output budget budget.h5 > said 2>&1 &&
-  grep -q '>matching<' budget.svg && grep -q '>at 1 mm<' budget.svg && grep -q '^# entry .0 strips 8 to 16; .*mean_stiffness .%.' budget.tsv; then ok "gear-static --error-budget, with the other choices apart, and its figure"; else
+  grep -q '>matching<' budget.svg && grep -q '>at 1 mm<' budget.svg && grep -q -P '^curve\terror .*\tmean_stiffness .%.' budget.tsv && grep -q -P '^strips 8 to 16\t1\t' budget.tsv; then ok "gear-static --error-budget, with the other choices apart, and its figure"; else
   wrong "gear-static --error-budget, with the other choices apart, and its figure" "$(head -n 1 said)"; fi
 rm -f budget.*
-refused "the next rung of the last one" 3 'last rung' "${at_torque[@]}" 100 --next-rung
+refused "the next rung of the last one" 3 'last rung' "${at_torque[@]}" 100 --next-level
 refused "a ring-down with one line per pair" 3 'not available in ring-downs' "${stage_impact[@]//out\/scene\/params/line}"
 refused "a sweep on a static result of another contact" 3 'was made with contact = "line", the slice of this stage says "strips"' \
   $(sweep scene up | sed 's|--static out/scene/T100|--static line|')
@@ -227,11 +231,11 @@ refused "a sweep with one line per pair from statics on strips" 3 'was made with
 if ${line_sweep//out\/scene\/T100/line} > said 2>&1 && [ -s line/sweep.h5 ]; then ok "a sweep with one line per pair"; else
   wrong "a sweep with one line per pair" "$(head -n 1 said)"; fi
 sed -i 's/^body = .*/body = "lagged"/' line/sweep.toml
-if ${line_sweep//out\/scene\/T100/line} --next-rung > said 2>&1 && grep -q 'contact = "line" against "strips" at 3 speeds' said &&
-  grep -q 'body = "lagged" against "modal": jumps none against none' said; then ok "gear-sweep --next-rung"; else
-  wrong "gear-sweep --next-rung" "$(head -n 1 said)"; fi
+if ${line_sweep//out\/scene\/T100/line} --next-level > said 2>&1 && grep -q 'contact = "line" against "strips" at 3 speeds' said &&
+  grep -q 'body = "lagged" against "modal": jumps none against none' said; then ok "gear-sweep --next-level"; else
+  wrong "gear-sweep --next-level" "$(head -n 1 said)"; fi
 refused "the next rung of a sweep on the last ones" 3 'contact = "strips" is the last rung of contact; body = "full" is the last rung of body' \
-  $(sweep scene up | sed 's|out/scene/params|full|') --next-rung
+  $(sweep scene up | sed 's|out/scene/params|full|') --next-level
 refused "every mode from a body with some" 3 'needs a body with every mode .* holds [0-9]+ modes' $(sweep scene up | sed 's|out/scene/params|full|')
 refused "a ring-down with every mode" 3 'body = "full" .* not available in ring-downs' "${stage_impact[@]//out\/scene\/params/full}"
 rm -rf line full
@@ -267,12 +271,12 @@ if [ -s targets ] && [ -z "$missing" ]; then ok "$claim"; else wrong "$claim" "$
 rm targets
 
 # --- the scorecard
-sed '1,/^<!-- gear-scorecard -->$/d; /^<!-- end of scorecard -->$/,$d' "$readme" > card
+sed '1,/^<!-- gear-scorecard -->$/d; /^<!-- end of gear-scorecard -->$/,$d' "$published" > card
 if [ -s card ] && sed -n '3,$p' card | awk -F ' [|] ' '{ print $1 " | " $2 " | " $3 " | " $4 " | " $5 " |" }' | diff - <("$bin/gear-scorecard" --claims) > said
-then ok "the scorecard in README.md holds every claim with its printed value"; else
-  wrong "the scorecard in README.md holds every claim with its printed value" "put out/figures/scorecard.md there: $(head -n 2 said | tr '\n' '|')"; fi
+then ok "the scorecard in data/published/README.md holds every claim with its printed value"; else
+  wrong "the scorecard in data/published/README.md holds every claim with its printed value" "make docs puts it there: $(head -n 2 said | tr '\n' '|')"; fi
 # columns 6 and 7: a verdict for each scene
-for scene in 6:parker2000 7:parker2000-calibrated; do
+for scene in 6:parker2000 7:parker2000-standard-tooth 8:parker2000-calibrated; do
   counts=$(sed -n '3,$p' card | awk -F ' [|] ' -v column="${scene%%:*}" '{ v = $column
     if (v ~ /agrees$/) a++; else if (v ~ /differs$/) d++; else if (v ~ /(given|fitted)$/) g++; else if (v ~ /cannot be compared$/) c++
     else if (v ~ /misprint of P2000$/) m++; else bad++ }
@@ -311,6 +315,7 @@ folds=($(lumped rectangular) --mass 1.4 "${levels[@]}" --from 2600 --to 2740 --s
 "${folds[@]}" > said 2>&1; "${folds[@]/#up/down}" >> said 2>&1
 if grep -q 'up, .* jumps at 2679.466' said && grep -q 'down, .* jumps at 2662.046' said; then ok "gear-lumped: folds of the rectangular wave, expected 2679.466 and 2662.046 Hz"; else
   wrong "gear-lumped: folds of the rectangular wave, expected 2679.466 and 2662.046 Hz" "$(grep -o 'jumps at.*->' said | tr '\n' ' ')"; fi
+rm -r out/scene/T100/rectangular # the falling sweep lies in the folder of the rising one
 lumped_map=("$bin/gear-lumped" --map --model secant --damper contact --static out/scene/T100/static.h5 --params out/scene/params/lumped_map.toml
   --damping-ratio 0.05,0.1 --from 2700 --to 2900 --step 100 --loads-at 2800 --output lumped_map.h5)
 if "${lumped_map[@]}" > said 2>&1 && "$bin/gear-inspect" lumped_map.h5 > said 2>&1 && grep -q 'secant-contact' said &&
@@ -337,7 +342,7 @@ refused "Hertz's law of a curve" 2 'hertz is of the model pairs, not of secant' 
 refused "a whole scene in place of the slice of a lumped model" 3 'scene.toml: is a whole scene; .* out/scene/params/lumped.toml \(make SCENE=scene.toml ' \
   $(lumped pairs | sed 's|out/scene/params/lumped.toml|scene.toml|')
 refused "a whole scene in place of the slice of a map" 3 'scene.toml: is a whole scene; .* out/scene/params/map.toml' "${stage_map[@]/out\/scene\/params\/map.toml/scene.toml}"
-refused "the slice of another stage" 3 'static.toml: lacks the section \[driver\]: it is the slice for another stage' $(lumped pairs | sed 's|params/lumped.toml|params/static.toml|')
+refused "the slice of another stage" 3 'static.toml: is what the static stage depends on, and this stage reads what a sweep of a lumped model depends on: give out/<scene>/params/lumped.toml' $(lumped pairs | sed 's|params/lumped.toml|params/static.toml|')
 refused "a slice that is not there" 4 'nowhere.toml: .*make out/<scene>/params/lumped.toml' $(lumped pairs | sed 's|out/scene/params/lumped.toml|nowhere.toml|')
 refused "an artifact that is not there, where make makes none" 4 'nowhere/static.h5: .*below out/ only' $(lumped pairs | sed 's|out/scene/T100/static.h5|nowhere/static.h5|')
 refused "a level that is no number" 2 "levels.*'many'" $(lumped rectangular) --levels 1e8,many --duty 0.5
@@ -484,7 +489,7 @@ inspected "gear-inspect: a scene that says otherwise than the slice is status 3"
 inspected "and leaves alone what does not depend on it" 0 'as data/scenes/scene.toml' out/scene/T100/impact.h5
 rm -r data
 sed 's/^corner_contact = true/corner_contact = false/' away.toml > scene.toml
-inspected "an edited scene is told with the make that follows it" 3 'input params .* STALE: scene.toml says otherwise now; rebuild it with: make SCENE=scene.toml out/scene/T100/static.h5' out/scene/T100/static.h5
+inspected "an edited scene is told with the make that follows it" 3 'input params .* STALE: scene.toml says otherwise now; (delete it; )?rebuild it with: make SCENE=scene.toml out/scene/T100/static.h5' out/scene/T100/static.h5
 "$bin/gear-inspect" --check out/scene/T100 > /dev/null 2> said && wrong "--check tells an edited scene" "silent" ||
   { grep -q 'static.h5: input params, .*STALE: scene.toml' said && ok "--check tells an edited scene" || wrong "--check tells an edited scene" "$(head -n 1 said)"; }
 mv away.toml scene.toml
@@ -506,6 +511,12 @@ if "$bin/gear-plot" fig12 --plots "$plots" --output titled/fig12 titled/T100/sta
   grep -q 'titled: Gears of &lt;a_b.*&amp; {c}' titled/fig12.svg; then ok "the title of a scene stands on its figures as it is written"; else
   wrong "the title of a scene stands on its figures as it is written" "$(grep -o 'titled:[^/]*' titled/fig12.svg) $(tail -n 1 said)"; fi
 if command -v xmllint > /dev/null; then xmllint --noout titled/fig12.svg 2> said && ok "a figure is well-formed SVG" || wrong "a figure is well-formed SVG" "$(head -n 1 said)"; fi
+"$bin/gear-plot" fig12 --plots "$plots" --paper-figure fig12 --output titled/beside titled/T100/static.h5 > said 2>&1
+if ! grep -q P2000 titled/fig12.tsv titled/fig12.svg && grep -q '^# Static transmission error, as Figure 12 of P2000$' titled/beside.tsv; then
+  ok "only figures of the paper's pairs name the figure of P2000"; else wrong "only figures of the paper's pairs name the figure of P2000" "$(head -n 1 titled/fig12.tsv titled/beside.tsv | tr '\n' ' ')"; fi
+found=$(for f in titled/fig12.tsv titled/fig12-harmonics.tsv; do awk -F '\t' -v f="$f" '/^#/ { next } !columns { columns = NF; if ($1 !~ /\[/) print f ": no name with a unit: " $1; next } NF != columns || $1 + 0 != $1 { print f ": " $0 }' "$f"; done)
+[ -z "$found" ] && [ "$(ls titled/*.tsv | wc -l)" = 4 ] && ok "the numbers of a figure are one table a file, with one line of names" ||
+  wrong "the numbers of a figure are one table a file, with one line of names" "$(head -n 1 <<< "$found") $(ls titled)"
 rm -r titled
 inspected "gear-inspect says its units first" 0 '^units: mm .gears., um .*N/um' out/scene/T100/static.h5
 # On a terminal the search of a calibration shows that it is at work.
@@ -519,7 +530,7 @@ sed "$coarse; s/^bore_radius_mm = .*/bore_radius_mm = 38.0/" "$scene_of_paper" >
 other=out/scene_other/pinion
 "$bin/gear-mesh" --params $other/body.toml --output $other/mesh.h5 > /dev/null 2>&1
 "$bin/gear-reduce" --params $other/body.toml --mesh $other/mesh.h5 --output $other/body.h5 > /dev/null 2>&1
-refused "a mesh of another gear" 3 'bore_radius is 0.038, .* 0.04 m; rebuild it with: make' "${stage_reduce[@]:0:3}" --mesh $other/mesh.h5 --output x.h5
+refused "a mesh of another gear" 3 'bore_radius is 0.038, .* 0.04 m; (delete it; )?rebuild it with: make' "${stage_reduce[@]:0:3}" --mesh $other/mesh.h5 --output x.h5
 refused "a driver of another scene" 3 'the driver of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
   --driver $other/body.h5 --driven out/scene/wheel/body.h5 --torque 100 --output x.h5
 refused "a driven gear of another scene" 3 'the driven of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
@@ -536,7 +547,7 @@ refused "an artifact that was edited" 4 'out/old.h5: is not what was written: .*
 digits=$(($(grep -a -b -o -m1 'in place of these digits: ' out/old.h5 | head -n 1 | cut -d: -f1) + 26))
 printf '%064d' 0 | dd of=out/old.h5 bs=1 seek=$digits conv=notrunc status=none
 sha256sum < out/old.h5 | head -c 64 | dd of=out/old.h5 bs=1 seek=$digits conv=notrunc status=none
-refused "an artifact that was edited and has its hash put right" 3 'schema of / is missing or damaged; rebuild it with: make out/old.h5' "$bin/gear-spectra" --input out/old.h5 --output x.h5
+refused "an artifact that was edited and has its hash put right" 3 'schema of / is missing or damaged; (delete it; )?rebuild it with: make out/old.h5' "$bin/gear-spectra" --input out/old.h5 --output x.h5
 rm out/old.h5
 
 # --- interrupted and full

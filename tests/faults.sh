@@ -28,7 +28,7 @@ plant() {
   sed 's/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^torque_Nm = .*/torque_Nm = [100]/
     s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2000, to = 2100, step = 50 }/
     s/^modes = [^ ]*/modes = 5/; s/^\[discretisation\]/&\npositions = 16/; s/^steps_per_period = [^ ]*/steps_per_period = 32/
-    s/^min_sample_rate_kHz = [^ ]*/min_sample_rate_kHz = 50/' data/scenes/parker2000.toml > "$1/own.toml"
+    s/^min_sample_rate_kHz = [^ ]*/min_sample_rate_kHz = 50/' data/scenes/parker2000-standard-tooth.toml > "$1/own.toml"
   cat > "$1/few.toml" << 'END'
 title = "Two loads, two dampings"
 scene = "own.toml"

@@ -11,6 +11,7 @@ declare -A below=(
   [signal]="base files signal"
   [lumped]="base files gear solid contact signal lumped"
   [plot]="base files gear solid contact signal lumped motion plot"
+  [paper]="base files gear solid contact signal lumped motion plot paper"
 )
 faults=$(for file in common/*/*.h common/*/*.cpp; do
   room=$(basename "$(dirname "$file")")

@@ -19,7 +19,7 @@ stages() { grep -c "^[^ ]*bin/gear-$1 " "$log"; }
 sed 's/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^modes = [^ ]*/modes = 5/
   s/^\[discretisation\]/&\npositions = 32/; s/^steps_per_period = [^ ]*/steps_per_period = 32/
   s/^min_sample_rate_kHz = [^ ]*/min_sample_rate_kHz = 50/; s/^torque_Nm = .*/torque_Nm = [100, 150]/
-  s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2200, to = 2400, step = 100 }/' data/scenes/parker2000.toml > own.toml
+  s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2200, to = 2400, step = 100 }/' data/scenes/parker2000-standard-tooth.toml > own.toml
 cat > small.toml <<'STUDY'
 scene = "own.toml"
 stage = "sweep"

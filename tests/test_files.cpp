@@ -23,6 +23,7 @@
 #include "files/h5.h"
 #include "files/provenance.h"
 #include "files/publish.h"
+#include "files/ranges.h"
 #include "files/schemas.h"
 #include "files/study.h"
 #include "files/summary.h"
@@ -80,10 +81,12 @@ Caught caught(const std::function<void()>& f) {
 constexpr int kInput = static_cast<int>(Failure::input), kIo = static_cast<int>(Failure::io),
               kNumerical = static_cast<int>(Failure::numerical);
 
-// Values without a short decimal form, so that a round trip through text or single precision would show.
+// Values without a short decimal form, so that a round trip through text or single precision would show; above 0, as many
+// datasets must be.
 Eigen::VectorXd odd_vector(Eigen::Index n, double scale) {
   Eigen::VectorXd out(n);
-  for (Eigen::Index i = 0; i < n; ++i) out[i] = scale * std::sin(1.0 + 3.0 * static_cast<double>(i));
+  for (Eigen::Index i = 0; i < n; ++i)
+    out[i] = scale * (1.1 + std::sin(1.0 + 3.0 * static_cast<double>(i))) / 2.1;
   return out;
 }
 
@@ -116,7 +119,8 @@ bool same(const GearDesign& a, const GearDesign& b) {
 
 bool same(const GearMeshSpec& a, const GearMeshSpec& b) {
   return a.driver == b.driver && a.driven == b.driven && a.centre_distance == b.centre_distance &&
-         a.corner.enabled == b.corner.enabled && a.corner.largest_angle == b.corner.largest_angle;
+         a.corner.enabled == b.corner.enabled && a.corner.largest_angle == b.corner.largest_angle &&
+         a.contact_plane == b.contact_plane;
 }
 
 bool same(const Damping& a, const Damping& b) {
@@ -241,13 +245,16 @@ StaticArtifact small_static() {
 ErrorBudgetArtifact small_budget() {
   ErrorBudgetArtifact a;
   set_pair(a);
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
+  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}, "strain"};
   a.fidelity.contact = "line";
   a.contact = {17, 128};
   a.torque = 150.0 / 1.3;
   a.refinement = {"strips, flank table, elements", odd_vector(3, 1e-4), odd_vector(3, 3e-4),
-                  odd_matrix(3, 5, 2e-4)};
-  a.choice = {"matching at 1 mm, contact strips", odd_vector(2, 1e-2), odd_vector(2, 3e-2),
+                  odd_vector(3, 5e-4), odd_matrix(3, 5, 2e-4)};
+  a.choice = {"matching at 1 mm, contact strips",
+              odd_vector(2, 1e-2),
+              odd_vector(2, 3e-2),
+              {},
               odd_matrix(2, 5, 2e-2)};
   return a;
 }
@@ -580,7 +587,7 @@ TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices
   CHECK(same_changes(a.choice, b.choice));
   CHECK(b.choice_missing == "");
 
-  a.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), MatrixRM(0, 5)};
+  a.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), {}, MatrixRM(0, 5)};
   a.choice_missing = "matching at 1 mm: leaves the tooth";
   write("error_budget.h5", a, kMade);
   const ErrorBudgetArtifact c = read_error_budget("error_budget.h5");
@@ -1137,6 +1144,58 @@ TEST_CASE("a file that deflates to little is not read into a thousand times its 
     CHECK(refused.says("of memory"));
   }
   CHECK(file.doubles("/doubles").size() == doubles.size());
+}
+
+TEST_CASE("a number out of its range is refused by its dataset, its value and the range, whatever the hash") {
+  const Folder folder;
+  const auto said = [](const auto& artifact, auto read) {
+    write("a.h5", artifact, kMade);
+    const Caught c = caught([&] { read("a.h5"); });
+    CHECK(c.kind == kInput);
+    return c.message;
+  };
+  const auto says = [](const std::string& message, const std::string& part) {
+    INFO(message);
+    return message.find(part) != std::string::npos;
+  };
+  BodyArtifact body = small_body();
+  body.offsets = -1;
+  body.compliance.clear();
+  CHECK(says(said(body, read_body), "dataset /compliance/offsets holds -1, allowed is 0 to 1000"));
+  body = small_body();
+  body.design.module = -0.003;
+  CHECK(says(said(body, read_body), "dataset /parameters/gear/module holds -0.003, allowed is "));
+  body = small_body();
+  body.discretisation.near_field = "neither";
+  CHECK(says(said(body, read_body), "near_field is 'neither', which is none of: subtraction matching"));
+  body = small_body();
+  body.nodal_diameter[1] = -3;
+  CHECK(says(said(body, read_body), "dataset /nodal_diameter holds -3, allowed is 0 to 2000"));
+  StaticArtifact statics = small_static();
+  statics.torque = 1e300;
+  CHECK(says(said(statics, read_static),
+             "dataset /parameters/operation/torque holds 1e+300, allowed is more than 0"));
+  statics = small_static();
+  statics.mesh.centre_distance = -1;
+  CHECK(says(said(statics, read_static), "dataset /parameters/mesh/centre_distance holds -1, allowed is "));
+  statics = small_static();
+  statics.hunting_periods = 1 << 30;
+  CHECK(says(said(statics, read_static), "dataset /hunting_periods holds 1073741824, allowed is 1 to "));
+  SweepArtifact sweep = small_sweep();
+  sweep.tooth_load[1](0, 0) = 1e18;
+  CHECK(says(said(sweep, read_sweep), "dataset /tooth_load holds 1e+18, allowed is "));
+  sweep = small_sweep();
+  sweep.mesh_frequency[0] = 0;
+  CHECK(says(said(sweep, read_sweep), "dataset /mesh_frequency holds 0, allowed is more than 0 to "));
+}
+
+TEST_CASE("a dataset that has no range is a mistake of the program, not of a file") {
+  CHECK(range_of("/compliance/offset_3") != nullptr);
+  CHECK(range_of("/parameters/gear/module") == nullptr);  // of the key's
+  CHECK(caught([] { range_of("/something/new"); }).kind == kNumerical);
+  CHECK(outside({0, 1, true}, 0) == "holds 0, allowed is more than 0 to 1");
+  CHECK(outside({0, 1}, 0).empty());
+  CHECK(!outside({0, 1}, std::numeric_limits<double>::quiet_NaN()).empty());
 }
 
 TEST_CASE("an artifact without its hash is refused before HDF5 sees it") {

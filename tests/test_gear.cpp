@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/iso6336.h"
 #include "gear/pair.h"
+#include "gear/path_points.h"
 #include "paper_pair.h"
 #include "relative.h"
 
@@ -45,6 +47,27 @@ std::string refusal(const GearDesign& a, const GearDesign& b, double centre) {
   return "";
 }
 }  // namespace
+
+TEST_CASE("points A to E: pairs come and go at tips, and both diameters lie on the line of action") {
+  const GearPair pair(fzg_c(16, 0.1817, 82.64e-3), fzg_c(24, 0.1715, 118.54e-3), 91.5e-3);
+  const auto points = path_points(pair);
+  const double along = pair.centre_distance() * std::sin(pair.working_pressure_angle());
+  for (const PathPoint& p : points) {
+    CAPTURE(p.name);
+    const auto reach = [&](int g) {
+      const double base = pair.gear(g).base_radius(), r = p.diameter[static_cast<size_t>(g)] / 2;
+      return std::sqrt(r * r - base * base);
+    };
+    CHECK(reach(0) + reach(1) == relative(along, 1e-12));
+  }
+  CHECK(points[0].diameter[1] == relative(118.54e-3, 1e-12));  // driven tip
+  CHECK(points[4].diameter[0] == relative(82.64e-3, 1e-12));   // driver's tip
+  CHECK(points[2].diameter[0] + points[2].diameter[1] == relative(2 * 91.5e-3, 1e-12));
+  CHECK(points[4].path - points[1].path == relative(pair.base_pitch(), 1e-12));
+  CHECK(points[3].path - points[0].path == relative(pair.base_pitch(), 1e-12));
+  CHECK(active_profile_diameter(pair, 0) == points[0].diameter[0]);
+  CHECK(active_profile_diameter(pair, 1) == points[4].diameter[1]);
+}
 
 TEST_CASE("the paper's gear has base radius 70.4769 mm, base pitch 8.85639 mm, contact ratio 1.7547") {
   const GearPair pair(paper_gear(), paper_gear(), 0.150);
@@ -279,4 +302,39 @@ TEST_CASE("pairs that do not reach, jam or run with a contact ratio below 1 are 
   other.module = 2.9e-3;
   CHECK(refusal(d, other, 0.150).find("base pitches differ") != std::string::npos);
   CHECK(refusal(d, d, 0.150).empty());
+}
+
+TEST_CASE("ISO 6336-1 method B: tooth stiffness of 25 and 76 teeth, by hand") {
+  GearDesign pinion, wheel;
+  pinion.teeth = 25;
+  wheel.teeth = 76;
+  pinion.profile_shift = 0.2485;
+  wheel.profile_shift = -0.2485;
+  for (GearDesign* g : {&pinion, &wheel}) {
+    g->module = 6e-3;
+    g->pressure_angle = 20 * std::numbers::pi / 180;
+    g->face_width = 44e-3;
+  }
+  const Material steel{206e9, 0.3, 7850, true};
+  // q' = 0.04723 + 0.00622040 + 0.00339355 - 0.00157798 - 0.00115841 + 0.00047961 + 0.00079088
+  //      + 0.00032667 + 0.00011239 = 0.05581712 mm um / N; C_B = 1 + 0.5 (1.2 - 1.25) = 0.975.
+  const double single = 0.8 * 0.975 / 0.05581712;  // 13.974
+  const IsoStiffness iso = iso_6336_stiffness(pinion, steel, wheel, steel, 1624.77, 1.6);
+  CHECK(iso.single * 1e-9 == relative(13.974, 1e-4));
+  CHECK(iso.single * 1e-9 == relative(single, 1e-6));
+  CHECK(iso.mesh * 1e-9 == relative(single * 1.45, 1e-6));
+  CHECK(iso.line_load == relative(1624.77 / 0.075 / 0.044, 1e-12));
+  CHECK(iso.in_range);
+  // The pinion is gear 1 of the formula whoever drives.
+  const auto stiffness = [&](const Material& of_wheel, double torque) {
+    return iso_6336_stiffness(pinion, steel, wheel, of_wheel, torque, 1.6).single;
+  };
+  CHECK(iso_6336_stiffness(wheel, steel, pinion, steel, 1624.77 * 76 / 25, 1.6).single ==
+        relative(iso.single, 1e-12));
+  // Below 100 N/mm by the power 0.25 of the load: half at 6.25 N/mm.
+  CHECK(stiffness(steel, 6.25e3 * 0.044 * 0.075) == relative(0.5 * iso.single, 1e-12));
+  // On iron of half the modulus: 2 E1 E2 / (E1 + E2) is two thirds.
+  CHECK(stiffness({103e9, 0.3, 7200, true}, 1624.77) == relative(iso.single * 2 / 3, 1e-12));
+  pinion.dedendum = wheel.dedendum = 1.4;
+  CHECK(stiffness(steel, 1624.77) == relative(iso.single * 0.9 / 0.975, 1e-12));
 }

@@ -346,7 +346,7 @@ TEST_CASE("sensitivity: changes against the base, rows of one key together") {
 }
 
 TEST_CASE("a variant of a scene has the changed keys and nothing else changed") {
-  const std::string path = "data/scenes/parker2000.toml";
+  const std::string path = "data/scenes/parker2000-standard-tooth.toml";
   const auto folder = std::filesystem::temp_directory_path();
   const std::string variant = (folder / "whine_variant.toml").string();
   std::ofstream(variant) << scene_variant(

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -168,6 +169,32 @@ TEST_CASE("loaded: both gears stand in mesh, and strips lie on each other's flan
   // Root stress: Lewis' cantilever with the load at the tip is the order of it; here the load is lower, and two pairs share it.
   CHECK(at.root_stress.minCoeff() > 10e6);
   CHECK(at.root_stress.maxCoeff() < 200e6);
+}
+
+TEST_CASE("loaded: what is shown has mid nodes about the loaded teeth alone, and no point that nothing has") {
+  const LoadedArtifact& at = loaded_at(0.25);
+  std::vector<bool> used(static_cast<size_t>(at.vtk_point.rows()), false);
+  const MatrixRM &gear = at.vtk_cell_data[0].values, &tooth = at.vtk_cell_data[1].values;
+  Eigen::Index coarse = 0;
+  for (Eigen::Index e = 0; e < at.vtk_cell.rows(); ++e) {
+    int nearest = 50;
+    for (Eigen::Index j = 0; j < at.tooth.rows(); ++j) {
+      const int apart =
+          std::abs(static_cast<int>(tooth(e, 0)) - at.tooth(j, static_cast<int>(gear(e, 0)) - 1));
+      nearest = std::min({nearest, apart, 50 - apart});
+    }
+    CHECK((at.vtk_cell(e, 4) < 0) == (nearest > 1));
+    coarse += at.vtk_cell(e, 4) < 0;
+    for (int k = 0; k < at.vtk_cell.cols(); ++k) {
+      CHECK((at.vtk_cell(e, k) < 0) == (k >= 4 && nearest > 1));
+      if (at.vtk_cell(e, k) >= 0) used[static_cast<size_t>(at.vtk_cell(e, k))] = true;
+    }
+  }
+  CHECK(coarse > at.vtk_cell.rows() * 4 / 5);
+  for (Eigen::Index i = 0; i < at.vtk_line.size(); ++i)
+    used[static_cast<size_t>(at.vtk_line.data()[i])] = true;
+  CHECK(std::count(used.begin(), used.end(), false) == 0);
+  for (const auto& field : at.vtk_point_data) CHECK(field.values.rows() == at.vtk_point.rows());
 }
 
 TEST_CASE("loaded: artifacts are read as they were written, and what cannot be shown is refused") {

@@ -146,7 +146,8 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   const ErrorBudgetArtifact budget = error_budget(body, body, paper_statics(128), 150);
   const StaticChanges& errors = budget.refinement;
   CHECK(errors.entry ==
-        "strips 8 to 16, flank table 24 to 48 points, elements 0.8 to 0.4 mm, window 1 to 2, positions 128 "
+        "strips 8 to 16, flank table 24 to 48 points, elements 0.8 to 0.4 mm, search range 1 to 2 times, "
+        "positions 128 "
         "to 256");
   REQUIRE(errors.mean_stiffness_change.size() == 5);
   CHECK(errors.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);

@@ -186,6 +186,11 @@ TEST_CASE("statics figures: torques ascend, the period closes, units are microme
   CHECK(block(k, "mesh_stiffness").rows[3][1] == low.stiffness_secant[3] * 1e-6);
   CHECK(block(k, "rectangular wave").rows.size() == 6);
   CHECK(block(k, "rectangular wave harmonics").rows[0][1] == rectangular_wave(low).amplitude(1) * 1e-6);
+  // The wave is that of the torque that the scene lists first, whether or not it is the lowest.
+  const Figure falling = mesh_stiffness_figure({high, low});
+  CHECK(block(falling, "rectangular wave harmonics").rows[0][1] ==
+        rectangular_wave(high).amplitude(1) * 1e-6);
+  CHECK(block(falling, "mesh_stiffness").rows == block(k, "mesh_stiffness").rows);
 }
 
 TEST_CASE(
@@ -209,7 +214,7 @@ TEST_CASE(
     "march") {
   const ResponseArtifact up = some_response("up"), down = some_response("down");
   const Figure figure = response_figure({down, up});
-  CHECK(tsv(figure, {}) == tsv(response_figure({up, down}), {}));
+  CHECK(plot_data(figure) == plot_data(response_figure({up, down})));
   const auto& rows = block(figure, "a 150 N m up").rows;
   REQUIRE(rows.size() == 6);
   CHECK(rows[2][0] == 2200);
@@ -252,7 +257,7 @@ TEST_CASE(
         sweeps.back().dte_mean *= torque * eta;
       }
   const Figure figure = response_figure(sweeps);
-  CHECK(figure.title == "Dynamic transmission error against mesh frequency, 100, 300 N m");
+  CHECK(figure.title == "Dynamic transmission error (DTE) against mesh frequency, 100, 300 N m");
   CHECK(figure.notes[1].find("(a) 100, 300 N m; Rayleigh damping η = 7.7 µs") == 0);
   CHECK(figure.notes[2].find("(a) 100 N m: jumps rising 2250, falling 2250 Hz; 300 N m: ") == 0);
   CHECK(figure.notes[3].find("(b) 100, 300 N m; Rayleigh damping η = 4 µs") == 0);
@@ -537,13 +542,16 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
       told.impacts.push_back(impact);
     }
   const Figure figure = response_figure(sweeps, told);
-  CHECK(figure.notes[1].find("(a) first: a_b; 100, 300 N m; damping ratio 7.03, 7.23 % with two pairs in "
+  CHECK(figure.notes[1].find("(a) first: a_b; 100, 300 N m; damping ratio 1.00, 1.00 % with one pair, 7.03, "
+                             "7.23 % with two pairs in "
                              "contact, by ring-down; Rayleigh") == 0);
-  CHECK(figure.notes[3].find("(b) second; 100, 300 N m; damping ratio 3.70 % at 100 N m with two pairs in "
-                             "contact, by ring-down; Rayleigh") == 0);
+  CHECK(
+      figure.notes[3].find(
+          "(b) second; 100, 300 N m; damping ratio 1.00 % with one pair, 3.70 % at 100 N m with two pairs in "
+          "contact, by ring-down; Rayleigh") == 0);
   CHECK(word_of(figure, "heading_a").find("first: a\\_b\n100, 300 N m;") == 0);
   told.impacts[0].mesh.corner.enabled = !told.impacts[0].mesh.corner.enabled;
-  CHECK(response_figure(sweeps, told).notes[1].find("damping ratio 7.23 % at 300 N m with") !=
+  CHECK(response_figure(sweeps, told).notes[1].find("with one pair, 7.23 % at 300 N m with") !=
         std::string::npos);
 }
 
@@ -573,15 +581,20 @@ TEST_CASE("error budget: choices stand apart from the errors and in no sum") {
   ErrorBudgetArtifact budget;
   budget.torque = 150;
   budget.refinement = {"strips, flank table", Eigen::Vector2d(1e-4, -2e-4), Eigen::Vector2d(3e-4, 1e-4),
-                       MatrixRM::Constant(2, 5, -1e-4)};
-  budget.choice = {"matching at 1 mm", Eigen::VectorXd::Constant(1, -7e-3),
-                   Eigen::VectorXd::Constant(1, 0.01), MatrixRM::Constant(1, 5, 2e-3)};
+                       Eigen::Vector2d(4e-4, 2e-4), MatrixRM::Constant(2, 5, -1e-4)};
+  budget.choice = {"matching at 1 mm",
+                   Eigen::VectorXd::Constant(1, -7e-3),
+                   Eigen::VectorXd::Constant(1, 0.01),
+                   {},
+                   MatrixRM::Constant(1, 5, 2e-3)};
   const Figure figure = error_budget_figure(budget);
   CHECK(figure.notes[0].find("mean stiffness 0.03 %") != std::string::npos);
   REQUIRE(block(figure, "changes").rows.size() == 2);
   REQUIRE(block(figure, "choices").rows.size() == 1);
   CHECK(block(figure, "changes").rows[1][1] == relative(0.02, 1e-14));
   CHECK(block(figure, "choices").rows[0][1] == relative(0.7, 1e-14));
+  REQUIRE(block(figure, "changes").columns.back() == "flank_pressure [%]");
+  CHECK(block(figure, "changes").rows[1].back() == relative(0.02, 1e-14));
   const auto word = [&](const std::string& name) {
     for (const auto& [key, value] : figure.words)
       if (key == name) return value;
@@ -589,19 +602,8 @@ TEST_CASE("error budget: choices stand apart from the errors and in no sum") {
   };
   CHECK(word("labels") == "'strips' 'flank table' ");
   CHECK(word("choice_labels") == "'matching|at 1 mm' ");
-  budget.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), MatrixRM(0, 5)};
+  budget.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), {}, MatrixRM(0, 5)};
   CHECK(block(error_budget_figure(budget), "choices").rows.empty());
-}
-
-TEST_CASE(
-    "tsv: blocks stand two empty lines apart under their names; a value that is not finite is refused") {
-  Figure figure;
-  figure.title = "Title";
-  figure.blocks = {{"a", {"x [m]", "y [N]"}, {{1, 2}, {}, {3, 0.1}}}, {"b", {"x [m]"}, {{5}}}};
-  CHECK(tsv(figure, {"out/x.h5"}) ==
-        "# Title\n# from out/x.h5\n\n\n# [a]\n# x [m]\ty [N]\n1\t2\n\n3\t0.1\n\n\n# [b]\n# x [m]\n5\n");
-  figure.blocks[1].rows[0][0] = std::numeric_limits<double>::quiet_NaN();
-  CHECK(failure_of([&] { tsv(figure, {}); }) == Failure::numerical);
 }
 
 TEST_CASE("wireframe: every edge of the ring is drawn once, with or without mid nodes") {
@@ -640,7 +642,7 @@ TEST_CASE(
   figure.title = "A \"title\" with `marks`, µ and \\";
   figure.blocks = {{"a", {"x [m]", "y [N]"}, {{1, 2}, {3, 4}}}};
   figure.numbers = {{"three", 3.0}};
-  std::ofstream(table) << tsv(figure, {});
+  std::ofstream(table) << plot_data(figure);
   std::ofstream(good) << "set title title noenhanced\nset datafile separator tab\n"
                          "plot [0:three] tsv index \"[a]\" using 1:2 with lines\n";
   std::ofstream(bad) << "plot nothing_here\n";
@@ -654,5 +656,72 @@ TEST_CASE(
         std::string::npos);
   CHECK_THROWS_WITH_AS(draw(figure, table, bad, Picture::svg), doctest::Contains("nothing_here"), Error);
   CHECK(failure_of([&] { draw(figure, table, folder / "none.gp", Picture::svg); }) == Failure::io);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("draw: texts and names of files are data, whatever gnuplot would run in them") {
+  const auto folder = std::filesystem::temp_directory_path() / text("whine-hostile-plot-", getpid());
+  std::filesystem::create_directories(folder);
+  const std::string mark = folder / "mark", table = folder / "t.tsv", recipe = folder / "all.gp";
+  const std::string command = "touch " + mark;
+  Figure figure;
+  figure.blocks = {{"a", {"x [m]", "y [N]"}, {{1, 2}, {3, 4}}}};
+  std::ofstream(table) << plot_data(figure);
+  std::ofstream(recipe)
+      << "set multiplot title heading\nset label 1 title at graph 0.5, 0.5\nset xlabel note1\n"
+         "set ylabel word_of\nset xtics (word_of 1)\nset datafile separator tab\n"
+         "plot tsv index \"[a]\" using 1:2 title note1\nunset multiplot\n";
+  for (const std::string& words :
+       {"`" + command + "`", "'`" + command + "`'", "\\`" + command + "`", "\"`" + command + "`",
+        "a\n`" + command + "`", "a\n!" + command, "a'\nsystem('" + command + "')\n'",
+        "'; system('" + command + "'); a = '", "\"; system(\"" + command + "\"); a = \"",
+        "\r!" + command + "\r", "@GPVAL_PWD $(" + command + ") #", std::string("''''"), std::string("'"),
+        std::string("\\")}) {
+    CAPTURE(words);
+    figure.title = words;
+    figure.scenes = {words};
+    figure.notes = {words};
+    figure.words = {{"word_of", words}};
+    CHECK(draw(figure, table, recipe, Picture::svg).find("</svg>") != std::string::npos);
+    CHECK(!std::filesystem::exists(mark));
+  }
+  // Relative, as a path given on the command line may be.
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder);
+  for (const std::string name : {"<touch mark", "-e!touch mark"}) {
+    CAPTURE(name);
+    std::filesystem::copy_file(recipe, name);
+    CHECK(draw(figure, table, name, Picture::svg).find("</svg>") != std::string::npos);
+    std::filesystem::remove(name);
+    std::filesystem::copy_file(table, name);
+    CHECK(draw(figure, name, recipe, Picture::svg).find("</svg>") != std::string::npos);
+    std::filesystem::remove(name);
+    CHECK(!std::filesystem::exists(mark));
+  }
+  std::filesystem::current_path(before);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("draw: spectra below the least decade of their axis are drawn, not an empty range") {
+  const auto folder = std::filesystem::temp_directory_path() / text("whine-small-plot-", getpid());
+  std::filesystem::create_directories(folder);
+  const std::string table = folder / "t.tsv";
+  const std::vector<std::vector<double>> none{{0, 0, 0, 0}, {1, 0, 0, 0}}, floor{{1, 1e-6}, {2, 1e-6}};
+  Figure figure;
+  figure.notes = {"one", "two"};
+  figure.blocks = {{"transmission_error", {"a", "b", "c", "d"}, none},
+                   {"orders at rest", {"order [1]", "amplitude [µm]"}, floor},
+                   {"orders in motion", {"order [1]", "amplitude [µm]"}, floor},
+                   {"orders", {"order [1]", "amplitude [µm]"}, floor},
+                   {"orders without", {"order [1]", "amplitude [µm]"}, floor}};
+  figure.numbers = {{"periods", 2},          {"last_order", 3.5}, {"top_at_rest", 1e-5},
+                    {"top_in_motion", 1e-5}, {"around", 1},       {"top", 1e-5}};
+  figure.words = {{"speed", "1 Hz"}};
+  std::ofstream(table) << plot_data(figure);
+  for (const char* name : {"sidebands", "crack"}) {
+    CAPTURE(name);
+    CHECK(draw(figure, table, text("pipelines/plots/", name, ".gp"), Picture::svg).find("</svg>") !=
+          std::string::npos);
+  }
   std::filesystem::remove_all(folder);
 }

@@ -1,7 +1,6 @@
 // Scenes: every wrong one is refused with the line, the key and the limit; slices follow values and nothing
 // else.
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,94 +17,15 @@
 #include "files/scene_place.h"
 #include "gear/scene_geometry.h"
 #include "relative.h"
+#include "scene_file.h"
 
 using namespace whine;
 namespace fs = std::filesystem;
 
-namespace {
-
-// A complete scene with required keys only; line numbers are relied on below.
-const char* const kScene = R"([gear.pinion]
-teeth = 50
-module_mm = 3
-pressure_angle_deg = 20
-face_width_mm = 25.4
-bore_radius_mm = 40
-total_inertia_kgm2 = 0.0148
-material = "steel"
-[gear.wheel]
-like = "pinion"
-[material.steel]
-youngs_modulus_GPa = 207
-poisson_ratio = 0.3
-density_kgm3 = 7600
-plane = "stress"
-[[mesh]]
-driver = "pinion"
-driven = "wheel"
-centre_distance_mm = 150
-[operation]
-torque_Nm = [100, 150]
-mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }
-)";
-
-class SceneFile {
- public:
-  SceneFile() {
-    std::string name = (fs::temp_directory_path() / "whine-scene-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    folder_ = name;
-  }
-  ~SceneFile() { fs::remove_all(folder_); }
-  std::string path(const std::string& text, const std::string& name = "x.toml") const {
-    const std::string place = (folder_ / name).string();
-    std::ofstream(place) << text;
-    return place;
-  }
-  Scene read(const std::string& text) const { return read_scene(path(text)); }
-
-  // The message with which a scene is refused, from the file name on; "" if it is not.
-  std::string refusal(const std::string& text) const {
-    try {
-      read_scene(path(text));
-    } catch (const Error& error) {
-      CHECK(error.kind() == Failure::input);
-      const std::string message = error.what();
-      CHECK(message.find('\n') == std::string::npos);
-      const auto start = message.find("x.toml");
-      return start == std::string::npos ? message : message.substr(start);
-    }
-    return "";
-  }
-
- private:
-  fs::path folder_;
-};
-
-// kScene with one text replaced; the text must be there once.
-std::string scene_with(const std::string& old, const std::string& now) {
-  std::string out = kScene;
-  const auto at = out.find(old);
-  REQUIRE(at != std::string::npos);
-  REQUIRE(out.find(old, at + 1) == std::string::npos);
-  return out.replace(at, old.size(), now);
-}
-
-std::string with_section(const std::string& section) {
-  return kScene + section;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return true;
-  MESSAGE("'", text, "' lacks '", part, "'");
-  return false;
-}
-
-}  // namespace
-
-TEST_CASE("the default scene reads as it stands, in SI") {
-  const fs::path file = fs::path(__FILE__).parent_path().parent_path() / "data/scenes/parker2000.toml";
-  const Scene s = read_scene(fs::exists(file) ? file.string() : "data/scenes/parker2000.toml");
+TEST_CASE("the standard tooth of P2000 reads as it stands, in SI") {
+  const fs::path file =
+      fs::path(__FILE__).parent_path().parent_path() / "data/scenes/parker2000-standard-tooth.toml";
+  const Scene s = read_scene(fs::exists(file) ? file.string() : "data/scenes/parker2000-standard-tooth.toml");
   REQUIRE(s.gears.size() == 2);
   CHECK(s.gears[0].name == "pinion");
   CHECK(s.gears[1].name == "wheel");
@@ -118,6 +38,8 @@ TEST_CASE("the default scene reads as it stands, in SI") {
   CHECK(s.gears[0].material.plane_stress);
   CHECK(s.mesh.centre_distance == 0.15);
   CHECK(s.mesh.corner.enabled);
+  CHECK(s.mesh.contact_plane == "body");  // its slices, and so its results, are those of one plane state
+  CHECK(static_slice(s).find("contact_plane") == std::string::npos);
   CHECK(std::isinf(s.mesh.corner.largest_angle));
   CHECK(s.damping.rayleigh_stiffness == 7.7e-6);
   CHECK(s.operation.torques == std::vector<double>{100, 150, 200, 300});
@@ -183,12 +105,13 @@ TEST_CASE("a missing key is refused, all of a section in one line") {
   CHECK(
       contains(file.refusal(scene_with("module_mm = 3\n", "")), "x.toml:1: [gear.pinion] lacks 'module_mm'"));
   CHECK(contains(file.refusal(scene_with("teeth = 50\nmodule_mm = 3\n", "")), "lacks 'teeth', 'module_mm'"));
+  CHECK(file.read(scene_with("total_inertia_kgm2 = 0.0148", "")).gears[0].total_inertia == 0);  // as drawn
   for (const char* key :
        {"teeth = 50", "pressure_angle_deg = 20", "face_width_mm = 25.4", "bore_radius_mm = 40",
-        "total_inertia_kgm2 = 0.0148", "material = \"steel\"", "youngs_modulus_GPa = 207",
-        "poisson_ratio = 0.3", "density_kgm3 = 7600", "plane = \"stress\"", "driver = \"pinion\"",
-        "driven = \"wheel\"", "centre_distance_mm = 150", "torque_Nm = [100, 150]",
-        "mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }", ", step = 20"}) {
+        "material = \"steel\"", "youngs_modulus_GPa = 207", "poisson_ratio = 0.3", "density_kgm3 = 7600",
+        "plane = \"stress\"", "driver = \"pinion\"", "driven = \"wheel\"", "centre_distance_mm = 150",
+        "torque_Nm = [100, 150]", "mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }",
+        ", step = 20"}) {
     INFO(key);
     CHECK(contains(file.refusal(scene_with(key, "")), "lacks"));
   }
@@ -293,7 +216,8 @@ TEST_CASE("names must lead somewhere: gears, materials, like") {
   CHECK(contains(file.refusal(scene_with("like = \"pinion\"", "like = \"wheel\"")), "is like itself"));
   CHECK(
       contains(file.refusal(scene_with("like = \"pinion\"", "like = \"pinoin\"")), "did you mean 'pinion'?"));
-  CHECK(contains(file.refusal(scene_with("bore_radius_mm", "bore_mm")), "did you mean 'bore_radius_mm'?"));
+  CHECK(contains(file.refusal(scene_with("bore_radius_mm", "bore_mm")),
+                 "did you mean 'bore_radius_mm' (half of the diameter)?"));
   CHECK(contains(file.refusal(with_section("[gear.third]\nlike = \"wheel\"\n")), "name the first gear"));
   CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.T150]")), "cannot be called 'T150'"));
   CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.params]")), "cannot be called 'params'"));
@@ -385,6 +309,8 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
       {section("[fidelity]\nbody = \"full\"\n"), true, true, true, true, false, false},
       {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false, false, false, false},
       {mesh_key("corner_contact = false"), false, true, false, false, false, false},
+      {mesh_key("contact_plane = \"body\""), false, true, false, false, false, false},
+      {mesh_key("contact_plane = \"strain\""), false, false, false, false, false, false},
       {scene_with("centre_distance_mm = 150", "centre_distance_mm = 150.1"), false, true, false, false, false,
        false},
       {section("[gear.pinion.modification]\ncrowning_um = 3\n"), false, true, false, false, false, false},
@@ -463,6 +389,10 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(statics.mesh.centre_distance == s.mesh.centre_distance);
   CHECK(statics.mesh.corner.enabled);
   CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
+  CHECK(statics.mesh.contact_plane == "strain");  // the default
+  CHECK(contains(
+      file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncontact_plane = \"flat\"")),
+      "must be one of: strain, stress, body"));
   CHECK(statics.fidelity.contact == "strips");
   CHECK(statics.contact.strips == 8);
   CHECK(statics.driver_body == body_hash(body_slice(s, "pinion")));
@@ -521,6 +451,13 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(said.find("out/whole/params/static.toml (make SCENE=") != std::string::npos);
 
   CHECK_THROWS_AS(read_sweep_slice(file.path(static_slice(s), "wrong.toml")), Error);
+  // That of a sweep has all keys of a ring-down's, and that of a map another damping.
+  CHECK_THROWS_WITH_AS(read_impact_slice(file.path(sweep_slice(s), "sweep.toml")),
+                       doctest::Contains("is what a sweep depends on"), Error);
+  CHECK_THROWS_WITH_AS(read_impact_slice(file.path(map_slice(s), "map.toml")),
+                       doctest::Contains("give out/<scene>/params/impact.toml"), Error);
+  CHECK_THROWS_AS(read_map_slice(file.path(sweep_slice(s), "sweep.toml")), Error);
+  CHECK_THROWS_AS(read_sweep_slice(file.path(lumped_slice(s, true), "lumped.toml")), Error);
   CHECK_THROWS_AS(read_impact_slice(file.path(static_slice(s), "wrong.toml")), Error);
   CHECK(body_hash(body_slice(s, "wheel")).size() == 16);
   CHECK(body_hash(body_slice(s, "wheel")) == sha256(body_slice(s, "wheel")).substr(0, 16));

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "failure_of.h"
+#include "plot/gnuplot.h"
 #include "plot/study_figure.h"
 #include "relative.h"
 
@@ -21,7 +22,7 @@ using namespace whine;
 
 namespace {
 
-const std::string kScene = std::filesystem::absolute("data/scenes/parker2000.toml").string();
+const std::string kScene = std::filesystem::absolute("data/scenes/parker2000-standard-tooth.toml").string();
 
 // A file that goes with its end.
 struct Written {
@@ -119,6 +120,9 @@ TEST_CASE("a study that says nothing sensible is refused by line, value and limi
   refuses("answers = ['te_peak_to_peek']\n" + kDamping, "did you mean 'te_peak_to_peak'?");
   refuses("answers = ['rms_max_up']\n" + kDamping, "there is no answer of this stage 'rms_max_up'");
   refuses("[figure]\nkeys = ['damping']\n" + kDamping, "there is no varied key");
+  refuses("[figure]\nkeys = ['gear.pinion.error.seed']\n" + kDamping +
+              "[[vary]]\nkey = 'gear.pinion.error.seed'\nvalues = [1, 2]\n",
+          "there is no varied key");
   refuses("tilte = 'x'\n" + kDamping, ":2: unknown key 'tilte'; did you mean 'title'?");
   refuses(
       "plan = 'sample'\nsamples = 5\n[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 1\nleast "
@@ -276,6 +280,16 @@ TEST_CASE("a plan with an answer, direction or key that the study does not have 
   CHECK(refused([](StudyPlan& plan) { plan.figure_colour = "fidelity.contact"; }));
 }
 
+TEST_CASE("no figure of a study stands against a seed, as long as anything else varies") {
+  const std::string seeds =
+      "[[vary]]\nkey = 'gear.pinion.error.seed'\nvalues = [1, 2]\n[[vary]]\nkey = "
+      "'gear.wheel.error.seed'\nvalues = [3, 4]\n";
+  const Study study = study_of(seeds + kDamping);
+  CHECK(study.figure_keys == std::vector<std::string>{"damping.rayleigh_stiffness_s"});
+  CHECK(study.figure_colour.empty());
+  CHECK(study_of(seeds).figure_keys.size() == 2);
+}
+
 TEST_CASE("what is gathered of a study comes back from its artifact") {
   StudyArtifact a;
   a.plan = study_of("stage = 'sweep'\n" + kDamping +
@@ -361,6 +375,27 @@ TEST_CASE("a study's figure has no panel for what never varies and no column for
   const Figure level = study_figure(a);
   CHECK(std::count_if(level.blocks.begin(), level.blocks.end(),
                       [](const FigureBlock& block) { return block.name.starts_with("panel"); }) == 1);
+}
+
+TEST_CASE("a study's figure shows words of the study and runs none of them") {
+  const std::string mark =
+      (std::filesystem::temp_directory_path() / text("whine-study-mark-", ::getpid())).string();
+  const std::string command = "touch " + mark;
+  StudyArtifact a;
+  a.plan = study_of("[[vary]]\nkey = 'fidelity.contact'\nvalues = ['strips', 'line']\n");
+  a.plan.title = "`" + command + "`";
+  const std::vector<std::string> levels{"5 % of _it_", "`" + command + "`",
+                                        "\" 1); system(\"" + command + "\"); set xtics (\""};
+  for (const std::string& level : levels) a.variants.push_back({"ab" + level, {level}});
+  a.refusal.resize(3);
+  a.unsteady = Eigen::VectorXi::Zero(3);
+  a.answer = MatrixRM::Random(3, static_cast<Eigen::Index>(a.plan.answers.size()));
+  const Figure figure = study_figure(a);
+  const Written table(plot_data(figure), "study.tsv");
+  const std::string svg = draw(figure, table.path, "pipelines/plots/study.gp", Picture::svg);
+  CHECK(svg.find("5 % of _it_") != std::string::npos);
+  CHECK(svg.find("system(") != std::string::npos);
+  CHECK(!std::filesystem::exists(mark));
 }
 
 TEST_CASE("rank correlation: known values, ties, what does not vary") {

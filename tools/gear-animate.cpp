@@ -15,6 +15,7 @@
 #include "files/summary.h"
 #include "plot/animation.h"
 #include "plot/gnuplot.h"
+#include "plot/plot_file.h"
 
 namespace {
 
@@ -45,9 +46,11 @@ void body(int argc, char** argv) {
   if (!scene.empty()) figure.scenes = {scene};
   for (const std::string& path : {driver, driven, sweep}) whine::require_fresh(path);
 
-  const std::string table = output + ".tsv", recipe = plots + "/animation.gp";
-  whine::publish(table, whine::tsv(figure, {whine::recorded_path(driver), whine::recorded_path(driven),
-                                            whine::recorded_path(sweep)}));
+  const std::string recipe = plots + "/animation.gp";
+  const whine::PlotFile data(figure);
+  whine::publish_tables(
+      figure, output,
+      {whine::recorded_path(driver), whine::recorded_path(driven), whine::recorded_path(sweep)});
   const auto of_frames = [&figure](int first, int last) {
     whine::Figure part = figure;
     part.numbers.emplace_back("first_frame", first);
@@ -57,9 +60,11 @@ void body(int argc, char** argv) {
   for (int frame = 0; frame < frames; ++frame) {
     char name[16];
     std::snprintf(name, sizeof name, "-%03d.png", frame + 1);
-    whine::publish(output + name, whine::draw(of_frames(frame, frame), table, recipe, whine::Picture::png));
+    whine::publish(output + name,
+                   whine::draw(of_frames(frame, frame), data.path(), recipe, whine::Picture::png));
   }
-  whine::publish(output + ".gif", whine::draw(of_frames(0, frames - 1), table, recipe, whine::Picture::gif));
+  whine::publish(output + ".gif",
+                 whine::draw(of_frames(0, frames - 1), data.path(), recipe, whine::Picture::gif));
   whine::tell("gear-animate: ", figure.title, ", ", frames, " frames -> ", output, ".{tsv,gif}, ", output,
               "-001.png ..");
 }

@@ -21,6 +21,7 @@
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "gear/pair.h"
+#include "gear/scene_geometry.h"
 #include "motion/harris_map.h"
 #include "motion/statics.h"
 
@@ -81,7 +82,8 @@ void body(int argc, char** argv) {
   std::string params, static_params, driver, driven, output, torque, relief, start, length, design,
       points = "0", reference;
   bool dynamic = false;
-  options.add("--static-params", static_params, "slice of the scene: out/<scene>/params/static.toml")
+  options
+      .add("--static-params", static_params, "stage parameters of the scene: out/<scene>/params/static.toml")
       .required();
   options.add("--driver", driver, "body.h5 of the driving gear").required();
   options.add("--driven", driven, "body.h5 of the driven gear").required();
@@ -179,8 +181,9 @@ void body(int argc, char** argv) {
   progress.reset();
   if (checks > 0) whine::check(map, first, second, plan.positions, static_cast<int>(checks));
   if (dynamic) {
-    whine::add_dynamics(map, first, second, whine::read_sweep_slice(params),
-                        whine::read_static(reference).mean_stiffness, report);
+    whine::SweepSlice moving = whine::read_sweep_slice(params);
+    whine::as_drawn(moving, first, second);
+    whine::add_dynamics(map, first, second, moving, whine::read_static(reference).mean_stiffness, report);
     progress.reset();
   }
   whine::write(output, map, provenance);

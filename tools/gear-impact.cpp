@@ -16,7 +16,9 @@
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
+#include "gear/scene_geometry.h"
 #include "motion/impact.h"
+#include "motion/sweep.h"
 
 namespace {
 
@@ -39,17 +41,20 @@ void print_calibration(const whine::ImpactArtifact& a, double ratio, const std::
 }
 
 void body(int argc, char** argv) {
-  whine::Options options{"Natural frequency and damping of the held pair by ring-down", "gear-impact"};
+  whine::Options options{"Natural frequency and damping of the pair at fixed mesh phases by ring-down",
+                         "gear-impact"};
   whine::ImpactPlan plan;
   std::string params, driver, driven, statics, reference, output, step_word = whine::text(plan.torque_step),
                                                                   ratio_word, state = "two";
-  options.add("--params", params, "slice of the scene: out/<scene>/params/impact.toml").required();
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/impact.toml").required();
   options.add("--driver", driver, "body.h5 of the driving gear").required();
   options.add("--driven", driven, "body.h5 of the driven gear").required();
   options.add("--static", statics, "static.h5 of the torque").required();
   options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
       .required();
-  options.add("--torque-step", step_word, "what is let go, over the torque, up to 0.5").show_default();
+  options
+      .add("--torque-step", step_word, "step of the torque that starts the decay, over the torque, up to 0.5")
+      .show_default();
   whine::Option write = options.add("--output", output, "impact.h5 to write");
   whine::Option calibrate =
       options.add("--calibrate", ratio_word, "damping ratio to find the eta of Eq. 21 for; prints");
@@ -72,7 +77,7 @@ void body(int argc, char** argv) {
       whine::made_by(argc, argv,
                      {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
                       "reference_static=" + reference});
-  const whine::ImpactSlice slice = whine::read_impact_slice(params);
+  whine::ImpactSlice slice = whine::read_impact_slice(params);
   for (const std::string& file : {statics, reference}) {
     whine::require_made_from(file, "driver", driver);
     whine::require_made_from(file, "driven", driven);
@@ -85,6 +90,7 @@ void body(int argc, char** argv) {
                 slice.reference_torque, " N m; give the static.h5 of that torque");
 
   const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
+  whine::as_drawn(slice, first, second);
   std::optional<whine::Progress> progress;
   const auto report = [&](long done, long total) {
     if (!progress) progress.emplace("gear-impact", total);
@@ -103,6 +109,9 @@ void body(int argc, char** argv) {
   progress.reset();
   whine::write(output, result, provenance);
   whine::tell("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", output);
+  for (const whine::Remark& remark : whine::setup_remarks(
+           at_torque, {result.driver_inertia, result.driven_inertia}, result.damping, result.fidelity))
+    whine::tell("gear-impact: warning: ", remark.words);
 }
 
 }  // namespace

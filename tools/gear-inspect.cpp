@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/artifact_place.h"
 #include "files/fit.h"
 #include "files/provenance.h"
 #include "files/publish.h"
@@ -24,7 +25,8 @@ namespace {
 using namespace whine;
 
 void line(const std::string& name, const std::string& words) {
-  std::cout << "  " << name << std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') << words << "\n";
+  std::cout << "  " << name << std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') << printable(words)
+            << "\n";
 }
 
 // The scene that a slice out/<scene>/params/... was cut from; empty if it is not known, or not there any more.
@@ -65,7 +67,9 @@ std::string state_of(const std::string& path, const InputRecord& input, const st
 // False if an input is not what it was, or not there to tell.
 bool show_origin(const std::string& path, const Origin& origin, const std::string& scene) {
   line("made by", text(origin.tool, " ", origin.version, ": ", origin.command));
-  bool fresh = true;
+  const std::string wrong = misplaced(path, origin);
+  if (!wrong.empty()) line("place", text("WRONG: ", wrong, "; ", rebuild_advice(path)));
+  bool fresh = wrong.empty();
   for (const InputRecord& input : origin.inputs) {
     const std::string state = state_of(path, input, scene, fresh);
     line("input " + input.role, text(input.path, " (", input.sha256.substr(0, 12), ") ", state));
@@ -98,6 +102,8 @@ int check(const std::string& path, const std::string& scene) {
   try {
     const Origin origin = read_origin(path);
     summary(path, origin.schema);
+    if (const std::string wrong = misplaced(path, origin); !wrong.empty())
+      tell_fault(text(path, ": ", wrong, "; ", rebuild_advice(path)));
     for (const InputRecord& input : origin.inputs) {
       bool fresh = true;
       const std::string state = state_of(path, input, scene, fresh);
@@ -118,9 +124,9 @@ int body(int argc, char** argv) {
   options.flag("--check", checked,
                "say only what is wrong with the artifacts, those below folders included (default: out)");
   std::string scene;
-  options.add(
-      "--scene", scene,
-      "compare slices with this scene; default: the one that out/<scene>/ was made of, if it is there");
+  options.add("--scene", scene,
+              "compare stage parameters with this scene; default: the one that out/<scene>/ was made of, if "
+              "it is there");
   options.footer(
       "Example:\n"
       "  gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5");
@@ -137,7 +143,7 @@ int body(int argc, char** argv) {
   std::cout << kSummaryUnits << "\n";
   for (const std::string& path : paths) {
     const Origin origin = read_origin(path);
-    std::cout << path << ": " << origin.title << "\n";
+    std::cout << printable(path + ": " + origin.title) << "\n";
     line("schema", text(origin.schema, ", version ", origin.schema_version));
     for (const auto& [name, words] : summary(path, origin.schema)) line(name, words);
     fresh = show_origin(path, origin, scene) && fresh;

@@ -18,6 +18,7 @@
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
+#include "gear/scene_geometry.h"
 #include "motion/jump_map.h"
 
 namespace {
@@ -51,8 +52,9 @@ void body(int argc, char** argv) {
   std::string params, static_params, driver, driven, output, torque_word, corner, contact, from, to, at,
       step = whine::text(plan.step);
   std::vector<std::string> ratios, factors;
-  options.add("--params", params, "slice of the scene: out/<scene>/params/map.toml").required();
-  options.add("--static-params", static_params, "slice of the scene: out/<scene>/params/static.toml")
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/map.toml").required();
+  options
+      .add("--static-params", static_params, "stage parameters of the scene: out/<scene>/params/static.toml")
       .required();
   options.add("--driver", driver, "body.h5 of the driving gear").required();
   options.add("--driven", driven, "body.h5 of the driven gear").required();
@@ -91,6 +93,7 @@ void body(int argc, char** argv) {
   if (!corner.empty()) statics.mesh.corner = corner_rule(corner);
   if (!contact.empty()) statics.fidelity.contact = slice.fidelity.contact = contact;
   const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
+  whine::as_drawn(slice, first, second);
   whine::require_body(first, statics.driver_body, "driver", driver);
   whine::require_body(second, statics.driven_body, "driven", driven);
 

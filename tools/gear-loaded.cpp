@@ -6,13 +6,16 @@
 // Equations  d = A p + e >= 0, p >= 0, p . d = 0 (Eq. 18); K x = f of the whole gear, by cyclic symmetry, with the half-planes
 //            of the strips in closed form
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
 #include "files/provenance.h"
 #include "files/schemas.h"
+#include "motion/flank_pressure.h"
 #include "motion/loaded_pair.h"
 
 namespace {
@@ -45,18 +48,29 @@ void body(int argc, char** argv) {
                      {"static=" + statics_path, "driver=" + driver, "driven=" + driven,
                       "driver_mesh=" + driver_mesh, "driven_mesh=" + driven_mesh});
   const whine::StaticArtifact statics = whine::read_static(statics_path);
+  std::optional<whine::StepsShown> steps(std::in_place, "gear-loaded");
   const whine::LoadedArtifact result =
       whine::loaded_pair(whine::read_mesh(driver_mesh), whine::read_mesh(driven_mesh),
                          whine::read_body(driver), whine::read_body(driven), statics,
                          position - std::floor(position), static_cast<int>(std::floor(position)));
+  steps.reset();
 
   whine::write(output, result, provenance);
+  const whine::LoadedPressure pressure = whine::largest_pressure(result);
+  Eigen::Index pair = 0, gear = 0;
+  result.root_stress.maxCoeff(&pair, &gear);
+  const std::string& root_gear = gear == 0 ? result.mesh.driver : result.mesh.driven;
   whine::tell("gear-loaded: ", result.torque, " N m, mesh phase ", result.mesh_phase, ", ",
               result.pair.size(), " pairs, transmission error ", result.transmission_error * 1e6,
-              " um, largest pressure ", result.strip_pressure.maxCoeff() * 1e-6, " MPa, root stress ",
-              result.root_stress.maxCoeff() * 1e-6, " MPa; hubs hold ", result.hub_torque[0], " and ",
-              result.hub_torque[1], " N m, strain energy ",
+              " um, largest pressure inside a flank ", pressure.inside * 1e-6, " MPa, root stress ",
+              result.root_stress.maxCoeff() * 1e-6, " MPa of ", root_gear, "; hubs hold ",
+              result.hub_torque[0], " and ", result.hub_torque[1], " N m, strain energy ",
               result.strain_energy.sum() / result.contact_work.sum(), " of the work -> ", output);
+  if (pressure.at_edge > 0)
+    whine::tell("gear-loaded: warning: pair ", pressure.edge_pair, " touches at a tip edge with ",
+                pressure.edge_force,
+                " N. The edge is sharp here and pressure there has no largest value: the strips' ",
+                pressure.at_edge * 1e-6, " MPa grow as strips get finer; the force does not");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
+#include "gear/scene_geometry.h"
 #include "lumped/stiffness.h"
 #include "lumped/sweep.h"
 
@@ -63,7 +64,7 @@ void body(int argc, char** argv) {
   options.add("--levels", levels,
               "other levels of the rectangular wave, N/m: fewer pairs, more pairs (k1,k2), k2 not below k1");
   options.add("--duty", duty, "share of the mesh period with the second level, in (0, 1)");
-  options.add("--torque", torque, "torque in N m; refused if --static is of another one");
+  options.add("--torque", torque, "torque in N m; must be that of --static");
   options.add("--mass", mass, "mass in kg; default: I1 I2 / (I1 r2^2 + I2 r1^2) of the gears of --params");
   options.add("--damping-ratio", ratios, "c / (2 sqrt(mean stiffness x mass)); with --map several")
       .separated_by(',')
@@ -81,7 +82,7 @@ void body(int argc, char** argv) {
       "--steps", steps,
       "stored samples per mesh period, and least steps of newmark; default: as --params says, or 128");
   options.add("--params", params,
-              "slice of the scene with speeds and samples: out/<scene>/params/lumped.toml");
+              "stage parameters of the scene, with speeds and samples: out/<scene>/params/lumped.toml");
   options.add("--from", from,
               "lowest mesh frequency in Hz; with --to and --step in place of those of --params");
   options.add("--to", to, "highest mesh frequency in Hz");
@@ -153,7 +154,8 @@ void body(int argc, char** argv) {
                 "without [gear.<name>.crack]");
   const whine::StaticArtifact at_reference = reference.empty() ? at_torque : whine::read_static(reference);
   if (!params.empty()) {
-    const whine::SweepSlice slice = whine::read_lumped_slice(params, !map);
+    whine::SweepSlice slice = whine::read_lumped_slice(params, !map);
+    whine::as_drawn(slice, at_torque);
     whine::require_contact(at_torque, slice.fidelity, statics);
     o.time = slice.time;
     o.mass = whine::reduced_mass(at_torque, slice.driver_inertia, slice.driven_inertia);
@@ -233,7 +235,7 @@ void body(int argc, char** argv) {
                   " mesh periods; the state still changes by ", result.residual[i], " per period");
   if (result.backlash_margin <= 0)
     whine::tell("gear-lumped: warning: the motion goes ", -result.backlash_margin * 1e6,
-                " um beyond the backlash; back flanks would touch, which is not modelled");
+                " µm beyond the backlash; back flanks would touch, which is not modelled");
 }
 
 }  // namespace

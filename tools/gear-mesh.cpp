@@ -18,7 +18,7 @@ namespace {
 void body(int argc, char** argv) {
   whine::Options options{"Mesh of one tooth sector of a spur gear", "gear-mesh"};
   std::string params, output;
-  options.add("--params", params, "slice of the scene: out/bodies/<hash>/body.toml").required();
+  options.add("--params", params, "stage parameters of the scene: out/bodies/<hash>/body.toml").required();
   options.add("--output", output, "mesh.h5 to write").required();
   options.footer(
       "Example:\n"

@@ -2,7 +2,8 @@
 //
 // Reads      artifacts, which ones `gear-plot --help` says for each figure; params/title.txt in the folder of their scene, if
 //            there is one; table1 besides --published FILE, frequencies to compare with; <plots>/<figure>.gp, the template
-// Writes     <output>.tsv, <output>.svg, <output>.png, each whole or not at all; for table1 <output>.tsv and, to read,
+// Writes     <output>.tsv (further tables of the figure: <output>-<table>.tsv), <output>.svg, <output>.png, each whole or not at
+//            all; for table1 <output>.tsv and, to read,
 //            <output>.txt
 // Equations  k = (T / r_b) / STE
 #include <algorithm>
@@ -15,10 +16,12 @@
 #include "files/publish.h"
 #include "files/schemas.h"
 #include "files/summary.h"
+#include "paper/reading_figure.h"
 #include "plot/gear_figures.h"
 #include "plot/gnuplot.h"
 #include "plot/map_figures.h"
 #include "plot/motion_figures.h"
+#include "plot/plot_file.h"
 #include "plot/static_figures.h"
 #include "plot/study_figure.h"
 #include "signal/response.h"
@@ -201,7 +204,7 @@ const std::map<std::string, Drawing>& drawings() {
         "static.h5 of a pair with a crack", 1, 0,
         [](const Paths& in, const Frequencies&) { return whine::crack_figure(whine::read_static(in[0])); }}},
       {"study",
-       {"answers of the variants of a study against the keys that vary", "study.h5", 1, 0,
+       {"response quantities of the variants of a study against the keys that vary", "study.h5", 1, 0,
         [](const Paths& in, const Frequencies&) {
           return whine::study_figure(whine::read_study_artifact(in[0]));
         }}},
@@ -223,18 +226,19 @@ const std::map<std::string, Drawing>& drawings() {
   return all;
 }
 
-constexpr const char* kTable = "table1";
+constexpr const char *kTable = "table1", *kReading = "reading";
 
 std::string known() {
   std::string names;
   for (const auto& [name, drawing] : drawings()) names += name + ", ";
-  return names + kTable;
+  return names + kReading + ", " + kTable;
 }
 
 std::string footer() {
   std::string lines = "Figures, and the artifacts that they are drawn from:\n";
   for (const auto& [name, drawing] : drawings())
     lines += "  " + name + ": " + drawing.shows + ". From " + drawing.inputs + "\n";
+  lines += whine::text("  ", kReading, ": readings of P2000. From readings.h5, with --claim-sets\n");
   return lines + "  " + kTable + ": natural frequencies, as a table. From impact.h5, one per torque\n" +
          "Example:\n"
          "  gear-plot fig05 --output fig05 out/parker2000/T150/up/response.h5 "
@@ -253,7 +257,9 @@ Paths scenes_of(const std::string& name, const Paths& inputs, const whine::Figur
   return scenes;
 }
 
-whine::Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies& mesh_frequencies) {
+// `beside`: the figure of the paper that shows the same, as fig07; empty: of a pair of one's own, whose title names none.
+whine::Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies& mesh_frequencies,
+                        const std::string& beside) {
   const auto found = drawings().find(name);
   if (found == drawings().end())
     whine::fail(whine::Failure::usage, "unknown figure '", name, "'; known are ", known());
@@ -271,15 +277,25 @@ whine::Figure figure_of(const std::string& name, const Paths& inputs, const Freq
     if (!(f > 0) || !std::isfinite(f))
       whine::fail(whine::Failure::usage, name, ": --mesh-frequency ", f, "; it is in Hz, above 0");
   whine::Figure figure = drawing.draw(inputs, mesh_frequencies);
-  if (const std::string paper = whine::paper_figure(name); !paper.empty())
+  if (const std::string paper = whine::paper_figure(beside); !paper.empty())
     figure.title += ", as " + paper + " of P2000";
   figure.scenes = scenes_of(name, inputs, figure);
   return figure;
 }
 
+void publish_figure(const whine::Figure& figure, const Paths& inputs, const Paths& sources,
+                    const std::string& output, const std::string& recipe) {
+  for (const std::string& path : inputs) whine::require_fresh(path);
+  const whine::PlotFile data(figure);
+  whine::publish_tables(figure, output, sources);
+  whine::publish(output + ".svg", whine::draw(figure, data.path(), recipe, whine::Picture::svg));
+  whine::publish(output + ".png", whine::draw(figure, data.path(), recipe, whine::Picture::png));
+  whine::tell("gear-plot: ", figure.title, " -> ", output, ".{tsv,svg,png}");
+}
+
 void body(int argc, char** argv) {
   whine::Options options{"Draws a figure of the paper from artifacts", "gear-plot"};
-  std::string name, output, published, plots = "pipelines/plots";
+  std::string name, output, published, beside, claim_sets, plots = "pipelines/plots";
   Paths inputs;
   Frequencies mesh_frequencies;
   options.add("figure", name, known()).required();
@@ -291,29 +307,36 @@ void body(int argc, char** argv) {
            "(the sweeps' nearest)")
       .separated_by(',');
   options.add("--published", published, "file of frequencies that table1 compares with");
+  options.add("--claim-sets", claim_sets, "sets of claims that the figure of readings shows");
+  options.add("--paper-figure", beside,
+              "for pairs of P2000: the title says which figure of it shows the same, as in fig07");
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
   options.footer(footer());
   options.parse(argc, argv);
 
   Paths sources;
   for (const std::string& path : inputs) sources.push_back(whine::recorded_path(path));
+  if (name == kReading) {
+    if (inputs.size() != 1 || claim_sets.empty())
+      whine::fail(whine::Failure::usage, "reading needs one readings.h5 and --claim-sets");
+    const whine::ReadingsArtifact readings = whine::read_readings(inputs.front());
+    publish_figure(
+        whine::reading_figure(readings, whine::consistency(readings, whine::read_claim_sets(claim_sets))),
+        inputs, sources, output, plots + "/" + name + ".gp");
+    return;
+  }
   if (name == kTable) {
     const whine::Figure table =
         whine::natural_frequency_table(read_all(inputs, whine::read_impact), published);
     const std::string words = whine::natural_frequency_text(table);
     for (const std::string& path : inputs) whine::require_fresh(path);
-    whine::publish(output + ".tsv", whine::tsv(table, sources));
+    whine::publish_tables(table, output, sources);
     whine::publish(output + ".txt", words);
     whine::tell("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
     return;
   }
-  const whine::Figure figure = figure_of(name, inputs, mesh_frequencies);
-  for (const std::string& path : inputs) whine::require_fresh(path);
-  const std::string table = output + ".tsv", recipe = plots + "/" + name + ".gp";
-  whine::publish(table, whine::tsv(figure, sources));
-  whine::publish(output + ".svg", whine::draw(figure, table, recipe, whine::Picture::svg));
-  whine::publish(output + ".png", whine::draw(figure, table, recipe, whine::Picture::png));
-  whine::tell("gear-plot: ", figure.title, " -> ", output, ".{tsv,svg,png}");
+  publish_figure(figure_of(name, inputs, mesh_frequencies, beside), inputs, sources, output,
+                 plots + "/" + name + ".gp");
 }
 
 }  // namespace

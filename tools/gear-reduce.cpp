@@ -9,7 +9,10 @@
 //            flexibility K x = f with the half-plane solution of the line load subtracted in the tooth, or matched
 //            at a depth
 
+#include <optional>
+
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
 #include "files/provenance.h"
@@ -22,7 +25,7 @@ namespace {
 void body(int argc, char** argv) {
   whine::Options options{"Modes and flank flexibility of a gear by cyclic symmetry", "gear-reduce"};
   std::string params, mesh, output;
-  options.add("--params", params, "slice of the scene: out/bodies/<hash>/body.toml").required();
+  options.add("--params", params, "stage parameters of the scene: out/bodies/<hash>/body.toml").required();
   options.add("--mesh", mesh, "mesh.h5 of the gear").required();
   options.add("--output", output, "body.h5 to write").required();
   options.footer(
@@ -36,7 +39,9 @@ void body(int argc, char** argv) {
   whine::MeshArtifact sector = whine::read_mesh(mesh);
   whine::require_mesh(sector, slice, mesh);
   sector.discretisation = slice.discretisation;  // a mesh does not say how its near field is reduced
+  std::optional<whine::StepsShown> steps(std::in_place, "gear-reduce");
   const whine::BodyArtifact result = whine::reduce(sector, slice.material, slice.discretisation.modes);
+  steps.reset();
 
   whine::write(output, result, provenance);
   Eigen::Index torsional = 0;

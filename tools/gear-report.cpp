@@ -35,6 +35,9 @@ ReportPicture read_picture(const std::string& path) {
 // Of a sweep only what it says: the motions of teeth that differ are large.
 ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
   const SweepArtifact sweep = read_sweep(path);
+  if (sweep.model != SweepArtifact().model)
+    fail(Failure::input, path, ": is of the lumped model ", sweep.model,
+         "; a report is of the elastic pair: give the sweep.h5 in T<torque>/up or T<torque>/down");
   for (const StaticArtifact& statics : content.statics)
     if (statics.torque == sweep.torque)
       return {response(sweep), remarks(sweep, statics), backlash_left(sweep)};

@@ -11,7 +11,6 @@
 //            --keys: prints the table of scene keys
 // Equations  none; units to SI as the key table says
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -23,6 +22,7 @@
 #include "files/publish.h"
 #include "files/scene.h"
 #include "files/variant.h"
+#include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
 
 namespace {
@@ -44,20 +44,16 @@ std::string checked_stem(const std::string& path) {
   return stem;
 }
 
-std::string short_number(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
-
 void body(int argc, char** argv) {
-  std::string path, output, variant, folder = "out";
+  std::string path, output, variant, ids, folder = "out";
   std::vector<std::string> changes;
   bool keys = false;
   whine::Options options{"Checks a scene and cuts it into the parts that the stages depend on", "gear-scene"};
   Option scene_option = options.add("--scene", path, "scene file (TOML)");
   Option output_option = options.add("--output", output, "make fragment to write");
   options.add("--out", folder, "folder of the artifacts").show_default();
+  options.add("--ids", ids,
+              "folder of the programs' hashes, whose times in the future become those of now, too");
   Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
   Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
   Option set_option = options.add("--set", changes, "key=value, any number of times");
@@ -91,10 +87,9 @@ void body(int argc, char** argv) {
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
 
-  for (const std::string& place : {home, folder + "/bodies"})
-    if (const int moved = bring_to_present(place); moved > 0)
-      tell("gear-scene: ", place, ": ", moved,
-           " files had times in the future and have those of now instead");
+  // Together: program ids, results and slices keep their order.
+  if (const int moved = bring_to_present({home, folder + "/bodies", ids}); moved > 0)
+    tell("gear-scene: ", home, ": ", moved, " files had times in the future and have those of now instead");
 
   // 2. Slices and links; unchanged ones are left alone, so that make sees what did change.
   const auto name = [&](const std::string& key) { return "SCENE_" + stem + "_" + key; };
@@ -108,22 +103,21 @@ void body(int argc, char** argv) {
     gears.push_back(gear.name);
     if (std::find(hashes.begin(), hashes.end(), hash) == hashes.end()) hashes.push_back(hash);
   }
-  publish_if_changed(home + "/params/static.toml", static_slice(scene));
-  publish_if_changed(home + "/params/impact.toml", impact_slice(scene));
-  publish_if_changed(home + "/params/sweep.toml", sweep_slice(scene));
-  publish_if_changed(home + "/params/map.toml", map_slice(scene));
-  publish_if_changed(home + "/params/lumped.toml", lumped_slice(scene, true));
-  publish_if_changed(home + "/params/lumped_map.toml", lumped_slice(scene, false));
-  publish_if_changed(home + "/params/title.txt", scene.title + "\n");
+  const std::pair<const char*, std::string> slices[] = {
+      {"static.toml", static_slice(scene)},       {"impact.toml", impact_slice(scene)},
+      {"sweep.toml", sweep_slice(scene)},         {"map.toml", map_slice(scene)},
+      {"lumped.toml", lumped_slice(scene, true)}, {"lumped_map.toml", lumped_slice(scene, false)},
+      {"title.txt", scene.title + "\n"}};
+  for (const auto& [file, content] : slices) publish_if_changed(home + "/params/" + file, content);
 
-  // 3. The fragment, always written: make compares its time with the scene's.
+  // 3. The fragment, always written.
   std::ostringstream out;
-  out << "# Written by gear-scene from " << recorded_path(path) << "\n" << name("GEARS") << " :=";
+  out << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\n" << name("GEARS") << " :=";
   for (const auto& gear : gears) out << " " << gear;
   out << "\n" << name("DRIVER") << " := " << scene.mesh.driver << "\n";
   out << name("DRIVEN") << " := " << scene.mesh.driven << "\n" << bodies.str() << name("TORQUES") << " :=";
-  for (double torque : scene.operation.torques) out << " " << short_number(torque);
-  out << "\n" << name("REFERENCE_TORQUE") << " := " << short_number(scene.operation.torques.front()) << "\n";
+  for (double torque : scene.operation.torques) out << " " << torque;
+  out << "\n" << name("REFERENCE_TORQUE") << " := " << scene.operation.torques.front() << "\n";
   const SceneGear &driver = scene.gear(scene.mesh.driver), &driven = scene.gear(scene.mesh.driven);
   const bool differ = !driver.errors.none() || !driven.errors.none();
   const bool cracked = driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
@@ -142,6 +136,7 @@ void body(int argc, char** argv) {
   for (const auto& hash : hashes) out << " " << hash;
   out << "\n";
   publish(output, out.str());
+  for (const std::string& cost : costs(scene)) tell("gear-scene: ", path, ": ", cost);
   tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", hashes.size(),
        (hashes.size() == 1 ? " body, " : " bodies, "), scene.operation.torques.size(), " torques");
 }

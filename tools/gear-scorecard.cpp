@@ -9,17 +9,19 @@
 #include "base/tool.h"
 #include "files/provenance.h"
 #include "files/publish.h"
-#include "plot/scorecard.h"
+#include "paper/scorecard.h"
 
 namespace {
 
 void body(int argc, char** argv) {
-  whine::Options options{"What P2000 prints beside what scenes answer", "gear-scorecard"};
-  std::string output;
+  whine::Options options{"What P2000 prints beside the results of scenes", "gear-scorecard"};
+  std::string output, fitted;
   std::vector<std::string> inputs;
   bool files = false, claims = false;
   options.add("inputs", inputs, "artifacts: <scene>/<file> for each file that --files lists");
   options.add("--output", output, "path of the results without extension");
+  options.add("--fitted", fitted,
+              "which numbers of scenes were fitted to which claims: data/published/fitted.toml");
   options.flag("--files", files, "print which artifacts of a scene are read");
   options.flag("--claims", claims,
                "print the claims as rows of a table: id, place, text, printed value, what decides");
@@ -36,7 +38,9 @@ void body(int argc, char** argv) {
   if (inputs.empty())
     whine::fail(whine::Failure::usage, "artifacts of a scene are needed; --files lists them");
 
-  const whine::Scorecard card = whine::score(whine::paper_claims(), whine::read_answers(inputs));
+  const whine::Scorecard card =
+      whine::score(whine::paper_claims(), whine::read_answers(inputs),
+                   fitted.empty() ? std::vector<whine::FittedNumber>{} : whine::read_fitted_numbers(fitted));
   for (const std::string& path : inputs) whine::require_fresh(path);
   std::vector<std::string> sources;
   sources.reserve(inputs.size());

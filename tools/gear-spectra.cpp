@@ -32,10 +32,10 @@ void body(int argc, char** argv) {
 
   Eigen::Index peak = 0;
   const double rms = result.dte_rms.maxCoeff(&peak);
-  std::fprintf(stderr,
-               "gear-spectra: %g N m %s, %td speeds, largest RMS %.3f µm at %.0f Hz, %td jumps -> %s\n",
-               result.torque, result.direction.c_str(), result.mesh_frequency.size(), rms * 1e6,
-               result.mesh_frequency[peak], result.jump_frequency.size(), output.c_str());
+  char peak_words[64];
+  std::snprintf(peak_words, sizeof peak_words, "%.3f µm at %.0f Hz", rms * 1e6, result.mesh_frequency[peak]);
+  whine::tell("gear-spectra: ", result.torque, " N m ", result.direction, ", ", result.mesh_frequency.size(),
+              " speeds, largest RMS ", peak_words, ", ", result.jump_frequency.size(), " jumps -> ", output);
 }
 
 }  // namespace

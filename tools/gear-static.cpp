@@ -5,12 +5,13 @@
 // Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20); k = (T / r_b) / STE.
 // With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
 // for information those by the other near field and the other contact.
-// With --next-rung: beside static.h5, in words, what contact = "strips" would change in the answer of contact = "line".
+// With --next-level: beside static.h5, in words, what contact = "strips" would change in the answer of contact = "line".
 #include <algorithm>
 #include <optional>
 #include <string>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
 #include "files/provenance.h"
@@ -45,14 +46,14 @@ void body(int argc, char** argv) {
   std::string params, driver, driven, output;
   std::string torque_word;
   bool budget = false, next_rung = false;
-  options.add("--params", params, "slice of the scene: out/<scene>/params/static.toml").required();
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/static.toml").required();
   options.add("--driver", driver, "body.h5 of the driving gear").required();
   options.add("--driven", driven, "body.h5 of the driven gear").required();
   options.add("--torque", torque_word, "torque on the driver in N m, above 0").required();
   options.add("--output", output, "static.h5 to write").required();
   whine::Option of_budget = options.flag(
       "--error-budget", budget, "refine one discretisation at a time and write error_budget.h5 instead");
-  options.flag("--next-rung", next_rung, "for contact = \"line\": say what \"strips\" would change")
+  options.flag("--next-level", next_rung, "for contact = \"line\": say what \"strips\" would change")
       .excludes(of_budget);
   options.footer(
       "Example:\n"
@@ -68,8 +69,10 @@ void body(int argc, char** argv) {
   const whine::BodyArtifact driver_body = whine::read_body(driver), driven_body = whine::read_body(driven);
   whine::require_body(driver_body, slice.driver_body, "driver", driver);
   whine::require_body(driven_body, slice.driven_body, "driven", driven);
+  std::optional<whine::StepsShown> steps(std::in_place, "gear-static");
   if (budget) {
     const whine::ErrorBudgetArtifact errors = whine::error_budget(driver_body, driven_body, slice, torque);
+    steps.reset();
     whine::write(output, errors, provenance);
     whine::tell("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
                 "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
@@ -86,6 +89,7 @@ void body(int argc, char** argv) {
   result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant, periods, periods);
   if (periods > 1)
     result.transmission_error_order = mean_and_harmonics(result.transmission_error, periods, 1);
+  steps.reset();
 
   whine::write(output, result, provenance);
   const auto& te = result.transmission_error;

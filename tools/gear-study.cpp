@@ -55,7 +55,8 @@ void add_probes(const Study& study, std::vector<GatheredVariant>& variants) {
     }
 }
 
-void plan(const std::string& path, const std::string& output, const std::string& folder) {
+void plan(const std::string& path, const std::string& output, const std::string& folder,
+          const std::string& ids) {
   const std::string stem = std::filesystem::path(path).stem().string();
   if (!plain_name(stem))
     fail(Failure::input, path, ": the name '", stem,
@@ -91,17 +92,16 @@ void plan(const std::string& path, const std::string& output, const std::string&
     fail(Failure::input, path, ": the study varies nothing: all ", study.variants,
          " variants are alike, because what its stage computes depends on none of the keys");
 
-  for (const std::string& place : {home, folder + "/bodies"})
-    if (const int moved = bring_to_present(place); moved > 0)
-      tell("gear-study: ", place, ": ", moved,
-           " files had times in the future and have those of now instead");
+  // Together: program ids, results and slices keep their order.
+  if (const int moved = bring_to_present({home, folder + "/bodies", ids}); moved > 0)
+    tell("gear-study: ", home, ": ", moved, " files had times in the future and have those of now instead");
   for (const auto& [hash, text] : bodies) publish_if_changed(folder + "/bodies/" + hash + "/body.toml", text);
   for (const auto& [hash, text] : slices) publish_if_changed(home + variant_file(hash) + ".toml", text);
   publish_if_changed(home + "plan.toml", plan_text(study, variants));
 
   const std::string prefix = "STUDY_" + stem + "_";
   std::ostringstream out;
-  out << "# Written by gear-study from " << recorded_path(path) << "\n" << prefix << "PAIRS :=";
+  out << "# Written by gear-study from " << in_comment(recorded_path(path)) << "\n" << prefix << "PAIRS :=";
   for (const auto& [pair, names] : of_pair) out << " " << pair;
   for (const auto& [pair, names] : of_pair) {
     out << "\n" << prefix << pair << " :=";
@@ -178,12 +178,15 @@ void gather(int argc, char** argv, const std::string& path, const std::string& o
 }
 
 void body(int argc, char** argv) {
-  std::string path, plan_path, output, folder = "out";
-  whine::Options options{"Expands a study into its variants, and gathers what they answer", "gear-study"};
+  std::string path, plan_path, output, ids, folder = "out";
+  whine::Options options{"Expands a study into its variants, and gathers their response quantities",
+                         "gear-study"};
   Option study_option = options.add("--study", path, "study file (TOML)");
   Option gather_option = options.add("--gather", plan_path, "plan.toml of a study whose variants are there");
   options.add("--output", output, "make fragment to write; with --gather study.h5").required();
   options.add("--out", folder, "folder of the artifacts").show_default();
+  options.add("--ids", ids,
+              "folder of the programs' hashes, whose times in the future become those of now, too");
   study_option.excludes(gather_option);
   options.footer(
       "Example:\n"
@@ -192,7 +195,7 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
   if (path.empty() == plan_path.empty()) fail(Failure::usage, "--study or --gather is needed; see --help");
   if (!path.empty())
-    plan(path, output, folder);
+    plan(path, output, folder, ids);
   else
     gather(argc, argv, plan_path, output);
 }

@@ -3,7 +3,7 @@
 // Reads   params (slice of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears, static.h5 of the
 //         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
 // Writes  sweep.h5    transmission error and tooth loads over one orbit at every speed, energy, certificate, jumps
-// With --next-rung: beside sweep.h5, in words, what the same sweep answers on the next rung of contact and on that of body.
+// With --next-level: beside sweep.h5, in words, what the same sweep answers on the next rung of contact and on that of body.
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
 #include <optional>
 #include <sstream>
@@ -17,6 +17,7 @@
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
+#include "gear/scene_geometry.h"
 #include "motion/next_rung.h"
 #include "motion/sweep.h"
 
@@ -52,7 +53,7 @@ void body(int argc, char** argv) {
                          "gear-sweep"};
   std::string params, driver, driven, statics, reference, direction, output;
   bool next_rung = false;
-  options.add("--params", params, "slice of the scene: out/<scene>/params/sweep.toml").required();
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
   options.add("--driver", driver, "body.h5 of the driving gear").required();
   options.add("--driven", driven, "body.h5 of the driven gear").required();
   options.add("--static", statics, "static.h5 of the torque to run").required();
@@ -60,8 +61,9 @@ void body(int argc, char** argv) {
       .required();
   options.add("--direction", direction, "up or down").required().one_of({"up", "down"});
   options.add("--output", output, "sweep.h5 to write").required();
-  options.flag("--next-rung", next_rung,
-               "sweep on the next rung of contact and on that of body as well, and say what they change");
+  options.flag("--next-level", next_rung,
+               "sweep with the next level of [fidelity] contact and with that of body as well, and say what "
+               "they change");
   options.footer(
       "Example:\n"
       "  gear-sweep --params out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5 "
@@ -74,7 +76,7 @@ void body(int argc, char** argv) {
       whine::made_by(argc, argv,
                      {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
                       "reference_static=" + reference});
-  const whine::SweepSlice slice = whine::read_sweep_slice(params);
+  whine::SweepSlice slice = whine::read_sweep_slice(params);
   for (const std::string& file : {statics, reference}) {
     whine::require_made_from(file, "driver", driver);
     whine::require_made_from(file, "driven", driven);
@@ -89,6 +91,7 @@ void body(int argc, char** argv) {
                 slice.reference_torque, " N m; give the static.h5 of that torque");
 
   const whine::BodyArtifact driver_body = whine::read_body(driver), driven_body = whine::read_body(driven);
+  whine::as_drawn(slice, driver_body, driven_body);
   std::vector<whine::NextSweep> next;
   if (next_rung) next = whine::next_sweeps(driver_body, driven_body, at_torque, at_reference, slice);
   const auto run = [&](const whine::BodyArtifact& a, const whine::BodyArtifact& b,

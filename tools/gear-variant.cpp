@@ -18,6 +18,7 @@
 #include "files/fit.h"
 #include "files/provenance.h"
 #include "files/study.h"
+#include "gear/scene_geometry.h"
 #include "motion/study_variant.h"
 
 namespace {
@@ -33,10 +34,11 @@ std::string name_in(const std::string& plan, const std::string& params) {
 }
 
 void body(int argc, char** argv) {
-  whine::Options options{"Answers of one variant of a study, at rest and in motion", "gear-variant"};
+  whine::Options options{"Response quantities of one variant of a study, at rest and in motion",
+                         "gear-variant"};
   std::string params, driver, driven, output, plan;
   bool marks = false;
-  options.add("--params", params, "slice of the variant, as gear-study writes it").required();
+  options.add("--params", params, "stage parameters of the variant, as gear-study writes it").required();
   options.add("--driver", driver, "body.h5 of the driving gear").required();
   options.add("--driven", driven, "body.h5 of the driven gear").required();
   options.add("--output", output, "artifact to write").required();
@@ -51,13 +53,14 @@ void body(int argc, char** argv) {
 
   const whine::Provenance provenance =
       whine::made_by(argc, argv, {"params=" + params, "driver=" + driver, "driven=" + driven});
-  const whine::VariantSlice slice = whine::read_variant_slice(params);
+  whine::VariantSlice slice = whine::read_variant_slice(params);
   const whine::BodyArtifact first = whine::read_body(driver);
   std::optional<whine::BodyArtifact> other;  // gears that are alike share a body
   if (driven != driver) other = whine::read_body(driven);
   const whine::BodyArtifact& second = other ? *other : first;
   whine::require_body(first, slice.statics.driver_body, "driver", driver);
   whine::require_body(second, slice.statics.driven_body, "driven", driven);
+  if (!slice.directions.empty()) whine::as_drawn(slice.motion, first, second);
   whine::VariantArtifact result = whine::variant_parameters(first, second, slice);
   std::vector<whine::Remark> remarks;
   try {

@@ -10,6 +10,20 @@
 namespace whine {
 namespace {
 
+// Before the examples, which end the help.
+constexpr const char* kExitStatuses =
+    "Exit status: 0 done; 1 a computation failed; 2 wrong options; 3 a scene or an artifact is wrong or "
+    "stale;\n"
+    "  4 a file could not be read or written\n\n";
+
+// An empty word would name a file by its extension alone, or a folder at the root.
+void require_words(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& word : option->results())
+      if (word.empty())
+        fail(Failure::usage, option->get_name(), " is empty; give a value, or leave the option out");
+}
+
 // A stage that wrote over what it reads would leave nothing to make it from again.
 void require_output_apart(const CLI::App& app) {
   const CLI::Option* output = app.get_option_no_throw("--output");
@@ -80,7 +94,7 @@ Option Options::flag(const std::string& name, bool& target, const std::string& h
 }
 
 void Options::footer(const std::string& text) {
-  app_->footer(text);
+  app_->footer(std::string(kExitStatuses) + text);
 }
 
 void Options::parse(int argc, char** argv) {
@@ -93,6 +107,7 @@ void Options::parse(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     fail(Failure::usage, error.what(), " (see ", app_->get_name(), " --help)");
   }
+  require_words(*app_);
   require_output_apart(*app_);
 }
 

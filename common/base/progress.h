@@ -1,5 +1,7 @@
-// A progress line on a terminal; silent when standard error is a file or a pipe.
+// A progress line on a terminal. Where standard error is a file or a pipe a line a minute (of a computation that is over before
+// then none), at every WHINE_PROGRESS_SECONDS of the environment instead.
 #pragma once
+#include <memory>
 #include <string>
 
 namespace whine {
@@ -11,14 +13,33 @@ class Progress {
   ~Progress();  // wipes the line, so that the summary stands alone
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  // done: steps finished so far; note: a short text shown after the bar. Redraws at most ten times a second.
+  // done: steps finished so far; note: a short text shown after the bar. Redraws at most ten times a second. The time that is left
+  // is told as if all steps took as long as those so far; off a terminal first after five seconds, if it is more than a minute.
   void update(long done, const std::string& note = "");
 
  private:
   std::string label_;
   long total_;
-  bool shown_ = false;
-  double last_draw_ = -1.0;  // s, monotonic clock
+  bool shown_ = false, foretold_ = false;
+  double began_, last_draw_;  // s, monotonic clock
+};
+
+// A step of a long computation, by the function that computes it; nothing happens unless a StepsShown lives. what: the steps in
+// words, such as "mesh positions".
+void report_step(const std::string& what, long done, long total);
+
+// Shows reported steps as a Progress, while it lives. One at a time.
+class StepsShown {
+ public:
+  explicit StepsShown(std::string label);
+  ~StepsShown();
+  StepsShown(const StepsShown&) = delete;
+  StepsShown& operator=(const StepsShown&) = delete;
+
+ private:
+  friend void report_step(const std::string& what, long done, long total);
+  std::string label_, what_;
+  std::unique_ptr<Progress> progress_;
 };
 
 }  // namespace whine

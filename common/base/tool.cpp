@@ -1,13 +1,16 @@
 #include "base/tool.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 
-#include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -17,10 +20,16 @@
 namespace whine {
 namespace {
 
-std::string one_line(std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::replace(message.begin(), message.end(), '\r', ' ');
-  while (!message.empty() && message.back() == ' ') message.pop_back();
+// Whether the character at `i` is a control character: ASCII's, or one of U+0080 to U+009F in UTF-8.
+bool is_control(const std::string& text, size_t i) {
+  const auto c = static_cast<unsigned char>(text[i]);
+  if (c < 0x20 || c == 0x7f) return true;
+  return c == 0xc2 && i + 1 < text.size() && (static_cast<unsigned char>(text[i + 1]) & 0xe0) == 0x80;
+}
+
+std::string without_end(std::string message) {
+  while (!message.empty() && (message.back() == ' ' || message.back() == '\n' || message.back() == '\r'))
+    message.pop_back();
   return message;
 }
 
@@ -45,6 +54,30 @@ void one_blas_thread() {
   setenv("OMP_NUM_THREADS", "1", 1);
   if (void* found = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
     reinterpret_cast<void (*)(int)>(found)(1);
+}
+
+// OpenBLAS asks for its buffers, 32 MB to 128 MB each by processor, when they are first needed, and where the system refuses
+// one it asks for ever. They are taken at the start, after as much memory has been got in another way; it keeps them.
+void reserve_blas_memory() {
+  rlimit limit{};
+  if (!dlsym(RTLD_DEFAULT, "openblas_get_config") || ::getrlimit(RLIMIT_AS, &limit) != 0 ||
+      limit.rlim_cur == RLIM_INFINITY)
+    return;
+  constexpr size_t kBuffers = 2, kMegabyte = 1 << 20, kNeeded = (kBuffers + 1) * 128 * kMegabyte;
+  void* const room = ::mmap(nullptr, kNeeded, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED)
+    fail(Failure::numerical, "the address space is limited to ", limit.rlim_cur / kMegabyte,
+         " MB, which leaves linear algebra less than the ", kNeeded / kMegabyte,
+         " MB that it needs; raise the limit (ulimit -v unlimited)");
+  ::munmap(room, kNeeded);
+  using Allocate = void* (*)(int);
+  using Free = void (*)(void*);
+  const auto allocate = reinterpret_cast<Allocate>(dlsym(RTLD_DEFAULT, "blas_memory_alloc"));
+  const auto release = reinterpret_cast<Free>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
+  if (!allocate || !release) return;
+  void* buffers[kBuffers];
+  for (void*& buffer : buffers) buffer = allocate(0);
+  for (void* buffer : buffers) release(buffer);
 }
 
 }  // namespace
@@ -96,20 +129,33 @@ std::string blas_name() {
   return name + ", 1 thread";
 }
 
+std::string printable(const std::string& text, size_t most) {
+  std::string out;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (!is_control(text, i)) {
+      out += text[i];
+      continue;
+    }
+    out += text[i] == '\n' || text[i] == '\r' || text[i] == '\t' ? ' ' : '?';
+    if (static_cast<unsigned char>(text[i]) == 0xc2) ++i;
+  }
+  if (out.size() <= most) return out;
+  const size_t end = most / 2;
+  return out.substr(0, most - end) + " ... " + out.substr(out.size() - end);
+}
+
 void tell_line(const std::string& line) {
-  std::fputs(line.c_str(), stderr);
+  std::fputs((printable(without_end(line)) + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
 
-int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>& body) {
-  const std::string program = program_name(argc > 0 ? argv[0] : nullptr);
-  const auto say = [&](const std::string& message) {
-    tell_line(program + ": error: " + one_line(message) + "\n");
-  };
-  // A file-size limit must come back from write() as an error, not end the program without a word.
-  std::signal(SIGXFSZ, SIG_IGN);
-  one_blas_thread();
+namespace {
+
+// What body returns, or what its error says.
+int run_body(const std::function<void(const std::string&)>& say, int argc, char** argv,
+             const std::function<int(int, char**)>& body) {
   try {
+    reserve_blas_memory();
     return body(argc, argv);
   } catch (const Answered&) {
     return 0;
@@ -124,6 +170,23 @@ int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>
     say("unknown exception");
   }
   return 1;
+}
+
+}  // namespace
+
+int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>& body) {
+  const std::string program = program_name(argc > 0 ? argv[0] : nullptr);
+  const auto say = [&](const std::string& message) { tell_line(program + ": error: " + message); };
+  // A file-size limit must come back from write() as an error, not end the program without a word.
+  std::signal(SIGXFSZ, SIG_IGN);
+  one_blas_thread();
+  const int status = run_body(say, argc, argv, body);
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::cout && !std::ferror(stdout)) return status;
+  say(std::string("standard output cannot be written") +
+      (errno ? std::string(": ") + std::strerror(errno) : "") + "; what was printed is not whole");
+  return status != 0 ? status : static_cast<int>(Failure::io);
 }
 
 }  // namespace whine

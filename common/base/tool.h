@@ -38,6 +38,11 @@ std::string command_line(int argc, char** argv);
 // types.
 std::string blas_name();
 
+// Text that came from a file, as a terminal may show it: control characters, which it would obey, become '?', and what is longer
+// than `most` bytes loses its middle.
+std::string printable(const std::string& text, size_t most = 2000);
+
+// A line on standard error, printable.
 void tell_line(const std::string& line);
 
 // A line for people on standard error, in one write so that programs side by side do not mix theirs; numbers with 6
@@ -50,7 +55,8 @@ void tell(const Parts&... parts) {
 }
 
 // Runs body, which returns void or the exit status. An Error prints "<program>: error: <message>" as one line
-// on standard error and returns its Failure code; anything else thrown returns 1.
+// on standard error and returns its Failure code; anything else thrown returns 1. What body has printed on standard output is
+// flushed: if it cannot be written the status is that of Failure::io.
 // BLAS is set to one thread first, because results are to be the same on any number of cores.
 int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>& body);
 

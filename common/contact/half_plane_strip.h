@@ -1,10 +1,17 @@
 // Surface of an elastic half-plane under a strip of constant pressure: the line load's logarithm, averaged.
 #pragma once
 #include <cmath>
+#include <string>
 
 #include "solid/half_plane.h"
 
 namespace whine {
+
+// The material with the plane state that the contact has; contact_plane as in GearMeshSpec.
+inline Material in_contact_plane(Material material, const std::string& contact_plane) {
+  if (contact_plane != "body") material.plane_stress = contact_plane == "stress";
+  return material;
+}
 
 class HalfPlaneSurface {
  public:

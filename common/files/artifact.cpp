@@ -7,9 +7,11 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/artifact_place.h"
 #include "files/fit.h"
 #include "files/provenance.h"
 #include "files/publish.h"
+#include "files/ranges.h"
 
 namespace whine {
 namespace {
@@ -34,7 +36,7 @@ std::string artifact_bytes(const std::string& path) {
   std::string bytes = read_bytes(path, rebuild_advice(path));
   if (!is_hdf5(bytes)) return bytes;
   const auto refuse = [&](const char* what) {
-    fail(Failure::io, path, ": ", what, " (", bytes.size(), " bytes); delete it; ", rebuild_advice(path));
+    fail(Failure::io, path, ": ", what, " (", bytes.size(), " bytes); ", rebuild_advice(path));
   };
   const auto at = bytes.find(kSeal);
   if (at == std::string::npos || bytes.size() - at < kSeal.size() + kUnsealed.size())
@@ -70,6 +72,12 @@ Origin origin_of(const h5::Reader& file) {
   }
   for (std::size_t i = 0; i < roles.size(); ++i) out.inputs.push_back({roles[i], paths[i], hashes[i]});
   out.history = file.strings("/provenance/history");
+  const std::string operation = "/parameters/operation/", model = "/parameters/fidelity/model";
+  out.has_torque = file.has(operation + "torque");
+  if (out.has_torque) out.torque = file.doubles(operation + "torque").at(0);
+  if (file.has(operation + "direction")) out.direction = file.strings(operation + "direction").at(0);
+  if (file.has(model)) out.model = file.strings(model).at(0);
+  if (out.model == "finite elements") out.model.clear();
   return out;
 }
 
@@ -104,6 +112,9 @@ class SectionSource : public ParameterSource {
   double number(const std::string& name) const override { return reader_.number(prefix_ + name); }
   int whole(const std::string& name) const override { return reader_.whole(prefix_ + name); }
   std::string word(const std::string& name) const override { return reader_.word(prefix_ + name); }
+  [[noreturn]] void refuse(const std::string& name, const std::string& what) const override {
+    reader_.file().refuse("dataset " + prefix_ + name + " " + what);
+  }
 
  private:
   const ArtifactReader& reader_;
@@ -135,13 +146,19 @@ std::string rebuild_advice(const std::string& path) {
     return "make has targets below out/ only, such as out/<scene>/T150/static.h5: give one of these, or make "
            "it again "
            "as it was made";
+  // make takes what stands there for made, whatever it is.
+  std::error_code code;
+  const auto found = std::filesystem::symlink_status(path, code);
+  const std::string remove = !std::filesystem::exists(found)        ? ""
+                             : std::filesystem::is_directory(found) ? "remove this folder; "
+                                                                    : "delete it; ";
   // Of a scene or a study that is none of the project's make has to be told where it is.
   const std::string scene = target.substr(4, target.find('/', 4) - 4);
   if (const std::string studies = "out/studies/"; target.rfind(studies, 0) == 0) {
     const std::string study =
         target.substr(studies.size(), target.find('/', studies.size()) - studies.size());
     const bool own = !std::filesystem::is_regular_file("data/studies/" + study + ".toml");
-    return "rebuild it with: make " + (own ? "STUDY=path/to/" + study + ".toml " : "") + target;
+    return remove + "rebuild it with: make " + (own ? "STUDY=path/to/" + study + ".toml " : "") + target;
   }
   std::string file = recorded_scene("out/" + scene);
   if (!std::filesystem::is_regular_file(file)) file = "data/scenes/" + scene + ".toml";
@@ -151,7 +168,7 @@ std::string rebuild_advice(const std::string& path) {
     told = "SCENE=path/to/" + scene + ".toml ";
   else if (!of_none && file.rfind("data/scenes/", 0) != 0)
     told = "SCENE=" + file + " ";
-  return "rebuild it with: make " + told + target;
+  return remove + "rebuild it with: make " + told + target;
 }
 
 Origin read_origin(const std::string& path) {
@@ -162,14 +179,17 @@ namespace {
 
 // hashes: of files that were read before, by path.
 void require_fresh(const std::string& artifact, std::map<std::string, std::string>& hashes) {
-  for (const InputRecord& input : read_origin(artifact).inputs) {
+  const Origin origin = read_origin(artifact);
+  if (const std::string wrong = misplaced(artifact, origin); !wrong.empty())
+    fail(Failure::input, artifact, ": ", wrong, "; ", rebuild_advice(artifact));
+  for (const InputRecord& input : origin.inputs) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(input.path, ignored)) continue;
     const auto [hash, first] = hashes.try_emplace(input.path);
     if (first) hash->second = sha256_of_file(input.path);
     if (hash->second != input.sha256)
       fail(Failure::input, artifact, ": is stale: its input '", input.role, "', ", input.path,
-           ", is not what it was; delete it; ", rebuild_advice(artifact));
+           ", is not what it was; ", rebuild_advice(artifact));
   }
 }
 
@@ -297,6 +317,8 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
         parameter.value);
   }
   if (part != Part::mesh) return;
+  if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
+    parameters(section, values, Part::contact_plane);
   // Gears as they are designed have no such section.
   for (int g = 0; g < 2; ++g)
     if (values.mesh.modification[g] != FlankModification{}) {
@@ -337,14 +359,39 @@ ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind,
   }
 }
 
+namespace {
+
+template <class Values>
+void require_range(const h5::Reader& file, const std::string& name, const Values& values) {
+  const Range* const range = range_of(name);
+  if (!range) return;
+  for (const auto value : values)
+    if (const std::string why = outside(*range, value); !why.empty())
+      file.refuse("dataset " + name + " " + why);
+}
+
+}  // namespace
+
+std::vector<double> ArtifactReader::doubles(const std::string& name) const {
+  std::vector<double> values = file_.doubles(name);
+  require_range(file_, name, values);
+  return values;
+}
+
+std::vector<int> ArtifactReader::ints(const std::string& name) const {
+  std::vector<int> values = file_.ints(name);
+  require_range(file_, name, values);
+  return values;
+}
+
 double ArtifactReader::number(const std::string& name) const {
   want_shape(file_, name, {});
-  return file_.doubles(name).at(0);
+  return doubles(name).at(0);
 }
 
 int ArtifactReader::whole(const std::string& name) const {
   want_shape(file_, name, {});
-  return file_.ints(name).at(0);
+  return ints(name).at(0);
 }
 
 std::string ArtifactReader::word(const std::string& name) const {
@@ -354,20 +401,20 @@ std::string ArtifactReader::word(const std::string& name) const {
 
 Eigen::VectorXd ArtifactReader::vector(const std::string& name, Eigen::Index size) const {
   want_shape(file_, name, {size});
-  const auto values = file_.doubles(name);
+  const auto values = doubles(name);
   return Eigen::Map<const Eigen::VectorXd>(values.data(), as_index(values.size()));
 }
 
 Eigen::VectorXi ArtifactReader::whole_vector(const std::string& name, Eigen::Index size) const {
   want_shape(file_, name, {size});
-  const auto values = file_.ints(name);
+  const auto values = ints(name);
   return Eigen::Map<const Eigen::VectorXi>(values.data(), as_index(values.size()));
 }
 
 MatrixRM ArtifactReader::matrix(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
   want_shape(file_, name, {rows, columns});
   const auto shape = file_.shape(name);
-  const auto values = file_.doubles(name);
+  const auto values = doubles(name);
   return Eigen::Map<const MatrixRM>(values.data(), as_index(shape[0]), as_index(shape[1]));
 }
 
@@ -375,13 +422,15 @@ MatrixRMi ArtifactReader::whole_matrix(const std::string& name, Eigen::Index row
                                        Eigen::Index columns) const {
   want_shape(file_, name, {rows, columns});
   const auto shape = file_.shape(name);
-  const auto values = file_.ints(name);
+  const auto values = ints(name);
   return Eigen::Map<const MatrixRMi>(values.data(), as_index(shape[0]), as_index(shape[1]));
 }
 
 void ArtifactReader::parameters(const std::string& section, KeyValues& values, Part part) const {
   set_parameters(values, part, SectionSource(*this, section));
   if (part != Part::mesh) return;
+  const SectionSource mesh(*this, section);
+  if (mesh.has("contact_plane")) set_parameters(values, Part::contact_plane, mesh);
   for (int g = 0; g < 2; ++g) {
     KeyValues own;
     const SectionSource source(*this, kModificationOf[g]);

@@ -50,11 +50,14 @@ class ArtifactWriter {
 
 class ArtifactReader {
  public:
-  // Refuses everything that is not the given schema in the given version.
+  // Refuses everything that is not the given schema in the given version. Numbers are refused outside of the range of their
+  // dataset (files/ranges.h) or, of a key of a scene, of the key.
   ArtifactReader(const std::string& path, const std::string& kind, int version);
 
   const h5::Reader& file() const { return file_; }
 
+  std::vector<double> doubles(const std::string& name) const;
+  std::vector<int> ints(const std::string& name) const;
   double number(const std::string& name) const;
   int whole(const std::string& name) const;
   std::string word(const std::string& name) const;

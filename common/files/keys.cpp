@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "files/ranges.h"
+#include "files/suggestion.h"
 
 namespace whine {
 namespace {
@@ -58,6 +60,12 @@ std::vector<Key> make_keys() {
     {Part::design, "gear", "dedendum", kNone, "1.25", 0, 3, true, "",
      "dedendum, in modules",
      [](V& v) -> Slot { return &v.design.dedendum; }},
+    {Part::diameter, "gear", "tip_diameter_mm", kMillimetre, "", 0, 1e6, true, "",
+     "diameter of the tip circle, in place of addendum: module (teeth + 2 profile_shift + 2 addendum)",
+     [](V& v) -> Slot { return &v.tip_diameter; }},
+    {Part::diameter, "gear", "root_diameter_mm", kMillimetre, "", 0, 1e6, true, "",
+     "diameter of the root circle, in place of dedendum: module (teeth + 2 profile_shift - 2 dedendum)",
+     [](V& v) -> Slot { return &v.root_diameter; }},
     {Part::design, "gear", "rack_tip_radius", kNone, "0.38", 0, 1, false, "",
      "tip radius of the rack, in modules; the root is the trochoid that this rack cuts",
      [](V& v) -> Slot { return &v.design.rack_tip_radius; }},
@@ -69,10 +77,10 @@ std::vector<Key> make_keys() {
      [](V& v) -> Slot { return &v.design.face_width; },
      "0.025 would be 25 mm in metres"},
     {Part::design, "gear", "bore_radius_mm", kMillimetre, nullptr, 0, 1e5, true, "",
-     "radius of the rigid hub",
+     "radius inside which the gear is as good as rigid: its shaft, hub or web. The body between it and the root circle twists, which all pairs in mesh share: often a fifth of the compliance, with a shaft's radius up to half",
      [](V& v) -> Slot { return &v.design.bore_radius; }},
-    {Part::inertia, "gear", "total_inertia_kgm2", kInertia, nullptr, 0, 1e9, true, "",
-     "inertia of the whole gear about its axis; what the body lacks is lumped on the hub",
+    {Part::inertia, "gear", "total_inertia_kgm2", kInertia, "0.0", 0, 1e9, false, "",
+     "inertia of the whole gear about its axis; what the body lacks is lumped on the hub. 0: as drawn, the body between bore and tip alone",
      [](V& v) -> Slot { return &v.total_inertia; }},
     {Part::reference, "gear", "material", kNone, nullptr, 0, 0, false, "",
      "name of a [material.<name>] section",
@@ -176,7 +184,7 @@ std::vector<Key> make_keys() {
      [](V& v) -> Slot { return &v.material.density; },
      "steel has 7850; 7.85 would be its g/cm3"},
     {Part::material, "material", "plane", kNone, nullptr, 0, 0, false, "stress strain",
-     "plane stress or plane strain",
+     "plane state of the whole body: stress for face widths up to about 5 tooth thicknesses (8 modules), strain for wider ones, 10 % stiffer (Cornell 1981); that of the contact is contact_plane in [[mesh]]",
      [](V& v) -> Slot { return PlaneSlot{&v.material.plane_stress}; }},
 
     {Part::mesh, "mesh", "driver", kNone, nullptr, 0, 0, false, "",
@@ -191,6 +199,9 @@ std::vector<Key> make_keys() {
     {Part::mesh, "mesh", "corner_contact", kCornerDegree, "true", 0, 90, false, "",
      "tip edge on a flank, off the line of action: true, false, or the largest angle between the normals in degrees",
      [](V& v) -> Slot { return &v.mesh.corner; }},
+    {Part::contact_plane, "mesh", "contact_plane", kNone, "strain", 0, 0, false, "strain stress body",
+     "plane state of the contact alone (pressure, width, local approach): strain inside a wide face; body: as each gear's [material] plane",
+     [](V& v) -> Slot { return &v.mesh.contact_plane; }},
 
     {Part::damping, "damping", "rayleigh_mass_per_s", kPerSecond, "0.0", 0, 1e6, false, "",
      "mu of Eq. 21: multiplies the mass matrix",
@@ -263,22 +274,6 @@ std::vector<Key> make_keys() {
   // clang-format on
 }
 
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      const bool same = std::tolower(a[i - 1]) == std::tolower(b[j - 1]);
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (same ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
 constexpr const char* kAngle = "_largest_angle";
 
 }  // namespace
@@ -301,23 +296,6 @@ std::string next_rung(const std::string& key, const std::string& choice) {
       if (word == choice) return list >> word ? word : "";
   }
   fail(Failure::input, key, " = \"", choice, "\" is no rung of [fidelity]");
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-  std::string best;
-  auto least = static_cast<std::ptrdiff_t>(word.size() / 2 + 2);
-  for (const auto& candidate : known) {
-    // Words that both begin with bring them nearer: bore_mm is meant for bore_radius_mm, not for module_mm.
-    const auto apart = std::mismatch(word.begin(), word.end(), candidate.begin(), candidate.end()).first;
-    const std::size_t shared = std::string(word.begin(), apart).rfind('_') + 1;
-    const auto distance =
-        static_cast<std::ptrdiff_t>(edit_distance(word, candidate)) - static_cast<std::ptrdiff_t>(shared);
-    if (distance < least) {
-      least = distance;
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 namespace {
@@ -347,14 +325,18 @@ KeyPlace find_key(const std::string& name) {
     if (candidate == name) return {&key, placed ? owner : ""};
     known.push_back(candidate);
   }
-  // A right key in a wrong place is nearer than any key that is spelt alike there.
+  // A right key in a wrong place, or a word for one, is nearer than any key that is spelt alike there.
   const std::string last = name.substr(name.rfind('.') + 1);
-  std::string near;
-  for (const Key& key : scene_keys())
-    if (placed && last == key.name) near = place_of(key, owner.empty() ? "<name>" : owner);
+  std::string note, near;
+  const Key* meant = meant_key(last, note);
+  if (!meant && !note.empty()) fail(Failure::usage, "no scene has the key '", name, "': ", note);
+  if (meant && (!placed || last == meant->name || !note.empty() || nearest(name, known).empty()))
+    near = placed ? place_of(*meant, owner.empty() ? "<name>" : owner) : meant->name;
   if (near.empty()) near = nearest(name, known);
   fail(Failure::usage, "no scene has the key '", name, "'",
-       near.empty() ? "; gear-scene --keys lists them" : "; did you mean '" + near + "'?");
+       near.empty()   ? "; gear-scene --keys lists them"
+       : note.empty() ? "; did you mean '" + near + "'?"
+                      : "; did you mean '" + near + "' (" + note + ")?");
 }
 
 std::string exact_text(double value) {
@@ -437,23 +419,52 @@ std::vector<double> numbers_in(const ParameterSource& source, const std::string&
 
 }  // namespace
 
+namespace {
+
+// A limit of a key, to the rounding of its unit, as a limit in SI.
+Range si_range(const Key& key) {
+  constexpr double kRoundOff = 1e-9;
+  const double least = key.to_si(key.least), most = key.to_si(key.most);
+  return {least - kRoundOff * std::abs(least), most + kRoundOff * std::abs(most), key.open};
+}
+
+double in_range(const Key& key, const ParameterSource& source, const std::string& name, double value) {
+  // body = "full" takes every mode; a body that only statics use may have none.
+  if (std::string(key.name) == "modes" && (value == kAllModes || value == 0)) return value;
+  if (key.most > key.least)
+    if (const std::string why = outside(si_range(key), value); !why.empty()) source.refuse(name, why);
+  return value;
+}
+
+std::string one_of(const std::string& choices, const ParameterSource& source, const std::string& name) {
+  const std::string word = source.word(name);
+  std::istringstream all(choices);
+  for (std::string choice; all >> choice;)
+    if (choice == word) return word;
+  if (!choices.empty()) source.refuse(name, "is '" + word + "', which is none of: " + choices);
+  return word;
+}
+
+}  // namespace
+
 void set_parameters(KeyValues& values, Part part, const ParameterSource& source) {
   for (const Key& key : scene_keys()) {
     if (key.part != part) continue;
     const std::string name = key.si_name();
     const Slot slot = key.slot(values);
     if (const auto* number = std::get_if<double*>(&slot)) {
-      **number = source.number(name);
+      **number = in_range(key, source, name, source.number(name));
     } else if (const auto* whole = std::get_if<int*>(&slot)) {
-      **whole = source.whole(name);
+      **whole = static_cast<int>(in_range(key, source, name, source.whole(name)));
     } else if (const auto* word = std::get_if<std::string*>(&slot)) {
-      **word = source.word(name);
+      **word = one_of(key.choices, source, name);
     } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
-      *plane->stress = source.word(name) == "stress";
+      *plane->stress = one_of(key.choices, source, name) == "stress";
     } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
       (*corner)->enabled = source.whole(name) != 0;
-      (*corner)->largest_angle =
-          source.has(name + kAngle) ? source.number(name + kAngle) : std::numeric_limits<double>::infinity();
+      (*corner)->largest_angle = source.has(name + kAngle)
+                                     ? in_range(key, source, name + kAngle, source.number(name + kAngle))
+                                     : std::numeric_limits<double>::infinity();
     } else if (const auto* range = std::get_if<RangeSlot>(&slot)) {
       *range->from = source.number(name + "_from");
       *range->to = source.number(name + "_to");
@@ -465,6 +476,7 @@ void set_parameters(KeyValues& values, Part part, const ParameterSource& source)
         (*points)->push_back({numbers[i], numbers[i + 1]});
     } else if (const auto* list = std::get_if<ToothList>(&slot)) {
       *list->values = numbers_in(source, name);
+      for (const double item : *list->values) in_range(key, source, name, item);
     } else {
       fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
     }

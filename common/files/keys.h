@@ -15,8 +15,9 @@ namespace whine {
 // Everything that keys fill, once each; a scene has several gears and reads them one after the other.
 struct KeyValues {
   std::string title;
-  std::string like, material_name;  // of a gear
-  double total_inertia = 0;         // kg m2, of a gear
+  std::string like, material_name;             // of a gear
+  double total_inertia = 0;                    // kg m2, of a gear
+  double tip_diameter = 0, root_diameter = 0;  // m, of a gear; 0: addendum and dedendum say them
   GearDesign design;
   FlankModification modification;
   ToothErrors errors;
@@ -36,13 +37,15 @@ enum class Part {
   title,
   reference,  // like, material: names of other sections
   design,
-  crack,  // of a design; a slice or an artifact holds it only where there is one
+  diameter,  // other words for parts of a design, in a scene alone
+  crack,     // of a design; a slice or an artifact holds it only where there is one
   inertia,
   modification,
   error,
   error_file,
   material,
   mesh,
+  contact_plane,  // of a mesh; a slice or an artifact holds it only where it is not that of the bodies
   damping,
   load,          // torque
   operation,     // speeds
@@ -104,9 +107,6 @@ struct KeyPlace {
 };
 KeyPlace find_key(const std::string& name);
 
-// The known word nearest to `word` by edit distance, "" if none is near.
-std::string nearest(const std::string& word, const std::vector<std::string>& known);
-
 // Shortest text that reads back as the same double; always a TOML float.
 std::string exact_text(double value);
 std::string exact_text(const Points& points);
@@ -135,7 +135,10 @@ class ParameterSource {
   virtual double number(const std::string& name) const = 0;
   virtual int whole(const std::string& name) const = 0;
   virtual std::string word(const std::string& name) const = 0;
+  // Throws Error(input) that names the source, the parameter and what is wrong with it.
+  [[noreturn]] virtual void refuse(const std::string& name, const std::string& what) const = 0;
 };
+// Values outside of the range of their key are refused.
 void set_parameters(KeyValues& values, Part part, const ParameterSource& source);
 
 }  // namespace whine

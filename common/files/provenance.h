@@ -18,6 +18,10 @@ struct Origin {
   std::string title, tool, version, command;
   std::vector<InputRecord> inputs;
   std::vector<std::string> history;  // one line per earlier stage: "tool version: command"
+  // Where there is one: of sweeps and what is made from them direction and lumped model ("": the elastic pair) as well.
+  bool has_torque = false;
+  double torque = 0;  // N m
+  std::string direction, model;
 };
 
 // Reads root attributes and /provenance of any artifact, whatever its schema or version.
@@ -36,10 +40,11 @@ void require_made_from(const std::string& artifact, const std::string& role, con
 Provenance made_by(int argc, char** argv, std::vector<std::string> inputs);
 
 // Error(input), with the make target, if a file from which `artifact` was made lies where it was recorded (relative
-// to the working folder) with another content. One that is not there any more leaves the artifact what it is.
+// to the working folder) with another content, or if the artifact lies where another belongs (files/artifact_place.h). A
+// file that is not there any more leaves the artifact what it is.
 void require_fresh(const std::string& artifact);
 
-// "rebuild it with: make <path>"; for a path outside the working folder, or not below out/, that there is no such target.
+// "rebuild it with: make <path>", after "delete it" where something stands there, which make would take for made; for a path outside the working folder, or not below out/, that there is no such target.
 std::string rebuild_advice(const std::string& path);
 
 }  // namespace whine

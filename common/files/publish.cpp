@@ -123,7 +123,9 @@ void publish(const std::string& path, const std::string& bytes) {
     fail(Failure::io, path, ": is no regular file and is not replaced; give the name of a file");
   remove_stale_temporaries(path);
   const std::string temporary = temporary_name(path);
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  // One that an earlier process of this number has left, or a link that somebody has put there, which is not followed.
+  ::unlink(temporary.c_str());
+  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (file.number() < 0) refuse("create a file beside it", errno);
   Temporary guard(temporary);
   std::size_t done = 0;
@@ -172,16 +174,19 @@ bool publish_link(const std::string& link, const std::string& target) {
   return true;
 }
 
-int bring_to_present(const std::string& folder) {
+int bring_to_present(const std::vector<std::string>& folders) {
   const auto now = fs::file_time_type::clock::now();
   std::vector<std::pair<fs::file_time_type, fs::path>> ahead;
   std::error_code code;
-  for (fs::recursive_directory_iterator entry(folder, code), end; !code && entry != end;
-       entry.increment(code)) {
-    std::error_code gone;  // by another make
-    if (entry->is_symlink(gone) || !entry->is_regular_file(gone)) continue;
-    const auto time = entry->last_write_time(gone);
-    if (!gone && time > now) ahead.emplace_back(time, entry->path());
+  for (const std::string& folder : folders) {
+    if (folder.empty()) continue;
+    for (fs::recursive_directory_iterator entry(folder, code), end; !code && entry != end;
+         entry.increment(code)) {
+      std::error_code gone;  // by another make
+      if (entry->is_symlink(gone) || !entry->is_regular_file(gone)) continue;
+      const auto time = entry->last_write_time(gone);
+      if (!gone && time > now) ahead.emplace_back(time, entry->path());
+    }
   }
   std::sort(ahead.begin(), ahead.end());
   auto time = now - std::chrono::milliseconds(ahead.size());
@@ -211,6 +216,13 @@ std::string read_bytes(const std::string& path, const std::string& hint) {
     if (count == 0) return bytes;
     bytes.append(block.data(), static_cast<std::size_t>(count));
   }
+}
+
+std::string in_comment(const std::string& path) {
+  std::string out = path;
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f || c == '\\' || c == '$') c = '?';
+  return out;
 }
 
 std::string sha256(const std::string& bytes) {

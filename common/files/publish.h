@@ -4,6 +4,7 @@
 // has left beside the file is removed by the next write of it on the same host.
 #pragma once
 #include <string>
+#include <vector>
 
 namespace whine {
 
@@ -18,12 +19,15 @@ bool publish_if_changed(const std::string& path, const std::string& bytes);
 // alone. True if it was made or replaced. Error(io) if a file or folder that is no link stands there.
 bool publish_link(const std::string& link, const std::string& target);
 
-// Files below `folder` whose times lie in the future, because the clock was set back, get times just before now, in
+// Files below `folders` whose times lie in the future, because the clock was set back, get times just before now, in
 // the same order: make would take them for newer than what changes from now on. The number of them.
-int bring_to_present(const std::string& folder);
+int bring_to_present(const std::vector<std::string>& folders);
 
 // The whole content of a regular file. Error(io) if it cannot be read; `hint` is appended to the message.
 std::string read_bytes(const std::string& path, const std::string& hint = "");
+
+// A path for a comment of a make fragment: what could end the comment or be expanded in it becomes '?'.
+std::string in_comment(const std::string& path);
 
 // SHA-256 in lower-case hexadecimal: of bytes, of a file's content.
 std::string sha256(const std::string& bytes);

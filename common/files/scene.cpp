@@ -1,6 +1,7 @@
 #include "files/scene.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +14,9 @@
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/publish.h"
+#include "files/slice_text.h"
 #include "files/study.h"
+#include "files/suggestion.h"
 #include "files/toml.h"
 #include "files/variant.h"
 
@@ -33,8 +36,10 @@ std::string as_written(const toml::node& node) {
   std::ostringstream out;
   node.visit([&](const auto& value) {
     if constexpr (toml::is_floating_point<decltype(value)> || toml::is_integer<decltype(value)>) {
-      out.precision(10);
-      out << value.get();
+      // All digits that matter: a value beside its limit is not to look like it.
+      char digits[40];
+      const auto end = std::to_chars(digits, digits + sizeof digits, value.get());
+      out << std::string(digits, end.ptr);
     } else {
       out << value;
     }
@@ -44,9 +49,10 @@ std::string as_written(const toml::node& node) {
   return word.size() > 60 ? word.substr(0, 57) + "..." : word;
 }
 
-// First line of a slice, before and after the stage that it is for.
-constexpr const char *kSliceStart = "# What ",
-                     *kSliceEnd = " depends on, in SI units; made from a scene by gear-scene.";
+constexpr const char *kBodyStage = "the body of a gear", *kStaticStage = "the static stage",
+                     *kImpactStage = "the ring-down", *kSweepStage = "a sweep", *kMapStage = "a map of jumps",
+                     *kLumpedStage = "a sweep of a lumped model",
+                     *kLumpedMapStage = "a map of a lumped model", *kVariantStage = "a variant of a study";
 
 // The file under reading: turns nodes into values and faults into errors with file:line.
 class Source {
@@ -56,7 +62,10 @@ class Source {
 
   // lines: whether those of the bytes are those of the file.
   Source(std::string path, const std::string& bytes, bool lines) : path_(std::move(path)), lines_(lines) {
-    is_slice_ = bytes.rfind(kSliceStart, 0) == 0 && bytes.find(kSliceEnd) < bytes.find('\n');
+    const std::string first = bytes.substr(0, bytes.find('\n')), start = kSliceStart;
+    const auto end = first.find(kSliceEnd);
+    is_slice_ = first.starts_with(start) && end != std::string::npos;
+    if (is_slice_) slice_of_ = first.substr(start.size(), end - start.size());
     try {
       root_ = parse_toml(bytes);
     } catch (const toml::parse_error& error) {
@@ -115,6 +124,7 @@ class Source {
   const std::string& path() const { return path_; }
   const toml::table& root() const { return root_; }
   bool is_slice() const { return is_slice_; }
+  const std::string& slice_of() const { return slice_of_; }  // the stage that its first line names
 
   [[noreturn]] void refuse(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
   // Line 0 is of what has no place of its own: the name of a column.
@@ -146,7 +156,7 @@ class Source {
     return 0;
   }
 
-  std::string path_;
+  std::string path_, slice_of_;
   toml::table root_;
   toml::source_index names_line_ = 0;         // of a table of teeth
   std::vector<toml::source_index> row_line_;  // of its rows
@@ -155,6 +165,8 @@ class Source {
 
 // Section of a slice with what is a variant's own: its torque, the directions of its sweeps.
 constexpr const char* kVariant = "variant";
+
+constexpr std::size_t kLongestWord = 500;  // of a title, a name or a path
 
 // In a scene keys carry unit suffixes and ranges hold; slices are in SI, written by this program.
 enum class Dialect { scene, slice };
@@ -166,11 +178,6 @@ std::string name_in(const Key& key, Dialect dialect) {
 std::string unit_of(const Key& key) {
   const std::string suffix(key.unit.suffix);
   return suffix.empty() ? "" : " " + suffix.substr(1);
-}
-
-// Sections that stand within that of a gear.
-bool of_gear(const std::string& section) {
-  return section == "modification" || section == "error" || section == "crack";
 }
 
 // Reads the keys of one section, e.g. label "gear.pinion" for the keys of section "gear".
@@ -193,13 +200,7 @@ class SectionReader {
     for (const auto& [name, node] : table_) {
       const std::string word(name.str());
       if (std::find(known.begin(), known.end(), word) != known.end()) continue;
-      std::string advice;
-      for (const Key& key : scene_keys()) {
-        if (name_in(key, dialect_) == word)
-          advice = text("; it belongs into [", of_gear(key.section) ? "gear.<name>." : "", key.section, "]");
-      }
-      const std::string near = nearest(word, known);
-      if (advice.empty() && !near.empty()) advice = text("; did you mean '", near, "'?");
+      std::string advice = dialect_ == Dialect::scene ? advice_on_key(word, section_, known) : "";
       if (advice.empty()) advice = text("; known are: ", joined(known));
       const bool is_section = node.is_table() || node.is_array_of_tables();
       const bool top = label_.empty();
@@ -244,7 +245,8 @@ class SectionReader {
   double finite_number(const Key& key, const toml::node& node, const std::string& item = "") const {
     if (!node.is_number())
       refuse(key, node,
-             item + "must be a number" + (unit_of(key).empty() ? "" : " (in" + unit_of(key) + ")"));
+             item + "must be a number" + (unit_of(key).empty() ? "" : " (in" + unit_of(key) + ")") +
+                 number_advice(node.value<std::string>().value_or("")));
     const double value = node.value<double>().value_or(0.0);
     if (!std::isfinite(value)) refuse(key, node, item + "must be a finite number");
     return value;
@@ -276,6 +278,8 @@ class SectionReader {
     } else if (std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 32 || c == 127; })) {
       refuse(key, node, "must be one line of text");
     }
+    if (word.size() > kLongestWord)
+      refuse(key, node, text("has ", word.size(), " bytes; must be at most ", kLongestWord));
     return word;
   }
 
@@ -283,8 +287,10 @@ class SectionReader {
     if (const auto* number = std::get_if<double*>(&slot)) {
       **number = checked_number(key, node);
     } else if (const auto* whole = std::get_if<int*>(&slot)) {
-      if (!node.is_integer()) refuse(key, node, "must be a whole number");
-      **whole = static_cast<int>(checked_number(key, node));
+      const double value = checked_number(key, node);
+      if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
+        refuse(key, node, "must be a whole number");
+      **whole = static_cast<int>(value);
     } else if (const auto* word = std::get_if<std::string*>(&slot)) {
       **word = checked_word(key, node);
     } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
@@ -543,7 +549,43 @@ void read_crack(const Source& source, const toml::table& gear, const std::string
   if (values.design.crack.depth > 0) design.crack = values.design.crack;
 }
 
-const std::set<Part> kGearParts = {Part::reference, Part::design, Part::inertia};
+const std::set<Part> kGearParts = {Part::reference, Part::design, Part::diameter, Part::inertia};
+
+// Turns the diameters of tip and root into addendum and dedendum. `like`: the gear whose keys `values` began with, nullptr: none.
+void take_diameters(const Source& source, const toml::table& table, const std::string& label,
+                    const GearDesign* like, KeyValues& values) {
+  GearDesign& d = values.design;
+  // Of one end, in modules beyond the reference circle, outwards +1.
+  const auto take = [&](const char* diameter_key, const char* height_key, double& diameter, double& height,
+                        int outwards) {
+    const toml::node *own = table.get(diameter_key), *own_height = table.get(height_key);
+    if (own && own_height)
+      source.refuse(*own, text("[", label, "] gives '", diameter_key, "' and '", height_key,
+                               "', which say the same; give one of them"));
+    if (own_height) diameter = 0;
+    if (diameter == 0) return;
+    const toml::node& at = own ? *own : static_cast<const toml::node&>(table);
+    if (!own && like &&
+        (like->teeth != d.teeth || like->module != d.module || like->profile_shift != d.profile_shift))
+      source.refuse(at, text("[", label, "] takes '", diameter_key, "' = ", diameter * 1e3,
+                             " over from a gear of other teeth, module or profile_shift; give '",
+                             diameter_key, "' or '", height_key, "' here"));
+    const double exact = outwards * (diameter / (2 * d.module) - d.teeth / 2.0 - d.profile_shift);
+    // A drawing has fewer digits than round-off leaves: 1, not 1 + 4e-15, makes the body of addendum = 1.
+    constexpr double kDigits = 1e12;
+    height = std::round(exact * kDigits) / kDigits;
+    constexpr double kMost = 3;  // the range of addendum and dedendum
+    if (height > 0 && height <= kMost) return;
+    const double pitch = d.module * (d.teeth + 2 * d.profile_shift),
+                 limit = pitch + outwards * 2 * kMost * d.module;
+    source.refuse(at, text("'", diameter_key, "' in [", label, "] = ", diameter * 1e3, ": with ", d.teeth,
+                           " teeth, module_mm = ", d.module * 1e3, " and profile_shift = ", d.profile_shift,
+                           " it must be between ", std::min(pitch, limit) * 1e3, " and ",
+                           std::max(pitch, limit) * 1e3, " mm (", height_key, " above 0, at most 3)"));
+  };
+  take("tip_diameter_mm", "addendum", values.tip_diameter, d.addendum, 1);
+  take("root_diameter_mm", "dedendum", values.root_diameter, d.dedendum, -1);
+}
 
 void read_gears(const Source& source, Scene& scene) {
   const auto materials = named_sections(source, "material");
@@ -575,6 +617,7 @@ void read_gears(const Source& source, Scene& scene) {
     const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
     reader.refuse_unknown({"crack", "modification", "error"});
     KeyValues values;
+    GearDesign base_design;
     const toml::node* like = table->get("like");
     if (like && like->is_string()) {
       const std::string base = like->value<std::string>().value_or("");
@@ -588,9 +631,12 @@ void read_gears(const Source& source, Scene& scene) {
                                   as_written(*chain), " itself; name the first gear"));
       }
       SectionReader(source, Dialect::scene, *model, "gear", "gear." + base).read(values, kGearParts, false);
+      take_diameters(source, *model, "gear." + base, nullptr, values);
+      base_design = values.design;
       read_modification(source, *model, "gear." + base, values);
     }
     reader.read(values, kGearParts, like != nullptr);
+    take_diameters(source, *table, "gear." + name, like ? &base_design : nullptr, values);
     read_modification(source, *table, "gear." + name, values);
     read_errors(source, *table, "gear." + name, values);
     read_crack(source, *table, "gear." + name, values.design);
@@ -619,7 +665,7 @@ void read_mesh_section(const Source& source, Scene& scene) {
   KeyValues values;
   const SectionReader reader(source, Dialect::scene, table, "mesh", "mesh");
   reader.refuse_unknown();
-  reader.read(values, {Part::mesh}, false);
+  reader.read(values, {Part::mesh, Part::contact_plane}, false);
   std::vector<std::string> names;
   for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
   for (const char* role : {"driver", "driven"}) {
@@ -639,78 +685,19 @@ void read_mesh_section(const Source& source, Scene& scene) {
   scene.mesh.errors = {scene.gear(values.mesh.driver).errors, scene.gear(values.mesh.driven).errors};
 }
 
-// Slices are written in the order of the table, one section after the other.
-class SliceText {
- public:
-  explicit SliceText(const std::string& stage) { out_ << kSliceStart << stage << kSliceEnd << "\n"; }
-
-  void add(const std::string& section, const std::string& label, const KeyValues& values,
-           const std::set<Part>& parts) {
-    KeyValues copy = values;
-    for (const Key& key : scene_keys()) {
-      if (key.section != section || !parts.count(key.part)) continue;
-      if (label != last_) out_ << "\n[" << label << "]\n";
-      last_ = label;
-      const std::string value = value_of(key.slot(copy));
-      out_ << key.si_name() << " = " << value;
-      if (std::string(key.unit.si) != "1" && value != "true" && value != "false")
-        out_ << "  # " << key.unit.si;
-      out_ << "\n";
-    }
-  }
-
-  void add_line(const std::string& label, const std::string& name, const std::string& word) {
-    if (label != last_) out_ << "\n[" << label << "]\n";
-    last_ = label;
-    out_ << name << " = " << quoted_text(word) << "\n";
-  }
-
-  std::string text() const { return out_.str(); }
-
- private:
-  static std::string value_of(const Slot& slot) {
-    if (const auto* number = std::get_if<double*>(&slot)) return exact_text(**number);
-    if (const auto* whole = std::get_if<int*>(&slot)) return std::to_string(**whole);
-    if (const auto* word = std::get_if<std::string*>(&slot)) return quoted_text(**word);
-    if (const auto* plane = std::get_if<PlaneSlot>(&slot))
-      return *plane->stress ? "\"stress\"" : "\"strain\"";
-    if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
-      if (!(*corner)->enabled) return "false";
-      return std::isfinite((*corner)->largest_angle) ? exact_text((*corner)->largest_angle) : "true";
-    }
-    if (const auto* list = std::get_if<std::vector<double>*>(&slot)) {
-      std::vector<std::string> items;
-      for (double value : **list) items.push_back(exact_text(value));
-      return "[" + joined(items) + "]";
-    }
-    if (const auto* points = std::get_if<Points*>(&slot)) return exact_text(**points);
-    if (const auto* teeth = std::get_if<ToothList>(&slot)) return exact_text(*teeth->values);
-    const auto& range = std::get<RangeSlot>(slot);
-    return "{ from = " + exact_text(*range.from) + ", to = " + exact_text(*range.to) +
-           ", step = " + exact_text(*range.step) + " }";
-  }
-
-  static std::string quoted_text(const std::string& word) {
-    std::string out = "\"";
-    for (char c : word) {
-      if (c == '"' || c == '\\') out += '\\';
-      out += c;
-    }
-    return out + "\"";
-  }
-
-  std::ostringstream out_;
-  std::string last_;
-};
-
-// A slice of a stage, whose file gear-scene calls `name`; refuses a whole scene.
-Source slice_source(const std::string& path, const std::string& name) {
+// A slice of a stage, whose file gear-scene calls `name`; refuses a whole scene and the slice of another stage than these, which
+// may hold the same keys with other values.
+Source slice_source(const std::string& path, const std::string& name, const std::string& stage,
+                    const std::string& other = "") {
   Source source(path, "a slice is out/<scene>/" + name + ", made with: make out/<scene>/" + name);
   if (!source.is_slice() && source.root().contains("gear") && source.root().contains("operation")) {
     const std::string stem = std::filesystem::path(path).stem().string(), slice = "out/" + stem + "/" + name;
     source.refuse(text("is a whole scene; this stage reads the slice of it that gear-scene cuts: give ",
                        slice, " (make SCENE=", path, " ", slice, ")"));
   }
+  if (source.is_slice() && source.slice_of() != stage && source.slice_of() != other)
+    source.refuse(text("is what ", source.slice_of(), " depends on, and this stage reads what ", stage,
+                       " depends on: give out/<scene>/", name));
   return source;
 }
 
@@ -810,7 +797,7 @@ std::string body_slice(const BodySlice& chosen) {
   values.design = chosen.design;
   values.material = chosen.material;
   values.body = chosen.discretisation;
-  SliceText out("the body of a gear");
+  SliceText out(kBodyStage);
   out.add("gear", "gear", values, {Part::design});
   if (values.design.crack.depth > 0) out.add("crack", "crack", values, {Part::crack});
   out.add("material", "material", values, {Part::material});
@@ -843,6 +830,9 @@ KeyValues static_values(const Scene& scene) {
 // moving: with what a motion needs in the same sections.
 void add_static(SliceText& out, const Scene& scene, KeyValues& values, bool moving) {
   out.add("mesh", "mesh", values, {Part::mesh});
+  // Left out where contact has the bodies' plane state, as every slice had before there was a choice.
+  if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
+    out.add("mesh", "mesh", values, {Part::contact_plane});
   // Left out for flanks as they are designed, whose slices are what they were before flanks could be others.
   for (int g = 0; g < 2; ++g) {
     values.modification = scene.mesh.modification[g];
@@ -868,7 +858,7 @@ void add_static(SliceText& out, const Scene& scene, KeyValues& values, bool movi
 
 std::string static_slice(const Scene& scene) {
   KeyValues values = static_values(scene);
-  SliceText out("the static stage");
+  SliceText out(kStaticStage);
   add_static(out, scene, values, false);
   return out.text();
 }
@@ -903,7 +893,7 @@ void add_inertia_and_damping(SliceText& out, const Scene& scene, KeyValues& valu
 
 std::string impact_slice(const Scene& scene) {
   KeyValues values = motion_values(scene);
-  SliceText out("the ring-down");
+  SliceText out(kImpactStage);
   add_inertia_and_damping(out, scene, values);
   out.add("operation", "operation", values, {Part::load});
   out.add("fidelity", "fidelity", values, {Part::rung, Part::contact_rung});
@@ -912,7 +902,7 @@ std::string impact_slice(const Scene& scene) {
 
 std::string sweep_slice(const Scene& scene) {
   KeyValues values = motion_values(scene);
-  SliceText out("a sweep");
+  SliceText out(kSweepStage);
   add_inertia_and_damping(out, scene, values);
   out.add("operation", "operation", values, {Part::load, Part::operation});
   out.add("fidelity", "fidelity", values, {Part::rung, Part::contact_rung});
@@ -923,7 +913,7 @@ std::string sweep_slice(const Scene& scene) {
 std::string map_slice(const Scene& scene) {
   KeyValues values = motion_values(scene);
   values.damping.rayleigh_stiffness = 0;
-  SliceText out("a map of jumps");
+  SliceText out(kMapStage);
   add_inertia_and_damping(out, scene, values);
   out.add("operation", "operation", values, {Part::load});
   out.add("fidelity", "fidelity", values, {Part::rung, Part::contact_rung});
@@ -933,7 +923,7 @@ std::string map_slice(const Scene& scene) {
 
 std::string lumped_slice(const Scene& scene, bool speeds) {
   KeyValues values = motion_values(scene);
-  SliceText out(speeds ? "a sweep of a lumped model" : "a map of a lumped model");
+  SliceText out(speeds ? kLumpedStage : kLumpedMapStage);
   add_inertia(out, scene, values);
   out.add("operation", "operation", values,
           speeds ? std::set<Part>{Part::load, Part::operation} : std::set<Part>{Part::load});
@@ -947,7 +937,7 @@ std::string variant_slice(const Scene& scene, double torque, const std::vector<s
   const KeyValues moving = motion_values(scene);
   values.damping = moving.damping;
   values.time = moving.time;
-  SliceText out("a variant of a study");
+  SliceText out(kVariantStage);
   add_static(out, scene, values, !directions.empty());
   if (!directions.empty()) {
     add_inertia_and_damping(out, scene, values);
@@ -965,7 +955,7 @@ std::string body_hash(const std::string& slice) {
 }
 
 BodySlice read_body_slice(const std::string& path) {
-  const Source source = slice_source(path, "<gear>/body.toml");
+  const Source source = slice_source(path, "<gear>/body.toml", kBodyStage);
   KeyValues values;
   read_slice_section(source, "gear", "gear", {Part::design}, values);
   if (source.section("crack")) read_slice_section(source, "crack", "crack", {Part::crack}, values);
@@ -982,6 +972,8 @@ namespace {
 StaticSlice read_static(const Source& source) {
   KeyValues values;
   read_slice_section(source, "mesh", "mesh", {Part::mesh}, values);
+  if (source.section("mesh")->contains("contact_plane"))
+    read_slice_section(source, "mesh", "mesh", {Part::contact_plane}, values);
   read_slice_section(source, "fidelity", "fidelity", {Part::contact_rung}, values);
   read_slice_section(source, "discretisation", "discretisation", {Part::contact}, values);
   for (int g = 0; g < 2; ++g) {
@@ -1043,7 +1035,7 @@ SweepSlice read_motion(const Source& source) {
 }  // namespace
 
 StaticSlice read_static_slice(const std::string& path) {
-  return read_static(slice_source(path, "params/static.toml"));
+  return read_static(slice_source(path, "params/static.toml", kStaticStage));
 }
 
 VariantSlice read_variant_slice(const std::string& path) {
@@ -1066,22 +1058,24 @@ VariantSlice read_variant_slice(const std::string& path) {
 }
 
 ImpactSlice read_impact_slice(const std::string& path) {
-  return read_impact(slice_source(path, "params/impact.toml"));
+  return read_impact(slice_source(path, "params/impact.toml", kImpactStage));
 }
 
 SweepSlice read_map_slice(const std::string& path) {
-  return read_motion(slice_source(path, "params/map.toml"));
+  return read_motion(slice_source(path, "params/map.toml", kMapStage));
 }
 
 SweepSlice read_sweep_slice(const std::string& path) {
-  const Source source = slice_source(path, "params/sweep.toml");
+  const Source source = slice_source(path, "params/sweep.toml", kSweepStage);
   SweepSlice out = read_motion(source);
   read_speeds(source, out);
   return out;
 }
 
 SweepSlice read_lumped_slice(const std::string& path, bool speeds) {
-  const Source source = slice_source(path, speeds ? "params/lumped.toml" : "params/lumped_map.toml");
+  const Source source = slice_source(path, speeds ? "params/lumped.toml" : "params/lumped_map.toml",
+                                     speeds ? kLumpedStage : kLumpedMapStage,
+                                     speeds ? kSweepStage : "");  // a sweep's holds all of it
   SweepSlice out;
   read_inertia(source, out);
   KeyValues values;

@@ -120,6 +120,7 @@ struct GearMeshSpec {
   std::string driver, driven;  // names of gears
   double centre_distance = 0;  // m
   CornerRule corner;
+  std::string contact_plane = "body";  // plane state of the contact: "strain", "stress", or each body's own
   std::array<FlankModification, 2> modification = {};  // of driver and driven gear
   std::array<ToothErrors, 2> errors = {};              // the same
 };

@@ -18,7 +18,7 @@ namespace {
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
 constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 4, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1,
-              kHarrisMapVersion = 1, kVariantVersion = 1, kStudyVersion = 2, kLoadedVersion = 1;
+              kHarrisMapVersion = 1, kVariantVersion = 2, kStudyVersion = 2, kLoadedVersion = 1;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -377,7 +377,7 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
   out.put("/compliance/least_eigenvalue", a.least_eigenvalue,
           {"m N-1", "least eigenvalue of the compliance of all offsets less the stored modes", "", ""});
   if (a.vtk_point.rows() > 0)
-    put_vtk(out.file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}});
+    put_vtk(out.file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}, false});
   out.publish();
   link_for_paraview(path);
 }
@@ -487,6 +487,11 @@ void put_changes(ArtifactWriter& out, const std::string& group, const StaticChan
           {"1", "relative change of the mean secant stiffness", axis, ""});
   out.put(group + "/peak_to_peak_change", a.peak_to_peak_change,
           {"1", "relative change of the peak-to-peak transmission error", axis, ""});
+  if (a.pressure_change.size() > 0) {
+    want_rows("pressure_change", a.pressure_change.size(), entries);
+    out.put(group + "/pressure_change", a.pressure_change,
+            {"1", "relative change of the largest contact pressure inside a flank", axis, ""});
+  }
   out.put(group + "/harmonic_change", a.harmonic_change,
           {"1", "change of the first harmonics of the transmission error over its first harmonic",
            axis + " harmonic", ""});
@@ -498,6 +503,8 @@ StaticChanges take_changes(const ArtifactReader& in, const std::string& group) {
   a.mean_stiffness_change = in.vector(group + "/mean_stiffness_change");
   const Eigen::Index entries = a.mean_stiffness_change.size();
   a.peak_to_peak_change = in.vector(group + "/peak_to_peak_change", entries);
+  if (in.file().has(group + "/pressure_change"))
+    a.pressure_change = in.vector(group + "/pressure_change", entries);
   a.harmonic_change = in.matrix(group + "/harmonic_change", entries, -1);
   return a;
 }
@@ -624,7 +631,8 @@ void write(const std::string& path, const LoadedArtifact& a, const Provenance& p
   of_gears("strain_energy", a.strain_energy, "J", "strain energy, by quadrature of the stresses");
   of_gears("contact_work", a.contact_work, "J", "half of the sum of forces times deflections");
   if (a.vtk_point.rows() > 0)
-    put_vtk(out.file(), {a.vtk_point, a.vtk_cell, {}, {}, a.vtk_line, a.vtk_point_data, a.vtk_cell_data});
+    put_vtk(out.file(),
+            {a.vtk_point, a.vtk_cell, {}, {}, a.vtk_line, a.vtk_point_data, a.vtk_cell_data, true});
   out.publish();
   link_for_paraview(path);
 }
@@ -889,7 +897,7 @@ SweepArtifact read_sweep(const std::string& path) {
     in.file().refuse(
         text("dataset /tooth_load has another shape than ", speeds, " x ", samples, " x ", pairs));
   }
-  const auto load = in.file().doubles("/tooth_load");
+  const auto load = in.doubles("/tooth_load");
   for (Eigen::Index f = 0; f < speeds; ++f) {
     a.tooth_load.push_back(Eigen::Map<const MatrixRM>(load.data() + f * samples * pairs, samples, pairs));
   }
@@ -1214,7 +1222,7 @@ std::vector<MatrixRM> take_cube(const ArtifactReader& in, const HarrisMapArtifac
                                                static_cast<std::size_t>(reliefs)})
     in.file().refuse(
         text("dataset /", name, " has another shape than ", starts, " x ", torques, " x ", reliefs));
-  const auto all = in.file().doubles("/" + name);
+  const auto all = in.doubles("/" + name);
   std::vector<MatrixRM> out;
   for (Eigen::Index s = 0; s < starts; ++s)
     out.push_back(Eigen::Map<const MatrixRM>(all.data() + s * torques * reliefs, torques, reliefs));

@@ -119,6 +119,8 @@ struct StaticChanges {
   std::string entry;                      // names of the entries, separated by ", "
   Eigen::VectorXd mean_stiffness_change;  // (entry) 1, relative
   Eigen::VectorXd peak_to_peak_change;    // (entry) 1, relative, of the transmission error
+  // (entry) 1, relative, of the largest pressure inside a flank; empty: not known, or no contact stays inside
+  Eigen::VectorXd pressure_change;
   MatrixRM harmonic_change;  // (entry, harmonic 1..5) 1, of the transmission error, over its first harmonic
 };
 

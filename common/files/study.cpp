@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/publish.h"
+#include "files/suggestion.h"
 #include "files/toml.h"
 #include "files/variant.h"
 
@@ -81,10 +82,10 @@ constexpr int kMostKeys = 32;
 
 class StudyFile {
  public:
-  explicit StudyFile(const std::string& path) : path_(path) {
+  explicit StudyFile(const std::string& path, std::size_t most = 1 << 20) : path_(path) {
     const std::string bytes = read_bytes(path, "check the path of the study");
     try {
-      root_ = parse_toml(bytes);
+      root_ = parse_toml(bytes, most);
     } catch (const toml::parse_error& error) {
       refuse_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
     }
@@ -340,8 +341,13 @@ bool overlap(const KeyPlace& a, const KeyPlace& b) {
 
 void read_figure(const StudyFile& file, Study& study) {
   const toml::node* node = study.keys.empty() ? nullptr : file.root().get("figure");
-  Words names;
-  for (const VariedKey& key : study.keys) names.push_back(key.name);
+  // A seed is a number without a size: nothing is plotted against it unless nothing else varies.
+  Words names, all;
+  for (const VariedKey& key : study.keys) {
+    all.push_back(key.name);
+    if (key.name != "seed" && !key.name.ends_with(".seed")) names.push_back(key.name);
+  }
+  if (names.empty()) names = all;
   const auto first = [](Words words) {
     if (words.size() > kMostPanels) words.resize(kMostPanels);
     return words;
@@ -407,7 +413,8 @@ std::vector<AnswerKind> answer_kinds(const std::vector<std::string>& directions)
       {"contact_ratio", "1", "contact ratio of the unloaded pair"},
       {"mean_stiffness", "N m-1", "mean of the secant mesh stiffness"},
       {"te_mean", "m", "mean of the static transmission error"},
-      {"te_peak_to_peak", "m", "static transmission error, peak to peak"},
+      {"te_peak_to_peak", "m", "static transmission error, peak to peak, over the whole hunting period"},
+      {"te_peak_to_peak_mesh", "m", "the same within one mesh period, largest of the hunting period"},
       {"te_harmonic_1", "m", "amplitude of harmonic 1 of the static transmission error"},
       {"te_harmonic_2", "m", "amplitude of harmonic 2 of the static transmission error"},
       {"te_harmonic_3", "m", "amplitude of harmonic 3 of the static transmission error"},
@@ -643,7 +650,8 @@ std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>
 }
 
 std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& path) {
-  const StudyFile file(path);
+  constexpr std::size_t kMostOfVariants = 1 << 28;  // bytes: a line for each
+  const StudyFile file(path, kMostOfVariants);
   const toml::table& root = file.root();
   const auto refuse = [&]() {
     file.refuse("is no plan of a study that gear-study has written; make it again: make study STUDY=<name>");

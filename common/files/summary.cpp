@@ -38,6 +38,10 @@ std::string range_of(const Eigen::VectorXd& frequency) {
                 : text(n, " speeds, ", frequency[0], " to ", frequency[n - 1], " Hz mesh frequency");
 }
 
+std::string contact_plane(const GearMeshSpec& mesh) {
+  return mesh.contact_plane == "body" ? "plane state of the bodies" : "plane " + mesh.contact_plane;
+}
+
 std::string corner_rule(const GearMeshSpec& mesh) {
   if (!mesh.corner.enabled) return "pairs on the line of action only";
   if (std::isinf(mesh.corner.largest_angle)) return "tip edges touch wherever they reach";
@@ -124,13 +128,16 @@ void show(Lines& lines, const BodyArtifact& a) {
       a.eigenfrequency.size() > 8 ? ", ..." : "");
   add(lines, "near field", near_field(a.discretisation));
   add(lines, "flank table", a.flank_position.size(), " points, tooth offsets 0 to ", a.offsets);
-  add(lines, "asymmetry", a.asymmetry, ", least eigenvalue ", a.least_eigenvalue * 1e6, " um/N");
+  add(lines, "asymmetry", a.asymmetry,
+      " relative, made symmetric; flexibility that the modes leave out, least ", a.least_eigenvalue * 1e6,
+      " um/N (round-off of the log of the contact below 0)");
 }
 
 void show(Lines& lines, const StaticArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", centre distance ",
       a.mesh.centre_distance * 1e3, " mm");
   add(lines, "corner contact", corner_rule(a.mesh));
+  add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
   show_discretisation(lines, a.driver_body, a.driven_body);
@@ -166,8 +173,8 @@ void show(Lines& lines, const LoadedArtifact& a) {
   add(lines, "transmission error", a.transmission_error * 1e6, " um");
   for (Eigen::Index i = 0; i < a.pair.size(); ++i)
     add(lines, text("pair ", a.pair[i]), a.tooth_load[i], " N on tooth ", a.tooth(i, 0), " of the driver, ",
-        a.tooth(i, 1), " of the driven gear; largest root stress ", a.root_stress(i, 0) * 1e-6, ", ",
-        a.root_stress(i, 1) * 1e-6, " MPa");
+        a.tooth(i, 1), " of the driven gear; largest root stress ", a.root_stress(i, 0) * 1e-6, " MPa of ",
+        a.mesh.driver, ", ", a.root_stress(i, 1) * 1e-6, " MPa of ", a.mesh.driven);
   if (a.strip_pressure.size() > 0)
     add(lines, "contact", (a.strip_force.array() > 0).count(), " strips with force, largest pressure ",
         a.strip_pressure.maxCoeff() * 1e-6, " MPa");
@@ -232,6 +239,7 @@ void show(Lines& lines, const SweepArtifact& a) {
     show_damping(lines, a.damping);
   }
   add(lines, "corner contact", corner_rule(a.mesh));
+  add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
   if (a.mesh_frequency.size() > 0) {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "files/keys.h"
 #include "files/publish.h"
+#include "files/suggestion.h"
 #include "files/toml.h"
 
 namespace whine {

@@ -12,6 +12,19 @@
 namespace whine {
 namespace {
 
+// To 2^-30 m, so that deflate finds zeros behind.
+double to_nanometre(double x) {
+  constexpr double kPerMetre = 1 << 30;
+  return std::round(x * kPerMetre) / kPerMetre;
+}
+
+// To 12 bits behind the leading one, 1.2e-4.
+float to_three_digits(double x) {
+  int exponent = 0;
+  const double share = std::frexp(x, &exponent);
+  return static_cast<float>(std::ldexp(std::round(std::ldexp(share, 13)), exponent - 13));
+}
+
 constexpr std::uint8_t kLine = 3, kQuad = 9, kBiquadraticQuad = 28;  // VTK cell types
 
 }  // namespace
@@ -127,7 +140,12 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   };
   count("NumberOfPoints", points, "number of points");
   count("NumberOfCells", cells, "number of cells");
-  count("NumberOfConnectivityIds", (cells - lines) * corners + 2 * lines, "length of Connectivity");
+  const auto corners_of = [&](Eigen::Index e) {
+    return corners == 9 && grid.cell(e, 4) < 0 ? std::size_t{4} : corners;
+  };
+  std::size_t ids = 2 * lines;
+  for (Eigen::Index e = 0; e < grid.cell.rows(); ++e) ids += corners_of(e);
+  count("NumberOfConnectivityIds", ids, "length of Connectivity");
 
   const auto in_space = [&](const MatrixRM& plane, auto zero) {
     std::vector<decltype(zero)> out(points * 3, zero);
@@ -139,14 +157,17 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
     }
     return out;
   };
-  file.put(group + "Points", in_space(grid.point, 0.0).data(), {points, 3},
+  MatrixRM place = grid.point;
+  if (grid.rounded) place = place.unaryExpr([](double x) { return to_nanometre(x); });
+  file.put(group + "Points", in_space(place, 0.0).data(), {points, 3},
            {"m", "position of the points", "point xyz", ""});
 
   std::vector<std::int64_t> connectivity, offsets;
   for (const MatrixRMi* kind : {&grid.cell, &grid.line}) {
     for (Eigen::Index e = 0; e < kind->rows(); ++e) {
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-      for (Eigen::Index k = 0; k < kind->cols(); ++k) {
+      const auto own = kind == &grid.cell ? static_cast<Eigen::Index>(corners_of(e)) : kind->cols();
+      for (Eigen::Index k = 0; k < own; ++k) {
         const int node = (*kind)(e, k);
         if (node < 0 || node >= grid.point.rows()) {
           fail(Failure::numerical, "cell ", e, " names point ", node, " of ", points);
@@ -157,6 +178,8 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   }
   offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   std::vector<std::uint8_t> types(cells, corners == 4 ? kQuad : kBiquadraticQuad);
+  for (Eigen::Index e = 0; e < grid.cell.rows(); ++e)
+    if (corners_of(e) == 4) types[static_cast<std::size_t>(e)] = kQuad;
   std::fill(types.end() - static_cast<std::ptrdiff_t>(lines), types.end(), kLine);
   file.put(group + "Connectivity", connectivity.data(), {connectivity.size()},
            {"1", "points of each cell", "connectivity", ""});
@@ -186,13 +209,15 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
       const std::size_t width = columns == 2 ? 3 : columns;
       std::vector<float> data(rows * width, 0.0F);
       for (std::size_t i = 0; i < rows; ++i)
-        for (std::size_t k = 0; k < columns; ++k)
-          data[i * width + k] =
-              static_cast<float>(values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+        for (std::size_t k = 0; k < columns; ++k) {
+          const double value = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+          data[i * width + k] = grid.rounded ? to_three_digits(value) : static_cast<float>(value);
+        }
       const h5::Shape shape = width == 1 ? h5::Shape{rows} : h5::Shape{rows, width};
       file.put(
           group + of + "/" + name, data.data(), shape,
-          {units, name + ", for looking: single precision", axis + (width == 1 ? "" : " component"), ""});
+          {units, name + (grid.rounded ? ", for looking: three digits" : ", for looking: single precision"),
+           axis + (width == 1 ? "" : " component"), ""});
     }
   };
   put_fields(grid.point_data, "PointData", "point", points);

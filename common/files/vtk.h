@@ -12,14 +12,16 @@
 namespace whine {
 
 struct VtkGrid {
-  MatrixRM point;                                         // (point, 2) m
-  MatrixRMi cell;                                         // (cell, 4 or 9): corners, mid-sides, centre
-  std::vector<std::pair<std::string, MatrixRM>> vectors;  // name, (point, 2)
+  MatrixRM point;  // (point, 2) m
+  MatrixRMi
+      cell;  // (cell, 4 or 9): corners, mid-sides, centre; a row of 9 with -1 from the fifth on: corners alone
+  std::vector<std::pair<std::string, MatrixRM>> vectors;              // name, (point, 2)
   std::vector<std::pair<std::string, Eigen::VectorXi>> cell_numbers;  // name, (cell)
   MatrixRMi line;                                                     // (line, 2) cells after those
   // Of 1, 2 or 3 columns; two are a vector in the plane.
   std::vector<LoadedArtifact::Field> point_data;  // (point, k)
   std::vector<LoadedArtifact::Field> cell_data;   // (cell and line, k)
+  bool rounded = false;  // places to a nanometre, values to three digits: half of the file
 };
 
 // The whole gear from one sector: copies turned counter-clockwise by 2 pi / teeth, edge nodes merged with

@@ -50,6 +50,11 @@ Slit crack_slit(const ToothGeometry& gear) {
   if (crack.tooth < 0 || crack.tooth >= gear.design().teeth)
     fail(Failure::input, "crack: tooth = ", crack.tooth, ", but the gear has the teeth 0 to ",
          gear.design().teeth - 1);
+  // Elements about a tip that lies next to the surface would have no size left.
+  constexpr double kShortest = 0.01;  // modules
+  if (crack.depth < kShortest * gear.design().module)
+    fail(Failure::input, "crack: depth_mm = ", crack.depth * 1e3, " is too short to be meshed: at least ",
+         kShortest, " modules, ", kShortest * gear.design().module * 1e3, " mm; 0 says that there is none");
   double low = 1e-4, high = gear.root_corner() - 1e-4;
   const double first = tangent_angle(gear, low), last = tangent_angle(gear, high);
   if (!(crack.start > first && crack.start < last))

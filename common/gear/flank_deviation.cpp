@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/flank_kink.h"
 
 namespace whine {
 
@@ -200,6 +201,29 @@ Vector2d FlankDeviation::value_and_slope(double roll, int tooth) const {
   if (repeats_ > 1 && tooth != kEveryTooth) sum += of_tooth(on, tooth);
   sum[0] += sum[1] * (roll - on);
   return sum;
+}
+
+std::vector<FlankRidge> flank_ridges(const ToothGeometry& gear, const FlankModification& m) {
+  std::vector<FlankRidge> ridges;
+  const auto add = [&](double roll, double per_roll, const char* cause) {
+    if (per_roll > 0 && roll > 0) ridges.push_back({roll, per_roll / (gear.base_radius() * roll), cause});
+  };
+  const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
+  if (m.tip.amount > 0 && m.tip.shape == "linear") {
+    const double start = start_of(gear, m.tip, "tip", tip);
+    add(start, m.tip.amount / (tip - start), "linear tip relief");
+  }
+  if (m.root.amount > 0 && m.root.shape == "linear") {
+    const double start = start_of(gear, m.root, "root", form);
+    add(start, m.root.amount / (start - form), "linear root relief");
+  }
+  if (!m.points.empty()) {
+    const MonotoneCubic points(m.points);
+    const double first = m.points.front()[0], last = m.points.back()[0];
+    add(first, points.at(first)[1], "table of points");
+    add(last, -points.at(last)[1], "table of points");
+  }
+  return ridges;
 }
 
 }  // namespace whine

@@ -61,7 +61,7 @@ void check_inertia(const Scene& scene, const std::string& where, bool is_file) {
     const std::string section = "gear." + gear.name;
     in_section(where, is_file, "[" + section + "]", {section}, [&] {
       const double least = least_body_inertia(ToothGeometry(gear.design), gear.material);
-      if (gear.total_inertia < least)
+      if (gear.total_inertia != 0 && gear.total_inertia < least)
         fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
     });
   }
@@ -87,6 +87,21 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material) 
   }
   return kSafe * material.density * design.face_width *
          (0.5 * std::numbers::pi * (std::pow(root, 4) - std::pow(bore, 4)) + teeth);
+}
+
+void as_drawn(ImpactSlice& slice, const BodyArtifact& driver, const BodyArtifact& driven) {
+  constexpr double kMore = 1.001;
+  if (slice.driver_inertia == 0) slice.driver_inertia = kMore * driver.inertia;
+  if (slice.driven_inertia == 0) slice.driven_inertia = kMore * driven.inertia;
+}
+
+void as_drawn(ImpactSlice& slice, const StaticArtifact& s) {
+  constexpr double kFillets = 1.015;
+  const auto drawn = [&](const GearDesign& design, const Material& material) {
+    return kFillets * least_body_inertia(ToothGeometry(design), material);
+  };
+  if (slice.driver_inertia == 0) slice.driver_inertia = drawn(s.driver, s.driver_material);
+  if (slice.driven_inertia == 0) slice.driven_inertia = drawn(s.driven, s.driven_material);
 }
 
 void require_inertia(const GearMeshSpec& mesh, const std::array<const BodyArtifact*, 2>& bodies,

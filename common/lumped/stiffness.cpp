@@ -203,8 +203,8 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
   };
 
   // What a pair's force is made of: springs of its own that come in one after the other.
-  const auto surface = [](const Material& m, const GearDesign& g) {
-    return HalfPlaneSurface(m, g.face_width).coefficient();
+  const auto surface = [&](const Material& m, const GearDesign& g) {
+    return HalfPlaneSurface(in_contact_plane(m, s.mesh.contact_plane), g.face_width).coefficient();
   };
   const double coefficient = surface(s.driver_material, s.driver) + surface(s.driven_material, s.driven);
   const int springs = std::max(1, chords);

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "motion/flank_pressure.h"
 #include "motion/statics.h"
 #include "signal/spectrum.h"
 #include "solid/mesher.h"
@@ -19,13 +20,13 @@ namespace {
 constexpr int kHarmonics = 5;
 
 struct Answer {
-  double mean_stiffness, peak_to_peak;
+  double mean_stiffness, peak_to_peak, pressure;
   VectorXd harmonic;
 };
 
 Answer answer(const StaticArtifact& s) {
   return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
-          harmonics(s.transmission_error, kHarmonics).amplitude};
+          flank_pressure(s).smooth, harmonics(s.transmission_error, kHarmonics).amplitude};
 }
 
 StaticChanges changes(const std::vector<std::pair<std::string, Answer>>& others, const Answer& reference) {
@@ -34,11 +35,13 @@ StaticChanges changes(const std::vector<std::pair<std::string, Answer>>& others,
   result.mean_stiffness_change.resize(count);
   result.peak_to_peak_change.resize(count);
   result.harmonic_change.resize(count, kHarmonics);
+  if (reference.pressure > 0) result.pressure_change.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [name, other] = others[i];
     result.entry += (i ? ", " : "") + name;
     result.mean_stiffness_change[i] = other.mean_stiffness / reference.mean_stiffness - 1;
     result.peak_to_peak_change[i] = other.peak_to_peak / reference.peak_to_peak - 1;
+    if (reference.pressure > 0) result.pressure_change[i] = other.pressure / reference.pressure - 1;
     result.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
   }
   return result;
@@ -98,7 +101,7 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
       second.element_order = 2;
       return reduced_again(body, second, static_cast<int>(body.flank_position.size()));
     });
-  if (strips) refined.emplace_back(from_to("window", 1, 2), solve(driver, driven, slice, 2));
+  if (strips) refined.emplace_back(from_to("search range", 1, 2, " times"), solve(driver, driven, slice, 2));
   StaticSlice denser = slice;
   denser.contact.positions *= 2;
   refined.emplace_back(from_to("positions", slice.contact.positions, denser.contact.positions),

@@ -7,8 +7,9 @@
 namespace whine {
 
 // The bodies are meshed and reduced again where an entry needs it. Entries: strips (twice as many), flank table (twice
-// the points), elements (half the size), order (only for first-order elements: second), window (twice as wide). One
-// contact line per pair has neither strips nor window. Choices, of which none is an error of the other: the other near
+// the points), elements (half the size), order (only for first-order elements: second), search range twice as wide (how far from the touching point contact is looked
+// for). The pressure is that of contacts clear of ridges (motion/flank_pressure.h). One
+// contact line per pair has neither strips nor a search range. Choices, of which none is an error of the other: the other near
 // field (matching at the body's matching_depth, or subtraction) and the other rung of contact; one that cannot be
 // computed stands in choice_missing with its reason.
 // Errors of all else as static_transmission, make_sector_mesh and reduce.

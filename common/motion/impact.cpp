@@ -232,6 +232,37 @@ class HeldPair {
     return result;
   }
 
+  // By eigenvalues alone; the mean is that of the undamped frequencies, each changed as amid its contact state.
+  ImpactArtifact frozen(double rayleigh_stiffness) const {
+    ImpactArtifact result = blank_;
+    result.damping.rayleigh_stiffness = rayleigh_stiffness;
+    std::map<int, DampedRoot> roots;
+    for (const auto& [pairs, phase] : state_phase_) roots[pairs] = frozen_root(at(phase, rayleigh_stiffness));
+    const auto states = static_cast<Eigen::Index>(state_phase_.size());
+    for (VectorXd* v : {&result.natural_frequency, &result.damping_ratio, &result.undamped_frequency})
+      v->setZero(states + 1);
+    result.state_phase.resize(states);
+    Eigen::Index row = 0;
+    std::map<int, double> change;
+    for (const auto& [pairs, phase] : state_phase_) {
+      result.contact_state.push_back(in_words(pairs));
+      result.state_phase[row] = result.mesh_phase[phase];
+      result.natural_frequency[row] = roots[pairs].frequency;
+      result.damping_ratio[row] = roots[pairs].damping_ratio;
+      result.undamped_frequency[row] = result.phase_undamped_frequency[phase];
+      change[pairs] = roots[pairs].frequency / result.phase_undamped_frequency[phase];
+      ++row;
+    }
+    result.contact_state.push_back("mean");
+    for (int i = 0; i < plan_.phases; ++i) {
+      const int pairs = result.loaded_pairs[i];
+      result.natural_frequency[states] += result.phase_undamped_frequency[i] * change[pairs] / plan_.phases;
+      result.damping_ratio[states] += roots[pairs].damping_ratio / plan_.phases;
+    }
+    result.undamped_frequency[states] = result.phase_undamped_frequency.mean();
+    return result;
+  }
+
  private:
   HeldMesh at(int i, double rayleigh_stiffness) const {
     return with_rayleigh_stiffness(meshes_[i], rayleigh_stiffness, blank_.fidelity.body);
@@ -366,6 +397,15 @@ std::vector<HeldState> held_states(const BodyArtifact& driver, const BodyArtifac
   return HeldPair(driver, driven, statics, mean_stiffness, slice, plan).states();
 }
 
+ImpactArtifact frozen_impact(const BodyArtifact& driver, const BodyArtifact& driven,
+                             const StaticArtifact& statics, double mean_stiffness, const ImpactSlice& slice,
+                             int phases) {
+  ImpactPlan plan;
+  plan.phases = phases;
+  return HeldPair(driver, driven, statics, mean_stiffness, slice, plan)
+      .frozen(slice.damping.rayleigh_stiffness);
+}
+
 ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                       double mean_stiffness, const ImpactSlice& slice, const ImpactPlan& plan,
                       const std::function<void(long, long)>& report) {
@@ -378,7 +418,11 @@ ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
                          const ImpactPlan& plan, double damping_ratio, const std::string& contact_state,
                          const std::function<void(long, long)>& report) {
   if (!(damping_ratio > 0 && damping_ratio < 1))
-    fail(Failure::input, "a damping ratio of ", damping_ratio, " is outside (0, 1)");
+    fail(
+        Failure::input, "a damping ratio of ", damping_ratio, " is outside (0, 1)",
+        damping_ratio >= 1 && damping_ratio < 100
+            ? text("; it is a share of critical damping: ", damping_ratio / 100, " for ", damping_ratio, " %")
+            : "; it is a share of critical damping, such as 0.05 for 5 %");
   report(0, plan.phases);  // the search comes before the phases
   const HeldPair pair(driver, driven, statics, mean_stiffness, slice, plan);
   const std::vector<int> phases = pair.phases_of(contact_state);

@@ -56,6 +56,13 @@ ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, co
                       double mean_stiffness, const ImpactSlice& slice, const ImpactPlan& plan,
                       const std::function<void(long, long)>& report);
 
+// The same from eigenvalues of the frozen contact, without decays, for searches: amid each contact state, and as the mean
+// over the period. Fields of decays (time, transmission_error, phase_..., eigen_..., fit_residual) stay empty. The ring-down
+// of impact() differs by less than 0.002 % in frequency and damping of the states.
+ImpactArtifact frozen_impact(const BodyArtifact& driver, const BodyArtifact& driven,
+                             const StaticArtifact& statics, double mean_stiffness, const ImpactSlice& slice,
+                             int phases);
+
 // The same at the Rayleigh stiffness factor (slice.damping.rayleigh_stiffness of the result) that gives a damping
 // ratio in one contact state ("one", "two", ... or "mean"), to 1e-7 of it. Throws Error(input) if the state does not
 // occur, or if no factor gives the ratio.

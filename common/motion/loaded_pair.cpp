@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "motion/loaded_view.h"
 #include "solid/loaded_gear.h"
 
 namespace whine {
@@ -28,6 +29,18 @@ double largest_root_stress(const MeshArtifact& mesh, const Material& material, c
     largest = std::max(largest, stress_measures(stress, material).largest);
   }
   return largest;
+}
+
+// m: (strip) what the plane state of the contact adds to the inward displacement of a flank.
+VectorXd plane_change(const ElasticGear& gear, const ContactZone& zone) {
+  const PairStrips& s = zone.strips;
+  VectorXd change = VectorXd::Zero(s.size());
+  for (int i = 0; i < s.size(); ++i)
+    for (int j = 0; j < s.size(); ++j)
+      if (zone.force[j] > 0)
+        change[i] +=
+            zone.force[j] * gear.plane_change(s.middle(i) - s.middle(j), 0.5 * s.width(j), 0.5 * s.width(i));
+  return change;
 }
 
 // Rows of both gears' parts, one below the other.
@@ -125,7 +138,15 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
       for (int i = 0; i < loaded[static_cast<size_t>(j)]->strips.size(); ++i, ++at)
         loads.push_back({out.tooth(j, g), out.strip_roll(at, g), out.strip_width[at], out.strip_force[at]});
     const LoadedGear gear = loaded_gear(*mesh[g], material, loads);
-    out.strip_deflection.col(g) = gear.deflection;
+    // Of the whole field only what the flanks do knows of the contact's own plane state; it is a matter of their surface.
+    VectorXd change(strips);
+    at = 0;
+    for (const ContactZone* zone : loaded) {
+      change.segment(at, zone->force.size()) =
+          plane_change(ElasticGear(*body[g], statics.mesh.contact_plane), *zone);
+      at += zone->force.size();
+    }
+    out.strip_deflection.col(g) = gear.deflection + change;
     out.contact_work[g] = 0.5 * out.strip_force.dot(gear.deflection);
     out.contact_torque[g] = out.strip_force.sum() * tooth.base_radius();
     out.hub_torque[g] = gear.hub_torque;
@@ -157,9 +178,11 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
     for (Index i = 0; i < strips; ++i) {
       const StripLoad& load = loads[static_cast<size_t>(i)];
       const Eigen::Matrix2d at_tooth = Eigen::Rotation2Dd(2 * std::numbers::pi * load.tooth / teeth).matrix();
+      const Vec2 moved =
+          Vec2(gear.strip_displacement.row(i)) - change[i] * (at_tooth * tooth.flank_normal(load.roll));
       for (int end = 0; end < 2; ++end) {
         const Index row = nodes + 2 * i + end;
-        put(row, at_tooth * tooth.flank_point(border(i, 2 * g + end)), gear.strip_displacement.row(i));
+        put(row, at_tooth * tooth.flank_point(border(i, 2 * g + end)), moved);
         part.pressure.row(row) =
             out.strip_pressure[i] * (turn * at_tooth * tooth.flank_normal(load.roll)).transpose();
         line(i, end) = static_cast<int>(grid.point.rows() + row);
@@ -212,6 +235,7 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
                        {"tooth", "1", cells_and_lines(cell_tooth, line_tooth)},
                        {"contact_strip", "1", cells_and_lines(no_pressure, is_line)},
                        {"contact_pressure", "Pa", cells_and_lines(no_pressure, line_pressure)}};
+  thin_view(out);
   return out;
 }
 

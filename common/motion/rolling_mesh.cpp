@@ -34,13 +34,26 @@ const BodyArtifact& finite(const BodyArtifact& body) {
 
 }  // namespace
 
-ElasticGear::ElasticGear(const BodyArtifact& body)
+ElasticGear::ElasticGear(const BodyArtifact& body, const std::string& contact_plane)
     : body_(finite(body)),
-      half_plane_(body.material, body.design.face_width),
+      half_plane_(in_contact_plane(body.material, contact_plane), body.design.face_width),
+      body_half_plane_(body.material, body.design.face_width),
+      own_plane_(in_contact_plane(body.material, contact_plane).plane_stress != body.material.plane_stress),
       table_(ToothGeometry(body.design), static_cast<int>(body.flank_position.size())) {
   if ((table_.points() - body.flank_position).cwiseAbs().maxCoeff() > 1e-12)
     fail(Failure::input,
          "the body's flank positions are not those of this program's flank table; rebuild body.h5");
+}
+
+double ElasticGear::contact_depth() const {
+  return body_.discretisation.near_field == "matching" ? body_.discretisation.matching_depth
+                                                       : 0.25 * std::numbers::pi * body_.design.module;
+}
+
+double ElasticGear::plane_change(double x, double half_width, double reading) const {
+  if (!own_plane_) return 0;
+  return half_plane_.mean_over_strip(x, half_width, reading, contact_depth()) -
+         body_half_plane_.mean_over_strip(x, half_width, reading, contact_depth());
 }
 
 MatrixXd ElasticGear::compliance(int offset, double depth) const {
@@ -48,7 +61,10 @@ MatrixXd ElasticGear::compliance(int offset, double depth) const {
   if (distance > body_.offsets) return MatrixXd::Zero(table_size(), table_size());
   MatrixXd r = body_.compliance[distance];
   if (offset < 0) r.transposeInPlace();  // reciprocity: R_-d = R_d^T
-  if (offset == 0) r.array() += half_plane_.coefficient() * std::log(body_.reference_depth / depth);
+  if (offset != 0) return r;
+  const double from = own_plane_ ? contact_depth() : body_.reference_depth;
+  if (own_plane_) r.array() += body_half_plane_.coefficient() * std::log(body_.reference_depth / from);
+  r.array() += half_plane_.coefficient() * std::log(from / depth);
   return r;
 }
 
@@ -95,7 +111,7 @@ VectorXd ElasticGear::mode_on_tooth(int column, int tooth) const {
 
 GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh)
     : kinematics(driver.design, driven.design, mesh.centre_distance),
-      gear{ElasticGear(driver), ElasticGear(driven)},
+      gear{ElasticGear(driver, mesh.contact_plane), ElasticGear(driven, mesh.contact_plane)},
       corner(mesh.corner),
       deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0]),
                 FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1])} {}

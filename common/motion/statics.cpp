@@ -10,7 +10,10 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/refusal.h"
+#include "motion/compliance_split.h"
+#include "motion/flank_pressure.h"
 
 namespace whine {
 
@@ -172,6 +175,7 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
   result.least_gap = result.least_force = std::numeric_limits<double>::infinity();
   result.torque_residual = 0;
   for (int row = 0; row < rows; ++row) {
+    report_step("mesh positions", row, rows);
     const int period = row % result.hunting_periods, position = row / result.hunting_periods,
               i = period * positions + position;
     const double phase = static_cast<double>(position) / positions;
@@ -276,10 +280,12 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
     add(false, "corner contact is off: only pairs on the line of action carry load");
   if (s.driver.tooth_thinning + s.driven.tooth_thinning > 0 && s.backlash_margin <= 0)
     add(true, "the backlash is used up by ", -s.backlash_margin * 1e6,
-        " um; back flanks would touch, which is not modelled");
-  if (s.contact_pressure.size() > 0 && s.contact_pressure.maxCoeff() > kHardenedSteelPressure)
-    add(true, "the contact pressure of ", std::round(s.contact_pressure.maxCoeff() * 1e-7) / 100,
-        kBeyondSteel);
+        " µm; back flanks would touch, which is not modelled");
+  const double pressure = flank_pressure(s).smooth;
+  if (pressure > kHardenedSteelPressure)
+    add(true, "the contact pressure of ", std::round(pressure * 1e-7) / 100, kBeyondSteel);
+  for (const std::vector<Remark>& more : {pressure_remarks(s), body_remarks(s)})
+    out.insert(out.end(), more.begin(), more.end());
   return out;
 }
 
@@ -289,8 +295,10 @@ std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArt
   if (!(phase >= 0 && phase < 1))
     fail(Failure::input, "mesh phase ", phase, " is not within a mesh period: 0 up to, not including, 1");
   if (period < 0 || period >= statics.hunting_periods)
-    fail(Failure::input, "mesh period ", period, ": the same teeth meet after ", statics.hunting_periods,
-         " mesh periods, give one from 0 to ", statics.hunting_periods - 1);
+    fail(Failure::input, "mesh phase ", phase + period, " is outside the range: 0 up to, not including, ",
+         statics.hunting_periods,
+         statics.hunting_periods == 1 ? " (all teeth are alike, so that every mesh period is the same)"
+                                      : " (mesh periods after which the same teeth meet)");
   const double load = statics.torque / model.kinematics.gear(0).base_radius();
   const auto tables = strips_tables(model);
   ComplementaritySolver solver;

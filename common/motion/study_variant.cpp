@@ -25,6 +25,13 @@ void add_static(Answers& answers, const StaticArtifact& rest) {
   answers["mean_stiffness"] = rest.mean_stiffness;
   answers["te_mean"] = spectrum.mean;
   answers["te_peak_to_peak"] = te.maxCoeff() - te.minCoeff();
+  const Index positions = te.size() / periods;
+  double largest = 0;
+  for (int period = 0; period < periods; ++period) {
+    const auto own = te.segment(period * positions, positions);
+    largest = std::max(largest, own.maxCoeff() - own.minCoeff());
+  }
+  answers["te_peak_to_peak_mesh"] = largest;
   for (int h = 1; h <= 3; ++h) {
     if (h > count)
       fail(Failure::input, te.size() / periods, " positions per mesh period do not resolve harmonic ", h,

@@ -316,40 +316,62 @@ Eigen::VectorXd backlash_left(const SweepArtifact& s) {
          s.backlash_margin;
 }
 
+namespace {
+
+// The eta that a scene without [damping] gets is that of P2000's pair; others it damps by what nobody chose.
+std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::array<double, 2>& inertia,
+                                     const Damping& damping) {
+  const auto of_paper = [](const GearDesign& g) { return g.teeth == 50 && std::abs(g.module - 3e-3) < 1e-9; };
+  const double ratio = stiffness_damping_ratio(statics, damping, inertia[0], inertia[1]);
+  const bool fits = of_paper(statics.driver) && of_paper(statics.driven) && ratio >= 0.01 && ratio <= 0.12;
+  if (!default_rayleigh_stiffness(damping) || fits) return {};
+  std::ostringstream percent;
+  percent << std::setprecision(3) << ratio * 100;
+  return remark(
+      true, "rayleigh_stiffness_s = ", damping.rayleigh_stiffness,
+      ", the default, is for the gears of P2000; these it gives a damping ratio of about ", percent.str(),
+      " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` "
+      "prints the value for 7 %, to be put into [damping]");
+}
+
+}  // namespace
+
+std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, 2>& inertia,
+                                  const Damping& damping, const Fidelity& fidelity) {
+  constexpr double kFlywheel =
+      100;  // times the inertia of the drawing: more than what shafts and couplings add
+  std::vector<Remark> out;
+  if (fidelity.body != "rigid" && fidelity.body != "quasi-static")
+    if (const auto damped = damping_remark(statics, inertia, damping)) out.push_back(*damped);
+  for (size_t g = 0; g < 2; ++g) {
+    const double own = least_body_inertia(ToothGeometry(g ? statics.driven : statics.driver),
+                                          g ? statics.driven_material : statics.driver_material);
+    if (inertia[g] > kFlywheel * own)
+      out.push_back(remark(true, "total_inertia_kgm2 = ", inertia[g], " of [gear.",
+                           g ? statics.mesh.driven : statics.mesh.driver, "] is ",
+                           std::round(inertia[g] / own), " times that of the gear as drawn, ",
+                           shown_number(own), "; check its unit, kg m2"));
+  }
+  return out;
+}
+
 std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& statics) {
   constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
   std::vector<Remark> out;
   const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
-  // The default eta is that of P2000's pair; on stiffer or lighter gears it damps what nobody meant to damp. Said once of a
-  // pair of sweeps, by the one of rising speed.
-  const bool damps = s.fidelity.body != "rigid" && s.fidelity.body != "quasi-static";
-  const double ratio = stiffness_damping_ratio(statics, s.damping, s.driver_inertia, s.driven_inertia);
-  if (s.direction == "up" && damps && (ratio < 0.01 || ratio > 0.12) &&
-      default_rayleigh_stiffness(s.damping)) {
-    std::ostringstream percent;
-    percent << std::setprecision(3) << ratio * 100;
-    add(true, "rayleigh_stiffness_s = ", s.damping.rayleigh_stiffness,
-        ", the default, is for the gears of P2000; these it gives a damping ratio of about ", percent.str(),
-        " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` "
-        "prints the "
-        "value for 7 %");
-  }
-  constexpr double kFlywheel =
-      100;  // times the inertia of the drawing: more than what shafts and couplings add
+  // Said once of a pair of sweeps, by the one of rising speed.
   if (s.direction == "up" && s.model == "finite elements")
-    for (int g = 0; g < 2; ++g) {
-      const double own = least_body_inertia(ToothGeometry(g ? s.driven : s.driver),
-                                            g ? s.driven_material : s.driver_material);
-      const double whole = g ? s.driven_inertia : s.driver_inertia;
-      if (whole > kFlywheel * own)
-        add(true, "total_inertia_kgm2 = ", whole, " of [gear.", g ? s.mesh.driven : s.mesh.driver, "] is ",
-            std::round(whole / own), " times that of the gear as drawn, ", shown_number(own),
-            "; check its unit, kg m2");
-    }
+    out = setup_remarks(statics, {s.driver_inertia, s.driven_inertia}, s.damping, s.fidelity);
   if (const double steps = steps_per_oscillation(s); steps < kFewestSteps)
     add(true, "a time step is too long for the contact: ", steps,
         " steps per oscillation at its natural frequency of ", s.natural_frequency, " Hz, ", kFewestSteps,
         " are needed to follow it; raise min_sample_rate_kHz or steps_per_period");
+  constexpr double kImbalance = 1e-6;  // of the energy that goes in: what rounding leaves is below 1e-9
+  if (Eigen::Index worst = 0;
+      s.energy_imbalance.size() > 0 && s.energy_imbalance.cwiseAbs().maxCoeff(&worst) > kImbalance)
+    add(true, "the energy balance does not close: at ", s.mesh_frequency[worst], " Hz it is off by ",
+        shown_number(std::abs(s.energy_imbalance[worst])), " of the energy that goes in, at most ",
+        kImbalance, " is right; do not rely on this sweep, and check [damping]");
   for (Eigen::Index i = 0; i < s.mesh_frequency.size(); ++i)
     if (s.period_multiple[i] == 0)
       add(true, "at ", s.mesh_frequency[i], " Hz the motion is not periodic after ", s.periods[i],
@@ -361,14 +383,14 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
   const double least = s.transmission_error.minCoeff() - statics.unloaded_error.minCoeff();
   if (least < 0 && !std::isfinite(s.backlash_margin))
     add(false, "the teeth swing ", std::round(-least * 1e7) / 10,
-        " um apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
+        " µm apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
   if (s.backlash_margin <= 0) {
     std::map<double, bool> beyond;
     const Eigen::VectorXd left = backlash_left(s);
     for (Eigen::Index i = 0; i < left.size(); ++i) beyond[s.mesh_frequency[i]] = left[i] <= 0;
     add(true, "at ", speed_ranges(beyond), " Hz the motion goes up to ",
         std::round(-s.backlash_margin * 1e8) / 100,
-        " um beyond the backlash; back flanks would touch there, which is not modelled");
+        " µm beyond the backlash; back flanks would touch there, which is not modelled");
   }
   return out;
 }

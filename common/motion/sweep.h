@@ -1,6 +1,7 @@
 // Speed sweeps: the state is carried from speed to speed, as on a test rig, and each speed runs until it is
 // periodic.
 #pragma once
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
 // r2^2 / I2). An estimate from above: flexibility that follows its load at once is not damped.
 double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping, double driver_inertia,
                                double driven_inertia);
+
+// What is out of the ordinary in the numbers of a scene that only motions need: a damping that nobody chose for these gears,
+// inertias a hundred times those of the drawing. inertia: kg m2, of driver and driven gear.
+std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, 2>& inertia,
+                                  const Damping& damping, const Fidelity& fidelity);
 
 // What a reader of a sweep of elastic gears has to know beside its numbers, in words: a default damping that is not for these
 // gears, steps too long for the contact, motions that do not repeat or after several mesh periods, backlash used up. `statics`

@@ -205,7 +205,8 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
         static_cast<double>(k) / per_period - std::floor(static_cast<double>(k) / per_period);
     state.rows.push_back({static_cast<double>(k) / per_period, error[k] * kMicro, force[k]});
     std::vector<ElasticOutline::Press> presses[2];
-    FigureBlock pressing{frame_name(frame) + " force", {"x [mm]", "y [mm]", "load [N]", "pair [1]"}, {}};
+    FigureBlock pressing{
+        frame_name(frame) + " force", {"x [mm]", "y [mm]", "load [N]", "pair [1]"}, {}, "", "", true};
     for (Index j = 0; j < loads.cols(); ++j) {
       if (!(loads(k, j) > 0)) continue;
       const int number = s.pair[j];
@@ -236,7 +237,8 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
       const double upright =
           std::remainder(at.angle - (g == 0 ? 0.0 : std::numbers::pi), 2 * std::numbers::pi);
       const int middle = static_cast<int>(std::lround(-upright / pitch));
-      FigureBlock teeth{frame_name(frame) + (g == 0 ? " driver" : " driven"), {"x [mm]", "y [mm]"}, {}};
+      FigureBlock teeth{
+          frame_name(frame) + (g == 0 ? " driver" : " driven"), {"x [mm]", "y [mm]"}, {}, "", "", true};
       // A contour goes from the clockwise side of its sector to the other: so do the teeth, in one closed line.
       const auto add = [&](const Vec2& p) {
         // micrometres are enough for the eye and keep the file small
@@ -270,7 +272,7 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
   figure.notes = {text("Vibration and deflection magnified ", magnified,
                        " times; teeth bend as at rest under the loads of the moment; gaps are "
                        "drawn wider than at scale as far as teeth would overlap"),
-                  text("Arrows: force of each pair on the driven gear",
+                  text("Arrows: force of each pair on the driven gear; DTE: dynamic transmission error",
                        drawn_back > 0 ? text("; back flanks are drawn ", std::round(drawn_back * 1e5) / 1e2,
                                              " mm thinner, the model has none")
                                       : "")};

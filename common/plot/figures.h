@@ -23,6 +23,10 @@ struct FigureBlock {
   std::string name;                       // gnuplot finds it by `index "[name]"`
   std::vector<std::string> columns;       // with their unit: "mesh_frequency [Hz]"
   std::vector<std::vector<double>> rows;  // an empty row lifts the pen
+  std::string table = {};  // of the tables of numbers the one that it stands in; "": one of its own
+  std::string curve =
+      {};                // which rows of that table are its, in its first column; "": the table has no other
+  bool drawing = false;  // lines and areas of a drawing, which are in no table
 };
 
 struct Figure {
@@ -53,7 +57,18 @@ std::string paper_figure(const std::string& name);
 // Words as they stand, in a text in which gnuplot reads marks such as '_' (subscript).
 std::string without_markup(const std::string& words);
 
-// The TSV: '#' lines with title, notes, sources and columns, then the blocks, two empty lines between them.
-std::string tsv(const Figure& figure, const std::vector<std::string>& sources);
+// What gnuplot reads: '#' lines with title, notes and columns, then the blocks, two empty lines between them.
+std::string plot_data(const Figure& figure);
+
+// The numbers of a figure: what a table says is its own file for pandas.read_csv(sep="\t", comment="#") and others: '#' lines with
+// title, scenes, notes and sources, one line of column names, one line for each row. The first has no name and is the figure's
+// main one.
+struct FigureTable {
+  std::string name, text;
+};
+std::vector<FigureTable> tables(const Figure& figure, const std::vector<std::string>& sources);
+
+// Writes them: <output>.tsv, and <output>-<name>.tsv for those after the first.
+void publish_tables(const Figure& figure, const std::string& output, const std::vector<std::string>& sources);
 
 }  // namespace whine

@@ -61,22 +61,30 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
     const Wireframe wire(mesh);
     const Placement at = placed(pair, g);
     const std::vector<std::string> columns{"x [mm]", "y [mm]"};
-    figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli)});
-    figure.blocks.push_back({name + " bore", columns, wire.bore(at, kMilli)});
-    figure.blocks.push_back({name + " gear", columns, wire.whole(at, kMilli)});
-    figure.blocks.push_back({name + " teeth", columns, wire.window(at, kMilli, pitch_point, half_window)});
+    const auto lines = [&](const char* what, const Strokes& strokes, bool drawing) {
+      figure.blocks.push_back({name + what, columns, strokes, "lines", name + what, drawing});
+    };
+    lines(" outline", wire.outline(at, kMilli), false);
+    lines(" bore", wire.bore(at, kMilli), false);
+    // Of the elements mesh.h5 holds the numbers.
+    // A twentieth of a pixel of the picture of both gears.
+    const double hair =
+        1e-4 * (s.mesh.centre_distance + pair.gear(0).tip_radius() + pair.gear(1).tip_radius()) * kMilli;
+    lines(" gear", simplified(wire.whole(at, kMilli), hair), true);
+    lines(" teeth", wire.window(at, kMilli, pitch_point, half_window), true);
     elements += static_cast<long>(mesh.element_node.rows()) * mesh.design.teeth;
     nodes += static_cast<long>(mesh.node_position.rows() - mesh.side_node.rows()) * mesh.design.teeth;
   }
   // The driver turns counter-clockwise: contact moves along the outward normal of its flank.
   const Vec2 along(-std::cos(alpha), std::sin(alpha));
-  FigureBlock path{"path of contact", {"x [mm]", "y [mm]"}, {}};
+  FigureBlock path{"path of contact", {"x [mm]", "y [mm]"}, {}, "lines", "path of contact"};
   for (double x : {pair.path_start(), 0.0, pair.path_end()}) {
     const Vec2 p = (pitch_point + x * along) * kMilli;
     path.rows.push_back({p.x(), p.y()});
   }
   figure.blocks.push_back(path);
-  figure.blocks.push_back({"pitch point", {"x [mm]", "y [mm]"}, {{0.0, pitch_point.y() * kMilli}}});
+  figure.blocks.push_back(
+      {"pitch point", {"x [mm]", "y [mm]"}, {{0.0, pitch_point.y() * kMilli}}, "lines", "pitch point"});
 
   figure.notes.push_back(pair_words(s));
   figure.notes.push_back(
@@ -115,10 +123,11 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
     const Wireframe wire(mesh);
     const Placement at = placed(pair, g);
     const std::vector<std::string> columns{"x [mm]", "y [mm]"};
-    figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli)});
-    figure.blocks.push_back({name + " teeth", columns, wire.window(at, kMilli, touch, half_window)});
+    figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli), "", "", true});
+    figure.blocks.push_back(
+        {name + " teeth", columns, wire.window(at, kMilli, touch, half_window), "", "", true});
     const BodyDiscretisation& body = g == 0 ? s.driver_body : s.driven_body;
-    FigureBlock inner{name + " inner region", columns, {}};
+    FigureBlock inner{name + " inner region", columns, {}, "", "", true};
     if (body.near_field == "matching") {
       const ToothGeometry& tooth = pair.gear(g);
       for (double t = 0; t <= 1.0001; t += 0.02) {
@@ -131,7 +140,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
     }
     figure.blocks.push_back(inner);
   }
-  FigureBlock action{"line of action", {"x [mm]", "y [mm]"}, {}};
+  FigureBlock action{"line of action", {"x [mm]", "y [mm]"}, {}, "", "", true};
   for (double side : {-1.0, 1.0}) {
     const Vec2 p = (touch + side * half_window * normal) * kMilli;
     action.rows.push_back({p.x(), p.y()});
@@ -175,8 +184,10 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
   }
   // Hertz's line contact (Johnson, Contact Mechanics, 4.2c) of the same force.
   const double force = zone.force.sum();
-  const double compliance = HalfPlaneSurface(s.driver_material, face_width).coefficient() +
-                            HalfPlaneSurface(s.driven_material, face_width).coefficient();
+  const auto coefficient = [&](const Material& material) {
+    return HalfPlaneSurface(in_contact_plane(material, s.mesh.contact_plane), face_width).coefficient();
+  };
+  const double compliance = coefficient(s.driver_material) + coefficient(s.driven_material);
   const double half_width = std::sqrt(2 * pair.relative_curvature_radius(0.0) * force * compliance);
   const double peak = 2 * force / (std::numbers::pi * half_width * face_width);
   FigureBlock hertz{"Hertz", {"along flank [mm]", "pressure [MPa]"}, {}};
@@ -184,7 +195,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
     const double x = -std::cos(std::numbers::pi * k / 120);
     hertz.rows.push_back({x * half_width * kMilli, 1e-6 * peak * std::sqrt(std::max(0.0, 1 - x * x))});
   }
-  figure.blocks.insert(figure.blocks.end(), {flanks, candidates, hertz});
+  figure.blocks.insert(figure.blocks.end(), {candidates, flanks, hertz});
 
   figure.notes.push_back(pair_words(s));
   const std::string inner =
@@ -220,7 +231,7 @@ Figure profile_figure(const StaticArtifact& s) {
     figure.notes.push_back((g == 0 ? s.mesh.driver : s.mesh.driven) + ", " + name + ": " +
                            in_words(s.mesh.modification[g]));
     figure.words.emplace_back("title_" + name, figure.notes.back());
-    FigureBlock trace{name, {"roll angle [deg]", "length of roll [mm]", "material [µm]"}, {}};
+    FigureBlock trace{name, {"roll angle [deg]", "length of roll [mm]", "material [µm]"}, {}, "flanks", name};
     const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
     constexpr int kPlaces = 400;
     for (int i = 0; i <= kPlaces; ++i) {

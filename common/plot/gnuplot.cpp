@@ -16,14 +16,9 @@
 namespace whine {
 namespace {
 
-// A gnuplot string literal; in double quotes so that UTF-8 passes and \n works.
-std::string quoted(const std::string& s) {
-  std::string out = "\"";
-  for (char c : s) {
-    if (c == '"' || c == '\\' || c == '`') out += '\\';
-    out += c == '\n' ? "\\n" : std::string(1, c);
-  }
-  return out + "\"";
+// gnuplot runs a command for a file name that begins with '<', and takes a template that begins with '-' for an option.
+std::string plain_path(const std::string& path) {
+  return path.starts_with('/') ? path : "./" + path;
 }
 
 std::string prelude(const Figure& figure, const std::string& tsv_path, Picture picture) {
@@ -38,19 +33,20 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
   }
   script += " enhanced background '#ffffff'; ";
   script += text("height = real(", figure.height, "); ");
-  script += text("tsv = ", quoted(tsv_path), "; title = ", quoted(figure.title), "; ");
-  std::string heading = figure.title;
+  script +=
+      text("tsv = ", gnuplot_string(plain_path(tsv_path)), "; title = ", gnuplot_string(figure.title), "; ");
+  std::string heading = without_markup(figure.title);
   for (const std::string& scene : figure.scenes) heading += "\n{/*0.68 " + without_markup(scene) + "}";
-  script += text("heading = ", quoted(heading), "; ");
+  script += text("heading = ", gnuplot_string(heading), "; ");
   for (size_t i = 0; i < figure.notes.size(); ++i)
-    script += text("note", i + 1, " = ", quoted(figure.notes[i]), "; ");
+    script += text("note", i + 1, " = ", gnuplot_string(figure.notes[i]), "; ");
   for (const auto& [name, value] : figure.numbers) {
     char number[40];
     std::snprintf(number, sizeof number, "%.17g", value);
     // gnuplot divides integers as integers: a number is always a real one here
     script += name + " = real(" + number + "); ";
   }
-  for (const auto& [name, value] : figure.words) script += name + " = " + quoted(value) + "; ";
+  for (const auto& [name, value] : figure.words) script += name + " = " + gnuplot_string(value) + "; ";
   return script;
 }
 
@@ -101,12 +97,28 @@ std::string first_line_that_matters(const std::string& complaints) {
 
 }  // namespace
 
+std::string gnuplot_string(const std::string& words) {
+  std::string out = "'";
+  for (const char c : words) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\n') {
+      out += "'.\"\\n\".'";
+    } else if (c == '\'') {
+      out += "'.\"'\".'";
+    } else {
+      out += code < 0x20 || code == 0x7f ? ' ' : c;
+    }
+  }
+  return out + "'";
+}
+
 std::string draw(const Figure& figure, const std::string& tsv_path, const std::string& template_path,
                  Picture picture) {
   if (access(template_path.c_str(), R_OK) != 0)
     fail(Failure::io, template_path, ": ", std::strerror(errno),
          "; the template of the figure is needed, see --plots");
-  std::vector<std::string> words{"gnuplot", "-d", "-e", prelude(figure, tsv_path, picture), template_path};
+  std::vector<std::string> words{"gnuplot", "-d", "-e", prelude(figure, tsv_path, picture),
+                                 plain_path(template_path)};
   std::vector<std::string> environment = plain_environment();
   const auto pointers = [](std::vector<std::string>& strings) {
     std::vector<char*> p;

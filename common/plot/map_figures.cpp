@@ -173,7 +173,8 @@ FigureBlock cells(const std::string& name, const std::vector<const JumpMapArtifa
                      "first_harmonic_over_mean [1]",
                      "excitation [1]",
                      "unsteady [1]"},
-                    {}};
+                    {},
+                    "maps"};
   std::vector<double> ratio, torque;
   for (double r : maps[0]->damping_ratio) ratio.push_back(r * 100);
   for (const JumpMapArtifact* a : maps) torque.push_back(std::log10(a->torque));
@@ -328,12 +329,13 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
   double largest = 0;
   for (size_t p = 0; p < panels.size(); ++p) {
     figure.blocks.push_back(cells(text("panel", p + 1), panels[p].second));
+    figure.blocks.back().curve = panels[p].first;
     figure.words.emplace_back(text("panel", p + 1), panels[p].first);
     for (const JumpMapArtifact* a : panels[p].second)
       largest = std::max(largest, a->held_tooth_load.maxCoeff() * 1e-3);
   }
   if (paper) {
-    FigureBlock printed{"printed", {"damping_ratio [%]", "torque [N m]"}, {}};
+    FigureBlock printed{"printed", {"damping_ratio [%]", "torque [N m]"}, {}, "", "", true};
     for (double torque : kPaperTorques) printed.rows.push_back({kPaperRatio * 100, torque});
     figure.blocks.push_back(printed);
   }
@@ -454,6 +456,7 @@ Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps) {
     const JumpMapArtifact& a = *panels[p].second[0];
     const std::string name = text("panel", p + 1);
     figure.blocks.push_back(cells(name, panels[p].second));
+    figure.blocks.back().curve = panels[p].first;
     figure.words.emplace_back(name, panels[p].first);
     figure.numbers.emplace_back(
         text("column", p + 1),
@@ -525,6 +528,7 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
            base.fidelity.contact, ", steps of ",
            rounded(base.mesh_frequency.size() > 1 ? base.mesh_frequency[1] - base.mesh_frequency[0] : 0, 1),
            " Hz"));
+  std::vector<FigureBlock> named;  // the same rows under the names of the variants
   for (Index c = cases; c-- > 0;) {
     FigureBlock block{
         c == shown ? "changes"
@@ -534,7 +538,11 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
          "open_below [1]", "damping_ratio [%]", "rayleigh_stiffness [1e-6 s]", "branches_from, itself [Hz]",
          "branches_to, itself [Hz]", "held_tooth_load, itself [kN]", "sampled peak up, itself [kN]",
          "sampled peak down, itself [kN]"},
-        {}};
+        {},
+        "",
+        "",
+        true};
+    const std::string at = text(" at eta ", rounded(base.rayleigh_stiffness[c] * 1e6, 3), "e-6 s");
     for (size_t i = 0; i < rows.size(); ++i) {
       const JumpMapArtifact& v = *rows[i].map;
       const bool both = v.two_branches[c] && base.two_branches[c];
@@ -546,9 +554,12 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
            static_cast<double>(v.two_branches[c]), static_cast<double>(v.open_below[c]),
            v.damping_ratio[c] * 100, v.rayleigh_stiffness[c] * 1e6, v.branches_from[c], v.branches_to[c],
            load(v, c) * 1e-3, v.peak_tooth_load(c, 0) * 1e-3, v.peak_tooth_load(c, 1) * 1e-3});
+      named.push_back(
+          {text("variant ", i, at), block.columns, {block.rows.back()}, "variants", rows[i].label + at});
     }
     figure.blocks.push_back(block);
   }
+  figure.blocks.insert(figure.blocks.end(), named.begin(), named.end());
   for (size_t i = 0; i < rows.size(); ++i) {
     figure.notes.push_back(text("variant ", i, ": ", rows[i].label));
     figure.words.emplace_back(text("label", i + 1), rows[i].label);
@@ -561,6 +572,26 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
   }
   return figure;
 }
+
+namespace {
+
+// The relief at which lines through the values on either side of the least one meet, as in a cusp: on the grid of the map the best
+// relief would go in steps, and about its least value a map is flat. That of the least value where they do not meet near it.
+double relief_at_cusp(const Eigen::VectorXd& relief, const Eigen::RowVectorXd& value) {
+  constexpr Index kNear = 3, kFar = 4;  // places from the least value
+  Index r = 0;
+  value.minCoeff(&r);
+  if (r < kFar || r + kFar >= relief.size()) return relief[r];
+  const Index low = r - kNear, high = r + kNear;
+  const double falling = (value[low] - value[r - kFar]) / (relief[low] - relief[r - kFar]),
+               rising = (value[r + kFar] - value[high]) / (relief[r + kFar] - relief[high]);
+  if (!(falling < 0 && rising > 0)) return relief[r];
+  const double at =
+      (value[high] - value[low] + falling * relief[low] - rising * relief[high]) / (falling - rising);
+  return std::clamp(at, relief[low], relief[high]);
+}
+
+}  // namespace
 
 Figure harris_map_figure(const HarrisMapArtifact& map) {
   constexpr double kMicro = 1e6;  // m -> micrometre
@@ -582,7 +613,7 @@ Figure harris_map_figure(const HarrisMapArtifact& map) {
                               " N m: ", rounded(map.optimum_relief[best] * kMicro, 2), " µm leave ",
                               rounded(map.optimum_peak_to_peak[best] * kMicro, 3), " µm peak to peak"));
   const auto cube = [&](const std::string& name, const MatrixRM& values, double scale) {
-    FigureBlock block{name, {"relief [µm]", "torque [N m]", "value"}, {}};
+    FigureBlock block{name, {"relief [µm]", "torque [N m]", "value"}, {}, "", "", true};
     for (Index t = 0; t < map.torque.size(); ++t) {
       if (t > 0) block.rows.push_back({});
       for (Index r = 0; r < map.relief.size(); ++r)
@@ -590,13 +621,24 @@ Figure harris_map_figure(const HarrisMapArtifact& map) {
     }
     figure.blocks.push_back(block);
   };
+  FigureBlock whole{"map", {"relief [µm]", "torque [N m]", "peak to peak [µm]"}, {}};
+  for (int n = 0; n < 3; ++n) whole.columns.push_back(text("harmonic ", n + 1, " [µm]"));
+  if (!map.dynamic_rms.empty())
+    whole.columns.insert(whole.columns.end(), {"dte_rms [µm]", "at mesh_frequency [Hz]"});
+  for (Index t = 0; t < map.torque.size(); ++t)
+    for (Index r = 0; r < map.relief.size(); ++r) {
+      std::vector<double> row{map.relief[r] * kMicro, map.torque[t], map.peak_to_peak[best](t, r) * kMicro};
+      for (int n = 0; n < 3; ++n) row.push_back(map.harmonic[n][best](t, r) * kMicro);
+      if (!map.dynamic_rms.empty())
+        row.insert(row.end(), {map.dynamic_rms[best](t, r) * kMicro, map.worst_frequency[best](t, r)});
+      whole.rows.push_back(row);
+    }
+  figure.blocks.push_back(whole);
   cube("peak to peak", map.peak_to_peak[best], kMicro);
   for (int n = 0; n < 3; ++n) cube(text("harmonic ", n + 1), map.harmonic[n][best], kMicro);
   FigureBlock ridge{"best relief", {"relief [µm]", "torque [N m]"}, {}};
   for (Index t = 0; t < map.torque.size(); ++t) {
-    Index r = 0;
-    map.peak_to_peak[best].row(t).minCoeff(&r);
-    ridge.rows.push_back({map.relief[r] * kMicro, map.torque[t]});
+    ridge.rows.push_back({relief_at_cusp(map.relief, map.peak_to_peak[best].row(t)) * kMicro, map.torque[t]});
   }
   figure.blocks.push_back(ridge);
   figure.blocks.push_back(

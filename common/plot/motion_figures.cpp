@@ -24,8 +24,8 @@ auto gears_of(const Artifact& s) {
   };
   return std::tuple(of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
                     s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
-                    s.damping.rayleigh_stiffness, s.damping.rayleigh_mass, s.damping.bearing_ratio,
-                    s.damping.undamped_depth);
+                    s.mesh.contact_plane, s.damping.rayleigh_stiffness, s.damping.rayleigh_mass,
+                    s.damping.bearing_ratio, s.damping.undamped_depth);
 }
 
 // All that two sweeps must share to be one experiment, besides the torque.
@@ -114,12 +114,12 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, cons
   return panels;
 }
 
-// Torques and damping of a panel: "150 N m; damping ratio 6.95 % with two pairs in contact, by ring-down". Without the
+// Torques and damping of a panel: "150 N m; damping ratio 5.81 % with one pair, 6.95 % with two pairs in contact, by ring-down". Without the
 // impact.h5 of its sweeps the torques alone.
 template <class Sweep>
 std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& told) {
   std::vector<std::string> torques, at;
-  std::string ratios, state;
+  std::string ratios, state, with_one;
   const auto once = [](std::vector<std::string>& list, const std::string& word) {
     if (list.empty() || list.back() != word) list.push_back(word);
   };
@@ -142,6 +142,8 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& t
     const Eigen::Index i = wanted != states.end() ? wanted - states.begin() : found->state_phase.size() - 1;
     state = known++ == 0 || state == states[i] ? states[i] : "most";
     ratios += (ratios.empty() ? "" : ", ") + fixed(found->damping_ratio[i] * kPercent, 2);
+    if (i > 0 && states[0] == "one")
+      with_one += (with_one.empty() ? "" : ", ") + fixed(found->damping_ratio[0] * kPercent, 2);
     once(at, shown(s.torque, 6));
   }
   const auto in_a_row = [](const std::vector<std::string>& list) {
@@ -152,8 +154,9 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& t
   const std::string words = in_a_row(torques);
   if (!elastic(*panel.curves[0].up)) return words + "; " + lumped_words(panel.lumped);
   if (known == 0) return words;
-  return words + "; damping ratio " + ratios + " %" + (at == torques ? "" : " at " + in_a_row(at)) +
-         " with " + state + (state == "one" ? " pair" : " pairs") + " in contact, by ring-down";
+  return words + "; damping ratio " + (with_one.empty() ? "" : with_one + " % with one pair, ") + ratios +
+         " %" + (at == torques ? "" : " at " + in_a_row(at)) + " with " + state +
+         (state == "one" ? " pair" : " pairs") + " in contact, by ring-down";
 }
 
 // Rows after which a curve breaks: where the march left a branch that ends at a jump, and where the RMS changes by half of
@@ -178,7 +181,9 @@ FigureBlock branch_block(const std::string& name, const ResponseArtifact& r) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
                      "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
-                    {}};
+                    {},
+                    "responses",
+                    name};
   const std::vector<bool> broken = broken_after(r);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
@@ -195,7 +200,9 @@ FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
   FigureBlock block{name,
                     {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
                      "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
-                    {}};
+                    {},
+                    "jumps",
+                    name};
   const std::vector<Eigen::Index> left = rows_before_jumps(r);
   for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
     const double f = r.jump_frequency[j];
@@ -367,8 +374,9 @@ double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& 
     return (k + (kPeriods * m.periods + m.first + kFirstPeriod) * n) % force.size();
   };
   const auto phase_of = [&](Eigen::Index k) { return kFirstPeriod + static_cast<double>(k) / n; };
-  FigureBlock net{letter + " mesh force", {"phase of tooth i [1]", "mesh force [N]"}, {}};
-  FigureBlock lost{letter + " contact lost", {"from phase [1]", "to phase [1]"}, {}};
+  FigureBlock net{
+      letter + " mesh force", {"phase of tooth i [1]", "force [N]"}, {}, "loads", letter + " all teeth"};
+  FigureBlock lost{letter + " contact lost", {"from phase [1]", "to phase [1]"}, {}, "contact lost", letter};
   for (Eigen::Index k = 0; k <= kPeriods * n; ++k) {
     const double f = force[row_of(k)];
     net.rows.push_back({phase_of(k), f});
@@ -385,7 +393,8 @@ double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& 
   // that does so t periods after tooth i is pair (period - t). Drawn while it carries load, with a sample on either side.
   for (int t = kFirstTooth; t <= kLastTooth; ++t) {
     FigureBlock tooth{
-        text(letter, " tooth i", t < 0 ? "" : "+", t), {"phase of tooth i [1]", "load [N]"}, {}};
+        text(letter, " tooth i", t < 0 ? "" : "+", t), {"phase of tooth i [1]", "force [N]"}, {}, "loads"};
+    tooth.curve = tooth.name;
     const auto load_at = [&](Eigen::Index k) {
       const Eigen::Index j = kFirstPeriod + k / n - t - m.sweep->pair[0];
       return k >= 0 && k < kPeriods * n && j >= 0 && j < loads.cols() ? loads(row_of(k), j) : 0.0;
@@ -445,7 +454,7 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
   }
   std::sort(torques.begin(), torques.end());
   torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
-  figure.title = "Dynamic transmission error against mesh frequency, ";
+  figure.title = "Dynamic transmission error (DTE) against mesh frequency, ";
   for (size_t i = 0; i < torques.size(); ++i) figure.title += (i ? ", " : "") + shown(torques[i], 6);
   figure.title += " N m";
   figure.notes.push_back(
@@ -530,7 +539,7 @@ Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_fr
   constexpr int kShownPeriods = 3;
   Figure figure;
   const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, told, figure);
-  set_motion_title(figure, "Oscillating dynamic transmission error", motions, mesh_frequency);
+  set_motion_title(figure, "Oscillating dynamic transmission error (DTE)", motions, mesh_frequency);
   figure.height = 960 + 29 * static_cast<int>(figure.notes.size());
   double time_end = 0, largest = 0, largest_amplitude = 0;
   for (size_t i = 0; i < motions.size(); ++i) {
@@ -541,7 +550,9 @@ Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_fr
       fail(Failure::input, "figure: ", x.size(),
            " samples do not resolve the mesh frequency; raise steps_per_period");
     const Harmonics h = harmonics(x, count);
-    FigureBlock history{letter_of(i) + " history", {"time [ms]", "oscillating dte [µm]"}, {}};
+    const std::string curve = letter_of(i) + " " + m.title;
+    FigureBlock history{
+        letter_of(i) + " history", {"time [ms]", "oscillating dte [µm]"}, {}, "histories", curve};
     const Eigen::Index shown_samples = std::max(kShownPeriods, m.periods) * m.per_period();
     for (Eigen::Index n = 0; n <= shown_samples; ++n) {
       const double value = (x[n % x.size()] - h.mean) * kMicro;
@@ -549,7 +560,8 @@ Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_fr
       largest = std::max(largest, std::abs(value));
     }
     time_end = std::max(time_end, history.rows.back()[0]);
-    FigureBlock spectrum{letter_of(i) + " spectrum", {"frequency [Hz]", "amplitude [µm]"}, {}};
+    FigureBlock spectrum{
+        letter_of(i) + " spectrum", {"frequency [Hz]", "amplitude [µm]"}, {}, "spectra", curve};
     for (int k = 1; k <= count; ++k)
       spectrum.rows.push_back({k * mesh_frequency / m.periods, h.amplitude[k - 1] * kMicro});
     Eigen::Index strongest = 0;
@@ -630,16 +642,18 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
       "title_b",
       text("at ", shown(speed, 6), " Hz, speed ", worst.sweep->direction == "up" ? "rising" : "falling",
            ", where the RMS of the transmission error is largest (", shown(rms * kMicro, 3), " µm)"));
-  figure.numbers.insert(figure.numbers.end(), {{"frequency_from", from},
-                                               {"frequency_to", to},
-                                               {"load_max", most},
-                                               {"worst_speed", speed},
-                                               {"contact_lost", lost}});
+  figure.numbers.insert(figure.numbers.end(),
+                        {{"frequency_from", from},
+                         {"frequency_to", to},
+                         {"speeds", static_cast<double>(curve.up->mesh_frequency.size())},
+                         {"load_max", most},
+                         {"worst_speed", speed},
+                         {"contact_lost", lost}});
   return figure;
 }
 
 Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
-  constexpr Eigen::Index kMostSpectra = 40;
+  constexpr Eigen::Index kMostSpectra = 160;
   constexpr int kOrders = 5;
   constexpr double kLeast = 1e-4;  // of the largest amplitude
   if (sweeps.empty() || sweeps.size() > 2)
@@ -677,8 +691,8 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
     const ResponseArtifact r = response(*sweep);
     const Eigen::Index speeds = r.mesh_frequency.size();
     const std::string& d = sweep->direction;
-    FigureBlock lines{"spectra " + d, {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"}, {}};
-    FigureBlock shown_speeds{"speeds " + d, {"mesh_frequency [Hz]"}, {}};
+    FigureBlock lines{
+        "spectra " + d, {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"}, {}, "spectra", d};
     for (Eigen::Index g = 0; g < speeds; g += group) {
       Eigen::Index row = 0;
       r.dte_rms.segment(g, std::min(group, speeds - g)).maxCoeff(&row);
@@ -687,13 +701,12 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
       const Eigen::VectorXd x = m.orbit(sweep->transmission_error);
       const int count = resolved_harmonics(x.size(), static_cast<int>(std::floor(end / f * m.periods)));
       const Harmonics h = harmonics(x, count);
-      shown_speeds.rows.push_back({f});
       for (int k = 1; k <= count; ++k) {
         lines.rows.push_back({f, k * f / m.periods, h.amplitude[k - 1] * kMicro});
         largest = std::max(largest, lines.rows.back()[2]);
       }
     }
-    FigureBlock orders{"orders " + d, {"mesh_frequency [Hz]"}, {}};
+    FigureBlock orders{"orders " + d, {"mesh_frequency [Hz]"}, {}, "orders", d};
     known = std::min(known, r.dte_harmonic.cols());
     for (Eigen::Index k = 1; k <= known; ++k)
       orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
@@ -704,7 +717,7 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
       orders.rows.push_back(row);
       if (broken[i]) orders.rows.emplace_back();
     }
-    figure.blocks.insert(figure.blocks.end(), {lines, shown_speeds, orders});
+    figure.blocks.insert(figure.blocks.end(), {lines, orders});
     directions += (directions.empty() ? "" : " ") + d;
   }
   figure.notes.push_back(
@@ -714,13 +727,18 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
     if (block.name.starts_with("spectra"))
       std::erase_if(block.rows, [&](const std::vector<double>& row) { return row[2] < kLeast * largest; });
   figure.words = {{"directions", directions}};
-  figure.numbers = {{"orders", static_cast<double>(known)},
-                    {"largest", largest},
-                    {"natural_frequency", first.natural_frequency},
-                    {"frequency_end", end},
-                    {"rows", static_cast<double>(shown.size())},
-                    {"frequency_from", slowest},
-                    {"frequency_to", fastest}};
+  figure.numbers = {
+      {"orders", static_cast<double>(known)},
+      {"largest", largest},
+      {"speed_step",
+       (fastest - slowest) / std::max<double>(1, std::ceil(static_cast<double>(first.mesh_frequency.size()) /
+                                                           static_cast<double>(group)) -
+                                                     1)},
+      {"natural_frequency", first.natural_frequency},
+      {"frequency_end", end},
+      {"rows", static_cast<double>(shown.size())},
+      {"frequency_from", slowest},
+      {"frequency_to", fastest}};
   return figure;
 }
 
@@ -763,7 +781,9 @@ Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
       const Eigen::Index samples = sweep.time.steps_per_period, stored = sweep.mesh_force.cols();
       FigureBlock block{text(letter_of(k), " ", s + 1),
                         {"time [mesh periods]", "mesh_force [N]", "transmission_error [µm]"},
-                        {}};
+                        {},
+                        "forces",
+                        text(shown(f, 6), " Hz, sweep ", s + 1)};
       for (Eigen::Index i = 0; i <= 2 * samples; ++i)
         block.rows.push_back({static_cast<double>(i) / static_cast<double>(samples),
                               sweep.mesh_force(row, i % stored),

@@ -10,11 +10,19 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "contact/half_plane_strip.h"
 #include "files/publish.h"
 #include "files/summary.h"
 #include "gear/pair.h"
+#include "gear/path_points.h"
+#include "gear/scene_geometry.h"
+#include "motion/flank_pressure.h"
 #include "plot/figures.h"
 #include "plot/motion_figures.h"
+#include "plot/report_geometry.h"
+#include "plot/report_guide.h"
+#include "plot/report_style.h"
+#include "plot/stiffness_table.h"
 #include "signal/response.h"
 
 namespace whine {
@@ -137,7 +145,8 @@ double hertz_pressure(const StaticArtifact& s, double force) {
   const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
   const double tangent = std::tan(pair.working_pressure_angle());
   const double curvature = (1 / pair.gear(0).base_radius() + 1 / pair.gear(1).base_radius()) / tangent;
-  const auto compliance = [](const Material& m) {
+  const auto compliance = [&](const Material& material) {
+    const Material m = in_contact_plane(material, s.mesh.contact_plane);
     return (m.plane_stress ? 1 : 1 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus;
   };
   return std::sqrt(
@@ -162,6 +171,9 @@ std::string speeds_beyond_backlash(const ReportSweep& s) {
   return speed_ranges(beyond);
 }
 
+// One definition at rest and in motion, so that the two can be compared.
+const std::string kNominalPressure =
+    "nominal contact pressure of the largest tooth load (Hertz, at the pitch point)";
 constexpr const char* kBeyond = "beyond the backlash";
 
 struct Result {
@@ -186,9 +198,13 @@ std::vector<Result> results_of(const ReportContent& c) {
       add(text("static transmission error, harmonic ", n), "µm",
           significant(s.transmission_error_harmonic[n] * kMicro, 3));
     add("static tooth load, largest", "N", fixed(s.tooth_load.maxCoeff(), 0));
-    if (s.contact_pressure.size() > 0 && s.contact_pressure.maxCoeff() > 0)
-      add("static contact pressure inside a flank, largest", "MPa",
-          fixed(s.contact_pressure.maxCoeff() * 1e-6, 0));
+    add(text("static: ", kNominalPressure), "MPa",
+        fixed(hertz_pressure(s, s.tooth_load.maxCoeff()) * 1e-6, 0));
+    const FlankPressure pressure = flank_pressure(s);
+    if (pressure.smooth > 0)
+      add("static contact pressure inside a flank, largest", "MPa", fixed(pressure.smooth * 1e-6, 0));
+    if (pressure.on_ridge > pressure.smooth)
+      add("the same where relief begins", "MPa", "no value: see the warnings");
     if (const ImpactArtifact* a = impact_of(c, s.torque))
       for (size_t i = 0; i < a->contact_state.size(); ++i) {
         const Index at = static_cast<Index>(i);
@@ -208,13 +224,13 @@ std::vector<Result> results_of(const ReportContent& c) {
       const double rms = r.dte_rms.maxCoeff(&at);
       std::string beyond = beyond_backlash(*sweep, at) ? kBeyond : "";
       add("largest RMS of the dynamic transmission error" + way, "µm", significant(rms * kMicro, 3), beyond);
-      add("mesh frequency there" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
+      add("mesh frequency of that RMS" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
       const double load = r.tooth_load_max.maxCoeff(&at);
       beyond = beyond_backlash(*sweep, at) ? kBeyond : "";
       add("largest tooth load" + way, "N", fixed(load, 0), beyond);
-      add("the same over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
-      add("its contact pressure (Hertz, at the pitch point)" + way, "MPa",
-          fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
+      add("mesh frequency of that tooth load" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
+      add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
+      add(kNominalPressure + way, "MPa", fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
       add("jumps" + way, "Hz", jumps_of(r));
       if (const std::string speeds = speeds_beyond_backlash(*sweep); !speeds.empty())
         add("motion beyond the backlash" + way, "Hz", speeds);
@@ -250,6 +266,7 @@ std::string results_table(const ReportContent& c) {
 }
 
 std::string gears_table(const StaticArtifact& s) {
+  constexpr double kNoBacklash = 1e-6;  // m: what a centre distance rounded to a micrometre leaves
   const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
   const auto degrees = [](double rad) { return fixed(rad * 180 / std::numbers::pi, 3); };
   Rows rows;
@@ -268,7 +285,18 @@ std::string gears_table(const StaticArtifact& s) {
   both("roll angle at the tip", "deg", [&](G g) { return degrees(g.tip_roll_angle()); });
   both("tooth thickness at the tip", "mm",
        [](G g) { return fixed(g.thickness_at_radius(g.tip_radius()) * kMilli, 3); });
+  const auto points = path_points(pair);
+  const auto diameter = [&](const std::string& what, size_t driver, size_t driven) {
+    rows.push_back({what, "mm", fixed(points[driver].diameter[0] * kMilli, 3),
+                    fixed(points[driven].diameter[1] * kMilli, 3)});
+  };
+  diameter("diameter where the active profile starts (SAP)", 0, 4);
+  diameter("diameter at B, from where one pair carries alone", 1, 1);
+  diameter("diameter at D, up to where it does", 3, 3);
   both("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
+  rows.push_back({"inertia of the body as drawn, bore to tip, without fillets", "kg m²",
+                  shown(least_body_inertia(pair.gear(0), s.driver_material), 3),
+                  shown(least_body_inertia(pair.gear(1), s.driven_material), 3)});
   rows.push_back({"flanks", "", in_words(s.mesh.modification[0]), in_words(s.mesh.modification[1])});
   return table(text("The gears: ", s.mesh.driver, " drives ", s.mesh.driven, "."),
                {"", "unit", s.mesh.driver + " (driver)", s.mesh.driven + " (driven)"}, rows) +
@@ -280,8 +308,15 @@ std::string gears_table(const StaticArtifact& s) {
                 {"path of contact before the pitch point", "mm", fixed(-pair.path_start() * kMilli, 3)},
                 {"path of contact after it", "mm", fixed(pair.path_end() * kMilli, 3)},
                 {"backlash along the line of action", "mm",
-                 fixed(std::abs(pair.backlash()) < 1e-9 ? 0.0 : pair.backlash() * kMilli, 4)},
+                 std::abs(pair.backlash()) < kNoBacklash ? "none" : fixed(pair.backlash() * kMilli, 4)},
                 {"tip edges off the line of action", "", corner_words(s.mesh.corner)}});
+}
+
+std::string stiffness_tables(const ReportContent& c) {
+  std::string out;
+  for (const WordTable& t : {compliance_table(c.statics[0]), iso_table(c.statics[0])})
+    out += table(t.caption, t.head, t.rows);
+  return out;
 }
 
 std::string natural_frequencies_table(const ReportContent& c) {
@@ -315,15 +350,18 @@ std::string budget_table(const ErrorBudgetArtifact& b) {
       const size_t comma = rest.find(", ");
       const auto percent = [](double share) { return fixed(share * kPercent, 4); };
       rows.push_back({what, rest.substr(0, comma), percent(changes.mean_stiffness_change[i]),
-                      percent(changes.peak_to_peak_change[i]), percent(changes.harmonic_change(i, 0))});
+                      percent(changes.peak_to_peak_change[i]), percent(changes.harmonic_change(i, 0)),
+                      i < changes.pressure_change.size() ? percent(changes.pressure_change[i]) : "–"});
       rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
     }
   };
   add(b.refinement, "error");
   add(b.choice, "other model");
-  return table("What each refinement alone changes in the statics at " + torque_words(b.torque) +
-                   ". Another model is no error of this one and in no sum.",
-               {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)"}, rows) +
+  return table(
+             "What each refinement alone changes in the statics at " + torque_words(b.torque) +
+                 ". Another model is no error of this one and in no sum.",
+             {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)", "flank pressure (%)"},
+             rows) +
          (b.choice_missing.empty() ? "" : paragraph("Not computed: " + b.choice_missing + "."));
 }
 
@@ -503,17 +541,18 @@ std::string of_response(const ReportContent& c) {
 
 std::string of_waterfall(const ReportContent& c) {
   const ReportSweep& s = c.sweeps[0];
-  return text("Spectra of the dynamic transmission error at ", torque_words(s.response.torque),
-              sweep_of(c, s.response.torque, "up") && sweep_of(c, s.response.torque, "down")
-                  ? ", speed rising (above) and falling (below)"
-                  : ", " + way_words(s),
-              ", stacked by mesh frequency (left), and the amplitudes of the first orders of the mesh "
-              "frequency (right). Orders run along rays; each "
-              "is strong where it crosses the natural frequency of ",
-              hertz(s.response.natural_frequency),
-              " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
-              s.response.driver.teeth, " times the speed of the driver: 1000 Hz are ",
-              fixed(60000.0 / s.response.driver.teeth, 0), " 1/min.", beyond_words(c, s.response.torque));
+  return text(
+      "Spectra of the dynamic transmission error at ", torque_words(s.response.torque),
+      sweep_of(c, s.response.torque, "up") && sweep_of(c, s.response.torque, "down")
+          ? ", speed rising (above) and falling (below)"
+          : ", " + way_words(s),
+      " as colours, one line for each speed (left), and the amplitudes of the first orders of the mesh "
+      "frequency (right). Orders run along rays; each "
+      "is strong where it crosses the natural frequency of ",
+      hertz(s.response.natural_frequency),
+      " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
+      s.response.driver.teeth, " times the speed of the driver: 1000 Hz are ",
+      fixed(60000.0 / s.response.driver.teeth, 0), " 1/min.", beyond_words(c, s.response.torque));
 }
 
 std::string of_tooth_loads(const ReportContent& c) {
@@ -615,43 +654,6 @@ std::string introduction(const ReportContent& c) {
   return paragraph(out);
 }
 
-constexpr const char* kStyle = R"(
-:root { color-scheme: light dark; --ink: #1c2127; --soft: #59626d; --paper: #ffffff; --line: #d5dae0; --band: #f3f5f7; --mark: #b42318; --link: #1f4e9c; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e4e7eb; --soft: #a3adb8; --paper: #14181d; --line: #39424d; --band: #1d232a; --mark: #ff8a7a; --link: #8ab4f8; } }
-* { box-sizing: border-box; }
-body { margin: 0; background: var(--paper); color: var(--ink); font: 16px/1.5 "DejaVu Sans", "Segoe UI", Roboto, Helvetica, Arial, sans-serif; }
-main, header, footer { max-width: 66rem; margin: 0 auto; padding: 0 1.25rem; }
-header { padding-top: 2rem; border-bottom: 2px solid var(--ink); }
-h1 { font-size: 1.6rem; line-height: 1.25; margin: 0 0 .3rem; }
-h2 { font-size: 1.25rem; margin: 2.6rem 0 .8rem; border-bottom: 1px solid var(--line); padding-bottom: .2rem; }
-.scene { color: var(--soft); margin: 0 0 1rem; }
-nav ol { columns: 2; padding-left: 1.4rem; margin: 1rem 0; }
-a { color: var(--link); }
-figure { margin: 1.4rem 0 2rem; }
-figure img { display: block; width: 100%; height: auto; background: #ffffff; border: 1px solid var(--line); }
-figcaption { font-size: .92rem; margin-top: .5rem; max-width: 60rem; }
-.files { color: var(--soft); white-space: nowrap; font-size: .85rem; margin-left: .4rem; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; margin: 1rem 0 1.6rem; font-size: .9rem; font-variant-numeric: tabular-nums; }
-caption { text-align: left; font-size: .92rem; padding-bottom: .4rem; }
-th { text-align: left; border-bottom: 1.5px solid var(--ink); }
-th, td { padding: .22rem .8rem .22rem 0; vertical-align: top; }
-td { border-bottom: 1px solid var(--line); }
-.number { text-align: right; min-width: 5.5rem; }
-th { white-space: nowrap; }
-td:nth-child(2) { white-space: nowrap; }
-table.small { font-size: .8rem; }
-table.code td { font-family: "DejaVu Sans Mono", Consolas, monospace; font-size: .7rem; overflow-wrap: anywhere; min-width: 8rem; white-space: normal; text-align: left; }
-.remarks { padding-left: 1.2rem; }
-.warning strong { color: var(--mark); }
-footer { color: var(--soft); font-size: .85rem; padding-bottom: 3rem; }
-@media print {
-  :root { --ink: #000000; --soft: #444444; --paper: #ffffff; --line: #bbbbbb; --mark: #b42318; --link: #000000; }
-  body { font-size: 10pt; } main, header, footer { max-width: none; padding: 0; }
-  figure, tr { break-inside: avoid; } h2 { break-after: avoid; } .files { display: none; } .wide { overflow: visible; }
-}
-)";
-
 void require_whole(const ReportContent& c) {
   if (c.statics.empty())
     fail(Failure::input, "report: no static.h5 given; that of the scene's first torque is the least");
@@ -713,10 +715,11 @@ std::vector<Index> resonances(const ResponseArtifact& r) {
 
 std::string report_tsv(const ReportContent& c) {
   require_whole(c);
-  std::string out = "# " + c.scene + "\n# torque [N m]\tquantity\tvalue\tunit\tremark\n";
+  std::string out = "# " + c.scene + "\ntorque [N m]\tquantity\tvalue\tunit\tremark\n";
+  for (const GeometryNumber& g : pair_geometry(c.statics[0]))
+    out += text("\t", g.quantity, "\t", g.value, "\t", g.unit, "\t\n");
   for (const Result& r : results_of(c))
-    out += text(shown(r.torque, 6), "\t", r.quantity, "\t", r.value, "\t", r.unit,
-                r.remark.empty() ? "" : "\t", r.remark, "\n");
+    out += text(shown(r.torque, 6), "\t", r.quantity, "\t", r.value, "\t", r.unit, "\t", r.remark, "\n");
   return out;
 }
 
@@ -742,8 +745,9 @@ std::string report_html(const ReportContent& c) {
   };
   add("results", "Results", introduction(c) + results_table(c));
   add("remarks", "Warnings and remarks", remarks_list(c));
+  add("guide", "What the numbers mean", guide_to_numbers(c));
   add("gears", "The gears", gears_table(c.statics[0]) + figures_of("gears"));
-  add("rest", "At rest", figures_of("rest"));
+  add("rest", "At rest", stiffness_tables(c) + figures_of("rest"));
   add("frequencies", "Natural frequencies and damping",
       c.impacts.empty() ? "" : natural_frequencies_table(c));
   add("motion", "In motion", figures_of("motion"));

@@ -46,7 +46,8 @@ std::vector<std::string> report_figures();
 // Throws Error(input) for content without statics, of two pairs, or with a figure that is not known or given twice.
 std::string report_html(const ReportContent& content);
 
-// Columns torque [N m], quantity, value, unit, and where there is one a remark: the numbers of the page's first table.
+// Columns torque [N m], quantity, value, unit, remark: geometry of the pair, which has no torque, then the numbers of the page's
+// first table. A '#' line with the scene before the line of names.
 std::string report_tsv(const ReportContent& content);
 
 // Speeds (rows) at which the RMS of a response has a peak: higher than its surroundings by a fifth, ascending in frequency;

@@ -18,11 +18,13 @@
 namespace whine {
 namespace {
 
-void sort_by_torque(std::vector<StaticArtifact>& statics) {
+// Returns the one that came first, of the first torque of the scene.
+StaticArtifact sort_by_torque(std::vector<StaticArtifact>& statics) {
   if (statics.empty()) fail(Failure::input, "figure: no static.h5 given; 1 is the least");
   if (statics.size() > kMostCurves)
     fail(Failure::input, "figure: ", statics.size(), " static.h5 given; ", kMostCurves,
          " curves can be told apart");
+  const StaticArtifact first = statics[0];
   std::sort(statics.begin(), statics.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });
   for (size_t i = 0; i + 1 < statics.size(); ++i)
     if (statics[i].torque == statics[i + 1].torque)
@@ -36,6 +38,7 @@ void sort_by_torque(std::vector<StaticArtifact>& statics) {
       fail(Failure::input, "figure: the static.h5 of ", s.torque, " N m and of ", statics[0].torque,
            " N m have different mesh phases; make them with the same `positions`");
   }
+  return first;
 }
 
 std::string torque_label(const StaticArtifact& s) {
@@ -60,7 +63,7 @@ FigureBlock period_block(const std::vector<StaticArtifact>& statics, const std::
 FigureBlock spectrum_block(const std::vector<StaticArtifact>& statics, const std::string& quantity,
                            const std::string& unit, Eigen::VectorXd StaticArtifact::*harmonic,
                            double factor) {
-  FigureBlock block{quantity + " harmonics", {"harmonic [1]"}, {}};
+  FigureBlock block{quantity + " harmonics", {"harmonic [1]"}, {}, "harmonics"};
   Eigen::Index last = kShownHarmonics;
   for (const auto& s : statics) {
     block.columns.push_back(text("amplitude ", torque_label(s), " [", unit, "]"));
@@ -98,14 +101,14 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
 }
 
 Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
-  sort_by_torque(statics);
-  const RectangularWave wave = rectangular_wave(statics[0]);
+  const StaticArtifact first = sort_by_torque(statics);
+  const RectangularWave wave = rectangular_wave(first);
   Figure figure;
   figure.title = "Mesh stiffness: torque / (base radius × (static − unloaded transmission error))";
   figure.notes.push_back(pair_words(statics[0]));
   figure.notes.push_back(
       text("rectangular wave: levels at the middle of the zones of few and of many pairs at ",
-           torque_label(statics[0]), ", steps where pairs come and go without load"));
+           torque_label(first), ", steps where pairs come and go without load"));
 
   const std::string unit = "1e6 N/m";
   FigureBlock rectangle{"rectangular wave", {"mesh_phase [1]", "mesh_stiffness [" + unit + "]"}, {}};
@@ -138,8 +141,7 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
 // What a pair of teeth carries on its way through the mesh. Pair j is j places ahead of the reference pair: at mesh phase f it
 // is at phase f + j of its own.
 Figure load_sharing_figure(std::vector<StaticArtifact> statics) {
-  sort_by_torque(statics);
-  const StaticArtifact& first = statics[0];
+  const StaticArtifact first = sort_by_torque(statics);
   const GearPair pair(first.driver, first.driven, first.mesh.centre_distance);
   const Eigen::Index n = first.mesh_phase.size();
   // Pairs that carry load at any torque.
@@ -205,6 +207,17 @@ Figure load_sharing_figure(std::vector<StaticArtifact> statics) {
   return figure;
 }
 
+namespace {
+
+// The end of a logarithmic axis above all amplitudes of a block, a power of ten; 1 if there are none.
+double decade_above(const FigureBlock& block) {
+  double largest = 0;
+  for (const auto& row : block.rows) largest = std::max(largest, row[1]);
+  return largest > 0 ? std::pow(10, std::floor(std::log10(largest)) + 1) : 1;
+}
+
+}  // namespace
+
 Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
   const int periods = s.hunting_periods;
   if (periods < 2)
@@ -227,17 +240,20 @@ Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
   for (Eigen::Index i = 0; i < s.mesh_phase.size(); ++i)
     error.rows.push_back({s.mesh_phase[i], s.transmission_error[i] * kMicro});
   const auto orders = [&](const std::string& name, Eigen::Index count, const auto& amplitude) {
-    FigureBlock block{name, {"order [1]", "amplitude [µm]"}, {}};
+    FigureBlock block{"orders " + name, {"order [1]", "amplitude [µm]"}, {}, "orders", name};
     for (Eigen::Index k = 1; k <= count && k <= kLastOrder * periods; ++k)
       block.rows.push_back({static_cast<double>(k) / periods, std::max(kFloor, amplitude(k)) * kMicro});
     return block;
   };
-  figure.blocks = {error,
-                   orders("orders at rest", s.transmission_error_order.size() - 1,
-                          [&](Eigen::Index k) { return s.transmission_error_order[k]; }),
-                   orders("orders in motion", r.dte_order.cols(),
-                          [&](Eigen::Index k) { return r.dte_order(peak, k - 1); })};
-  figure.numbers = {{"periods", static_cast<double>(periods)}, {"last_order", kLastOrder}};
+  figure.blocks = {
+      error,
+      orders("at rest", s.transmission_error_order.size() - 1,
+             [&](Eigen::Index k) { return s.transmission_error_order[k]; }),
+      orders("in motion", r.dte_order.cols(), [&](Eigen::Index k) { return r.dte_order(peak, k - 1); })};
+  figure.numbers = {{"periods", static_cast<double>(periods)},
+                    {"last_order", kLastOrder},
+                    {"top_at_rest", decade_above(figure.blocks[1])},
+                    {"top_in_motion", decade_above(figure.blocks[2])}};
   figure.words = {{"speed", fixed(r.mesh_frequency[peak], 0) + " Hz"}};
   figure.height = 1300;
   return figure;
@@ -289,16 +305,16 @@ Figure crack_figure(const StaticArtifact& s) {
                             period(at)[i] * kMicro, intact[i] * kMicro,
                             (period(at)[i] - intact[i]) * kMicro});
   }
-  FigureBlock orders{"orders", {"order [1]", "amplitude [µm]"}, {}};
+  FigureBlock orders{"orders", {"order [1]", "amplitude [µm]"}, {}, "orders", "with the crack"};
   for (Eigen::Index k = 1; k < s.transmission_error_order.size() && k <= kLastOrder * s.hunting_periods; ++k)
     orders.rows.push_back({static_cast<double>(k) / s.hunting_periods,
                            std::max(kFloor, s.transmission_error_order[k]) * kMicro});
-  FigureBlock without{"orders without", {"order [1]", "amplitude [µm]"}, {}};
+  FigureBlock without{"orders without", {"order [1]", "amplitude [µm]"}, {}, "orders", "without"};
   const Harmonics of_intact = harmonics(intact, static_cast<int>(kLastOrder));
   for (Eigen::Index k = 0; k < of_intact.amplitude.size(); ++k)
     without.rows.push_back({static_cast<double>(k + 1), of_intact.amplitude[k] * kMicro});
   figure.blocks = {error, orders, without};
-  figure.numbers = {{"around", kAround}, {"last_order", kLastOrder}};
+  figure.numbers = {{"around", kAround}, {"last_order", kLastOrder}, {"top", decade_above(orders)}};
   return figure;
 }
 
@@ -411,29 +427,40 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
   for (const auto& [name, labels, count, changes] :
        {std::tuple{"changes", "labels", "entries", &budget.refinement},
         std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {
-    FigureBlock block{name, {"entry", "mean_stiffness [%]", "peak_to_peak [%]"}, {}};
+    FigureBlock block{name, {"entry [1]", "mean_stiffness [%]", "peak_to_peak [%]"}, {}, "", "", true};
     for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
       block.columns.push_back(text("harmonic_", n, " [% of the first]"));
-    std::string words, names, rest = changes->entry;
+    const bool pressure = changes->pressure_change.size() > 0;
+    if (pressure) block.columns.emplace_back("flank_pressure [%]");
+    std::string words, rest = changes->entry;
     for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
       std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * kPercent,
                               std::abs(changes->peak_to_peak_change[i]) * kPercent};
       for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
         row.push_back(std::abs(changes->harmonic_change(i, n)) * kPercent);
+      if (pressure) row.push_back(std::abs(changes->pressure_change[i]) * kPercent);
       block.rows.push_back(row);
       const size_t comma = rest.find(", ");
       std::string label = rest.substr(0, comma);
-      names += text(i ? "; " : "", i, " ", label);
+      // The same numbers under the name of what is changed, and with their signs.
+      FigureBlock named{text(name, " ", i), block.columns, {row}, "changes", label};
+      named.columns[0] = "error [1 yes, 0 another choice]";
+      named.rows[0][0] = changes == &budget.refinement ? 1 : 0;
+      named.rows[0][1] = changes->mean_stiffness_change[i] * kPercent;
+      named.rows[0][2] = changes->peak_to_peak_change[i] * kPercent;
+      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
+        named.rows[0][static_cast<size_t>(3 + n)] = changes->harmonic_change(i, n) * kPercent;
+      figure.blocks.push_back(named);
       // The values on a line of their own: '|' to the template.
       const size_t value = std::min(label.find(" at "), label.find_first_of("0123456789") - 1);
       if (value < label.size()) label[value] = '|';
       words += "'" + label + "' ";
       rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
     }
-    block.columns[0] = text("entry [", names, "]");
     figure.blocks.push_back(block);
     figure.words.emplace_back(labels, words);
     figure.numbers.emplace_back(count, static_cast<double>(block.rows.size()));
+    if (changes == &budget.refinement) figure.numbers.emplace_back("bars_each", pressure ? 8 : 7);
   }
   return figure;
 }

@@ -10,10 +10,12 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics);
 
 // Mesh stiffness k = (T / r_b1) / transmission error over a mesh period and its spectrum, with the
 // rectangular wave.
+// The rectangular wave is that of the first artifact given; curves stand in the order of the torques.
 Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
 
 // The share of the load that a tooth pair carries on its way through the mesh, one curve per torque (ascending), and the loads
 // of all pairs over a mesh period at the least torque. Throws Error(input) as transmission_error_figure.
+// The loads of all pairs are those of the first artifact given.
 Figure load_sharing_figure(std::vector<StaticArtifact> statics);
 
 // Teeth that differ: static transmission error over the hunting period, its spectrum in orders of the mesh frequency, and that

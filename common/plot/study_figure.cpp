@@ -60,22 +60,31 @@ std::string with_unit(const std::string& name, const std::string& units) {
   return units.empty() || units == "1" ? name : name + " (" + units + ")";
 }
 
+// gnuplot reads '%' in the label of a tick as the start of a format.
+std::string tick_label(const std::string& words) {
+  std::string out;
+  for (const char c : without_markup(words)) out += c == '%' ? "%%" : std::string(1, c);
+  return out;
+}
+
 // "largest RMS, up" of rms_max_up.
 std::string label_of(const std::string& answer) {
-  static const std::map<std::string, std::string> known{{"te_mean", "mean static TE"},
-                                                        {"te_peak_to_peak", "static TE, peak to peak"},
-                                                        {"te_harmonic_1", "static TE, harm. 1"},
-                                                        {"te_harmonic_2", "static TE, harm. 2"},
-                                                        {"te_harmonic_3", "static TE, harm. 3"},
-                                                        {"tooth_load_static", "largest static tooth load"},
-                                                        {"rms_max", "largest RMS of DTE"},
-                                                        {"rms_max_speed", "its mesh frequency"},
-                                                        {"tooth_load_max", "largest tooth load"},
-                                                        {"separation_max", "largest contact loss"},
-                                                        {"loss_from", "contact lost from"},
-                                                        {"loss_to", "contact lost to"},
-                                                        {"jump_frequency", "highest jump"},
-                                                        {"unsteady", "unsteady speeds"}};
+  static const std::map<std::string, std::string> known{
+      {"te_mean", "mean static TE"},
+      {"te_peak_to_peak", "static TE, peak to peak"},
+      {"te_peak_to_peak_mesh", "static TE, peak to peak in a mesh period"},
+      {"te_harmonic_1", "static TE, harm. 1"},
+      {"te_harmonic_2", "static TE, harm. 2"},
+      {"te_harmonic_3", "static TE, harm. 3"},
+      {"tooth_load_static", "largest static tooth load"},
+      {"rms_max", "largest RMS of DTE"},
+      {"rms_max_speed", "its mesh frequency"},
+      {"tooth_load_max", "largest tooth load"},
+      {"separation_max", "largest contact loss"},
+      {"loss_from", "contact lost from"},
+      {"loss_to", "contact lost to"},
+      {"jump_frequency", "highest jump"},
+      {"unsteady", "unsteady speeds"}};
   for (const char* end : {"_up", "_down"})
     if (answer.ends_with(end)) {
       const std::string base = answer.substr(0, answer.size() - std::string(end).size());
@@ -348,7 +357,8 @@ Figure study_figure(const StudyArtifact& a) {
       const double value = key.number ? std::strtod(level.c_str(), nullptr) : static_cast<double>(place) + 1;
       char short_number[32];
       std::snprintf(short_number, sizeof short_number, "%.5g", value * units.scale);
-      figure.words.emplace_back(text("colour_name", e + 1), key.number ? short_number : level);
+      figure.words.emplace_back(text("colour_name", e + 1),
+                                key.number ? short_number : without_markup(level));
       figure.numbers.emplace_back(text("colour_rgb", e + 1), colour(share(value, place)));
       figure.numbers.emplace_back(text("colour_mark", e + 1), mark(levels <= kFewLevels ? place : 0));
     }
@@ -366,11 +376,10 @@ Figure study_figure(const StudyArtifact& a) {
     const AxisUnits units = axis_units(key, *std::max_element(axes[k].at.begin(), axes[k].at.end()));
     figure.words.emplace_back(text("x", c + 1), with_unit(axis_name(key), units.words));
     figure.numbers.emplace_back(text("scale", c + 1), units.scale);
-    std::string ticks;
-    if (!key.number)
-      for (size_t l = 0; l < axes[k].levels.size(); ++l)
-        ticks += text(l ? ", " : "", "\"", without_markup(axes[k].levels[l]), "\" ", l + 1);
-    figure.words.emplace_back(text("ticks", c + 1), ticks);
+    const size_t ticks = key.number ? 0 : axes[k].levels.size();
+    for (size_t l = 0; l < ticks; ++l)
+      figure.words.emplace_back(text("tick", c + 1, "_", l + 1), tick_label(axes[k].levels[l]));
+    figure.numbers.emplace_back(text("ticks", c + 1), static_cast<double>(ticks));
   }
   for (size_t r = 0; r < rows; ++r) {
     const std::string& name = answers.rows[r];
@@ -390,7 +399,10 @@ Figure study_figure(const StudyArtifact& a) {
       FigureBlock panel{
           text("panel", r + 1, "_", c + 1),
           {with_unit(a.plan.keys[k].name, ""), name, "colour [rgb]", "unsteady speeds [1]", "mark [1]"},
-          {}};
+          {},
+          "",
+          "",
+          true};
       std::vector<size_t> order = drawn;
       // Those that agree in all other keys come one after the other.
       const auto others = [&](size_t v) {
@@ -429,7 +441,7 @@ Figure study_figure(const StudyArtifact& a) {
     sorted.reserve(drawn.size());
     for (const size_t v : drawn) sorted.push_back(value[v]);
     std::sort(sorted.begin(), sorted.end());
-    FigureBlock spread{text("spread", r + 1), {"share [%]", name}, {}};
+    FigureBlock spread{text("spread", r + 1), {"share [%]", name}, {}, "", "", true};
     for (size_t i = 0; i < sorted.size(); ++i)
       spread.rows.push_back(
           {100 * (static_cast<double>(i) + 0.5) / static_cast<double>(sorted.size()), sorted[i]});

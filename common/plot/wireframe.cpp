@@ -10,6 +10,55 @@
 
 namespace whine {
 
+namespace {
+
+// Marks the points between two that are kept, if one of them lies too far from the line between these.
+void keep_far(const Strokes& rows, double tolerance, std::vector<bool>& kept) {
+  std::vector<std::pair<size_t, size_t>> open{{0, rows.size() - 1}};
+  while (!open.empty()) {
+    const auto [a, b] = open.back();
+    open.pop_back();
+    const Vec2 from(rows[a][0], rows[a][1]), way = Vec2(rows[b][0], rows[b][1]) - from;
+    double most = tolerance;
+    size_t farthest = a;
+    for (size_t i = a + 1; i < b; ++i) {
+      const Vec2 p = Vec2(rows[i][0], rows[i][1]) - from;
+      const double length = way.squaredNorm(),
+                   along = length > 0 ? std::clamp(p.dot(way) / length, 0.0, 1.0) : 0.0;
+      if (const double apart = (p - along * way).norm(); apart > most) {
+        most = apart;
+        farthest = i;
+      }
+    }
+    if (farthest == a) continue;
+    kept[farthest] = true;
+    open.emplace_back(a, farthest);
+    open.emplace_back(farthest, b);
+  }
+}
+
+}  // namespace
+
+Strokes simplified(const Strokes& strokes, double tolerance) {
+  Strokes out;
+  for (size_t begin = 0; begin < strokes.size(); ++begin) {
+    size_t end = begin;
+    while (end < strokes.size() && !strokes[end].empty()) ++end;
+    if (end > begin) {
+      const Strokes line(strokes.begin() + static_cast<std::ptrdiff_t>(begin),
+                         strokes.begin() + static_cast<std::ptrdiff_t>(end));
+      std::vector<bool> kept(line.size(), false);
+      kept.front() = kept.back() = true;
+      keep_far(line, tolerance, kept);
+      for (size_t i = 0; i < line.size(); ++i)
+        if (kept[i]) out.push_back(line[i]);
+    }
+    if (end < strokes.size()) out.emplace_back();
+    begin = end;
+  }
+  return out;
+}
+
 Wireframe::Wireframe(const MeshArtifact& mesh)
     : node_(mesh.node_position), teeth_(mesh.design.teeth), bore_radius_(mesh.design.bore_radius) {
   const Eigen::Index per_element = mesh.element_node.cols();

@@ -12,6 +12,9 @@ namespace whine {
 // Strokes are rows {x, y} in m times `scale`; an empty row lifts the pen.
 using Strokes = std::vector<std::vector<double>>;
 
+// The same lines with fewer points: none that is left out lies farther than `tolerance` from what is drawn (Douglas and Peucker).
+Strokes simplified(const Strokes& strokes, double tolerance);
+
 class Wireframe {
  public:
   // Throws Error(input) for elements that are not of 4 or 9 nodes, or a sector whose outer edge is not one

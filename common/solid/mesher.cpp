@@ -601,7 +601,9 @@ MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation
   const double h = discretisation.element_size;
   if (discretisation.element_order != 1 && discretisation.element_order != 2)
     fail(Failure::input, "element_order = ", discretisation.element_order, " is not 1 or 2");
-  if (!(h >= 0.01 * design.module && h <= 2 * design.module))
+  // The limits themselves are allowed, however they are rounded.
+  constexpr double kRoundOff = 1e-9;
+  if (!(h >= (0.01 - kRoundOff) * design.module && h <= (2 + kRoundOff) * design.module))
     fail(Failure::input, "element_mm = ", h * 1e3, " is not between 0.01 and 2 modules (",
          1e1 * design.module, " to ", 2e3 * design.module, " mm)");
   if (!(design.bore_radius > 0))

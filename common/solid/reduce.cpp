@@ -11,6 +11,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/progress.h"
 #include "solid/crack.h"
 #include "solid/flank_table.h"
 #include "solid/half_plane.h"
@@ -376,6 +377,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   std::vector<Eigen::VectorXcd> displacement;  // [harmonic] (2 node)
   HermitianFactor factor(sector.stiffness(0));
   for (int n = 0; n < sector.harmonics(); ++n) {
+    report_step("circumferential harmonics", n, sector.harmonics());
     const std::string what = text("sector stiffness, harmonic ", n, " of ", teeth, " teeth");
     const SparseComplex stiffness = sector.stiffness(n);
     factor.factorise(stiffness, what);

@@ -40,6 +40,9 @@ do for [frame = int(first_frame):int(last_frame)] {
   set arrow 9 from now, graph 0 to now, graph 1 nohead front lw 2.5 lc rgb "#cc0000"
   set tmargin at screen 0.39; set bmargin at screen 0.25
   set format x ""
+  raw = (largest_error - least_error) / 3
+  power = 10 ** floor(log10(raw > 0 ? raw : 1))
+  set ytics power * (raw / power > 5 ? 10 : raw / power > 2 ? 5 : raw / power > 1 ? 2 : 1)
   set ylabel "DTE (µm)"
   bottom = least_error - 0.08 * (largest_error - least_error); top = largest_error + 0.08 * (largest_error - least_error)
   set yrange [bottom : top]
@@ -47,6 +50,7 @@ do for [frame = int(first_frame):int(last_frame)] {
   set tmargin at screen 0.23; set bmargin at screen 0.07
   set format x "%g"
   set xlabel "Mesh phase (mesh periods)" offset 0, 0.4
+  set ytics autofreq
   set ylabel "Load (kN)"
   bottom = 0; top = 1.08e-3 * largest_force
   set yrange [bottom : top]

@@ -15,8 +15,8 @@ unset key
 set size ratio -1
 
 # (a) whole gears: fill, bore, elements
-edge = 6.0
 tip = driver_tip > driven_tip ? driver_tip : driven_tip
+edge = 0.08 * tip
 set lmargin at screen 0.10
 set rmargin at screen 0.40
 set bmargin at screen 0.175
@@ -26,8 +26,12 @@ set label 3 "{/:Bold (a)} both gears" at graph 0.5, graph 1.0 center offset 0, 0
 set ylabel "y (mm)"
 set xrange [-tip - edge : tip + edge]
 set yrange [-driver_tip - edge : centre_distance + driven_tip + edge]
-set xtics 50
-set ytics 50
+# About four steps of 1, 2 or 5 on the shorter axis: labels of a large pair must not run into each other.
+power(raw) = 10 ** floor(log10(raw))
+nice(raw) = power(raw) * (raw / power(raw) > 5 ? 10 : raw / power(raw) > 2 ? 5 : raw / power(raw) > 1 ? 2 : 1)
+step = nice((2 * tip + 2 * edge) / 4)
+set xtics step
+set ytics step
 set label 1 "driver" at 0, 0 center tc rgb driver_line font ",16"
 set label 2 "driven" at 0, centre_distance center tc rgb driven_line font ",16"
 set object 1 rectangle center 0, pitch_y size 2 * half_window, 2 * half_window front fs empty border lc rgb "black" lw 1.5
@@ -48,8 +52,8 @@ set rmargin at screen 0.96
 set label 3 "{/:Bold (b)} teeth in mesh" at graph 0.5, graph 1.0 center offset 0, 0.7
 set xrange [-half_window : half_window]
 set yrange [pitch_y - half_window : pitch_y + half_window]
-set xtics 5
-set ytics 5
+set xtics nice(2 * half_window / 6)
+set ytics nice(2 * half_window / 6)
 plot tsv index "[driver outline]" using 1:2 with filledcurves closed fc rgb driver_fill notitle, \
   tsv index "[driven outline]" using 1:2 with filledcurves closed fc rgb driven_fill notitle, \
   tsv index "[driver teeth]" using 1:2 with lines lt 1 lw 0.7 lc rgb driver_line notitle, \

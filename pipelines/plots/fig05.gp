@@ -35,8 +35,13 @@ set grid xtics ytics lt 1 lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set lmargin at screen 0.088
 set rmargin at screen 0.975
-# Marks at every few speeds, dots at all: marks of neighbours would run into each other.
+# Marks at every few speeds, dots at all: marks of neighbours would run into each other. Those of rising and of falling speed stand
+# at speeds of their own, so that both show where the directions agree.
 stride = int(ceil(speeds / 60))
+stride = stride < 2 && speeds > 30 ? 2 : stride
+speed_step = speeds > 1 ? span / (speeds - 1) : 1.0
+place(f) = int(floor((f - frequency_from) / (speed_step > 0 ? speed_step : 1.0) + 0.5))
+marked(f, falling) = place(f) % (2 * stride) == (falling ? stride : 0)
 
 # How marks read, below all panels; with one torque the directions have colours, with several the torques.
 most = 1
@@ -51,7 +56,7 @@ down_tone = most == 1 ? down_colour : "black"
 set label 101 (most == 1 ? "▲" : filled_signs[1:2 * most - 1]) . " speed rising" at screen 0.06, screen 26 / height tc rgb up_tone font ",14"
 set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . " speed falling" at screen 0.205, screen 26 / height tc rgb down_tone font ",14"
 set label 103 "dashed: jump; dotted: to the end of the branch; gap: change of branch" at screen 0.36, screen 26 / height tc rgb "black" font ",14"
-if (lost > 0) { set label 104 "■ at the foot: contact lost" at screen 0.82, screen 26 / height tc rgb "black" font ",14" }
+if (lost > 0) { set label 104 "■ below 0: contact lost" at screen 0.82, screen 26 / height tc rgb "black" font ",14" }
 
 set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
 panel_height = (height - 140) / panels
@@ -66,7 +71,10 @@ do for [p = 1:panels] {
   reach = 1.06 * (peak > 0 ? peak : 1.0)
   rows = 2 * curves
   foot = 0.014
-  set yrange [-(foot * rows + 0.02) * top : top]
+  # The axis begins at 0; where contact is lost the marks of it stand in a strip below.
+  strip = of("contact_lost", letter) > 0 ? (foot * rows + 0.02) * top : 0
+  set yrange [-strip : top]
+  if (strip > 0) { set border 2; set xzeroaxis lt 1 lw 1.6 lc rgb "black" } else { set border 3; unset xzeroaxis }
   set ylabel "RMS of oscillating DTE (µm)"
   set label 1 "{/:Bold (" . letter . ")} " . of("heading", letter) at graph 0, graph 1 \
     offset 0, 1.55 + 0.8 * (of("heading_lines", letter) - 1) font ",12"
@@ -90,10 +98,9 @@ do for [p = 1:panels] {
   colour(i, direction) = curves > 1 ? torque_colour[i] : value(direction . "_colour")
   mark(i, direction) = direction eq "up" ? (curves > 1 ? filled_mark[i] : 9) : (curves > 1 ? open_mark[i] : 10)
   block(i, what) = sprintf('tsv index "[%s %s %s]"', letter, word(of("labels", letter), i), what)
-  # Where the directions agree the filled mark stands inside the open one.
   branch(i, direction) = block(i, direction) . sprintf(' using 1:2 with linespoints lt 1 lw 1.8 pt 7 ps 0.3 lc rgb "%s" notitle, ', colour(i, direction)) \
-    . sprintf('"" index "[%s %s %s]" every %d using 1:2 with points lt 1 lw 1.8 pt %d ps %g lc rgb "%s" notitle, ', \
-    letter, word(of("labels", letter), i), direction, stride, mark(i, direction), direction eq "up" ? 1.2 : 2.1, colour(i, direction))
+    . sprintf('"" index "[%s %s %s]" using 1:(marked($1, %d) ? $2 : NaN) with points lt 1 lw 1.8 pt %d ps %g lc rgb "%s" notitle, ', \
+    letter, word(of("labels", letter), i), direction, direction eq "down", mark(i, direction), direction eq "up" ? 1.4 : 1.8, colour(i, direction))
   # Bars along the foot: speeds at which the teeth part during the period.
   bar(i, direction, row) = block(i, direction) . sprintf(' using 1:($4 > 0 ? %g * top : NaN) with points pt 5 ps 0.6 lc rgb "%s" notitle, ', \
     -foot * (row - 0.2), colour(i, direction))

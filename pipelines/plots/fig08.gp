@@ -42,10 +42,10 @@ do for [m = 1:motions] {
   do for [n in "1 2 20 21"] { unset label int(n) }
   set tmargin at screen 0.37
   set bmargin at screen 0.1
-  set xlabel "Frequency (kHz)"
-  set xrange [0 : 1.03e-3 * frequency_end]
+  set xlabel "Frequency (Hz)"
+  set xrange [0 : 1.03 * frequency_end]
   set yrange [0 : 1.1 * largest_amplitude]
-  plot tsv index "[" . letter . " spectrum]" using ($1 * 1e-3):2 with impulses lt 1 lw 3 lc rgb line, \
-    "" index "[" . letter . " spectrum]" using ($1 * 1e-3):2 with points pt 7 ps 0.9 lc rgb line
+  plot tsv index "[" . letter . " spectrum]" using 1:2 with impulses lt 1 lw 3 lc rgb line, \
+    "" index "[" . letter . " spectrum]" using 1:2 with points pt 7 ps 0.9 lc rgb line
 }
 unset multiplot

@@ -25,7 +25,12 @@ set ytics out nomirror
 set mytics 2
 set grid xtics ytics lt 1 lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
+# Marks of rising and of falling speed stand at speeds of their own, so that both show where the directions agree.
 stride = int(ceil(speeds / 45))
+stride = stride < 2 && speeds > 25 ? 2 : stride
+speed_step = speeds > 1 ? span / (speeds - 1) : 1.0
+place(f) = int(floor((f - frequency_from) / (speed_step > 0 ? speed_step : 1.0) + 0.5))
+marked(f, falling) = place(f) % (2 * stride) == (falling ? stride : 0)
 most = 1
 lost = 0
 do for [p = 1:panels] {
@@ -33,7 +38,7 @@ do for [p = 1:panels] {
   lost = lost + of("contact_lost", word(letters, p))
 }
 set label 101 filled_signs[1:2 * most - 1] . " speed rising      " . open_signs[1:2 * most - 1] . " speed falling      dashed: jump; dotted: to the end of the branch; gap: change of branch" \
-  . (lost > 0 ? "      ■ at the foot: contact lost" : "") at screen 0.5, screen 26 / height center font ",14"
+  . (lost > 0 ? "      ■ below 0: contact lost" : "") at screen 0.5, screen 26 / height center font ",14"
 set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
 panel_height = (height - 140) / panels
 do for [p = 1:panels] {
@@ -63,7 +68,10 @@ do for [p = 1:panels] {
     high = side == 0 ? of("rms_max", letter) : of("mean_max", letter)
     tall = high > low ? high - low : 1.0
     foot = 0.016
-    room = side == 0 && of("contact_lost", letter) > 0 ? foot * 2 * curves + 0.04 : 0.05
+    # The axis of the RMS begins at 0; where contact is lost the marks of it stand in a strip below.
+    strip = side == 0 && of("contact_lost", letter) > 0
+    room = side == 1 ? 0.05 : strip ? foot * 2 * curves + 0.02 : 0
+    if (strip) { set border 2; set xzeroaxis lt 1 lw 1.6 lc rgb "black" } else { set border 3; unset xzeroaxis }
     set yrange [low - room * tall : high + (curves > 3 ? 0.6 : 0.36) * tall]
     key_font = side == 0 ? ",11" : ",13"
     set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.1 font key_font noenhanced opaque
@@ -72,8 +80,8 @@ do for [p = 1:panels] {
     after = before + 1
     block(i, what) = sprintf('tsv index "[%s %s %s]"', letter, word(of("labels", letter), i), what)
     branch(i, direction) = block(i, direction) . sprintf(' using 1:%d with linespoints lt 1 lw 1.4 pt 7 ps 0.25 lc rgb "%s" notitle, ', c, torque_colour[i]) \
-      . block(i, direction) . sprintf(' every %d using 1:%d with points lt 1 lw 1.6 pt %d ps %g lc rgb "%s" notitle, ', \
-      stride, c, direction eq "up" ? filled_mark[i] : open_mark[i], direction eq "up" ? 1.0 : 1.8, torque_colour[i])
+      . block(i, direction) . sprintf(' using 1:(marked($1, %d) ? $%d : NaN) with points lt 1 lw 1.6 pt %d ps %g lc rgb "%s" notitle, ', \
+      direction eq "down", c, direction eq "up" ? filled_mark[i] : open_mark[i], direction eq "up" ? 1.2 : 1.5, torque_colour[i])
     bar(i, direction, row) = block(i, direction) . sprintf(' using 1:($4 > 0 ? %g : NaN) with points pt 5 ps 0.5 lc rgb "%s" notitle, ', \
       -foot * (row - 0.2) * tall, torque_colour[i])
     jump(i, direction) = block(i, "jumps " . direction) . sprintf(' using 1:%d:(0):($%d - $%d) with vectors head filled' \

@@ -17,23 +17,27 @@ splot tsv index "[peak to peak]" using 1:2:3
 unset table
 unset contour
 set surface
+# A label at the edge of the map would be cut.
+stats tsv index "[peak to peak]" using 1:2 nooutput name "map"
+inside(x, low, high) = x > low + 0.04 * (high - low) && x < high - 0.04 * (high - low)
+whole(x, y) = inside(x, map_min_x, map_max_x) && inside(y, map_min_y, map_max_y)
 set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
 set border 15 lw 1.6 front
 set tics out nomirror front
 set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
 set tmargin at screen 1 - 195.0 / height
-set bmargin at screen (rows == 2 ? 0.55 : 0.13)
+set bmargin at screen (rows == 2 ? 0.56 : 0.155)
 set lmargin at screen 0.085
 set rmargin at screen 0.42
 set xlabel "Tip relief (µm)\n{/:Bold (a)} peak-to-peak transmission error (µm)"
 set ylabel "Torque (N m)"
 set xrange [*:*] noextend
 set yrange [*:*] noextend
-set colorbox user origin screen 0.435, (rows == 2 ? 0.55 : 0.13) size screen 0.014, (rows == 2 ? 0.347 : 0.675)
+set colorbox user origin screen 0.435, (rows == 2 ? 0.56 : 0.155) size screen 0.014, (rows == 2 ? 0.337 : 0.65)
 unset key
 plot tsv index "[peak to peak]" using 1:2:3 with image, \
   $level using 1:2 with lines lw 1.2 lc rgb "#ffffff", \
-  $level using 1:2:(sprintf("%g", $3)) every 100000::10 with labels boxed tc rgb "#303030" font ",12", \
+  $level using 1:2:(whole($1, $2) ? sprintf("%g", $3) : "") every 100000::10 with labels boxed tc rgb "#303030" font ",12", \
   tsv index "[best relief]" using 1:2 with lines lw 2.4 dt (10, 6) lc rgb "#c8201e", \
   tsv index "[optimum]" using 1:2 with points pt 3 ps 2.6 lw 3 lc rgb "#c8201e"
 
@@ -56,12 +60,12 @@ if (moving > 0) {
   unset key
   set border 15
   set tmargin at screen 0.44
-  set bmargin at screen 0.075
+  set bmargin at screen 0.085
   set lmargin at screen 0.085
   set rmargin at screen 0.42
   set xrange [*:*] noextend
   set yrange [*:*] noextend
-  set colorbox user origin screen 0.435, 0.075 size screen 0.014, 0.365
+  set colorbox user origin screen 0.435, 0.085 size screen 0.014, 0.355
   set xlabel "Tip relief (µm)\n{/:Bold (c)} RMS at the worst speed (µm)"
   set ylabel "Torque (N m)"
   plot tsv index "[rms]" using 1:2:3 with image

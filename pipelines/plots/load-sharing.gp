@@ -1,5 +1,5 @@
 # Load sharing at rest: the share of the load that a tooth pair carries on its way through the mesh, one curve per torque (a), and
-# the loads of all pairs over a mesh period at the least torque (b).
+# the loads of all pairs over a mesh period at the first torque (b).
 # Variables from gear-plot: tsv, heading, note1, note2, curves, labels, pairs, first_pair, path_start, path_end, static_force, torque.
 set datafile separator tab
 set datafile commentschars "#"

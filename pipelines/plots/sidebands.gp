@@ -1,5 +1,5 @@
 # Sidebands: static transmission error over the hunting period (a), its spectrum in orders of the mesh frequency (b), and that
-# of the dynamic transmission error (c). Variables from gear-plot: tsv, heading, note1, note2, periods, last_order, speed.
+# of the dynamic transmission error (c). Variables from gear-plot: tsv, heading, note1, note2, periods, last_order, top_at_rest, top_in_motion, speed.
 set datafile separator tab
 set datafile commentschars "#"
 
@@ -11,7 +11,7 @@ set tics out nomirror
 set key off
 
 set xlabel "Mesh periods {/:Bold (a)}"
-set ylabel "STE (µm)"
+set ylabel "Static transmission\nerror (µm)"
 set ytics 10
 set xrange [0:periods]
 plot tsv index "[transmission_error]" using 1:2 with lines lw 1.4 lc rgb "#1f4e9c"
@@ -20,12 +20,15 @@ set logscale y
 set format y "10^{%L}"
 set ytics 100
 set mytics 1
-set yrange [1e-5:*]
+# Fixed at both ends: gnuplot stops where all amplitudes lie below an axis that begins at 1e-5 µm.
+bottom(top) = top > 1e-3 ? 1e-5 : 1e-6 * top
+set yrange [bottom(top_at_rest):top_at_rest]
 set xrange [0:last_order]
 set xtics 0.5
 set xlabel "Order of the mesh frequency, at rest {/:Bold (b)}"
 set ylabel "Amplitude (µm)"
 plot tsv index "[orders at rest]" using 1:2 with impulses lw 1.8 lc rgb "#1f4e9c"
 set xlabel "Order of the mesh frequency, in motion at " . speed . " {/:Bold (c)}"
+set yrange [bottom(top_in_motion):top_in_motion]
 plot tsv index "[orders in motion]" using 1:2 with impulses lw 1.8 lc rgb "#c8201e"
 unset multiplot

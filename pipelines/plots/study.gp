@@ -1,5 +1,5 @@
 # A study: a row of panels for each answer, a column for each key that varies; of a sample the distribution beside them.
-# Variables from gear-plot: tsv, heading, subtitle, second_line, height, rows, columns, random, variants, x1.., ticks1.., own_colour1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
+# Variables from gear-plot: tsv, heading, subtitle, second_line, height, rows, columns, random, variants, x1.., ticks1.., tick1_1.., own_colour1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
 # percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1.., colour_mark1..
 set datafile separator whitespace
 set datafile commentschars "#"
@@ -27,12 +27,12 @@ do for [r = 1:int(rows)] {
     unset label
     if (c <= columns) {
       set xlabel value(sprintf("x%d", c)) font ",14" offset 0, 0.5
-      ticks = value(sprintf("ticks%d", c))
+      ticks = int(value(sprintf("ticks%d", c)))
       scale = value(sprintf("scale%d", c))
       set format x "%g"
       set xtics autofreq
       set xtics font ",12"
-      if (strlen(ticks) > 0) { eval("set xtics (" . ticks . ")") }
+      if (ticks > 0) { set xtics (""  1); do for [t = 1:ticks] { set xtics add (value(sprintf("tick%d_%d", c, t)) t) } }
       set label 1 value(sprintf("correlation%d_%d", r, c)) at graph 0.97, 0.93 right font ",13" front
       if (value(sprintf("drawn%d_%d", r, c)) > 0) {
         panel = sprintf("[panel%d_%d]", r, c)

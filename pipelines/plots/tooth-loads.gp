@@ -1,6 +1,6 @@
 # Largest tooth load against mesh frequency for both directions of the sweep (a), and the loads of successive teeth over the mesh
 # phase at the speed with the largest RMS (b); shaded there, marked at the foot here: contact lost.
-# Variables from gear-plot: tsv, heading, note1, note2, height, frequency_from, frequency_to, load_max, worst_speed, contact_lost,
+# Variables from gear-plot: tsv, heading, note1, note2, height, frequency_from, frequency_to, speeds, load_max, worst_speed, contact_lost,
 # largest, static_force, phase_from, phase_to, first_tooth, last_tooth, title_b, result_b, lost_b, shown_b_0 ..
 set datafile separator tab
 set datafile commentschars "#"
@@ -20,15 +20,24 @@ set tmargin at screen 0.838
 set bmargin at screen 0.555
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
 high = load_max > static_force ? load_max : static_force
-set yrange [0 : 1.08 * high]
+set yrange [0 : 1.08 * (high > 0 ? high : 1)]
 set xlabel "Mesh frequency (Hz)"
 set label 1 "{/:Bold (a)} largest load of a tooth pair" at graph 0, graph 1 offset 0, 1.6 font ",14"
 set arrow 1 from worst_speed, graph 0 to worst_speed, graph 1 nohead back lt 1 lw 1.4 dt (18, 10) lc rgb "#9a9a9a"
 set label 2 "(b)" at worst_speed, graph 1 offset 0, 0.4 center tc rgb "#505050" font ",14"
 set key at graph 1.02, graph 0.98 left top Left reverse samplen 2 spacing 1.2 font ",14"
 curve(direction, what) = sprintf('tsv index "[%s]" using 1:%s', direction, what)
-drawn = curve("down", "6") . ' with linespoints lt 1 lw 1.8 pt 10 ps 1.1 lc rgb "#d55e00" title "speed falling", ' \
-  . curve("up", "6") . ' with linespoints lt 1 lw 1.8 pt 9 ps 0.6 lc rgb "#0072b2" title "speed rising", ' \
+# Marks of rising and of falling speed stand at speeds of their own, so that both show where the directions agree.
+stride = int(ceil(speeds / 60))
+stride = stride < 2 && speeds > 30 ? 2 : stride
+speed_step = speeds > 1 ? span / (speeds - 1) : 1.0
+marked(f, falling) = int(floor((f - frequency_from) / speed_step + 0.5)) % (2 * stride) == (falling ? stride : 0)
+drawn = curve("down", "6") . ' with lines lt 1 lw 2.6 lc rgb "#d55e00" notitle, ' \
+  . curve("up", "6") . ' with lines lt 1 lw 1.4 lc rgb "#0072b2" notitle, ' \
+  . curve("down", '(marked($1, 1) ? $6 : NaN)') . ' with points lt 1 lw 1.8 pt 10 ps 1.6 lc rgb "#d55e00" notitle, ' \
+  . curve("up", '(marked($1, 0) ? $6 : NaN)') . ' with points lt 1 lw 1.8 pt 9 ps 1.3 lc rgb "#0072b2" notitle, ' \
+  . 'keyentry with linespoints lt 1 lw 2.6 pt 10 ps 1.6 lc rgb "#d55e00" title "speed falling", ' \
+  . 'keyentry with linespoints lt 1 lw 1.4 pt 9 ps 1.3 lc rgb "#0072b2" title "speed rising", ' \
   . 'static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#009e73" title sprintf("T / r_b = %.0f N", static_force)'
 if (contact_lost > 0) {
   drawn = drawn . ', ' . curve("down", '($4 > 0 ? 0.035 * high : NaN)') . ' with points pt 5 ps 0.6 lc rgb "#d55e00" notitle, ' \
@@ -42,7 +51,7 @@ unset label 2
 set tmargin at screen 0.425
 set bmargin at screen 0.085
 set xrange [phase_from:phase_to]
-set yrange [0 : 1.08 * largest]
+set yrange [0 : 1.08 * (largest > 0 ? largest : 1)]
 set xlabel "Phase of tooth i (mesh periods, 0: it touches at the pitch point)"
 set label 1 "{/:Bold (b)} " . title_b . "\n" . result_b at graph 0, graph 1 offset 0, 1.9 font ",14"
 colour(t) = t == 0 ? "#0072b2" : (t == 1 ? "#d55e00" : "#7f9fbf")

@@ -1,6 +1,6 @@
-# Waterfall: spectra of the dynamic transmission error stacked by mesh frequency (a), amplitudes of the first orders of the mesh
+# Waterfall: spectra of the dynamic transmission error against mesh frequency as colours (a), amplitudes of the first orders of the mesh
 # frequency (b); below them the same of the other direction, if there are two.
-# Variables from gear-plot: tsv, heading, note1, note2, height, rows, directions, orders, largest, natural_frequency, frequency_end,
+# Variables from gear-plot: tsv, heading, note1, note2, height, rows, directions, orders, largest, speed_step, natural_frequency, frequency_end,
 # frequency_from, frequency_to.
 set datafile separator tab
 set datafile commentschars "#"
@@ -8,9 +8,13 @@ set datafile commentschars "#"
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
-# The largest amplitude is a quarter of the range high.
 unit = largest > 0 ? largest : 1.0
-scale = 0.25 * span / unit
+# An amplitude is a bar at its frequency, as tall as the step of the speeds, its colour the amplitude over three decades.
+low = log10(unit) - 3
+half_tall = 0.5 * (speed_step > 0 ? speed_step : span)
+# As wide as its order moves with a step, so that a ray is a band.
+half_wide(order) = order * half_tall > 0.004 * frequency_end ? order * half_tall : 0.004 * frequency_end
+set palette defined (0 "#f4f1ea", 0.25 "#c9dcea", 0.5 "#6aaed6", 0.75 "#2166ac", 0.9 "#7a1f5c", 1 "#c8201e")
 
 set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}" offset 0, -0.4
 set border 3 lw 1.6
@@ -22,40 +26,43 @@ do for [r = 1:int(rows)] {
   set tmargin at screen 1 - (175.0 + (r - 1) * tall + (rows > 1 ? 30 : 0)) / height
   set bmargin at screen 1 - (175.0 + r * tall - 115) / height
   set lmargin at screen 0.09
-  set rmargin at screen 0.575
+  set rmargin at screen 0.5
   unset key
   unset grid
   unset logscale y
   set format y "%g"
   set xtics autofreq
   set ytics autofreq
-  set xlabel "Frequency (kHz) {/:Bold (" . letter(2 * r - 1) . ")}"
+  set xlabel "Frequency (Hz) {/:Bold (" . letter(2 * r - 1) . ")}"
   set ylabel "Mesh frequency (Hz)"
   if (rows > 1) {
     set label 2 (word(directions, r) eq "up" ? "speed rising" : "speed falling") at graph 0, graph 1 offset 0, 1.3 left font ",16"
   }
   top = frequency_to + 0.18 * span
-  set xrange [0:frequency_end / 1000]
+  set xrange [0:frequency_end]
   set yrange [frequency_from - 0.02 * span : top]
   set mxtics 2
-  set arrow 1 from natural_frequency / 1000, graph 0 to natural_frequency / 1000, graph 1 nohead back lt 1 lw 1.4 dt (18, 10) lc rgb "#9a9a9a"
-  set label 1 "f_n" at natural_frequency / 1000, graph 1 offset 0, 0.5 center tc rgb "#505050" font ",14"
+  set arrow 1 from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lw 1.4 dt (18, 10) lc rgb "#9a9a9a"
+  set label 1 "f_n" at natural_frequency, graph 1 offset 0, 0.5 center tc rgb "#505050" font ",14"
   # Rays of the orders, with their numbers where they leave the picture.
   do for [k = 1:int(orders)] {
     f = k * top < frequency_end ? top : frequency_end / k
     if (f > frequency_from) {
-      set arrow 10 + k from k * frequency_from / 1000, frequency_from to k * f / 1000, f nohead back lt 1 lw 1 lc rgb "#e0d3c0"
-      set label 10 + k sprintf("%d", k) at k * f / 1000, f offset (f < top ? 0.6 : 0), (f < top ? 0 : 0.5) center tc rgb "#8a6d3b" font ",13"
+      set arrow 10 + k from k * frequency_from, frequency_from to k * f, f nohead back lt 1 lw 1 dt (4, 6) lc rgb "#b0a48c"
+      set label 10 + k sprintf("%d", k) at k * f, f offset (f < top ? 0.6 : 0), (f < top ? 0 : 0.5) center tc rgb "#8a6d3b" font ",13"
     }
   }
-  set style textbox opaque margins 0.4, 0.4 fc rgb "#ffffff" noborder
-  # How high an amplitude stands, as a bar beside the axis.
-  bar = 10 ** floor(log10(unit))
-  bar = unit / bar >= 5 ? 5 * bar : unit / bar >= 2 ? 2 * bar : bar
-  set arrow 30 from graph 0.965, first frequency_from + 0.02 * span to graph 0.965, first frequency_from + 0.02 * span + bar * scale heads size screen 0.004, 90 lt 1 lw 2 lc rgb "#0072b2"
-  set label 30 sprintf("%g µm", bar) at graph 0.955, first frequency_from + 0.02 * span + 0.5 * bar * scale right boxed tc rgb "#0072b2" font ",14"
-  plot tsv index sprintf("[speeds %s]", word(directions, r)) using (0):1:(frequency_end / 1000):(0) with vectors nohead lt 1 lw 0.6 lc rgb "#dfe4ea" notitle, \
-    tsv index sprintf("[spectra %s]", word(directions, r)) using ($2 / 1000):1:(0):($3 * scale) with vectors nohead lt 1 lw 2.2 lc rgb "#0072b2" notitle
+  set cbrange [low : log10(unit)]
+  # Ticks in micrometres on an axis of powers of ten.
+  set cbtics ("" low)
+  do for [t = int(ceil(low)):int(floor(log10(unit)))] { set cbtics add (sprintf("%g", 10.0 ** t) t) }
+  set cblabel "Amplitude (µm)" offset -0.6
+  x0 = 0.515
+  foot = 1 - (175.0 + r * tall - 115) / height
+  set colorbox user origin screen x0, foot size screen 0.012, (tall - 115.0 - (rows > 1 ? 30 : 0)) / height
+  plot tsv index sprintf("[spectra %s]", word(directions, r)) using 2:1:(half_wide($2 / $1)):(half_tall):(log10($3) > low ? log10($3) : NaN) \
+    with boxxyerror fs solid 1 noborder lc palette notitle
+  unset colorbox
 
   unset arrow
   unset label

@@ -35,6 +35,7 @@
 #include "motion/steady_state.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
+#include "plot/plot_file.h"
 #include "signal/branch_end.h"
 #include "signal/response.h"
 #include "solid/mesher.h"
@@ -477,11 +478,13 @@ void body(int argc, char** argv) {
   figure.numbers = {{"axes", static_cast<double>(choices.size())}, {"fold_width", kFollowStep / kFineness}};
   figure.words = {{"labels", labels}};
 
-  const std::string table = output + ".tsv", recipe = plots + "/work-precision.gp";
-  publish(table, tsv(figure, {recorded_path(statics), recorded_path(sweeps), recorded_path(driver),
-                              recorded_path(driven)}));
-  publish(output + ".svg", draw(figure, table, recipe, Picture::svg));
-  publish(output + ".png", draw(figure, table, recipe, Picture::png));
+  const std::string recipe = plots + "/work-precision.gp";
+  const PlotFile data(figure);
+  publish_tables(
+      figure, output,
+      {recorded_path(statics), recorded_path(sweeps), recorded_path(driver), recorded_path(driven)});
+  publish(output + ".svg", draw(figure, data.path(), recipe, Picture::svg));
+  publish(output + ".png", draw(figure, data.path(), recipe, Picture::png));
   tell("work-precision -> ", output, ".{tsv,svg,png}");
 }
 

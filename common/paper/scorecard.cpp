@@ -1,4 +1,4 @@
-#include "plot/scorecard.h"
+#include "paper/scorecard.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,14 @@
 
 namespace whine {
 
-Verdict verdict(const Claim& claim, const Finding& finding, const std::string& scene) {
+Verdict verdict(const Claim& claim, const Finding& finding, bool is_fitted) {
   if (claim.scale == Scale::incomparable) return Verdict::incomparable;
   if (claim.scale == Scale::misprint) return Verdict::misprint;
   // NaN, a state that is not there, fails every comparison.
   const bool agrees = std::abs(finding.value - claim.printed) <= claim.tolerance;
   if (claim.scale == Scale::choice) return agrees ? Verdict::given : Verdict::incomparable;
   if (!agrees) return Verdict::differs;
-  if (std::count(claim.fitted_in.begin(), claim.fitted_in.end(), scene) > 0) return Verdict::fitted;
+  if (is_fitted) return Verdict::fitted;
   return claim.given ? Verdict::given : Verdict::agrees;
 }
 
@@ -51,8 +51,23 @@ std::string braced(const std::set<std::string>& files) {
 
 }  // namespace
 
-Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers>& scenes) {
+Verdict verdict(const Scorecard& card, const ScoredClaim& row, size_t scene) {
+  bool is_fitted = false;
+  for (const FittedNumber& n : card.fitted)
+    is_fitted = is_fitted || (n.scene == card.scenes[scene] &&
+                              std::count(n.claims.begin(), n.claims.end(), row.claim.id) > 0);
+  return verdict(row.claim, row.findings[scene], is_fitted);
+}
+
+Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers>& scenes,
+                const std::vector<FittedNumber>& fitted) {
   Scorecard card;
+  card.fitted = fitted;
+  for (const FittedNumber& n : fitted)
+    for (const std::string& id : n.claims)
+      if (std::none_of(claims.begin(), claims.end(), [&](const Claim& c) { return c.id == id; }))
+        fail(Failure::input, "the number ", n.number, " of scene ", n.scene, " is fitted to the claim '", id,
+             "', which does not exist; gear-scorecard --claims lists them");
   for (const SceneAnswers& s : scenes) card.scenes.push_back(s.name);
   for (const Claim& claim : claims) {
     ScoredClaim row{claim, {}, ""};
@@ -132,7 +147,7 @@ std::string notes_text(const Scorecard& card, const ScoredClaim& row) {
   std::string words, last;
   for (size_t i = 0; i < row.findings.size(); ++i) {
     const Finding& f = row.findings[i];
-    const Verdict v = verdict(row.claim, f, card.scenes[i]);
+    const Verdict v = verdict(card, row, i);
     const bool plain = v == Verdict::agrees || v == Verdict::given || v == Verdict::fitted;
     if (f.note.empty() || f.note == last || (plain && f.reading.empty())) continue;
     const bool alike = std::all_of(row.findings.begin(), row.findings.end(),
@@ -162,11 +177,16 @@ std::vector<std::string> bottom_line(const Scorecard& card) {
   std::vector<std::string> lines;
   for (size_t i = 0; i < card.scenes.size(); ++i) {
     std::map<Verdict, int> count;
-    for (const ScoredClaim& row : card.rows) ++count[verdict(row.claim, row.findings[i], card.scenes[i])];
-    lines.push_back(text(card.scenes[i], ": ", count[Verdict::agrees], " agree, ", count[Verdict::differs],
-                         " differ, ", count[Verdict::given] + count[Verdict::fitted], " given or fitted, ",
-                         count[Verdict::incomparable], " cannot be compared, ", count[Verdict::misprint],
-                         " misprint of P2000"));
+    for (const ScoredClaim& row : card.rows) ++count[verdict(card, row, i)];
+    int tied = 0, chosen = 0;
+    for (const FittedNumber& n : card.fitted)
+      if (n.scene == card.scenes[i]) ++(n.claims.empty() ? chosen : tied);
+    lines.push_back(
+        text(card.scenes[i], ": ", count[Verdict::agrees], " agree, ", count[Verdict::differs], " differ, ",
+             count[Verdict::given] + count[Verdict::fitted], " given or fitted, ",
+             count[Verdict::incomparable], " cannot be compared, ", count[Verdict::misprint],
+             " misprint of P2000; ", tied, " numbers fitted to ", count[Verdict::fitted], " claims",
+             chosen > 0 ? text(", ", chosen, " chosen for the number of claims that agree") : ""));
   }
   return lines;
 }
@@ -192,7 +212,7 @@ std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>&
     for (size_t i = 0; i < row.findings.size(); ++i) {
       const Finding& f = row.findings[i];
       out += "\t" + exact(f.value) + "\t" + deviation_text(c, f) + "\t" + f.reading + "\t" +
-             words_of(verdict(c, f, card.scenes[i])) + "\t" + f.note;
+             words_of(verdict(card, row, i)) + "\t" + f.note;
     }
     out += "\t" + row.sources + "\n";
   }
@@ -210,8 +230,7 @@ std::string scorecard_markdown(const Scorecard& card) {
     out += claim_cells(row.claim);
     for (size_t i = 0; i < row.findings.size(); ++i) {
       const std::string found = found_text(row.claim, row.findings[i]);
-      out += " " + found + (found.empty() ? "" : ": ") +
-             words_of(verdict(row.claim, row.findings[i], card.scenes[i])) + " |";
+      out += " " + found + (found.empty() ? "" : ": ") + words_of(verdict(card, row, i)) + " |";
     }
     out +=
         " " + notes_text(card, row) + " | " + (row.sources.empty() ? "" : "`" + row.sources + "`") + " |\n";
@@ -229,7 +248,7 @@ std::string scorecard_text(const Scorecard& card) {
     cells.push_back({row.claim.id, row.claim.place, printed_text(row.claim)});
     for (size_t i = 0; i < row.findings.size(); ++i) {
       cells.back().push_back(found_text(row.claim, row.findings[i]));
-      cells.back().push_back(words_of(verdict(row.claim, row.findings[i], card.scenes[i])));
+      cells.back().push_back(words_of(verdict(card, row, i)));
     }
   }
   std::vector<size_t> widths(cells[0].size(), 0);

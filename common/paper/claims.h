@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "plot/answers.h"
+#include "paper/answers.h"
 
 namespace whine {
 
@@ -38,8 +38,7 @@ struct Claim {
   std::string
       basis;  // why this tolerance or criterion; when the answer is yes; why there is nothing to compare
   std::function<Finding(const SceneAnswers&)> find;
-  bool given = false;                       // an input that scenes take over from P2000
-  std::vector<std::string> fitted_in = {};  // scenes of which an input was fitted to it
+  bool given = false;  // an input that scenes take over from P2000
 };
 
 // In the order of P2000.

@@ -1,4 +1,4 @@
-#include "plot/answers.h"
+#include "paper/answers.h"
 
 #include <algorithm>
 #include <tuple>
@@ -77,7 +77,7 @@ auto gears_of(const Artifact& a) {
                       g.bore_radius);
   };
   return std::tuple(of(a.driver), of(a.driven), a.mesh.centre_distance, a.mesh.corner.enabled,
-                    a.mesh.corner.largest_angle, a.driver_material.youngs_modulus,
+                    a.mesh.corner.largest_angle, a.mesh.contact_plane, a.driver_material.youngs_modulus,
                     a.driven_material.youngs_modulus);
 }
 

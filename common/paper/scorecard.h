@@ -3,13 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "plot/claims.h"
+#include "files/fitted_numbers.h"
+#include "paper/claims.h"
 
 namespace whine {
 
 enum class Verdict { agrees, differs, given, fitted, incomparable, misprint };
 // given, fitted: agrees, but because the scene took it over or was fitted to it.
-Verdict verdict(const Claim& claim, const Finding& finding, const std::string& scene);
+Verdict verdict(const Claim& claim, const Finding& finding, bool is_fitted);
 
 struct ScoredClaim {
   Claim claim;
@@ -19,11 +20,16 @@ struct ScoredClaim {
 };
 struct Scorecard {
   std::vector<std::string> scenes;
+  std::vector<FittedNumber> fitted;
   std::vector<ScoredClaim> rows;
 };
-Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers>& scenes);
+// Throws Error(input) for a number that is fitted to a claim that does not exist.
+Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers>& scenes,
+                const std::vector<FittedNumber>& fitted);
+Verdict verdict(const Scorecard& card, const ScoredClaim& row, size_t scene);
 
-// "<scene>: 40 agree, 30 differ, 9 given or fitted, 20 cannot be compared, 1 misprint of P2000", one for each scene.
+// "<scene>: 40 agree, 30 differ, 9 given or fitted, 20 cannot be compared, 1 misprint of P2000; 3 numbers fitted to 4 claims,
+// 6 chosen for the number of claims that agree", one for each scene.
 std::vector<std::string> bottom_line(const Scorecard& card);
 
 // sources: paths of the artifacts, named in comment lines.

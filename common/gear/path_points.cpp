@@ -1,0 +1,27 @@
+#include "gear/path_points.h"
+
+#include <cmath>
+
+namespace whine {
+
+std::array<PathPoint, 5> path_points(const GearPair& pair) {
+  const double first = pair.path_start(), last = pair.path_end(), pitch = pair.base_pitch(),
+               tangent = std::tan(pair.working_pressure_angle());
+  std::array<PathPoint, 5> points{PathPoint{'A', first, {}},
+                                  {'B', last - pitch, {}},
+                                  {'C', 0.0, {}},
+                                  {'D', first + pitch, {}},
+                                  {'E', last, {}}};
+  for (PathPoint& p : points)
+    for (int g = 0; g < 2; ++g) {
+      const double base = pair.gear(g).base_radius(), along = base * tangent + (g == 0 ? p.path : -p.path);
+      p.diameter[static_cast<size_t>(g)] = 2 * std::hypot(base, along);
+    }
+  return points;
+}
+
+double active_profile_diameter(const GearPair& pair, int g) {
+  return path_points(pair)[g == 0 ? 0 : 4].diameter[static_cast<size_t>(g)];
+}
+
+}  // namespace whine

@@ -1,0 +1,74 @@
+#include "gear/scene_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+constexpr double kMinute = 60;  // s
+
+std::string minutes(double seconds) {
+  const double all = seconds / kMinute, digit = std::pow(10, std::floor(std::log10(all)));
+  return text("about ", std::round(all / digit) * digit, " min");
+}
+
+// Mesh periods after which the same teeth meet, as far as they differ.
+double hunting(const Scene& scene) {
+  long periods = 1;
+  for (const std::string& name : {scene.mesh.driver, scene.mesh.driven}) {
+    const SceneGear& gear = scene.gear(name);
+    if (!gear.errors.none() || gear.design.crack.depth > 0)
+      periods = std::lcm(periods, static_cast<long>(gear.design.teeth));
+  }
+  return static_cast<double>(periods);
+}
+
+}  // namespace
+
+std::vector<std::string> costs(const Scene& scene) {
+  std::vector<std::string> out;
+  // Statics: 20 ms for 128 positions with 8 strips, 25 min with 1001.
+  constexpr double kPosition = 0.02 / 128, kDefaultStrips = 8, kGrowth = 2.3, kFewestPositions = 16;
+  const double periods = hunting(scene), strips = scene.contact.strips;
+  const double each = scene.contact.positions > 0 ? scene.contact.positions
+                      : periods > 1               ? std::clamp(16384 / periods, kFewestPositions, 128.0)
+                                                  : std::max(128, scene.time.steps_per_period);
+  const bool on_strips = scene.fidelity.contact == "strips";
+  const double statics =
+      kPosition * each * periods * (on_strips ? std::pow(strips / kDefaultStrips, kGrowth) : 1);
+  if (statics > kMinute)
+    out.push_back(text("statics take ", minutes(statics), " at each torque: strips = ", strips, ", ",
+                       each * periods, " positions",
+                       periods > 1 ? text(" over ", periods, " mesh periods") : ""));
+  // Motion: 3 ms a mesh period, some 170 of them, and not less than two hunting periods.
+  constexpr double kPeriod = 3e-3, kTransient = 170;
+  const double speeds = std::floor((scene.operation.frequency_to - scene.operation.frequency_from) /
+                                   std::max(scene.operation.frequency_step, 1e-9)) +
+                        1;
+  const double speed = kPeriod * std::max(kTransient, 2 * periods);
+  if (periods > 1 && speed * speeds > 10 * kMinute)
+    out.push_back(text("a sweep takes ", minutes(speed * speeds), ": the same teeth meet after ", periods,
+                       " mesh periods, and it has ", speeds,
+                       " speeds; fewer speeds or contact = \"line\" take less"));
+  // Bodies: unknowns grow with the square of 1 / element_mm, factors and modes with the cube of that.
+  for (const SceneGear& gear : scene.gears) {
+    const double coarseness = scene.body.element_size / gear.design.module;
+    if (coarseness < 0.04)
+      out.push_back(
+          text("[gear.", gear.name, "]: element_mm = ", scene.body.element_size * 1e3, " is ", coarseness,
+               " modules; mesh and modes take minutes and gigabytes below 0.04, and eight times the "
+               "unknowns for a third of it"));
+  }
+  if (scene.fidelity.body == "full")
+    out.push_back(
+        "body = \"full\" finds all modes by dense algebra: about a minute a gear for a thousand unknowns a "
+        "sector, eight "
+        "times that for twice as many");
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,14 @@
+// What a scene makes expensive, told before it is paid.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "files/scene.h"
+
+namespace whine {
+
+// A line for each choice of a scene that makes a stage take more than a minute of CPU by the measured laws in the source; none
+// for an ordinary scene. A program that computes says how far it is (base/progress.h).
+std::vector<std::string> costs(const Scene& scene);
+
+}  // namespace whine

@@ -1,0 +1,19 @@
+// The tables of a report that say where the mesh's compliance comes from, and how it stands to ISO 6336.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "files/schemas.h"
+
+namespace whine {
+
+struct WordTable {
+  std::string caption;
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;
+};
+
+WordTable compliance_table(const StaticArtifact& statics);
+WordTable iso_table(const StaticArtifact& statics);
+
+}  // namespace whine

@@ -1,0 +1,37 @@
+# Paths and numbers that a user gives: make reads `$` and `%` in them, and a shell all that it does not take for a letter. They are
+# looked at before anything is expanded, so the Makefile includes this first; $(value) does not expand, and no $(shell) runs before
+# `$` is ruled out.
+#
+# Allowed are letters, digits and . _ - + , @ / only. Recipes quote them as well.
+
+# a literal comma for functions
+, := ,
+names_allowed := letters, digits and . _ - + , @ / only
+name_hash := \#
+name_open := (
+name_close := )
+name_backslash := $(subst x,,\x)
+name_forbidden := ! " & ' * : ; < = > ? [ ] ^ ` { | } ~ % $(name_hash) $(name_open) $(name_close) $(name_backslash)
+
+name_found = $(strip $(foreach c,$2,$(findstring $c,$1)))
+# Whether it is one word without blanks around it.
+name_is_word = $(if $(filter 1,$(words $1)),$(and $(findstring x$(strip $1)x,x$1x),$(findstring x$1x,x$(strip $1)x)))
+name_shown = $(patsubst MAKECMDGOALS,target,$v)
+name_remedy = , and may hold $(names_allowed)$(if $(filter SCENE STUDY,$1),; rename the file or its folder)
+
+# SCENE and STUDY are paths, the others numbers and words; none of them has its default yet. What holds a control character is not
+# shown: a terminal would obey it.
+names_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE
+$(foreach v,$(names_given) MAKECMDGOALS,$(if $(findstring $$,$(value $v)),$(error $(name_shown): it holds $$$(call name_remedy,$v))))
+
+name_controls := $(shell printf '%b ' '\01' '\02' '\03' '\04' '\05' '\06' '\07' '\010' '\016' '\017' '\020' '\021' '\022' '\023' \
+  '\024' '\025' '\026' '\027' '\030' '\031' '\032' '\033' '\034' '\035' '\036' '\037' '\0177')
+$(foreach v,$(names_given) MAKECMDGOALS,$(if $(call name_found,$($v),$(name_controls)),$(error $(name_shown): it holds a control character$(call name_remedy,$v))))
+$(foreach v,$(names_given),$(if $($v),$(if $(call name_is_word,$($v)),,$(error $(name_shown)=$($v): it holds blanks$(call name_remedy,$v)))))
+$(foreach v,$(names_given) MAKECMDGOALS,$(if $(call name_found,$($v),$(name_forbidden)),\
+  $(error $(name_shown)=$($v): it holds $(call name_found,$($v),$(name_forbidden))$(call name_remedy,$v))))
+
+# $(call plain_stem,variable): its file's name becomes a folder, a part of variables and a target.
+plain_stem = $(if $(basename $(notdir $($1))),$(if $(strip $(foreach c,. + @ $(,),$(findstring $c,$(basename $(notdir $($1)))))),\
+  $(error $1=$($1): the name '$(basename $(notdir $($1)))' becomes a folder and a target$(,) so it may hold letters$(,) digits$(,) _ and - only; rename the file)),\
+  $(error $1=$($1): the file has no name before .toml; rename the file))

@@ -1,0 +1,50 @@
+# Readings of P2000: what the paper leaves open, searched, and which of its claims hold together.
+#
+#   make reading        the search over data/studies/reading*.toml, and its best again with strips; out/reading/
+#   make consistency    out/figures/consistency.md, printed, and the figure out/figures/reading.{tsv,svg,png}
+#   make docs           both, and the scorecard, into data/published/README.md
+#
+# A part holds whole tooth forms, so that a search that is broken off goes on with those that are missing.
+
+reading_scene := parker2000-standard-tooth
+reading_plans := reading reading-shallow reading-deep reading-best
+READING_PARTS ?= 8
+reading_parts := $(foreach p,$(reading_plans),$(patsubst %,out/reading/$p/part_%.h5,$(shell seq -w $(READING_PARTS))))
+claim_sets := data/published/claim_sets.toml
+
+define reading_rules # plan
+out/reading/$1/part_%.h5: data/studies/$1.toml data/scenes/$(reading_scene).toml $(call id,gear-reading) | $(B)/bin/gear-reading
+	@mkdir -p $$(@D)
+	$$(call run,reading) --plan $$< --part $$*/$(READING_PARTS) --output $$@ $$(call landed,reading)
+endef
+$(foreach p,$(reading_plans),$(eval $(call reading_rules,$p)))
+
+out/reading/readings.h5: $(reading_parts) $(call id,gear-reading) | $(B)/bin/gear-reading
+	$(B)/bin/gear-reading --output $@ $(filter %.h5,$^)
+
+out/reading/confirmed.h5: out/reading/readings.h5 data/scenes/$(reading_scene).toml $(call id,gear-reading) | $(B)/bin/gear-reading
+	$(call run,reading) --confirm 20 --scene data/scenes/$(reading_scene).toml --output $@ $< $(call landed,reading)
+
+out/figures/consistency.md out/figures/consistency.tsv &: out/reading/readings.h5 out/reading/confirmed.h5 $(claim_sets) $(call id,gear-reading) | $(B)/bin/gear-reading
+	@mkdir -p out/figures
+	$(B)/bin/gear-reading --sets $(claim_sets) --output out/figures/consistency $(filter %.h5,$^)
+
+out/figures/reading.tsv out/figures/reading.svg out/figures/reading.png &: out/reading/readings.h5 $(claim_sets) pipelines/plots/reading.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+	@mkdir -p out/figures
+	$(B)/bin/gear-plot reading --claim-sets $(claim_sets) --output out/figures/reading $<
+
+# Generated blocks of pages, between <!-- name --> and <!-- end of name -->.
+define replace_block # page, name, file
+@awk -v name='$2' -v file='$3' '$$0 == "<!-- " name " -->" { print; while ((getline line < file) > 0) print line; skip = 1 } \
+  $$0 == "<!-- end of " name " -->" { skip = 0 } !skip' $1 > $1.new && mv $1.new $1
+endef
+published_page := data/published/README.md
+
+.PHONY: reading consistency docs
+reading: out/reading/readings.h5 out/reading/confirmed.h5 ## search over what P2000 leaves open: two thousand readings against its claims, an hour of CPU
+consistency: out/figures/consistency.md out/figures/reading.png ## which of P2000's claims hold together in one reading, and which in none
+	@cat $<
+docs: out/figures/scorecard.md out/figures/consistency.md out/figures/reading.png ## put scorecard, sets of claims and the figure of readings into data/published/
+	$(call replace_block,$(published_page),gear-scorecard,out/figures/scorecard.md)
+	$(call replace_block,$(published_page),gear-reading,out/figures/consistency.md)
+	cp out/figures/reading.png data/published/reading.png

@@ -1,0 +1,195 @@
+# Names of files and folders, titles and numbers that were made to do harm: make and the programs take them for data or refuse them.
+#
+# Works on a copy of the tree with the real makefiles and programs. A command that runs leaves a file `mark`.
+set -uo pipefail
+B=${B:-build}
+base=$(mktemp -d)
+trap 'rm -rf "$base"' EXIT
+ok() { echo "ok: $1"; }
+wrong() { echo "FAILED: $1: $2"; }
+tree=$base/tree log=$base/log
+mkdir -p "$tree/$B"
+cp -a Makefile pipelines common tools tests data "$tree"
+cp -a "$B/bin" "$B/lib" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cd "$tree" || exit 1
+[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
+coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^modes = [^ ]*/modes = 5/
+  s/^\[discretisation\]/&\npositions = 32/; s/^torque_Nm = .*/torque_Nm = [100]/'
+scene() { sed "$coarse" data/scenes/parker2000.toml; }
+# Everything but what make and the programs may write.
+others() { find . -path "./$B" -prune -o -path ./out -prune -o -print | sort; }
+
+# --- names of files: no shell, no rule and no make function reads them
+scene > s.toml
+echo 'scene = "s.toml"' > study.toml
+echo precious > precious.toml
+# shellcheck disable=SC2088 # a folder named ~
+attempts=('h/;{touch,mark};/s.toml' 'k/>precious.toml' '$(shell touch mark).toml' '${shell touch mark}.toml' "'; touch mark; '.toml" '`touch mark`.toml'
+  'p%/s.toml' 'b\/s.toml' 'a#/s.toml' 'a=b/s.toml' 'a&touch mark&/s.toml' 'a|touch mark/s.toml' 'a"$(touch mark)"/s.toml' $'e\e[31m/s.toml' '~/s.toml')
+for name in "${attempts[@]}"; do
+  mkdir -p "./$(dirname "$name")"
+  cp s.toml "./$name" 2> /dev/null
+done
+for name in "${attempts[@]}"; do
+  shown=$(tr -d '\033' <<< "$name")
+  for variable in SCENE STUDY; do
+    claim="$variable=$shown is refused before a shell sees it"
+    before=$(others)
+    goal=static
+    [ $variable = SCENE ] || goal=study
+    for given in argument environment; do
+      if [ $given = argument ]; then make $sanitize -n "$variable=$name" $goal > "$log" 2>&1 && wrong "$claim" "status 0"
+      else env "$variable=$name" make $sanitize -n $goal > "$log" 2>&1 && wrong "$claim" "status 0, from the environment"; fi
+      if [ "$(others)" != "$before" ]; then wrong "$claim" "made $(diff <(echo "$before") <(others) | tail -n 1)"; rm -f mark
+      elif [ "$(cat precious.toml)" != precious ]; then wrong "$claim" "has overwritten a file"; echo precious > precious.toml
+      elif ! grep -q -E "\*\*\* $variable.*: it holds .*may hold letters, digits and . _ - \+ , @ / only" "$log"; then wrong "$claim" "$(tail -n 1 "$log")"
+      elif grep -q $'\e' "$log"; then wrong "$claim" "a control character reaches the terminal"
+      elif [ $given = environment ]; then ok "$claim"; fi
+    done
+  done
+done
+for goal in 'out/parker2000/T1;touch${IFS}mark;/static.h5' "out/parker2000/T'\$(touch\${IFS}mark)'/static.h5" 'out/parker2000/T$(shell)/static.h5' 'out/parker2000/T1%/static.h5'; do
+  make $sanitize -n "$goal" > "$log" 2>&1
+  if [ -e mark ]; then wrong "the target $goal" "runs a command"; rm -f mark
+  elif grep -q '\*\*\* target.*: it holds ' "$log"; then ok "the target $goal is refused"
+  else wrong "the target $goal is refused" "$(tail -n 1 "$log")"; fi
+done
+for given in 'TORQUE=1;touch mark' 'PHASE=$(shell touch mark)' 'SHARE=1/2"$(touch mark)"' 'DAMPING=`touch mark`'; do
+  make $sanitize -n "$given" STUDY=study.toml study calibrate loaded > "$log" 2>&1
+  if [ -e mark ]; then wrong "$given" "runs a command"; rm -f mark
+  elif grep -q '\*\*\* .*: it holds ' "$log"; then ok "$given is refused"
+  else wrong "$given is refused" "$(tail -n 1 "$log")"; fi
+done
+mkdir -p h
+for given in SCENE STUDY; do
+  cp $([ $given = SCENE ] && echo s.toml || echo study.toml) h/.toml
+  make $sanitize -n $given=h/.toml $([ $given = SCENE ] && echo static || echo study) > "$log" 2>&1
+  grep -q "\*\*\* $given=h/.toml: the file has no name before .toml" "$log" && ok "$given=h/.toml is refused: its results would be the default's" ||
+    wrong "$given=h/.toml is refused" "$(tail -n 1 "$log")"
+done
+mkdir -p 'mü/ß@a+b,c'
+cp s.toml 'mü/ß@a+b,c/own_1.toml'
+make $sanitize -n 'SCENE=mü/ß@a+b,c/own_1.toml' static > "$log" 2>&1 && grep -q 'bin/gear-static .*out/own_1/T100' "$log" &&
+  ok "a folder may hold letters of any alphabet and @ + ," || wrong "a folder may hold letters of any alphabet and @ + ," "$(tail -n 1 "$log")"
+
+# --- a decimal point where the locale has a comma
+if mkdir -p "$base/locale" && localedef -i de_DE -f UTF-8 "$base/locale/de_DE.UTF-8" 2> /dev/null; then
+  LOCPATH=$base/locale LC_ALL=de_DE.UTF-8 make $sanitize -n out/parker2000/T62.5/static.h5 > "$log" 2>&1 && ok "a torque of 62.5 in a path, where the locale has a comma" ||
+    wrong "a torque of 62.5 in a path, where the locale has a comma" "$(tail -n 1 "$log")"
+else echo "skipped: a torque of 62.5 in a path, where the locale has a comma (localedef cannot make one)"; fi
+
+# --- an artifact in the place of another: fresh by its inputs, and of another scene, torque, direction, model or kind
+bin=$PWD/$B/bin
+motion='s/^steps_per_period = [^ ]*/steps_per_period = 32/; s/^min_sample_rate_kHz = [^ ]*/min_sample_rate_kHz = 50/
+  s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2300, to = 2400, step = 100 }/'
+scene | sed "$motion" > s.toml
+scene | sed "$motion; s/^bore_radius_mm = [^ ]*/bore_radius_mm = 35.0/" > other.toml
+make_() { make $sanitize "$@" > "$log" 2>&1; }
+if ! make_ SCENE=s.toml out/s/T100/static.h5 out/s/T200/static.h5 out/s/T100/up/sweep.h5 out/s/T100/down/sweep.h5 out/s/T100/secant/up/sweep.h5 ||
+  ! make_ SCENE=other.toml out/other/T100/static.h5; then
+  wrong "two coarse scenes are computed" "$(grep -m1 -E 'error|\*\*\*' "$log")"
+  exit 1
+fi
+"$bin/gear-inspect" --check out > "$log" 2>&1 && ok "gear-inspect --check finds nothing in what make has made" || wrong "gear-inspect --check finds nothing in what make has made" "$(head -n 1 "$log")"
+# refused <claim> <status> <pattern> <command...>
+refused() {
+  local claim=$1 status=$2 pattern=$3 found
+  shift 3
+  timeout 60 "$@" > said.out 2> said
+  found=$?
+  if [ "$found" != "$status" ]; then wrong "$claim" "status $found instead of $status: $(head -n 1 said)"
+  elif ! grep -q -E "$pattern" said; then wrong "$claim" "no '$pattern' in: $(head -c 300 said)"
+  elif [ "$(wc -c < said)" -gt 4000 ] || grep -q $'\e' said; then wrong "$claim" "a message of $(wc -c < said) bytes, or with control characters"
+  else ok "$claim"; fi
+}
+# swapped <from> <to> <pattern> <stage that reads it...>
+swapped() {
+  local from=$1 to=$2 pattern=$3
+  shift 3
+  cp -p "$to" kept && cp "$from" "$to"
+  refused "$from in the place of ${to#out/}: gear-inspect --check" 3 "$to: $pattern" "$bin/gear-inspect" --check out
+  refused "$from in the place of ${to#out/}: $(basename "$1")" 3 "$to: $pattern.*delete it; rebuild it with: make " "$@"
+  cp -p kept "$to"
+}
+body_of() { readlink "out/$1/pinion" | sed 's|^\.\./|out/|'; }
+swapped out/s/T100/static.h5 out/s/T200/static.h5 'is at 100 N m, but lies in T200' "$bin/gear-plot" fig12 --output x out/s/T200/static.h5
+swapped out/other/T100/static.h5 out/s/T100/static.h5 'was made from out/other/params/static.toml, but lies in out/s' "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
+swapped out/s/T100/up/sweep.h5 out/s/T100/down/sweep.h5 'is of the sweep up, but lies in down' "$bin/gear-spectra" --input out/s/T100/down/sweep.h5 --output x.h5
+swapped out/s/T100/secant/up/sweep.h5 out/s/T100/up/sweep.h5 'is of the lumped model secant, but lies in T100' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/up/sweep.h5
+swapped "$(body_of other)/body.h5" "$(body_of s)/body.h5" 'is of the slice [0-9a-f]{16}, but lies at' "$bin/gear-static" --params out/s/params/static.toml --driver "$(body_of s)/body.h5" --driven "$(body_of s)/body.h5" --torque 100 --output x.h5
+swapped "$(body_of s)/mesh.h5" out/s/T100/static.h5 "is 'whine/mesh', but (its name is that of )?'whine/static'" "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
+pair=(--driver out/s/pinion/body.h5 --driven out/s/wheel/body.h5)
+refused "gear-impact with the parameters of a sweep" 3 'sweep.toml: is what a sweep depends on, and this stage reads what the ring-down depends on: give out/<scene>/params/impact.toml' \
+  "$bin/gear-impact" --params out/s/params/sweep.toml "${pair[@]}" --static out/s/T100/static.h5 --reference-static out/s/T100/static.h5 --output x.h5
+refused "a report of a lumped sweep" 3 'secant/up/sweep.h5: is of the lumped model secant; a report is of the elastic pair' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/secant/up/sweep.h5
+
+# --- what is printed and not written
+for program in "$bin"/gear-*; do
+  "$program" --help > /dev/full 2> said
+  [ $? = 4 ] && grep -q 'error: standard output cannot be written' said || { wrong "${program##*/} --help on a full disk" "$(cat said)"; broken=1; }
+  "$program" --help | grep -q '^Exit status: 0 done; 1 .*; 2 .*; 3 ' || { wrong "${program##*/} --help" "lacks the exit statuses"; broken=1; }
+done
+[ -z "${broken:-}" ] && ok "every program ends with status 4 where its --help cannot be written, and says the exit statuses there"
+refused "gear-scene --keys on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-scene' --keys > /dev/full"
+refused "gear-inspect on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-inspect' out/s/T100/static.h5 > /dev/full"
+
+# --- what make takes for made
+place=out/s/T100/static.h5
+mv $place kept
+: > $place; refused "an empty artifact" 4 "$place: .*delete it; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+rm $place; mkfifo $place; refused "a pipe for an artifact" 4 "$place: .*delete it; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+rm $place; mkdir $place; refused "a folder for an artifact" 4 "$place: .*remove this folder; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+rmdir $place; refused "a missing artifact" 4 "$place: cannot be read: No such file or directory; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+mv kept $place
+
+# --- scenes
+to_scene=("$bin/gear-scene" --output x.mk --out x --scene)
+{ printf 'a'; yes .a | head -n 1000000 | tr -d '\n'; echo ' = 1'; } > deep.toml
+refused "a key of a million parts" 3 'deep.toml:1: is not valid TOML: the file is larger than a megabyte' "${to_scene[@]}" deep.toml
+{ printf 'title = "x" # ............................................\na'; yes .a | head -n 100000 | tr -d '\n'; echo ' = 1'; } > deep.toml
+refused "a key of a hundred thousand parts" 3 'deep.toml:2: is not valid TOML: a key has more than 32 parts' "${to_scene[@]}" deep.toml
+{ printf 'title = "'; head -c 200000 /dev/zero | tr '\0' x; echo '"'; grep -v '^title' s.toml; } > long.toml
+refused "a title of 200 kB" 3 "'title' = .*: has 200000 bytes; must be at most 500" "${to_scene[@]}" long.toml
+refused "a path of 200 kB" 4 'cannot be read: File name too long' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 100000 /dev/zero | tr '\\0' x).toml\""
+{ printf '"\\u001b[31mred" = 1\n'; cat s.toml; } > red.toml
+refused "a key with control characters" 3 "red.toml:1: unknown key '\?\[31mred'" "${to_scene[@]}" red.toml
+sed 's/^module_mm = .*/module_mm = 0.049999999999999/' s.toml > near.toml
+refused "a value beside its limit" 3 '0.049999999999999: must be at least 0.05 mm' "${to_scene[@]}" near.toml
+sed '0,/^\[gear.wheel\]/s//[gear.pinion.crack]\ndepth_mm = 1e-9\n[gear.wheel]/' s.toml > crack.toml
+refused "a crack of 1e-9 mm" 3 'crack.toml:[0-9]*: \[gear.pinion\]: crack: depth_mm = 1e-09 is too short to be meshed: at least 0.01 modules, 0.03 mm' "${to_scene[@]}" crack.toml
+
+
+# --- what a scene makes expensive is said before anything is computed
+costs() { sed "$1" s.toml > dear.toml; "${to_scene[@]}" dear.toml 2>&1 | grep -c -E "$2"; }
+[ "$(costs 's/^strips = [^ ]*/strips = 1001/; /^positions/d' 'dear.toml: statics take about [0-9]+ min at each torque: strips = 1001, 128 positions')" = 1 ] &&
+  [ "$(costs 's/^element_mm = .*/element_mm = 0.1/' 'element_mm = 0.1 is 0.0333.* modules; mesh and modes take minutes')" = 2 ] &&
+  [ "$(costs 's/^body = "modal"/body = "full"/' 'body = "full" finds all modes by dense algebra')" = 1 ] &&
+  [ "$(costs '' 'take')" = 0 ] && ok "gear-scene says what a scene makes expensive, and nothing of an ordinary one" ||
+  wrong "gear-scene says what a scene makes expensive" "$("${to_scene[@]}" dear.toml 2>&1 | head -n 2)"
+
+# --- files
+before=$(find . -name '.*' | sort)
+refused "--output ''" 2 '\-\-output is empty; give a value' "$bin/gear-plot" fig12 --output '' $place
+refused "--out ''" 2 '\-\-out is empty; give a value' "$bin/gear-scene" --scene s.toml --output x.mk --out ''
+[ "$(find . -name '.*' | sort)" = "$before" ] || wrong "--output ''" "has written hidden files"
+# exec keeps the number of the process that the name of the temporary file holds
+(
+  ln -s precious.toml "x.mk.tmp.$(hostname).$BASHPID"
+  exec "$bin/gear-scene" --scene s.toml --out x --output x.mk
+) > "$log" 2>&1
+if [ "$(cat precious.toml)" = precious ] && [ -s x.mk ] && [ ! -L x.mk ]; then ok "a link in the place of a temporary file is not followed"; else
+  wrong "a link in the place of a temporary file is not followed" "$(head -n 1 precious.toml)"; fi
+
+# --- memory, time, clocks
+if [ -z "$sanitize" ]; then
+  refused "an address space too small for linear algebra" 1 'address space is limited to [0-9]* MB.*raise the limit' \
+    bash -c "ulimit -v 400000; exec '$bin/gear-reduce' --params out/s/pinion/body.toml --mesh out/s/pinion/mesh.h5 --output x.h5"
+fi
+WHINE_PROGRESS_SECONDS=0 "$bin/gear-static" --params out/s/params/static.toml "${pair[@]}" --torque 100 --output x.h5 2> said
+[ "$(grep -c -E '^gear-static: mesh positions: [0-9]+ of 32 after .* min left$' said)" -ge 31 ] && ok "gear-static says how far it is where there is no terminal" ||
+  wrong "gear-static says how far it is where there is no terminal" "$(head -n 1 said)"
+make_ SCENE=s.toml $place
+touch -d '1 hour' "$B/id/gear-static"
+make_ SCENE=s.toml $place
+make_ SCENE=s.toml $place
+if grep -q 'bin/gear-static ' "$log"; then wrong "a program's hash of the future" "redoes results in every run"; else ok "a program's hash of the future redoes results once"; fi

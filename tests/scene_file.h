@@ -1,0 +1,88 @@
+// Scenes for tests: a small one, edits of it, and what it is refused with.
+#pragma once
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "base/error.h"
+#include "files/scene.h"
+
+// A complete scene with required keys only; line numbers are relied on below.
+inline const char* const kScene = R"([gear.pinion]
+teeth = 50
+module_mm = 3
+pressure_angle_deg = 20
+face_width_mm = 25.4
+bore_radius_mm = 40
+total_inertia_kgm2 = 0.0148
+material = "steel"
+[gear.wheel]
+like = "pinion"
+[material.steel]
+youngs_modulus_GPa = 207
+poisson_ratio = 0.3
+density_kgm3 = 7600
+plane = "stress"
+[[mesh]]
+driver = "pinion"
+driven = "wheel"
+centre_distance_mm = 150
+[operation]
+torque_Nm = [100, 150]
+mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }
+)";
+
+class SceneFile {
+ public:
+  SceneFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "whine-scene-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    folder_ = name;
+  }
+  ~SceneFile() { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& text, const std::string& name = "x.toml") const {
+    const std::string place = (folder_ / name).string();
+    std::ofstream(place) << text;
+    return place;
+  }
+  whine::Scene read(const std::string& text) const { return whine::read_scene(path(text)); }
+
+  // The message with which a scene is refused, from the file name on; "" if it is not.
+  std::string refusal(const std::string& text) const {
+    try {
+      whine::read_scene(path(text));
+    } catch (const whine::Error& error) {
+      CHECK(error.kind() == whine::Failure::input);
+      const std::string message = error.what();
+      CHECK(message.find('\n') == std::string::npos);
+      const auto start = message.find("x.toml");
+      return start == std::string::npos ? message : message.substr(start);
+    }
+    return "";
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// kScene with one text replaced; the text must be there once.
+inline std::string scene_with(const std::string& old, const std::string& now) {
+  std::string out = kScene;
+  const auto at = out.find(old);
+  REQUIRE(at != std::string::npos);
+  REQUIRE(out.find(old, at + 1) == std::string::npos);
+  return out.replace(at, old.size(), now);
+}
+
+inline std::string with_section(const std::string& section) {
+  return kScene + section;
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return true;
+  MESSAGE("'", text, "' lacks '", part, "'");
+  return false;
+}
