@@ -256,7 +256,7 @@ a default damping that is not for these gears|warning: rayleigh_stiffness_s = 7.
 a motion that repeats after two mesh periods|at 6000 Hz the motion is subharmonic: it repeats after 2 mesh periods|s/^rayleigh_stiffness = .*/rayleigh_stiffness = 2e-6/; s/from = .*/from = 6000.0, to = 6000.0, step = 100.0 }/
 a motion that never repeats|warning: at 6000 Hz the motion is not periodic after 3000 mesh periods; the state still changes by [0-9.]+ per|s/^rayleigh_stiffness = .*/rayleigh_stiffness = 2e-7/; s/^bearing_ratio = .*/bearing_ratio = 0.0001/; s/from = .*/from = 6000.0, to = 6000.0, step = 100.0 }/
 CASES
-if $(sweep scene up) 2>&1 | grep -q -E 'warning|subharmonic'; then wrong "an ordinary sweep warns of nothing" "$($(sweep scene up) 2>&1)"; else
+if grep -q -E 'warning|subharmonic' <<< "$($(sweep scene up) 2>&1)"; then wrong "an ordinary sweep warns of nothing" "$($(sweep scene up) 2>&1)"; else
   ok "an ordinary sweep warns of nothing"; fi
 sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
 if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
@@ -283,7 +283,7 @@ for scene in 6:parker2000 7:parker2000-standard-tooth 8:parker2000-calibrated; d
     END { print a + 0 " agree, " d + 0 " differ, " g + 0 " given or fitted, " c + 0 " cannot be compared, " m + 0 " misprint of P2000" \
       (bad ? ", " bad " rows without a verdict" : "") }')
   claim="the bottom line of ${scene#*:} on README.md's first screen is that of its table"
-  if sed -n '1,60p' "$readme" | grep -F "| \`${scene#*:}\` |" | grep -q -F "$counts"; then ok "$claim"; else wrong "$claim" "the table says $counts"; fi
+  if grep -q -F "$counts" <<< "$(sed -n '1,60p' "$readme" | grep -F "| \`${scene#*:}\` |")"; then ok "$claim"; else wrong "$claim" "the table says $counts"; fi
 done
 rm -f card
 mkdir -p card/s
@@ -499,9 +499,10 @@ for line in 'near field  *subtraction' 'contact  *strips, 8 across' 'peak pressu
   inspected "gear-inspect of a static result: $line" 0 "$line" out/scene/T100/static.h5; done
 refused "a slice in place of a scene" 3 'is a slice, .* give the scene itself' "$bin/gear-scene" --scene out/scene/params/static.toml --output x.mk --out x
 refused "a body's slice in place of a scene" 3 'is a slice, .* give the scene itself' "$bin/gear-scene" --scene out/scene/pinion/body.toml --output x.mk --out x
-if grep -h corner_contact out/scene/params/*.toml | grep -q '#'; then wrong "a slice gives no unit to true" "$(grep corner_contact out/scene/params/*.toml)"; else
+if grep -q 'corner_contact.*#' out/scene/params/*.toml; then wrong "a slice gives no unit to true" "$(grep corner_contact out/scene/params/*.toml)"; else
   ok "a slice gives no unit to true"; fi
-if "$bin/gear-plot" --help | grep -q 'see above' || ! "$bin/gear-plot" --help | tr -s ' \n' ' ' | grep -q 'From response.h5 of sweeps up and down'; then wrong "gear-plot --help says what each figure takes" ""; else
+plot_help=$("$bin/gear-plot" --help | tr -s ' \n' ' ')
+if grep -q 'see above' <<< "$plot_help" || ! grep -q 'From response.h5 of sweeps up and down' <<< "$plot_help"; then wrong "gear-plot --help says what each figure takes" ""; else
   ok "gear-plot --help says what each figure takes"; fi
 refused "a speed for a figure of no single speed" 2 'fig12 takes no --mesh-frequency' "$bin/gear-plot" fig12 --plots "$plots" --mesh-frequency 2400 --output other out/scene/T100/static.h5
 refused "fig15 without speeds" 2 'fig15 needs --mesh-frequency, in Hz, one or two.*0 given' "$bin/gear-plot" fig15 --plots "$plots" --output other out/scene/T100/pairs/up/sweep.h5

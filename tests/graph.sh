@@ -333,7 +333,7 @@ make_ $all && [ -e out/parker2000/wheel/body.h5 ] && [ -e out/parker2000/T200/st
 rm -rf out; : > calls
 FAIL=out/parker2000/T150/down/sweep.h5 make_ fig05 && wrong "a failed stage fails make" "status 0" || ok "a failed stage fails make"
 make_ -n fig05 # the other scene may not have come as far
-if shown | grep -q 'gear-sweep out/parker2000/T150/down/sweep.h5' && ! shown | grep -q -E 'gear-(mesh|reduce|static) out/(bodies|parker2000)/'; then
+if grep -q 'gear-sweep out/parker2000/T150/down/sweep.h5' <<< "$(shown)" && ! grep -q -E 'gear-(mesh|reduce|static) out/(bodies|parker2000)/' <<< "$(shown)"; then
   ok "a run that broke off resumes at what is missing"
 else wrong "a run that broke off resumes at what is missing" "$(shown)"; fi
 make_ fig05 && [ -e out/figures/fig05.png ] && ok "and ends with the figure" || wrong "and ends with the figure" "$(tail -n 1 "$log")"

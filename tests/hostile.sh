@@ -127,7 +127,7 @@ refused "a report of a lumped sweep" 3 'secant/up/sweep.h5: is of the lumped mod
 for program in "$bin"/gear-*; do
   "$program" --help > /dev/full 2> said
   [ $? = 4 ] && grep -q 'error: standard output cannot be written' said || { wrong "${program##*/} --help on a full disk" "$(cat said)"; broken=1; }
-  "$program" --help | grep -q '^Exit status: 0 done; 1 .*; 2 .*; 3 ' || { wrong "${program##*/} --help" "lacks the exit statuses"; broken=1; }
+  grep -q '^Exit status: 0 done; 1 .*; 2 .*; 3 ' <<< "$("$program" --help)" || { wrong "${program##*/} --help" "lacks the exit statuses"; broken=1; }
 done
 [ -z "${broken:-}" ] && ok "every program ends with status 4 where its --help cannot be written, and says the exit statuses there"
 refused "gear-scene --keys on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-scene' --keys > /dev/full"
