@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "failure_of.h"
 #include "files/publish.h"
+#include "gear/scene_geometry.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
 #include "paper_pair.h"
@@ -249,6 +250,31 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   CHECK(refused([](ReportContent& c) { c.pictures[0].name = "fig99"; }));
   CHECK(refused([](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }));
   CHECK(refused([](ReportContent& c) { c.statics[1].driven.teeth = 51; }));
+}
+
+TEST_CASE("report: the inertia that moves stands beside that of the drawing") {
+  ReportContent content;
+  content.scene = "pair: gears";
+  content.statics = {statics_of_paper(150)};
+  const StaticArtifact& s = content.statics[0];
+  CHECK(report_html(content).find("inertia in motion") == std::string::npos);
+  ImpactArtifact a;
+  a.driver = s.driver;
+  a.driven = s.driven;
+  a.driver_material = s.driver_material;
+  a.driven_material = s.driven_material;
+  a.mesh = s.mesh;
+  a.torque = 150;
+  a.driver_inertia = 1.01 * least_body_inertia(ToothGeometry(s.driver), s.driver_material);
+  a.driven_inertia = 0.5;
+  content.impacts = {a};
+  const std::string page = report_html(content);
+  const size_t row = page.find("inertia in motion");
+  REQUIRE(row != std::string::npos);
+  const std::string cells = page.substr(row, page.find("</tr>", row) - row);
+  CHECK(cells.find(", as drawn") != std::string::npos);
+  CHECK(cells.find(", as drawn", cells.find(", as drawn") + 1) == std::string::npos);
+  CHECK(cells.find("0.5") != std::string::npos);
 }
 
 TEST_CASE("report: what the numbers mean is said of what is on the page, and of every figure") {

@@ -265,7 +265,8 @@ std::string results_table(const ReportContent& c) {
                    : "");
 }
 
-std::string gears_table(const StaticArtifact& s) {
+std::string gears_table(const ReportContent& c) {
+  const StaticArtifact& s = c.statics.front();
   constexpr double kNoBacklash = 1e-6;  // m: what a centre distance rounded to a micrometre leaves
   const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
   const auto degrees = [](double rad) { return fixed(rad * 180 / std::numbers::pi, 3); };
@@ -297,6 +298,17 @@ std::string gears_table(const StaticArtifact& s) {
   rows.push_back({"inertia of the body as drawn, bore to tip, without fillets", "kg m²",
                   shown(least_body_inertia(pair.gear(0), s.driver_material), 3),
                   shown(least_body_inertia(pair.gear(1), s.driven_material), 3)});
+  if (!c.impacts.empty()) {
+    constexpr double kFillets = 1.03;  // what fillets add to the outline at most
+    const ImpactArtifact& a = c.impacts.front();
+    const auto total = [&](size_t g, const Material& material, double inertia) {
+      return shown(inertia, 4) +
+             (inertia < kFillets * least_body_inertia(pair.gear(g), material) ? ", as drawn" : "");
+    };
+    rows.push_back({"inertia in motion, with all that turns with the gear", "kg m²",
+                    total(0, s.driver_material, a.driver_inertia),
+                    total(1, s.driven_material, a.driven_inertia)});
+  }
   rows.push_back({"flanks", "", in_words(s.mesh.modification[0]), in_words(s.mesh.modification[1])});
   return table(text("The gears: ", s.mesh.driver, " drives ", s.mesh.driven, "."),
                {"", "unit", s.mesh.driver + " (driver)", s.mesh.driven + " (driven)"}, rows) +
@@ -746,7 +758,7 @@ std::string report_html(const ReportContent& c) {
   add("results", "Results", introduction(c) + results_table(c));
   add("remarks", "Warnings and remarks", remarks_list(c));
   add("guide", "What the numbers mean", guide_to_numbers(c));
-  add("gears", "The gears", gears_table(c.statics[0]) + figures_of("gears"));
+  add("gears", "The gears", gears_table(c) + figures_of("gears"));
   add("rest", "At rest", stiffness_tables(c) + figures_of("rest"));
   add("frequencies", "Natural frequencies and damping",
       c.impacts.empty() ? "" : natural_frequencies_table(c));
