@@ -2,7 +2,8 @@
 #
 #   make reading        the search over data/studies/reading*.toml, and its best again with strips; out/reading/
 #   make consistency    out/figures/consistency.md, printed, and the figure out/figures/reading.{tsv,svg,png}
-#   make docs           both, and the scorecard, into data/published/README.md
+#   make docs           both, and the scorecard, into data/published/README.md; and what docs-tables does
+#   make docs-tables    keys, targets, options, scenes and studies into their pages: seconds
 #
 # A part holds whole tooth forms, so that a search that is broken off goes on with those that are missing.
 
@@ -40,11 +41,19 @@ define replace_block # page, name, file
 endef
 published_page := data/published/README.md
 
-.PHONY: reading consistency docs
+.PHONY: reading consistency docs docs-tables
 reading: out/reading/readings.h5 out/reading/confirmed.h5 ## search over what P2000 leaves open: two thousand readings against its claims, an hour of CPU
 consistency: out/figures/consistency.md out/figures/reading.png ## which of P2000's claims hold together in one reading, and which in none
 	@cat $<
-docs: out/figures/scorecard.md out/figures/consistency.md out/figures/reading.png ## put scorecard, sets of claims and the figure of readings into data/published/
+docs: docs-tables out/figures/scorecard.md out/figures/consistency.md out/figures/reading.png ## all that is generated in the pages: scorecard, sets of claims, the figure of readings, and what docs-tables does
 	$(call replace_block,$(published_page),gear-scorecard,out/figures/scorecard.md)
 	$(call replace_block,$(published_page),gear-reading,out/figures/consistency.md)
 	cp out/figures/reading.png data/published/reading.png
+docs-tables: build ## put the tables of keys, targets, options, scenes and studies into their pages (seconds; tests/pages.sh compares)
+	@mkdir -p $(B)/tables
+	@for table in keys targets options scenes studies; do pipelines/tables.sh $$table $(B)/bin > $(B)/tables/$$table; done
+	$(call replace_block,data/README.md,keys,$(B)/tables/keys)
+	$(call replace_block,pipelines/README.md,targets,$(B)/tables/targets)
+	$(call replace_block,tools/README.md,options,$(B)/tables/options)
+	$(call replace_block,data/scenes/README.md,scenes,$(B)/tables/scenes)
+	$(call replace_block,data/studies/README.md,studies,$(B)/tables/studies)
