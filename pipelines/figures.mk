@@ -196,6 +196,6 @@ relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relie
 error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m (SCENE: its first torque)
 sidebands: ## teeth that differ: transmission error over the hunting period, shaft orders and sidebands, 150 N m of parker2000-grade5 (SCENE: its first torque)
 crack: ## a cracked tooth: static transmission error with and without it, orders, 150 N m of parker2000-crack (SCENE: its first torque)
-histories: $(if $(filter histories,$(goals)),$(foreach f,$(history_figures),$f.png)) ## DTE over time, its spectrum and the tooth loads at one mesh frequency in Hz, both branches: AT=1250 TORQUE=150 (SCENE: its first torque)
+histories: $(if $(filter histories,$(goals)),$$(addsuffix .png,$$(history_figures))) ## DTE over time, its spectrum and the tooth loads at one mesh frequency in Hz, both branches: AT=1250 TORQUE=150 (SCENE: its first torque)
 	$(call stands,histories: $(addsuffix .{png$(,)svg$(,)tsv},$(history_figures)))
 animation: $(figure_folder)/animation/motion.gif ## one mesh period with contact loss, GIF and a PNG of each frame, 150 N m, 2400 Hz, upper branch of parker2000-calibrated (SCENE: first torque, at resonance)

@@ -33,9 +33,12 @@ case $1 in
   options)
     echo '| program | option | takes | meaning |'
     echo '|---|---|---|---|'
+    examples=
     for program in tools/gear-*.cpp; do
       name=$(basename "$program" .cpp)
-      "$2/$name" --help | awk -v program="$name" '
+      said=$("$2/$name" --help)
+      examples+=$(sed '1,/^Examples\{0,1\}:$/d; /^ *$/d; s/^ */    /' <<< "$said")$'\n'
+      awk -v program="$name" '
         function flush() {
           if (option == "") return
           split(option, words, " "); takes = substr(option, length(words[1]) + 2)
@@ -60,14 +63,9 @@ case $1 in
           next
         }
         listed { sub(/^ +/, ""); meaning = meaning (meaning == "" ? "" : " ") $0 }
-        END { flush() }'
+        END { flush() }' <<< "$said"
     done
-    echo
-    echo 'Examples; the tests run each of them:'
-    echo
-    for program in tools/gear-*.cpp; do
-      "$2/$(basename "$program" .cpp)" --help | sed '1,/^Examples\{0,1\}:$/d; /^ *$/d; s/^ */    /'
-    done
+    printf '\n%s\n\n%s' 'Examples; the tests run each of them:' "$examples"
     ;;
   scenes | studies) titles "data/$1" ;;
   *) echo "tables.sh: there is no table '$1'" >&2; exit 2 ;;

@@ -6,8 +6,6 @@ B=${B:-build}
 bin=$PWD/$B/bin
 scene_of_paper=$PWD/data/scenes/parker2000-standard-tooth.toml
 plots=$PWD/pipelines/plots
-readme=$PWD/README.md
-published=$PWD/data/published/README.md
 tests=$PWD/tests
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -258,34 +256,8 @@ a motion that never repeats|warning: at 6000 Hz the motion is not periodic after
 CASES
 if grep -q -E 'warning|subharmonic' <<< "$($(sweep scene up) 2>&1)"; then wrong "an ordinary sweep warns of nothing" "$($(sweep scene up) 2>&1)"; else
   ok "an ordinary sweep warns of nothing"; fi
-sed '1,/^<!-- gear-scene --keys -->$/d; /^<!-- end of keys -->$/,$d' "$readme" > keys
-if [ -s keys ] && "$bin/gear-scene" --keys 2>&1 | diff - keys > said; then ok "the table of keys in README.md is up to date"; else
-  wrong "the table of keys in README.md is up to date" "put the output of $B/bin/gear-scene --keys there: $(head -n 2 said | tr '\n' '|')"; fi
-rm -f keys
-
-# --- the targets
-claim="every target that make help lists stands in the table of README.md"
-sed -n '/^## Targets$/,/^## The flow$/p' "$readme" | grep '^|' | cut -d'|' -f2 | grep -o '`[^`]*`' | tr -d '`' | tr ' ' '\n' > targets
-missing=$(cat "$tests"/../Makefile "$tests"/../pipelines/*.mk | sed -n 's/^\([a-z0-9-]*\):.*## .*/\1/p' | grep -v -x -F -f targets | tr '\n' ' ')
-if [ -s targets ] && [ -z "$missing" ]; then ok "$claim"; else wrong "$claim" "$missing"; fi
-rm targets
 
 # --- the scorecard
-sed '1,/^<!-- gear-scorecard -->$/d; /^<!-- end of gear-scorecard -->$/,$d' "$published" > card
-if [ -s card ] && sed -n '3,$p' card | awk -F ' [|] ' '{ print $1 " | " $2 " | " $3 " | " $4 " | " $5 " |" }' | diff - <("$bin/gear-scorecard" --claims) > said
-then ok "the scorecard in data/published/README.md holds every claim with its printed value"; else
-  wrong "the scorecard in data/published/README.md holds every claim with its printed value" "make docs puts it there: $(head -n 2 said | tr '\n' '|')"; fi
-# columns 6 and 7: a verdict for each scene
-for scene in 6:parker2000 7:parker2000-standard-tooth 8:parker2000-calibrated; do
-  counts=$(sed -n '3,$p' card | awk -F ' [|] ' -v column="${scene%%:*}" '{ v = $column
-    if (v ~ /agrees$/) a++; else if (v ~ /differs$/) d++; else if (v ~ /(given|fitted)$/) g++; else if (v ~ /cannot be compared$/) c++
-    else if (v ~ /misprint of P2000$/) m++; else bad++ }
-    END { print a + 0 " agree, " d + 0 " differ, " g + 0 " given or fitted, " c + 0 " cannot be compared, " m + 0 " misprint of P2000" \
-      (bad ? ", " bad " rows without a verdict" : "") }')
-  claim="the bottom line of ${scene#*:} on README.md's first screen is that of its table"
-  if grep -q -F "$counts" <<< "$(sed -n '1,60p' "$readme" | grep -F "| \`${scene#*:}\` |")"; then ok "$claim"; else wrong "$claim" "the table says $counts"; fi
-done
-rm -f card
 mkdir -p card/s
 "$bin/gear-scorecard" --files > files
 while read -r file; do mkdir -p "card/s/$(dirname "$file")"; cp out/scene/T100/up/response.h5 "card/s/$file"; done < files
