@@ -174,6 +174,10 @@ found=$(for page in "${pages[@]}"; do [ "$page" = README.md ] || grep -q -x -F "
 found=$(for program in ${programs//.cpp/}; do grep -q -E "^\| \`$program\` \| ([^\`]|\`[^-])" tools/README.md || echo "$program"; done)
 [ -z "$found" ] && ok "tools/README.md says what each program reads and writes" || wrong "tools/README.md says what each program reads and writes" "$found"
 
+found=$(grep -r -o -h -E '\<(common|tools|pipelines|data|tests)/[a-z/]*README\.md' --include='*.cpp' --include='*.h' --include='*.toml' --include='*.mk' common tools pipelines data tests |
+  sort -u | while read -r page; do [ -e "$page" ] || echo "$page"; done)
+[ -z "$found" ] && ok "pages that sources and scenes name are there" || wrong "pages that sources and scenes name are there" "$found"
+
 # --- make commands, in a tree of their own that shares sources and programs; stand-ins for the files of a user
 mkdir -p "$work/tree/$B" "$work/tree/path/to"
 for part in Makefile .clang-tidy common tools pipelines tests; do ln -s "$top/$part" "$work/tree/$part"; done

@@ -63,7 +63,8 @@ TEST_CASE(
   CHECK(strain.contact_half_width(0, 1) / own.contact_half_width(0, 1) == relative(ratio, 1e-3));
   const double modulus = 207e9 / (2 * (1 - kNu * kNu)), radius = 75e-3 * std::sin(20 * kPi / 180) / 2,
                pressure = std::sqrt(strain.tooth_load(0, 1) * modulus / (25.4e-3 * kPi * radius));
-  CHECK(strain.contact_pressure(0, 1) == relative(pressure, 0.025));  // 8 strips; see README
+  CHECK(strain.contact_pressure(0, 1) ==
+        relative(pressure, 0.025));  // 8 strips; see common/contact/README.md
   // Stiffer than with a contact in plane stress, softer than all in plane strain.
   CHECK(strain.mean_stiffness > 1.001 * own.mean_stiffness);
   CHECK(strain.mean_stiffness < solved(coarse(false).body, "body").mean_stiffness);

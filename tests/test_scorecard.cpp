@@ -352,7 +352,7 @@ TEST_CASE("scorecard: the bottom line counts what the rows say, in every renderi
   CHECK(scorecard_text(card).find("    why: a note\n") != std::string::npos);
   CHECK(scorecard_text(card).find("    from, in out/x/: " + sources + "\n") != std::string::npos);
   CHECK(scorecard_tsv(card, {}).find("\t" + sources + "\n") != std::string::npos);
-  // the rows that the README is checked against are those of the table, without the scenes
+  // the rows that data/published/README.md is checked against are those of the table, without the scenes
   std::istringstream rows(claims_markdown(claims));
   std::string row;
   while (std::getline(rows, row)) CHECK(table.find(row) != std::string::npos);

@@ -2,7 +2,7 @@
 //
 // Reads      the artifacts that `gear-scorecard --files` lists, of each scene
 // Writes     <output>.tsv, <output>.md, <output>.txt: every claim with its value in each scene, its deviation and its verdict,
-//            for programs, for the README and for a terminal
+//            for programs, for data/published/README.md and for a terminal
 #include <cstdio>
 
 #include "base/error.h"

@@ -34,11 +34,11 @@ std::vector<std::string> bottom_line(const Scorecard& card);
 
 // sources: paths of the artifacts, named in comment lines.
 std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>& sources);
-// For the README: notes only where a verdict is not "agrees" or there are several readings.
+// For data/published/README.md: notes only where a verdict is not "agrees" or there are several readings.
 std::string scorecard_markdown(const Scorecard& card);
-// For the terminal: columns, below each claim its reason as in the README and the artifacts that answer.
+// For the terminal: columns, below each claim its reason as in that page and the artifacts that answer.
 std::string scorecard_text(const Scorecard& card);
-// id, place, text, printed value and tolerance of each claim, between bars as in the first columns of the README's table.
+// id, place, text, printed value and tolerance of each claim, between bars as in the first columns of its table.
 std::string claims_markdown(const std::vector<Claim>& claims);
 
 }  // namespace whine

@@ -22,7 +22,7 @@ struct Row {
   const char* next;
 };
 
-// Percentages are those of README.md, "What the errors are" and "What the settings are worth".
+// Percentages are those of tests/README.md, "Discretisation error of the statics" and "What the settings cost and buy".
 constexpr Row kRows[] = {
     {Needs::nothing, "", "Contact ratio, diameters, angles",
      "Geometry of the gears as drawn: exact involutes at the given centre distance. SAP is where the active "
