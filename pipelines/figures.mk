@@ -186,7 +186,7 @@ fig15: ## lumped model, rectangular stiffness: net mesh force on the upper and t
 fig16: ## lumped model, stiffness of the statics at each torque: RMS and mean of the transmission error
 table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 200 and 300 N m beside those of the paper (SCENE: its torques)
 	@cat $<
-scorecard: out/figures/scorecard.txt ## every number and statement of the paper, its value here in both scenes, whether it agrees
+scorecard: out/figures/scorecard.txt ## every number and statement of the paper, its value in three scenes of its pair, whether it agrees
 	@cat $<
 load-sharing: ## the share of the load that a tooth pair carries on its way through the mesh, and the loads over a mesh period, at rest
 waterfall: ## spectra of the dynamic transmission error against mesh frequency, rising and falling, and its first orders, 150 N m (SCENE: its first torque)

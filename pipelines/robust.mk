@@ -53,7 +53,7 @@ stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 20
 # --- static checks
 
 lint_sources := $(wildcard common/*/*.cpp tools/*.cpp)
-lint_scripts := $(wildcard tests/*.sh tests/*/*.sh) tests/run .ci/run
+lint_scripts := $(wildcard tests/*.sh tests/*/*.sh pipelines/*.sh) tests/run .ci/run
 lint_checked := $(lint_sources:%=$(B)/lint/%)
 # __builtin_shuffle is g++'s alone. A file that passed is checked again when it, a header that it sees or the list of checks has
 # changed.
