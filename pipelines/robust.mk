@@ -19,7 +19,7 @@ deps-fuzz: | $(with_deps) ## install the packages that only `fuzz` uses
 
 .PHONY: test-sanitize
 test-sanitize: $(B)/bin/whine-tests | $(with_deps) ## the tests under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, but for the slow cases in tests/unsanitized
-	@$< --no-colors=true --test-case-exclude="$$(sed '/^#/d' tests/unsanitized | paste -sd, -)"
+	@B=$(B) TESTS=sanitize tests/run
 
 # --- faults
 
@@ -57,7 +57,8 @@ lint_scripts := $(wildcard tests/*.sh tests/*/*.sh) tests/run .ci/run
 lint_checked := $(lint_sources:%=$(B)/lint/%)
 # __builtin_shuffle is g++'s alone. A file that passed is checked again when it, a header that it sees or the list of checks has
 # changed.
-$(lint_checked): $(B)/lint/%: % .clang-tidy
+with_deps_lint := $(with_deps) $(filter deps-lint,$(goals))
+$(lint_checked): $(B)/lint/%: % .clang-tidy | $(with_deps_lint)
 	@mkdir -p $(@D)
 	@$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) -std=c++20 -MM -MP -MT $@ -MF $@.d $<
 	@clang-tidy --quiet $< -- -std=c++20 $(CPPFLAGS) $(HDF5_CFLAGS) '-D__builtin_shuffle(a,b,order)=((a)+(b))' 2> /dev/null > $@.new || { cat $@.new >&2; exit 1; }
@@ -65,6 +66,7 @@ $(lint_checked): $(B)/lint/%: % .clang-tidy
 -include $(lint_checked:=.d)
 
 .PHONY: lint
+check-format: | $(with_deps_lint)
 lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks and why), include direction of the rooms, shellcheck
 	@shellcheck $(lint_scripts)
 	@B=$(B) bash tests/rooms.sh | tee $(B)/lint/rooms; ! grep -q '^FAILED' $(B)/lint/rooms
