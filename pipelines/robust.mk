@@ -42,8 +42,8 @@ test-report: build $(tools:%=$(B)/id/%) | $(with_deps) $(filter deps-browser,$(g
 STRESS_PROBLEMS ?= 1000000
 STRESS_SCENES ?= 200
 STRESS_SEED ?= 1
-$(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests/peer/strip_problems.h tests/peer/window_problem.h $(B)/flags $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS)
+$(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests/peer/strip_problems.h tests/peer/window_problem.h $(B)/flags $(library) | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
 
 .PHONY: stress
 stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 200 random scenes: a certificate, a closed ledger or a refusal; STRESS_PROBLEMS, STRESS_SCENES
@@ -98,12 +98,13 @@ $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
 replay: $$(replays) ## the same readers against the same damaged files every time, without libFuzzer
 	@B=$(B) bash tests/fuzz.sh
 replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
-$(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp
-$(B)/bin/whine-replay-study: tests/fuzz/study.cpp
-$(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp
+$(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp $(call linked,scene)
+$(B)/bin/whine-replay-study: tests/fuzz/study.cpp $(call linked,study)
+$(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp $(call linked,artifact)
 $(B)/bin/whine-replay-sealed: tests/fuzz/edit.cpp
-$(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(B)/lib/libfiles.a $(B)/lib/libbase.a | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) $(CXXFLAGS) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) -o $@ $(filter %.cpp,$^) $(filter %.a,$^) $(LDLIBS)
+$(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(cold_precompiled).gch | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) $(CXXFLAGS) $(COLD_FLAGS) -include $(cold_precompiled) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) \
+	  -o $@ $(filter %.o %.cpp,$^) $(LDLIBS)
 
 # HDF5 1.10 forgets some memory where it refuses a file: leaks are looked for where it takes no part, neither after each input
 # nor at the end.
