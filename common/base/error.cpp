@@ -4,10 +4,10 @@
 
 namespace whine {
 
-std::string joined(std::initializer_list<Part> parts) {
+std::string text_of(std::initializer_list<TextPart> parts) {
   std::ostringstream out;
   out.precision(10);
-  for (const Part& part : parts) out << part;
+  for (const TextPart& part : parts) out << part;
   return out.str();
 }
 

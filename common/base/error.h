@@ -26,14 +26,14 @@ class Error : public std::runtime_error {
 };
 
 // An argument of text(): where it is and how it is printed. A type has one way, whatever list it stands in.
-class Part {
+class TextPart {
  public:
   template <class T>
-  Part(const T& value) : value_(&value), print_(&print<T>) {}
-  Part(const char* const& value) : value_(value), print_(&print_words) {}
+  explicit TextPart(const T& value) : value_(&value), print_(&print<T>) {}
+  explicit TextPart(const char* const& value) : value_(value), print_(&print_words) {}
   template <size_t n>
-  Part(const char (&value)[n]) : value_(value), print_(&print_words) {}
-  friend std::ostream& operator<<(std::ostream& out, const Part& part) {
+  explicit TextPart(const char (&value)[n]) : value_(value), print_(&print_words) {}
+  friend std::ostream& operator<<(std::ostream& out, const TextPart& part) {
     part.print_(out, part.value_);
     return out;
   }
@@ -49,12 +49,12 @@ class Part {
   void (*print_)(std::ostream&, const void*);
 };
 
-std::string joined(std::initializer_list<Part> parts);
+std::string text_of(std::initializer_list<TextPart> parts);
 
 // Joins its arguments with operator<<, numbers with 10 significant digits.
 template <class... Parts>
 std::string text(const Parts&... parts) {
-  return joined({Part(parts)...});
+  return text_of({TextPart(parts)...});
 }
 
 // Throws Error(kind, text(parts...)).
