@@ -1,6 +1,6 @@
 # Whine: one graph from a scene to the figures. `make` prints the targets; pipelines/*.mk hold the stages.
 #
-#   programs   tools/gear-x.cpp and common/*/*.cpp -> build/bin/gear-x           (this file)
+#   programs   tools/gear-x.cpp and what it includes of common/ -> build/bin/gear-x   (this file, pipelines/sources.awk)
 #   names      what a user's paths may hold                                  (pipelines/names.mk)
 #   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
 #   studies    variants of a scene -> a table of their answers                   (pipelines/studies.mk)
@@ -52,12 +52,16 @@ OPTIMISE := -O2 $(ARCH)
 # Without NDEBUG an assert would put its line number into the program, and a comment would redo results.
 # Hidden: gmsh carries an Eigen without AVX, which would take over exported templates of ours and free what it did not allocate.
 # g++ 12 sees AVX loads beyond the end of Eigen's small vectors that it has itself proved not to happen.
-CXXFLAGS := -std=c++20 -fvisibility=hidden -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g $(ARCH) -D_GLIBCXX_ASSERTIONS \
+CXXFLAGS := -std=c++20 -fvisibility=hidden -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g1 $(ARCH) -D_GLIBCXX_ASSERTIONS \
   -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined,\
   $(OPTIMISE) -DNDEBUG)
 # A step runs through loops over two to five lanes, which -O3 unrolls: with it, and without a precompiled header that was made
 # without, steps of lines take 8 % less.
 STEP_FLAGS := $(if $(SANITIZE),,-O3)
+# Rooms that read, write, draw and print, the programs' own sources and tests, whose numbers come out of the other rooms: compiled in
+# half the time.
+COLD_FLAGS := $(if $(SANITIZE),,-Og)
+cold_rooms := plot paper files
 CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
@@ -67,7 +71,9 @@ LDLIBS = -lgmsh -lcholmod $(shell pkg-config --libs hdf5 fftw3 libcrypto)
 # With `deps` among the goals whatever uses a package waits for it, in any order of the goals and under -j.
 with_deps := $(filter deps,$(goals))
 
-library := $(patsubst %.cpp,$(B)/obj/%.o,$(wildcard common/*/*.cpp))
+# The cold ones last: a linker takes an inline function from the first object that has it.
+rooms := $(filter-out $(cold_rooms),$(notdir $(wildcard common/*))) $(cold_rooms)
+library := $(patsubst %.cpp,$(B)/obj/%.o,$(foreach r,$(rooms),$(wildcard common/$r/*.cpp)))
 tools := $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp))
 tool_objects := $(tools:%=$(B)/obj/tools/%.o)
 hard_cases := $(B)/obj/tests/hard_cases.o
@@ -77,18 +83,24 @@ objects := $(library) $(tool_objects) $(test_objects) $(hard_cases)
 .PHONY: build
 build: $(tools:%=$(B)/bin/%) ## compile the programs into build/bin
 
-folders := $(sort $(B)/obj/ $(dir $(objects)) $(B)/bin/ $(B)/lib/ $(B)/id/ $(B)/scenes/)
+folders := $(sort $(B)/obj/ $(dir $(objects)) $(B)/bin/ $(B)/id/ $(B)/scenes/)
 $(folders):
 	@mkdir -p $@
 .SECONDEXPANSION: # $$(@D)/ below
 
-# Half of a compilation is reading the headers in it.
+# Half of a compilation is reading the headers in it. Compiled headers fit one set of flags.
 precompiled := $(B)/obj/precompiled.h
-$(precompiled).gch: common/base/precompiled.h $(B)/flags | $$(@D)/ $(with_deps)
+cold_precompiled := $(B)/obj/$(if $(COLD_FLAGS),cold,precompiled).h
+$(addsuffix .gch,$(sort $(precompiled) $(cold_precompiled))): common/base/precompiled.h $(B)/flags | $$(@D)/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ $<
 
-INCLUDE_PRECOMPILED := -include $(precompiled)
-$(objects): $(B)/obj/%.o: %.cpp $(B)/flags $(precompiled).gch | $$(@D)/ $(with_deps)
+cold_objects := $(tool_objects) $(test_objects) $(hard_cases) $(B)/obj/common/base/options.o $(filter $(foreach r,$(cold_rooms),$(B)/obj/common/$r/%),$(library))
+INCLUDE_PRECOMPILED = -include $(precompiled)
+$(cold_objects): private INCLUDE_PRECOMPILED = -include $(cold_precompiled)
+$(cold_objects) $(cold_precompiled).gch: private CXXFLAGS += $(COLD_FLAGS)
+$(cold_objects): $(cold_precompiled).gch
+$(filter-out $(cold_objects),$(objects)): $(precompiled).gch
+$(objects): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(INCLUDE_PRECOMPILED) -MMD -MP -c -o $@ $<
 
 # Assertions as calls rather than as code in place: a third of the time of compiling them. Private: the precompiled header, of
@@ -102,29 +114,22 @@ $(step_objects): private INCLUDE_PRECOMPILED :=
 # HDF5 stays in one room: nobody else finds its headers.
 $(filter $(B)/obj/common/files/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
-# A library for each room, from the top floor down as the linker wants them. The folder stands for its list of files: a
-# source that goes away leaves the library, too.
-rooms := paper plot lumped motion signal contact solid gear files base
-rooms := $(filter $(notdir $(wildcard common/*)),$(rooms)) $(filter-out $(rooms),$(notdir $(wildcard common/*)))
-define room_rules # room
-$(B)/lib/lib$1.a: $(filter $(B)/obj/common/$1/%,$(library)) common/$1 | $(B)/lib/
-	@rm -f $$@
-	ar rcsD $$@ $$(filter %.o,$$^)
-endef
-$(foreach r,$(rooms),$(eval $(call room_rules,$r)))
+# A program waits for the sources behind the headers that it includes, and for no other.
+links := $(shell awk -f pipelines/sources.awk common/*/*.h common/*/*.cpp tools/*.cpp tests/fuzz/*.cpp)
+linked = $(filter $(patsubst $1:%,$(B)/obj/common/%.o,$(filter $1:%,$(links))),$(library))
+link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(LDLIBS)
 
-# gear-scene and gear-study run before everything, under make -n as well, so they wait for no more than they need.
-rooms_of = $(patsubst %,$(B)/lib/lib%.a,$(if $(filter gear-scene gear-study,$1),gear files base,$(rooms)))
-$(tools:%=$(B)/bin/%): $(B)/bin/%: $(B)/obj/tools/%.o $$(call rooms_of,$$*) | $(B)/bin/
-	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
+$(tools:%=$(B)/bin/%): $(B)/bin/%: $$(call linked,$$*) $(B)/obj/tools/%.o | $(B)/bin/
+	$(link)
 
-$(B)/bin/whine-tests: $(test_objects) $(rooms:%=$(B)/lib/lib%.a) tests | $(B)/bin/
-	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
+# The folder stands for its list of files: a test that goes away leaves the program, too.
+$(B)/bin/whine-tests: $(library) $(test_objects) tests | $(B)/bin/
+	$(link)
 
-$(B)/bin/whine-hard-cases: $(hard_cases) $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/
-	$(CXX) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS)
+$(B)/bin/whine-hard-cases: $(library) $(hard_cases) | $(B)/bin/
+	$(link)
 
-flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(STEP_FLAGS) $(LDFLAGS)
+flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(COLD_FLAGS) $(STEP_FLAGS) $(LDFLAGS)
 # Equal as whole texts: objects of different flags do not fit each other (Eigen's alignment follows the processor).
 flags_before := $(file <$(B)/flags)
 $(B)/flags: $(if $(and $(findstring x$(flags)x,x$(flags_before)x),$(findstring x$(flags_before)x,x$(flags)x)),,FORCE)

@@ -15,17 +15,17 @@ deps-bench: | $(with_deps) ## install the packages that only `bench` and the tes
 with_deps_bench := $(with_deps) $(filter deps-bench,$(goals))
 
 # Compiled in every run (seconds), so that it sees whether Siconos has come or gone.
-$(B)/bin/whine-bench: tests/bench/bench.cpp tests/bench/calculix.h tests/bench/rolling.h tests/peer/lemke.h $(rooms:%=$(B)/lib/lib%.a) FORCE | $(B)/bin/ $(with_deps_bench)
+$(B)/bin/whine-bench: tests/bench/bench.cpp tests/bench/calculix.h tests/bench/rolling.h tests/peer/lemke.h $(library) FORCE | $(B)/bin/ $(with_deps_bench)
 	$(CXX) $(CPPFLAGS) $(if $(call bench_siconos,x),-isystem /usr/include/siconos -isystem /usr/include/siconos/numerics) \
-	  $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS) $(call bench_siconos,-lsiconos_numerics)
+	  $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS) $(call bench_siconos,-lsiconos_numerics)
 
 .PHONY: bench
 bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
 	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml --torque 150 \
 	  --driver out/$(standard_scene)/pinion/body.h5 --driven out/$(standard_scene)/wheel/body.h5
 
-$(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS)
+$(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(library) | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
 
 .PHONY: work-precision
 work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(paper_scene)) ## error against CPU time of each numerical choice, at a damping with two branches

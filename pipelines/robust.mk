@@ -19,7 +19,7 @@ deps-fuzz: | $(with_deps) ## install the packages that only `fuzz` uses
 
 .PHONY: test-sanitize
 test-sanitize: $(B)/bin/whine-tests | $(with_deps) ## the tests under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, but for the slow cases in tests/unsanitized
-	@$< --no-colors=true --test-case-exclude="$$(sed '/^#/d' tests/unsanitized | paste -sd, -)"
+	@B=$(B) TESTS=sanitize tests/run
 
 # --- faults
 
@@ -42,8 +42,8 @@ test-report: build $(tools:%=$(B)/id/%) | $(with_deps) $(filter deps-browser,$(g
 STRESS_PROBLEMS ?= 1000000
 STRESS_SCENES ?= 200
 STRESS_SEED ?= 1
-$(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests/peer/strip_problems.h tests/peer/window_problem.h $(B)/flags $(rooms:%=$(B)/lib/lib%.a) | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(filter %.a,$^) $(LDLIBS)
+$(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests/peer/strip_problems.h tests/peer/window_problem.h $(B)/flags $(library) | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
 
 .PHONY: stress
 stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 200 random scenes: a certificate, a closed ledger or a refusal; STRESS_PROBLEMS, STRESS_SCENES
@@ -57,7 +57,8 @@ lint_scripts := $(wildcard tests/*.sh tests/*/*.sh pipelines/*.sh) tests/run .ci
 lint_checked := $(lint_sources:%=$(B)/lint/%)
 # __builtin_shuffle is g++'s alone. A file that passed is checked again when it, a header that it sees or the list of checks has
 # changed.
-$(lint_checked): $(B)/lint/%: % .clang-tidy
+with_deps_lint := $(with_deps) $(filter deps-lint,$(goals))
+$(lint_checked): $(B)/lint/%: % .clang-tidy | $(with_deps_lint)
 	@mkdir -p $(@D)
 	@$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) -std=c++20 -MM -MP -MT $@ -MF $@.d $<
 	@clang-tidy --quiet $< -- -std=c++20 $(CPPFLAGS) $(HDF5_CFLAGS) '-D__builtin_shuffle(a,b,order)=((a)+(b))' 2> /dev/null > $@.new || { cat $@.new >&2; exit 1; }
@@ -65,6 +66,7 @@ $(lint_checked): $(B)/lint/%: % .clang-tidy
 -include $(lint_checked:=.d)
 
 .PHONY: lint
+check-format: | $(with_deps_lint)
 lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks and why), include direction of the rooms, shellcheck
 	@shellcheck $(lint_scripts)
 	@B=$(B) bash tests/rooms.sh | tee $(B)/lint/rooms; ! grep -q '^FAILED' $(B)/lint/rooms
@@ -96,12 +98,13 @@ $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
 replay: $$(replays) ## the same readers against the same damaged files every time, without libFuzzer
 	@B=$(B) bash tests/fuzz.sh
 replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
-$(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp
-$(B)/bin/whine-replay-study: tests/fuzz/study.cpp
-$(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp
+$(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp $(call linked,scene)
+$(B)/bin/whine-replay-study: tests/fuzz/study.cpp $(call linked,study)
+$(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp $(call linked,artifact)
 $(B)/bin/whine-replay-sealed: tests/fuzz/edit.cpp
-$(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(B)/lib/libfiles.a $(B)/lib/libbase.a | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) $(CXXFLAGS) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) -o $@ $(filter %.cpp,$^) $(filter %.a,$^) $(LDLIBS)
+$(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(cold_precompiled).gch | $(B)/bin/ $(with_deps)
+	$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) $(CXXFLAGS) $(COLD_FLAGS) -include $(cold_precompiled) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) \
+	  -o $@ $(filter %.o %.cpp,$^) $(LDLIBS)
 
 # HDF5 1.10 forgets some memory where it refuses a file: leaks are looked for where it takes no part, neither after each input
 # nor at the end.

@@ -488,7 +488,7 @@ if command -v xmllint > /dev/null; then xmllint --noout titled/fig12.svg 2> said
 if ! grep -q P2000 titled/fig12.tsv titled/fig12.svg && grep -q '^# Static transmission error, as Figure 12 of P2000$' titled/beside.tsv; then
   ok "only figures of the paper's pairs name the figure of P2000"; else wrong "only figures of the paper's pairs name the figure of P2000" "$(head -n 1 titled/fig12.tsv titled/beside.tsv | tr '\n' ' ')"; fi
 found=$(for f in titled/fig12.tsv titled/fig12-harmonics.tsv; do awk -F '\t' -v f="$f" '/^#/ { next } !columns { columns = NF; if ($1 !~ /\[/) print f ": no name with a unit: " $1; next } NF != columns || $1 + 0 != $1 { print f ": " $0 }' "$f"; done)
-[ -z "$found" ] && [ "$(ls titled/*.tsv | wc -l)" = 4 ] && ok "the numbers of a figure are one table a file, with one line of names" ||
+[ -z "$found" ] && [ "$(find titled -maxdepth 1 -name '*.tsv' | wc -l)" = 4 ] && ok "the numbers of a figure are one table a file, with one line of names" ||
   wrong "the numbers of a figure are one table a file, with one line of names" "$(head -n 1 <<< "$found") $(ls titled)"
 rm -r titled
 inspected "gear-inspect says its units first" 0 '^units: mm .gears., um .*N/um' out/scene/T100/static.h5

@@ -14,7 +14,7 @@ wrong() { echo "FAILED: $1: $2"; }
 
 cp -a Makefile pipelines common tools data "$tree"
 mkdir -p "$tree/$B"
-cp -a "$B/bin" "$B/lib" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cp -a "$B/bin" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
 cd "$tree" || exit 1
 [ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 make_() { make $sanitize "$@" > "$log" 2>&1; }

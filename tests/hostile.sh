@@ -10,7 +10,7 @@ wrong() { echo "FAILED: $1: $2"; }
 tree=$base/tree log=$base/log
 mkdir -p "$tree/$B"
 cp -a Makefile pipelines common tools tests data "$tree"
-cp -a "$B/bin" "$B/lib" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cp -a "$B/bin" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
 cd "$tree" || exit 1
 [ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^modes = [^ ]*/modes = 5/

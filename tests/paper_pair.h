@@ -1,11 +1,15 @@
 // The paper's gear pair, for tests that need no scene.
 #pragma once
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <string>
 #include <tuple>
 
+#include "base/error.h"
+#include "files/schemas.h"
 #include "motion/dynamics.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
@@ -30,15 +34,24 @@ inline Material paper_steel() {
 }
 
 // The paper's gear at the default discretisation but for the number of modes, which statics do not see; reduced once per
-// bore, element size and number of modes.
+// bore, element size and number of modes. WHINE_TEST_BODIES, which tests/run sets, is a folder in which one run of the test program
+// finds the bodies of another.
 inline const BodyArtifact& paper_body(double bore = 40e-3, double element = 0.4e-3, int modes = 5) {
   static std::map<std::tuple<double, double, int>, BodyArtifact> cache;
   const auto key = std::make_tuple(bore, element, modes);
   if (!cache.count(key)) {
-    BodyDiscretisation discretisation;
-    discretisation.element_size = element;
-    discretisation.modes = modes;
-    cache[key] = reduce(make_sector_mesh(paper_gear(50, bore), discretisation), paper_steel(), modes);
+    const char* folder = std::getenv("WHINE_TEST_BODIES");
+    const std::string kept =
+        folder ? text(folder, "/", bore * 1e3, "-", element * 1e3, "-", modes, ".h5") : std::string();
+    if (folder && std::filesystem::exists(kept)) {
+      cache[key] = read_body(kept);
+    } else {
+      BodyDiscretisation discretisation;
+      discretisation.element_size = element;
+      discretisation.modes = modes;
+      cache[key] = reduce(make_sector_mesh(paper_gear(50, bore), discretisation), paper_steel(), modes);
+      if (folder) write(kept, cache[key], Provenance());
+    }
   }
   return cache[key];
 }

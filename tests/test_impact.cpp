@@ -67,7 +67,7 @@ ImpactSlice coarse_impact() {
 }
 
 ImpactArtifact ring(const ImpactSlice& slice, double torque_step = ImpactPlan().torque_step) {
-  return impact(coarse_body(), coarse_body(), coarse_statics(150), 463e6, slice, {torque_step, 64},
+  return impact(coarse_body(), coarse_body(), coarse_statics(150), 463e6, slice, {torque_step, 16},
                 no_report);
 }
 
@@ -267,7 +267,7 @@ TEST_CASE(
 TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is refused") {
   const StaticArtifact statics = coarse_statics(150);
   const auto calibrated = [&](const ImpactSlice& slice, double ratio, const std::string& state) {
-    return calibrate(coarse_body(), coarse_body(), statics, 463e6, slice, {1e-6, 64}, ratio, state,
+    return calibrate(coarse_body(), coarse_body(), statics, 463e6, slice, {1e-6, 16}, ratio, state,
                      no_report);
   };
   for (const auto& [state, row] : {std::pair{"one", 0}, std::pair{"two", 1}, std::pair{"mean", 2}}) {

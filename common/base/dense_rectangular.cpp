@@ -1,8 +1,8 @@
 // Apart from dense.cpp so that a compiler works on both side by side.
+#include "base/dense.h"
+
 #include <Eigen/QR>
 #include <Eigen/SVD>
-
-#include "base/dense.h"
 
 namespace whine {
 

@@ -1,6 +1,8 @@
 // Errors that end a stage with one clear line: what, the value, the limit, where, what to do next.
 #pragma once
-#include <sstream>
+#include <cstddef>
+#include <initializer_list>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 
@@ -23,13 +25,36 @@ class Error : public std::runtime_error {
   Failure kind_;
 };
 
+// An argument of text(): where it is and how it is printed. A type has one way, whatever list it stands in.
+class TextPart {
+ public:
+  template <class T>
+  explicit TextPart(const T& value) : value_(&value), print_(&print<T>) {}
+  explicit TextPart(const char* const& value) : value_(value), print_(&print_words) {}
+  template <size_t n>
+  explicit TextPart(const char (&value)[n]) : value_(value), print_(&print_words) {}
+  friend std::ostream& operator<<(std::ostream& out, const TextPart& part) {
+    part.print_(out, part.value_);
+    return out;
+  }
+
+ private:
+  template <class T>
+  static void print(std::ostream& out, const void* value) {
+    out << *static_cast<const T*>(value);
+  }
+  static void print_words(std::ostream& out, const void* value) { out << static_cast<const char*>(value); }
+
+  const void* value_;
+  void (*print_)(std::ostream&, const void*);
+};
+
+std::string text_of(std::initializer_list<TextPart> parts);
+
 // Joins its arguments with operator<<, numbers with 10 significant digits.
 template <class... Parts>
 std::string text(const Parts&... parts) {
-  std::ostringstream out;
-  out.precision(10);
-  (out << ... << parts);
-  return out.str();
+  return text_of({TextPart(parts)...});
 }
 
 // Throws Error(kind, text(parts...)).

@@ -1,4 +1,6 @@
 // A march through mesh periods: what a step streams, laid side by side by position, and the loops that run down it.
+#include "motion/dynamics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +10,6 @@
 #include "base/refusal.h"
 #include "contact/lanes.h"
 #include "contact/line_contact.h"
-#include "motion/dynamics.h"
 
 namespace whine {
 
