@@ -18,6 +18,7 @@ graded_scene := parker2000-grade5
 # The standard tooth with tip relief, at both dampings.
 relief_scenes := $(foreach s,$(standard_scene) $(calibrated_scene),$(foreach r,20_9 22_2 23_6,$s-relief-$r))
 cracked_scene := parker2000-crack
+bearing_scene := parker2000-bearings
 
 # $(call both_ways,scenes,torques,artifact): sweeps up and down
 both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))
@@ -45,6 +46,7 @@ inputs_fig13 = $(inputs_fig12)
 inputs_load-sharing = $(inputs_fig12)
 inputs_waterfall = $(call both_ways,$1,$(firstword $2),sweep)
 inputs_tooth-loads = $(inputs_fig08)
+inputs_bearing-forces = $(inputs_fig05)
 inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
 inputs_fig14-elastic = $(inputs_fig07)
 inputs_fig15 = $(foreach m,rectangular-fig15 rectangular,out/$1/T$(firstword $2)/$m/down/sweep.h5)
@@ -79,9 +81,10 @@ options_fig15 := --mesh-frequency 2200,2150
 $(foreach f,fig05 fig07 fig07-600 fig08 fig09 fig10 fig11 fig14-elastic,$(eval paper_scenes_$f := $(shown_scenes)))
 paper_scenes_sidebands := $(graded_scene)
 paper_scenes_crack := $(cracked_scene)
+paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-$(foreach f,profile-chart relief-jumps waterfall tooth-loads fig03 fig05 fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
+$(foreach f,profile-chart relief-jumps waterfall tooth-loads bearing-forces fig03 fig05 fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
 published_table1 := data/published/parker2000-table1.tsv
@@ -91,7 +94,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := load-sharing waterfall tooth-loads error-budget profile-chart sidebands crack
+other_figures := load-sharing waterfall tooth-loads bearing-forces error-budget profile-chart sidebands crack
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
@@ -133,7 +136,8 @@ endef
 teeth = $(filter $2,$(SCENE_$1_TEETH))
 report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),fig12 fig13 load-sharing error-budget) \
-  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 waterfall tooth-loads $(if $(call teeth,$1,differ),sidebands))
+  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 waterfall tooth-loads \
+  $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
   $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
 report_inputs = $(call report_artifacts,$1,$(SCENE_$1_TORQUES)) $(patsubst %,out/$1/report/%.png,$(report_shows))
@@ -191,6 +195,7 @@ scorecard: out/figures/scorecard.txt ## every number and statement of the paper,
 load-sharing: ## the share of the load that a tooth pair carries on its way through the mesh, and the loads over a mesh period, at rest
 waterfall: ## spectra of the dynamic transmission error against mesh frequency, rising and falling, and its first orders, 150 N m (SCENE: its first torque)
 tooth-loads: ## tooth loads against mesh frequency, and over the mesh period at the resonance, 150 N m (SCENE: its first torque)
+bearing-forces: ## forces on elastic bearings against mesh frequency, 150 N m of parker2000-bearings (SCENE: its first torque)
 profile-chart: ## what is taken off the driving flanks, as an inspection sheet shows it, of the paper's pair with relief from 20.9 deg (SCENE: of its gears)
 relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relief, at both dampings, 150 N m
 error-budget: ## what refining each discretisation of the static stage alone changes, and what other choices change, 150 N m (SCENE: its first torque)

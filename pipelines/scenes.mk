@@ -4,7 +4,7 @@
 # keys of each distinct gear (out/bodies/<hash>/body.toml), the links out/S/<gear>, and a fragment of make:
 #   SCENE_S_GEARS, SCENE_S_DRIVER, SCENE_S_DRIVEN, SCENE_S_BODY_<gear>, SCENE_S_TORQUES, SCENE_S_REFERENCE_TORQUE,
 #   SCENE_S_RINGS_DOWN (no: with its [fidelity], or its teeth, there is no gear-impact), SCENE_S_TEETH (alike, or differ and
-#   cracked), SCENE_S_MODIFIED (yes: flanks are not as designed), BODIES.
+#   cracked), SCENE_S_MODIFIED (yes: flanks are not as designed), SCENE_S_BEARINGS (rigid or elastic), BODIES.
 # Make remakes a fragment before anything else, under -n as well (gear-scene itself is then compiled, too). This
 # happens in every run and costs milliseconds: times cannot tell a scene of the same name in another folder, one that
 # went back in time, or a deleted slice. All that it writes keeps its time if its content stays.

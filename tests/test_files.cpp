@@ -195,10 +195,12 @@ BodyArtifact small_body() {
   a.material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
   a.discretisation = {0.0004 / 1.3, 2, 5, "matching", 0.001 / 1.3};
   a.inertia = 0.01 / 3;
+  a.mass = 4.0 / 3;
   a.eigenfrequency = odd_vector(3, 1e4).cwiseAbs();
   a.nodal_diameter = Eigen::VectorXi{{0, 1, 1}};
   a.component = Eigen::VectorXi{{0, 0, 1}};
   a.inertia_coupling = odd_vector(3, 0.1);
+  a.translation_coupling = odd_matrix(3, 2, 1);
   a.flank_position = Eigen::Vector4d(0.1 / 3, 0.2 / 3, 0.3 / 3, 0.5 / 3);
   a.flank_mode = odd_matrix(4, 3, 2);
   a.offsets = 1;
@@ -510,6 +512,8 @@ TEST_CASE("body.h5 gives back every value bit by bit") {
   CHECK(a.nodal_diameter == b.nodal_diameter);
   CHECK(a.component == b.component);
   CHECK(a.inertia_coupling == b.inertia_coupling);
+  CHECK(a.mass == b.mass);
+  CHECK(a.translation_coupling == b.translation_coupling);
   CHECK(a.flank_position == b.flank_position);
   CHECK(a.flank_mode == b.flank_mode);
   CHECK(a.offsets == b.offsets);
@@ -681,6 +685,49 @@ TEST_CASE("impact.h5 gives back every value bit by bit, and refuses rows that do
 
   a.eigen_frequency = odd_vector(3, 3e3);
   CHECK(caught([&] { write("impact.h5", a, kMade); }).says("by_phase/eigen_frequency has 3 rows"));
+}
+
+TEST_CASE(
+    "bearings and their forces pass through static.h5, sweep.h5 and response.h5, under the gear's name") {
+  Folder folder;
+  const Bearing own{1e8 / 3, 900 / 1.1, 5 / 1.1};
+  StaticArtifact rest = small_static();
+  rest.mesh.bearing[1] = own;
+  rest.bearing_force[1] = odd_matrix(3, 2, 2e3);
+  write("static.h5", rest, kMade);
+  const StaticArtifact at = read_static("static.h5");
+  CHECK(!at.mesh.bearing[0].elastic());
+  CHECK(at.mesh.bearing[1].stiffness == own.stiffness);
+  CHECK(at.mesh.bearing[1].damping == own.damping);
+  CHECK(at.mesh.bearing[1].mass == own.mass);
+  CHECK(at.bearing_force[0].size() == 0);
+  CHECK(at.bearing_force[1] == rest.bearing_force[1]);
+  CHECK(h5::Reader(read_bytes("static.h5"), "static.h5", "").shape("/body/wheel/bearing_force") ==
+        h5::Shape{3, 2});
+
+  SweepArtifact moving = small_sweep();
+  moving.mesh.bearing = {own, own};
+  for (auto& force : moving.bearing_force) force = {odd_matrix(64, 2, 1e3), odd_matrix(64, 2, 2e3)};
+  write("sweep.h5", moving, kMade);
+  const SweepArtifact on = read_sweep("sweep.h5");
+  for (int g = 0; g < 2; ++g)
+    for (int f = 0; f < 2; ++f) CHECK(on.bearing_force[g][f] == moving.bearing_force[g][f]);
+  moving.bearing_force[1].pop_back();
+  CHECK_THROWS_WITH(write("other.h5", moving, kMade),
+                    doctest::Contains("bearing_force has 1 rows, expected 2"));
+
+  ResponseArtifact heard = small_response();
+  heard.mesh = moving.mesh;
+  for (int g = 0; g < 2; ++g) {
+    heard.bearing_force_max[g] = odd_vector(2, 3e3);
+    heard.bearing_force_rms[g] = odd_vector(2, 1e3);
+  }
+  write("response.h5", heard, kMade);
+  const ResponseArtifact back = read_response("response.h5");
+  for (int g = 0; g < 2; ++g) {
+    CHECK(back.bearing_force_max[g] == heard.bearing_force_max[g]);
+    CHECK(back.bearing_force_rms[g] == heard.bearing_force_rms[g]);
+  }
 }
 
 TEST_CASE("response.h5 gives back every value bit by bit") {

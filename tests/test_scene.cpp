@@ -51,6 +51,40 @@ TEST_CASE("the standard tooth of P2000 reads as it stands, in SI") {
   CHECK(s.time.min_sample_rate == 250e3);
 }
 
+TEST_CASE("bearings: of a gear by its name, in SI, in the slice of statics; refused with their line") {
+  const SceneFile file;
+  const std::string one =
+      "[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 100\ndamping_Ns_m = 900\nmass_kg = 5.5\n";
+  const Scene s = file.read(with_section(one));
+  CHECK(!s.gear("pinion").bearing.elastic());
+  CHECK(!s.mesh.bearing[0].elastic());
+  CHECK(s.mesh.bearing[1].stiffness == 1e8);
+  CHECK(s.mesh.bearing[1].damping == 900);
+  CHECK(s.mesh.bearing[1].mass == 5.5);
+  const std::string slice = static_slice(s);
+  CHECK(contains(
+      slice,
+      "[driven_bearing]\nstiffness = 100000000.0  # N m-1\ndamping = 900.0  # N s m-1\nmass = 5.5  # kg\n"));
+  CHECK(slice.find("driver_bearing") == std::string::npos);
+  CHECK(read_static_slice(file.path(slice, "static.toml")).mesh.bearing[1].stiffness == 1e8);
+  CHECK(!read_static_slice(file.path(slice, "static.toml")).mesh.bearing[0].elastic());
+  CHECK(static_slice(file.read(kScene)).find("bearing") == std::string::npos);
+
+  const auto said = [&](const std::string& section, const std::string& part) {
+    const std::string message = file.refusal(with_section(section));
+    CHECK(contains(message, part));
+    CHECK(message.rfind("x.toml:2", 0) == 0);  // the sections begin in line 23
+  };
+  said("[[bearing]]\ngear = \"wheel\"\n", "lacks 'stiffness_N_um'");
+  said("[[bearing]]\ngear = \"whel\"\nstiffness_N_um = 1\n",
+       "names no [gear.<name>] section; did you mean 'wheel'");
+  said("[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 0\n", "must be greater than 0 N_um");
+  said("[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 1e7\n", "must be at most 1e+06 N_um");
+  said("[[bearing]]\ngear = \"wheel\"\nstiffnes_N_um = 100\n", "did you mean 'stiffness_N_um'?");
+  said("[bearing]\ngear = \"wheel\"\nstiffness_N_um = 100\n", "write [[bearing]]");
+  said(one + "[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 1\n", "has a bearing already");
+}
+
 TEST_CASE("keys left out take the defaults of the structs") {
   const SceneFile file;
   const Scene s = file.read(kScene);

@@ -827,6 +827,48 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "all one-diameter modes together: sum of G phi is the normal, sum of G^2 is the mass less the hub "
+    "ring's") {
+  BodyDiscretisation discretisation;
+  discretisation.element_size = 3e-3;
+  discretisation.element_order = 1;
+  const MeshArtifact mesh = make_sector_mesh(kDefault, discretisation);
+  const BodyArtifact body = reduce(mesh, kSteel, kAllModes);
+  const ToothGeometry tooth(kDefault);
+  Eigen::Matrix2d carried = Eigen::Matrix2d::Zero();
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(body.flank_position.size(), 2);
+  for (Eigen::Index k = 0; k < body.eigenfrequency.size(); ++k) {
+    const Eigen::Vector2d g = body.translation_coupling.row(k);
+    if (body.nodal_diameter[k] != 1) {
+      CHECK(g.norm() == 0);
+      continue;
+    }
+    carried += g * g.transpose();
+    moved += body.flank_mode.col(k) * g.transpose();
+  }
+  // Tooth 0, which points along +y. Linear sides between exact nodes, as of the rotation above.
+  for (Eigen::Index i = 0; i < moved.rows(); ++i)
+    CHECK((moved.row(i).transpose() - tooth.flank_normal(body.flank_position[i])).norm() < 2e-3);
+
+  // What the fixed bore nodes carry is missing: N / 2 t_b^H (M_bb - M_bf M_ff^-1 M_fb) t_b of t = (1, i), in harmonic 1.
+  const PlaneSystem system = system_of(mesh);
+  const CyclicSector sector(mesh, system);
+  Eigen::MatrixXd on_bore = Eigen::MatrixXd::Zero(2 * mesh.node_position.rows(), 2);
+  for (const int i : mesh.bore_node) on_bore.block<2, 2>(2 * i, 0).setIdentity();
+  const Eigen::MatrixXd momentum = system.mass * on_bore;
+  const Eigen::MatrixXcd pulled = sector.gather(1, momentum) * Eigen::Vector2cd(1, Complex(0, 1));
+  const Eigen::MatrixXcd mass = Eigen::MatrixXcd(sector.mass(1));
+  const double ring = 25 * ((on_bore.transpose() * momentum).trace() -
+                            pulled.col(0).dot(mass.ldlt().solve(pulled).col(0)).real());
+  CHECK(ring > 1e-3 * body.mass);
+  CHECK((carried - (body.mass - ring) * Eigen::Matrix2d::Identity()).norm() < 1e-9 * body.mass);
+
+  const double disc = kSteel.density * kDefault.face_width * kPi;
+  CHECK(body.mass > disc * (std::pow(tooth.root_radius(), 2) - std::pow(kDefault.bore_radius, 2)));
+  CHECK(body.mass < disc * (std::pow(tooth.tip_radius(), 2) - std::pow(kDefault.bore_radius, 2)));
+}
+
+TEST_CASE(
     "what the ends of the flank have left to converge: elements and table, at the tip edge and at the form "
     "point") {
   // A unit force spread evenly over `width` that ends at the edge, displacement averaged over it: what a strip does. The

@@ -147,6 +147,7 @@ void body(int argc, char** argv) {
     whine::fail(whine::Failure::input, statics, " is at ", at_torque.torque, " N m, --torque says ", torque,
                 "; give the static.h5 of that torque");
   whine::require_like_teeth(at_torque.mesh, "a lumped model");
+  whine::require_rigid_bearings(at_torque.mesh, "a lumped model");
   if (at_torque.hunting_periods > 1)
     whine::fail(whine::Failure::input, statics, " holds ", at_torque.hunting_periods,
                 " mesh periods, because a tooth is cracked: a lumped model takes teeth that are all alike; "

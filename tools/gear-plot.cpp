@@ -163,6 +163,13 @@ const std::map<std::string, Drawing>& drawings() {
           const auto told = read_sweeps(in);
           return whine::dynamic_load_figure(told.sweeps, told.background);
         }}},
+      {"bearing-forces",
+       {"forces on elastic bearings against mesh frequency",
+        "response.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto told = read_responses(in);
+          return whine::bearing_force_figure(told.sweeps, told.background);
+        }}},
       {"fig15",
        {"net mesh force of lumped models at one or two speeds", "sweep.h5 of lumped models at one torque", 0,
         2,

@@ -132,6 +132,7 @@ void body(int argc, char** argv) {
                     : "alike")
       << (cracked ? " cracked" : "") << "\n";
   out << name("MODIFIED") << " := " << (modified ? "yes" : "no") << "\n";
+  out << name("BEARINGS") << " := " << (scene.mesh.on_bearings() ? "elastic" : "rigid") << "\n";
   out << "BODIES +=";
   for (const auto& hash : hashes) out << " " << hash;
   out << "\n";

@@ -332,6 +332,12 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
       own.errors = values.mesh.errors[g];
       parameters(kErrorOf[g], own, Part::error);
     }
+  for (int g = 0; g < 2; ++g)
+    if (values.mesh.bearing[g].elastic()) {
+      KeyValues own;
+      own.bearing = values.mesh.bearing[g];
+      parameters(kBearingOf[g], own, Part::bearing);
+    }
 }
 
 void ArtifactWriter::publish() {
@@ -439,6 +445,9 @@ void ArtifactReader::parameters(const std::string& section, KeyValues& values, P
     const SectionSource errors(*this, kErrorOf[g]);
     if (errors.has("iso_class")) set_parameters(own, Part::error, errors);
     values.mesh.errors[g] = own.errors;
+    const SectionSource bearing(*this, kBearingOf[g]);
+    if (bearing.has("stiffness")) set_parameters(own, Part::bearing, bearing);
+    values.mesh.bearing[g] = own.bearing;
   }
 }
 

@@ -102,4 +102,12 @@ bool default_rayleigh_stiffness(const Damping& damping) {
   return false;
 }
 
+void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage) {
+  for (int g = 0; g < 2; ++g)
+    if (mesh.bearing[g].elastic())
+      fail(Failure::input, stage, " is of gears on rigid axes, and [gear.", mesh.gear(g),
+           "] is on a bearing of ", mesh.bearing[g].stiffness * 1e-6,
+           " N/um; take a scene without [[bearing]]");
+}
+
 }  // namespace whine

@@ -24,6 +24,9 @@ void require_contact(const StaticArtifact& statics, const Fidelity& wanted, cons
 // Error(input), by the stage, if the teeth of a gear differ from each other: for stages that look at one mesh period.
 void require_like_teeth(const GearMeshSpec& mesh, const std::string& stage);
 
+// Throws Error(input) for a gear on an elastic bearing, of which `stage` ("a Harris map") knows nothing.
+void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage);
+
 // The slice that a scene gives now for the path of an earlier one, .../params/<stage>.toml or .../<gear's hash>/body.toml;
 // empty if none of the scene's slices stands there.
 std::string slice_for(const Scene& scene, const std::string& path);

@@ -29,6 +29,9 @@ constexpr Unit kSecond{"_s", "s"};
 constexpr Unit kNewtonMetre{"_Nm", "N m"};
 constexpr Unit kHertz{"_Hz", "Hz"};
 constexpr Unit kKilohertz{"_kHz", "Hz", 1000};
+constexpr Unit kNewtonPerMicrometre{"_N_um", "N m-1", 1e6};
+constexpr Unit kNewtonSecondPerMetre{"_Ns_m", "N s m-1"};
+constexpr Unit kKilogram{"_kg", "kg"};
 
 std::vector<Key> make_keys() {
   using V = KeyValues;
@@ -203,6 +206,20 @@ std::vector<Key> make_keys() {
      "plane state of the contact alone (pressure, width, local approach): strain inside a wide face; body: as each gear's [material] plane",
      [](V& v) -> Slot { return &v.mesh.contact_plane; }},
 
+    {Part::bearing_gear, "bearing", "gear", kNone, nullptr, 0, 0, false, "",
+     "name of the gear that it carries; a gear without a bearing turns on a rigid axis",
+     [](V& v) -> Slot { return &v.bearing_gear; }},
+    {Part::bearing, "bearing", "stiffness_N_um", kNewtonPerMicrometre, nullptr, 0, 1e6, true, "",
+     "radial stiffness of all that carries the gear (bearings, shaft, housing), alike in all directions",
+     [](V& v) -> Slot { return &v.bearing.stiffness; },
+     "nothing else holds the gear; take the section out for a rigid axis"},
+    {Part::bearing, "bearing", "damping_Ns_m", kNewtonSecondPerMetre, "0.0", 0, 1e7, false, "",
+     "radial viscous damping of the same",
+     [](V& v) -> Slot { return &v.bearing.damping; }},
+    {Part::bearing, "bearing", "mass_kg", kKilogram, "0.0", 0, 1e6, false, "",
+     "mass of all that moves with the gear's hub, its body included; 0: as drawn, the body between bore and tip alone",
+     [](V& v) -> Slot { return &v.bearing.mass; }},
+
     {Part::damping, "damping", "rayleigh_mass_per_s", kPerSecond, "0.0", 0, 1e6, false, "",
      "mu of Eq. 21: multiplies the mass matrix",
      [](V& v) -> Slot { return &v.damping.rayleigh_mass; }},
@@ -306,6 +323,7 @@ std::string place_of(const Key& key, const std::string& owner) {
   if (section == "gear" || section == "material") return section + "." + owner + "." + name;
   if (section == "modification" || section == "error" || section == "crack")
     return "gear." + owner + "." + section + "." + name;
+  if (section == "bearing" && !owner.empty()) return section + "." + owner + "." + name;
   return section + "." + name;
 }
 
@@ -313,7 +331,7 @@ std::string place_of(const Key& key, const std::string& owner) {
 
 KeyPlace find_key(const std::string& name) {
   std::string owner;
-  for (const char* group : {"gear.", "material."})
+  for (const char* group : {"gear.", "material.", "bearing."})
     if (name.rfind(group, 0) == 0) {
       const auto from = std::string(group).size(), to = name.find('.', from);
       if (to != std::string::npos) owner = name.substr(from, to - from);
@@ -494,7 +512,7 @@ std::string scene_key_table() {
     if (section == "gear" || section == "material") label = "[" + section + ".<name>]";
     if (section == "modification" || section == "error" || section == "crack")
       label = "[gear.<name>." + section + "]";
-    if (section == "mesh") label = "[[mesh]]";
+    if (section == "mesh" || section == "bearing") label = "[[" + section + "]]";
     std::string range = "text";
     if (*key.choices) {
       range = key.choices;

@@ -22,6 +22,8 @@ struct KeyValues {
   FlankModification modification;
   ToothErrors errors;
   std::string error_file;
+  Bearing bearing;
+  std::string bearing_gear;
   Material material;
   GearMeshSpec mesh;
   Damping damping;
@@ -43,6 +45,8 @@ enum class Part {
   modification,
   error,
   error_file,
+  bearing,
+  bearing_gear,  // whose it is, in a scene alone
   material,
   mesh,
   contact_plane,  // of a mesh; a slice or an artifact holds it only where it is not that of the bodies
@@ -115,6 +119,7 @@ std::string exact_text(const std::vector<double>& values);  // [1.0, 2.0]
 // Sections of /parameters and of slices that hold what is taken off the driver's and the driven gear's flanks.
 inline constexpr const char* kModificationOf[2] = {"driver_modification", "driven_modification"};
 inline constexpr const char* kErrorOf[2] = {"driver_error", "driven_error"};
+inline constexpr const char* kBearingOf[2] = {"driver_bearing", "driven_bearing"};
 
 // Units of the two numbers of a point.
 extern const std::array<Unit, 2> kPointUnits;

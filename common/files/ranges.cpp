@@ -63,6 +63,8 @@ const std::map<std::string, Range>& table() {
       {"/nodal_diameter", {0, 2000}},
       {"/component", kFlag},
       {"/inertia_coupling", kMode},
+      {"/mass", kMass},
+      {"/translation_coupling", kMode},
       {"/flank_position", kRoll},
       {"/flank_mode", kMode},
       {"/compliance/offsets", {0, 1000}},
@@ -71,6 +73,8 @@ const std::map<std::string, Range>& table() {
       {"/compliance/reference_depth", kSize},
       {"/compliance/asymmetry", kShare},
       {"/compliance/least_eigenvalue", kFlexibility},
+      // of one of several bodies, whatever its name
+      {"/body/", kForce},
       // static.h5, loaded.h5, error_budget.h5
       {"/contact_ratio", {0, 100, true}},
       {"/hunting_periods", kPeriods},
@@ -221,7 +225,7 @@ const Range* range_of(const std::string& dataset) {
   if (found != table().end()) return &found->second;
   // Numbered datasets and groups whose members are named elsewhere.
   for (const char* start :
-       {"/compliance/offset_", "/energy/", "/up/", "/down/", "/harmonic_", "/answer/", "/key/"})
+       {"/compliance/offset_", "/energy/", "/up/", "/down/", "/harmonic_", "/answer/", "/key/", "/body/"})
     if (dataset.starts_with(start)) return &table().at(start);
   if (dataset.starts_with("/parameters/")) return nullptr;
   fail(Failure::numerical, "dataset ", dataset, " has no range; give it one in common/files/ranges.cpp");

@@ -652,6 +652,34 @@ void read_gears(const Source& source, Scene& scene) {
   }
 }
 
+void read_bearings(const Source& source, Scene& scene) {
+  const toml::node* node = source.root().get("bearing");
+  if (!node) return;
+  const toml::array* list = node->as_array();
+  if (!list || !list->is_array_of_tables())
+    source.refuse(*node, "'bearing' must be a list of sections: write [[bearing]]");
+  std::vector<std::string> names;
+  for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
+  for (const toml::node& item : *list) {
+    const toml::table& table = *item.as_table();
+    KeyValues values;
+    const SectionReader reader(source, Dialect::scene, table, "bearing", "bearing");
+    reader.refuse_unknown();
+    reader.read(values, {Part::bearing, Part::bearing_gear}, false);
+    const auto gear = std::find(names.begin(), names.end(), values.bearing_gear);
+    if (gear == names.end())
+      source.refuse(*table.get("gear"),
+                    text("'gear' in [bearing] = '", values.bearing_gear, "' names no [gear.<name>] section",
+                         advice_for(values.bearing_gear, names)));
+    Bearing& own = scene.gears[static_cast<std::size_t>(gear - names.begin())].bearing;
+    if (own.elastic())
+      source.refuse(*table.get("gear"),
+                    text("'gear' in [bearing] = '", values.bearing_gear,
+                         "' has a bearing already; give one section with what carries it in all"));
+    own = values.bearing;
+  }
+}
+
 void read_mesh_section(const Source& source, Scene& scene) {
   const toml::node* node = source.root().get("mesh");
   const toml::array* list = node->as_array();
@@ -683,6 +711,7 @@ void read_mesh_section(const Source& source, Scene& scene) {
   scene.mesh.modification = {scene.gear(values.mesh.driver).modification,
                              scene.gear(values.mesh.driven).modification};
   scene.mesh.errors = {scene.gear(values.mesh.driver).errors, scene.gear(values.mesh.driven).errors};
+  scene.mesh.bearing = {scene.gear(values.mesh.driver).bearing, scene.gear(values.mesh.driven).bearing};
 }
 
 // A slice of a stage, whose file gear-scene calls `name`; refuses a whole scene and the slice of another stage than these, which
@@ -735,7 +764,8 @@ Scene scene_of(const Source& source) {
   if (source.is_slice())
     source.refuse("is a slice, which gear-scene cut from a scene for one stage; give the scene itself");
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
-  top.refuse_unknown({"gear", "material", "mesh", "damping", "operation", "fidelity", "discretisation"});
+  top.refuse_unknown(
+      {"gear", "material", "bearing", "mesh", "damping", "operation", "fidelity", "discretisation"});
   std::vector<std::string> missing;
   for (const char* name : {"gear", "material", "mesh", "operation"}) {
     if (source.root().get(name)) continue;
@@ -751,6 +781,7 @@ Scene scene_of(const Source& source) {
   top.read(values, {Part::title}, false);
   scene.title = values.title.empty() ? std::filesystem::path(source.path()).stem().string() : values.title;
   read_gears(source, scene);
+  read_bearings(source, scene);
   read_mesh_section(source, scene);
   const std::set<Part> rest = {Part::damping,    Part::load,         Part::operation,
                                Part::rung,       Part::contact_rung, Part::body,
@@ -842,6 +873,10 @@ void add_static(SliceText& out, const Scene& scene, KeyValues& values, bool movi
   for (int g = 0; g < 2; ++g) {
     values.errors = scene.mesh.errors[g];
     if (!values.errors.none()) out.add("error", kErrorOf[g], values, {Part::error});
+  }
+  for (int g = 0; g < 2; ++g) {
+    values.bearing = scene.mesh.bearing[g];
+    if (values.bearing.elastic()) out.add("bearing", kBearingOf[g], values, {Part::bearing});
   }
   using Parts = std::set<Part>;
   out.add("fidelity", "fidelity", values,
@@ -985,6 +1020,11 @@ StaticSlice read_static(const Source& source) {
     if (!source.section(kErrorOf[g])) continue;
     read_slice_section(source, "error", kErrorOf[g], {Part::error}, values);
     values.mesh.errors[g] = values.errors;
+  }
+  for (int g = 0; g < 2; ++g) {
+    if (!source.section(kBearingOf[g])) continue;
+    read_slice_section(source, "bearing", kBearingOf[g], {Part::bearing}, values);
+    values.mesh.bearing[g] = values.bearing;
   }
   StaticSlice out{values.mesh, values.fidelity, values.contact, "", ""};
   if (const toml::table* bodies = source.section("body")) {

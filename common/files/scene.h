@@ -101,6 +101,15 @@ struct BodyDiscretisation {
   double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
 };
 
+// What carries a gear's hub, alike in all radial directions. The hub of a gear without one turns and does not move.
+struct Bearing {
+  double stiffness = 0;  // N m-1, radial; 0: rigid
+  double damping = 0;    // N s m-1, radial
+  double mass = 0;       // kg of all that moves with the hub, body included; 0: as drawn
+
+  bool elastic() const { return stiffness > 0; }
+};
+
 struct SceneGear {
   std::string name;
   GearDesign design;
@@ -108,6 +117,7 @@ struct SceneGear {
   double total_inertia = 0;  // kg m2 about the axis, body included
   FlankModification modification = {};
   ToothErrors errors = {};
+  Bearing bearing = {};
 };
 
 // Off the line of action a tip edge may touch a flank.
@@ -123,6 +133,10 @@ struct GearMeshSpec {
   std::string contact_plane = "body";  // plane state of the contact: "strain", "stress", or each body's own
   std::array<FlankModification, 2> modification = {};  // of driver and driven gear
   std::array<ToothErrors, 2> errors = {};              // the same
+  std::array<Bearing, 2> bearing = {};                 // the same
+
+  bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
+  const std::string& gear(int g) const { return g == 0 ? driver : driven; }
 };
 
 struct Damping {

@@ -16,7 +16,7 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 2, kStaticVersion = 4, kErrorBudgetVersion = 2,
+constexpr int kMeshVersion = 1, kBodyVersion = 3, kStaticVersion = 4, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1,
               kHarrisMapVersion = 1, kVariantVersion = 2, kStudyVersion = 2, kLoadedVersion = 1;
 
@@ -167,6 +167,15 @@ void take_bearings(const ArtifactReader& in, Artifact& a) {
   a.driver_bearing_damper = in.number("/parameters/damping/driver_bearing_damper");
   a.driven_bearing_damper = in.number("/parameters/damping/driven_bearing_damper");
 }
+
+// Of the gear that stands there, in groups by its name.
+std::string of_body(const GearMeshSpec& mesh, int g, const char* dataset) {
+  return "/body/" + mesh.gear(g) + "/" + dataset;
+}
+
+constexpr const char* kBearingForce =
+    "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns "
+    "counter-clockwise";
 
 // Left out where back flanks are ignored: the margin is then infinite.
 void put_backlash(ArtifactWriter& out, double margin) {
@@ -325,6 +334,7 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
   want_rows("nodal_diameter", a.nodal_diameter.size(), modes);
   want_rows("component", a.component.size(), modes);
   want_rows("inertia_coupling", a.inertia_coupling.size(), modes);
+  want_rows("translation_coupling", a.translation_coupling.rows(), modes);
   want_rows("flank_mode", a.flank_mode.rows(), points);
   want_rows("compliance", static_cast<Eigen::Index>(a.compliance.size()), a.offsets + 1);
   ArtifactWriter out(path, "body", kBodyVersion,
@@ -337,6 +347,7 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
   for (const Part part : {Part::body, Part::near_field}) out.parameters("discretisation", values, part);
   out.put("/inertia", a.inertia,
           {"kg m2", "inertia of the meshed body about its axis, hub ring included", "", ""});
+  out.put("/mass", a.mass, {"kg", "mass of the meshed body, hub ring included", "", ""});
   out.put("/eigenfrequency", a.eigenfrequency,
           {"Hz", "natural frequencies with the hub fixed", "mode", "K_ff phi = w^2 M_ff phi"});
   out.put("/nodal_diameter", a.nodal_diameter, {"1", "nodal diameters of the mode", "mode", ""});
@@ -345,6 +356,9 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
   out.put(
       "/inertia_coupling", a.inertia_coupling,
       {"kg^0.5 m", "coupling of the mode to the rotation of the hub", "mode", "gamma = phi^T M_fr (Eq. 3)"});
+  out.put("/translation_coupling", a.translation_coupling,
+          {"kg^0.5", "coupling of the mode to translations of the hub along x and y; tooth 0 points along +y",
+           "mode xy", "phi^T M_fr (Eq. 3)"});
   out.put("/flank_position", a.flank_position,
           {"1", "roll angle (rad) of the points of the flank table, ascending", "flank_position", ""});
   out.put("/flank_mode", a.flank_mode,
@@ -392,11 +406,13 @@ BodyArtifact read_body(const std::string& path) {
   a.material = values.material;
   a.discretisation = values.body;
   a.inertia = in.number("/inertia");
+  a.mass = in.number("/mass");
   a.eigenfrequency = in.vector("/eigenfrequency");
   const Eigen::Index modes = a.eigenfrequency.size();
   a.nodal_diameter = in.whole_vector("/nodal_diameter", modes);
   a.component = in.whole_vector("/component", modes);
   a.inertia_coupling = in.vector("/inertia_coupling", modes);
+  a.translation_coupling = in.matrix("/translation_coupling", modes, 2);
   a.flank_position = in.vector("/flank_position");
   const Eigen::Index points = a.flank_position.size();
   a.flank_mode = in.matrix("/flank_mode", points, modes);
@@ -437,14 +453,22 @@ void write(const std::string& path, const StaticArtifact& a, const Provenance& p
   out.put("/unloaded_transmission_error", a.unloaded_error,
           {"m", "transmission error without load: of what flanks deviate by", kPhase, ""});
   out.put("/mesh_stiffness_secant", a.stiffness_secant,
-          {"N m-1", "secant mesh stiffness", kPhase,
-           "(T / r1) / (transmission_error - unloaded_transmission_error)"});
+          {"N m-1", text("secant mesh stiffness", a.mesh.on_bearings() ? ", without the bearings" : ""),
+           kPhase, "(T / r1) / (transmission_error - unloaded_transmission_error)"});
   out.put("/mesh_stiffness_tangent", a.stiffness_tangent,
-          {"N m-1", "tangent mesh stiffness at fixed phase, contact changes included", kPhase,
-           "d(T / r1) / d transmission_error"});
+          {"N m-1",
+           text("tangent mesh stiffness at fixed phase, contact changes included",
+                a.mesh.on_bearings() ? ", without the bearings" : ""),
+           kPhase, "d(T / r1) / d transmission_error"});
   out.put("/pair", a.pair,
           {"1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", ""});
   out.put("/tooth_load", a.tooth_load, {"N", "normal force of each tooth pair", "mesh_phase pair", ""});
+  for (int g = 0; g < 2; ++g)
+    if (a.mesh.bearing[g].elastic()) {
+      want_rows("bearing_force", a.bearing_force[g].rows(), phases);
+      out.put(of_body(a.mesh, g, "bearing_force"), a.bearing_force[g],
+              {"N", kBearingForce, "mesh_phase xy", ""});
+    }
   out.put(
       "/contact_pressure", a.contact_pressure,
       {"Pa", "largest contact pressure of each pair inside its flanks; 0 where a corner or nothing touches",
@@ -564,6 +588,9 @@ StaticArtifact read_static(const std::string& path) {
   a.stiffness_tangent = in.vector("/mesh_stiffness_tangent", phases);
   a.pair = in.whole_vector("/pair");
   a.tooth_load = in.matrix("/tooth_load", phases, a.pair.size());
+  for (int g = 0; g < 2; ++g)
+    if (a.mesh.bearing[g].elastic())
+      a.bearing_force[g] = in.matrix(of_body(a.mesh, g, "bearing_force"), phases, 2);
   a.contact_pressure = in.matrix("/contact_pressure", phases, a.pair.size());
   a.contact_half_width = in.matrix("/contact_half_width", phases, a.pair.size());
   a.transmission_error_harmonic = in.vector("/transmission_error_harmonic");
@@ -835,6 +862,18 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
       "/tooth_load", load.data(),
       {static_cast<std::size_t>(speeds), static_cast<std::size_t>(samples), static_cast<std::size_t>(pairs)},
       {"N", "normal force of each tooth pair", "mesh_frequency sample pair", ""});
+  for (int g = 0; g < 2; ++g) {
+    if (!a.mesh.bearing[g].elastic() || lumped) continue;
+    std::vector<double> force;
+    want_rows("bearing_force", static_cast<Eigen::Index>(a.bearing_force[g].size()), speeds);
+    for (const MatrixRM& rows : a.bearing_force[g]) {
+      want_rows("bearing_force (samples)", rows.rows(), samples);
+      force.insert(force.end(), rows.data(), rows.data() + rows.size());
+    }
+    out.file().put(of_body(a.mesh, g, "bearing_force"), force.data(),
+                   {static_cast<std::size_t>(speeds), static_cast<std::size_t>(samples), 2},
+                   {"N", kBearingForce, "mesh_frequency sample xy", ""});
+  }
   out.put("/periods", a.periods, {"1", "mesh periods run to steady state", kSpeed, ""});
   out.put("/residual", a.residual,
           {"1", "relative change of the state over the last mesh period", kSpeed, ""});
@@ -901,6 +940,16 @@ SweepArtifact read_sweep(const std::string& path) {
   for (Eigen::Index f = 0; f < speeds; ++f) {
     a.tooth_load.push_back(Eigen::Map<const MatrixRM>(load.data() + f * samples * pairs, samples, pairs));
   }
+  for (int g = 0; g < 2; ++g) {
+    if (!a.mesh.bearing[g].elastic() || a.lumped.cell_end.size() > 0) continue;
+    const std::string name = of_body(a.mesh, g, "bearing_force");
+    if (in.file().shape(name) !=
+        h5::Shape{static_cast<std::size_t>(speeds), static_cast<std::size_t>(samples), 2})
+      in.file().refuse(text("dataset ", name, " has another shape than ", speeds, " x ", samples, " x 2"));
+    const auto force = in.doubles(name);
+    for (Eigen::Index f = 0; f < speeds; ++f)
+      a.bearing_force[g].push_back(Eigen::Map<const MatrixRM>(force.data() + f * samples * 2, samples, 2));
+  }
   a.periods = in.whole_vector("/periods", speeds);
   a.residual = in.vector("/residual", speeds);
   a.period_multiple = in.whole_vector("/period_multiple", speeds);
@@ -964,6 +1013,16 @@ void write(const std::string& path, const ResponseArtifact& a, const Provenance&
   out.put("/tooth_load_max", a.tooth_load_max, {"N", "largest normal force of one tooth pair", kSpeed, ""});
   out.put("/mesh_force_max", a.mesh_force_max,
           {"N", "largest normal force of all pairs together", kSpeed, ""});
+  for (int g = 0; g < 2; ++g) {
+    if (a.bearing_force_max[g].size() == 0) continue;
+    want_rows("bearing_force_max", a.bearing_force_max[g].size(), speeds);
+    want_rows("bearing_force_rms", a.bearing_force_rms[g].size(), speeds);
+    out.put(of_body(a.mesh, g, "bearing_force_max"), a.bearing_force_max[g],
+            {"N", "largest force of the gear on its bearing", kSpeed, ""});
+    out.put(of_body(a.mesh, g, "bearing_force_rms"), a.bearing_force_rms[g],
+            {"N", "RMS of the oscillating part of the force of the gear on its bearing, x and y together",
+             kSpeed, ""});
+  }
   out.put("/separation_fraction", a.separation_fraction,
           {"1", "share of the period without force", kSpeed, ""});
   out.put("/separations_per_period", a.separations_per_period,
@@ -1002,6 +1061,11 @@ ResponseArtifact read_response(const std::string& path) {
   a.dte_harmonic = in.matrix("/dte_harmonic", speeds);
   a.tooth_load_max = in.vector("/tooth_load_max", speeds);
   a.mesh_force_max = in.vector("/mesh_force_max", speeds);
+  for (int g = 0; g < 2; ++g)
+    if (in.file().has(of_body(a.mesh, g, "bearing_force_max"))) {
+      a.bearing_force_max[g] = in.vector(of_body(a.mesh, g, "bearing_force_max"), speeds);
+      a.bearing_force_rms[g] = in.vector(of_body(a.mesh, g, "bearing_force_rms"), speeds);
+    }
   a.separation_fraction = in.vector("/separation_fraction", speeds);
   a.separations_per_period = in.vector("/separations_per_period", speeds);
   a.jump_frequency = in.vector("/jump_frequency");
@@ -1534,6 +1598,7 @@ KeyValues keys_of(const Artifact& a, bool driver) {
   values.body = driver ? a.driver_body : a.driven_body;
   values.modification = a.mesh.modification[driver ? 0 : 1];
   values.errors = a.mesh.errors[driver ? 0 : 1];
+  values.bearing = a.mesh.bearing[driver ? 0 : 1];
   if constexpr (requires { a.damping; }) values.total_inertia = driver ? a.driver_inertia : a.driven_inertia;
   return values;
 }
@@ -1568,7 +1633,7 @@ std::string in_scene_unit(KeyValues& values, const Key& key) {
 // Title, names of other sections, torques and speeds are no properties of what was computed.
 bool of_operation(const Key& key) {
   return key.part == Part::title || key.part == Part::reference || key.part == Part::error_file ||
-         key.part == Part::load || key.part == Part::operation;
+         key.part == Part::bearing_gear || key.part == Part::load || key.part == Part::operation;
 }
 
 template <class Artifact>
@@ -1590,6 +1655,8 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
         return driver.modification != FlankModification{} || driven.modification != FlankModification{};
       case Part::error:
         return !driver.errors.none() || !driven.errors.none();
+      case Part::bearing:
+        return a.mesh.on_bearings();
       default:
         return true;
     }

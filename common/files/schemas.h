@@ -55,11 +55,15 @@ struct BodyArtifact {
   Material material;
   BodyDiscretisation discretisation;
   double inertia = 0;                // kg m2 of the meshed body about its axis (hub ring included)
+  double mass = 0;                   // kg of the meshed body (hub ring included)
   Eigen::VectorXd eigenfrequency;    // (mode) Hz, hub fixed
   Eigen::VectorXi nodal_diameter;    // (mode)
   Eigen::VectorXi component;         // (mode) 0: cosine or single, 1: sine
   Eigen::VectorXd inertia_coupling;  // (mode) kg^1/2 m: gamma = phi^T M_fr, not zero for zero diameters only
-  Eigen::VectorXd flank_position;    // (flank) rad: roll angle of the table points, ascending
+  // (mode, 2) kg^1/2: phi^T M_fr of the hub's translations along x and y of the mesh, tooth 0 along +y; not zero for one
+  // diameter only. With the column above it is the (mode, 3) coupling G to the rigid motions of the hub.
+  MatrixRM translation_coupling;
+  Eigen::VectorXd flank_position;  // (flank) rad: roll angle of the table points, ascending
   MatrixRM flank_mode;  // (flank, mode) kg^-1/2: outward normal displacement, M-normal modes, tooth 0
   int offsets = 0;      // tables hold tooth offsets 0 .. offsets
   // [offset] (flank, flank) m N-1: inward normal displacement of tooth `offset` (counter-clockwise of the
@@ -94,11 +98,14 @@ struct StaticArtifact {
   Eigen::VectorXd mesh_phase;          // (phase) 1, 0 to hunting_periods
   Eigen::VectorXd transmission_error;  // (phase) m
   Eigen::VectorXd unloaded_error;      // (phase) m: the same without load, 0 for flanks as they are designed
-  // (phase) N m-1; the secant is the load over what it adds to the transmission error; the tangent of contact "line" is off by
+  // (phase) N m-1, of the mesh without bearings; the secant is the load over what it adds to the transmission error; the tangent of contact "line" is off by
   // up to 0.6 % where contact comes near a tip edge
   Eigen::VectorXd stiffness_secant, stiffness_tangent;
   Eigen::VectorXi pair;  // (pair)
   MatrixRM tooth_load;   // (phase, pair) N
+  // [gear] (phase, xy) N: what a gear presses its bearing with; empty for a rigid one. The driver's centre stands at the origin,
+  // the driven gear's above it, the driver turns counter-clockwise.
+  std::array<MatrixRM, 2> bearing_force;
   // (phase, pair) Pa, m: of contacts that stay inside the flank, 0 elsewhere
   MatrixRM contact_pressure, contact_half_width;
   Eigen::VectorXd transmission_error_harmonic;  // (harmonic 0..) m: mean, then amplitudes
@@ -214,7 +221,7 @@ struct EnergyLine {
 };
 inline constexpr std::array<EnergyLine, 12> kEnergyLines{
     {{"kinetic", "change of the energy of motion"},
-     {"modal", "change of the energy in the springs of the kept modes"},
+     {"modal", "change of the energy in the springs of the kept modes and of bearings"},
      {"residual", "change of the energy in the lagged flexibility"},
      {"local", "change of the energy in the half-planes and all that follows at once"},
      {"torque", "work of the constant torques on the vibration"},
@@ -264,8 +271,10 @@ struct SweepArtifact {
   MatrixRM mesh_force;               // (speed, sample) N
   Eigen::VectorXi pair;              // (pair)
   std::vector<MatrixRM> tooth_load;  // [speed] (sample, pair) N
-  Eigen::VectorXi periods;           // (speed) mesh periods run
-  Eigen::VectorXd residual;          // (speed) relative change of the state over a period at the end
+  // [gear][speed] (sample, xy) N: as in static.h5, with the bearing's damper; empty for a rigid bearing
+  std::array<std::vector<MatrixRM>, 2> bearing_force;
+  Eigen::VectorXi periods;   // (speed) mesh periods run
+  Eigen::VectorXd residual;  // (speed) relative change of the state over a period at the end
   // (speed) mesh periods of the orbit: hunting_periods unless subharmonic; 0: not periodic within the limit
   Eigen::VectorXi period_multiple;
   Eigen::VectorXd energy_imbalance;  // (speed) relative to the input energy of the stored periods
@@ -292,10 +301,12 @@ struct ResponseArtifact {
   // frequency
   MatrixRM dte_order;
   Eigen::VectorXd tooth_load_max, mesh_force_max;  // (speed) N
-  Eigen::VectorXd separation_fraction;             // (speed) share of the period without force
-  Eigen::VectorXd separations_per_period;          // (speed) 1
-  Eigen::VectorXd jump_frequency, jump_width;      // (jump) Hz
-  Eigen::VectorXi period_multiple;                 // (speed) 1; 0: not periodic within the limit
+  // [gear] (speed) N: largest force on its bearing, and RMS of what of it oscillates; empty for a rigid bearing
+  std::array<Eigen::VectorXd, 2> bearing_force_max, bearing_force_rms;
+  Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
+  Eigen::VectorXd separations_per_period;      // (speed) 1
+  Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
+  Eigen::VectorXi period_multiple;             // (speed) 1; 0: not periodic within the limit
   // what the sweep was computed with, so that a figure needs no other file
   GearDesign driver, driven;
   Material driver_material, driven_material;

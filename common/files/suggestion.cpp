@@ -102,9 +102,10 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 
 // Small letters without '_', '-' and a unit behind.
 std::string stem_of(const std::string& word) {
-  static const char* const kUnits[] = {"_mm",   "_um", "_m",   "_cm",  "_in",  "_inch",  "_deg",    "_rad",
-                                       "_nm",   "_hz", "_khz", "_rpm", "_gpa", "_mpa",   "_pa",     "_kgm2",
-                                       "_kgm3", "_s",  "_n",   "_kg",  "_g",   "_per_s", "_n_per_m"};
+  static const char* const kUnits[] = {"_mm",    "_um",      "_m",    "_cm",  "_in",  "_inch", "_deg",
+                                       "_rad",   "_nm",      "_hz",   "_khz", "_rpm", "_gpa",  "_mpa",
+                                       "_pa",    "_kgm2",    "_kgm3", "_s",   "_n",   "_kg",   "_g",
+                                       "_per_s", "_n_per_m", "_n_um", "_ns_m"};
   std::string stem;
   for (const char c : word) stem += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const std::string unit : kUnits)
@@ -134,6 +135,7 @@ bool of_gear(const std::string& section) {
 }
 
 std::string section_words(const Key& key) {
+  if (key.section == std::string("bearing")) return "[[bearing]]";
   return text("[", of_gear(key.section) ? "gear.<name>." : "", key.section, "]");
 }
 

@@ -56,6 +56,14 @@ void show_modification(Lines& lines, const GearMeshSpec& mesh) {
       add(lines, g == 0 ? "driver's flanks" : "driven gear's flanks", in_words(mesh.modification[g]));
 }
 
+// Nothing for gears on rigid axes.
+void show_bearings(Lines& lines, const GearMeshSpec& mesh) {
+  for (int g = 0; g < 2; ++g)
+    if (const Bearing& b = mesh.bearing[g]; b.elastic())
+      add(lines, text("bearing of ", mesh.gear(g)), b.stiffness * 1e-6, " N/um, ", b.damping, " N s/m, ",
+          b.mass > 0 ? text(b.mass, " kg") : "mass as drawn");
+}
+
 // Nothing for teeth that are all alike.
 void show_errors(Lines& lines, const GearMeshSpec& mesh) {
   const auto largest = [](const std::vector<double>& teeth) {
@@ -119,7 +127,7 @@ void show(Lines& lines, const MeshArtifact& a) {
 
 void show(Lines& lines, const BodyArtifact& a) {
   show_gear(lines, a.design, a.discretisation);
-  add(lines, "inertia of the body", a.inertia, " kg m2");
+  add(lines, "inertia of the body", a.inertia, " kg m2, mass ", a.mass, " kg");
   std::string modes;
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(a.eigenfrequency.size(), 8); ++i) {
     modes += text(i ? ", " : "", std::round(a.eigenfrequency[i]), " (", a.nodal_diameter[i], ")");
@@ -140,6 +148,7 @@ void show(Lines& lines, const StaticArtifact& a) {
   add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
+  show_bearings(lines, a.mesh);
   show_discretisation(lines, a.driver_body, a.driven_body);
   add(lines, "contact", a.fidelity.contact,
       a.fidelity.contact == "strips"
@@ -242,6 +251,7 @@ void show(Lines& lines, const SweepArtifact& a) {
   add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
+  show_bearings(lines, a.mesh);
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0;
     const Eigen::VectorXd rms =
@@ -284,6 +294,10 @@ void show(Lines& lines, const ResponseArtifact& a) {
     add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "largest tooth load", a.tooth_load_max.maxCoeff(), " N, all pairs ",
         a.mesh_force_max.maxCoeff(), " N");
+    for (int g = 0; g < 2; ++g)
+      if (a.bearing_force_max[g].size() > 0)
+        add(lines, text("bearing of ", a.mesh.gear(g)), "force at most ", a.bearing_force_max[g].maxCoeff(),
+            " N, its oscillation at most ", a.bearing_force_rms[g].maxCoeff(), " N RMS");
     add(lines, "contact lost", (a.separation_fraction.array() > 0).count(), " speeds, at most ",
         a.separation_fraction.maxCoeff() * 100, " % of the period");
   }
@@ -316,6 +330,7 @@ void show(Lines& lines, const HarrisMapArtifact& a) {
   show_gear(lines, a.driver, a.driver_body);
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
+  show_bearings(lines, a.mesh);
   add(lines, "torque", a.torque.size(), " from ", a.torque[0], " to ", a.torque[a.torque.size() - 1], " N m");
   add(lines, "tip relief", a.relief.size(), " from ", a.relief[0] * 1e6, " to ",
       a.relief[a.relief.size() - 1] * 1e6, " um, ", a.shape, ", on ",

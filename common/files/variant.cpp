@@ -68,14 +68,20 @@ std::string scene_variant(const std::string& path, const std::vector<std::string
     }
     const bool in_gear = section == "modification" || section == "error" || section == "crack";
     const std::string group = in_gear ? "gear" : section;
-    const bool in_list = group == "mesh", has_owner = group == "gear" || group == "material";
+    const bool in_list = group == "mesh" || group == "bearing",
+               has_owner = group == "gear" || group == "material";
     toml::node* node = scene.get(group);
     if (!node && (in_list || has_owner))
       fail(Failure::input, path, ": lacks the section [", group, "] of the key '", name, "'");
     if (in_list) {
+      bool found = owner.empty();
       if (toml::array* list = node->as_array())
-        for (toml::node& mesh : *list)
-          if (toml::table* table = mesh.as_table()) set(*table, leaf, value);
+        for (toml::node& item : *list)
+          if (toml::table* table = item.as_table(); table && (owner.empty() || (*table)["gear"] == owner)) {
+            set(*table, leaf, value);
+            found = true;
+          }
+      if (!found) fail(Failure::input, path, ": has no [[", group, "]] of the gear '", owner, "'");
     } else if (has_owner) {
       toml::table* members = node->as_table();
       if (!members) continue;  // what it is instead is told when the scene is read

@@ -252,4 +252,10 @@ Placement placed(const GearPair& pair, int g, double phase) {
   return at;
 }
 
+Vec2 contact_normal(const GearPair& pair, const PairContact& contact) {
+  const double a = pair.working_pressure_angle();
+  const Vec2 along(-std::cos(a), std::sin(a)), to_tip(std::sin(a), std::cos(a));
+  return std::cos(contact.tilt) * along + std::sin(contact.tilt) * to_tip;
+}
+
 }  // namespace whine

@@ -98,4 +98,8 @@ struct Placement {
 // tooth 0 of both met at the pitch point; the driver turns counter-clockwise.
 Placement placed(const GearPair& pair, int g, double phase = 0);
 
+// Unit vector from the driver's flank to the driven gear's along the normal of a contact of gears placed so. On the line of
+// action it is (-cos a, sin a), a the working pressure angle, at every phase; a corner's normal is tilted against that.
+Vec2 contact_normal(const GearPair& pair, const PairContact& contact = {});
+
 }  // namespace whine

@@ -40,9 +40,13 @@ MotionBounds::MotionBounds(const GearMeshModel& model, const StaticArtifact& sta
   force = kBeyondStatics * (statics.torque / model.kinematics.gear(0).base_radius()) * widening;
   // Beside what load adds: teeth that differ are near or far as they are.
   const VectorXd& without_load = statics.unloaded_error;
-  deflection = kBeyondStatics * (statics.hunting_periods == 1
-                                     ? statics.transmission_error.maxCoeff()
-                                     : (statics.transmission_error - without_load).maxCoeff());
+  if (statics.mesh.on_bearings())  // what the mesh gives way, without the bearings
+    deflection = kBeyondStatics * (statics.torque / model.kinematics.gear(0).base_radius()) /
+                 statics.stiffness_secant.minCoeff();
+  else
+    deflection = kBeyondStatics * (statics.hunting_periods == 1
+                                       ? statics.transmission_error.maxCoeff()
+                                       : (statics.transmission_error - without_load).maxCoeff());
   if (statics.hunting_periods > 1) deflection += std::max(0.0, without_load.maxCoeff());
   deflection *= widening;
 }
@@ -61,9 +65,14 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
       full_(parameters.fidelity.body == "full"),
       lines_(parameters.fidelity.contact == "line"),
       newmark_(parameters.fidelity.integrator == "newmark"),
+      floating_(model.on_bearings()),
       relaxation_(
           full_ || parameters.fidelity.body == "quasi-static" ? 0 : parameters.damping.rayleigh_stiffness) {
   const std::string& rung = parameters.fidelity.body;
+  if (full_ && floating_)
+    fail(Failure::input,
+         "body = \"full\" in [fidelity] has no bearings: set body = \"modal\" or take the [[bearing]] "
+         "sections out");
   double inverse_mass = 0;
   for (int g = 0; g < 2; ++g) {
     if (model.gear[g].cracked())
@@ -101,6 +110,19 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
       if (torsional < 0) fail(Failure::input, "the body holds no torsional mode; rebuild body.h5");
       for (int i = 0; i < body.eigenfrequency.size(); ++i)
         if (rung == "modal" || full() || i == torsional) kept_[g].push_back(i);
+      if (model.bearing[g].elastic()) {
+        int swaying = -1;  // the first with one diameter; modes ascend
+        for (int i = static_cast<int>(body.eigenfrequency.size()) - 1; i >= 0; --i)
+          if (body.nodal_diameter[i] == 1) swaying = i;
+        if (swaying < 0)
+          fail(Failure::input, "the body of the ", g ? "driven gear" : "driver", " holds ",
+               body.eigenfrequency.size(),
+               " modes and none of them has one nodal diameter, as a gear on a bearing needs; raise modes in "
+               "[fidelity]");
+        if (rung != "modal")
+          for (const int half : {swaying, model.gear[g].partner(swaying)}) kept_[g].push_back(half);
+        std::sort(kept_[g].begin(), kept_[g].end());
+      }
     }
     if (full() && body.discretisation.modes != kAllModes)
       fail(Failure::input, "body = \"full\" needs a body with every mode of its mesh, that of the ",
@@ -110,10 +132,13 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
   }
 
   const int n = static_cast<int>(coordinates_.size());
-  error_weight_ = torque_force_ = frequency_squared_ = VectorXd::Zero(n);
+  error_weight_ = torque_force_ = frequency_squared_ = closing_weight_ = VectorXd::Zero(n);
   for (int i = 0; i < n; ++i) {
     for (int g = 0; g < 2; ++g)
       error_weight_[i] += model.kinematics.gear(g).base_radius() * coordinates_[i].hub[g];
+    closing_weight_[i] = error_weight_[i];
+    if (const int g = coordinates_[i].gear; g >= 0)
+      closing_weight_[i] += model.outward(g).dot(coordinates_[i].shift);
     torque_force_[i] = coordinates_[i].torque;
     frequency_squared_[i] = coordinates_[i].frequency * coordinates_[i].frequency;
     // The factor keeps gears apart that have changed places.
@@ -130,8 +155,12 @@ void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
     return parameters_.damping.rayleigh_mass + parameters_.damping.rayleigh_stiffness * w * w;  // Eq. 21
   };
 
-  std::vector<int> torsional, others;
-  for (int column : columns) (body.nodal_diameter[column] == 0 ? torsional : others).push_back(column);
+  std::vector<int> torsional, swaying, others;
+  for (int column : columns) {
+    const int diameters = body.nodal_diameter[column];
+    const bool sways = diameters == 1 && model_.bearing[g].elastic();
+    (diameters == 0 ? torsional : sways ? swaying : others).push_back(column);
+  }
 
   // Zero diameters: [[I, gamma^T], [gamma, 1]] z'' + diag(0, w^2) z, the hub rotation first.
   const int k = static_cast<int>(torsional.size());
@@ -163,6 +192,7 @@ void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
       coordinates_.push_back(c);
     }
   }
+  if (model_.bearing[g].elastic()) add_sway(g, swaying);
   for (int column : others) {
     Coordinate c;
     c.gear = g;
@@ -178,6 +208,75 @@ void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
       c.turn = std::numbers::pi;  // n = teeth / 2: neighbouring teeth move against each other
     }
     coordinates_.push_back(c);
+  }
+}
+
+// Translation t = (x, y) and modes q with one diameter: with x + i y = Z and q_cosine + i q_sine = Q of each doublet the hub
+// moves by Re(conj(Z) T), T the translation along x plus i times that along y, and the body by Re(conj(Q) Phi). The coupling
+// c = Phi^H M T of a doublet is then one complex number, whose angle goes into the doublet's own: what is left is one real
+// problem [[m, |c|], [|c|, 1]] v'' + diag(k, w^2) v = 0 of half the size with two equal coordinates for each of its modes,
+// here along the line of action and across.
+void RollingDynamics::add_sway(int g, const std::vector<int>& columns) {
+  const ElasticGear& gear = model_.gear[g];
+  const BodyArtifact& body = gear.body();
+  const Bearing& bearing = model_.bearing[g];
+  const Damping& damping = parameters_.damping;
+  std::vector<int> cosine;
+  for (const int column : columns)
+    if (body.component[column] == 0) cosine.push_back(column);
+  const int k = static_cast<int>(cosine.size());
+  MatrixXd mass = MatrixXd::Identity(k + 1, k + 1), stiffness = MatrixXd::Zero(k + 1, k + 1);
+  VectorXd angle(k);  // rad, of c
+  mass(0, 0) = bearing.mass > 0 ? bearing.mass : body.mass;
+  stiffness(0, 0) = bearing.stiffness;
+  for (int i = 0; i < k; ++i) {
+    const double w = kTwoPi * body.eigenfrequency[cosine[i]];
+    const Vec2 c = body.translation_coupling.row(cosine[i]);
+    mass(0, i + 1) = mass(i + 1, 0) = c.norm();
+    angle[i] = std::atan2(c.y(), c.x());
+    stiffness(i + 1, i + 1) = w * w;
+  }
+  if (!(mass(0, 0) >= body.mass))
+    fail(Failure::input, "mass_kg = ", bearing.mass, " in the [[bearing]] of the ",
+         g ? "driven gear" : "driver", " lies below the mass of its own body, ", body.mass,
+         " kg: it is that of all that moves with the hub; raise it");
+  const SymmetricEigen eigen = symmetric_eigen(stiffness, mass);
+  if (!eigen.converged || !(eigen.values[0] > 0))
+    fail(Failure::numerical, "the ", g ? "driven gear" : "driver", " of ", mass(0, 0), " kg and ", k,
+         " modes with one diameter, which couple ", mass.row(0).tail(k).squaredNorm(),
+         " kg of it, has no frequencies on its bearing of ", bearing.stiffness, " N/m; rebuild body.h5");
+
+  const Vec2 along = model_.outward(g), across(-along.y(), along.x());
+  // Of the line of action in the frame of the mesh of the body at phase 0.
+  const double direction = std::atan2(along.y(), along.x()) - placed(model_.kinematics, g).angle;
+  Sway& sway = sway_[g];
+  sway.first = static_cast<int>(coordinates_.size());
+  sway.count = 2 * (k + 1);
+  sway.tooth_angle = kTwoPi / body.design.teeth;
+  sway.there = sway.quarter_on = MatrixXd::Zero(gear.table_size(), sway.count);
+  for (int i = 0; i <= k; ++i) {
+    VectorXd shape = eigen.vectors.col(i);
+    if (shape[0] < 0) shape = -shape;
+    for (const bool second : {false, true}) {
+      Coordinate c;
+      c.gear = g;
+      c.frequency = std::sqrt(eigen.values[i]);
+      c.shift = shape[0] * (second ? across : along);
+      // Eq. 21 of the body; the bearing is no part of its stiffness matrix and has a damper of its own.
+      c.elastic = std::max(0.0, eigen.values[i] - bearing.stiffness * shape[0] * shape[0]);
+      c.damping = damping.rayleigh_mass + damping.rayleigh_stiffness * c.elastic +
+                  bearing.damping * shape[0] * shape[0];
+      const int column = static_cast<int>(coordinates_.size()) - sway.first;
+      for (int m = 0; m < k; ++m) {
+        const double turned = direction - angle[m] + (second ? 0.25 * kTwoPi : 0);
+        const int here = cosine[m], other = gear.partner(here);
+        const VectorXd real = body.flank_mode.col(here), imaginary = body.flank_mode.col(other);
+        const double on_cosine = shape[m + 1] * std::cos(turned), on_sine = shape[m + 1] * std::sin(turned);
+        sway.there.col(column) += on_cosine * real + on_sine * imaginary;
+        sway.quarter_on.col(column) += on_sine * real - on_cosine * imaginary;
+      }
+      coordinates_.push_back(c);
+    }
   }
 }
 
@@ -376,7 +475,7 @@ const MatrixXd& RollingDynamics::shape_on_tooth(int g, int tooth) const {
         (g == 0 ? first_coordinate_[1] : static_cast<int>(coordinates_.size())) - first_coordinate_[g];
     std::map<int, VectorXd> mode;  // of columns that several coordinates share
     at->second = MatrixXd::Zero(model_.gear[g].table_size(), count);
-    for (int c = 0; c < count; ++c)
+    for (int c = 0; c < count; ++c)  // those of a Sway have no columns: they see the phase, too
       for (const auto& [column, share] : coordinates_[first_coordinate_[g] + c].columns) {
         VectorXd& shape = mode[column];
         if (shape.size() == 0) shape = model_.gear[g].mode_on_tooth(column, tooth);
@@ -395,6 +494,16 @@ MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
       const MatrixXd& shape = shape_on_tooth(g, GearMeshModel::tooth(g, mesh.pairs[i].pair));
       h.middleCols(first_coordinate_[g], shape.cols())(mesh.nodes_of(i), Eigen::all) +=
           mesh.table_weights[g](mesh.nodes_of(i), Eigen::all) * shape;
+      const Sway& sway = sway_[g];
+      if (sway.count == 0) continue;
+      const double angle = sway.tooth_angle * (GearMeshModel::tooth(g, mesh.pairs[i].pair) +
+                                               (g == 0 ? mesh.phase : -mesh.phase));
+      const Vec2 outward = model_.outward(g, mesh.pairs[i].contact);
+      auto rows = h.middleCols(sway.first, sway.count)(mesh.nodes_of(i), Eigen::all);
+      rows += mesh.table_weights[g](mesh.nodes_of(i), Eigen::all) *
+              (std::cos(angle) * sway.there + std::sin(angle) * sway.quarter_on);
+      for (int c = 0; c < sway.count; ++c)
+        rows.col(c).array() += outward.dot(coordinates_[static_cast<size_t>(sway.first + c)].shift);
     }
   return h;
 }
@@ -536,7 +645,7 @@ double RollingDynamics::condensed_eigenvalue(const MatrixXd& compliance, const M
        " steps; raise total_inertia_kgm2 or set body = \"modal\"");
 }
 
-double RollingDynamics::frozen_frequency(int i, int period) {
+RollingDynamics::Frozen RollingDynamics::frozen(int i, int period) {
   set_gap(positions_[i], period);
   const Position& position = positions_[i];
   const VectorXd p = equilibrium_at(position, static_compliance(position), elastic_offset(position)).p;
@@ -547,19 +656,59 @@ double RollingDynamics::frozen_frequency(int i, int period) {
   MatrixXd a = local_compliance(position);
   position.mesh.add_to_strips(position.lagged, a);
   for (size_t j = 0; j < position.mesh.law.size(); ++j) a(j, j) += position.mesh.law[j].at(p[j]).slope;
-  const MatrixXd compliance = a(touch, touch);
   MatrixXd h(position.mesh.strips(), position.participation.cols());
   for (int c = 0; c < h.cols(); ++c) h.col(c) = position.mesh.to_strips(position.participation.col(c));
-  const MatrixXd touching = h(touch, Eigen::all);
-  if (full()) return std::sqrt(condensed_eigenvalue(compliance, touching)) / kTwoPi;
-  MatrixXd stiffness = touching.transpose() * compliance.ldlt().solve(touching);
+  return {a(touch, touch), h(touch, Eigen::all)};
+}
+
+SymmetricEigen RollingDynamics::frozen_modes(int i, const Frozen& contact, bool vectors) const {
+  const MatrixXd& h = contact.participation;
+  MatrixXd stiffness = h.transpose() * contact.compliance.ldlt().solve(h);
   stiffness.diagonal() += frequency_squared_;
-  const SymmetricEigen eigen = symmetric_eigenvalues(stiffness);
+  SymmetricEigen eigen = vectors ? symmetric_eigen(stiffness) : symmetric_eigenvalues(stiffness);
   if (!eigen.converged || !(eigen.values[0] > 0))
-    fail(Failure::numerical, "at mesh phase ", position.mesh.phase, " the pair with ", touch.size(),
+    fail(Failure::numerical, "at mesh phase ", positions_[i].mesh.phase, " the pair with ", h.rows(),
          " strips in contact has no natural frequency: least eigenvalue ", eigen.values[0],
          " rad2/s2 of a stiffness of norm ", stiffness.norm());
-  return std::sqrt(eigen.values[0]) / kTwoPi;
+  return eigen;
+}
+
+double RollingDynamics::frozen_frequency(int i, int period) {
+  const Frozen contact = frozen(i, period);
+  if (full()) return std::sqrt(condensed_eigenvalue(contact.compliance, contact.participation)) / kTwoPi;
+  const SymmetricEigen eigen = frozen_modes(i, contact, floating_);
+  Eigen::Index mode = 0;
+  if (floating_)
+    (eigen.vectors.transpose() * closing_weight_).cwiseAbs2().cwiseQuotient(eigen.values).maxCoeff(&mode);
+  return std::sqrt(eigen.values[mode]) / kTwoPi;
+}
+
+VectorXd RollingDynamics::frozen_frequencies(int i, int period) {
+  return frozen_modes(i, frozen(i, period), false).values.cwiseSqrt() / kTwoPi;
+}
+
+MatrixXd RollingDynamics::bearing_damping() const {
+  MatrixXd all = MatrixXd::Zero(frequency_squared_.size(), frequency_squared_.size());
+  for (int i = 0; i < all.rows(); ++i) all(i, i) = coordinates_[i].damping;
+  for (int g = 0; g < 2; ++g) {
+    const Bearing& bearing = model_.bearing[g];
+    const double beside = bearing.damping - parameters_.damping.rayleigh_stiffness * bearing.stiffness;
+    for (int i = sway_[g].first; i < sway_[g].first + sway_[g].count; ++i)
+      for (int j = sway_[g].first; j < sway_[g].first + sway_[g].count; ++j)
+        if (i != j) all(i, j) = beside * coordinates_[i].shift.dot(coordinates_[j].shift);
+  }
+  return all;
+}
+
+void RollingDynamics::take_bearing_force(Period& period, int sample) const {
+  for (int g = 0; g < 2; ++g) {
+    const Bearing& bearing = model_.bearing[g];
+    if (!bearing.elastic()) continue;
+    Vec2 force = Vec2::Zero();
+    for (int c = sway_[g].first; c < sway_[g].first + sway_[g].count; ++c)
+      force += coordinates_[c].shift * (bearing.stiffness * work_.z[c] + bearing.damping * work_.v[c]);
+    period.bearing_force[g].col(sample) = force;
+  }
 }
 
 HeldMesh RollingDynamics::hold(int i) const {
@@ -577,6 +726,12 @@ HeldMesh RollingDynamics::hold(int i) const {
   for (int c = 0; c < held.damping.size(); ++c) {
     held.damping[c] = coordinates_[c].damping;
     held.participation.col(c) = mesh.to_strips(position.participation.col(c));
+  }
+  if (floating_) {
+    held.closing_weight = closing_weight_;
+    held.elastic = frequency_squared_;
+    for (const Sway& sway : sway_)
+      for (int c = sway.first; c < sway.first + sway.count; ++c) held.elastic[c] = coordinates_[c].elastic;
   }
   held.torque = torque_force_;
   held.error_weight = error_weight_;

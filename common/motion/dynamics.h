@@ -4,6 +4,10 @@
 // Coordinates (unit modal mass, z'' + c z' + w^2 z = force):
 // - one rigid rotation of the pair, along the line of action; the other, r1 theta1 - r2 theta2, is projected
 // out;
+// - per gear on a bearing two translations of its hub, and the one-diameter modes that couple with them through G, diagonalised
+//   together: M0 = [[m, G^T], [G, 1]], K0 = diag(k, w^2). They are kept in the fixed frame, in which the hub is; teeth roll
+//   past their shapes. All other doublets turn with their gear. Of the bearing's damper only the diagonal is kept, see
+//   bearing_damping();
 // - per gear the elastic modes. Those with zero diameters couple with the hub rotation through gamma and are
 //   diagonalised with it: M0 = [[I, gamma^T], [gamma, 1]], K0 = diag(0, w^2);
 // - what the modes leave of the flanks' flexibility relaxes with the Rayleigh time: eta U' + U = R p. Every truncated
@@ -35,6 +39,7 @@
 #include <span>
 #include <vector>
 
+#include "base/dense.h"
 #include "base/huge_pages.h"
 #include "contact/lanes.h"
 #include "contact/line_contact.h"
@@ -92,6 +97,8 @@ class RollingDynamics {
   struct Period {
     Eigen::VectorXd transmission_error;  // (step) m
     Eigen::MatrixXd pair_load;           // (pair, step) N, pairs -reach..reach
+    // [gear] (xy, step) N: what it presses its bearing with, in the frame of placed(); empty for a rigid one
+    std::array<Eigen::MatrixXd, 2> bearing_force;
     double drift_force = 0;  // N: largest force that the output must supply to hold the mean speed
     double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
     int fallbacks = 0;                      // steps that block pivoting alone could not solve
@@ -132,9 +139,15 @@ class RollingDynamics {
     int teeth = 0;        // whose lag is followed, per gear
   };
   StepSizes step_sizes(int i) const;
-  // Lowest natural frequency, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
-  // the range) of a mesh period: undamped, the residual flexibility follows at once. Throws Error(numerical) if there is none.
+  // Natural frequency of the mesh, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
+  // the range) of a mesh period: undamped, the residual flexibility follows at once. The lowest one; of gears on bearings that
+  // which gives way most to a force between the flanks, statically. Throws Error(numerical) if there is none.
   double frozen_frequency(int i, int period = 0);
+  // All of them (coordinate), ascending; not of body = "full".
+  Eigen::VectorXd frozen_frequencies(int i, int period = 0);
+  // (coordinate, coordinate) s-1: the damping of the gears' hubs and modes with all that a bearing's damper couples. Steps keep
+  // its diagonal: a damper on the hub alone would be diagonal only with damping = rayleigh_stiffness x stiffness.
+  Eigen::MatrixXd bearing_damping() const;
   // The pair at phase i / (steps of the range), to be moved without rolling. Throws Error(input) for lines.
   HeldMesh hold(int i) const;
   // (node, coordinate): outward displacement of the flanks, hub rotation included, per unit coordinate; h of
@@ -151,14 +164,23 @@ class RollingDynamics {
 
  private:
   struct Coordinate {
-    int gear = -1;                                // -1: the rigid rotation
-    double frequency = 0;                         // rad s-1
-    double damping = 0;                           // s-1
-    double torque = 0;                            // constant force of the torques
-    std::array<double, 2> hub{};                  // rotation of each hub per unit, rad
+    int gear = -1;                // -1: the rigid rotation
+    double frequency = 0;         // rad s-1
+    double damping = 0;           // s-1
+    double torque = 0;            // constant force of the torques
+    std::array<double, 2> hub{};  // rotation of each hub per unit, rad
+    double elastic = 0;           // rad2 s-2, of a Sway: of its frequency squared, what the body holds
+    Vec2 shift = Vec2::Zero();    // m: translation of its gear's hub per unit, in the frame of placed()
     std::vector<std::pair<int, double>> columns;  // body modes and their shares
     int partner = -1;                             // other half of a doublet
     double turn = 0;                              // rad: its turn per mesh period (0 if single)
+  };
+  // Coordinates of a gear that stand in the fixed frame: its hub's translations and the modes that couple with them.
+  struct Sway {
+    int first = 0, count = 0;
+    double tooth_angle = 0;  // rad
+    // (flank, coordinate) outward displacement per unit on a tooth where tooth 0 is at phase 0, and a quarter of a turn on
+    Eigen::MatrixXd there, quarter_on;
   };
   struct Step {  // one position at one speed
     struct Size {
@@ -344,6 +366,14 @@ class RollingDynamics {
   Eigen::MatrixXd local_compliance(const Position& position) const;  // (strip, strip) m N-1, the same
   void pack_lines(Position& position);
   void add_modes(int g, const std::vector<int>& columns);
+  void add_sway(int g, const std::vector<int>& columns);
+  struct Frozen {  // the contact of the static load
+    Eigen::MatrixXd compliance,
+        participation;  // (touching strip, touching strip), (touching strip, coordinate)
+  };
+  Frozen frozen(int i, int period);
+  SymmetricEigen frozen_modes(int i, const Frozen& contact, bool vectors) const;
+  void take_bearing_force(Period& period, int sample) const;
   const Eigen::MatrixXd& shape_on_tooth(int g, int tooth) const;
   Eigen::VectorXd flexibility() const;  // (coordinate) s2: 1 / w^2, 0 for the rigid rotation
   Eigen::MatrixXd modal_flexibility(
@@ -354,13 +384,17 @@ class RollingDynamics {
   const GearMeshModel& model_;
   DynamicParameters parameters_;
   bool full_, lines_, newmark_;  // of the fidelity
+  bool floating_;                // a gear is on a bearing
   double relaxation_;            // s, of the lagged flexibility
   std::array<std::vector<int>, 2> kept_;
   std::vector<Coordinate> coordinates_;  // the rigid rotation, then those of gear 0, then those of gear 1
   std::array<int, 2> first_coordinate_{};
+  std::array<Sway, 2> sway_;
   // [tooth] (flank, coordinate of the gear) outward displacement per unit, hub at rest
   mutable std::array<std::map<int, Eigen::MatrixXd>, 2> shape_;
   Eigen::VectorXd error_weight_, torque_force_, frequency_squared_;
+  // (coordinate) m: by how much the flanks close on the line of action, translations of the hubs included
+  Eigen::VectorXd closing_weight_;
   double rigid_frequency_ = 0;  // rad s-1: sqrt(mean stiffness / reduced mass)
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;

@@ -16,18 +16,28 @@ struct HeldMesh {
   double phase = 0;                   // 1: mesh phase
   Eigen::VectorXd frequency_squared;  // (coordinate) rad2 s-2; the first is the rigid rotation, 0
   Eigen::VectorXd damping;            // (coordinate) s-1
-  Eigen::VectorXd torque;             // (coordinate) constant force of the torques
-  Eigen::VectorXd error_weight;       // (coordinate) transmission error per unit
-  Eigen::MatrixXd participation;      // (strip, coordinate)
-  Eigen::MatrixXd local, residual;    // (strip, strip) m N-1
-  Eigen::VectorXd gap;                // (strip) m
-  std::vector<int> first_strip;       // (pair + 1)
+  // (coordinate) rad2 s-2: of frequency_squared, what the bodies hold and bearings do not; empty: all
+  Eigen::VectorXd elastic;
+  double near = 0;               // Hz: where the natural frequency is looked for; 0: the lowest one is meant
+  Eigen::VectorXd torque;        // (coordinate) constant force of the torques
+  Eigen::VectorXd error_weight;  // (coordinate) transmission error per unit
+  // (coordinate) by how much the flanks close per unit, translations of the hubs included; empty: as error_weight
+  Eigen::VectorXd closing_weight;
+  Eigen::MatrixXd participation;    // (strip, coordinate)
+  Eigen::MatrixXd local, residual;  // (strip, strip) m N-1
+  Eigen::VectorXd gap;              // (strip) m
+  std::vector<int> first_strip;     // (pair + 1)
   std::vector<int>
       window_end;  // strips at an end of their window that is no tip edge: no force may stand there
   double next_corner_gap = std::numeric_limits<double>::infinity();  // m, see MeshPosition
   double lost_corner_gap = std::numeric_limits<double>::infinity();  // m
   double relaxation = 0;  // s; 0: the residual flexibility follows at once
   bool newmark = false;
+
+  // m: of coordinates z, what tip edges' gaps are compared with.
+  double closing(const Eigen::VectorXd& z) const {
+    return (closing_weight.size() > 0 ? closing_weight : error_weight).dot(z);
+  }
 };
 
 class HeldMotion {

@@ -75,7 +75,7 @@ Rest rest(const HeldMesh& mesh, double share, ComplementaritySolver& solver) {
                                     0, at.active, solver);
   at.x = e.x;
   at.p = e.p;
-  require_in_reach(mesh, mesh.error_weight.dot(coordinates(mesh, at, share)), at.p);
+  require_in_reach(mesh, mesh.closing(coordinates(mesh, at, share)), at.p);
   return at;
 }
 
@@ -139,6 +139,7 @@ class HeldPair {
     for (int i = 0; i < plan_.phases; ++i) {
       meshes_.push_back(dynamics.hold(i));
       blank_.phase_undamped_frequency[i] = dynamics.frozen_frequency(i);
+      if (model.on_bearings()) meshes_.back().near = blank_.phase_undamped_frequency[i];
       blank_.loaded_pairs[i] = loaded_pairs(meshes_[i], rest(meshes_[i], 1, solver).p);
     }
     const double mean_period = 1 / blank_.phase_undamped_frequency.mean();
@@ -271,7 +272,7 @@ class HeldPair {
   std::pair<RingDown, Decay> decay(const HeldMesh& mesh) const {
     RingDown trace =
         ring_down(mesh, plan_.torque_step, step_, static_cast<int>(blank_.time.size()), kSteps / kSamples);
-    const Decay fit = fit_decay(trace.transmission_error, step_ * kSteps / kSamples);
+    const Decay fit = fit_decay(trace.transmission_error, step_ * kSteps / kSamples, mesh.near);
     if (!(fit.residual <= kMostResidual))
       fail(Failure::numerical, "at mesh phase ", mesh.phase, " damped oscillations leave ", fit.residual,
            " of the decay, above ", kMostResidual,
@@ -325,7 +326,7 @@ RingDown ring_down(const HeldMesh& mesh, double torque_step, double step, int sa
   for (int i = 1; i <= (samples - 1) * stride; ++i) {
     motion.advance();
     result.least_mesh_force = std::min(result.least_mesh_force, motion.p.sum() / mesh_force);
-    require_in_reach(mesh, motion.transmission_error(), motion.p);
+    require_in_reach(mesh, mesh.closing(motion.z), motion.p);
     if (i % stride == 0) result.transmission_error[i / stride] = mesh.error_weight.dot(motion.z - target);
   }
   if (!(result.least_mesh_force > 0))
@@ -369,13 +370,13 @@ DampedRoot frozen_root(const HeldMesh& mesh) {
     fail(Failure::numerical, "at mesh phase ", mesh.phase, " the ", system.rows(),
          " eigenvalues of the held pair were not found: its matrix has a norm of ", system.norm(), " 1/s");
   const Eigen::VectorXcd& roots = eigen.values;
-  // The slowest by its modulus: a high mode near critical damping has a small imaginary part, too.
+  // The slowest by its modulus, or the nearest: a high mode near critical damping has a small imaginary part, too.
   DampedRoot lowest;
-  double least_modulus = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity();
   for (const std::complex<double>& s : roots) {
-    const double modulus = std::abs(s);
-    if (!(s.imag() > kReal * modulus) || modulus >= least_modulus) continue;
-    least_modulus = modulus;
+    const double modulus = std::abs(s), away = std::abs(modulus - 2 * std::numbers::pi * mesh.near);
+    if (!(s.imag() > kReal * modulus) || away >= nearest) continue;
+    nearest = away;
     lowest = {s.imag() / (2 * std::numbers::pi), -s.real() / modulus};
   }
   if (lowest.frequency == 0)
@@ -384,7 +385,7 @@ DampedRoot frozen_root(const HeldMesh& mesh) {
 }
 
 HeldMesh with_rayleigh_stiffness(HeldMesh mesh, double eta, const std::string& body) {
-  mesh.damping += eta * mesh.frequency_squared;  // Eq. 21
+  mesh.damping += eta * (mesh.elastic.size() > 0 ? mesh.elastic : mesh.frequency_squared);  // Eq. 21
   mesh.relaxation = body == "quasi-static" ? 0 : eta;
   return mesh;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "files/fit.h"
 #include "motion/loaded_view.h"
 #include "solid/loaded_gear.h"
 
@@ -63,6 +64,7 @@ struct GridPart {
 LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& driven_mesh,
                            const BodyArtifact& driver, const BodyArtifact& driven,
                            const StaticArtifact& statics, double phase, int period) {
+  require_rigid_bearings(statics.mesh, "the view of loaded gears");
   const std::vector<ContactZone> zones = contact_zones(driver, driven, statics, phase, period);
   const GearPair gears(statics.driver, statics.driven, statics.mesh.centre_distance);
   const MeshArtifact* const mesh[2] = {&driver_mesh, &driven_mesh};

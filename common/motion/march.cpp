@@ -851,6 +851,8 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
             fields = kFields * pairs;
   period.transmission_error.resize(steps_);
   period.pair_load.setZero(pairs, steps_);
+  for (int g = 0; g < 2; ++g)
+    if (sway_[g].count > 0) period.bearing_force[g].resize(2, steps_);
   period.drift_force = period.least_gap = period.least_force = 0;
   period.fallbacks = 0;
   for (int g = 0; g < 2; ++g)
@@ -899,7 +901,7 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     Position& position = positions_[sample * stride_];
     const int present = position.frame.present;
     // Where nobody looks at the instant that this step ends at, the next one begins before its contact is known.
-    const bool ahead = !ledger && i + 1 < steps_;
+    const bool ahead = !ledger && !floating_ && i + 1 < steps_;
 
     // What the step would bring without new contact force.
     if (!propagated) {
@@ -943,6 +945,10 @@ bool RollingDynamics::march(Contact contact, State& state, Period& period, Ledge
     }
 
     period.transmission_error[sample] = error;
+    if (floating_) {
+      take_bearing_force(period, sample);
+      error = closing_weight_.dot(work_.z.head(closing_weight_.size()));
+    }
     if (error > position.frame.lost_corner_gap)
       refuse(Failure::numerical, "at mesh phase ", position.mesh.phase, " the transmission error ",
              error * 1e6, " micrometres closes the gap of ", position.mesh.lost_corner_gap * 1e6,

@@ -76,7 +76,13 @@ struct GearMeshModel {
   std::array<ElasticGear, 2> gear;
   CornerRule corner;
   std::array<FlankDeviation, 2> deviation;
+  std::array<Bearing, 2> bearing;
 
+  bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
+  // Of gear g: outward displacement of its flank per unit translation of its hub, in the frame of placed().
+  Vec2 outward(int g, const PairContact& contact = {}) const {
+    return (g == 0 ? 1.0 : -1.0) * contact_normal(kinematics, contact);
+  }
   // Tooth of gear g that works in pair `pair`: pairs count in the sense of motion, teeth counter-clockwise.
   static int tooth(int g, int pair) { return g == 0 ? pair : -pair; }
   // Flanks of a pair `period` mesh periods after tooth 0 of both gears met at the pitch point: the reference pair is then that
@@ -175,10 +181,20 @@ Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition&
 Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
                                 const std::vector<Eigen::MatrixXd>& tables);
 
+// (strip, 2) 1: outward displacement of the flanks of gear g per unit translation of its hub along x and y.
+Eigen::MatrixXd hub_translation(const GearMeshModel& model, const MeshPosition& position, int g);
+
+// Adds what elastic bearings give way between all strips, sum over the gears of N N^T / k; a: (strip, strip) m N-1.
+void add_bearings(const GearMeshModel& model, const MeshPosition& position, Eigen::MatrixXd& a);
+
+// N, in the frame of placed(): what gear g presses its bearing with under the forces p (strip, N).
+Vec2 bearing_force(const GearMeshModel& model, const MeshPosition& position, int g,
+                   const Eigen::Ref<const Eigen::VectorXd>& p);
+
 // m N-1: ElasticGear::compliance for every stored tooth offset, from the most negative on, as body_compliance takes them.
 std::vector<Eigen::MatrixXd> compliance_tables(const ElasticGear& gear, double depth);
 
-// (strip, strip) m N-1: half-planes and bodies, `tables` of both gears relative to `depth`; not of lines.
+// (strip, strip) m N-1: half-planes, bodies and bearings, `tables` of both gears relative to `depth`; not of lines.
 Eigen::MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
                                    const std::array<std::vector<Eigen::MatrixXd>, 2>& tables, double depth);
 

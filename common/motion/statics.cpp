@@ -32,6 +32,8 @@ struct Loaded {
 struct PositionAnswer {
   Equilibrium equilibrium;
   std::vector<Loaded> loads;
+  std::array<Vec2, 2> bearing_force;                // N, see bearing_force(); of gears on bearings
+  double deflection = 0;                            // m: what the mesh alone gives way, without bearings
   double next_corner_gap = 0, lost_corner_gap = 0;  // m, see PairsInReach
   bool leaves_window = false;                       // a wider range may do
 };
@@ -80,6 +82,16 @@ std::array<std::vector<MatrixXd>, 2> strips_tables(const GearMeshModel& model) {
   return {compliance_tables(model.gear[0], kStripsDepth), compliance_tables(model.gear[1], kStripsDepth)};
 }
 
+// From the equilibrium: the bearings' forces, and what is left of the transmission error for the mesh.
+void take_bearings(const GearMeshModel& model, const MeshPosition& position, PositionAnswer& answer) {
+  answer.deflection = answer.equilibrium.x;
+  for (int g = 0; g < 2; ++g) {
+    if (!model.bearing[g].elastic()) continue;
+    answer.bearing_force[g] = bearing_force(model, position, g, answer.equilibrium.p);
+    answer.deflection += model.outward(g).dot(answer.bearing_force[g]) / model.bearing[g].stiffness;
+  }
+}
+
 ContactRung strips_rung(const GearMeshModel& model, const ContactRange& range, double load,
                         double face_width) {
   return [&model, range, load, face_width, tables = strips_tables(model), solver = ComplementaritySolver(),
@@ -102,6 +114,7 @@ ContactRung strips_rung(const GearMeshModel& model, const ContactRange& range, d
     const VectorXd& p = answer.equilibrium.p;
     answer.leaves_window = position.reaches_window_end(p);
     const VectorXd pair_loads = position.pair_loads(p);
+    take_bearings(model, position, answer);
     for (size_t j = 0; j < position.pairs.size(); ++j)
       answer.loads.push_back(
           {position.pairs[j].pair, pair_loads[j],
@@ -124,11 +137,13 @@ ContactRung line_rung(const GearMeshModel& model, const ContactRange& range, dou
             make_line_position(model, phase, range.corner_gap, depth, shared_force(load), period);
         MatrixXd c = body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]);
         if (const MatrixXd cracks = crack_compliance(model, position, period); cracks.size() > 0) c += cracks;
+        add_bearings(model, position, c);
         const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
         PositionAnswer answer;
         answer.equilibrium = equilibrium(c, position.law, position.gap, approach, load, start);
         answer.next_corner_gap = position.next_corner_gap;
         answer.lost_corner_gap = position.lost_corner_gap;
+        take_bearings(model, position, answer);
         const VectorXd& force = answer.equilibrium.p;
         require_line_range(position, force);
         for (size_t j = 0; j < position.pairs.size(); ++j) {
@@ -183,18 +198,26 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
     const Equilibrium& e = answer.equilibrium;
     start[period] = e.x;
     if (answer.leaves_window) return text("at mesh phase ", phase, " the pressure reaches the window's end");
-    if (e.x > answer.lost_corner_gap)
-      refuse(Failure::numerical, "at mesh phase ", phase, " the deflection ", e.x * 1e6,
+    const double deflection = answer.deflection;
+    if (deflection > answer.lost_corner_gap)
+      refuse(Failure::numerical, "at mesh phase ", phase, " the deflection ", deflection * 1e6,
              " micrometres closes the gap of a tip edge that would touch below the involute (gap ",
              answer.lost_corner_gap * 1e6, " micrometres); lower the torque or set corner_contact = false");
-    if (e.x > answer.next_corner_gap)
-      return text("at mesh phase ", phase, " the deflection ", e.x * 1e6,
+    if (deflection > answer.next_corner_gap)
+      return text("at mesh phase ", phase, " the deflection ", deflection * 1e6,
                   " micrometres closes a tip edge's gap of ", answer.next_corner_gap * 1e6, " micrometres");
     result.mesh_phase[i] = period + phase;
     result.transmission_error[i] = e.x;
     result.unloaded_error[i] = unloaded_transmission_error(model, phase, period);
-    result.stiffness_secant[i] = load / (e.x - result.unloaded_error[i]);
+    result.stiffness_secant[i] = load / (deflection - result.unloaded_error[i]);
     result.stiffness_tangent[i] = e.stiffness;
+    for (int g = 0; g < 2; ++g) {
+      const Bearing& bearing = model.bearing[g];
+      if (!bearing.elastic()) continue;
+      result.bearing_force[g].row(i) = answer.bearing_force[g].transpose();
+      // In series on the line of action; that a corner's normal is tilted against it is left out here.
+      result.stiffness_tangent[i] = 1 / (1 / result.stiffness_tangent[i] - 1 / bearing.stiffness);
+    }
     result.torque_residual = std::max(result.torque_residual, e.residual);
     result.least_gap = std::min(result.least_gap, e.certificate.least_gap);
     result.least_force = std::min(result.least_force, e.certificate.least_force);
@@ -247,6 +270,8 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   for (VectorXd* v : {&result.mesh_phase, &result.transmission_error, &result.unloaded_error,
                       &result.stiffness_secant, &result.stiffness_tangent})
     v->resize(positions * result.hunting_periods);
+  for (int g = 0; g < 2; ++g)
+    if (model.bearing[g].elastic()) result.bearing_force[g].resize(positions * result.hunting_periods, 2);
 
   double widening = 1;
   for (int attempt = 0;; ++attempt) {
@@ -310,7 +335,10 @@ std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArt
     if (const MatrixXd cracks = crack_compliance(model, s.position, period); cracks.size() > 0)
       s = with_cracks(s, cracks);
     const Equilibrium e = equilibrium(s, load, 0.0, solver);
-    if (s.position.reaches_window_end(e.p) || e.x > s.position.next_corner_gap) continue;
+    PositionAnswer answer;
+    answer.equilibrium = e;
+    take_bearings(model, s.position, answer);
+    if (s.position.reaches_window_end(e.p) || answer.deflection > s.position.next_corner_gap) continue;
     const VectorXd separation = s.compliance * e.p + s.position.gap - e.x * s.approach;
     std::vector<ContactZone> zones;
     for (size_t j = 0; j < s.position.pairs.size(); ++j) {

@@ -42,6 +42,8 @@ double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
 void begin_with_end_of(const RollingDynamics::Period& before, RollingDynamics::Period& period) {
   period.transmission_error[0] = before.transmission_error[0];
   if (before.pair_load.rows() == period.pair_load.rows()) period.pair_load.col(0) = before.pair_load.col(0);
+  for (size_t g = 0; g < 2; ++g)
+    if (period.bearing_force[g].size() > 0) period.bearing_force[g].col(0) = before.bearing_force[g].col(0);
 }
 
 // Sum of weight times state. States of another range know more or fewer teeth than the last, or have other strips, whose

@@ -431,7 +431,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   result.driven_bearing_damper = sweeper.dynamics().bearing_damper(1);
   result.natural_frequency = sweeper.natural_frequency();
   result.hunting_periods = sweeper.hunting_periods();
-  require_memory(result.hunting_periods, speeds, slice, 2 * sweeper.dynamics().reach() + 1,
+  require_memory(result.hunting_periods, speeds, slice,
+                 2 * sweeper.dynamics().reach() + 1 + (model.on_bearings() ? 4 : 0),
                  static_cast<double>(sweeper.dynamics().difference(sweeper.state(), sweeper.state()).size()));
   result.direction = direction;
   result.mesh_frequency.resize(speeds);
@@ -481,6 +482,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   double least_error = std::numeric_limits<double>::infinity();
   for (int i = 0; i < speeds; ++i) {
     MatrixRM loads = MatrixRM::Zero(longest * samples, 2 * reach + 1);
+    for (int g = 0; g < 2; ++g)
+      if (model.bearing[g].elastic()) result.bearing_force[g].emplace_back(longest * samples, 2);
     for (const RollingDynamics::Period& period : steady[i].record) {
       least_error = std::min(least_error, period.transmission_error.minCoeff());
       result.drift_force[i] = std::max(result.drift_force[i], period.drift_force);
@@ -498,6 +501,9 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
         loads.row(row).segment(reach - own_reach, 2 * own_reach + 1) =
             period.pair_load.col(n * stride).transpose();
         result.mesh_force(i, row) = loads.row(row).sum();
+        for (int g = 0; g < 2; ++g)
+          if (model.bearing[g].elastic())
+            result.bearing_force[g].back().row(row) = period.bearing_force[g].col(n * stride).transpose();
       }
     }
     result.tooth_load.push_back(std::move(loads));

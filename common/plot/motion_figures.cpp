@@ -652,6 +652,57 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   return figure;
 }
 
+Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told) {
+  const auto panels = panels_of(sweeps, told);
+  if (panels.size() != 1 || panels[0].curves.size() != 1)
+    fail(Failure::input, "figure: sweeps of ",
+         panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
+         " torques or sets of choices given; bearing forces against speed are of one");
+  const auto& curve = panels[0].curves[0];
+  const GearMeshSpec& mesh = curve.up->mesh;
+  if (!mesh.on_bearings())
+    fail(Failure::input,
+         "figure: no gear of this pair is on an elastic bearing; add [[bearing]] to the scene");
+  Figure figure;
+  figure.title = "Forces on the bearings against mesh frequency, " + torque_words(curve.up->torque);
+  figure.notes = {operating_words(panels[0], told), panels[0].choices};
+  std::string labels;
+  double rms = 0, most = 0;
+  int curves = 0;
+  for (int g = 0; g < 2; ++g) {
+    const Bearing& bearing = mesh.bearing[g];
+    if (!bearing.elastic()) continue;
+    ++curves;
+    labels += text("'", mesh.gear(g), ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
+    for (const ResponseArtifact* r : {curve.up, curve.down}) {
+      const std::string name = text(curves, " ", r->direction);
+      FigureBlock block{name,
+                        {"mesh_frequency [Hz]", "bearing_force_rms [N]", "bearing_force_max [N]"},
+                        {},
+                        "forces",
+                        mesh.gear(g) + " " + r->direction};
+      const std::vector<bool> broken = broken_after(*r);
+      for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
+        block.rows.push_back({r->mesh_frequency[i], r->bearing_force_rms[g][i], r->bearing_force_max[g][i]});
+        if (broken[i]) block.rows.emplace_back();
+      }
+      rms = std::max(rms, r->bearing_force_rms[g].maxCoeff());
+      most = std::max(most, r->bearing_force_max[g].maxCoeff());
+      figure.blocks.push_back(block);
+    }
+  }
+  figure.words.emplace_back("labels", labels);
+  const GearPair gears(curve.up->driver, curve.up->driven, mesh.centre_distance);
+  figure.numbers = {{"curves", curves},
+                    {"rms_max", rms},
+                    {"force_max", most},
+                    {"static_force", curve.up->torque / gears.gear(0).base_radius()},
+                    {"frequency_from", curve.up->mesh_frequency.minCoeff()},
+                    {"frequency_to", curve.up->mesh_frequency.maxCoeff()},
+                    {"natural_frequency", curve.up->natural_frequency}};
+  return figure;
+}
+
 Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
   constexpr Eigen::Index kMostSpectra = 160;
   constexpr int kOrders = 5;

@@ -34,6 +34,11 @@ Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_f
 // torques or sets of choices, else as response_figure.
 Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background told = {});
 
+// Force of each gear on its elastic bearing against mesh frequency for both directions of the sweep: RMS of what of it oscillates,
+// and the largest. Throws Error(input) for gears on rigid bearings, for sweeps of two torques or sets of choices, else as
+// response_figure.
+Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told = {});
+
 // Spectra of the DTE, one above the other by mesh frequency (40 at most), and the amplitudes of the first orders of the mesh
 // frequency at every speed, of one sweep or of both directions of one. Amplitudes below 1e-4 of the largest are left out of the
 // spectra. Throws Error(input) for more sweeps, or two that are not of one torque and set of choices.

@@ -231,6 +231,17 @@ std::vector<Result> results_of(const ReportContent& c) {
       add("mesh frequency of that tooth load" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
       add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
       add(kNominalPressure + way, "MPa", fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
+      for (int g = 0; g < 2; ++g)
+        if (r.bearing_force_rms[g].size() > 0) {
+          const std::string of = "force on the bearing of " + s.mesh.gear(g);
+          const double force = r.bearing_force_rms[g].maxCoeff(&at);
+          beyond = beyond_backlash(*sweep, at) ? kBeyond : "";
+          add("largest RMS of the oscillating " + of + way, "N", fixed(force, 0), beyond);
+          add("mesh frequency of that RMS, " + s.mesh.gear(g) + way, "Hz", hertz(r.mesh_frequency[at]),
+              beyond);
+          add("largest " + of + way, "N", fixed(r.bearing_force_max[g].maxCoeff(&at), 0),
+              beyond_backlash(*sweep, at) ? kBeyond : "");
+        }
       add("jumps" + way, "Hz", jumps_of(r));
       if (const std::string speeds = speeds_beyond_backlash(*sweep); !speeds.empty())
         add("motion beyond the backlash" + way, "Hz", speeds);
@@ -310,6 +321,18 @@ std::string gears_table(const ReportContent& c) {
                     total(1, s.driven_material, a.driven_inertia)});
   }
   rows.push_back({"flanks", "", in_words(s.mesh.modification[0]), in_words(s.mesh.modification[1])});
+  if (s.mesh.on_bearings()) {
+    const auto of_bearing = [&](const char* what, const char* unit, double scale, double Bearing::*number,
+                                const char* none) {
+      const auto value = [&](const Bearing& b) {
+        return !b.elastic() ? "rigid" : b.*number == 0 ? none : shown(b.*number * scale, 5);
+      };
+      rows.push_back({what, unit, value(s.mesh.bearing[0]), value(s.mesh.bearing[1])});
+    };
+    of_bearing("radial stiffness of the bearing", "N/µm", 1e-6, &Bearing::stiffness, "0");
+    of_bearing("radial damping of the bearing", "N s/m", 1, &Bearing::damping, "0");
+    of_bearing("mass on the bearing", "kg", 1, &Bearing::mass, "as drawn");
+  }
   return table(text("The gears: ", s.mesh.driver, " drives ", s.mesh.driven, "."),
                {"", "unit", s.mesh.driver + " (driver)", s.mesh.driven + " (driven)"}, rows) +
          table("Their mesh.", {"", "unit", "value"},
@@ -583,6 +606,21 @@ std::string of_tooth_loads(const ReportContent& c) {
   return out + beyond_words(c, s.torque);
 }
 
+std::string of_bearings(const ReportContent& c) {
+  return "Force of each gear on its bearing against mesh frequency: what a housing hears. RMS of the "
+         "oscillating part, at most " +
+         at_torques(c,
+                    [&](const StaticArtifact& s) {
+                      double most = 0;
+                      for (const char* direction : {"up", "down"})
+                        if (const ReportSweep* sweep = sweep_of(c, s.torque, direction))
+                          for (const Eigen::VectorXd& rms : sweep->response.bearing_force_rms)
+                            if (rms.size() > 0) most = std::max(most, rms.maxCoeff());
+                      return fixed(most, 0) + " N";
+                    }) +
+         ", and the largest force, beside the load at rest.";
+}
+
 std::string of_budget(const ReportContent& c) {
   if (!c.budget) return "";
   return text("Error budget of the statics at ", torque_words(c.budget->torque),
@@ -627,6 +665,7 @@ const std::vector<Explained>& explained() {
        plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
       {"waterfall", "motion", "Spectra over speed", of_waterfall},
       {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
+      {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};
   return all;
 }

@@ -19,10 +19,11 @@ namespace {
 constexpr int kMostRoots = 12;
 constexpr double kNoise = 1e-9;  // singular values below this share of the largest are round-off
 constexpr double kStrong = 0.1;  // share of the strongest pair's energy that makes a pair count
+constexpr double kThere = 1e-6;  // the same where the frequency is known
 constexpr int kLeastSamples = 16;
 }  // namespace
 
-Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step) {
+Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step, double near) {
   const Eigen::Index n = samples.size(), pencil = n / 3;
   if (n < kLeastSamples)
     fail(Failure::input, "a decay of ", n, " samples is too short, ", kLeastSamples, " are needed");
@@ -60,12 +61,15 @@ Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step) {
   for (Eigen::Index k = 0; k < roots; ++k)
     if (swings(k)) strongest = std::max(strongest, energy[k]);
   Decay decay;
+  double least = 0;
   for (Eigen::Index k = 0; k < roots; ++k) {
-    if (!swings(k) || energy[k] < kStrong * strongest) continue;
+    if (!swings(k) || energy[k] < (near > 0 ? kThere : kStrong) * strongest) continue;
     const std::complex<double> s = std::log(z[k]) / step;
-    const double frequency = s.imag() / (2 * std::numbers::pi);
-    if (decay.root.frequency == 0 || frequency < decay.root.frequency)
-      decay.root = {frequency, -s.real() / std::abs(s)};
+    const double frequency = s.imag() / (2 * std::numbers::pi),
+                 away = near > 0 ? std::abs(std::abs(s) / (2 * std::numbers::pi) - near) : frequency;
+    if (decay.root.frequency != 0 && away >= least) continue;
+    least = away;
+    decay.root = {frequency, -s.real() / std::abs(s)};
   }
   if (decay.root.frequency == 0)
     fail(Failure::numerical, "nothing oscillates in the decay: it is damped above critical, or grows");

@@ -16,14 +16,16 @@ struct DampedRoot {
 };
 
 struct Decay {
-  DampedRoot
-      root;  // lowest frequency among the pairs that hold a tenth of the strongest one's energy or more
+  // Lowest frequency among the pairs that hold a tenth of the strongest one's energy or more; or, asked for, the one whose
+  // modulus is nearest to a frequency, among those that hold a millionth.
+  DampedRoot root;
   double residual = 0;  // 1: RMS of samples less all exponentials over RMS of samples
 };
 
 // samples: (sample) of a signal that decays to zero, at equal steps (s) from any start on; several oscillations, and
 // more than two samples in each. Throws Error(input) for fewer than 16 samples, values that are not finite, or no
 // signal; Error(numerical) if nothing in it oscillates and decays.
-Decay fit_decay(const Eigen::Ref<const Eigen::VectorXd>& samples, double step);
+// near: Hz, 0 for the lowest.
+Decay fit_decay(const Eigen::Ref<const Eigen::VectorXd>& samples, double step, double near = 0);
 
 }  // namespace whine

@@ -40,6 +40,11 @@ void require_shapes(const SweepArtifact& s) {
       fail(Failure::input, "sweep: period_multiple is ", s.period_multiple[f], " at ", s.mesh_frequency[f],
            " Hz; 0 is the least, and ", s.transmission_error.cols(), " samples of ", s.time.steps_per_period,
            " per period the most");
+    for (const auto& force : s.bearing_force)
+      if (!force.empty() && (static_cast<Eigen::Index>(force.size()) != speeds || force[f].cols() != 2 ||
+                             force[f].rows() != s.transmission_error.cols()))
+        fail(Failure::input, "sweep: bearing_force does not fit ", s.transmission_error.cols(),
+             " samples of ", speeds, " speeds");
     const MatrixRM& load = s.tooth_load[f];
     if (load.rows() != s.transmission_error.cols() || load.cols() < 1)
       fail(Failure::input, "sweep: tooth_load is ", load.rows(), " x ", load.cols(), " at ",
@@ -138,6 +143,9 @@ ResponseArtifact response(const SweepArtifact& s) {
   if (s.hunting_periods > 1) r.dte_order.resize(speeds, count * s.hunting_periods);
   r.tooth_load_max.resize(speeds);
   r.mesh_force_max.resize(speeds);
+  for (size_t g = 0; g < 2; ++g)
+    if (!s.bearing_force[g].empty())
+      for (Eigen::VectorXd* v : {&r.bearing_force_max[g], &r.bearing_force_rms[g]}) v->resize(speeds);
   r.separation_fraction.resize(speeds);
   r.separations_per_period.resize(speeds);
   for (Eigen::Index f = 0; f < speeds; ++f) {
@@ -154,6 +162,13 @@ ResponseArtifact response(const SweepArtifact& s) {
                                .amplitude.transpose();
     r.tooth_load_max[f] = s.tooth_load[f].maxCoeff();
     r.mesh_force_max[f] = s.mesh_force.row(f).maxCoeff();
+    for (size_t g = 0; g < 2; ++g) {
+      if (s.bearing_force[g].empty()) continue;
+      const auto force = s.bearing_force[g][f].topRows(samples);
+      r.bearing_force_max[g][f] = force.rowwise().norm().maxCoeff();
+      r.bearing_force_rms[g][f] =
+          std::sqrt((force.rowwise() - force.colwise().mean()).rowwise().squaredNorm().mean());
+    }
     r.separation_fraction[f] = apart.fraction;
     r.separations_per_period[f] = static_cast<double>(apart.intervals) / periods;
   }

@@ -149,7 +149,9 @@ double beside_flat_surface(const LineLoadField& field, const ToothGeometry& toot
 struct KeptMode {
   int harmonic = 0;
   double omega_squared = 0;
-  double coupling = 0;      // gamma
+  double coupling = 0;  // gamma
+  // kg^1/2: phi^H M_fr t over the whole gear, t the translation along x plus i times that along y
+  Complex translation;
   Eigen::VectorXcd sector;  // (2 node) kg^-1/2, normalised over the whole gear
   Eigen::VectorXcd flank;   // (point) kg^-1/2
 };
@@ -358,6 +360,11 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   const PlaneSystem system = assemble(mesh.node_position, mesh.element_node, material, thickness);
   const Eigen::VectorXd rotation = rotation_field(mesh.node_position);
   const Eigen::VectorXd momentum = system.mass * rotation;
+  // Of unit translations along x and, imaginary, y. Seen from a tooth that is turned by an angle a this is exp(i a) (1, i):
+  // harmonic 1, so that modes of no other number of diameters couple with it.
+  const Eigen::VectorXcd translation =
+      (Eigen::Vector2cd(1, Complex(0, 1))).replicate(mesh.node_position.rows(), 1);
+  const Eigen::VectorXcd linear_momentum = system.mass.cast<Complex>() * translation;
   const CyclicSector sector(mesh, system);
   if (all && sector.size() > kMostDense)
     fail(Failure::input, "body = \"full\" wants all ", static_cast<long>(sector.size()) * teeth, " modes of ",
@@ -406,6 +413,8 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
       if (sector.single(n)) mode.sector = mode.sector.real().cast<Complex>().eval();
       mode.flank = outward.cast<Complex>() * mode.sector;
       if (n == 0) mode.coupling = teeth * mode.sector.real().dot(momentum);
+      // Half: of the products of two harmonics over all teeth.
+      if (n == 1) mode.translation = 0.5 * teeth * mode.sector.dot(linear_momentum);
       if (k >= kDrawnModes) mode.sector.resize(0);  // of all modes together: gigabytes
       found.push_back(std::move(mode));
     }
@@ -431,10 +440,12 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   body.discretisation = mesh.discretisation;
   body.discretisation.modes = modes;
   body.inertia = teeth * rotation.dot(momentum);
+  body.mass = 0.5 * teeth * translation.dot(linear_momentum).real();
   body.eigenfrequency.resize(real_modes);
   body.nodal_diameter.resize(real_modes);
   body.component.resize(real_modes);
   body.inertia_coupling = Eigen::VectorXd::Zero(real_modes);
+  body.translation_coupling = MatrixRM::Zero(real_modes, 2);
   body.flank_position = xi;
   body.flank_mode.resize(points, real_modes);
   body.reference_depth = kReferenceDepth;
@@ -460,6 +471,9 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
       body.nodal_diameter[column] = mode.harmonic;
       body.component[column] = component;
       body.inertia_coupling[column] = mode.coupling;
+      // Re phi and Im phi against the real and imaginary parts of t.
+      const Complex towards = component == 0 ? mode.translation : Complex(0, 1) * mode.translation;
+      body.translation_coupling.row(column) << towards.real(), towards.imag();
       body.flank_mode.col(column) = (quarter * mode.flank).real();
       if (column >= kDrawnModes) continue;
       char name[64];
