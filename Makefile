@@ -104,7 +104,7 @@ $(filter $(B)/obj/common/files/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
 # A library for each room, from the top floor down as the linker wants them. The folder stands for its list of files: a
 # source that goes away leaves the library, too.
-rooms := paper plot lumped motion signal contact solid gear files base
+rooms := paper plot lumped motion orbits signal contact solid gear files base
 rooms := $(filter $(notdir $(wildcard common/*)),$(rooms)) $(filter-out $(rooms),$(notdir $(wildcard common/*)))
 define room_rules # room
 $(B)/lib/lib$1.a: $(filter $(B)/obj/common/$1/%,$(library)) common/$1 | $(B)/lib/
