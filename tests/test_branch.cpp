@@ -426,3 +426,65 @@ TEST_CASE("orbits: the verdict on a lumped orbit does not depend on where its pe
     }
   }
 }
+
+TEST_CASE("orbits: the branch of the elastic pair through both folds, beside marching") {
+  const StaticArtifact statics = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
+  const GearMeshModel model(paper_body(), paper_body(), statics.mesh);
+  DynamicParameters parameters = paper_parameters(statics.mean_stiffness);
+  parameters.damping.rayleigh_stiffness = 5.5e-6;
+  RollingDynamics dynamics(model, parameters);
+  dynamics.set_range(contact_range(model, statics, MotionBounds(model, statics, 4.1)), 128);
+  RollingPeriodMap map(dynamics, 128);
+  map.set_parameter(2900);
+  RollingDynamics::State state = dynamics.rest();
+  REQUIRE(settle(dynamics, state, 1e-8, "extrapolate"));
+  BranchSettings settings;
+  settings.low = 1700;
+  settings.high = 2950;
+  settings.scale = 2400;
+  settings.location = 1e-7;
+  settings.largest_step = 0.3;
+  const OrbitBranch branch = follow_branch(map, orbit_at(map, map.flat(state), 2900), -1, settings);
+  std::string path;
+  for (const SpecialPoint& p : branch.special)
+    path += text("\n", name(p.kind), " at ", p.parameter, " Hz, ", p.smooth ? "smooth" : "kink",
+                 ", multipliers ", p.before.real(), " and ", p.after.real(), ", contact ", p.event.contact,
+                 p.event.closes ? " closes" : " opens");
+  MESSAGE(branch.points.size() << " points, " << branch.end << path);
+  CHECK(branch.reached_limit);
+  CHECK(branch.points.back().parameter == relative(1700, 1e-12));
+  const auto folds = of_kind(branch, Special::fold);
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0].parameter < folds[1].parameter);
+  for (const SpecialPoint& fold : folds)
+    CHECK((fold.smooth || (fold.before.real() - 1) * (fold.after.real() - 1) < 0));
+  int marched = 0, unstable = 0;
+  for (size_t i = 0; i < branch.points.size(); ++i) {
+    const BranchPosition& p = branch.points[i];
+    const bool between = p.turn > 0;
+    CHECK(p.stable() == !between);
+    CHECK(p.residual < 1e-8);
+    if (i % 8 != 0) continue;
+    map.set_parameter(p.parameter);
+    if (!between) {
+      // Marching stays.
+      VectorXd y = p.start;
+      for (int k = 0; k < 60; ++k) y = map.apply(y);
+      CHECK((y - p.start).norm() < 1e-7 * p.start.norm());
+      ++marched;
+      continue;
+    }
+    // Marching leaves it by its multiplier a period, and differences of the map see that, too.
+    CHECK((map.apply(p.start) - p.start).norm() < 1e-8 * p.start.norm());
+    const MatrixXd tangent = map.tangent();
+    VectorXd along = VectorXd::Ones(map.size());
+    for (int k = 0; k < 200; ++k) along = (tangent * along).normalized();
+    constexpr double kStep = 1e-6;
+    const VectorXd difference =
+        (map.apply(p.start + kStep * along) - map.apply(p.start - kStep * along)) / (2 * kStep);
+    CHECK(difference.dot(along) == relative(p.multipliers[0].real(), 1e-3));
+    ++unstable;
+  }
+  CHECK(marched >= 2);
+  CHECK(unstable >= 2);
+}

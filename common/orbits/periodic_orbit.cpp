@@ -14,11 +14,41 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
+namespace {
+
+// Orthonormal columns that span those of m but for round-off, by Gram and Schmidt with column pivots, twice.
+MatrixXd range(MatrixXd m) {
+  constexpr double kNothing = 1e-15;  // of the largest column
+  VectorXd size = m.colwise().norm();
+  const double least = kNothing * size.maxCoeff();
+  MatrixXd q(m.rows(), m.cols());
+  Eigen::Index rank = 0;
+  for (; rank < m.cols(); ++rank) {
+    Eigen::Index pivot;
+    if (!(size.maxCoeff(&pivot) > least)) break;
+    VectorXd column = m.col(pivot);
+    column -= q.leftCols(rank) * (q.leftCols(rank).transpose() * column);
+    q.col(rank) = column / column.norm();
+    m -= q.col(rank) * (q.col(rank).transpose() * m).eval();
+    size = m.colwise().norm();
+    size[pivot] = 0;
+  }
+  return q.leftCols(rank);
+}
+
+}  // namespace
+
+// A motion forgets most of its state within a period: eigenvalues but 0 are those on the range.
 VectorXcd sorted_multipliers(const MatrixXd& monodromy) {
-  const GeneralEigenvalues found = general_eigenvalues(monodromy);
-  if (!found.converged)
-    fail(Failure::numerical, "the multipliers of an orbit of ", monodromy.rows(), " numbers were not found");
-  VectorXcd values = found.values;
+  const MatrixXd q = range(monodromy);
+  VectorXcd values = VectorXcd::Zero(monodromy.rows());
+  if (q.cols() > 0) {
+    const GeneralEigenvalues found = general_eigenvalues(q.transpose() * (monodromy * q));
+    if (!found.converged)
+      fail(Failure::numerical, "the multipliers of an orbit of ", monodromy.rows(),
+           " numbers were not found");
+    values.head(q.cols()) = found.values;
+  }
   std::stable_sort(values.begin(), values.end(),
                    [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return values;
