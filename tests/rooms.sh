@@ -7,11 +7,12 @@ declare -A below=(
   [gear]="base files gear"
   [solid]="base files gear solid"
   [contact]="base files gear solid contact"
-  [motion]="base files gear solid contact signal motion"
+  [orbits]="base orbits"
+  [motion]="base files gear solid contact signal orbits motion"
   [signal]="base files signal"
-  [lumped]="base files gear solid contact signal lumped"
-  [plot]="base files gear solid contact signal lumped motion plot"
-  [paper]="base files gear solid contact signal lumped motion plot paper"
+  [lumped]="base files gear solid contact signal orbits lumped"
+  [plot]="base files gear solid contact signal orbits lumped motion plot"
+  [paper]="base files gear solid contact signal orbits lumped motion plot paper"
 )
 faults=$(for file in common/*/*.h common/*/*.cpp; do
   room=$(basename "$(dirname "$file")")

@@ -461,6 +461,27 @@ LumpedRecord LumpedOscillator::record(State& state, LumpedLedger& ledger) {
   return out;
 }
 
+std::vector<LumpedCrossing> LumpedOscillator::crossings(State state) {
+  std::vector<LumpedCrossing> all;
+  double x = state[0] / length_, v = state[1] / (length_ * rate_), time = 0;
+  int border = -1;  // that x is above; -1: not known
+  for (Piece& piece : marching_) {
+    const std::vector<Region>& regions = cells_[piece.cell].regions;
+    const auto visit = [&](const Region& r, double, double, double duration, double, double) {
+      const int now = static_cast<int>(&r - regions.data());
+      for (; border >= 0 && border < now; ++border) all.push_back({border + 1, true, time / period_});
+      for (; border > now; --border) all.push_back({border, false, time / period_});
+      border = now;
+      time += duration;
+    };
+    if (newmark_steps_ > 0)
+      run_newmark(piece, x, v, nullptr, visit);
+    else
+      run_exact(piece, x, v, nullptr, visit);
+  }
+  return all;
+}
+
 double LumpedOscillator::frequency_at(double phase) const {
   const double wrapped = phase - std::floor(phase);
   std::size_t c = 0;

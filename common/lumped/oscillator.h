@@ -42,6 +42,13 @@ struct LumpedRecord {
   int separations = 0;  // times at which x falls below all gaps
 };
 
+// x rises above, or falls below, border `border` of its cell's gaps, the lowest being 1, at a phase of the mesh period.
+struct LumpedCrossing {
+  int border;
+  bool rises;
+  double phase;
+};
+
 class LumpedOscillator {
  public:
   using State = Eigen::Vector2d;   // x in m, x' in m s-1
@@ -61,11 +68,16 @@ class LumpedOscillator {
   // The same, and what happens in between; ledger is added to.
   LumpedRecord record(State& state, LumpedLedger& ledger);
 
+  // Borders that the motion of one mesh period from this state crosses, in their order; where cells change also those that
+  // move across x.
+  std::vector<LumpedCrossing> crossings(State state);
+
   // At rest under F in the springs of phase 0.
   State rest() const;
   // Size of a difference of states: m over F / mean stiffness, m s-1 over that times the natural frequency.
   double size(const State& difference) const;
-  double reference() const { return length_; }             // m: F / mean_stiffness()
+  State unit() const { return State(length_, length_ * rate_); }  // of size
+  double reference() const { return length_; }                    // m: F / mean_stiffness()
   double mean_stiffness() const { return stiffness_; }     // N m-1: mean of F / x, x at rest in each cell
   double natural_frequency() const { return frequency_; }  // Hz: sqrt(mean stiffness / mass) / 2 pi
   double mean_frequency() const {

@@ -163,6 +163,7 @@ class RollingDynamics {
   double static_deflection() const { return static_deflection_; }  // m, transmission error of rest()
 
  private:
+  friend class RollingPeriodMap;  // replays a period for its tangent
   struct Coordinate {
     int gear = -1;                // -1: the rigid rotation
     double frequency = 0;         // rad s-1

@@ -1,0 +1,87 @@
+// Branches of periodic orbits over a parameter: pseudo-arclength continuation, and what happens on the way.
+//
+// Unknowns u = (y, parameter / scale) with P^m(y) = y; the parameter is positive. From a point the branch is foretold along its unit tangent t and
+// corrected by Newton's method in the plane across t, so that it turns at folds without being told (Keller 1977; Allgower and
+// Georg, Introduction to Numerical Continuation Methods, 2003, chapters 6 and 10). The step follows the number of corrections
+// and the angle between tangents.
+//
+// The map is piecewise smooth, so a branch has kinks. There it keeps the sign of det [dF; t^T], F = P^m(y) - y, as piecewise
+// linear paths do (Eaves and Scarf 1976): it may turn sharply, and where it turns in the parameter it ends as at a fold,
+// although no multiplier passes through 1.
+//
+// Located between two points, each by a search along the arc:
+//   fold      the parameter turns: at a smooth one a multiplier is 1; at a kink, multipliers of both sides are told
+//   flip      a real multiplier passes -1 (period doubling)
+//   torus     the modulus of a complex pair passes 1 (Neimark and Sacker)
+//   crossing  a real multiplier passes 1 where the parameter does not turn: another branch crosses
+//   grazing   the sequence of contacts that open and close changes
+#pragma once
+#include <complex>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "orbits/periodic_orbit.h"
+
+namespace whine {
+
+enum class Special { fold, flip, torus, crossing, grazing };
+const char* name(Special kind);
+
+struct BranchPosition {
+  double parameter = 0, arc = 0;  // arc: length from the first point, in u
+  Eigen::VectorXd start;
+  double residual = 0;
+  double turn = 0;  // parameter component of the unit tangent, in u; changes its sign at a fold
+  Eigen::VectorXcd multipliers;
+  std::vector<ContactEvent> events;
+  Eigen::VectorXd answer;
+  bool stable() const { return multipliers.size() == 0 || std::abs(multipliers[0]) < 1; }
+};
+
+struct SpecialPoint {
+  Special kind = Special::fold;
+  double parameter = 0, arc = 0;
+  Eigen::VectorXd start;
+  bool smooth = true;  // false: at a kink of the map
+  // The multiplier that makes it what it is, on either side; not of grazing.
+  std::complex<double> before, after;
+  ContactEvent event;      // of grazing: the contact that is about to come or go
+  bool comes = false;      // of grazing: it opens and closes from here on
+  size_t after_point = 0;  // it lies between this point of the branch and the next
+};
+
+struct BranchSettings {
+  int multiple = 1;
+  double low = 0, high = 0;  // of the parameter: the branch is followed as long as it lies between
+  double scale = 1;          // of the parameter in the arc length
+  double first_step = 0.02, least_step = 1e-7, largest_step = 0.1;  // of the arc
+  int most_points = 5000;
+  OrbitSettings orbit;
+  double location = 1e-12;  // of the arc step: to what special points are located
+};
+
+struct OrbitBranch {
+  std::vector<BranchPosition> points;
+  std::vector<SpecialPoint> special;  // in the order of the arc
+  std::string end;                    // why it was followed no further
+  bool reached_limit = false;         // the parameter left [low, high]
+};
+
+// From an orbit at its parameter, first towards a rising parameter (direction 1) or a falling one (-1). report(point) is called
+// after each. Throws Error(numerical) only if `from` is no orbit.
+OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int direction,
+                          const BranchSettings& settings,
+                          const std::function<void(const BranchPosition&)>& report = {});
+
+// The fold of a smooth map near a point that need not be an orbit: P^m(y) = y and no parameter component of the tangent, by
+// Newton's method along the arc. scale: of the parameter. Leaves the map at the fold's parameter.
+struct FoldSearch {
+  Eigen::VectorXd start;
+  double parameter = 0;
+  std::string failure;  // empty if found
+  bool found() const { return failure.empty(); }
+};
+FoldSearch locate_fold(PeriodMap& map, const Eigen::VectorXd& start, int multiple, double scale);
+
+}  // namespace whine

@@ -1,0 +1,41 @@
+// The period map y -> P(y; parameter) of a model that is forced periodically: a state at the start of a period, the state one
+// period later.
+//
+// A state is one row of numbers, of everything that the next period depends on, in units of its own: the Euclidean norm of
+// a difference is the distance of two states, and that of a state is of the order of 1. Steps per period and the contacts that are
+// looked at do not change as long as a map lives, so that P is one function of y and of the parameter, which is the mesh
+// frequency in Hz of the gear models.
+//
+// Where contacts open and close P is continuous and piecewise smooth; its tangent steps at most. Between two such borders it is
+// exact to round-off.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace whine {
+
+// Contact `contact` (the number of a tooth pair, or of a spring) opens or closes at a phase in [0, 1) of the period.
+struct ContactEvent {
+  int contact = 0;
+  bool closes = false;
+  double phase = 0;
+  bool operator==(const ContactEvent&) const = default;
+};
+
+class PeriodMap {
+ public:
+  virtual ~PeriodMap() = default;
+  virtual int size() const = 0;  // of a state
+  virtual void set_parameter(double value) = 0;
+  virtual double parameter() const = 0;
+  // One period from y. Throws Error(numerical) where the model holds no further.
+  virtual Eigen::VectorXd apply(const Eigen::VectorXd& y) = 0;
+  // (size, size) dP/dy at the y of the last apply, of the contacts that it found.
+  virtual Eigen::MatrixXd tangent() = 0;
+  // Of the period applied last, in the order of their phases.
+  virtual std::vector<ContactEvent> events() const = 0;
+  // Of the period applied last: (sample) what the model answers, m of transmission error. Samples are evenly spaced.
+  virtual Eigen::VectorXd answer() const = 0;
+};
+
+}  // namespace whine

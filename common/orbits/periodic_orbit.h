@@ -1,0 +1,54 @@
+// Periodic orbits of a period map: y = P^m(y; parameter) by Newton's method with the exact tangent.
+//
+// P is piecewise smooth. Where the contacts on the way stay, the method converges quadratically; of a piecewise affine map it
+// ends within one step of the piece that holds the orbit. A step that does not bring the residual down is halved.
+// Stability is read off the multipliers, the eigenvalues of dP^m/dy: all of them inside the unit circle.
+#pragma once
+#include <Eigen/Core>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "orbits/period_map.h"
+
+namespace whine {
+
+struct PeriodicOrbit {
+  Eigen::VectorXd start;
+  double parameter = 0;
+  int multiple = 1;     // periods after which it repeats
+  double residual = 0;  // |P^m(y) - y| / max(1, |y|)
+  int iterations = 0;   // tangents that were needed
+  Eigen::MatrixXd monodromy;
+  std::vector<ContactEvent> events;  // of its periods in turn, phases from 0 to `multiple`
+  Eigen::VectorXd answer;            // of its periods in turn
+
+  // Descending modulus. Throws Error(numerical) if they cannot be found.
+  Eigen::VectorXcd multipliers() const;
+};
+
+struct OrbitSettings {
+  double tolerance = 1e-11;  // of the residual
+  int most_iterations = 25;
+};
+
+// P^m(y) at the map's parameter. The rest is filled if it is given: the tangent of P^m, what happened on the way.
+Eigen::VectorXd image(PeriodMap& map, const Eigen::VectorXd& y, int multiple,
+                      Eigen::MatrixXd* tangent = nullptr, PeriodicOrbit* passed = nullptr);
+
+// What became of a search: the last iterate, and in words why it is no orbit; empty if it is one.
+struct OrbitSearch {
+  PeriodicOrbit orbit;
+  std::string failure;
+  bool found() const { return failure.empty(); }
+};
+
+// From `start`, at the map's parameter. Round-off may keep the residual up to 1000 times above the tolerance: an iterate below
+// that counts if a step no longer halves the residual. Never throws for a state at which the model does not hold: the failure
+// says so.
+OrbitSearch find_orbit(PeriodMap& map, const Eigen::VectorXd& start, int multiple = 1,
+                       const OrbitSettings& settings = {});
+
+Eigen::VectorXcd sorted_multipliers(const Eigen::MatrixXd& monodromy);
+
+}  // namespace whine

@@ -1,0 +1,490 @@
+// Orbits and branches over small maps with known answers, over the lumped pair with its exact folds, and over the elastic pair:
+// stable orbits against marching, unstable ones against the residual and differences of the map.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "base/error.h"
+#include "lumped/period_map.h"
+#include "lumped/stiffness.h"
+#include "motion/period_map.h"
+#include "motion/steady_state.h"
+#include "orbits/branch.h"
+#include "paper_pair.h"
+#include "relative.h"
+#include "signal/response.h"
+
+using namespace whine;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// A map given by functions.
+class SmallMap : public PeriodMap {
+ public:
+  using Image = std::function<VectorXd(const VectorXd& y, double parameter, MatrixXd& tangent,
+                                       std::vector<ContactEvent>& events)>;
+  SmallMap(int size, Image image) : size_(size), image_(std::move(image)) {}
+  int size() const override { return size_; }
+  void set_parameter(double value) override { parameter_ = value; }
+  double parameter() const override { return parameter_; }
+  VectorXd apply(const VectorXd& y) override {
+    events_.clear();
+    return image_(y, parameter_, tangent_, events_);
+  }
+  MatrixXd tangent() override { return tangent_; }
+  std::vector<ContactEvent> events() const override { return events_; }
+  VectorXd answer() const override { return VectorXd::Zero(1); }
+
+ private:
+  int size_;
+  Image image_;
+  double parameter_ = 0;
+  MatrixXd tangent_;
+  std::vector<ContactEvent> events_;
+};
+
+// One step of Runge and Kutta's method of x' = f(x) and of its tangent.
+template <class Field, class Slope>
+void runge_kutta(VectorXd& x, MatrixXd& phi, double h, const Field& f, const Slope& slope) {
+  const VectorXd k1 = f(x), k2 = f(x + 0.5 * h * k1), k3 = f(x + 0.5 * h * k2), k4 = f(x + h * k3);
+  const MatrixXd p1 = slope(x) * phi, p2 = slope(x + 0.5 * h * k1) * (phi + 0.5 * h * p1),
+                 p3 = slope(x + 0.5 * h * k2) * (phi + 0.5 * h * p2), p4 = slope(x + h * k3) * (phi + h * p3);
+  x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  phi += h / 6 * (p1 + 2 * p2 + 2 * p3 + p4);
+}
+
+// Lur'e's oscillator x''' = -a x'' - x' - x + x^2, from one rise of x' through 0 to the next: (x, x'').
+SmallMap lure() {
+  return {2, [](const VectorXd& y, double a, MatrixXd& tangent, std::vector<ContactEvent>&) {
+            const auto field = [a](const VectorXd& s) -> VectorXd {
+              return Eigen::Vector3d(s[1], s[2], -a * s[2] - s[1] - s[0] + s[0] * s[0]);
+            };
+            const auto slope = [a](const VectorXd& s) -> MatrixXd {
+              Eigen::Matrix3d m;
+              m << 0, 1, 0, 0, 0, 1, -1 + 2 * s[0], -1, -a;
+              return m;
+            };
+            VectorXd s = Eigen::Vector3d(y[0], 0, y[1]);
+            MatrixXd phi = MatrixXd::Identity(3, 3);
+            constexpr double kStep = 0.004;
+            for (int i = 0; i < 5000; ++i) {
+              const VectorXd before = s;
+              const MatrixXd phi_before = phi;
+              runge_kutta(s, phi, kStep, field, slope);
+              if (!s.allFinite() || s.norm() > 100) fail(Failure::numerical, "the oscillator runs away");
+              if (i < 100 || !(before[1] < 0 && s[1] >= 0)) continue;
+              double h = kStep * before[1] / (before[1] - s[1]);
+              for (int k = 0; k < 20; ++k) {
+                s = before;
+                phi = phi_before;
+                runge_kutta(s, phi, h, field, slope);
+                h -= s[1] / s[2];
+              }
+              const Eigen::Vector3d f = field(s);
+              const MatrixXd on_section = phi - f * phi.row(1) / f[1];
+              tangent.resize(2, 2);
+              tangent << on_section(0, 0), on_section(0, 2), on_section(2, 0), on_section(2, 2);
+              return VectorXd(Eigen::Vector2d(s[0], s[2]));
+            }
+            fail(Failure::numerical, "no return to the section");
+          }};
+}
+
+// x'' + c x' + x = A cos t with a wall at x = 1 that gives back 0.8 of the velocity: over 2 pi, parameter A.
+SmallMap impact_oscillator(double c) {
+  return {2, [c](const VectorXd& y, double a, MatrixXd& tangent, std::vector<ContactEvent>& events) {
+            constexpr double kBack = 0.8, kPeriod = 2 * std::numbers::pi;
+            const double s = 0.5 * c, w = std::sqrt(1 - s * s);
+            // A particular motion is A / c sin t.
+            const auto flow = [&](const Eigen::Vector2d& from, double t0, double t, Eigen::Matrix2d* phi) {
+              const Eigen::Vector2d at(a / c * std::sin(t0), a / c * std::cos(t0)),
+                  next(a / c * std::sin(t0 + t), a / c * std::cos(t0 + t));
+              const double e = std::exp(-s * t), co = e * std::cos(w * t), si = e * std::sin(w * t) / w;
+              Eigen::Matrix2d m;
+              m << co + s * si, si, -si, co - s * si;
+              if (phi) *phi = m;
+              return Eigen::Vector2d(m * (from - at) + next);
+            };
+            Eigen::Vector2d x = y;
+            Eigen::Matrix2d whole = Eigen::Matrix2d::Identity(), phi;
+            constexpr int kParts = 2000;
+            constexpr double kStep = kPeriod / kParts;
+            double t = 0;
+            for (int i = 0; i < kParts; ++i) {
+              double left = (i + 1) * kStep - t;
+              // The highest point of the part, where its velocity changes its sign, tells a grazing contact.
+              const auto time_of = [&](auto value, double low, double high) {
+                for (int k = 0; k < 60; ++k) {
+                  const double mid = 0.5 * (low + high);
+                  (value(flow(x, t, mid, nullptr)) > 0 ? low : high) = mid;
+                }
+                return high;
+              };
+              for (int n = 0;; ++n) {
+                if (n > 100) fail(Failure::numerical, "it chatters");
+                const Eigen::Vector2d end = flow(x, t, left, nullptr);
+                double top = left;
+                if (x[1] > 0 && end[1] < 0) top = time_of([](const auto& z) { return z[1]; }, 0, left);
+                if (!(flow(x, t, top, nullptr)[0] > 1) || !(x[1] > 0)) break;
+                const double hit = time_of([](const auto& z) { return 1 - z[0]; }, 0, top);
+                Eigen::Vector2d at = flow(x, t, hit, &phi);
+                t += hit;
+                left -= hit;
+                const double force = a * std::cos(t), before = at[1], after = -kBack * before;
+                Eigen::Matrix2d saltation;
+                saltation << -kBack, 0,
+                    ((force - c * after - at[0]) + kBack * (force - c * before - at[0])) / before, -kBack;
+                whole = saltation * phi * whole;
+                x = Eigen::Vector2d(1, after);
+                events.push_back({1, true, t / kPeriod});
+              }
+              x = flow(x, t, left, &phi);
+              whole = phi * whole;
+              t = (i + 1) * kStep;
+            }
+            tangent = whole;
+            return VectorXd(x);
+          }};
+}
+
+PeriodicOrbit orbit_at(PeriodMap& map, const VectorXd& start, double parameter, int multiple = 1) {
+  map.set_parameter(parameter);
+  const OrbitSearch search = find_orbit(map, start, multiple);
+  INFO(search.failure);
+  REQUIRE(search.found());
+  return search.orbit;
+}
+
+std::vector<SpecialPoint> of_kind(const OrbitBranch& branch, Special kind) {
+  std::vector<SpecialPoint> all;
+  for (const SpecialPoint& p : branch.special)
+    if (p.kind == kind) all.push_back(p);
+  return all;
+}
+
+LumpedParameters wave(double ratio, double begin = 0) {
+  LumpedParameters p = cells_of(RectangularWave{335596523.71, 504267825.43, begin, begin + 0.75});
+  p.mass = 1.4;
+  p.damping_ratio = ratio;
+  p.damper = 2 * ratio * std::sqrt(462.1e6 * 1.4);
+  p.damper_acts = "always";
+  return p;
+}
+constexpr double kForce = 150 / 0.0704769466;
+
+}  // namespace
+
+TEST_CASE("orbits: Lur'e's oscillator doubles its period where its multiplier is -1") {
+  SmallMap map = lure();
+  const PeriodicOrbit orbit = orbit_at(map, Eigen::Vector2d(-0.3744950861, 0.5887162919), 0.66);
+  CHECK(orbit.residual < 1e-11);
+  BranchSettings settings;
+  settings.low = 0.6;
+  settings.high = 0.7;
+  const OrbitBranch branch = follow_branch(map, orbit, -1, settings);
+  INFO(branch.end);
+  CHECK(branch.reached_limit);
+  CHECK(branch.points.back().parameter == relative(0.6, 1e-12));
+  CHECK(of_kind(branch, Special::fold).empty());
+  const auto flips = of_kind(branch, Special::flip);
+  REQUIRE(flips.size() == 1);
+  CHECK(flips[0].smooth);
+  CHECK(flips[0].parameter == relative(0.6303020062, 2e-10));
+  CHECK(flips[0].start[0] == relative(-0.3744950861, 1e-8));
+  CHECK(flips[0].start[1] == relative(0.5887162919, 1e-8));
+  CHECK(branch.points.front().stable());
+  CHECK(!branch.points.back().stable());
+  const PeriodicOrbit at = orbit_at(map, flips[0].start, flips[0].parameter);
+  const Eigen::VectorXcd multipliers = at.multipliers();
+  CHECK(multipliers[0].real() == relative(-1, 1e-8));
+  // Of all three multipliers the product is e^(-a T), T = 6.3640713394 (Liouville); those of the orbit itself are 1 and -1.
+  CHECK(multipliers[1].real() == relative(-std::exp(-flips[0].parameter * 6.3640713394), 1e-7));
+  CHECK(multipliers[1].real() == relative(-0.0181100738, 1e-7));
+  // Beyond it there is an orbit of two periods, and it is stable.
+  map.set_parameter(0.62);
+  VectorXd y = branch.points.back().start;
+  for (int i = 0; i < 400; ++i) y = map.apply(y);
+  const PeriodicOrbit twice = orbit_at(map, y, 0.62, 2);
+  CHECK(std::abs(twice.multipliers()[0]) < 1);
+  CHECK((map.apply(twice.start) - twice.start).norm() > 1e-2);
+}
+
+TEST_CASE("orbits: an oscillator grazes its wall where its free motion reaches it") {
+  SmallMap map = impact_oscillator(0.1);
+  const PeriodicOrbit orbit = orbit_at(map, Eigen::Vector2d(0, 0.5), 0.05);
+  CHECK(orbit.start[1] == relative(0.5, 1e-12));
+  CHECK(orbit.events.empty());
+  BranchSettings settings;
+  settings.low = 0.04;
+  settings.high = 0.12;
+  const OrbitBranch branch = follow_branch(map, orbit, 1, settings);
+  const auto grazing = of_kind(branch, Special::grazing);
+  INFO(branch.end);
+  REQUIRE(!grazing.empty());
+  CHECK(grazing[0].parameter == relative(0.1, 1e-6));
+  CHECK(grazing[0].comes);
+  CHECK(grazing[0].event.contact == 1);
+  CHECK(grazing[0].event.phase == relative(0.25, 1e-3));
+  for (const BranchPosition& p : branch.points)
+    if (p.parameter < 0.0999) CHECK(p.stable());
+}
+
+TEST_CASE("orbits: Mathieu's first tongue, between two characteristic values") {
+  // x'' + (a - 2 q cos 2 t) x = 0 over pi; on the tongue's bounds a multiplier is -1.
+  constexpr double q = 0.1;
+  SmallMap map(2, [](const VectorXd& y, double a, MatrixXd& tangent, std::vector<ContactEvent>&) {
+    VectorXd s = VectorXd::Zero(3);
+    MatrixXd phi = MatrixXd::Identity(3, 3);
+    const auto slope = [a](const VectorXd& at) -> MatrixXd {
+      Eigen::Matrix3d m;
+      m << 0, 1, 0, -(a - 2 * q * std::cos(2 * at[2])), 0, 0, 0, 0, 0;
+      return m;
+    };
+    const auto field = [](const VectorXd&) -> VectorXd { return Eigen::Vector3d(0, 0, 1); };
+    constexpr int kSteps = 1000;
+    for (int i = 0; i < kSteps; ++i) runge_kutta(s, phi, std::numbers::pi / kSteps, field, slope);
+    tangent = phi.topLeftCorner(2, 2);
+    return VectorXd(tangent * y);
+  });
+  const PeriodicOrbit orbit = orbit_at(map, VectorXd::Zero(2), 0.7);
+  BranchSettings settings;
+  settings.low = 0.6;
+  settings.high = 1.3;
+  const OrbitBranch branch = follow_branch(map, orbit, 1, settings);
+  CHECK(branch.reached_limit);
+  const auto series = [](double x) {
+    return 1 + x - x * x / 8 - std::pow(x, 3) / 64 - std::pow(x, 4) / 1536 + 11 * std::pow(x, 5) / 36864;
+  };
+  const auto flips = of_kind(branch, Special::flip);
+  REQUIRE(flips.size() == 2);
+  CHECK(flips[0].parameter == relative(series(-q), 1e-9));
+  CHECK(flips[1].parameter == relative(series(q), 1e-9));
+  for (const BranchPosition& p : branch.points) {
+    CHECK((std::abs(p.multipliers[0]) > 1 + 1e-9) ==
+          (p.parameter > flips[0].parameter && p.parameter < flips[1].parameter));
+  }
+}
+
+TEST_CASE("orbits: a complex pair of multipliers that leaves the unit circle is a torus") {
+  // A turn by 1 rad and growth by the parameter, bounded by a cubic term.
+  SmallMap map(2, [](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>&) {
+    Eigen::Matrix2d turn;
+    turn << std::cos(1.0), -std::sin(1.0), std::sin(1.0), std::cos(1.0);
+    tangent = p * turn;
+    return VectorXd(tangent * y);
+  });
+  const PeriodicOrbit orbit = orbit_at(map, VectorXd::Zero(2), 0.8);
+  BranchSettings settings;
+  settings.low = 0.5;
+  settings.high = 1.2;
+  const OrbitBranch branch = follow_branch(map, orbit, 1, settings);
+  REQUIRE(branch.special.size() == 1);
+  CHECK(branch.special[0].kind == Special::torus);
+  CHECK(branch.special[0].parameter == relative(1, 1e-9));
+}
+
+TEST_CASE("orbits: a piecewise linear map turns at its kink, where no multiplier is 1") {
+  // y -> s y + p - 1 with slope 0.5 below 0 and `steep` above: fixed points for p < 1 only.
+  for (const double steep : {1.5, 3.0, 40.0}) {
+    SmallMap map(1,
+                 [steep](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>& events) {
+                   const double s = y[0] < 0 ? 0.5 : steep;
+                   tangent = MatrixXd::Constant(1, 1, s);
+                   if (y[0] > 0) events.push_back({1, true, 0});
+                   return VectorXd(VectorXd::Constant(1, s * y[0] + p - 1));
+                 });
+    const PeriodicOrbit orbit = orbit_at(map, VectorXd::Constant(1, -0.8), 0.6);
+    CHECK(orbit.start[0] == relative(-0.8, 1e-12));
+    BranchSettings settings;
+    settings.low = 0.5;
+    settings.high = 1.5;
+    const OrbitBranch branch = follow_branch(map, orbit, 1, settings);
+    INFO(steep << ": " << branch.end);
+    CHECK(branch.reached_limit);
+    CHECK(branch.points.back().parameter == relative(0.5, 1e-12));
+    CHECK(branch.points.back().start[0] == relative(0.5 / (steep - 1), 1e-9));
+    const auto folds = of_kind(branch, Special::fold);
+    REQUIRE(folds.size() == 1);
+    CHECK(!folds[0].smooth);
+    CHECK(folds[0].parameter == relative(1, 1e-6));
+    CHECK(folds[0].before.real() == relative(0.5, 1e-12));
+    CHECK(folds[0].after.real() == relative(steep, 1e-12));
+    CHECK(of_kind(branch, Special::grazing).size() == 1);
+  }
+}
+
+TEST_CASE("orbits: what cannot be found says why") {
+  SmallMap map(1, [](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>&) {
+    tangent = MatrixXd::Constant(1, 1, 1 + 2 * y[0]);
+    return VectorXd(VectorXd::Constant(1, y[0] + y[0] * y[0] + p));
+  });
+  map.set_parameter(0.1);
+  const OrbitSearch search = find_orbit(map, VectorXd::Constant(1, 1));
+  CHECK(!search.found());
+  CHECK(search.failure.find("residual") != std::string::npos);
+  CHECK(search.orbit.residual >= 0.1);
+}
+
+TEST_CASE("orbits: the branch of the rectangular lumped pair through its exact folds") {
+  const double expected[2][3] = {{0.08, 2662.046924, 2679.466389}, {0.07, 2464.654182, 2638.199272}};
+  for (const auto& [ratio, down, up] : expected) {
+    LumpedOscillator oscillator(wave(ratio), kForce, 64);
+    LumpedPeriodMap map(oscillator);
+    map.set_parameter(3400);
+    VectorXd y = map.flat(oscillator.rest());
+    for (int i = 0; i < 100; ++i) y = map.apply(y);
+    BranchSettings settings;
+    settings.low = 2000;
+    settings.high = 3500;
+    settings.scale = 2900;
+    const OrbitBranch branch = follow_branch(map, orbit_at(map, y, 3400), -1, settings);
+    INFO(ratio << ": " << branch.end << ", " << branch.points.size() << " points");
+    CHECK(branch.reached_limit);
+    CHECK(branch.points.back().parameter == relative(2000, 1e-12));
+    const auto folds = of_kind(branch, Special::fold);
+    REQUIRE(folds.size() == 2);
+    CHECK(folds[0].parameter == relative(down, 1e-9));
+    CHECK(folds[1].parameter == relative(up, 1e-9));
+    for (const SpecialPoint& fold : folds) {
+      CHECK(fold.smooth);
+      const PeriodicOrbit at = orbit_at(map, fold.start, fold.parameter);
+      CHECK(at.multipliers()[0].real() == relative(1, 1e-4));
+    }
+    // The part between the folds is unstable, and it alone.
+    for (const BranchPosition& p : branch.points) CHECK(p.stable() == (p.turn < 0));
+    // Contact is lost on the upper branch, and on the lower one as far as it grazes.
+    const auto grazing = of_kind(branch, Special::grazing);
+    CHECK(grazing.size() >= 2);
+    // Orbits on the way repeat, the unstable ones as well.
+    for (const BranchPosition& p : branch.points) {
+      map.set_parameter(p.parameter);
+      CHECK((map.apply(p.start) - p.start).norm() < 1e-10 * p.start.norm());
+    }
+    // A fold from nearby, on either side of it.
+    for (const double away : {-0.01, 0.01}) {
+      map.set_parameter(folds[0].parameter + away);
+      const FoldSearch fold = locate_fold(map, folds[0].start, 1, 2900);
+      INFO(fold.failure);
+      REQUIRE(fold.found());
+      CHECK(fold.parameter == relative(down, 1e-9));
+    }
+  }
+}
+
+TEST_CASE("orbits: the verdict on a lumped orbit does not depend on where its period is cut") {
+  LumpedOscillator oscillator(wave(0.07), kForce, 64);
+  LumpedPeriodMap map(oscillator);
+  // The unstable orbit between the folds.
+  map.set_parameter(3400);
+  VectorXd y = map.flat(oscillator.rest());
+  for (int i = 0; i < 100; ++i) y = map.apply(y);
+  BranchSettings settings;
+  settings.low = 2000;
+  settings.high = 3500;
+  settings.scale = 2900;
+  const OrbitBranch branch = follow_branch(map, orbit_at(map, y, 3400), -1, settings);
+  for (const double f : {2000.0, 2550.0, 3400.0}) {
+    const BranchPosition* nearest = nullptr;
+    for (const BranchPosition& p : branch.points)
+      if ((f != 2550 || p.turn > 0) &&
+          (!nearest || std::abs(p.parameter - f) < std::abs(nearest->parameter - f)))
+        nearest = &p;
+    const PeriodicOrbit orbit = orbit_at(map, nearest->start, nearest->parameter);
+    const Eigen::VectorXcd whole = orbit.multipliers();
+    CHECK((std::abs(whole[0]) > 1) == (f == 2550));
+    for (const double phase : {0.1, 0.4, 0.75, 0.9}) {
+      // The cells, turned so that the period begins at `phase`; the state there, by the same motion in finer cells.
+      LumpedOscillator turned(wave(0.07, 1 - phase), kForce, 64);
+      LumpedPeriodMap other(turned);
+      other.set_parameter(nearest->parameter);
+      LumpedParameters cut = wave(0.07);
+      // Samples of a record stand at phases: the state at one is x, and x' by the orbit of the turned cells from there.
+      LumpedOscillator recorder(cut, kForce, 20);
+      recorder.set_speed(nearest->parameter);
+      LumpedOscillator::State at = map.state(orbit.start);
+      LumpedLedger ledger;
+      const Eigen::VectorXd x = recorder.record(at, ledger).x;
+      const int sample = static_cast<int>(std::lround(phase * 20));
+      LumpedOscillator fine(cut, kForce, 20000);
+      fine.set_speed(nearest->parameter);
+      at = map.state(orbit.start);
+      const Eigen::VectorXd close = fine.record(at, ledger).x;
+      const double slope =
+          (close[(1000 * sample + 1) % 20000] - close[1000 * sample - 1]) * 0.5 * 20000 * nearest->parameter;
+      const OrbitSearch found = find_orbit(other, other.flat({x[sample], slope}));
+      REQUIRE(found.found());
+      CHECK(other.state(found.orbit.start)[0] == relative(x[sample], 1e-9));
+      const Eigen::VectorXcd multipliers = found.orbit.multipliers();
+      for (int k = 0; k < 2; ++k) CHECK(std::abs(multipliers[k] - whole[k]) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("orbits: the branch of the elastic pair through both folds, beside marching") {
+  const StaticArtifact statics = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
+  const GearMeshModel model(paper_body(), paper_body(), statics.mesh);
+  DynamicParameters parameters = paper_parameters(statics.mean_stiffness);
+  parameters.damping.rayleigh_stiffness = 5.5e-6;
+  RollingDynamics dynamics(model, parameters);
+  dynamics.set_range(contact_range(model, statics, MotionBounds(model, statics, 4.1)), 128);
+  RollingPeriodMap map(dynamics, 128);
+  map.set_parameter(2900);
+  RollingDynamics::State state = dynamics.rest();
+  REQUIRE(settle(dynamics, state, 1e-8, "extrapolate"));
+  BranchSettings settings;
+  settings.low = 1700;
+  settings.high = 2950;
+  settings.scale = 2400;
+  settings.location = 1e-7;
+  settings.largest_step = 0.3;
+  const OrbitBranch branch = follow_branch(map, orbit_at(map, map.flat(state), 2900), -1, settings);
+  std::string path;
+  for (const SpecialPoint& p : branch.special)
+    path += text("\n", name(p.kind), " at ", p.parameter, " Hz, ", p.smooth ? "smooth" : "kink",
+                 ", multipliers ", p.before.real(), " and ", p.after.real(), ", contact ", p.event.contact,
+                 p.event.closes ? " closes" : " opens");
+  MESSAGE(branch.points.size() << " points, " << branch.end << path);
+  CHECK(branch.reached_limit);
+  CHECK(branch.points.back().parameter == relative(1700, 1e-12));
+  const auto folds = of_kind(branch, Special::fold);
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0].parameter < folds[1].parameter);
+  for (const SpecialPoint& fold : folds)
+    CHECK((fold.smooth || (fold.before.real() - 1) * (fold.after.real() - 1) < 0));
+  int marched = 0, unstable = 0;
+  for (size_t i = 0; i < branch.points.size(); ++i) {
+    const BranchPosition& p = branch.points[i];
+    const bool between = p.turn > 0;
+    CHECK(p.stable() == !between);
+    CHECK(p.residual < 1e-8);
+    if (i % 8 != 0) continue;
+    map.set_parameter(p.parameter);
+    if (!between) {
+      // Marching stays.
+      VectorXd y = p.start;
+      for (int k = 0; k < 60; ++k) y = map.apply(y);
+      CHECK((y - p.start).norm() < 1e-7 * p.start.norm());
+      ++marched;
+      continue;
+    }
+    // Marching leaves it by its multiplier a period, and differences of the map see that, too.
+    CHECK((map.apply(p.start) - p.start).norm() < 1e-8 * p.start.norm());
+    const MatrixXd tangent = map.tangent();
+    VectorXd along = VectorXd::Ones(map.size());
+    for (int k = 0; k < 200; ++k) along = (tangent * along).normalized();
+    constexpr double kStep = 1e-6;
+    const VectorXd difference =
+        (map.apply(p.start + kStep * along) - map.apply(p.start - kStep * along)) / (2 * kStep);
+    CHECK(difference.dot(along) == relative(p.multipliers[0].real(), 1e-3));
+    ++unstable;
+  }
+  CHECK(marched >= 2);
+  CHECK(unstable >= 2);
+}
