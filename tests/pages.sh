@@ -167,6 +167,8 @@ for page in "${pages[@]}"; do
 done
 found=$(for folder in tools pipelines data tests common $(set +f; echo common/*/); do [ -e "${folder%/}/README.md" ] || echo "${folder%/}"; done)
 [ -z "$found" ] && ok "every folder has its page" || wrong "every folder has its page" "$found"
+found=$(set +f; for header in common/*/*.h; do grep -q -F "\`$header\`" "${header%/*}/README.md" || echo "$header"; done)
+[ -z "$found" ] && ok "every header of a layer stands on its page" || wrong "every header of a layer stands on its page" "$(tr '\n' ' ' <<< "$found")"
 linked=$(for page in "${pages[@]}"; do parts_of "$page" | awk -F '\t' '$1 == "link" && $3 !~ /^http/ { sub(/#.*/, "", $3); if ($3 != "") print $3 }' |
   while read -r target; do realpath -m --relative-to="$top" "$(dirname "$page")/$target"; done; done | sort -u)
 found=$(for page in "${pages[@]}"; do [ "$page" = README.md ] || grep -q -x -F "$page" <<< "$linked" || echo "$page"; done)
