@@ -117,7 +117,7 @@ faults_of() {
       eval "words=($text)" 2> /dev/null || echo "$page:$line: make $text: no command"
       for word in "${words[@]}"; do
         case $word in
-          -* | *=* | out/*) ;;
+          -* | *=* | out/* | build/bin/*) ;;
           *) [ -n "${is_target[$word]:-}" ] || echo "$page:$line: make $word: no such target" ;;
         esac
       done
