@@ -184,7 +184,7 @@ found=$(grep -r -o -h -E '\<(common|tools|pipelines|data|tests)/[a-z/]*README\.m
 mkdir -p "$work/tree/$B" "$work/tree/path/to"
 for part in Makefile .clang-tidy common tools pipelines tests; do ln -s "$top/$part" "$work/tree/$part"; done
 cp -a data "$work/tree"
-for part in bin obj lib id; do ln -s "$top/$B/$part" "$work/tree/$B/$part"; done
+for part in bin obj id; do ln -s "$top/$B/$part" "$work/tree/$B/$part"; done
 cp -p "$B/flags" "$work/tree/$B"
 for name in my-pair mass x path/to/x path/to/pair path/to/scene; do cp data/scenes/first-pair.toml "$work/tree/$name.toml"; done
 sed 's|\.\./scenes|../../data/scenes|' data/studies/tolerances.toml > "$work/tree/path/to/it.toml"
