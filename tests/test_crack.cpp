@@ -429,7 +429,7 @@ const BodyArtifact& coarse_body(double depth, int tooth = 0) {
 }  // namespace
 
 TEST_CASE("statics over a turn: the cracked tooth's own softness where it works, nothing elsewhere") {
-  constexpr int kPositions = 16, kTeeth = 50;
+  constexpr int kPositions = 8, kTeeth = 50;
   const double torque = 150;
   const StaticArtifact intact =
       static_transmission(coarse_body(0), coarse_body(0), paper_statics(kPositions), torque);

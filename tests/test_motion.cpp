@@ -447,7 +447,7 @@ TEST_CASE(
   CHECK(words.rfind("at 2900 Hz, at mesh phase 0.", 0) == 0);
   CHECK(words.find("line contact: a pair carries") != std::string::npos);
 
-  const GearMeshModel usual(body, body, statics.mesh), other(body, paper_body(38e-3), statics.mesh);
+  const GearMeshModel usual(body, body, statics.mesh), other(body, paper_body(38e-3, 1.6e-3), statics.mesh);
   const DynamicParameters parameters = paper_parameters(statics.mean_stiffness);
   RollingDynamics one(usual, parameters), two(other, parameters);
   const double load = 150 / usual.kinematics.gear(0).base_radius();

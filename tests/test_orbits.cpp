@@ -122,7 +122,7 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
   bool subharmonic = false;
   State state = rig.dynamics.rest();
   Secants secants;  // of the speeds where mesh periods do not alternate
-  for (double f = 5500; f <= 6200; f += 100) {
+  for (double f = 5500; f <= 6200; f += 200) {
     rig.dynamics.set_speed(f, 128);
     const State start = state;
     const auto slow = settle(rig.dynamics, state, 1e-6, "march");

@@ -22,6 +22,17 @@ SymmetricEigen symmetric_eigenvalues(const MatrixXcd& a) {
   return {solver.info() == Eigen::Success, solver.eigenvalues(), {}};
 }
 
+SymmetricEigen tridiagonal_eigen(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside) {
+  Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, beside);
+  return {solver.info() == Eigen::Success, solver.eigenvalues(), solver.eigenvectors()};
+}
+
+HermitianEigen symmetric_eigen(const MatrixXcd& a) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(a);
+  return {solver.info() == Eigen::Success, solver.eigenvalues(), solver.eigenvectors()};
+}
+
 SymmetricEigen symmetric_eigen(const MatrixXd& k, const MatrixXd& m) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(k, m);
   return {solver.info() == Eigen::Success, solver.eigenvalues(), solver.eigenvectors()};

@@ -13,8 +13,17 @@ struct SymmetricEigen {
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& a);
 SymmetricEigen symmetric_eigenvalues(const Eigen::MatrixXd& a);
 SymmetricEigen symmetric_eigenvalues(const Eigen::MatrixXcd& a);  // Hermitian
+// Of a tridiagonal matrix, by its diagonal and the entries beside it.
+SymmetricEigen tridiagonal_eigen(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside);
 // k x = value m x with m positive definite, x'm x = 1.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& k, const Eigen::MatrixXd& m);
+
+struct HermitianEigen {
+  bool converged;
+  Eigen::VectorXd values;
+  Eigen::MatrixXcd vectors;
+};
+HermitianEigen symmetric_eigen(const Eigen::MatrixXcd& a);
 
 // Of a matrix without symmetry, in no order.
 struct GeneralEigenvalues {

@@ -1,11 +1,11 @@
 #include "solid/modes.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/dense.h"
 #include "base/error.h"
 
 namespace whine {
@@ -48,10 +48,9 @@ ComplexModes lowest_modes(const SparseComplex& stiffness, const SparseComplex& m
     // Eigen drops an off-diagonal entry below epsilon times the square root of its neighbours on the diagonal: in s2 that
     // would leave residuals that grow with the frequency, 1e-8 at 5 MHz.
     const double unit = diagonal.head(steps).maxCoeff();
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small;
-    small.computeFromTridiagonal(diagonal.head(steps) / unit, off.head(steps - 1) / unit);
-    ritz = small.eigenvectors().rightCols(count).rowwise().reverse();  // largest 1 / omega^2 first
-    const Eigen::VectorXd value = small.eigenvalues().tail(count).reverse() * unit;
+    const SymmetricEigen small = tridiagonal_eigen(diagonal.head(steps) / unit, off.head(steps - 1) / unit);
+    ritz = small.vectors.rightCols(count).rowwise().reverse();  // largest 1 / omega^2 first
+    const Eigen::VectorXd value = small.values.tail(count).reverse() * unit;
     converged =
         (length * ritz.row(steps - 1).transpose().cwiseAbs().array() <= kConverged * value.array()).all();
   }
@@ -86,14 +85,14 @@ ComplexModes all_modes_of(const Matrix& stiffness, const Matrix& mass, const std
   // C = L^-1 M L^-H, C y = y / omega^2, u = omega L^-H y
   Matrix half = factor.matrixL().solve(mass);
   const Matrix c = factor.matrixL().solve(half.adjoint().eval());
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(c);
+  const auto eigen = symmetric_eigen(c);
   const Eigen::Index n = c.rows();
-  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 0))
-    fail(Failure::numerical, what, ": of ", n, " modes the least 1 / omega^2 is ", eigen.eigenvalues()[0],
+  if (!eigen.converged || !(eigen.values[0] > 0))
+    fail(Failure::numerical, what, ": of ", n, " modes the least 1 / omega^2 is ", eigen.values[0],
          " s2, not above 0; the mesh's mass is wrong, rebuild it");
   ComplexModes modes;
-  modes.omega_squared = eigen.eigenvalues().reverse().cwiseInverse();
-  half = factor.matrixU().solve(eigen.eigenvectors());
+  modes.omega_squared = eigen.values.reverse().cwiseInverse();
+  half = factor.matrixU().solve(eigen.vectors);
   modes.shape = half.rowwise().reverse().template cast<std::complex<double>>() *
                 modes.omega_squared.cwiseSqrt().asDiagonal();
   return modes;
