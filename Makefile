@@ -115,7 +115,7 @@ $(step_objects): private INCLUDE_PRECOMPILED :=
 $(filter $(B)/obj/common/files/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
 # A program waits for the sources behind the headers that it includes, and for no other.
-links := $(shell awk -f pipelines/sources.awk common/*/*.h common/*/*.cpp tools/*.cpp tests/fuzz/*.cpp)
+links := $(shell awk -f pipelines/sources.awk $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/fuzz/*.cpp))
 linked = $(filter $(patsubst $1:%,$(B)/obj/common/%.o,$(filter $1:%,$(links))),$(library))
 link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(LDLIBS)
 
