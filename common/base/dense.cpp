@@ -28,7 +28,7 @@ SymmetricEigen tridiagonal_eigen(const Eigen::VectorXd& diagonal, const Eigen::V
   return {solver.info() == Eigen::Success, solver.eigenvalues(), solver.eigenvectors()};
 }
 
-HermitianEigen symmetric_eigen(const MatrixXcd& a) {
+HermitianEigen hermitian_eigen(const MatrixXcd& a) {
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(a);
   return {solver.info() == Eigen::Success, solver.eigenvalues(), solver.eigenvectors()};
 }

@@ -23,7 +23,7 @@ struct HermitianEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXcd vectors;
 };
-HermitianEigen symmetric_eigen(const Eigen::MatrixXcd& a);
+HermitianEigen hermitian_eigen(const Eigen::MatrixXcd& a);
 
 // Of a matrix without symmetry, in no order.
 struct GeneralEigenvalues {

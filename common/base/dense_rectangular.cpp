@@ -10,7 +10,8 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 SingularValues singular_values(const MatrixXd& a) {
-  const Eigen::BDCSVD<MatrixXd> svd(a, Eigen::ComputeThinV);
+  // BDCSVD takes a third of its time and four times as long to compile.
+  const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeThinV);
   return {svd.info() == Eigen::Success, svd.singularValues(), svd.matrixV()};
 }
 

@@ -78,6 +78,13 @@ ComplexModes lowest_modes(const SparseComplex& stiffness, const SparseComplex& m
 
 namespace {
 
+SymmetricEigen eigen_of(const Eigen::MatrixXd& a) {
+  return symmetric_eigen(a);
+}
+HermitianEigen eigen_of(const Eigen::MatrixXcd& a) {
+  return hermitian_eigen(a);
+}
+
 template <class Matrix>
 ComplexModes all_modes_of(const Matrix& stiffness, const Matrix& mass, const std::string& what) {
   const Eigen::LLT<Matrix> factor(stiffness);
@@ -85,7 +92,7 @@ ComplexModes all_modes_of(const Matrix& stiffness, const Matrix& mass, const std
   // C = L^-1 M L^-H, C y = y / omega^2, u = omega L^-H y
   Matrix half = factor.matrixL().solve(mass);
   const Matrix c = factor.matrixL().solve(half.adjoint().eval());
-  const auto eigen = symmetric_eigen(c);
+  const auto eigen = eigen_of(c);
   const Eigen::Index n = c.rows();
   if (!eigen.converged || !(eigen.values[0] > 0))
     fail(Failure::numerical, what, ": of ", n, " modes the least 1 / omega^2 is ", eigen.values[0],
