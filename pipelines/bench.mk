@@ -22,7 +22,7 @@ $(B)/bin/whine-bench: tests/bench/bench.cpp tests/bench/calculix.h tests/bench/r
 .PHONY: bench
 bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
 	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml --torque 150 \
-	  --driver out/$(standard_scene)/pinion/body.h5 --driven out/$(standard_scene)/wheel/body.h5
+	  --body pinion=out/$(standard_scene)/pinion/body.h5 --body wheel=out/$(standard_scene)/wheel/body.h5
 
 $(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(library) | $(B)/bin/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)

@@ -128,7 +128,7 @@ animation_frames := $(shell seq -f %03g 48)
 define animation_rule # path without extension, scene, torque, options, what else it depends on
 $1.tsv $1.gif $(animation_frames:%=$1-%.png) &: $(call of_gears,$2,mesh) out/$2/T$3/down/sweep.h5 out/$2/params/title.txt $5 \
     pipelines/plots/animation.gp $(call id,gear-animate) | $(B)/bin/gear-animate $(with_deps)
-	$$(call run,animate) --driver-mesh out/$2/$(SCENE_$2_DRIVER)/mesh.h5 --driven-mesh out/$2/$(SCENE_$2_DRIVEN)/mesh.h5 \
+	$$(call run,animate) $(call named,--mesh,$2,mesh) \
 	  --sweep out/$2/T$3/down/sweep.h5 $4 --frames $(words $(animation_frames)) --output $1 $$(call landed,animate)
 endef
 

@@ -29,7 +29,9 @@ out/$1/$2/body.h5: out/bodies/$(SCENE_$1_BODY_$2)/body.h5 ;
 endef
 
 pair_bodies = $(sort $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/bodies/$(SCENE_$1_BODY_$g)/body.h5))
-pair_options = --driver out/$1/$(SCENE_$1_DRIVER)/body.h5 --driven out/$1/$(SCENE_$1_DRIVEN)/body.h5
+# $(call named,option,scene,artifact): once for each gear
+named = $(foreach g,$(SCENE_$2_DRIVER) $(SCENE_$2_DRIVEN),$1 $g=out/$2/$g/$3.h5)
+pair_options = $(call named,--body,$1,body)
 reference_static = out/$1/T$(SCENE_$1_REFERENCE_TORQUE)/static.h5
 
 define static_rules # scene, torque
@@ -64,8 +66,8 @@ endef
 pair_meshes = $(patsubst %/body.h5,%/mesh.h5,$(pair_bodies))
 define loaded_rules # scene, torque
 out/$1/T$2/loaded_%.h5: out/$1/T$2/static.h5 $(pair_bodies) $(pair_meshes) $(call id,gear-loaded) | $(B)/bin/gear-loaded
-	$$(call run,loaded) --static out/$1/T$2/static.h5 $(pair_options) --driver-mesh out/$1/$(SCENE_$1_DRIVER)/mesh.h5 \
-	  --driven-mesh out/$1/$(SCENE_$1_DRIVEN)/mesh.h5 --mesh-phase $$* --output $$@ $$(call landed,loaded)
+	$$(call run,loaded) --static out/$1/T$2/static.h5 $(pair_options) $(call named,--mesh,$1,mesh) \
+	  --mesh-phase $$* --output $$@ $$(call landed,loaded)
 endef
 
 # Options that stand in the makefiles, in files of their own that are made again if they say otherwise: so that other options

@@ -8,7 +8,7 @@
 # its content: a variant that stays is not made again, whatever else the study says. Beside it gear-variant writes the
 # variant's artifact, .h5; the bodies are those of out/bodies, shared with all scenes and studies. Like fragments of scenes, the
 # fragment of a study is remade in every run: STUDY_S_PAIRS (driver_driven, hashes of bodies), STUDY_S_<pair> (variants),
-# STUDY_S_OPTIONS, BODIES.
+# STUDY_S_GEARS (names of driver and driven gear), STUDY_S_OPTIONS, BODIES.
 
 study_stem := $(basename $(notdir $(STUDY)))
 study_goals := $(filter study study-bodies,$(goals))
@@ -41,7 +41,7 @@ study_bodies = $(sort $(foreach p,$(STUDY_$1_PAIRS),$(foreach h,$(subst _, ,$p),
 
 define study_pair_rules # study, pair, driver, driven
 $(STUDY_$1_$2:%=out/studies/$1/%.h5): %.h5: %.toml $(sort out/bodies/$3/body.h5 out/bodies/$4/body.h5) $(call id,gear-variant) | $(B)/bin/gear-variant
-	$$(call run,variant) --params $$< --driver out/bodies/$3/body.h5 --driven out/bodies/$4/body.h5 --plan out/studies/$1/plan.toml $(STUDY_$1_OPTIONS) \
+	$$(call run,variant) --params $$< --body $(word 1,$(STUDY_$1_GEARS))=out/bodies/$3/body.h5 --body $(word 2,$(STUDY_$1_GEARS))=out/bodies/$4/body.h5 --plan out/studies/$1/plan.toml $(STUDY_$1_OPTIONS) \
 	  --output $$@ $$(call landed,variant)
 endef
 

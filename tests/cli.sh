@@ -36,7 +36,7 @@ sed "$coarse" "$scene_of_paper" > scene.toml
 stage_scene=("$bin/gear-scene" --scene scene.toml --output scene.mk --out out)
 stage_mesh=("$bin/gear-mesh" --params out/scene/pinion/body.toml --output out/scene/pinion/mesh.h5)
 stage_reduce=("$bin/gear-reduce" --params out/scene/pinion/body.toml --mesh out/scene/pinion/mesh.h5 --output out/scene/pinion/body.h5)
-pair=(--driver out/scene/pinion/body.h5 --driven out/scene/wheel/body.h5)
+pair=(--body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/wheel/body.h5)
 static() { echo "$bin/gear-static --params out/$1/params/static.toml ${pair[*]} --torque $2 --output out/$1/T$2/static.h5"; }
 sweep() { echo "$bin/gear-sweep --params out/$1/params/sweep.toml ${pair[*]} --static out/scene/T100/static.h5 \
   --reference-static out/scene/T100/static.h5 --direction $2 --output out/$1/T100/$2/sweep.h5"; }
@@ -48,8 +48,8 @@ lumped() { echo "$bin/gear-lumped --model $1 --static out/scene/T100/static.h5 -
 stage_map=("$bin/gear-jump-map" --params out/scene/params/map.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
   --contact line --corner-contact false --damping-ratio 0.05,0.1 --from 2700 --to 2900 --step 100 --loads-at 2800 --output out/scene/T100/jump_map_false.h5)
 stage_plot=("$bin/gear-plot" fig12 --plots "$plots" --output fig12 out/scene/T100/static.h5)
-stage_loaded=("$bin/gear-loaded" --static out/scene/T100/static.h5 "${pair[@]}" --driver-mesh out/scene/pinion/mesh.h5
-  --driven-mesh out/scene/wheel/mesh.h5 --mesh-phase 0.25 --output out/scene/T100/loaded_0.25.h5)
+stage_loaded=("$bin/gear-loaded" --static out/scene/T100/static.h5 "${pair[@]}" --mesh pinion=out/scene/pinion/mesh.h5
+  --mesh wheel=out/scene/wheel/mesh.h5 --mesh-phase 0.25 --output out/scene/T100/loaded_0.25.h5)
 chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
     $(static scene 100) && "${stage_impact[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}"
@@ -140,11 +140,11 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-report]="$bin/gear-report out/scene/T100/static.h5 --output x"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-loaded]="${stage_loaded[*]}"
-  [gear-animate]="$bin/gear-animate --driver-mesh out/scene/pinion/mesh.h5 --driven-mesh out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
+  [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-study]="$bin/gear-study --study scene.toml --output study.mk"
   [gear-reading]="$bin/gear-reading --plan scene.toml --output x"
-  [gear-variant]="$bin/gear-variant --params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --output x"
-  [gear-harris]="gear-harris --static-params out/scene/params/static.toml --driver out/scene/pinion/body.h5 --driven out/scene/pinion/body.h5 --design-torque 100 --output x")
+  [gear-variant]="$bin/gear-variant --params out/scene/params/static.toml --body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/pinion/body.h5 --output x"
+  [gear-harris]="gear-harris --static-params out/scene/params/static.toml --body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/pinion/body.h5 --design-torque 100 --output x")
 for program in "$bin"/gear-*; do
   name=$(basename "$program")
   "$program" --help > said 2>&1 && grep -q -- --help said && ok "$name --help" || wrong "$name --help" "$(head -n 1 said)"
@@ -377,8 +377,8 @@ for step in "gear-mesh --params bad/scene_bad/pinion/body.toml --output bad/scen
   "gear-mesh --params bad/scene_bad/wheel/body.toml --output bad/scene_bad/wheel/mesh.h5" \\
   "gear-reduce --params bad/scene_bad/pinion/body.toml --mesh bad/scene_bad/pinion/mesh.h5 --output bad/scene_bad/pinion/body.h5" \\
   "gear-reduce --params bad/scene_bad/wheel/body.toml --mesh bad/scene_bad/wheel/mesh.h5 --output bad/scene_bad/wheel/body.h5" \\
-  "gear-static --params bad/scene_bad/params/static.toml --driver bad/scene_bad/pinion/body.h5 --driven bad/scene_bad/wheel/body.h5 --torque 100 --output bad/scene_bad/T100/static.h5" \\
-  "gear-sweep --params bad/scene_bad/params/sweep.toml --driver bad/scene_bad/pinion/body.h5 --driven bad/scene_bad/wheel/body.h5 --static bad/scene_bad/T100/static.h5 --reference-static bad/scene_bad/T100/static.h5 --direction up --output bad/scene_bad/T100/up/sweep.h5"; do
+  "gear-static --params bad/scene_bad/params/static.toml --body pinion=bad/scene_bad/pinion/body.h5 --body wheel=bad/scene_bad/wheel/body.h5 --torque 100 --output bad/scene_bad/T100/static.h5" \\
+  "gear-sweep --params bad/scene_bad/params/sweep.toml --body pinion=bad/scene_bad/pinion/body.h5 --body wheel=bad/scene_bad/wheel/body.h5 --static bad/scene_bad/T100/static.h5 --reference-static bad/scene_bad/T100/static.h5 --direction up --output bad/scene_bad/T100/up/sweep.h5"; do
   $bin/\$step > /dev/null 2> bad/said || { s=\$?; cat bad/said >&2; exit \$s; }
 done
 CHAIN
@@ -415,7 +415,7 @@ sed -E "$coarse; s/^\[material.steel\]/[gear.pinion.crack]\ntooth = 3\ndepth_mm 
 cracked=out/scene_cracked
 "$bin/gear-scene" --scene scene_cracked.toml --output cracked.mk --out out > /dev/null 2>&1
 mkdir -p $cracked/T100
-cracked_pair=(--driver $cracked/pinion/body.h5 --driven $cracked/wheel/body.h5)
+cracked_pair=(--body pinion=$cracked/pinion/body.h5 --body wheel=$cracked/wheel/body.h5)
 if [ "$(readlink $cracked/wheel)" = "$(readlink out/scene/wheel)" ] && [ "$(readlink $cracked/pinion)" != "$(readlink out/scene/pinion)" ] &&
   "$bin/gear-mesh" --params $cracked/pinion/body.toml --output $cracked/pinion/mesh.h5 > said 2>&1 &&
   "$bin/gear-reduce" --params $cracked/pinion/body.toml --mesh $cracked/pinion/mesh.h5 --output $cracked/pinion/body.h5 > said 2>&1 &&
@@ -434,7 +434,7 @@ rm -rf said crack.* cracked.mk "$(readlink -f $cracked/pinion)" $cracked
 
 # --- artifacts: cut off, of another kind, of another version, not there
 head -c 3000 out/scene/pinion/body.h5 > cut.h5
-refused "an artifact that is cut off" '4' 'cut.h5' "$bin/gear-static" --params out/scene/params/static.toml --driver cut.h5 --driven out/scene/wheel/body.h5 --torque 100 --output x.h5
+refused "an artifact that is cut off" '4' 'cut.h5' "$bin/gear-static" --params out/scene/params/static.toml --body pinion=cut.h5 --body wheel=out/scene/wheel/body.h5 --torque 100 --output x.h5
 : > empty.h5
 refused "an empty artifact" '4' 'empty.h5' "$bin/gear-spectra" --input empty.h5 --output x.h5
 refused "an artifact of another stage" 3 'static.h5' "$bin/gear-spectra" --input out/scene/T100/static.h5 --output x.h5
@@ -504,13 +504,13 @@ other=out/scene_other/pinion
 "$bin/gear-mesh" --params $other/body.toml --output $other/mesh.h5 > /dev/null 2>&1
 "$bin/gear-reduce" --params $other/body.toml --mesh $other/mesh.h5 --output $other/body.h5 > /dev/null 2>&1
 refused "a mesh of another gear" 3 'bore_radius is 0.038, .* 0.04 m; (delete it; )?rebuild it with: make' "${stage_reduce[@]:0:3}" --mesh $other/mesh.h5 --output x.h5
-refused "a driver of another scene" 3 'the driver of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
-  --driver $other/body.h5 --driven out/scene/wheel/body.h5 --torque 100 --output x.h5
-refused "a driven gear of another scene" 3 'the driven of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
-  --driver out/scene/pinion/body.h5 --driven $other/body.h5 --torque 100 --output x.h5
-"$bin/gear-static" --params out/scene_other/params/static.toml --driver $other/body.h5 --driven $other/body.h5 --torque 100 \
+refused "a driver of another scene" 3 'the pinion of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
+  --body pinion=$other/body.h5 --body wheel=out/scene/wheel/body.h5 --torque 100 --output x.h5
+refused "a driven gear of another scene" 3 'the wheel of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
+  --body pinion=out/scene/pinion/body.h5 --body wheel=$other/body.h5 --torque 100 --output x.h5
+"$bin/gear-static" --params out/scene_other/params/static.toml --body pinion=$other/body.h5 --body wheel=$other/body.h5 --torque 100 \
   --output other_static.h5 > /dev/null 2>&1
-refused "the wave of another scene" 3 'other_static.h5: is of another driver than out/scene/T100/static.h5' $(lumped rectangular) --reference-static other_static.h5
+refused "the wave of another scene" 3 'other_static.h5: is of another body pinion than out/scene/T100/static.h5' $(lumped rectangular) --reference-static other_static.h5
 # Changed where HDF5 has a checksum of its own, then the content hash put right. (test_files.cpp: an older schema.)
 cp out/scene/T100/up/sweep.h5 out/old.h5
 place=$(grep -a -b -o -m1 schema_version out/old.h5 | head -n 1 | cut -d: -f1)

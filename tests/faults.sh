@@ -159,7 +159,7 @@ fi
 if [ "$(id -u)" = 0 ] && ! command -v setpriv > /dev/null; then skip "a read-only folder (root writes all the same)"; else
   rm -f $at/static.h5
   if [ "$(id -u)" = 0 ]; then as=(setpriv --reuid=65534 --regid=65534 --clear-groups); chmod 755 "$base"; else as=(); chmod a-w $at; fi
-  "${as[@]}" "$B/bin/gear-static" --params out/own/params/static.toml --driver out/own/pinion/body.h5 --driven out/own/wheel/body.h5 \
+  "${as[@]}" "$B/bin/gear-static" --params out/own/params/static.toml --body pinion=out/own/pinion/body.h5 --body wheel=out/own/wheel/body.h5 \
     --torque 100 --output $at/static.h5 > /dev/null 2> "$log"
   chmod u+w $at; one_line "a read-only folder" "$at/static.h5: cannot create a file beside it .*Permission denied"
   again "and the next make"
@@ -262,7 +262,7 @@ mixed() {
   "${@:3}" > /dev/null 2> "$log" && wrong "$1" "it ran" || one_line "$1" "$2"
   [ ! -e mixed.h5 ] || { wrong "$1" "a result was written"; rm mixed.h5; }
 }
-one_pair=(--driver out/own/pinion/body.h5 --driven out/own/wheel/body.h5) two_pair=(--driver out/two/pinion/body.h5 --driven out/two/wheel/body.h5)
+one_pair=(--body pinion=out/own/pinion/body.h5 --body wheel=out/own/wheel/body.h5) two_pair=(--body pinion=out/two/pinion/body.h5 --body wheel=out/two/wheel/body.h5)
 mixed "a mesh of another scene" 'make' "$B/bin/gear-reduce" --params out/own/pinion/body.toml --mesh out/two/pinion/mesh.h5 --output mixed.h5
 mixed "bodies of another scene" 'make' "$B/bin/gear-static" --params out/own/params/static.toml "${two_pair[@]}" --torque 100 --output mixed.h5
 for stage in "gear-sweep --direction up" gear-impact; do
@@ -270,7 +270,7 @@ for stage in "gear-sweep --direction up" gear-impact; do
   mixed "$name with statics of another scene" 'stale.*make SCENE=two.toml out/two/T100/static.h5' "$B"/bin/$stage --params out/own/params/${name#gear-}.toml \
     "${one_pair[@]}" --static out/two/T100/static.h5 --reference-static $at/static.h5 --output mixed.h5
 done
-mixed "a lumped model with the wave of another scene" 'another driver' "$B/bin/gear-lumped" --model rectangular --static $at/static.h5 \
+mixed "a lumped model with the wave of another scene" 'another body pinion' "$B/bin/gear-lumped" --model rectangular --static $at/static.h5 \
   --reference-static out/two/T100/static.h5 --params out/own/params/sweep.toml --direction up --output mixed.h5
 cp out/two/pinion/body.h5 "$(readlink -f out/own/pinion)/body.h5"
 mixed "an input that another scene's file was copied over" 'make' "$B/bin/gear-spectra" --input $at/down/sweep.h5 --output mixed.h5

@@ -116,9 +116,9 @@ swapped out/s/T100/static.h5 out/s/T200/static.h5 'is at 100 N m, but lies in T2
 swapped out/other/T100/static.h5 out/s/T100/static.h5 'was made from out/other/params/static.toml, but lies in out/s' "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
 swapped out/s/T100/up/sweep.h5 out/s/T100/down/sweep.h5 'is of the sweep up, but lies in down' "$bin/gear-spectra" --input out/s/T100/down/sweep.h5 --output x.h5
 swapped out/s/T100/secant/up/sweep.h5 out/s/T100/up/sweep.h5 'is of the lumped model secant, but lies in T100' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/up/sweep.h5
-swapped "$(body_of other)/body.h5" "$(body_of s)/body.h5" 'is of the slice [0-9a-f]{16}, but lies at' "$bin/gear-static" --params out/s/params/static.toml --driver "$(body_of s)/body.h5" --driven "$(body_of s)/body.h5" --torque 100 --output x.h5
+swapped "$(body_of other)/body.h5" "$(body_of s)/body.h5" 'is of the slice [0-9a-f]{16}, but lies at' "$bin/gear-static" --params out/s/params/static.toml --body pinion="$(body_of s)/body.h5" --body wheel="$(body_of s)/body.h5" --torque 100 --output x.h5
 swapped "$(body_of s)/mesh.h5" out/s/T100/static.h5 "is 'whine/mesh', but (its name is that of )?'whine/static'" "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
-pair=(--driver out/s/pinion/body.h5 --driven out/s/wheel/body.h5)
+pair=(--body pinion=out/s/pinion/body.h5 --body wheel=out/s/wheel/body.h5)
 refused "gear-impact with the parameters of a sweep" 3 'sweep.toml: is what a sweep depends on, and this stage reads what the ring-down depends on: give out/<scene>/params/impact.toml' \
   "$bin/gear-impact" --params out/s/params/sweep.toml "${pair[@]}" --static out/s/T100/static.h5 --reference-static out/s/T100/static.h5 --output x.h5
 refused "a report of a lumped sweep" 3 'secant/up/sweep.h5: is of the lumped model secant; a report is of the elastic pair' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/secant/up/sweep.h5

@@ -6,9 +6,11 @@
 // Equations  none: the motion is the sweep's, deflections are K x = f under its tooth loads
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/publish.h"
 #include "files/schemas.h"
@@ -21,10 +23,10 @@ namespace {
 
 void body(int argc, char** argv) {
   whine::Options options{"Animation of a steady motion over its mesh period", "gear-animate"};
-  std::string driver, driven, sweep, output, plots = "pipelines/plots", frequency;
+  std::vector<std::string> meshes;
+  std::string sweep, output, plots = "pipelines/plots", frequency;
   int frames = 48;
-  options.add("--driver-mesh", driver, "mesh.h5 of the driving gear").required();
-  options.add("--driven-mesh", driven, "mesh.h5 of the driven gear").required();
+  options.add("--mesh", meshes, "mesh.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--sweep", sweep, "sweep.h5 of an elastic pair, up or down").required();
   options.add("--mesh-frequency", frequency,
               "speed in Hz, one of the sweep's; default: the one with the largest RMS");
@@ -33,24 +35,27 @@ void body(int argc, char** argv) {
   options.add("--output", output, "path of the results without extension").required();
   options.footer(
       "Example:\n"
-      "  gear-animate --driver-mesh out/parker2000/pinion/mesh.h5 --driven-mesh out/parker2000/wheel/mesh.h5 "
+      "  gear-animate --mesh pinion=out/parker2000/pinion/mesh.h5 --mesh wheel=out/parker2000/wheel/mesh.h5 "
       "--sweep out/parker2000/T150/down/sweep.h5 --frames 4 --output animation");
   options.parse(argc, argv);
 
   const double speed = frequency.empty() ? 0 : whine::number_option("--mesh-frequency", frequency);
   if (!frequency.empty() && !(speed > 0))
     whine::fail(whine::Failure::usage, "--mesh-frequency ", speed, ": it is in Hz, above 0");
-  whine::Figure figure = whine::animation_figure(whine::read_mesh(driver), whine::read_mesh(driven),
-                                                 whine::read_sweep(sweep), speed, frames);
+  const whine::NamedFiles files("--mesh", meshes);
+  const whine::SweepArtifact motion = whine::read_sweep(sweep);
+  const std::vector<std::string> paths = files.of(motion.mesh);
+  whine::Figure figure =
+      whine::animation_figure(whine::read_mesh(paths[0]), whine::read_mesh(paths[1]), motion, speed, frames);
   const std::string scene = whine::scene_words(sweep);
   if (!scene.empty()) figure.scenes = {scene};
-  for (const std::string& path : {driver, driven, sweep}) whine::require_fresh(path);
+  for (const std::string& path : {paths[0], paths[1], sweep}) whine::require_fresh(path);
 
   const std::string recipe = plots + "/animation.gp";
   const whine::PlotFile data(figure);
   whine::publish_tables(
       figure, output,
-      {whine::recorded_path(driver), whine::recorded_path(driven), whine::recorded_path(sweep)});
+      {whine::recorded_path(paths[0]), whine::recorded_path(paths[1]), whine::recorded_path(sweep)});
   const auto of_frames = [&figure](int first, int last) {
     whine::Figure part = figure;
     part.numbers.emplace_back("first_frame", first);

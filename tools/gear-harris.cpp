@@ -17,6 +17,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
@@ -79,14 +80,13 @@ std::vector<double> lengths_of(const std::string& word, const whine::GearDesign&
 void body(int argc, char** argv) {
   whine::Options options{"Transmission error against torque and tip relief", "gear-harris"};
   whine::HarrisPlan plan;
-  std::string params, static_params, driver, driven, output, torque, relief, start, length, design,
-      points = "0", reference;
+  std::string params, static_params, output, torque, relief, start, length, design, points = "0", reference;
+  std::vector<std::string> bodies;
   bool dynamic = false;
   options
       .add("--static-params", static_params, "stage parameters of the scene: out/<scene>/params/static.toml")
       .required();
-  options.add("--driver", driver, "body.h5 of the driving gear").required();
-  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--torque", torque,
               "torques on the driver in N m, from:to:count or with commas (default: 60 up to twice the "
               "design torque)");
@@ -118,8 +118,8 @@ void body(int argc, char** argv) {
   options.add("--output", output, "harris_map.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-harris --static-params out/parker2000/params/static.toml --driver "
-      "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 5:300:60 "
+      "  gear-harris --static-params out/parker2000/params/static.toml --body "
+      "pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 5:300:60 "
       "--relief-um 0:20:40 --design-torque 150 --output harris_map.h5");
   options.parse(argc, argv);
 
@@ -135,14 +135,15 @@ void body(int argc, char** argv) {
     plan.torque = numbers("--torque", torque);
   if (design.empty()) plan.design_torque = 0.5 * (plan.torque.front() + plan.torque.back());
   const double checks = whine::number_option("--check", points);
-  std::vector<std::string> inputs = {"static_params=" + static_params, "driver=" + driver,
-                                     "driven=" + driven};
+  const whine::NamedFiles files("--body", bodies);
+  std::vector<std::string> inputs = files.and_inputs({"static_params=" + static_params});
   if (dynamic) inputs.insert(inputs.end(), {"params=" + params, "reference_static=" + reference});
   const whine::Provenance provenance = whine::made_by(argc, argv, std::move(inputs));
   const whine::StaticSlice slice = whine::read_static_slice(static_params);
-  const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
-  whine::require_body(first, slice.driver_body, "driver", driver);
-  whine::require_body(second, slice.driven_body, "driven", driven);
+  const std::vector<std::string> paths = files.of(slice.mesh);
+  const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
+  whine::require_body(first, slice.driver_body, slice.mesh.driver, paths[0]);
+  whine::require_body(second, slice.driven_body, slice.mesh.driven, paths[1]);
   if (!start.empty()) {
     plan.length = lengths_of(start, first.design, second.design, plan.relieved);
   } else if (!length.empty()) {

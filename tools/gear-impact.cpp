@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
@@ -44,11 +45,11 @@ void body(int argc, char** argv) {
   whine::Options options{"Natural frequency and damping of the pair at fixed mesh phases by ring-down",
                          "gear-impact"};
   whine::ImpactPlan plan;
-  std::string params, driver, driven, statics, reference, output, step_word = whine::text(plan.torque_step),
-                                                                  ratio_word, state = "two";
+  std::string params, statics, reference, output, step_word = whine::text(plan.torque_step), ratio_word,
+                                                  state = "two";
+  std::vector<std::string> bodies;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/impact.toml").required();
-  options.add("--driver", driver, "body.h5 of the driving gear").required();
-  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--static", statics, "static.h5 of the torque").required();
   options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
       .required();
@@ -64,8 +65,8 @@ void body(int argc, char** argv) {
   write.excludes(calibrate);
   options.footer(
       "Example:\n"
-      "  gear-impact --params out/parker2000/params/impact.toml --driver "
-      "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --static "
+      "  gear-impact --params out/parker2000/params/impact.toml --body "
+      "pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static "
       "out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output "
       "impact.h5");
   options.parse(argc, argv);
@@ -73,23 +74,23 @@ void body(int argc, char** argv) {
     whine::fail(whine::Failure::usage, "--output or --calibrate is needed; see --help");
 
   plan.torque_step = whine::number_option("--torque-step", step_word);
-  const whine::Provenance provenance =
-      whine::made_by(argc, argv,
-                     {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
-                      "reference_static=" + reference});
+  const whine::NamedFiles files("--body", bodies);
+  const whine::Provenance provenance = whine::made_by(
+      argc, argv,
+      files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
   whine::ImpactSlice slice = whine::read_impact_slice(params);
-  for (const std::string& file : {statics, reference}) {
-    whine::require_made_from(file, "driver", driver);
-    whine::require_made_from(file, "driven", driven);
-  }
   const whine::StaticArtifact at_torque = whine::read_static(statics),
                               at_reference = whine::read_static(reference);
+  const std::vector<std::string> paths = files.of(at_torque.mesh);
+  for (int g = 0; g < 2; ++g)
+    for (const std::string& file : {statics, reference})
+      whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
   if (at_reference.torque != slice.reference_torque)
     whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
                 " N m, but the scene's first torque, which sets the bearing dampers, is ",
                 slice.reference_torque, " N m; give the static.h5 of that torque");
 
-  const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
+  const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
   whine::as_drawn(slice, first, second);
   std::optional<whine::Progress> progress;
   const auto report = [&](long done, long total) {

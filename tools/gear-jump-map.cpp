@@ -15,6 +15,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
@@ -49,15 +50,14 @@ void body(int argc, char** argv) {
   whine::Options options{"Jumps, contact loss and tooth loads of the primary resonance against damping",
                          "gear-jump-map"};
   whine::JumpMapPlan plan;
-  std::string params, static_params, driver, driven, output, torque_word, corner, contact, from, to, at,
+  std::string params, static_params, output, torque_word, corner, contact, from, to, at,
       step = whine::text(plan.step);
-  std::vector<std::string> ratios, factors;
+  std::vector<std::string> bodies, ratios, factors;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/map.toml").required();
   options
       .add("--static-params", static_params, "stage parameters of the scene: out/<scene>/params/static.toml")
       .required();
-  options.add("--driver", driver, "body.h5 of the driving gear").required();
-  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--torque", torque_word, "torque on the driver in N m, above 0").required();
   options.add("--corner-contact", corner, "true, false or degrees, instead of the scene's");
   options.add("--contact", contact, "line or strips, instead of the scene's").one_of({"line", "strips"});
@@ -73,8 +73,8 @@ void body(int argc, char** argv) {
   options.footer(
       "Example:\n"
       "  gear-jump-map --params out/parker2000/params/map.toml --static-params "
-      "out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5 --driven "
-      "out/parker2000/wheel/body.h5 --torque 150 --corner-contact false --damping-ratio 0.05,0.07 "
+      "out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5 --body "
+      "wheel=out/parker2000/wheel/body.h5 --torque 150 --corner-contact false --damping-ratio 0.05,0.07 "
       "--loads-at 2400 --output jump_map.h5");
   options.parse(argc, argv);
 
@@ -85,17 +85,18 @@ void body(int argc, char** argv) {
   if (!to.empty()) plan.to = above_zero("--to", to);
   if (!at.empty()) plan.load_frequency = above_zero("--loads-at", at);
   const double torque = whine::number_option("--torque", torque_word);
-  const whine::Provenance provenance = whine::made_by(
-      argc, argv,
-      {"params=" + params, "static_params=" + static_params, "driver=" + driver, "driven=" + driven});
+  const whine::NamedFiles files("--body", bodies);
+  const whine::Provenance provenance =
+      whine::made_by(argc, argv, files.and_inputs({"params=" + params, "static_params=" + static_params}));
   whine::SweepSlice slice = whine::read_map_slice(params);
   whine::StaticSlice statics = whine::read_static_slice(static_params);
   if (!corner.empty()) statics.mesh.corner = corner_rule(corner);
   if (!contact.empty()) statics.fidelity.contact = slice.fidelity.contact = contact;
-  const whine::BodyArtifact first = whine::read_body(driver), second = whine::read_body(driven);
+  const std::vector<std::string> paths = files.of(statics.mesh);
+  const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
   whine::as_drawn(slice, first, second);
-  whine::require_body(first, statics.driver_body, "driver", driver);
-  whine::require_body(second, statics.driven_body, "driven", driven);
+  whine::require_body(first, statics.driver_body, statics.mesh.driver, paths[0]);
+  whine::require_body(second, statics.driven_body, statics.mesh.driven, paths[1]);
 
   std::optional<whine::Progress> progress;
   const whine::JumpMapArtifact result = whine::jump_map(first, second, statics, torque, slice, plan,

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/schemas.h"
 #include "motion/flank_pressure.h"
@@ -23,12 +25,11 @@ namespace {
 void body(int argc, char** argv) {
   whine::Options options{"Loaded and deformed gears at one mesh position, with contact pressure and stresses",
                          "gear-loaded"};
-  std::string statics_path, driver, driven, driver_mesh, driven_mesh, output, phase_word;
+  std::string statics_path, output, phase_word;
+  std::vector<std::string> bodies, meshes;
   options.add("--static", statics_path, "static.h5 of the pair at the torque").required();
-  options.add("--driver", driver, "body.h5 of the driving gear").required();
-  options.add("--driven", driven, "body.h5 of the driven gear").required();
-  options.add("--driver-mesh", driver_mesh, "mesh.h5 of the driving gear").required();
-  options.add("--driven-mesh", driven_mesh, "mesh.h5 of the driven gear").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
+  options.add("--mesh", meshes, "mesh.h5 of a gear in the same way").required();
   options
       .add("--mesh-phase", phase_word,
            "mesh phase, from 0 (reference pair at the pitch point) up to, not including, 1; with teeth that "
@@ -36,22 +37,24 @@ void body(int argc, char** argv) {
       .required();
   options.add("--output", output, "loaded_<phase>.h5 to write").required();
   options.footer(
-      "Example:\n  gear-loaded --static out/parker2000/T150/static.h5 --driver out/parker2000/pinion/body.h5 "
-      "--driven out/parker2000/wheel/body.h5 --driver-mesh out/parker2000/pinion/mesh.h5 "
-      "--driven-mesh out/parker2000/wheel/mesh.h5 --mesh-phase 0.25 --output "
+      "Example:\n  gear-loaded --static out/parker2000/T150/static.h5 --body "
+      "pinion=out/parker2000/pinion/body.h5 "
+      "--body wheel=out/parker2000/wheel/body.h5 --mesh pinion=out/parker2000/pinion/mesh.h5 "
+      "--mesh wheel=out/parker2000/wheel/mesh.h5 --mesh-phase 0.25 --output "
       "loaded.h5");
   options.parse(argc, argv);
 
   const double position = whine::number_option("--mesh-phase", phase_word);
+  const whine::NamedFiles body_files("--body", bodies), mesh_files("--mesh", meshes);
   const whine::Provenance provenance =
-      whine::made_by(argc, argv,
-                     {"static=" + statics_path, "driver=" + driver, "driven=" + driven,
-                      "driver_mesh=" + driver_mesh, "driven_mesh=" + driven_mesh});
+      whine::made_by(argc, argv, mesh_files.and_inputs(body_files.and_inputs({"static=" + statics_path})));
   const whine::StaticArtifact statics = whine::read_static(statics_path);
+  const std::vector<std::string> body_paths = body_files.of(statics.mesh),
+                                 mesh_paths = mesh_files.of(statics.mesh);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-loaded");
   const whine::LoadedArtifact result =
-      whine::loaded_pair(whine::read_mesh(driver_mesh), whine::read_mesh(driven_mesh),
-                         whine::read_body(driver), whine::read_body(driven), statics,
+      whine::loaded_pair(whine::read_mesh(mesh_paths[0]), whine::read_mesh(mesh_paths[1]),
+                         whine::read_body(body_paths[0]), whine::read_body(body_paths[1]), statics,
                          position - std::floor(position), static_cast<int>(std::floor(position)));
   steps.reset();
 

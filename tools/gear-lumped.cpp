@@ -35,9 +35,9 @@ int count_option(const std::string& name, const std::string& word) {
 }
 
 void require_same_pair(const std::string& one, const std::string& other) {
-  for (const char* role : {"driver", "driven"})
-    if (whine::recorded_input(one, role) != whine::recorded_input(other, role))
-      whine::fail(whine::Failure::input, other, ": is of another ", role, " than ", one,
+  for (const auto& input : whine::read_origin(one).inputs)
+    if (input.role.starts_with("body ") && input.sha256 != whine::recorded_input(other, input.role))
+      whine::fail(whine::Failure::input, other, ": is of another ", input.role, " than ", one,
                   "; give two results of one scene, or ", whine::rebuild_advice(other));
 }
 

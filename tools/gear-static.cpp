@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
@@ -43,12 +44,12 @@ void tell_change(const std::string& where, const whine::StaticDifference& change
 void body(int argc, char** argv) {
   whine::Options options{"Static transmission error, mesh stiffness and tooth loads over a mesh period",
                          "gear-static"};
-  std::string params, driver, driven, output;
+  std::string params, output;
+  std::vector<std::string> bodies;
   std::string torque_word;
   bool budget = false, next_rung = false;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/static.toml").required();
-  options.add("--driver", driver, "body.h5 of the driving gear").required();
-  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--torque", torque_word, "torque on the driver in N m, above 0").required();
   options.add("--output", output, "static.h5 to write").required();
   whine::Option of_budget = options.flag(
@@ -57,18 +58,20 @@ void body(int argc, char** argv) {
       .excludes(of_budget);
   options.footer(
       "Example:\n"
-      "  gear-static --params out/parker2000/params/static.toml --driver "
-      "out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --torque 150 --output "
+      "  gear-static --params out/parker2000/params/static.toml --body "
+      "pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 150 --output "
       "static.h5");
   options.parse(argc, argv);
 
   const double torque = whine::number_option("--torque", torque_word);
-  const whine::Provenance provenance =
-      whine::made_by(argc, argv, {"params=" + params, "driver=" + driver, "driven=" + driven});
+  const whine::NamedFiles files("--body", bodies);
+  const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::StaticSlice slice = whine::read_static_slice(params);
-  const whine::BodyArtifact driver_body = whine::read_body(driver), driven_body = whine::read_body(driven);
-  whine::require_body(driver_body, slice.driver_body, "driver", driver);
-  whine::require_body(driven_body, slice.driven_body, "driven", driven);
+  const std::vector<std::string> paths = files.of(slice.mesh);
+  const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
+                            driven_body = whine::read_body(paths[1]);
+  whine::require_body(driver_body, slice.driver_body, slice.mesh.driver, paths[0]);
+  whine::require_body(driven_body, slice.driven_body, slice.mesh.driven, paths[1]);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-static");
   if (budget) {
     const whine::ErrorBudgetArtifact errors = whine::error_budget(driver_body, driven_body, slice, torque);

@@ -69,9 +69,15 @@ void plan(const std::string& path, const std::string& output, const std::string&
   std::map<std::string, std::string> bodies, slices;        // by hash
   std::map<std::string, std::vector<std::string>> of_pair;  // "driver_driven" -> variants, each once
   std::vector<GatheredVariant> variants;
+  std::string gears;  // driver and driven gear, the order of a pair's bodies
   for (long i = 0; i < study.variants; ++i) {
     const std::vector<std::string> values = variant_values(study, i);
     const StudyVariant variant = study_variant(study, i, values);
+    const std::string own = variant.scene.mesh.driver + " " + variant.scene.mesh.driven;
+    if (!gears.empty() && own != gears)
+      fail(Failure::input, path, ": the study varies which gear drives which (", gears, ", ", own,
+           "); make a study of each");
+    gears = own;
     std::string pair;
     for (const std::string& gear : {variant.scene.mesh.driver, variant.scene.mesh.driven}) {
       const std::string body = body_slice(variant.scene, gear);
@@ -107,6 +113,7 @@ void plan(const std::string& path, const std::string& output, const std::string&
     out << "\n" << prefix << pair << " :=";
     for (const std::string& name : names) out << " " << variant_file(name);
   }
+  out << "\n" << prefix << "GEARS := " << gears;
   out << "\n" << prefix << "OPTIONS :=" << (study.marks_refusals ? "--mark-refusals" : "") << "\nBODIES +=";
   for (const auto& [hash, text] : bodies) out << " " << hash;
   out << "\n";

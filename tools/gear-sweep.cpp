@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/scene.h"
 #include "files/schemas.h"
@@ -51,11 +52,11 @@ void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
 void body(int argc, char** argv) {
   whine::Options options{"Speed sweep of the dynamic response, with contact solved at every step",
                          "gear-sweep"};
-  std::string params, driver, driven, statics, reference, direction, output;
+  std::string params, statics, reference, direction, output;
+  std::vector<std::string> bodies;
   bool next_rung = false;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
-  options.add("--driver", driver, "body.h5 of the driving gear").required();
-  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--static", statics, "static.h5 of the torque to run").required();
   options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
       .required();
@@ -66,23 +67,23 @@ void body(int argc, char** argv) {
                "they change");
   options.footer(
       "Example:\n"
-      "  gear-sweep --params out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5 "
-      "--driven out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
+      "  gear-sweep --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 "
+      "--body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
       "--reference-static out/parker2000/T100/static.h5 --direction up --output "
       "sweep.h5");
   options.parse(argc, argv);
 
-  const whine::Provenance provenance =
-      whine::made_by(argc, argv,
-                     {"params=" + params, "driver=" + driver, "driven=" + driven, "static=" + statics,
-                      "reference_static=" + reference});
+  const whine::NamedFiles files("--body", bodies);
+  const whine::Provenance provenance = whine::made_by(
+      argc, argv,
+      files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
   whine::SweepSlice slice = whine::read_sweep_slice(params);
-  for (const std::string& file : {statics, reference}) {
-    whine::require_made_from(file, "driver", driver);
-    whine::require_made_from(file, "driven", driven);
-  }
   const whine::StaticArtifact at_torque = whine::read_static(statics),
                               at_reference = whine::read_static(reference);
+  const std::vector<std::string> paths = files.of(at_torque.mesh);
+  for (int g = 0; g < 2; ++g)
+    for (const std::string& file : {statics, reference})
+      whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
   whine::require_contact(at_torque, slice.fidelity, statics);
   whine::require_contact(at_reference, slice.fidelity, reference);
   if (at_reference.torque != slice.reference_torque)
@@ -90,7 +91,8 @@ void body(int argc, char** argv) {
                 " N m, but the scene's first torque, which sets the bearing dampers, is ",
                 slice.reference_torque, " N m; give the static.h5 of that torque");
 
-  const whine::BodyArtifact driver_body = whine::read_body(driver), driven_body = whine::read_body(driven);
+  const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
+                            driven_body = whine::read_body(paths[1]);
   whine::as_drawn(slice, driver_body, driven_body);
   std::vector<whine::NextSweep> next;
   if (next_rung) next = whine::next_sweeps(driver_body, driven_body, at_torque, at_reference, slice);

@@ -5,8 +5,8 @@
 // Writes  variant.h5    transmission error and stiffness at rest, and of each sweep RMS, loads, contact loss, jumps, as numbers
 // With --mark-refusals a variant of what no pair can do is an artifact, too, which says why; whatever else fails is an error.
 // Equations: as gear-static, gear-sweep and gear-spectra, whose numbers these are.
-// Example: gear-variant --params out/studies/relief/variants/3f/3f0c.toml --driver out/bodies/0123/body.h5
-//            --driven out/bodies/0123/body.h5 --output out/studies/relief/variants/3f/3f0c.h5
+// Example: gear-variant --params out/studies/relief/variants/3f/3f0c.toml --body pinion=out/bodies/0123/body.h5
+//            --body wheel=out/bodies/0123/body.h5 --output out/studies/relief/variants/3f/3f0c.h5
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +16,7 @@
 #include "base/refusal.h"
 #include "base/tool.h"
 #include "files/fit.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/study.h"
 #include "gear/scene_geometry.h"
@@ -36,11 +37,11 @@ std::string name_in(const std::string& plan, const std::string& params) {
 void body(int argc, char** argv) {
   whine::Options options{"Response quantities of one variant of a study, at rest and in motion",
                          "gear-variant"};
-  std::string params, driver, driven, output, plan;
+  std::string params, output, plan;
+  std::vector<std::string> bodies;
   bool marks = false;
   options.add("--params", params, "stage parameters of the variant, as gear-study writes it").required();
-  options.add("--driver", driver, "body.h5 of the driving gear").required();
-  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--output", output, "artifact to write").required();
   options.add("--plan", plan, "plan.toml of the study, so that errors name the variant and its values");
   options.flag("--mark-refusals", marks,
@@ -48,18 +49,20 @@ void body(int argc, char** argv) {
   options.footer(
       "Example:\n"
       "  gear-variant --params $(ls out/studies/damping-torque-relief/variants/*/*.toml | head -n 1) "
-      "--driver out/parker2000/pinion/body.h5 --driven out/parker2000/wheel/body.h5 --output variant.h5");
+      "--body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --output "
+      "variant.h5");
   options.parse(argc, argv);
 
-  const whine::Provenance provenance =
-      whine::made_by(argc, argv, {"params=" + params, "driver=" + driver, "driven=" + driven});
+  const whine::NamedFiles files("--body", bodies);
+  const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   whine::VariantSlice slice = whine::read_variant_slice(params);
-  const whine::BodyArtifact first = whine::read_body(driver);
+  const std::vector<std::string> paths = files.of(slice.statics.mesh);
+  const whine::BodyArtifact first = whine::read_body(paths[0]);
   std::optional<whine::BodyArtifact> other;  // gears that are alike share a body
-  if (driven != driver) other = whine::read_body(driven);
+  if (paths[1] != paths[0]) other = whine::read_body(paths[1]);
   const whine::BodyArtifact& second = other ? *other : first;
-  whine::require_body(first, slice.statics.driver_body, "driver", driver);
-  whine::require_body(second, slice.statics.driven_body, "driven", driven);
+  whine::require_body(first, slice.statics.driver_body, slice.statics.mesh.driver, paths[0]);
+  whine::require_body(second, slice.statics.driven_body, slice.statics.mesh.driven, paths[1]);
   if (!slice.directions.empty()) whine::as_drawn(slice.motion, first, second);
   whine::VariantArtifact result = whine::variant_parameters(first, second, slice);
   std::vector<whine::Remark> remarks;

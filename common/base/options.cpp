@@ -31,8 +31,12 @@ void require_output_apart(const CLI::App& app) {
   const std::string place = output->results().back();
   for (const CLI::Option* option : app.get_options()) {
     if (option == output) continue;
-    for (const std::string& word : option->results()) {
+    for (std::string word : option->results()) {
       std::error_code ignored;
+      // Also of a word that names the gear first: pinion=<path>.
+      if (const auto equals = word.find('=');
+          equals != std::string::npos && !std::filesystem::exists(word, ignored))
+        word = word.substr(equals + 1);
       if (std::filesystem::is_regular_file(word, ignored) &&
           std::filesystem::equivalent(word, place, ignored))
         fail(Failure::usage, "--output ", place, " is the same file as the input ", option->get_name(), " ",

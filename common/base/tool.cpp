@@ -111,7 +111,9 @@ std::string command_line(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     std::string word = argv[i];
     const auto equals = word.find('=');
-    if (word.rfind("--", 0) == 0 && equals != std::string::npos) {
+    // --output=/home/x, and pinion=/home/x of --body.
+    const bool is_path = equals != std::string::npos && word[0] != '/' && word[equals + 1] == '/';
+    if ((word.rfind("--", 0) == 0 && equals != std::string::npos) || is_path) {
       word = word.substr(0, equals + 1) + recorded_path(word.substr(equals + 1));
     } else {
       word = recorded_path(word);

@@ -130,6 +130,7 @@ const std::map<std::string, Range>& table() {
       {"/by_phase/eigen_frequency", kFrequency},
       {"/by_phase/eigen_damping_ratio", kSigned},
       {"/by_phase/fit_residual", kPositive},
+      {"/by_phase/frozen_frequency", kFrequency},
       {"/certificate/least_mesh_force", kSigned},
       // sweep.h5, response.h5
       {"/mesh_frequency", kSpeed},

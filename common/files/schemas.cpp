@@ -762,6 +762,14 @@ void write(const std::string& path, const ImpactArtifact& a, const Provenance& p
           {"1", "damping ratio -Re s / |s| of the eigenvalue with the contact frozen", kPhase, ""});
   out.put("/by_phase/fit_residual", a.fit_residual,
           {"1", "RMS of decay less fit over RMS of decay", kPhase, ""});
+  if (a.frozen_frequency.size() > 0) {
+    want_rows("by_phase/frozen_frequency", a.frozen_frequency.rows(), phases);
+    out.put(
+        "/by_phase/frozen_frequency", a.frozen_frequency,
+        {"Hz",
+         "lowest natural frequencies with the contact frozen and no damping, hubs on their bearings included",
+         "mesh_phase mode", ""});
+  }
   out.put("/certificate/least_mesh_force", a.least_mesh_force,
           {"1", "least mesh force of all decays over the static one; teeth part at 0", "", ""});
   out.publish();
@@ -801,6 +809,8 @@ ImpactArtifact read_impact(const std::string& path) {
   a.eigen_frequency = in.vector("/by_phase/eigen_frequency", phases);
   a.eigen_damping_ratio = in.vector("/by_phase/eigen_damping_ratio", phases);
   a.fit_residual = in.vector("/by_phase/fit_residual", phases);
+  if (in.file().has("/by_phase/frozen_frequency"))
+    a.frozen_frequency = in.matrix("/by_phase/frozen_frequency", phases);
   a.least_mesh_force = in.number("/certificate/least_mesh_force");
   return a;
 }

@@ -211,6 +211,9 @@ struct ImpactArtifact {
   Eigen::VectorXd phase_undamped_frequency;                      // (phase) Hz: contact frozen, no damping
   Eigen::VectorXd eigen_frequency, eigen_damping_ratio;  // (phase) Hz, 1: eigenvalues with contact frozen
   Eigen::VectorXd fit_residual;                          // (phase) RMS of decay less fit over RMS of decay
+  // (phase, mode) Hz, ascending: of gears on bearings the lowest natural frequencies with the contact frozen, no damping: those
+  // of the hubs on their bearings, and the mesh's, which is phase_undamped_frequency. Empty for rigid axes
+  MatrixRM frozen_frequency;
   double least_mesh_force = 0;  // 1: least mesh force of all decays, over the static one
 };
 

@@ -139,7 +139,13 @@ class HeldPair {
     for (int i = 0; i < plan_.phases; ++i) {
       meshes_.push_back(dynamics.hold(i));
       blank_.phase_undamped_frequency[i] = dynamics.frozen_frequency(i);
-      if (model.on_bearings()) meshes_.back().near = blank_.phase_undamped_frequency[i];
+      if (model.on_bearings()) {
+        meshes_.back().near = blank_.phase_undamped_frequency[i];
+        // The mesh, and each gear on a bearing along the line of action and across.
+        const int shown = 1 + 2 * (model.bearing[0].elastic() + model.bearing[1].elastic());
+        if (i == 0) blank_.frozen_frequency.resize(plan_.phases, shown);
+        blank_.frozen_frequency.row(i) = dynamics.frozen_frequencies(i).head(shown).transpose();
+      }
       blank_.loaded_pairs[i] = loaded_pairs(meshes_[i], rest(meshes_[i], 1, solver).p);
     }
     const double mean_period = 1 / blank_.phase_undamped_frequency.mean();

@@ -289,9 +289,13 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
     widening *= kWidening;
   }
   result.mean_stiffness = result.stiffness_secant.mean();
-  result.backlash_margin = driver.design.tooth_thinning + driven.design.tooth_thinning > 0
-                               ? model.kinematics.backlash() + result.transmission_error.minCoeff()
-                               : std::numeric_limits<double>::infinity();
+  result.backlash_margin =
+      driver.design.tooth_thinning + driven.design.tooth_thinning > 0
+          ? model.kinematics.backlash() +
+                (model.on_bearings()
+                     ? (load / result.stiffness_secant.array() + result.unloaded_error.array()).minCoeff()
+                     : result.transmission_error.minCoeff())
+          : std::numeric_limits<double>::infinity();
   return result;
 }
 

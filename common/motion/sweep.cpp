@@ -15,6 +15,7 @@
 #include "contact/lanes.h"
 #include "files/fit.h"
 #include "gear/numbers.h"
+#include "gear/pair.h"
 #include "gear/scene_geometry.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
@@ -310,10 +311,31 @@ double steps_per_oscillation(const SweepArtifact& sweep) {
   return rate / sweep.natural_frequency;
 }
 
+namespace {
+
+// m, (speed): by how little the flanks close along the line of action at least: the transmission error less what elastic bearings
+// give way. Their dampers' forces are taken for those of their springs.
+VectorXd least_closing(const SweepArtifact& s) {
+  if (!s.mesh.on_bearings()) return s.transmission_error.rowwise().minCoeff();
+  const GearPair gears(s.driver, s.driven, s.mesh.centre_distance);
+  VectorXd least(s.transmission_error.rows());
+  for (Eigen::Index i = 0; i < least.size(); ++i) {
+    VectorXd closing = s.transmission_error.row(i).transpose();
+    for (size_t g = 0; g < 2; ++g)
+      if (!s.bearing_force[g].empty())
+        closing += (g == 0 ? 1 : -1) / s.mesh.bearing[g].stiffness *
+                   (s.bearing_force[g][static_cast<size_t>(i)] * contact_normal(gears));
+    least[i] = closing.minCoeff();
+  }
+  return least;
+}
+
+}  // namespace
+
 Eigen::VectorXd backlash_left(const SweepArtifact& s) {
   // By the samples that are stored: between them a motion swings back further by the square of their distance.
-  return s.transmission_error.rowwise().minCoeff().array() - s.transmission_error.minCoeff() +
-         s.backlash_margin;
+  const VectorXd least = least_closing(s);
+  return least.array() - least.minCoeff() + s.backlash_margin;
 }
 
 namespace {
@@ -380,7 +402,7 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
       add(false, "at ", s.mesh_frequency[i], " Hz the motion is subharmonic: it repeats after ",
           s.period_multiple[i], " mesh periods");
   // Against the least transmission error at which unloaded teeth touch.
-  const double least = s.transmission_error.minCoeff() - statics.unloaded_error.minCoeff();
+  const double least = least_closing(s).minCoeff() - statics.unloaded_error.minCoeff();
   if (least < 0 && !std::isfinite(s.backlash_margin))
     add(false, "the teeth swing ", std::round(-least * 1e7) / 10,
         " µm apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
@@ -508,6 +530,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     }
     result.tooth_load.push_back(std::move(loads));
   }
+  if (model.on_bearings()) least_error = least_closing(result).minCoeff();
   result.backlash_margin = driver.design.tooth_thinning + driven.design.tooth_thinning > 0
                                ? model.kinematics.backlash() + least_error
                                : std::numeric_limits<double>::infinity();

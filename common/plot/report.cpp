@@ -354,6 +354,25 @@ std::string stiffness_tables(const ReportContent& c) {
   return out;
 }
 
+// "" for gears on rigid axes.
+std::string bearing_frequencies_table(const ReportContent& c) {
+  Rows rows;
+  for (const ImpactArtifact& a : c.impacts)
+    for (Index i = 0; i < a.state_phase.size() && a.frozen_frequency.size() > 0; ++i) {
+      Index phase = 0;
+      (a.mesh_phase.array() - a.state_phase[i]).abs().minCoeff(&phase);
+      std::string all;
+      for (const double f : a.frozen_frequency.row(phase)) all += (all.empty() ? "" : ", ") + fixed(f, 1);
+      rows.push_back({shown(a.torque, 6), a.contact_state[static_cast<size_t>(i)], all});
+    }
+  if (rows.empty()) return "";
+  return table(
+      "Lowest natural frequencies with the contact frozen, undamped: the hubs on their bearings, along the "
+      "line of "
+      "action and across, and the mesh, which the table above shows.",
+      {"torque (N m)", "loaded tooth pairs", "frequencies (Hz)"}, rows);
+}
+
 std::string natural_frequencies_table(const ReportContent& c) {
   Rows rows;
   for (const ImpactArtifact& a : c.impacts)
@@ -374,7 +393,8 @@ std::string natural_frequencies_table(const ReportContent& c) {
              "contact free to change. Contact frozen, undamped: the eigenvalue at the same phases, with the "
              "contact that the load leaves kept as it is. f_n in the figures of motion: the mean of that "
              "eigenvalue over phases of the mesh period that need not be those of the ring-downs, under the "
-             "static load; resonances stand near it and its fractions.");
+             "static load; resonances stand near it and its fractions.") +
+         bearing_frequencies_table(c);
 }
 
 std::string budget_table(const ErrorBudgetArtifact& b) {

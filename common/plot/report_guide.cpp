@@ -55,7 +55,7 @@ constexpr Row kRows[] = {
     {Needs::ring_down, "", "Natural frequency and damping ratio by ring-down",
      "The pair is held at a mesh phase, let go from a part of the torque, and the decay is fitted.",
      "0.2 % for the inertia and the stiffness of the scene. 1 % of inertia is 0.5 % of frequency. Shafts and "
-     "bearings are rigid here, so that lower modes of a real drive are missing.",
+     "bearings are rigid unless the scene says otherwise, so that lower modes of a real drive are missing.",
      "Check total_inertia_kgm2: it is of all that turns with the gear. The damping ratio is an input in "
      "disguise: see below."},
     {Needs::motion, "", "Damping",
@@ -89,11 +89,19 @@ constexpr Row kRows[] = {
      "add orders of the shafts around them.",
      "Amplitudes as the RMS; below 1/1000 of the largest they are numerical.",
      "make histories AT=1250 shows the motion at one speed."},
+    {Needs::motion, "bearing-forces", "Forces on the bearings",
+     "What each gear presses its bearing with, spring and damper together; the oscillating part is what a "
+     "housing "
+     "hears.",
+     "As good as stiffness and damping of the bearings, which the scene gives; the bearings are linear and "
+     "alike in "
+     "all directions.",
+     ""},
     {Needs::budget, "error-budget", "Error budget",
      "What each refinement of the computation alone changes. Add the lines: the sum bounds the numerical "
      "error "
      "of the statics.",
-     "It tells nothing of what is not modelled: bearings, shafts, friction, lead errors, heat.",
+     "It tells nothing of what is not modelled: shafts, friction, lead errors, heat.",
      "A line above 1 %: refine that key of [discretisation]."},
     {Needs::nothing, "fig01", "Mesh of the pair",
      "The finite elements that carry the bending; flanks in contact are exact.",

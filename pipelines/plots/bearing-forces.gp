@@ -5,13 +5,15 @@ set datafile separator tab
 set datafile commentschars "#"
 
 array colour[2] = ["#0072b2", "#d55e00"]
+# The second stands on the first, and lets it show where both are alike.
+array width[2] = [4.4, 1.6]
 set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}" offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
 set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.1
-set rmargin at screen 0.97
+set rmargin at screen 0.80
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
@@ -22,7 +24,7 @@ array high[2] = [rms_max, force_max > static_force ? force_max : static_force]
 do for [p = 1:2] {
   set tmargin at screen (p == 1 ? 0.83 : 0.40)
   set bmargin at screen (p == 1 ? 0.53 : 0.10)
-  set yrange [0 : 1.3 * (high[p] > 0 ? high[p] : 1)]
+  set yrange [0 : 1.08 * (high[p] > 0 ? high[p] : 1)]
   set label 1 panel_title[p] at graph 0, graph 1 offset 0, 0.8 font ",14"
   unset arrow
   unset label 11
@@ -30,15 +32,15 @@ do for [p = 1:2] {
     set arrow from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
     set label 11 "f_n" at natural_frequency, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14"
   }
-  set key at graph 0.995, graph 0.99 right top vertical samplen 2 spacing 1.1 font ",13" noenhanced opaque
+  set key at graph 1.01, graph 0.98 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
   drawn = ''
   do for [i = 1:curves] {
-    drawn = drawn . sprintf('tsv index "[%d down]" using 1:%d with lines lt 1 lw 2.6 dt (10, 5) lc rgb "%s" notitle, ', i, p + 1, colour[i]) \
-      . sprintf('tsv index "[%d up]" using 1:%d with lines lt 1 lw 1.6 lc rgb "%s" notitle, ', i, p + 1, colour[i]) \
-      . sprintf('keyentry with lines lt 1 lw 2 lc rgb "%s" title word(labels, %d), ', colour[i], i)
+    drawn = drawn . sprintf('tsv index "[%d down]" using 1:%d with lines lt 1 lw %g dt (10, 5) lc rgb "%s" notitle, ', i, p + 1, width[i], colour[i]) \
+      . sprintf('tsv index "[%d up]" using 1:%d with lines lt 1 lw %g lc rgb "%s" notitle, ', i, p + 1, width[i], colour[i]) \
+      . sprintf('keyentry with lines lt 1 lw %g lc rgb "%s" title word(labels, %d), ', width[i], colour[i], i)
   }
   if (p == 2) { drawn = drawn . 'static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#009e73" title sprintf("T / r_b = %.0f N", static_force), ' }
-  drawn = drawn . 'keyentry with lines lt 1 lw 2.6 dt (10, 5) lc rgb "#505050" title "dashed: speed falling"'
+  drawn = drawn . 'keyentry with lines lt 1 lw 2.6 dt (10, 5) lc rgb "#505050" title "dashed: falling"'
   eval("plot " . drawn)
 }
 unset multiplot

@@ -3,8 +3,8 @@
 // run once, by its CPU time. A time stands beside the error at which it was reached. Times are of CPU.
 //
 // Reads   optionally params and two body.h5 for the static position; writes a table on standard output.
-// Example: whine-bench --params out/parker2000/params/static.toml --driver out/parker2000/pinion/body.h5
-//            --driven out/parker2000/wheel/body.h5 --torque 150
+// Example: whine-bench --params out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5
+//            --body wheel=out/parker2000/wheel/body.h5 --torque 150
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -18,6 +18,7 @@
 #include "base/tool.h"
 #include "calculix.h"
 #include "contact/complementarity.h"
+#include "files/named_files.h"
 #include "files/scene.h"
 #include "files/schemas.h"
 #include "motion/rolling_mesh.h"
@@ -468,11 +469,12 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
 
 void body(int argc, char** argv) {
   whine::Options options{"Times complementarity, static positions and reductions", "whine-bench"};
-  std::string params, driver, driven, torque = "150";
+  std::string params, torque = "150";
+  std::vector<std::string> bodies;
   whine::Option slice = options.add("--params", params, "slice of the scene: out/<scene>/params/static.toml");
-  whine::Option first = options.add("--driver", driver, "body.h5 of the driving gear").needs(slice);
-  whine::Option second = options.add("--driven", driven, "body.h5 of the driven gear").needs(first);
-  slice.needs(second);
+  whine::Option files =
+      options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").needs(slice);
+  slice.needs(files);
   std::string sweep_params;
   options.add("--sweep-params", sweep_params, "slice of the scene: out/<scene>/params/sweep.toml")
       .needs(slice);
@@ -493,7 +495,8 @@ void body(int argc, char** argv) {
   if (params.empty()) return;
   const double load = whine::number_option("--torque", torque);
   const whine::StaticSlice read = whine::read_static_slice(params);
-  const whine::BodyArtifact driving = whine::read_body(driver), following = whine::read_body(driven);
+  const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
+  const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
   static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, params.c_str());
   if (!sweep_params.empty()) rolling(driving, following, read, whine::read_sweep_slice(sweep_params), load);
   reductions(driving);

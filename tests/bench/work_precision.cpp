@@ -12,8 +12,8 @@
 // Reads   params of the static and of the sweep stage, body.h5 of both gears (for their design and material)
 // Writes  <output>.{tsv,svg,png}, and the same table in words on standard output
 // Example: whine-work-precision --static-params out/parker2000/params/static.toml --sweep-params
-//            out/parker2000/params/sweep.toml --driver out/parker2000/pinion/body.h5 --driven
-//            out/parker2000/wheel/body.h5 --output out/figures/work-precision
+//            out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5
+//            --body wheel=out/parker2000/wheel/body.h5 --output out/figures/work-precision
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,6 +27,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "files/named_files.h"
 #include "files/publish.h"
 #include "files/scene.h"
 #include "files/schemas.h"
@@ -404,12 +405,11 @@ void print(const FigureBlock& block, const std::string& against) {
 
 void body(int argc, char** argv) {
   whine::Options options{"Error against CPU time of each numerical choice", "whine-work-precision"};
-  std::string statics, sweeps, driver, driven, output, torque = "150", damping = "5.5e-6",
-                                                       plots = "pipelines/plots";
+  std::string statics, sweeps, output, torque = "150", damping = "5.5e-6", plots = "pipelines/plots";
+  std::vector<std::string> bodies;
   options.add("--static-params", statics, "slice of the scene: out/<scene>/params/static.toml").required();
   options.add("--sweep-params", sweeps, "slice of the scene: out/<scene>/params/sweep.toml").required();
-  options.add("--driver", driver, "body.h5 of the driving gear").required();
-  options.add("--driven", driven, "body.h5 of the driven gear").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--output", output, "path of the results without extension").required();
   options.add("--torque", torque, "torque on the driver in N m, above 0").show_default();
   options.add("--rayleigh-stiffness", damping, "in s; small enough for two branches at 2400 Hz")
@@ -422,7 +422,9 @@ void body(int argc, char** argv) {
   if (!(slice.damping.rayleigh_stiffness > 0))
     fail(Failure::usage, "--rayleigh-stiffness = ", damping, " must be above 0");
   const double load = number_option("--torque", torque);
-  Bench bench(read_body(driver), read_body(driven), read_static_slice(statics), slice, load);
+  const StaticSlice rest = read_static_slice(statics);
+  const std::vector<std::string> paths = NamedFiles("--body", bodies).of(rest.mesh);
+  Bench bench(read_body(paths[0]), read_body(paths[1]), rest, slice, load);
   const Setting usual = bench.usual();
   const Answer present = bench.run(usual, "the scene's settings");
   if (*std::min_element(present.rms.begin(), present.rms.end()) < 0 || present.down < 0 || present.up < 0 ||
