@@ -62,6 +62,13 @@ out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)
 	$(B)/bin/gear-spectra --input $$< --output $$@
 endef
 
+define branch_rules # scene, torque
+out/$1/T$2/branch.h5: out/$1/params/sweep.toml $(pair_bodies) \
+    out/$1/T$2/static.h5 $(reference_static) $(call id,gear-orbit) | $(B)/bin/gear-orbit
+	$$(call run,orbit) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
+	  --reference-static $(reference_static) --output $$@ $$(call landed,orbit)
+endef
+
 # The phase stands in the path, as the torque does: loaded_0.25.h5.
 pair_meshes = $(patsubst %/body.h5,%/mesh.h5,$(pair_bodies))
 define loaded_rules # scene, torque
@@ -128,7 +135,7 @@ define scene_rules # scene
 $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
 $(foreach t,$(path_torques) $(calibrated_torque),$(call check_torque,$1,$t))
 $(foreach m,$(lumped_models),$(eval $(call plan_rule,$(call lumped_plan_file,$1,,$m),$(call lumped_plan,$1,,$m))))
-$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))$(eval $(call loaded_rules,$1,$t))\
+$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))$(eval $(call loaded_rules,$1,$t))$(eval $(call branch_rules,$1,$t))\
   $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))\
     $(foreach m,$(lumped_models),$(eval $(call lumped_rules,$1,$t,$m,$d)))))
 $(call figure_rules,$1)
@@ -137,7 +144,7 @@ endef
 $(foreach h,$(sort $(BODIES)),$(eval $(call body_rules,$h)))
 $(foreach s,$(scenes),$(if $(SCENE_$s_GEARS),$(eval $(call scene_rules,$s))))
 
-.PHONY: mesh reduce static loaded impact calibrate sweep lumped
+.PHONY: mesh reduce static loaded impact calibrate sweep branches lumped
 mesh: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/mesh.h5) ## mesh every gear of SCENE (default: the paper's)
 reduce: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/body.h5) ## modes and flexibility of every gear of SCENE
 static: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/static.h5) ## transmission error and stiffness, all torques of SCENE
@@ -146,4 +153,5 @@ impact: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/impact.h5) ## natural
 calibrate: $(if $(filter calibrate,$(goals)),$(call impact_inputs,$(own_scene),$(TORQUE))) | $(B)/bin/gear-impact ## print the rayleigh_stiffness_s that gives a damping ratio by ring-down: DAMPING=0.07 TORQUE=150 STATE=two
 	@$| $(call impact_options,$(own_scene),$(TORQUE)) --calibrate $(DAMPING) --contact-state $(STATE)
 sweep: $(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$d/response.h5)) ## speed sweeps, all torques of SCENE
+branches: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/branch.h5) ## branches of periodic orbits, stable or not, with their folds, all torques of SCENE
 lumped: $(foreach m,$(filter-out %-fig15,$(lumped_models)),$(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$m/$d/response.h5))) ## speed sweeps of the lumped models, one degree of freedom, all torques of SCENE

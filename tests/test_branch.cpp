@@ -5,15 +5,19 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <complex>
+#include <filesystem>
 #include <functional>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
+#include "motion/pair_branch.h"
 #include "motion/period_map.h"
 #include "motion/steady_state.h"
+#include "motion/sweep.h"
 #include "orbits/branch.h"
 #include "paper_pair.h"
 #include "relative.h"
@@ -487,4 +491,61 @@ TEST_CASE("orbits: the branch of the elastic pair through both folds, beside mar
   }
   CHECK(marched >= 2);
   CHECK(unstable >= 2);
+}
+
+TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of steps") {
+  const BodyArtifact& body = paper_body();
+  StaticSlice coarse = paper_statics(128);
+  coarse.contact.strips = 8;
+  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  SweepSlice slice = paper_sweep(1700, 2950, 50);
+  slice.damping.rayleigh_stiffness = 5.5e-6;
+  slice.time.periodicity = 1e-6;
+  // 128 steps above 1953 Hz, 256 below.
+  slice.time.min_sample_rate = 250e3;
+  const BranchArtifact branch = pair_branch(body, body, statics, 463e6, slice, no_report);
+  INFO(branch.end);
+  CHECK(branch.mesh_frequency[0] == relative(2950, 1e-12));
+  CHECK(branch.mesh_frequency.tail(1)[0] == relative(1700, 1e-12));
+  CHECK(branch.steps.minCoeff() == 128);
+  CHECK(branch.steps.maxCoeff() == 256);
+  // On the upper branch down, on the unstable one up, and on the lower one down again.
+  CHECK(branch.segment_mismatch.size() == 3);
+  CHECK(branch.segment_mismatch.maxCoeff() < 0.02);
+  REQUIRE(branch.fold_frequency.size() == 2);
+  CHECK((branch.stable.array() == 0).any());
+  for (const std::string direction : {"down", "up"}) {
+    const SweepArtifact swept = sweep(body, body, statics, 463e6, slice, direction, no_report);
+    REQUIRE(swept.jump_frequency.size() == 1);
+    const double fold = branch.fold_frequency[direction == "down" ? 0 : 1];
+    MESSAGE(direction << ": jump at " << swept.jump_frequency[0] << " Hz, fold at " << fold << " Hz");
+    CHECK(std::abs(swept.jump_frequency[0] - fold) < 1 + swept.jump_width[0]);
+    // Stable orbits are the sweep's.
+    const ResponseArtifact response = whine::response(swept);
+    double apart = 0;
+    int compared = 0;
+    for (Eigen::Index i = 0; i < response.mesh_frequency.size(); ++i)
+      for (Eigen::Index k = 0; k + 1 < branch.mesh_frequency.size(); ++k) {
+        const double share = (response.mesh_frequency[i] - branch.mesh_frequency[k]) /
+                             (branch.mesh_frequency[k + 1] - branch.mesh_frequency[k]);
+        if (!(share >= 0 && share < 1) || !branch.stable[k] || !branch.stable[k + 1]) continue;
+        const double own = (1 - share) * branch.dte_rms[k] + share * branch.dte_rms[k + 1];
+        if (std::abs(own / response.dte_rms[i] - 1) > 0.2) continue;  // the other branch
+        apart = std::max(apart, std::abs(own / response.dte_rms[i] - 1));
+        ++compared;
+        break;
+      }
+    CHECK(compared > 20);
+    CHECK(apart < 1e-2);
+  }
+  // What is written is read.
+  const std::string path = (std::filesystem::temp_directory_path() / "whine-branch-test.h5").string();
+  write(path, branch, {});
+  const BranchArtifact again = read_branch(path);
+  std::filesystem::remove(path);
+  CHECK(again.mesh_frequency == branch.mesh_frequency);
+  CHECK(again.floquet_multiplier.back() == branch.floquet_multiplier.back());
+  CHECK(again.fold_multiplier == branch.fold_multiplier);
+  CHECK(again.grazing_pair == branch.grazing_pair);
+  CHECK(again.end == branch.end);
 }

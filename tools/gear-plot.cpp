@@ -69,6 +69,8 @@ Told<whine::ResponseArtifact> read_responses(const Paths& inputs) {
   for (const std::string& path : inputs) {
     if (is_a("whine/impact", path)) {
       told.background.impacts.push_back(whine::read_impact(path));
+    } else if (is_a("whine/branch", path)) {
+      told.background.branches.push_back(whine::read_branch(path));
     } else if (is_a("whine/sweep", path)) {
       const whine::SweepArtifact sweep = whine::read_sweep(path);
       told.add(path, whine::response(sweep), sweep.lumped);
@@ -118,7 +120,9 @@ const std::map<std::string, Drawing>& drawings() {
        {"RMS of the dynamic transmission error against mesh frequency",
         "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and "
         "damping ratio); "
-        "a panel for each set of choices; impact.h5 of the same torques, for damping ratios",
+        "a panel for each set of choices; impact.h5 of the same torques, for damping ratios; branch.h5, for "
+        "unstable orbits and "
+        "folds",
         0, 0, draw_responses}},
       {"fig08",
        {"dynamic transmission error over time and its spectrum, both branches at one speed",

@@ -18,7 +18,8 @@ namespace {
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
 constexpr int kMeshVersion = 1, kBodyVersion = 3, kStaticVersion = 4, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1,
-              kHarrisMapVersion = 1, kVariantVersion = 2, kStudyVersion = 2, kLoadedVersion = 1;
+              kBranchVersion = 1, kHarrisMapVersion = 1, kVariantVersion = 2, kStudyVersion = 2,
+              kLoadedVersion = 1;
 
 const char* const kPhase = "mesh_phase";
 const char* const kSpeed = "mesh_frequency";
@@ -1083,6 +1084,129 @@ ResponseArtifact read_response(const std::string& path) {
   a.period_multiple = in.whole_vector("/period_multiple", speeds);
   a.hunting_periods = take_hunting(in);
   if (a.hunting_periods > 1) a.dte_order = in.matrix("/dte_order", speeds);
+  return a;
+}
+
+void write(const std::string& path, const BranchArtifact& a, const Provenance& provenance) {
+  const Eigen::Index points = a.mesh_frequency.size(), folds = a.fold_frequency.size(),
+                     grazings = a.grazing_frequency.size();
+  for (const auto& [name, rows] :
+       {std::pair{"dte_rms", a.dte_rms.size()},
+        {"dte_mean", a.dte_mean.size()},
+        {"dte_harmonic", a.dte_harmonic.rows()},
+        {"floquet_multiplier", static_cast<Eigen::Index>(a.floquet_multiplier.size())},
+        {"stable", a.stable.size()},
+        {"steps", a.steps.size()},
+        {"residual", a.residual.size()}})
+    want_rows(name, rows, points);
+  want_rows("fold_rms", a.fold_rms.size(), folds);
+  want_rows("fold_smooth", a.fold_smooth.size(), folds);
+  want_rows("fold_multiplier", a.fold_multiplier.rows(), folds);
+  want_rows("grazing_phase", a.grazing_phase.size(), grazings);
+  want_rows("grazing_pair", a.grazing_pair.size(), grazings);
+  want_rows("grazing_closes", a.grazing_closes.size(), grazings);
+  ArtifactWriter out(path, "branch", kBranchVersion,
+                     "Branch of periodic orbits: " + pair_title(a.mesh, a.torque), provenance);
+  const KeyValues values = settings_of(a);
+  put_pair(out, a);
+  put_inertia(out, "driver", a.driver_inertia);
+  put_inertia(out, "driven", a.driven_inertia);
+  out.parameters("mesh", values, Part::mesh);
+  out.parameters("fidelity", values, Part::rung);
+  out.parameters("fidelity", values, Part::contact_rung);
+  out.parameters("discretisation", values, Part::contact);
+  out.parameters("discretisation", values, Part::time);
+  out.parameters("damping", values, Part::damping);
+  out.put("/parameters/operation/torque", a.torque, {"N m", "torque on the driver", "", ""});
+  out.put("/mesh_frequency", a.mesh_frequency, {"Hz", "mesh frequency along the branch", "point", ""});
+  out.put("/dte_rms", a.dte_rms,
+          {"m", "RMS of the oscillating part of the dynamic transmission error", "point", ""});
+  out.put("/dte_mean", a.dte_mean, {"m", "mean of the dynamic transmission error", "point", ""});
+  out.put("/dte_harmonic", a.dte_harmonic,
+          {"m", "amplitude of the harmonics 1, 2, ... of the mesh frequency", "point harmonic", ""});
+  const Eigen::Index kept = points > 0 ? a.floquet_multiplier[0].rows() : 0;
+  std::vector<double> multipliers;
+  for (const MatrixRM& rows : a.floquet_multiplier) {
+    want_rows("floquet_multiplier (multipliers)", rows.rows(), kept);
+    multipliers.insert(multipliers.end(), rows.data(), rows.data() + rows.size());
+  }
+  out.file().put(
+      "/floquet_multiplier", multipliers.data(),
+      {static_cast<std::size_t>(points), static_cast<std::size_t>(kept), 2},
+      {"1", "multipliers of the orbit over a mesh period, largest modulus first: real and imaginary part",
+       "point multiplier part", ""});
+  out.put("/stable", a.stable, {"1", "1: all multipliers lie inside the unit circle", "point", ""});
+  out.put("/steps", a.steps, {"1", "time steps per mesh period", "point", ""});
+  out.put("/residual", a.residual, {"1", "relative change of the state over a mesh period", "point", ""});
+  out.put("/segment_mismatch", a.segment_mismatch,
+          {"1", "relative change of the orbit where the number of steps changes", "segment", ""});
+  out.put("/fold_frequency", a.fold_frequency,
+          {"Hz", "mesh frequency at which the branch turns", "fold", ""});
+  out.put("/fold_rms", a.fold_rms, {"m", "RMS of the oscillating transmission error there", "fold", ""});
+  out.put("/fold_smooth", a.fold_smooth,
+          {"1", "1: a multiplier is 1 there; 0: at a kink, where contacts of a step change", "fold", ""});
+  out.put("/fold_multiplier", a.fold_multiplier,
+          {"1", "real multiplier nearest to 1, before and after the fold", "fold side", ""});
+  out.put("/flip_frequency", a.flip_frequency,
+          {"Hz", "mesh frequency at which a multiplier passes -1", "flip", ""});
+  out.put(
+      "/torus_frequency", a.torus_frequency,
+      {"Hz", "mesh frequency at which the modulus of a complex pair of multipliers passes 1", "torus", ""});
+  out.put("/grazing_frequency", a.grazing_frequency,
+          {"Hz", "mesh frequency at which the sequence of contacts changes", "grazing", ""});
+  out.put("/grazing_phase", a.grazing_phase,
+          {"1", "mesh phase of the contact that comes or goes", "grazing", ""});
+  out.put("/grazing_pair", a.grazing_pair, {"1", "its tooth pair", "grazing", ""});
+  out.put("/grazing_closes", a.grazing_closes, {"1", "1: it closes, 0: it opens", "grazing", ""});
+  out.put("/end", a.end, {"1", "why the branch was followed no further", "", ""});
+  out.publish();
+}
+
+BranchArtifact read_branch(const std::string& path) {
+  const ArtifactReader in(path, "branch", kBranchVersion);
+  BranchArtifact a;
+  KeyValues values;
+  in.parameters("mesh", values, Part::mesh);
+  in.parameters("fidelity", values, Part::rung);
+  in.parameters("fidelity", values, Part::contact_rung);
+  in.parameters("discretisation", values, Part::contact);
+  in.parameters("discretisation", values, Part::time);
+  in.parameters("damping", values, Part::damping);
+  take_pair(in, a);
+  a.driver_inertia = take_inertia(in, "driver");
+  a.driven_inertia = take_inertia(in, "driven");
+  take_settings(values, a);
+  a.torque = in.number("/parameters/operation/torque");
+  a.mesh_frequency = in.vector("/mesh_frequency");
+  const Eigen::Index points = a.mesh_frequency.size();
+  a.dte_rms = in.vector("/dte_rms", points);
+  a.dte_mean = in.vector("/dte_mean", points);
+  a.dte_harmonic = in.matrix("/dte_harmonic", points);
+  const h5::Shape shape = in.file().shape("/floquet_multiplier");
+  if (shape.size() != 3 || shape[0] != static_cast<std::size_t>(points) || shape[2] != 2)
+    in.file().refuse(
+        text("dataset /floquet_multiplier has another shape than ", points, " x multipliers x 2"));
+  const auto multipliers = in.doubles("/floquet_multiplier");
+  const auto kept = static_cast<Eigen::Index>(shape[1]);
+  for (Eigen::Index i = 0; i < points; ++i)
+    a.floquet_multiplier.push_back(Eigen::Map<const MatrixRM>(multipliers.data() + i * kept * 2, kept, 2));
+  a.stable = in.whole_vector("/stable", points);
+  a.steps = in.whole_vector("/steps", points);
+  a.residual = in.vector("/residual", points);
+  a.segment_mismatch = in.vector("/segment_mismatch");
+  a.fold_frequency = in.vector("/fold_frequency");
+  const Eigen::Index folds = a.fold_frequency.size();
+  a.fold_rms = in.vector("/fold_rms", folds);
+  a.fold_smooth = in.whole_vector("/fold_smooth", folds);
+  a.fold_multiplier = in.matrix("/fold_multiplier", folds, 2);
+  a.flip_frequency = in.vector("/flip_frequency");
+  a.torus_frequency = in.vector("/torus_frequency");
+  a.grazing_frequency = in.vector("/grazing_frequency");
+  const Eigen::Index grazings = a.grazing_frequency.size();
+  a.grazing_phase = in.vector("/grazing_phase", grazings);
+  a.grazing_pair = in.whole_vector("/grazing_pair", grazings);
+  a.grazing_closes = in.whole_vector("/grazing_closes", grazings);
+  a.end = in.word("/end");
   return a;
 }
 

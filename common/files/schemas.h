@@ -323,6 +323,36 @@ struct ResponseArtifact {
   double natural_frequency = 0;  // Hz: as in the sweep
 };
 
+// branch.h5: periodic orbits of one mesh period along their branch, stable or not, points in the order of its arc
+struct BranchArtifact {
+  GearDesign driver, driven;
+  Material driver_material, driven_material;
+  BodyDiscretisation driver_body, driven_body;
+  double driver_inertia = 0, driven_inertia = 0;  // kg m2
+  GearMeshSpec mesh;
+  Fidelity fidelity;
+  ContactDiscretisation contact;
+  TimeDiscretisation time;
+  Damping damping;
+  double torque = 0;                                  // N m on the driver
+  Eigen::VectorXd mesh_frequency, dte_rms, dte_mean;  // (point) Hz, m, m
+  MatrixRM dte_harmonic;                              // (point, harmonic 1..) m, amplitude
+  std::vector<MatrixRM>
+      floquet_multiplier;    // (point) (multiplier, 2) 1: real and imaginary part, largest modulus first
+  Eigen::VectorXi stable;    // (point) 1: all multipliers lie inside the unit circle
+  Eigen::VectorXi steps;     // (point) 1: time steps per mesh period
+  Eigen::VectorXd residual;  // (point) 1: change of the state over a period, relative
+  Eigen::VectorXd segment_mismatch;          // (change of steps) 1: relative change of the orbit there
+  Eigen::VectorXd fold_frequency, fold_rms;  // (fold) Hz, m: where the branch turns
+  Eigen::VectorXi fold_smooth;               // (fold) 1: a multiplier is 1; 0: at a kink
+  MatrixRM fold_multiplier;  // (fold, 2) 1: the real multiplier nearest to 1 before and after it
+  Eigen::VectorXd flip_frequency, torus_frequency;   // Hz
+  Eigen::VectorXd grazing_frequency, grazing_phase;  // (grazing) Hz, share of the mesh period
+  Eigen::VectorXi grazing_pair,
+      grazing_closes;  // (grazing) pair that comes into, or out of, contact; 1: it closes
+  std::string end;     // why the branch was followed no further
+};
+
 // jump_map.h5: where the primary resonance of a pair has two branches, and what its teeth then carry, at one torque for
 // several dampings ("cases"). Speeds ascend; direction 0 is up, 1 down.
 struct JumpMapArtifact {
@@ -412,6 +442,7 @@ void write(const std::string& path, const LoadedArtifact&, const Provenance&);
 void write(const std::string& path, const ImpactArtifact&, const Provenance&);
 void write(const std::string& path, const SweepArtifact&, const Provenance&);
 void write(const std::string& path, const ResponseArtifact&, const Provenance&);
+void write(const std::string& path, const BranchArtifact&, const Provenance&);
 void write(const std::string& path, const JumpMapArtifact&, const Provenance&);
 void write(const std::string& path, const HarrisMapArtifact&, const Provenance&);
 MeshArtifact read_mesh(const std::string& path);
@@ -422,6 +453,7 @@ LoadedArtifact read_loaded(const std::string& path);
 ImpactArtifact read_impact(const std::string& path);
 SweepArtifact read_sweep(const std::string& path);
 ResponseArtifact read_response(const std::string& path);
+BranchArtifact read_branch(const std::string& path);
 JumpMapArtifact read_jump_map(const std::string& path);
 HarrisMapArtifact read_harris_map(const std::string& path);
 

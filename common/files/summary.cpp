@@ -285,6 +285,33 @@ void show(Lines& lines, const SweepArtifact& a) {
   add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
 }
 
+void show(Lines& lines, const BranchArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", range_of(a.mesh_frequency));
+  add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
+      a.fidelity.integrator);
+  show_damping(lines, a.damping);
+  const Eigen::Index points = a.mesh_frequency.size();
+  if (points > 0) {
+    Eigen::Index worst = 0;
+    const double peak = a.dte_rms.maxCoeff(&worst);
+    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "orbits", points, ", of them ", points - a.stable.sum(), " unstable; largest residual ",
+        a.residual.maxCoeff());
+  }
+  for (Eigen::Index i = 0; i < a.fold_frequency.size(); ++i)
+    add(lines, "fold", a.fold_frequency[i], " Hz, ", a.fold_smooth[i] ? "smooth" : "at a kink",
+        ", multiplier ", a.fold_multiplier(i, 0), " before and ", a.fold_multiplier(i, 1), " after");
+  const auto list = [&](const char* name, const Eigen::VectorXd& frequencies) {
+    std::string all;
+    for (double f : frequencies) all += (all.empty() ? "" : ", ") + text(f);
+    if (!all.empty()) add(lines, name, all, " Hz");
+  };
+  list("period doubling", a.flip_frequency);
+  list("torus", a.torus_frequency);
+  list("grazing", a.grazing_frequency);
+  add(lines, "end", a.end);
+}
+
 void show(Lines& lines, const ResponseArtifact& a) {
   add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
@@ -419,6 +446,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_sweep(path));
   } else if (schema == "whine/response") {
     show(lines, read_response(path));
+  } else if (schema == "whine/branch") {
+    show(lines, read_branch(path));
   } else if (schema == "whine/jump_map") {
     show(lines, read_jump_map(path));
   } else if (schema == "whine/harris_map") {

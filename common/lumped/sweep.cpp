@@ -1,6 +1,5 @@
 #include "lumped/sweep.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -11,7 +10,9 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "lumped/period_map.h"
 #include "lumped/stiffness.h"
+#include "orbits/branch.h"
 #include "signal/branch_end.h"
 
 namespace whine {
@@ -44,25 +45,18 @@ State image(LumpedOscillator& oscillator, State y, int multiple, Matrix* derivat
 
 // Newton's method on P^multiple(y) = y. False if it does not converge.
 bool solve_orbit(LumpedOscillator& oscillator, LumpedOrbit& orbit, int multiple) {
-  double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 12; ++i) {
-    Matrix derivative;
-    const State change = image(oscillator, orbit.start, multiple, &derivative) - orbit.start;
-    orbit.periods += multiple;
-    orbit.residual = oscillator.size(change) / std::max(1e-300, oscillator.size(orbit.start));
-    orbit.monodromy = derivative;
-    if (!std::isfinite(orbit.residual)) return false;
-    // Rounding of many pieces may leave a little more than that of one.
-    if (orbit.residual < kRoundOff || (orbit.residual < 1e3 * kRoundOff && orbit.residual > 0.5 * last)) {
-      orbit.multiple = multiple;
-      return true;
-    }
-    last = orbit.residual;
-    const Matrix singular = Matrix::Identity() - derivative;
-    if (singular.determinant() == 0) return false;
-    orbit.start += singular.inverse() * change;
-  }
-  return false;
+  constexpr int kMostIterations = 12;
+  LumpedPeriodMap map(oscillator);
+  const OrbitSearch search =
+      find_orbit(map, map.flat(orbit.start), multiple, OrbitSettings{kRoundOff, kMostIterations});
+  orbit.periods += multiple * (search.orbit.iterations + 1);
+  if (!search.found()) return false;
+  orbit.start = map.state(search.orbit.start);
+  orbit.residual = search.orbit.residual;
+  const State unit = oscillator.unit();
+  orbit.monodromy = unit.asDiagonal() * search.orbit.monodromy * unit.cwiseInverse().asDiagonal();
+  orbit.multiple = multiple;
+  return true;
 }
 
 void record(LumpedOscillator& oscillator, LumpedOrbit& orbit) {
@@ -205,42 +199,11 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
 
 std::optional<LumpedFold> find_fold(LumpedOscillator& oscillator, const State& start, double mesh_frequency,
                                     int multiple) {
-  const double x = oscillator.reference(), v = x * 2 * std::numbers::pi * oscillator.natural_frequency(),
-               f = mesh_frequency;
-  const Eigen::Vector3d unit(x, v, f);
-  // Of unknowns and equations in units of their own size.
-  const auto equations = [&](const Eigen::Vector3d& z) {
-    oscillator.set_speed(z[2] * f);
-    const State y(z[0] * x, z[1] * v);
-    Matrix derivative;
-    const State change = image(oscillator, y, multiple, &derivative) - y;
-    return Eigen::Vector3d(change[0] / x, change[1] / v, (derivative - Matrix::Identity()).determinant());
-  };
-  Eigen::Vector3d z = Eigen::Vector3d(start[0], start[1], mesh_frequency).cwiseQuotient(unit);
-  double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector3d value = equations(z);
-    Eigen::Matrix3d jacobian;
-    for (int k = 0; k < 3; ++k) {
-      constexpr double kStep = 1e-6;
-      Eigen::Vector3d plus = z, minus = z;
-      plus[k] += kStep;
-      minus[k] -= kStep;
-      jacobian.col(k) = (equations(plus) - equations(minus)) / (2 * kStep);
-    }
-    const Eigen::FullPivLU<Eigen::Matrix3d> lu(jacobian);
-    if (!lu.isInvertible()) return std::nullopt;
-    const Eigen::Vector3d step = lu.solve(value);
-    z -= step;
-    if (!z.allFinite() || !(z[2] > 0)) return std::nullopt;
-    const double size = step.norm();
-    if (size < 1e-12 || (size < 1e-9 && size > 0.5 * last)) {
-      oscillator.set_speed(z[2] * f);
-      return LumpedFold{z[2] * f, State(z[0] * x, z[1] * v)};
-    }
-    last = size;
-  }
-  return std::nullopt;
+  LumpedPeriodMap map(oscillator);
+  map.set_parameter(mesh_frequency);
+  const FoldSearch fold = locate_fold(map, map.flat(start), multiple, mesh_frequency);
+  if (!fold.found()) return std::nullopt;
+  return LumpedFold{fold.parameter, map.state(fold.start)};
 }
 
 LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>& speeds, double periodicity,

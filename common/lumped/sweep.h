@@ -30,7 +30,7 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const LumpedOscillator::State& 
                    bool march_only, int most_periods = 3000);
 
 // Where an orbit of `multiple` periods near start meets its unstable partner and both end: P(y) = y and a multiplier +1,
-// by Newton's method in state and speed. Leaves the oscillator at that speed. Nothing if it does not converge.
+// as locate_fold() does. Leaves the oscillator at that speed. Nothing if it does not converge.
 struct LumpedFold {
   double mesh_frequency;  // Hz
   LumpedOscillator::State start;

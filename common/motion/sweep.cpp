@@ -27,11 +27,8 @@ namespace whine {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-constexpr int kMostSteps = 65536;  // per mesh period, as of steps_per_period
-
 int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
+  constexpr int kMostSteps = 65536;  // as of steps_per_period
   int steps = time.steps_per_period;
   if (steps < 1)  // a scene cannot say so, a slice that was edited can
     fail(Failure::input, "steps_per_period = ", steps,
@@ -43,6 +40,8 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
          " at most; raise the lowest mesh_frequency_Hz (Hz, not kHz), or lower min_sample_rate_kHz");
   return steps;
 }
+
+namespace {
 
 // All motions, and the state that each speed ended with, are kept until the sweep is written.
 void require_memory(int hunting, int speeds, const SweepSlice& slice, int pairs, double state) {

@@ -23,6 +23,10 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
                     const std::function<void(long, long, const std::string&)>& report,
                     std::vector<BranchPoint>* left_early = nullptr);
 
+// Time steps per mesh period at a mesh frequency (Hz): steps_per_period, doubled until the sampling rate is the least that is asked
+// for. Throws Error(input) if that is more than 65536.
+int steps_at(const TimeDiscretisation& time, double mesh_frequency);
+
 // Damping ratio that eta of Eq. 21 alone gives the pair on its mean mesh stiffness k: eta w / 2 with w^2 = k (r1^2 / I1 +
 // r2^2 / I2). An estimate from above: flexibility that follows its load at once is not damped.
 double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping, double driver_inertia,

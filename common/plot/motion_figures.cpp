@@ -221,6 +221,48 @@ FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
   return block;
 }
 
+// The branch of a sweep's pair at its torque; none if it is not among them.
+const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& told) {
+  if (!elastic(r)) return nullptr;
+  const auto found = std::find_if(told.branches.begin(), told.branches.end(), [&](const BranchArtifact& b) {
+    return b.torque == r.torque && gears_of(b) == gears_of(r) && b.mesh.modification == r.mesh.modification &&
+           b.fidelity.body == r.fidelity.body && b.fidelity.contact == r.fidelity.contact &&
+           b.fidelity.integrator == r.fidelity.integrator;
+  });
+  return found == told.branches.end() ? nullptr : &*found;
+}
+
+// Unstable orbits in the order of the arc, each stretch from the fold, or the last stable orbit, to the next.
+FigureBlock unstable_block(const std::string& name, const BranchArtifact& b) {
+  FigureBlock block{
+      name, {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]"}, {}, "unstable orbits", name};
+  const auto add = [&](Eigen::Index i) {
+    block.rows.push_back({b.mesh_frequency[i], b.dte_rms[i] * kMicro, b.dte_mean[i] * kMicro});
+  };
+  const Eigen::Index n = b.mesh_frequency.size();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (b.stable[i]) continue;
+    if (i > 0 && b.stable[i - 1]) add(i - 1);
+    add(i);
+    if (i + 1 == n || !b.stable[i + 1]) continue;
+    add(i + 1);
+    block.rows.emplace_back();
+  }
+  return block;
+}
+
+FigureBlock fold_block(const std::string& name, const BranchArtifact& b) {
+  FigureBlock block{name,
+                    {"fold_frequency [Hz]", "dte_rms [µm]", "multiplier before [1]", "multiplier after [1]"},
+                    {},
+                    "folds",
+                    name};
+  for (Eigen::Index i = 0; i < b.fold_frequency.size(); ++i)
+    block.rows.push_back(
+        {b.fold_frequency[i], b.fold_rms[i] * kMicro, b.fold_multiplier(i, 0), b.fold_multiplier(i, 1)});
+  return block;
+}
+
 // " 1241, 1410" of a block of jumps; after the sixth only how many more there are.
 std::string listed(const FigureBlock& jumps) {
   constexpr size_t kMostListed = 6;
@@ -497,6 +539,14 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
         mean_high = std::max(mean_high, r->dte_mean.maxCoeff());
         mean_low = std::min(mean_low, r->dte_mean.minCoeff());
         lost |= r->separation_fraction.maxCoeff() > 0;
+      }
+      if (const BranchArtifact* branch = branch_of(*curves[c].up, told)) {
+        const std::string name = letter + " " + label + " ";
+        figure.blocks.push_back(unstable_block(name + "unstable", *branch));
+        number(text("unstable_", letter, "_", c + 1), static_cast<double>(figure.blocks.back().rows.size()));
+        figure.blocks.push_back(fold_block(name + "folds", *branch));
+        number(text("folds_", letter, "_", c + 1), static_cast<double>(branch->fold_frequency.size()));
+        rms = std::max(rms, branch->dte_rms.maxCoeff());
       }
       const std::string words = label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz");
       jumps += "'" + words + "' ";

@@ -10,11 +10,12 @@ struct Background {
   std::vector<LumpedParameters> lumped;  // of each sweep, empty for elastic gears; or none
   std::vector<ImpactArtifact>
       impacts;  // for damping ratios, of any gears and torques; found by what they were made from
+  std::vector<BranchArtifact> branches;  // for unstable orbits and folds; found likewise
 };
 
 // RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
 // choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending) and
-// each modification of the flanks.
+// each modification of the flanks. With branches the orbits that no sweep finds, unstable ones, and the folds at which branches turn.
 // Throws Error(input) unless every sweep up has one sweep down of the same torque and choices.
 Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told = {});
 

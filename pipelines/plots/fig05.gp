@@ -2,7 +2,7 @@
 # for each set of choices, a curve for each torque (Figures 5 and 7).
 # Variables from gear-plot: tsv, title, note1, panels, frequency_from, frequency_to, height, speeds, and for each panel a, b, ..:
 # heading_a, heading_lines_a, curves_a, labels_a, jump_labels_a, rms_max_a, contact_lost_a, and for each curve
-# natural_frequency_a_1, jumps_up_a_1, jumps_down_a_1.
+# natural_frequency_a_1, jumps_up_a_1, jumps_down_a_1, and with a branch of orbits unstable_a_1, folds_a_1: numbers of rows.
 set datafile separator tab
 set datafile commentschars "#"
 
@@ -51,12 +51,17 @@ do for [p = 1:panels] {
   most = int(larger(most, of("curves", letter)))
   lost = lost + of("contact_lost", letter)
 }
+any_branch = 0
+do for [p = 1:panels] { do for [i = 1:int(of("curves", word(letters, p)))] {
+  if (exists(sprintf("folds_%s_%d", word(letters, p), i))) { any_branch = 1 } } }
 up_tone = most == 1 ? up_colour : "black"
 down_tone = most == 1 ? down_colour : "black"
 set label 101 (most == 1 ? "▲" : filled_signs[1:2 * most - 1]) . " speed rising" at screen 0.06, screen 26 / height tc rgb up_tone font ",14"
 set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . " speed falling" at screen 0.205, screen 26 / height tc rgb down_tone font ",14"
 set label 103 "dashed: jump; dotted: to the end of the branch; gap: change of branch" at screen 0.36, screen 26 / height tc rgb "black" font ",14"
 if (lost > 0) { set label 104 "■ below 0: contact lost" at screen 0.82, screen 26 / height tc rgb "black" font ",14" }
+
+if (any_branch > 0) { set label 105 "short dashes: unstable orbits; ✱ fold" at screen 0.06, screen 52 / height tc rgb "black" font ",14" }
 
 set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
 panel_height = (height - 140) / panels
@@ -114,10 +119,18 @@ do for [p = 1:panels] {
     . ' size screen 0.008, 24 fixed lt 1 lw 2.4 lc rgb "%s" notitle, ', \
     letter, word(of("labels", letter), i), direction, colour(i, direction))
 
+  # Orbits that no sweep can show, and where they meet the others.
+  held(i, what) = exists(sprintf("%s_%s_%d", what, letter, i)) && of_curve(what, letter, i) > 0
+  branch_tone(i) = curves > 1 ? torque_colour[i] : "#009e73"
+  orbits(i) = block(i, "unstable") . sprintf(' using 1:2 with lines lt 1 lw 2.2 dt (5, 4) lc rgb "%s" notitle, ', branch_tone(i))
+  folds(i) = block(i, "folds") . sprintf(' using 1:2 with points lt 1 lw 2.4 pt 3 ps 2.2 lc rgb "%s" notitle, ', branch_tone(i))
+
   set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.15 font ",14" noenhanced
   drawn = ''
   do for [i = 1:curves] {
     drawn = drawn . branch(i, "down") . branch(i, "up")
+    if (held(i, "unstable")) { drawn = drawn . orbits(i) }
+    if (held(i, "folds")) { drawn = drawn . folds(i) }
     if (of("contact_lost", letter) > 0) { drawn = drawn . bar(i, "up", 2 * i - 1) . bar(i, "down", 2 * i) }
     if (of_curve("jumps_up", letter, i) > 0) { drawn = drawn . jump(i, "up") }
     if (of_curve("jumps_down", letter, i) > 0) { drawn = drawn . jump(i, "down") }
@@ -127,6 +140,6 @@ do for [p = 1:panels] {
       : sprintf('linespoints lt 1 lw 2 pt %d ps 1.6 lc rgb "%s"', open_mark[i], torque_colour[i]), letter, i, i < curves ? ', ' : '')
   }
   eval("plot " . drawn)
-  do for [n = 101:104] { unset label n }
+  do for [n = 101:105] { unset label n }
 }
 unset multiplot

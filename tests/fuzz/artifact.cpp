@@ -35,6 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   refused_or_read([&] { read_impact(path); });
   refused_or_read([&] { read_sweep(path); });
   refused_or_read([&] { read_response(path); });
+  refused_or_read([&] { read_branch(path); });
   refused_or_read([&] { read_jump_map(path); });
   refused_or_read([&] { read_harris_map(path); });
   refused_or_read([&] { read_variant(path); });

@@ -1,0 +1,86 @@
+// gear-orbit: the branch of periodic orbits of the pair over the mesh frequency, stable or not, and where it turns.
+//
+// Reads   params (that of sweeps: damping, inertia, speeds, fidelity, time), body.h5 of both gears, static.h5 of the torque,
+//         static.h5 of the reference torque (mean stiffness of the dampers)
+// Writes  branch.h5   along the branch: mesh frequency, RMS, mean and harmonics of the transmission error, Floquet multipliers,
+//                     stability; folds, period doublings, tori, and where contacts begin to come or go
+// Equations: y = P(y; f) over one mesh period, by Newton's method with the exact tangent of P; pseudo-arclength continuation.
+//            A sweep jumps where the branch folds.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/tool.h"
+#include "files/fit.h"
+#include "files/named_files.h"
+#include "files/provenance.h"
+#include "files/scene.h"
+#include "files/schemas.h"
+#include "gear/scene_geometry.h"
+#include "motion/pair_branch.h"
+
+namespace {
+
+void body(int argc, char** argv) {
+  whine::Options options{"Branch of periodic orbits over the mesh frequency, stable or not, with its folds",
+                         "gear-orbit"};
+  std::string params, statics, reference, output;
+  std::vector<std::string> bodies;
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
+  options.add("--static", statics, "static.h5 of the torque to run").required();
+  options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
+      .required();
+  options.add("--output", output, "branch.h5 to write").required();
+  options.footer(
+      "Example:\n"
+      "  gear-orbit --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 "
+      "--body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
+      "--reference-static out/parker2000/T100/static.h5 --output branch.h5");
+  options.parse(argc, argv);
+
+  const whine::NamedFiles files("--body", bodies);
+  const whine::Provenance provenance = whine::made_by(
+      argc, argv,
+      files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
+  whine::SweepSlice slice = whine::read_sweep_slice(params);
+  const whine::StaticArtifact at_torque = whine::read_static(statics),
+                              at_reference = whine::read_static(reference);
+  const std::vector<std::string> paths = files.of(at_torque.mesh);
+  for (int g = 0; g < 2; ++g)
+    for (const std::string& file : {statics, reference})
+      whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
+  whine::require_contact(at_torque, slice.fidelity, statics);
+  whine::require_contact(at_reference, slice.fidelity, reference);
+  if (at_reference.torque != slice.reference_torque)
+    whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
+                " N m, but the scene's first torque, which sets the bearing dampers, is ",
+                slice.reference_torque, " N m; give the static.h5 of that torque");
+  const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
+                            driven_body = whine::read_body(paths[1]);
+  whine::as_drawn(slice, driver_body, driven_body);
+
+  std::optional<whine::Progress> progress;
+  const whine::BranchArtifact result =
+      whine::pair_branch(driver_body, driven_body, at_torque, at_reference.mean_stiffness, slice,
+                         [&](long done, long total, const std::string& note) {
+                           if (!progress) progress.emplace("gear-orbit", total);
+                           progress->update(done, note);
+                         });
+  whine::write(output, result, provenance);
+  std::string folds;
+  for (double f : result.fold_frequency) folds += whine::text(folds.empty() ? ", folds at " : ", ", f, " Hz");
+  whine::tell("gear-orbit: ", result.torque, " N m, ", result.mesh_frequency.size(), " orbits, ",
+              result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
+              folds.empty() ? ", no fold" : folds, " -> ", output);
+  if (result.mesh_frequency.minCoeff() > slice.frequency_from)
+    whine::tell("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
