@@ -21,6 +21,7 @@
 #include "files/artifact.h"
 #include "files/fit.h"
 #include "files/h5.h"
+#include "files/named_files.h"
 #include "files/provenance.h"
 #include "files/publish.h"
 #include "files/ranges.h"
@@ -728,6 +729,28 @@ TEST_CASE(
     CHECK(back.bearing_force_max[g] == heard.bearing_force_max[g]);
     CHECK(back.bearing_force_rms[g] == heard.bearing_force_rms[g]);
   }
+}
+
+TEST_CASE("bodies are given by the names of their gears, in any order, one for each") {
+  GearMeshSpec mesh;
+  mesh.driver = "pinion";
+  mesh.driven = "wheel";
+  const NamedFiles both("--body", {"wheel=out/b=c/body.h5", "pinion=a.h5"});
+  CHECK(both.of(mesh) == std::vector<std::string>{"a.h5", "out/b=c/body.h5"});
+  CHECK(both.role("wheel") == "body wheel");
+  CHECK(both.and_inputs({"params=x"}) ==
+        std::vector<std::string>{"params=x", "body wheel=out/b=c/body.h5", "body pinion=a.h5"});
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& part) {
+    const Caught error = caught([&] { NamedFiles("--body", words).of(mesh); });
+    CHECK(error.kind == static_cast<int>(Failure::usage));
+    INFO(error.message);
+    CHECK(error.says(part));
+  };
+  for (const char* word : {"a.h5", "=a.h5", "pinion="}) refused({word}, "write --body <gear>=<path>");
+  refused({"pinion=a.h5", "pinion=b.h5"}, "names the gear 'pinion' twice");
+  refused({"pinion=a.h5"}, "the gear 'wheel' has no file; give --body wheel=<path>");
+  refused({"pinion=a.h5", "whel=b.h5"}, "no gear of this mesh is called 'whel'; did you mean 'wheel'?");
+  refused({"pinion=a.h5", "wheel=b.h5", "carrier=c.h5"}, "they are pinion and wheel");
 }
 
 TEST_CASE("response.h5 gives back every value bit by bit") {

@@ -121,7 +121,7 @@ while read -r -a values; do
     run gear-mesh "$bin/gear-mesh" --params out/own/$gear/body.toml --output out/own/$gear/mesh.h5 || continue 2
     run gear-reduce "$bin/gear-reduce" --params out/own/$gear/body.toml --mesh out/own/$gear/mesh.h5 --output out/own/$gear/body.h5 || continue 2
   done
-  pair=(--driver out/own/first/body.h5 --driven out/own/second/body.h5)
+  pair=(--body first=out/own/first/body.h5 --body second=out/own/second/body.h5)
   run gear-static "$bin/gear-static" --params out/own/params/static.toml "${pair[@]}" --torque "${values[11]}" --output $home/static.h5 || continue
   run gear-sweep "$bin/gear-sweep" --params out/own/params/sweep.toml "${pair[@]}" --static $home/static.h5 --reference-static $home/static.h5 \
     --direction up --output $home/sweep.h5 || continue
