@@ -200,7 +200,8 @@ TEST_CASE("period map: contact that leaves its zone is refused") {
   VectorXd y = map.flat(rig.after(1));
   y[0] *= 20;
   CHECK(failure_of([&] { map.apply(y); }) == Failure::numerical);
-  CHECK(map.left_zone());
+  CHECK(map.take_left_zone());
+  CHECK(!map.take_left_zone());
 }
 
 TEST_CASE("period map: of a lumped oscillator, its tangent and the borders that it crosses") {

@@ -69,7 +69,7 @@ std::optional<std::vector<Segment>> follow(
   const long total = std::max(1l, std::lround((high - low) / slice.frequency_step));
   double lowest = high;
   for (;;) {
-    if (map->left_zone()) return std::nullopt;
+    if (!search.found() && map->take_left_zone()) return std::nullopt;
     if (!search.found())
       fail(Failure::numerical, "at ", at, " Hz no orbit of ", steps,
            " steps is found from that at hand: ", search.failure);
@@ -86,6 +86,7 @@ std::optional<std::vector<Segment>> follow(
     settings.location = 1e-6;
     segments.push_back({follow_branch(*map, search.orbit, direction, settings,
                                       [&](const BranchPosition& p) {
+                                        map->take_left_zone();  // beside the orbit
                                         lowest = std::min(lowest, p.parameter);
                                         report(std::lround((high - lowest) / (high - low) * total), total,
                                                text(p.parameter, " Hz"));
@@ -93,7 +94,7 @@ std::optional<std::vector<Segment>> follow(
                         steps});
     const OrbitBranch& branch = segments.back().branch;
     if (!branch.reached_limit) {
-      if (map->left_zone()) return std::nullopt;
+      if (map->take_left_zone()) return std::nullopt;
       return segments;
     }
     const BranchPosition& last = branch.points.back();

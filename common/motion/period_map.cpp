@@ -104,10 +104,11 @@ State RollingPeriodMap::state(const VectorXd& y) const {
 
 VectorXd RollingPeriodMap::apply(const VectorXd& y) {
   State state = this->state(y);
-  left_zone_ = !dynamics_.march(state, period_);
-  if (left_zone_)
+  if (!dynamics_.march(state, period_)) {
+    left_zone_ = true;
     refuse(Failure::numerical, "at ", mesh_frequency_,
            " Hz contact leaves the candidate contact zone; take a wider one");
+  }
   return flat(state);
 }
 

@@ -14,6 +14,8 @@
 // periods for each number, and know no sets.
 #pragma once
 #include <Eigen/Core>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "contact/lanes.h"
@@ -34,7 +36,7 @@ class RollingPeriodMap : public PeriodMap {
   int steps() const { return steps_; }
   void set_parameter(double mesh_frequency) override;
   double parameter() const override { return mesh_frequency_; }
-  // Throws Refusal(numerical) if contact leaves the candidate zone (left_zone() is then true) or Error(numerical) as
+  // Throws Refusal(numerical) if contact leaves the candidate zone (take_left_zone() says so) or Error(numerical) as
   // RollingDynamics::march.
   Eigen::VectorXd apply(const Eigen::VectorXd& y) override;
   Eigen::MatrixXd tangent() override { return tangent_from(0); }
@@ -44,7 +46,8 @@ class RollingPeriodMap : public PeriodMap {
   // The same period cut at the end of step `cut` (0 to steps - 1): its tangent as if the first steps were those of the period
   // after it. Of an orbit all have the same multipliers.
   Eigen::MatrixXd tangent_from(int cut);
-  bool left_zone() const { return left_zone_; }
+  // Whether contact left the zone in any period since the last call.
+  bool take_left_zone() { return std::exchange(left_zone_, false); }
   const RollingDynamics::Period& period() const { return period_; }
   // (step) of the period applied last: the strips, or the pairs, that carry force.
   std::vector<std::vector<int>> active_sets() const;
