@@ -10,7 +10,7 @@ struct Background {
   std::vector<LumpedParameters> lumped;  // of each sweep, empty for elastic gears; or none
   std::vector<ImpactArtifact>
       impacts;  // for damping ratios, of any gears and torques; found by what they were made from
-  std::vector<BranchArtifact> branches;  // for unstable orbits and folds; found likewise
+  std::vector<BranchArtifact> branches = {};  // for unstable orbits and folds; found likewise
 };
 
 // RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
