@@ -501,17 +501,18 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
   SweepSlice slice = paper_sweep(1700, 2950, 50);
   slice.damping.rayleigh_stiffness = 5.5e-6;
   slice.time.periodicity = 1e-6;
-  // 128 steps above 1953 Hz, 256 below.
-  slice.time.min_sample_rate = 250e3;
+  // 64 steps above 2400 Hz, 128 below.
+  slice.time.steps_per_period = 64;
+  slice.time.min_sample_rate = 64 * 2400;
   const BranchArtifact branch = pair_branch(body, body, statics, 463e6, slice, no_report);
   INFO(branch.end);
   CHECK(branch.mesh_frequency[0] == relative(2950, 1e-12));
   CHECK(branch.mesh_frequency.tail(1)[0] == relative(1700, 1e-12));
-  CHECK(branch.steps.minCoeff() == 128);
-  CHECK(branch.steps.maxCoeff() == 256);
+  CHECK(branch.steps.minCoeff() == 64);
+  CHECK(branch.steps.maxCoeff() == 128);
   // On the upper branch down, on the unstable one up, and on the lower one down again.
   CHECK(branch.segment_mismatch.size() == 3);
-  CHECK(branch.segment_mismatch.maxCoeff() < 0.02);
+  CHECK(branch.segment_mismatch.maxCoeff() < 0.1);
   REQUIRE(branch.fold_frequency.size() == 2);
   CHECK((branch.stable.array() == 0).any());
   for (const std::string direction : {"down", "up"}) {

@@ -587,7 +587,7 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
             "jump at 2525 Hz' ");
   }
 
-  const Background told{{}, {sweeps[0].lumped, sweeps[1].lumped}, {}, {}};
+  const Background told{{}, {sweeps[0].lumped, sweeps[1].lumped}, {}};
   const Figure curves = response_figure(responses, told);
   REQUIRE(curves.blocks.size() == 4);
   CHECK(curves.blocks[0].name == "a 150 N m up");

@@ -308,7 +308,9 @@ void show(Lines& lines, const BranchArtifact& a) {
   };
   list("period doubling", a.flip_frequency);
   list("torus", a.torus_frequency);
-  list("grazing", a.grazing_frequency);
+  if (a.grazing_frequency.size() > 0)
+    add(lines, "grazing", a.grazing_frequency.size(), " places from ", a.grazing_frequency.minCoeff(), " to ",
+        a.grazing_frequency.maxCoeff(), " Hz");
   add(lines, "end", a.end);
 }
 

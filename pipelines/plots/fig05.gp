@@ -122,7 +122,7 @@ do for [p = 1:panels] {
   # Orbits that no sweep can show, and where they meet the others.
   held(i, what) = exists(sprintf("%s_%s_%d", what, letter, i)) && of_curve(what, letter, i) > 0
   branch_tone(i) = curves > 1 ? torque_colour[i] : "#009e73"
-  orbits(i) = block(i, "unstable") . sprintf(' using 1:2 with lines lt 1 lw 2.2 dt (5, 4) lc rgb "%s" notitle, ', branch_tone(i))
+  orbits(i) = block(i, "unstable") . sprintf(' using 1:2 with lines lt 1 lw 2.2 dt (9, 6) lc rgb "%s" notitle, ', branch_tone(i))
   folds(i) = block(i, "folds") . sprintf(' using 1:2 with points lt 1 lw 2.4 pt 3 ps 2.2 lc rgb "%s" notitle, ', branch_tone(i))
 
   set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.15 font ",14" noenhanced
