@@ -502,8 +502,10 @@ MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
       auto rows = h.middleCols(sway.first, sway.count)(mesh.nodes_of(i), Eigen::all);
       rows += mesh.table_weights[g](mesh.nodes_of(i), Eigen::all) *
               (std::cos(angle) * sway.there + std::sin(angle) * sway.quarter_on);
-      for (int c = 0; c < sway.count; ++c)
-        rows.col(c).array() += outward.dot(coordinates_[static_cast<size_t>(sway.first + c)].shift);
+      for (int c = 0; c < sway.count; ++c) {
+        const int coordinate = sway.first + c;
+        rows.col(c).array() += outward.dot(coordinates_[static_cast<size_t>(coordinate)].shift);
+      }
     }
   return h;
 }

@@ -78,7 +78,7 @@ std::optional<std::vector<Segment>> follow(
     settings.high = high;
     // Speeds at which the number of steps changes.
     if (steps > slice.time.steps_per_period)
-      settings.high = std::min(high, slice.time.min_sample_rate / (steps / 2));
+      settings.high = std::min(high, 2 * slice.time.min_sample_rate / steps);
     if (slice.time.min_sample_rate > 0) settings.low = std::max(low, slice.time.min_sample_rate / steps);
     settings.scale = 0.5 * (low + high);
     settings.first_step = 0.01;

@@ -62,10 +62,10 @@ VectorXd RollingPeriodMap::units(int cut) const {
 void RollingPeriodMap::set_parameter(double mesh_frequency) {
   dynamics_.set_speed(mesh_frequency, steps_);
   mesh_frequency_ = mesh_frequency;
-  coefficients_.resize(static_cast<size_t>(coordinates_ * kCoefficients));
+  coefficients_.resize(static_cast<size_t>(coordinates_) * kCoefficients);
   using Of = RollingDynamics::SpeedCoefficients;
   for (int c = 0; c < coordinates_; ++c) {
-    double* to = &coefficients_[static_cast<size_t>(c * kCoefficients)];
+    double* to = &coefficients_[static_cast<size_t>(c) * kCoefficients];
     for (const auto of : {Of::a11, Of::a12, Of::a21, Of::a22, Of::push_z, Of::push_v, Of::bq})
       *to++ = dynamics_.speed_.at(of, c);
   }
