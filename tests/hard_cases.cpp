@@ -851,7 +851,7 @@ void near_fold(Table& table) {
   if (up.jump_frequency.size() != 1) return;
   const double jump = up.jump_frequency[0];
   SweepSlice other = sweep_slice(2760, 2810, 10, 5.5e-6);
-  other.fidelity.integrator = "newmark";
+  other.fidelity.integrator = Integrator::newmark;
   other.time.steps_per_period = 512;
   const SweepArtifact newmark = run_sweep(other, 150);
   // 128 exact steps leave 0.1 Hz, Newmark with 512 as much, and the search 0.16 Hz.
@@ -862,7 +862,7 @@ void near_fold(Table& table) {
   const double fine = std::floor(jump) - 2;
   const SweepArtifact past = run_sweep(sweep_slice(fine, fine + 6, 1, 5.5e-6), 150);
   SweepSlice plain = sweep_slice(fine, fine + 6, 1, 5.5e-6);
-  plain.time.steady_state = "march";
+  plain.time.steady_state = SteadyState::march;
   const SweepArtifact marched = run_sweep(plain, 150);
   double largest = 0;
   for (int i = 0; i < past.period_multiple.size(); ++i)
@@ -908,7 +908,7 @@ void ten_times_the_torque(Table& table) {
                  result.period_multiple.minCoeff());
   table.at_most("energy ledger, relative", 1e-9, result.energy_imbalance.maxCoeff());
   SweepSlice other = sweep_slice(2600, 3000, 200, 7.7e-6);
-  other.fidelity.integrator = "newmark";
+  other.fidelity.integrator = Integrator::newmark;
   other.time.steps_per_period = 512;
   const SweepArtifact newmark = run_sweep(other, 1500);
   for (int i = 0; i < 3; ++i)

@@ -81,8 +81,8 @@ inline double rms(const SweepArtifact& sweep, int row) {
   return std::sqrt((te.array() - te.mean()).square().mean());
 }
 
-inline DynamicParameters paper_parameters(double mean_stiffness, const std::string& body = "modal",
-                                          const std::string& contact = "strips") {
+inline DynamicParameters paper_parameters(double mean_stiffness, BodyModel body = BodyModel::modal,
+                                          ContactModel contact = ContactModel::strips) {
   DynamicParameters p;
   p.fidelity.contact = contact;
   p.torque = 150;

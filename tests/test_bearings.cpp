@@ -32,7 +32,7 @@ std::array<Bearing, 2> soft(double damping = 0, double factor = 1) {
 }
 
 StaticSlice statics_on(const std::array<Bearing, 2>& bearing, bool corner,
-                       const std::string& contact = "strips") {
+                       ContactModel contact = ContactModel::strips) {
   StaticSlice slice = paper_statics(16);
   slice.mesh.bearing = bearing;
   slice.mesh.corner.enabled = corner;
@@ -64,7 +64,7 @@ struct Rig {
   RollingDynamics::State state;
 };
 
-DynamicParameters parameters_of(const std::string& body, const std::string& contact = "strips") {
+DynamicParameters parameters_of(BodyModel body, ContactModel contact = ContactModel::strips) {
   DynamicParameters p = paper_parameters(463e6, body, contact);
   p.inertia = {0.0148, 0.0260};
   return p;
@@ -91,7 +91,7 @@ VectorXd lumped_frequencies(const GearMeshModel& model, const std::array<double,
 
 TEST_CASE(
     "bearings at rest stand in series with the mesh, press as the load does, and are rigid in the limit") {
-  for (const std::string contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     const StaticArtifact rigid = at_rest(statics_on({}, false, contact)),
                          on = at_rest(statics_on(soft(), false, contact)),
                          stiff = at_rest(statics_on(soft(0, 1e8), false, contact));
@@ -122,7 +122,7 @@ TEST_CASE(
 
 TEST_CASE(
     "rigid bodies on bearings have the six natural frequencies of the lumped pair with the same stiffness") {
-  const DynamicParameters parameters = parameters_of("rigid");
+  const DynamicParameters parameters = parameters_of(BodyModel::rigid);
   const StaticSlice slice = statics_on(soft(), false);
   Rig on(slice, parameters), rigid(statics_on({}, false), parameters);
   const std::array<double, 2> mass{coarse_body().mass, coarse_body().mass};
@@ -156,7 +156,7 @@ TEST_CASE(
   std::array<Bearing, 2> bearing = soft();
   bearing[0].mass = 2.5;
   bearing[1].mass = 3.5;
-  const DynamicParameters parameters = parameters_of("modal");
+  const DynamicParameters parameters = parameters_of(BodyModel::modal);
   Rig on(statics_on(bearing, false), parameters, 64, body),
       rigid(statics_on({}, false), parameters, 64, body);
   const double r = on.model.kinematics.gear(0).base_radius();
@@ -171,8 +171,8 @@ TEST_CASE(
 }
 
 TEST_CASE("at rest all levels of body give the transmission error of rigid axes and the bearings in series") {
-  for (const char* rung : {"rigid", "quasi-static", "lagged", "modal"})
-    for (const char* contact : {"strips", "line"}) {
+  for (const auto rung : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal})
+    for (const auto contact : {ContactModel::strips, ContactModel::line}) {
       const DynamicParameters parameters = parameters_of(rung, contact);
       const auto slice = [&](const std::array<Bearing, 2>& bearing) {
         return statics_on(bearing, false, contact);
@@ -191,9 +191,9 @@ TEST_CASE("at rest all levels of body give the transmission error of rigid axes 
 }
 
 TEST_CASE("a period on bearings closes its energy balance; the mean bearing force is the load") {
-  for (const char* rung : {"rigid", "quasi-static", "modal"})
-    for (const char* contact : {"strips", "line"})
-      for (const char* integrator : {"exact", "newmark"}) {
+  for (const auto rung : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::modal})
+    for (const auto contact : {ContactModel::strips, ContactModel::line})
+      for (const auto integrator : {Integrator::exact, Integrator::newmark}) {
         DynamicParameters parameters = parameters_of(rung, contact);
         parameters.fidelity.integrator = integrator;
         Rig rig(statics_on(soft(4000), true, contact), parameters);
@@ -209,7 +209,7 @@ TEST_CASE("a period on bearings closes its energy balance; the mean bearing forc
 
 TEST_CASE(
     "a sweep on bearings: forces on the bearings balance those of the teeth, response, stiff bearings") {
-  const auto swept = [](const std::string& rung, const std::array<Bearing, 2>& bearing) {
+  const auto swept = [](BodyModel rung, const std::array<Bearing, 2>& bearing) {
     StaticSlice rest = statics_on(bearing, false);
     rest.contact.positions = 32;
     const StaticArtifact statics = at_rest(rest);
@@ -221,7 +221,7 @@ TEST_CASE(
     slice.damping.rayleigh_mass = 3000;  // of rigid bodies nothing else is damped
     return sweep(coarse_body(), coarse_body(), statics, statics.mean_stiffness, slice, "up", no_report);
   };
-  const SweepArtifact on = swept("modal", soft(4000));
+  const SweepArtifact on = swept(BodyModel::modal, soft(4000));
   const double load = 150 / ToothGeometry(paper_gear()).base_radius();
   const ResponseArtifact heard = response(on);
   for (int g = 0; g < 2; ++g)
@@ -242,7 +242,7 @@ TEST_CASE(
     }
   // Rigid axes are the limit, of first order in the flexibility of the bearings. With them one-diameter modes stand in another
   // frame, see dynamics.h, which leaves 3e-7 here.
-  for (const char* rung : {"rigid", "modal"}) {
+  for (const auto rung : {BodyModel::rigid, BodyModel::modal}) {
     const SweepArtifact rigid = swept(rung, {});
     const auto off = [&](double factor) {
       return (swept(rung, soft(0, factor)).transmission_error - rigid.transmission_error)
@@ -282,7 +282,7 @@ TEST_CASE(
     Eigen::VectorXcd all, diagonal;
   };
   const auto roots = [](double damping, double eta) {
-    DynamicParameters parameters = parameters_of("modal");
+    DynamicParameters parameters = parameters_of(BodyModel::modal);
     parameters.damping.rayleigh_stiffness = eta;
     const StaticSlice slice = statics_on({Bearing{200e6, damping, 0}, Bearing{200e6, damping, 0}}, false);
     const GearMeshModel model(coarse_body(), coarse_body(), slice.mesh);
@@ -320,7 +320,7 @@ TEST_CASE(
 }
 
 TEST_CASE("bearings are refused where they cannot be: a mass below the body's, too few modes, every mode") {
-  const auto refusal = [](const Bearing& bearing, const BodyArtifact& body, const char* rung) {
+  const auto refusal = [](const Bearing& bearing, const BodyArtifact& body, BodyModel rung) {
     const GearMeshModel model(body, body, statics_on({bearing, {}}, true).mesh);
     try {
       RollingDynamics(model, parameters_of(rung));
@@ -330,13 +330,12 @@ TEST_CASE("bearings are refused where they cannot be: a mass below the body's, t
     }
     return std::string();
   };
-  CHECK(refusal({1e8, 0, 0}, coarse_body(), "modal").empty());
-  CHECK(
-      refusal({1e8, 0, 0.5}, coarse_body(), "rigid").find("mass_kg = 0.5 in the [[bearing]] of the driver") ==
-      0);
-  CHECK(refusal({1e8, 0, 0}, coarse_body(), "full").find("has no bearings") != std::string::npos);
+  CHECK(refusal({1e8, 0, 0}, coarse_body(), BodyModel::modal).empty());
+  CHECK(refusal({1e8, 0, 0.5}, coarse_body(), BodyModel::rigid)
+            .find("mass_kg = 0.5 in the [[bearing]] of the driver") == 0);
+  CHECK(refusal({1e8, 0, 0}, coarse_body(), BodyModel::full).find("has no bearings") != std::string::npos);
   BodyArtifact torsion = paper_body(40e-3, 1.2e-3, 0);
-  CHECK(refusal({1e8, 0, 0}, torsion, "lagged").find("none of them has one nodal diameter") !=
+  CHECK(refusal({1e8, 0, 0}, torsion, BodyModel::lagged).find("none of them has one nodal diameter") !=
         std::string::npos);
-  CHECK(refusal({1e8, 0, 0}, torsion, "rigid").empty());
+  CHECK(refusal({1e8, 0, 0}, torsion, BodyModel::rigid).empty());
 }

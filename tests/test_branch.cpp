@@ -441,7 +441,7 @@ TEST_CASE("orbits: the branch of the elastic pair through both folds, beside mar
   RollingPeriodMap map(dynamics, 128);
   map.set_parameter(2900);
   RollingDynamics::State state = dynamics.rest();
-  REQUIRE(settle(dynamics, state, 1e-8, "extrapolate"));
+  REQUIRE(settle(dynamics, state, 1e-8, SteadyState::extrapolate));
   BranchSettings settings;
   settings.low = 1700;
   settings.high = 2950;

@@ -27,7 +27,7 @@ const Coarse& coarse(bool plane_stress, double matching_depth = 0) {
     BodyDiscretisation discretisation;
     discretisation.element_size = 0.8e-3;
     if (matching_depth > 0) {
-      discretisation.near_field = "matching";
+      discretisation.near_field = NearField::matching;
       discretisation.matching_depth = matching_depth;
     }
     Material material = paper_steel();
@@ -38,15 +38,15 @@ const Coarse& coarse(bool plane_stress, double matching_depth = 0) {
   return made[key];
 }
 
-StaticSlice statics_with(const std::string& contact_plane, const std::string& contact = "strips") {
+StaticSlice statics_with(ContactPlane contact_plane, ContactModel contact = ContactModel::strips) {
   StaticSlice slice = paper_statics(8);
   slice.mesh.contact_plane = contact_plane;
   slice.fidelity.contact = contact;
   return slice;
 }
 
-StaticArtifact solved(const BodyArtifact& body, const std::string& contact_plane,
-                      const std::string& contact = "strips") {
+StaticArtifact solved(const BodyArtifact& body, ContactPlane contact_plane,
+                      ContactModel contact = ContactModel::strips) {
   return static_transmission(body, body, statics_with(contact_plane, contact), 150);
 }
 
@@ -55,7 +55,7 @@ StaticArtifact solved(const BodyArtifact& body, const std::string& contact_plane
 TEST_CASE(
     "contact plane: strain in bodies of plane stress gives Hertz's pressure and width of plane strain") {
   const BodyArtifact& body = coarse(true).body;
-  const StaticArtifact own = solved(body, "body"), strain = solved(body, "strain");
+  const StaticArtifact own = solved(body, ContactPlane::body), strain = solved(body, ContactPlane::strain);
   // One pair at the pitch point carries the same load; Hertz: p ~ sqrt(E*), a ~ 1 / sqrt(E*), E* = E / 2 (1 - nu^2).
   CHECK(strain.tooth_load(0, 1) == relative(own.tooth_load(0, 1), 1e-9));
   const double ratio = std::sqrt(1 - kNu * kNu);
@@ -67,7 +67,7 @@ TEST_CASE(
         relative(pressure, 0.025));  // 8 strips; see common/contact/README.md
   // Stiffer than with a contact in plane stress, softer than all in plane strain.
   CHECK(strain.mean_stiffness > 1.001 * own.mean_stiffness);
-  CHECK(strain.mean_stiffness < solved(coarse(false).body, "body").mean_stiffness);
+  CHECK(strain.mean_stiffness < solved(coarse(false).body, ContactPlane::body).mean_stiffness);
 }
 
 TEST_CASE("contact plane: the approach changes by Hertz's law of both states relative to the depth between") {
@@ -77,18 +77,18 @@ TEST_CASE("contact plane: the approach changes by Hertz's law of both states rel
     CAPTURE(matching);
     const BodyArtifact& body = coarse(true, matching).body;
     const double depth = matching > 0 ? matching : kPi / 4 * 3e-3;  // half a tooth's thickness
-    CHECK(ElasticGear(body, "strain").contact_depth() == relative(depth, 1e-15));
-    const auto approach = [&](const std::string& plane) {
+    CHECK(ElasticGear(body, ContactPlane::strain).contact_depth() == relative(depth, 1e-15));
+    const auto approach = [&](ContactPlane plane) {
       const HalfPlaneSurface surface(in_contact_plane(body.material, plane), 25.4e-3);
       return HertzLine(surface, surface, radius, depth).at(force).indentation;
     };
-    const double expected = approach("strain") - approach("body");
+    const double expected = approach(ContactPlane::strain) - approach(ContactPlane::body);
     CHECK(expected < -0.02e-6);
-    for (const char* contact : {"strips", "line"}) {
+    for (const auto contact : {ContactModel::strips, ContactModel::line}) {
       CAPTURE(contact);
-      const double found = solved(body, "strain", contact).transmission_error[0] -
-                           solved(body, "body", contact).transmission_error[0];
-      CHECK(found == relative(expected, contact == std::string("line") ? 1e-9 : 0.01));
+      const double found = solved(body, ContactPlane::strain, contact).transmission_error[0] -
+                           solved(body, ContactPlane::body, contact).transmission_error[0];
+      CHECK(found == relative(expected, contact == ContactModel::line ? 1e-9 : 0.01));
     }
   }
 }
@@ -97,11 +97,13 @@ TEST_CASE(
     "contact plane: the state of the bodies, named, changes no bit, nor does the depth of near and far "
     "field") {
   const BodyArtifact &stress = coarse(true).body, &strain = coarse(false).body;
-  CHECK(solved(stress, "stress").transmission_error == solved(stress, "body").transmission_error);
-  CHECK(solved(strain, "strain").transmission_error == solved(strain, "body").transmission_error);
-  CHECK(solved(strain, "stress").contact_pressure(0, 1) <
+  CHECK(solved(stress, ContactPlane::stress).transmission_error ==
+        solved(stress, ContactPlane::body).transmission_error);
+  CHECK(solved(strain, ContactPlane::strain).transmission_error ==
+        solved(strain, ContactPlane::body).transmission_error);
+  CHECK(solved(strain, ContactPlane::stress).contact_pressure(0, 1) <
         0.96 * solved(strain, "body").contact_pressure(0, 1));
-  const ElasticGear gear(stress, "strain");
+  const ElasticGear gear(stress, ContactPlane::strain);
   const auto flank = [&](double depth) {
     return gear.compliance(0, depth)(10, 12) + gear.half_plane().line(1e-4, depth);
   };
@@ -111,7 +113,7 @@ TEST_CASE(
 
 TEST_CASE("contact plane: the whole field of loaded gears gives the separations of the strips") {
   const Coarse& gear = coarse(true);
-  const StaticArtifact statics = solved(gear.body, "strain");
+  const StaticArtifact statics = solved(gear.body, ContactPlane::strain);
   const LoadedArtifact at = loaded_pair(gear.mesh, gear.mesh, gear.body, gear.body, statics, 0.25, 0);
   Eigen::Index i = 0;
   for (const ContactZone& zone : contact_zones(gear.body, gear.body, statics, 0.25, 0)) {

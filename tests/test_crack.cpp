@@ -478,7 +478,7 @@ TEST_CASE("lines and strips see the same crack, and motion refuses it") {
   const BodyArtifact &cracked = coarse_body(2e-3, 0), &plain = coarse_body(0);
   StaticSlice slice = paper_statics(8);
   const StaticArtifact strips = static_transmission(cracked, plain, slice, 150);
-  slice.fidelity.contact = "line";
+  slice.fidelity.contact = ContactModel::line;
   const StaticArtifact lines = static_transmission(cracked, plain, slice, 150);
   double most = 0;
   for (Index i = 0; i < strips.transmission_error.size(); ++i) {

@@ -156,7 +156,7 @@ void set_pair(Artifact& a) {
   a.driver_material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
   a.driven_material = {110e9 / 1.3, 0.27 / 1.1, 7200 / 1.3, true};
   a.driver_body = {0.0004 / 1.3, 2, 5};
-  a.driven_body = {0.0007 / 1.3, 1, 12, "matching", 0.001 / 1.3};
+  a.driven_body = {0.0007 / 1.3, 1, 12, NearField::matching, 0.001 / 1.3};
 }
 
 template <class Artifact>
@@ -194,7 +194,7 @@ BodyArtifact small_body() {
   BodyArtifact a;
   a.design = odd_design(50);
   a.material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
-  a.discretisation = {0.0004 / 1.3, 2, 5, "matching", 0.001 / 1.3};
+  a.discretisation = {0.0004 / 1.3, 2, 5, NearField::matching, 0.001 / 1.3};
   a.inertia = 0.01 / 3;
   a.mass = 4.0 / 3;
   a.eigenfrequency = odd_vector(3, 1e4).cwiseAbs();
@@ -248,8 +248,8 @@ StaticArtifact small_static() {
 ErrorBudgetArtifact small_budget() {
   ErrorBudgetArtifact a;
   set_pair(a);
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}, "strain"};
-  a.fidelity.contact = "line";
+  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}, ContactPlane::strain};
+  a.fidelity.contact = ContactModel::line;
   a.contact = {17, 128};
   a.torque = 150.0 / 1.3;
   a.refinement = {"strips, flank table, elements", odd_vector(3, 1e-4), odd_vector(3, 3e-4),
@@ -266,7 +266,7 @@ ImpactArtifact small_impact() {
   ImpactArtifact a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.1 / 3}};
-  a.fidelity = {"lagged", "strips", "newmark"};
+  a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
   a.torque = 150;
@@ -299,7 +299,7 @@ SweepArtifact small_sweep() {
   SweepArtifact a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {false, std::numeric_limits<double>::infinity()}};
-  a.fidelity = {"lagged", "strips", "newmark"};
+  a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
   a.time = {64, 250e3 / 1.1, 1e-6 / 3};
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
@@ -354,7 +354,7 @@ ResponseArtifact small_response() {
   a.jump_width = odd_vector(1, 10);
   a.period_multiple = Eigen::VectorXi{{1, 1}};
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, std::numeric_limits<double>::infinity()}};
-  a.fidelity = {"modal", "strips", "exact"};
+  a.fidelity = {BodyModel::modal, ContactModel::strips, Integrator::exact};
   a.damping = {0, 7.7e-6, 0.5e-3, 0.005};
   a.natural_frequency = 2900.0 / 1.1;
   return a;
@@ -392,10 +392,10 @@ HarrisMapArtifact small_harris_map() {
   HarrisMapArtifact a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
-  a.fidelity = {"lagged", "strips", "newmark"};
+  a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
   a.relieved = "both";
-  a.shape = "parabolic";
+  a.shape = ReliefShape::parabolic;
   a.torque = Eigen::VectorXd{{50.0 / 3, 150}};
   a.relief = Eigen::VectorXd{{0, 5e-6 / 3, 1e-5}};
   a.length = Eigen::VectorXd{{1e-3 / 3, 2e-3 / 3}};
@@ -428,7 +428,7 @@ VariantArtifact small_variant() {
   VariantArtifact a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
-  a.fidelity = {"lagged", "strips", "newmark"};
+  a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
   a.time = {64, 250e3 / 1.1, 1e-6 / 3};
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
@@ -585,7 +585,7 @@ TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices
   const ErrorBudgetArtifact b = read_error_budget("error_budget.h5");
   CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
-  CHECK(b.fidelity.contact == "line");
+  CHECK(b.fidelity.contact == ContactModel::line);
   CHECK(same(a.contact, b.contact));
   CHECK(a.torque == b.torque);
   CHECK(same_changes(a.refinement, b.refinement));
@@ -1042,11 +1042,11 @@ TEST_CASE("a body read back has the hash of its slice, and another body is refus
 
 TEST_CASE("a static result of another contact rung than a later stage's is refused with both") {
   StaticArtifact statics = small_static();
-  statics.fidelity.contact = "line";
+  statics.fidelity.contact = ContactModel::line;
   Fidelity wanted;
-  wanted.contact = "line";
+  wanted.contact = ContactModel::line;
   CHECK(caught([&] { require_contact(statics, wanted, "out/s/T100/static.h5"); }).kind == 0);
-  wanted.contact = "strips";
+  wanted.contact = ContactModel::strips;
   const Caught refused = caught([&] { require_contact(statics, wanted, "out/s/T100/static.h5"); });
   CHECK(refused.kind == kInput);
   CHECK(refused.says(
@@ -1236,8 +1236,8 @@ TEST_CASE("a number out of its range is refused by its dataset, its value and th
   body.design.module = -0.003;
   CHECK(says(said(body, read_body), "dataset /parameters/gear/module holds -0.003, allowed is "));
   body = small_body();
-  body.discretisation.near_field = "neither";
-  CHECK(says(said(body, read_body), "near_field is 'neither', which is none of: subtraction matching"));
+  body.discretisation.near_field = static_cast<NearField>(7);
+  CHECK(says(said(body, read_body), "near_field is '', which is none of: subtraction matching"));
   body = small_body();
   body.nodal_diameter[1] = -3;
   CHECK(says(said(body, read_body), "dataset /nodal_diameter holds -3, allowed is 0 to 2000"));

@@ -152,10 +152,13 @@ TEST_CASE("mass on an elastic and a lagging spring: roots of its cubic, by eigen
 
 TEST_CASE("held pair: ring-down against the eigenvalues of the system with frozen contact, on every rung") {
   struct Rung {
-    std::string body, integrator;
+    BodyModel body;
+    Integrator integrator;
   };
-  for (const Rung& rung : {Rung{"modal", "exact"}, Rung{"modal", "newmark"}, Rung{"lagged", "exact"},
-                           Rung{"quasi-static", "exact"}, Rung{"rigid", "exact"}}) {
+  for (const Rung& rung :
+       {Rung{BodyModel::modal, Integrator::exact}, Rung{BodyModel::modal, Integrator::newmark},
+        Rung{BodyModel::lagged, Integrator::exact}, Rung{BodyModel::quasi_static, Integrator::exact},
+        Rung{BodyModel::rigid, Integrator::exact}}) {
     INFO(rung.body << " " << rung.integrator);
     ImpactSlice slice = coarse_impact();
     slice.fidelity.body = rung.body;
@@ -287,6 +290,6 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
   slice.damping.bearing_ratio = 0.1;
   CHECK_THROWS_WITH_AS(calibrated(slice, 0.05, "two"), doctest::Contains("lower bearing_ratio"), Error);
   slice = coarse_impact();
-  slice.fidelity.body = "rigid";
+  slice.fidelity.body = BodyModel::rigid;
   CHECK_THROWS_WITH_AS(calibrated(slice, 0.05, "two"), doctest::Contains("the largest is near"), Error);
 }

@@ -26,14 +26,14 @@ const BodyArtifact& coarse() {
 SweepSlice motion() {
   SweepSlice slice = paper_sweep(0, 0, 0);
   slice.damping.rayleigh_stiffness = 0;
-  slice.fidelity.contact = "line";
+  slice.fidelity.contact = ContactModel::line;
   slice.reference_torque = 150;
   return slice;
 }
 
 StaticSlice rest() {
   StaticSlice slice = paper_statics(128);
-  slice.fidelity.contact = "line";
+  slice.fidelity.contact = ContactModel::line;
   return slice;
 }
 
@@ -156,13 +156,13 @@ TEST_CASE(
   CHECK(std::abs(open.branches_to[0] - map.branches_to[0]) < 2);
 
   StaticSlice on_strips = rest();
-  on_strips.fidelity.contact = "strips";
+  on_strips.fidelity.contact = ContactModel::strips;
   const StaticArtifact held = static_transmission(coarse(), coarse(), on_strips, 150);
   ImpactPlan impact_plan;
   impact_plan.phases = 16;
   for (int c = 0; c < 2; ++c) {
     ImpactSlice ring = motion();
-    ring.fidelity.contact = "strips";
+    ring.fidelity.contact = ContactModel::strips;
     ring.damping.rayleigh_stiffness = map.rayleigh_stiffness[c];
     const ImpactArtifact decay =
         impact(coarse(), coarse(), held, map.bearing_stiffness, ring, impact_plan, [](long, long) {});

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 namespace {
 
 struct Rig {
-  Rig(const char* contact, double eta)
+  Rig(ContactModel contact, double eta)
       : model(paper_body(), paper_body(), paper_statics(128).mesh), dynamics(model, [&] {
           const SweepSlice slice = paper_sweep(2900, 2900, 1);
           DynamicParameters parameters;
@@ -61,7 +61,7 @@ double left_over(const Ledger& l) {
 
 TEST_CASE("the ledger closes to 1e-9 of the input energy over 1e5 steps in which contact is lost") {
   constexpr int kSteps = 128, kPeriods = 100000 / kSteps + 1;
-  for (const std::string contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     Rig rig(contact.c_str(), 5.5e-6);
     rig.start(2900, kSteps, 5);
     Ledger ledger;
@@ -84,7 +84,7 @@ TEST_CASE("stiff damping: the ledger closes with the lag that is forgotten in a 
     while (kEnergyLines[i].name != std::string(name)) ++i;
     return static_cast<Eigen::Index>(i);
   };
-  for (const std::string contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     StaticSlice statics_slice = paper_statics(128);
     statics_slice.contact.strips = 8;
     statics_slice.fidelity.contact = contact;
@@ -108,7 +108,7 @@ TEST_CASE("stiff damping: the ledger closes with the lag that is forgotten in a 
 
 TEST_CASE(
     "the scheme's own lines of the ledger fall with the square of the step, where contact is lost, too") {
-  for (const std::string contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     std::vector<double> step, switching, averaging;
     for (int steps = 128; steps <= 2048; steps *= 2) {
       Rig rig(contact.c_str(), 5.5e-6);
@@ -133,7 +133,7 @@ TEST_CASE(
 
 #ifdef WHINE_COUNTS_MEMORY
 TEST_CASE("a mesh period takes no memory, with a ledger or without") {
-  for (const std::string contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     Rig rig(contact.c_str(), 5.5e-6);
     rig.start(2900, 128, 5);
     Ledger ledger;

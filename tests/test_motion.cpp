@@ -156,27 +156,27 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(errors.peak_to_peak_change.cwiseAbs().maxCoeff() < 2e-3);
   CHECK(errors.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
   // Choices are what a body and a slice made that way answer.
-  CHECK(budget.fidelity.contact == "strips");
+  CHECK(budget.fidelity.contact == ContactModel::strips);
   CHECK(budget.choice.entry == "matching at 1 mm, order 1, contact line");
   CHECK(budget.choice_missing == "");
   const double mean = static_transmission(body, body, paper_statics(128), 150).mean_stiffness;
   BodyDiscretisation matching = body.discretisation;
-  matching.near_field = "matching";
+  matching.near_field = NearField::matching;
   const BodyArtifact matched = reduce(make_sector_mesh(body.design, matching), body.material, 5);
   CHECK(budget.choice.mean_stiffness_change[0] ==
         relative(static_transmission(matched, matched, paper_statics(128), 150).mean_stiffness / mean - 1,
                  1e-9));
   StaticSlice by_line = paper_statics(128);
-  by_line.fidelity.contact = "line";
+  by_line.fidelity.contact = ContactModel::line;
   CHECK(budget.choice.mean_stiffness_change[2] ==
         relative(static_transmission(body, body, by_line, 150).mean_stiffness / mean - 1, 1e-9));
 
   StaticSlice line = paper_statics(32);
-  line.fidelity.contact = "line";
+  line.fidelity.contact = ContactModel::line;
   BodyArtifact deep = body;
   deep.discretisation.matching_depth = 6e-3;
   const ErrorBudgetArtifact of_line = error_budget(deep, deep, line, 150);
-  CHECK(of_line.fidelity.contact == "line");
+  CHECK(of_line.fidelity.contact == ContactModel::line);
   CHECK(of_line.refinement.entry ==
         "flank table 24 to 48 points, elements 0.8 to 0.4 mm, positions 32 to 64");
   CHECK(of_line.refinement.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
@@ -190,7 +190,7 @@ TEST_CASE(
   const BodyArtifact& body = paper_body();
   StaticSlice slice = paper_statics(128);
   slice.contact.strips = 61;
-  slice.fidelity.contact = "line";
+  slice.fidelity.contact = ContactModel::line;
   for (double torque : {20.0, 100.0, 300.0}) {
     const StaticArtifact line = static_transmission(body, body, slice, torque);
     const NextRung change = next_contact_rung(body, body, slice, line);
@@ -203,7 +203,7 @@ TEST_CASE(
     CHECK(change.elsewhere.error_rms < 3e-4);
     CHECK(change.elsewhere.error_rms > 0);
   }
-  slice.fidelity.contact = "strips";
+  slice.fidelity.contact = ContactModel::strips;
   CHECK_THROWS_AS(next_contact_rung(body, body, slice, static_transmission(body, body, slice, 100)), Error);
 }
 
@@ -212,7 +212,7 @@ TEST_CASE("one line per pair: load balance, tangent, Hertz's pressure, and nothi
   const GearPair pair(body.design, body.design, 0.150);
   const double rb = pair.gear(0).base_radius(), width = body.design.face_width;
   StaticSlice slice = paper_statics(64);
-  slice.fidelity.contact = "line";
+  slice.fidelity.contact = ContactModel::line;
   for (double torque : {1e-6, 150.0, 600.0}) {
     const StaticArtifact at = static_transmission(body, body, slice, torque),
                          less = static_transmission(body, body, slice, torque * (1 - 1e-5)),
@@ -440,7 +440,7 @@ TEST_CASE(
         std::string::npos);
   // At 0.135 mm Hertz's law ends at a width that the static load does not need, but the first swings of the motion do.
   SweepSlice shallow = paper_sweep(2900, 2900, 20);
-  shallow.fidelity.contact = "line";
+  shallow.fidelity.contact = ContactModel::line;
   shallow.damping.undamped_depth = 0.135e-3;
   const std::string words = refusal(shallow);
   INFO(words);
@@ -567,11 +567,11 @@ TEST_CASE("at rest the modal form gives the static transmission error, whatever 
   StaticSlice slice = paper_statics(128);
   const GearMeshModel model(body, body, slice.mesh);
   const double load = 150 / model.kinematics.gear(0).base_radius();
-  for (const char* contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     slice.fidelity.contact = contact;
     // A window twice as wide as the load wants, which the statics need not widen: the strips of both are the same.
     const StaticArtifact statics = static_transmission(body, body, slice, 150, 2);
-    for (const char* rung : {"quasi-static", "lagged", "modal"}) {
+    for (const auto rung : {BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal}) {
       RollingDynamics dynamics(model, paper_parameters(statics.mean_stiffness, rung, contact));
       dynamics.set_range(
           contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
@@ -581,7 +581,7 @@ TEST_CASE("at rest the modal form gives the static transmission error, whatever 
       const RollingDynamics::State state = dynamics.rest();
       // Of what the torques bend within a window modes keep mean and slope: 4e-8 is left out. A line has one node.
       CHECK(dynamics.static_deflection() ==
-            relative(statics.transmission_error[0], contact == std::string("line") ? 1e-12 : 1e-7));
+            relative(statics.transmission_error[0], contact == ContactModel::line ? 1e-12 : 1e-7));
       for (int k = 0; k < state.p.size(); ++k)
         CHECK((state.p[k] > 0 ? std::abs(state.d[k]) : -state.d[k]) < 1e-16);
     }
@@ -594,8 +594,8 @@ TEST_CASE("frozen one-pair and two-pair frequencies: few modes and a lagged resi
   // inertia was fitted to.
   const BodyArtifact &body = paper_body(), &many = paper_body(40e-3, 0.8e-3, 61);
   const StaticSlice slice = paper_statics(128);
-  const auto frequency = [&](const BodyArtifact& with, const char* rung, int phase,
-                             const char* contact = "strips") {
+  const auto frequency = [&](const BodyArtifact& with, BodyModel rung, int phase,
+                             ContactModel contact = ContactModel::strips) {
     const GearMeshModel model(with, with, slice.mesh);
     DynamicParameters parameters = paper_parameters(463e6, rung, contact);
     parameters.torque = 100;
@@ -607,12 +607,13 @@ TEST_CASE("frozen one-pair and two-pair frequencies: few modes and a lagged resi
     return dynamics.frozen_frequency(phase);
   };
   for (int phase : {0, 1}) {
-    const double all = frequency(many, "modal", phase);
-    CHECK(frequency(body, "modal", phase) == relative(all, 0.003));
-    CHECK(frequency(body, "lagged", phase) == relative(all, 0.005));
+    const double all = frequency(many, BodyModel::modal, phase);
+    CHECK(frequency(body, BodyModel::modal, phase) == relative(all, 0.003));
+    CHECK(frequency(body, BodyModel::lagged, phase) == relative(all, 0.005));
     CHECK(all == relative(phase == 0 ? 2480 : 3040, 0.01));
     // Its tangent for theirs: strips come in one by one.
-    CHECK(frequency(body, "modal", phase, "line") == relative(frequency(body, "modal", phase), 0.001));
+    CHECK(frequency(body, BodyModel::modal, phase, ContactModel::line) ==
+          relative(frequency(body, BodyModel::modal, phase), 0.001));
   }
 }
 
@@ -647,7 +648,7 @@ TEST_CASE("each step of rolling gears is one of the pair held at the phase where
   const StaticSlice slice = paper_statics(128);
   const GearMeshModel model(body, body, slice.mesh);
   const double load = 150 / model.kinematics.gear(0).base_radius();
-  for (const char* integrator : {"exact", "newmark"}) {
+  for (const auto integrator : {Integrator::exact, Integrator::newmark}) {
     DynamicParameters parameters = paper_parameters(463e6);
     parameters.damping.rayleigh_stiffness = 0;
     parameters.fidelity.integrator = integrator;
@@ -683,7 +684,7 @@ TEST_CASE("each step of rolling gears is one of the pair held at the phase where
 
 TEST_CASE("crawling gears follow the static transmission error") {
   const BodyArtifact& body = paper_body();
-  for (const char* contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     StaticSlice statics_slice = paper_statics(128);
     statics_slice.fidelity.contact = contact;
     const StaticArtifact statics = static_transmission(body, body, statics_slice, 150);
@@ -701,29 +702,29 @@ TEST_CASE("crawling gears follow the static transmission error") {
 TEST_CASE(
     "the energy ledger closes to 1e-9 of the work put in, with and without contact loss, both integrators") {
   const BodyArtifact& body = paper_body();
-  for (const char* contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     StaticSlice statics_slice = paper_statics(128);
     statics_slice.fidelity.contact = contact;
     const StaticArtifact statics = static_transmission(body, body, statics_slice, 150);
-    for (const char* integrator : {"exact", "newmark"})
-      for (const char* rung : {"modal", "quasi-static", "rigid"}) {
+    for (const auto integrator : {Integrator::exact, Integrator::newmark})
+      for (const auto rung : {BodyModel::modal, BodyModel::quasi_static, BodyModel::rigid}) {
         SweepSlice slice = paper_sweep(2800, 2900, 100);
         slice.damping.rayleigh_stiffness = 5.5e-6;
-        if (rung == std::string("rigid")) slice.damping.bearing_ratio = 0.1;  // the only damper of that rung
+        if (rung == BodyModel::rigid) slice.damping.bearing_ratio = 0.1;  // the only damper of that rung
         slice.fidelity = {rung, contact, integrator};
         const SweepArtifact result =
             sweep(body, body, statics, statics.mean_stiffness, slice, "down", no_report);
         CHECK(result.energy_imbalance.maxCoeff() < 1e-9);
         CHECK(result.least_gap > -1e-15);
         CHECK(result.drift_force.maxCoeff() < 0.02 * 2128);  // lever arms at a corner differ by 2 % at most
-        if (rung == std::string("modal")) CHECK(result.mesh_force.minCoeff() == 0);  // contact is lost here
+        if (rung == BodyModel::modal) CHECK(result.mesh_force.minCoeff() == 0);  // contact is lost here
       }
   }
 }
 
 TEST_CASE("the ledger closes where a corner rule cuts pairs off under load") {
   const BodyArtifact& body = paper_body();
-  for (const char* contact : {"strips", "line"})
+  for (const auto contact : {ContactModel::strips, ContactModel::line})
     for (double angle : {0.0, 0.3 * kPi / 180}) {
       StaticSlice slice = paper_statics(128);
       slice.mesh.corner.enabled = angle > 0;
@@ -849,7 +850,7 @@ TEST_CASE("a total inertia below the body's own is refused with both numbers") {
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
   SweepSlice slice = paper_sweep(2000, 2000, 100);
   slice.driven_inertia = 0.5 * body.inertia;
-  for (const char* rung : {"modal", "rigid"}) {
+  for (const auto rung : {BodyModel::modal, BodyModel::rigid}) {
     slice.fidelity.body = rung;
     std::string message;
     try {
@@ -872,7 +873,7 @@ TEST_CASE(
     for (int k = 0; k < 2; ++k) {
       StaticSlice slice = paper_statics(128);
       slice.contact.strips = 40;
-      slice.fidelity.contact = k ? "line" : "strips";
+      slice.fidelity.contact = k ? ContactModel::line : ContactModel::strips;
       const StaticArtifact statics = static_transmission(body, body, slice, torque);
       SweepSlice speeds = paper_sweep(1300, 3300, 500);
       speeds.fidelity.contact = slice.fidelity.contact;
@@ -894,10 +895,10 @@ TEST_CASE("sweeps with one line per pair: over an orbit the flanks carry the tor
   const BodyArtifact& body = paper_body();
   StaticSlice slice = paper_statics(128);
   slice.mesh.corner.enabled = false;
-  slice.fidelity.contact = "line";
+  slice.fidelity.contact = ContactModel::line;
   const StaticArtifact statics = static_transmission(body, body, slice, 150);
   SweepSlice speeds = paper_sweep(1500, 2900, 700);
-  speeds.fidelity.contact = "line";
+  speeds.fidelity.contact = ContactModel::line;
   speeds.damping.rayleigh_stiffness = 5.5e-6;
   speeds.time.min_sample_rate = 1;  // every step is stored
   speeds.time.periodicity = 1e-9;
@@ -914,7 +915,7 @@ TEST_CASE(
   const BodyArtifact& body = paper_body();
   const GearMeshModel model(body, body, paper_statics(1).mesh);
   for (double frequency : {1350.0, 2800.0}) {
-    DynamicParameters parameters = paper_parameters(470e6, "modal", "line");
+    DynamicParameters parameters = paper_parameters(470e6, BodyModel::modal, ContactModel::line);
     parameters.damping.rayleigh_stiffness = 5.5e-6;
     RollingDynamics dynamics(model, parameters);
     constexpr int kFinest = 8192;
@@ -948,11 +949,11 @@ TEST_CASE("one line per pair: held pairs and forces beyond Hertz's law are refus
   const GearMeshModel model(body, body, paper_statics(1).mesh);
   ContactRange range;
   range.corner_gap = 15e-6;
-  RollingDynamics held(model, paper_parameters(470e6, "modal", "line"));
+  RollingDynamics held(model, paper_parameters(470e6, BodyModel::modal, ContactModel::line));
   held.set_range(range, 2);
   CHECK_THROWS_WITH(held.hold(0), doctest::Contains("set contact = \"strips\""));
   // At 0.135 mm the law ends at a width that the static load does not need, but the first swings of the motion do.
-  DynamicParameters parameters = paper_parameters(470e6, "modal", "line");
+  DynamicParameters parameters = paper_parameters(470e6, BodyModel::modal, ContactModel::line);
   parameters.damping.undamped_depth = 0.135e-3;
   RollingDynamics shallow(model, parameters);
   shallow.set_range(range, 128);

@@ -23,7 +23,8 @@ constexpr double kLightDamping = 5.5e-6;  // s: two branches from 1860 to 2800 H
 
 // The paper's pair at 150 N m, its contact ready for `finest` steps per period.
 struct Rig {
-  explicit Rig(int finest, double eta = kLightDamping, bool corner = true, const char* integrator = "exact")
+  explicit Rig(int finest, double eta = kLightDamping, bool corner = true,
+               Integrator integrator = Integrator::exact)
       : statics(at_rest(corner)),
         model(paper_body(), paper_body(), statics.mesh),
         dynamics(model, parameters(statics, eta, integrator)) {
@@ -38,7 +39,7 @@ struct Rig {
     slice.mesh.corner.enabled = corner;
     return static_transmission(paper_body(), paper_body(), slice, 150);
   }
-  static DynamicParameters parameters(const StaticArtifact& statics, double eta, const char* integrator) {
+  static DynamicParameters parameters(const StaticArtifact& statics, double eta, Integrator integrator) {
     DynamicParameters p = paper_parameters(statics.mean_stiffness);
     p.damping.rayleigh_stiffness = eta;
     p.fidelity.integrator = integrator;
@@ -50,7 +51,7 @@ struct Rig {
     const double step = to > from ? width : -width;
     for (double f = from; step * (to - f) >= 0; f += step) {
       dynamics.set_speed(f, steps);
-      REQUIRE(settle(dynamics, state, 1e-6, "march"));
+      REQUIRE(settle(dynamics, state, 1e-6, SteadyState::march));
     }
     return state;
   }
@@ -83,8 +84,8 @@ TEST_CASE(
     const State start = rig.carried(from, from < 2400 ? 2350 : 2450, 128);
     rig.dynamics.set_speed(2400, 128);
     State marched = start, extrapolated = start;
-    const auto slow = settle(rig.dynamics, marched, 1e-9, "march"),
-               fast = settle(rig.dynamics, extrapolated, 1e-9, "extrapolate");
+    const auto slow = settle(rig.dynamics, marched, 1e-9, SteadyState::march),
+               fast = settle(rig.dynamics, extrapolated, 1e-9, SteadyState::extrapolate);
     REQUIRE(slow);
     REQUIRE(fast);
     INFO("from " << from << " Hz: " << slow->periods << " and " << fast->periods << " periods");
@@ -103,8 +104,8 @@ TEST_CASE("the secants of one speed save periods at the next, on the same orbits
   Secants secants;
   for (double f = 2120; f <= 2400; f += 20) {
     rig.dynamics.set_speed(f, 128);
-    const auto one = settle(rig.dynamics, state, 1e-7, "extrapolate"),
-               other = settle(rig.dynamics, shared_state, 1e-7, "extrapolate", {}, &secants);
+    const auto one = settle(rig.dynamics, state, 1e-7, SteadyState::extrapolate),
+               other = settle(rig.dynamics, shared_state, 1e-7, SteadyState::extrapolate, {}, &secants);
     REQUIRE(one);
     REQUIRE(other);
     INFO(f << " Hz: " << one->periods << " and " << other->periods << " periods");
@@ -125,11 +126,11 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
   for (double f = 5500; f <= 6200; f += 200) {
     rig.dynamics.set_speed(f, 128);
     const State start = state;
-    const auto slow = settle(rig.dynamics, state, 1e-6, "march");
+    const auto slow = settle(rig.dynamics, state, 1e-6, SteadyState::march);
     REQUIRE(slow);
     for (Secants* known : {static_cast<Secants*>(nullptr), &secants}) {
       State extrapolated = start;
-      const auto fast = settle(rig.dynamics, extrapolated, 1e-6, "extrapolate", {}, known);
+      const auto fast = settle(rig.dynamics, extrapolated, 1e-6, SteadyState::extrapolate, {}, known);
       REQUIRE(fast);
       INFO(f << " Hz: orbits of " << slow->multiple << " and " << fast->multiple << " mesh periods, "
              << (known ? "with" : "without") << " the secants of other speeds");
@@ -143,7 +144,7 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
       State later = state;
       for (int k = 0; k < 2; ++k) REQUIRE(rig.dynamics.march(later, period));
       CHECK(rig.dynamics.distance(later, state) < 1e-14);
-      const auto again = settle(rig.dynamics, state, 1e-6, "march");
+      const auto again = settle(rig.dynamics, state, 1e-6, SteadyState::march);
       REQUIRE(again);
       CHECK(again->multiple == 2);
     }
@@ -160,7 +161,7 @@ TEST_CASE(
   int single = 0, alternating = 0;
   for (double f = 5610; f <= 5720; f += 10) {
     rig.dynamics.set_speed(f, 128);
-    const auto orbit = settle(rig.dynamics, state, 1e-5, "extrapolate", {}, &secants);
+    const auto orbit = settle(rig.dynamics, state, 1e-5, SteadyState::extrapolate, {}, &secants);
     REQUIRE(orbit);
     single += orbit->multiple == 1;
     alternating += orbit->multiple == 2;
@@ -183,7 +184,7 @@ TEST_CASE(
     "second order in the time step: state of the orbit at a fixed phase, least squares, both branches") {
   // Against the other integrator at 4096 steps, which shares nothing but the contact positions.
   constexpr int kReference = 4096;
-  Rig exact(kReference), newmark(kReference, kLightDamping, true, "newmark");
+  Rig exact(kReference), newmark(kReference, kLightDamping, true, Integrator::newmark);
   VectorXd steps(5), worst_rms = VectorXd::Zero(5);
   steps << 64, 128, 256, 512, 1024;
   for (const double from : {2000.0, 2900.0}) {
@@ -191,12 +192,12 @@ TEST_CASE(
     newmark.dynamics.rest();  // sets the scale of distances
     State reference = state;
     newmark.dynamics.set_speed(2400, kReference);
-    const auto referred = settle(newmark.dynamics, reference, 1e-10, "extrapolate");
+    const auto referred = settle(newmark.dynamics, reference, 1e-10, SteadyState::extrapolate);
     REQUIRE(referred);
     VectorXd error(5), rms_error(5);
     for (int i = 0; i < 5; ++i) {
       exact.dynamics.set_speed(2400, static_cast<int>(steps[i]));
-      const auto orbit = settle(exact.dynamics, state, 1e-10, "extrapolate");
+      const auto orbit = settle(exact.dynamics, state, 1e-10, SteadyState::extrapolate);
       REQUIRE(orbit);
       error[i] = exact.dynamics.distance(state, reference);
       rms_error[i] = std::abs(orbit->rms / referred->rms - 1);
@@ -224,7 +225,7 @@ TEST_CASE("second order in the time step: where the upper branch ends, an envelo
     std::vector<State> reached;
     const auto run = [&](double f) {
       rig.dynamics.set_speed(f, steps);
-      const auto orbit = settle(rig.dynamics, state, 1e-8, "extrapolate");
+      const auto orbit = settle(rig.dynamics, state, 1e-8, SteadyState::extrapolate);
       REQUIRE(orbit);
       return BranchMotion{f, orbit->rms, orbit->multiple};
     };
@@ -308,14 +309,14 @@ TEST_CASE(
   StaticSlice coarse = paper_statics(128);
   coarse.contact.strips = 8;
   const StaticArtifact statics = static_transmission(body, body, coarse, 150);
-  const auto swept = [&](const char* method) {
+  const auto swept = [&](SteadyState method) {
     SweepSlice slice = paper_sweep(1700, 2900, 20);
     slice.time.periodicity = 1e-6;
     slice.damping.rayleigh_stiffness = kLightDamping;
     slice.time.steady_state = method;
     return response(sweep(body, body, statics, 463e6, slice, "down", no_report));
   };
-  const ResponseArtifact foretold = swept("extrapolate"), marched = swept("march");
+  const ResponseArtifact foretold = swept(SteadyState::extrapolate), marched = swept(SteadyState::march);
   REQUIRE(foretold.jump_frequency.size() == 1);
   REQUIRE(marched.jump_frequency.size() == 1);
   CHECK(std::abs(marched.jump_frequency[0] - foretold.jump_frequency[0]) < 1);

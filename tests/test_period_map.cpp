@@ -25,7 +25,9 @@ using State = RollingDynamics::State;
 namespace {
 
 struct Kind {
-  std::string body, contact, integrator;
+  BodyModel body;
+  ContactModel contact;
+  Integrator integrator;
 };
 
 // The paper's pair at 150 N m, 7 % of damping, 128 steps.
@@ -82,10 +84,13 @@ std::vector<double> newton(PeriodMap& map, VectorXd& y, int steps) {
   return residual;
 }
 
-const Kind kKinds[] = {{"modal", "strips", "exact"},  {"modal", "strips", "newmark"},
-                       {"modal", "line", "exact"},    {"lagged", "strips", "exact"},
-                       {"lagged", "line", "newmark"}, {"quasi-static", "strips", "exact"},
-                       {"rigid", "strips", "exact"}};
+const Kind kKinds[] = {{BodyModel::modal, ContactModel::strips, Integrator::exact},
+                       {BodyModel::modal, ContactModel::strips, Integrator::newmark},
+                       {BodyModel::modal, ContactModel::line, Integrator::exact},
+                       {BodyModel::lagged, ContactModel::strips, Integrator::exact},
+                       {BodyModel::lagged, ContactModel::line, Integrator::newmark},
+                       {BodyModel::quasi_static, ContactModel::strips, Integrator::exact},
+                       {BodyModel::rigid, ContactModel::strips, Integrator::exact}};
 
 }  // namespace
 
@@ -132,7 +137,7 @@ TEST_CASE("period map: the tangent of two gears is that of central differences w
           const VectorXd minus = map.apply(y - step * d);
           if (map.active_sets() != sets) continue;
           // Hertz's law bends.
-          if (kind.contact == "line" && step > 2e-6) continue;
+          if (kind.contact == ContactModel::line && step > 2e-6) continue;
           const VectorXd own = tangent * d;
           worst = std::max(worst, ((plus - minus) / (2 * step) - own).norm() / own.norm());
           ++compared;
@@ -152,7 +157,7 @@ TEST_CASE("period map: the tangent of two gears is that of central differences w
 TEST_CASE("period map: Newton's method converges on orbits, of lines quadratically") {
   for (const Kind& kind : kKinds) {
     // Without a lag hardly anything damps the pair.
-    if (kind.body == "quasi-static" || kind.body == "rigid") continue;
+    if (kind.body == BodyModel::quasi_static || kind.body == BodyModel::rigid) continue;
     Rig rig(kind, 1e-5);
     RollingPeriodMap map(rig.dynamics, 128);
     for (const double f : {2000.0, 3100.0}) {
@@ -164,7 +169,7 @@ TEST_CASE("period map: Newton's method converges on orbits, of lines quadratical
       INFO(kind.body << ", " << kind.contact << ", " << kind.integrator << " at " << f << " Hz:" << all);
       CHECK(residual.back() < 1e-11);
       // Quadratic while the sets stay: of lines from any step that is small enough to the next.
-      if (kind.contact == "line")
+      if (kind.contact == ContactModel::line)
         for (size_t i = 0; i + 1 < residual.size(); ++i)
           if (residual[i] < 1e-3 && residual[i] > 1e-9) CHECK(residual[i + 1] < 1e-3 * residual[i]);
     }

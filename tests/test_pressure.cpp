@@ -21,7 +21,7 @@ const BodyArtifact& body() {
 }
 
 // 10 micrometres of tip relief on both gears; from 20.9 deg on, at the pitch point, one pair carries all.
-StaticSlice relieved(const std::string& shape, int strips) {
+StaticSlice relieved(ReliefShape shape, int strips) {
   StaticSlice slice = paper_statics(64);
   slice.contact.strips = strips;
   for (FlankModification& m : slice.mesh.modification) {
@@ -40,34 +40,34 @@ StaticArtifact solved(const StaticSlice& slice) {
 
 TEST_CASE(
     "pressure: over the start of a linear relief it grows with every doubling of strips and is no result") {
-  const FlankPressure at8 = flank_pressure(solved(relieved("linear", 8))),
-                      at32 = flank_pressure(solved(relieved("linear", 32)));
+  const FlankPressure at8 = flank_pressure(solved(relieved(ReliefShape::linear, 8))),
+                      at32 = flank_pressure(solved(relieved(ReliefShape::linear, 32)));
   REQUIRE(at8.on_ridge > 0);
   CHECK(at8.on_ridge > at8.smooth);
   CHECK(at8.ridge == "the linear tip relief of [gear.pinion]");
   // A wedge: (E* delta / 2 pi) ln 2 for each doubling, delta what the slope of the flank jumps by.
   const FlankRidge ridge =
-      flank_ridges(ToothGeometry(paper_gear()), relieved("linear", 8).mesh.modification[0]).at(0);
+      flank_ridges(ToothGeometry(paper_gear()), relieved(ReliefShape::linear, 8).mesh.modification[0]).at(0);
   const double modulus = 207e9 / 2, grows = modulus * ridge.bend / (2 * std::numbers::pi) * std::numbers::ln2;
   CHECK(at8.per_doubling == relative(grows, 1e-12));
   CHECK((at32.on_ridge - at8.on_ridge) / 2 == relative(grows, 0.35));
   CHECK(at32.smooth == relative(at8.smooth, 0.03));
-  const auto remarks_of = pressure_remarks(solved(relieved("linear", 8)));
+  const auto remarks_of = pressure_remarks(solved(relieved(ReliefShape::linear, 8)));
   REQUIRE(remarks_of.size() == 1);
   CHECK(remarks_of[0].warning);
   CHECK(remarks_of[0].words.find("no largest value") != std::string::npos);
 
-  const FlankPressure round8 = flank_pressure(solved(relieved("parabolic", 8))),
-                      round32 = flank_pressure(solved(relieved("parabolic", 32)));
+  const FlankPressure round8 = flank_pressure(solved(relieved(ReliefShape::parabolic, 8))),
+                      round32 = flank_pressure(solved(relieved(ReliefShape::parabolic, 32)));
   CHECK(round8.on_ridge == 0);
   CHECK(round32.smooth == relative(round8.smooth, 0.04));
-  CHECK(pressure_remarks(solved(relieved("parabolic", 8))).empty());
+  CHECK(pressure_remarks(solved(relieved(ReliefShape::parabolic, 8))).empty());
 }
 
 TEST_CASE("pressure: ridges of a flank are convex kinks, with the slope that they bend by") {
   const ToothGeometry gear(paper_gear());
   FlankModification m;
-  m.root = {5e-6, 0.3, 0, 0, "linear"};
+  m.root = {5e-6, 0.3, 0, 0, ReliefShape::linear};
   m.crowning = 3e-6;
   m.slope = 4e-6;
   const auto ridges = flank_ridges(gear, m);

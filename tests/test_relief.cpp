@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-Relief relief(double micrometres, double start_deg, const std::string& shape = "linear") {
+Relief relief(double micrometres, double start_deg, ReliefShape shape = ReliefShape::linear) {
   Relief r;
   r.amount = micrometres * 1e-6;
   r.start_roll = start_deg * kDegree;
@@ -25,7 +25,7 @@ Relief relief(double micrometres, double start_deg, const std::string& shape = "
   return r;
 }
 
-FlankModification tip_relief(double micrometres, double start_deg, const std::string& shape = "linear") {
+FlankModification tip_relief(double micrometres, double start_deg, ReliefShape shape = ReliefShape::linear) {
   FlankModification m;
   m.tip = relief(micrometres, start_deg, shape);
   return m;
@@ -101,7 +101,8 @@ TEST_CASE("flank deviations: closed forms of each part, starts said in three way
   const ToothGeometry gear(paper_gear());
   const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle(), rb = gear.base_radius();
   const double start = 22.2 * kDegree;
-  const FlankDeviation linear(gear, tip_relief(10, 22.2)), parabolic(gear, tip_relief(10, 22.2, "parabolic"));
+  const FlankDeviation linear(gear, tip_relief(10, 22.2)),
+      parabolic(gear, tip_relief(10, 22.2, ReliefShape::parabolic));
   for (int i = 0; i <= 40; ++i) {
     const double roll = form + (tip - form) * i / 40, t = std::max(0.0, (roll - start) / (tip - start));
     CHECK(std::abs(linear.at(roll, 3) - 10e-6 * t) < 1e-20);
@@ -118,7 +119,7 @@ TEST_CASE("flank deviations: closed forms of each part, starts said in three way
     for (const double roll : {form, start, 0.5 * (start + tip), tip})
       CHECK(std::abs(FlankDeviation(gear, m).at(roll, 0) - linear.at(roll, 0)) < 1e-19);
 
-  FlankModification all = tip_relief(8, 23, "parabolic");
+  FlankModification all = tip_relief(8, 23, ReliefShape::parabolic);
   all.root = relief(5, 17);
   all.crowning = 3e-6;
   all.slope = -2e-6;
@@ -240,15 +241,16 @@ TEST_CASE("statics of a relieved pair under a vanishing load have its unloaded t
   StaticSlice slice = paper_statics(24);
   struct Case {
     FlankModification driver, driven;
-    std::string contact;
+    ContactModel contact;
   };
   // Relief that starts low on one gear: there a tip edge off the line of action touches first.
-  for (const Case& c :
-       {Case{tip_relief(10, 20.9), tip_relief(10, 20.9), "strips"},
-        Case{tip_relief(10, 20.9), tip_relief(10, 20.9), "line"}, Case{tip_relief(20, 16), {}, "strips"}}) {
+  for (const Case& c : {Case{tip_relief(10, 20.9), tip_relief(10, 20.9), ContactModel::strips},
+                        Case{tip_relief(10, 20.9), tip_relief(10, 20.9), ContactModel::line},
+                        Case{tip_relief(20, 16), {}, ContactModel::strips}}) {
     slice.mesh = paper_mesh(c.driver, c.driven);
     slice.fidelity.contact = c.contact;
-    const double parabola = c.contact == "line" ? 6e-11 : 0;  // m: error of what lines take for the gap
+    const double parabola =
+        c.contact == ContactModel::line ? 6e-11 : 0;  // m: error of what lines take for the gap
     double before = 0;
     for (const double torque : {1.0, 1e-2, 1e-3}) {
       const StaticArtifact s = static_transmission(paper_body(), paper_body(), slice, torque);
@@ -287,7 +289,7 @@ TEST_CASE("a relief split over both flanks is the same relief on one flank, at t
 
 TEST_CASE("modifications of nothing leave every number as it is") {
   StaticSlice slice = paper_statics(16);
-  for (const char* contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     slice.fidelity.contact = contact;
     slice.mesh.modification = {};
     const StaticArtifact plain = static_transmission(paper_body(), paper_body(), slice, 150);
@@ -305,14 +307,14 @@ TEST_CASE("modifications of nothing leave every number as it is") {
 
 TEST_CASE("contact lines of relieved pairs against fine strips: 0.15 % of the mean transmission error") {
   for (const FlankModification& both :
-       {tip_relief(10, 20.9), tip_relief(10, 23.6), tip_relief(10, 22.2, "parabolic")}) {
+       {tip_relief(10, 20.9), tip_relief(10, 23.6), tip_relief(10, 22.2, ReliefShape::parabolic)}) {
     StaticSlice slice = paper_statics(64);
     slice.mesh = paper_mesh(both, both);
     for (const double torque : {50.0, 150.0, 300.0}) {
-      slice.fidelity.contact = "line";
+      slice.fidelity.contact = ContactModel::line;
       slice.contact.strips = 8;
       const StaticArtifact line = static_transmission(paper_body(), paper_body(), slice, torque);
-      slice.fidelity.contact = "strips";
+      slice.fidelity.contact = ContactModel::strips;
       slice.contact.strips = 24;
       const StaticArtifact strips = static_transmission(paper_body(), paper_body(), slice, torque);
       const Eigen::VectorXd off = line.transmission_error - strips.transmission_error;

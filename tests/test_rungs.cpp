@@ -35,7 +35,7 @@ const BodyArtifact& coarse_body(int modes) {
   return cache[modes];
 }
 
-StaticSlice coarse_statics(const std::string& contact) {
+StaticSlice coarse_statics(ContactModel contact) {
   StaticSlice slice = paper_statics(128);
   slice.mesh.centre_distance = 60e-3;
   slice.contact.strips = 8;
@@ -43,8 +43,7 @@ StaticSlice coarse_statics(const std::string& contact) {
   return slice;
 }
 
-SweepSlice coarse_sweep(double from, double to, double step, const std::string& body,
-                        const std::string& contact) {
+SweepSlice coarse_sweep(double from, double to, double step, BodyModel body, ContactModel contact) {
   SweepSlice slice = paper_sweep(from, to, step);
   slice.driver_inertia = slice.driven_inertia = 1e-3;
   slice.damping.rayleigh_stiffness = 4e-6;
@@ -132,15 +131,15 @@ TEST_CASE("every mode: a mesh that is too fine is refused with its numbers and w
   CHECK(message.find("element_order = 1 and element_mm = ") != std::string::npos);
   // Other rungs know no such limit, and "full" does not go without.
   const BodyArtifact& few = coarse_body(21);
-  const StaticArtifact statics = static_transmission(few, few, coarse_statics("line"), 50);
+  const StaticArtifact statics = static_transmission(few, few, coarse_statics(ContactModel::line), 50);
   const std::string lacking = refusal([&] {
-    sweep(few, few, statics, statics.mean_stiffness, coarse_sweep(3000, 3000, 1, "full", "line"), "up",
-          no_report);
+    sweep(few, few, statics, statics.mean_stiffness,
+          coarse_sweep(3000, 3000, 1, BodyModel::full, ContactModel::line), "up", no_report);
   });
   CHECK(lacking.find("holds " + std::to_string(few.eigenfrequency.size()) + " modes") != std::string::npos);
   // Steps of a slice that somebody edited: no number that is doubled until it is large enough.
   for (int steps : {0, -128}) {
-    SweepSlice none = coarse_sweep(3000, 3000, 1, "modal", "line");
+    SweepSlice none = coarse_sweep(3000, 3000, 1, BodyModel::modal, ContactModel::line);
     none.time.steps_per_period = steps;
     CHECK(refusal([&] {
             sweep(few, few, statics, statics.mean_stiffness, none, "up", no_report);
@@ -150,11 +149,11 @@ TEST_CASE("every mode: a mesh that is too fine is refused with its numbers and w
 
 TEST_CASE("every mode: at rest the static transmission error, on lines and strips") {
   const BodyArtifact& body = coarse_body(kAllModes);
-  for (const char* contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     const StaticArtifact statics = static_transmission(body, body, coarse_statics(contact), 50, 2);
     const GearMeshModel model(body, body, statics.mesh);
     const double load = 50 / model.kinematics.gear(0).base_radius();
-    DynamicParameters parameters = paper_parameters(statics.mean_stiffness, "full", contact);
+    DynamicParameters parameters = paper_parameters(statics.mean_stiffness, BodyModel::full, contact);
     parameters.torque = 50;
     parameters.inertia = {1e-3, 1e-3};
     RollingDynamics dynamics(model, parameters);
@@ -165,19 +164,19 @@ TEST_CASE("every mode: at rest the static transmission error, on lines and strip
     dynamics.rest();
     // Of what the torques bend within a window modes keep mean and slope: 1.4e-6 is left out.
     CHECK(dynamics.static_deflection() ==
-          relative(statics.transmission_error[0], std::string(contact) == "line" ? 1e-8 : 5e-6));
+          relative(statics.transmission_error[0], contact == ContactModel::line ? 1e-8 : 5e-6));
   }
 }
 
 TEST_CASE("every mode against 61 modes and a lag on the same mesh, both integrators" * doctest::skip()) {
   const BodyArtifact &all = coarse_body(kAllModes), &some = coarse_body(61);
-  const StaticArtifact statics = static_transmission(all, all, coarse_statics("line"), 50);
+  const StaticArtifact statics = static_transmission(all, all, coarse_statics(ContactModel::line), 50);
   for (const double frequency : {2500.0, 4000.0, 6000.0})
-    for (const char* integrator : {"exact", "newmark"}) {
-      SweepSlice slice = coarse_sweep(frequency, frequency, 1, "full", "line");
+    for (const auto integrator : {Integrator::exact, Integrator::newmark}) {
+      SweepSlice slice = coarse_sweep(frequency, frequency, 1, BodyModel::full, ContactModel::line);
       slice.fidelity.integrator = integrator;
       const SweepArtifact full = sweep(all, all, statics, statics.mean_stiffness, slice, "up", no_report);
-      slice.fidelity.body = "modal";
+      slice.fidelity.body = BodyModel::modal;
       const SweepArtifact modal = sweep(some, some, statics, statics.mean_stiffness, slice, "up", no_report);
       INFO(frequency << " Hz, " << integrator);
       CHECK(rms(full, 0) == relative(rms(modal, 0), 0.03));  // 2.1, 0.2, 0.3 %
@@ -203,20 +202,20 @@ TEST_CASE("every mode against 61 modes and a lag on the same mesh, both integrat
 TEST_CASE("body rungs: each is nearer to the one with the most modes than the rung below it") {
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3, 61);
   StaticSlice statics_slice = paper_statics(128);
-  statics_slice.fidelity.contact = "line";
+  statics_slice.fidelity.contact = ContactModel::line;
   const StaticArtifact statics = static_transmission(body, body, statics_slice, 150);
   // At 3500 Hz the rigid gears, which next to nothing damps, wander through hundreds of periods before they settle: the last
   // digits of a start decide on which motion, and one start in twenty comes upon loads beyond Hertz's law on the way.
   for (const double frequency : {1350.0, 3300.0}) {
     SweepSlice slice = paper_sweep(frequency, frequency, 1);
-    slice.fidelity.contact = "line";
-    const auto with = [&](const char* rung) {
+    slice.fidelity.contact = ContactModel::line;
+    const auto with = [&](BodyModel rung) {
       slice.fidelity.body = rung;
       return rms(sweep(body, body, statics, statics.mean_stiffness, slice, "up", no_report), 0);
     };
-    const double modal = with("modal"), lagged = std::abs(with("lagged") / modal - 1),
-                 at_once = std::abs(with("quasi-static") / modal - 1),
-                 rigid = std::abs(with("rigid") / modal - 1);
+    const double modal = with(BodyModel::modal), lagged = std::abs(with(BodyModel::lagged) / modal - 1),
+                 at_once = std::abs(with(BodyModel::quasi_static) / modal - 1),
+                 rigid = std::abs(with(BodyModel::rigid) / modal - 1);
     CHECK(lagged > 0);
     CHECK(lagged < 0.03);
     CHECK(lagged < at_once);
@@ -228,24 +227,24 @@ TEST_CASE("what the next rung changes: its sweeps are those of a scene one rung 
   const BodyArtifact& body = paper_body();
   StaticSlice line = paper_statics(128);
   line.contact.strips = 8;
-  line.fidelity.contact = "line";
+  line.fidelity.contact = ContactModel::line;
   const StaticArtifact statics = static_transmission(body, body, line, 150),
                        reference = static_transmission(body, body, line, 100);
   SweepSlice slice = paper_sweep(1300, 1400, 50);
-  slice.fidelity.contact = "line";
-  slice.fidelity.body = "lagged";
+  slice.fidelity.contact = ContactModel::line;
+  slice.fidelity.body = BodyModel::lagged;
   const std::vector<NextSweep> next = next_sweeps(body, body, statics, reference, slice);
   REQUIRE(next.size() == 2);
   CHECK(next[0].key == "contact");
   CHECK(next[0].to == "strips");
-  CHECK(next[0].slice.fidelity.contact == "strips");
-  CHECK(next[0].slice.fidelity.body == "lagged");
-  line.fidelity.contact = "strips";
+  CHECK(next[0].slice.fidelity.contact == ContactModel::strips);
+  CHECK(next[0].slice.fidelity.body == BodyModel::lagged);
+  line.fidelity.contact = ContactModel::strips;
   CHECK(next[0].statics.transmission_error == static_transmission(body, body, line, 150).transmission_error);
   CHECK(next[0].mean_stiffness == static_transmission(body, body, line, 100).mean_stiffness);
   CHECK(next[1].key == "body");
   CHECK(next[1].to == "modal");
-  CHECK(next[1].slice.fidelity.contact == "line");
+  CHECK(next[1].slice.fidelity.contact == ContactModel::line);
   CHECK(next[1].mean_stiffness == reference.mean_stiffness);
 
   const SweepArtifact here = sweep(body, body, statics, reference.mean_stiffness, slice, "up", no_report);
@@ -287,15 +286,15 @@ TEST_CASE("what the next rung changes: after the last one, and where the mesh is
   CHECK(both.find("body = \"modal\" is followed by \"full\": body = \"full\" wants all ") !=
         std::string::npos);
   SweepSlice last = paper_sweep(2000, 2000, 1);
-  last.fidelity.body = "full";
+  last.fidelity.body = BodyModel::full;
   CHECK(refusal([&] {
           next_sweeps(fine, fine, statics, statics, last);
         }).find("body = \"full\" is the last rung of body") != std::string::npos);
 
   const BodyArtifact& coarse = coarse_body(61);
-  const StaticArtifact at = static_transmission(coarse, coarse, coarse_statics("strips"), 50);
-  const std::vector<NextSweep> next =
-      next_sweeps(coarse, coarse, at, at, coarse_sweep(4000, 4000, 1, "modal", "strips"));
+  const StaticArtifact at = static_transmission(coarse, coarse, coarse_statics(ContactModel::strips), 50);
+  const std::vector<NextSweep> next = next_sweeps(
+      coarse, coarse, at, at, coarse_sweep(4000, 4000, 1, BodyModel::modal, ContactModel::strips));
   REQUIRE(next.size() == 1);
   CHECK(next[0].missing == "");
   CHECK(next[0].driver.eigenfrequency.size() == coarse_body(kAllModes).eigenfrequency.size());

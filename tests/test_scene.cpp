@@ -38,13 +38,14 @@ TEST_CASE("the standard tooth of P2000 reads as it stands, in SI") {
   CHECK(s.gears[0].material.plane_stress);
   CHECK(s.mesh.centre_distance == 0.15);
   CHECK(s.mesh.corner.enabled);
-  CHECK(s.mesh.contact_plane == "body");  // its slices, and so its results, are those of one plane state
+  CHECK(s.mesh.contact_plane ==
+        ContactPlane::body);  // its slices, and so its results, are those of one plane state
   CHECK(static_slice(s).find("contact_plane") == std::string::npos);
   CHECK(std::isinf(s.mesh.corner.largest_angle));
   CHECK(s.damping.rayleigh_stiffness == 7.7e-6);
   CHECK(s.operation.torques == std::vector<double>{100, 150, 200, 300});
   CHECK(s.operation.frequency_to == 4000);
-  CHECK(s.fidelity.integrator == "exact");
+  CHECK(s.fidelity.integrator == Integrator::exact);
   CHECK(s.body.modes == 61);
   CHECK(s.body.element_size == relative(0.0004, 1e-15));
   CHECK(s.contact.strips == 8);
@@ -175,7 +176,7 @@ TEST_CASE("a value outside its range is refused with value and limit") {
                  "must be one of: rigid, quasi-static, lagged, modal, full"));
   CHECK(contains(file.refusal(with_section("[fidelity]\ncontact = \"point\"\n")),
                  "must be one of: line, strips"));
-  CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == "line");
+  CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == ContactModel::line);
   for (const char* near_field : {"", "near_field = \"subtraction\"\n"})
     CHECK(contains(
         file.refusal(
@@ -383,12 +384,14 @@ TEST_CASE("body = \"full\" takes every mode, whatever 'modes' says; the ladder e
   CHECK(body_slice(many, "wheel") ==
         body_slice(file.read(with_section("[fidelity]\nbody = \"full\"\nmodes = 61\n")), "wheel"));
   CHECK(read_body_slice(file.path(body_slice(many, "wheel"), "body.toml")).discretisation.modes == kAllModes);
-  std::string ladder, rung = "rigid";
-  for (; !rung.empty(); rung = next_rung("body", rung)) ladder += rung + " ";
+  std::string ladder;
+  for (std::optional level = BodyModel::rigid; level; level = next_of(*level))
+    ladder += name_of(*level) + " ";
   CHECK(ladder == "rigid quasi-static lagged modal full ");
-  CHECK(next_rung("contact", "line") == "strips");
-  CHECK(next_rung("contact", "strips") == "");
-  CHECK_THROWS_AS(next_rung("contact", "glue"), Error);
+  CHECK(next_of(ContactModel::line) == ContactModel::strips);
+  CHECK(!next_of(ContactModel::strips));
+  CHECK(choice_of<ContactModel>("line") == ContactModel::line);
+  CHECK(!choice_of<ContactModel>("glue"));
 }
 
 TEST_CASE("slices read back bit by bit") {
@@ -413,7 +416,7 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(body.discretisation.element_size == s.body.element_size);
   CHECK(body.discretisation.element_order == 2);
   CHECK(body.discretisation.modes == 11);
-  CHECK(body.discretisation.near_field == "matching");
+  CHECK(body.discretisation.near_field == NearField::matching);
   CHECK(body.discretisation.matching_depth == s.body.matching_depth);
 
   const StaticSlice statics = read_static_slice(file.path(static_slice(s), "static.toml"));
@@ -422,11 +425,11 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(statics.mesh.centre_distance == s.mesh.centre_distance);
   CHECK(statics.mesh.corner.enabled);
   CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
-  CHECK(statics.mesh.contact_plane == "strain");  // the default
+  CHECK(statics.mesh.contact_plane == ContactPlane::strain);  // the default
   CHECK(contains(
       file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncontact_plane = \"flat\"")),
       "must be one of: strain, stress, body"));
-  CHECK(statics.fidelity.contact == "strips");
+  CHECK(statics.fidelity.contact == ContactModel::strips);
   CHECK(statics.contact.strips == 8);
   CHECK(statics.driver_body == body_hash(body_slice(s, "pinion")));
   CHECK(statics.driven_body == body_hash(body_slice(s, "wheel")));
@@ -445,8 +448,8 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(sweep.frequency_from == 600);
   CHECK(sweep.frequency_to == 4000);
   CHECK(sweep.frequency_step == 20);
-  CHECK(sweep.fidelity.body == "lagged");
-  CHECK(sweep.fidelity.integrator == "newmark");
+  CHECK(sweep.fidelity.body == BodyModel::lagged);
+  CHECK(sweep.fidelity.integrator == Integrator::newmark);
   CHECK(sweep.time.steps_per_period == 200);
   CHECK(sweep.time.min_sample_rate == s.time.min_sample_rate);
   CHECK(sweep.time.periodicity == s.time.periodicity);
@@ -460,15 +463,15 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(impact.damping.undamped_depth == s.damping.undamped_depth);
   CHECK(impact.damping.bearing_ratio == s.damping.bearing_ratio);
   CHECK(impact.reference_torque == 100);
-  CHECK(impact.fidelity.body == "lagged");
-  CHECK(impact.fidelity.integrator == "newmark");
+  CHECK(impact.fidelity.body == BodyModel::lagged);
+  CHECK(impact.fidelity.integrator == Integrator::newmark);
 
   const SweepSlice lumped = read_lumped_slice(file.path(lumped_slice(s, true), "lumped.toml"), true);
   CHECK(lumped.driver_inertia == 0.0148);
   CHECK(lumped.driven_inertia == 0.0148);
   CHECK(lumped.reference_torque == 100);
   CHECK(lumped.frequency_to == 4000);
-  CHECK(lumped.fidelity.contact == "strips");
+  CHECK(lumped.fidelity.contact == ContactModel::strips);
   CHECK(lumped.time.steps_per_period == 200);
   CHECK(read_lumped_slice(file.path(lumped_slice(s, false), "lumped_map.toml"), false).frequency_to == 0);
   // a slice of an elastic sweep holds all of it
@@ -507,10 +510,10 @@ TEST_CASE("modifications of flanks: units, taken over by like, own starts take t
   const FlankModification& pinion = s.gear("pinion").modification;
   CHECK(pinion.tip.amount == 10e-6);
   CHECK(pinion.tip.start_roll == 20.9 * std::numbers::pi / 180);
-  CHECK(pinion.tip.shape == "linear");
+  CHECK(pinion.tip.shape == ReliefShape::linear);
   CHECK(pinion.root.amount == 4e-6);
   CHECK(pinion.root.length == 1.5e-3);
-  CHECK(pinion.root.shape == "parabolic");
+  CHECK(pinion.root.shape == ReliefShape::parabolic);
   CHECK(pinion.slope == -2e-6);
   REQUIRE(pinion.points.size() == 3);
   CHECK(pinion.points[1] == std::array<double, 2>{20.5 * std::numbers::pi / 180, 1.25e-6});

@@ -351,22 +351,22 @@ TEST_CASE("meshes that cannot be made or are broken are refused") {
 TEST_CASE("no displacement is read off the flank, none below it where there is no tooth") {
   BodyDiscretisation discretisation;
   discretisation.element_size = 1e-3;
-  discretisation.near_field = "matching";
+  discretisation.near_field = NearField::matching;
   const ToothGeometry tooth(kDefault);
   const MeshArtifact mesh = make_sector_mesh(kDefault, discretisation);
   for (double xi : {tooth.tip_roll_angle() + 1e-3, tooth.form_roll_angle() - 1e-3, std::nan("")})
     CHECK(failure_of([&] { FlankReader(mesh).outward(Eigen::VectorXd::Constant(1, xi)); }) == 1);
-  const auto matched = [&](double depth, const std::string& near_field) {
+  const auto matched = [&](double depth, NearField near_field) {
     MeshArtifact copy = mesh;
     copy.discretisation.matching_depth = depth;
     copy.discretisation.near_field = near_field;
     return refusal([&] { reduce(copy, kSteel, 1); });
   };
-  CHECK(matched(1e-3, "matching").empty());
-  CHECK(matched(5e-3, "matching").find("matching_depth_mm = 5 leaves the tooth: ") != std::string::npos);
-  CHECK(matched(0, "matching").find("matching_depth_mm = 0 is not above 0") != std::string::npos);
-  CHECK(matched(std::nan(""), "matching").find("matching_depth_mm = nan") != std::string::npos);
-  CHECK(matched(1e-3, "penalty").find("\"penalty\" is neither") != std::string::npos);
+  CHECK(matched(1e-3, NearField::matching).empty());
+  CHECK(matched(5e-3, NearField::matching).find("matching_depth_mm = 5 leaves the tooth: ") !=
+        std::string::npos);
+  CHECK(matched(0, NearField::matching).find("matching_depth_mm = 0 is not above 0") != std::string::npos);
+  CHECK(matched(std::nan(""), NearField::matching).find("matching_depth_mm = nan") != std::string::npos);
 }
 
 TEST_CASE("rigid motions cost no energy and carry the body's inertia") {
@@ -550,7 +550,7 @@ TEST_CASE(
     discretisation.element_size = size;
     discretisation.element_order = order;
     if (depth > 0) {
-      discretisation.near_field = "matching";
+      discretisation.near_field = NearField::matching;
       discretisation.matching_depth = depth;
     }
     return reduce(make_sector_mesh(design, discretisation), kSteel, 1);
@@ -566,7 +566,7 @@ TEST_CASE(
     ++inner;
   REQUIRE(inner > 5);
   const BodyArtifact matched = body(0.4e-3, 2, 1e-3);
-  CHECK(matched.discretisation.near_field == "matching");
+  CHECK(matched.discretisation.near_field == NearField::matching);
   CHECK(errors(matched).head(inner).abs().maxCoeff() < 0.015);
   CHECK(errors(matched).abs().maxCoeff() < 0.2);
   CHECK(errors(matched).tail(1)[0] < -0.02);  // what a corner gives way is missed
@@ -697,7 +697,7 @@ TEST_CASE(
     discretisation.element_size = 3e-3;
     discretisation.element_order = order;
     const double depth = discretisation.matching_depth = 0.6e-3;
-    if (matching) discretisation.near_field = "matching";
+    if (matching) discretisation.near_field = NearField::matching;
     const MeshArtifact mesh = make_sector_mesh(design, discretisation);
     const BodyArtifact body = reduce(mesh, kSteel, 6);
     REQUIRE(body.offsets == 3);

@@ -165,7 +165,7 @@ TEST_CASE("variants are the scene as if their keys were edited in it") {
   CHECK(first.gear("wheel").design.bore_radius == 0.035);
   CHECK(first.gear("pinion").design.bore_radius == base.gear("pinion").design.bore_radius);
   CHECK(first.mesh.corner.largest_angle == relative(5 * std::numbers::pi / 180, 1e-15));
-  CHECK(first.fidelity.contact == "line");
+  CHECK(first.fidelity.contact == ContactModel::line);
   CHECK(!study.keys[1].number);
   // A variant with the scene's own values is the scene, slices and all.
   CHECK(body_slice(last, "wheel") == body_slice(base, "wheel"));

@@ -45,7 +45,7 @@ double range(const std::vector<double>& values) {
 }
 
 StaticSlice with_errors(const ToothErrors& driver, const ToothErrors& driven, int positions,
-                        const std::string& contact = "strips") {
+                        ContactModel contact = ContactModel::strips) {
   StaticSlice slice = paper_statics(positions);
   slice.mesh.errors = {driver, driven};
   slice.fidelity.contact = contact;
@@ -274,7 +274,7 @@ TEST_CASE("errors that are none give the numbers of a scene without, to the last
   zero.cumulative_pitch.assign(50, 0.0);
   zero.profile_form.assign(50, 0.0);
   zero.seed = 9;
-  for (const char* contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     const StaticArtifact plain = static_transmission(body, body, with_errors({}, {}, 16, contact), 150),
                          none = static_transmission(body, body, with_errors(zero, zero, 16, contact), 150);
     CHECK(none.hunting_periods == 1);
@@ -286,7 +286,7 @@ TEST_CASE("errors that are none give the numbers of a scene without, to the last
 
 TEST_CASE("a hunting period of teeth that do not differ repeats the mesh period, at rest and in motion") {
   const BodyArtifact& body = paper_body();
-  for (const char* contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     const StaticSlice slice = with_errors(round_off(50), {}, 16, contact);
     const StaticArtifact plain = static_transmission(body, body, with_errors({}, {}, 16, contact), 150),
                          hunting = static_transmission(body, body, slice, 150);
@@ -326,7 +326,7 @@ TEST_CASE("one tooth that stands ahead takes load from its neighbour as two spri
   ToothErrors errors;
   errors.cumulative_pitch.assign(50, 0.0);
   errors.cumulative_pitch[3] = ahead;
-  const StaticSlice slice = with_errors(errors, {}, 16, "line");
+  const StaticSlice slice = with_errors(errors, {}, 16, ContactModel::line);
   const StaticArtifact result = static_transmission(body, body, slice, torque);
   const GearMeshModel model(body, body, slice.mesh);
   const double load = torque / model.kinematics.gear(0).base_radius();
@@ -379,7 +379,8 @@ TEST_CASE("lines against strips where teeth differ, and run-out under load: the 
   // A line knows nothing of the curvature of one tooth's waves.
   for (const auto& [errors, most] :
        {std::pair{pitch, 0.05e-6}, std::pair{slope, 0.05e-6}, std::pair{form, 0.5e-6}}) {
-    const StaticArtifact line = static_transmission(body, body, with_errors(errors, {}, 8, "line"), 150),
+    const StaticArtifact line = static_transmission(body, body,
+                                                    with_errors(errors, {}, 8, ContactModel::line), 150),
                          strips = static_transmission(body, body, with_errors(errors, {}, 8), 150);
     CHECK((line.transmission_error - strips.transmission_error).cwiseAbs().maxCoeff() < most);
     VectorXd of_period(50);
@@ -400,7 +401,7 @@ TEST_CASE("slow motion of teeth that differ is the static transmission error, to
   const BodyArtifact& body = paper_body();
   ToothErrors drawn;
   drawn.iso_class = 5;
-  for (const std::string contact : {"line", "strips"}) {
+  for (const auto contact : {ContactModel::line, ContactModel::strips}) {
     const StaticArtifact statics = static_transmission(body, body, with_errors({}, drawn, 32, contact), 150);
     SweepSlice slow = paper_sweep(10, 10, 1);
     slow.fidelity.contact = contact;

@@ -82,6 +82,7 @@ void body(int argc, char** argv) {
   whine::HarrisPlan plan;
   std::string params, static_params, output, torque, relief, start, length, design, points = "0", reference;
   std::vector<std::string> bodies;
+  std::string shape = name_of(plan.shape);
   bool dynamic = false;
   options
       .add("--static-params", static_params, "stage parameters of the scene: out/<scene>/params/static.toml")
@@ -100,7 +101,7 @@ void body(int argc, char** argv) {
       "contact)");
   options.add("--length-mm", length, "the same as lengths of roll to the tip, smallest first")
       .excludes(start_option);
-  options.add("--shape", plan.shape, "how the relief grows").show_default().one_of({"linear", "parabolic"});
+  options.add("--shape", shape, "how the relief grows").show_default().one_of({"linear", "parabolic"});
   options.add("--relieved", plan.relieved, "whose tips").show_default().one_of({"driver", "driven", "both"});
   options.add("--design-torque", design, "torque in N m for which the optimum is sought (default: midway)");
   options.add("--positions", plan.positions, "mesh positions").show_default();
@@ -122,6 +123,7 @@ void body(int argc, char** argv) {
       "pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 5:300:60 "
       "--relief-um 0:20:40 --design-torque 150 --output harris_map.h5");
   options.parse(argc, argv);
+  plan.shape = whine::choice_of<whine::ReliefShape>(shape).value();
 
   if (dynamic && (params.empty() || reference.empty()))
     whine::fail(whine::Failure::usage, "--dynamic needs --params and --reference-static");

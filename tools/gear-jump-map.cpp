@@ -91,7 +91,9 @@ void body(int argc, char** argv) {
   whine::SweepSlice slice = whine::read_map_slice(params);
   whine::StaticSlice statics = whine::read_static_slice(static_params);
   if (!corner.empty()) statics.mesh.corner = corner_rule(corner);
-  if (!contact.empty()) statics.fidelity.contact = slice.fidelity.contact = contact;
+  if (!contact.empty())
+    statics.fidelity.contact = slice.fidelity.contact =
+        whine::choice_of<whine::ContactModel>(contact).value();
   const std::vector<std::string> paths = files.of(statics.mesh);
   const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
   whine::as_drawn(slice, first, second);

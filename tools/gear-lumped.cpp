@@ -44,6 +44,7 @@ void require_same_pair(const std::string& one, const std::string& other) {
 void body(int argc, char** argv) {
   whine::Options options{"Speed sweep of a lumped model with one degree of freedom (Eq. 23)", "gear-lumped"};
   whine::LumpedOptions o;
+  std::string integrator = name_of(o.integrator);
   std::string statics, reference, params, output, levels, duty, torque, cells, steps, from, to, step;
   std::string mass, at;
   std::vector<std::string> ratios{"0.08"};
@@ -72,7 +73,7 @@ void body(int argc, char** argv) {
   options.add("--damper", o.damper_acts, "always, as in Eq. 23, or in contact only")
       .show_default()
       .one_of({"always", "contact"});
-  options.add("--integrator", o.integrator, "exact: from event to event; newmark: Eq. 8")
+  options.add("--integrator", integrator, "exact: from event to event; newmark: Eq. 8")
       .show_default()
       .one_of({"exact", "newmark"});
   options.add(
@@ -99,6 +100,7 @@ void body(int argc, char** argv) {
       "out/parker2000/T100/static.h5 --params out/parker2000/params/lumped.toml --direction up "
       "--output lumped_sweep.h5");
   options.parse(argc, argv);
+  o.integrator = whine::choice_of<whine::Integrator>(integrator).value();
 
   const auto usage = [](const auto&... words) { whine::fail(whine::Failure::usage, words...); };
   const bool speeds = !from.empty() || !to.empty() || !step.empty(), stated = !levels.empty();

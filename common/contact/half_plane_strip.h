@@ -8,8 +8,8 @@
 namespace whine {
 
 // The material with the plane state that the contact has; contact_plane as in GearMeshSpec.
-inline Material in_contact_plane(Material material, const std::string& contact_plane) {
-  if (contact_plane != "body") material.plane_stress = contact_plane == "stress";
+inline Material in_contact_plane(Material material, ContactPlane contact_plane) {
+  if (contact_plane != ContactPlane::body) material.plane_stress = contact_plane == ContactPlane::stress;
   return material;
 }
 

@@ -61,6 +61,12 @@ class ArtifactReader {
   double number(const std::string& name) const;
   int whole(const std::string& name) const;
   std::string word(const std::string& name) const;
+  template <WordedChoice Choice>
+  Choice choice(const std::string& name) const {
+    const std::string chosen = word(name);
+    if (const auto found = choice_of<Choice>(chosen)) return *found;
+    file_.refuse(text("dataset ", name, " is '", chosen, "', which is none of: ", kWordsOf<Choice>));
+  }
   // -1: any length. Error(input) if the shape is another.
   Eigen::VectorXd vector(const std::string& name, Eigen::Index size = -1) const;
   Eigen::VectorXi whole_vector(const std::string& name, Eigen::Index size = -1) const;

@@ -101,9 +101,9 @@ std::vector<Key> make_keys() {
     {Part::modification, "modification", "tip_relief_length_mm", kMillimetre, "0", 0, 1e5, false, "",
      "the same as the length of roll (base radius times roll angle) from the start to the tip edge",
      [](V& v) -> Slot { return &v.modification.tip.length; }},
-    {Part::modification, "modification", "tip_relief_shape", kNone, "linear", 0, 0, false, "linear parabolic",
+    {Part::modification, "modification", "tip_relief_shape", kNone, "linear", 0, 0, false, kWordsOf<ReliefShape>,
      "how it grows with the roll angle",
-     [](V& v) -> Slot { return &v.modification.tip.shape; }},
+     [](V& v) -> Slot { return choice_slot(v.modification.tip.shape); }},
     {Part::modification, "modification", "root_relief_um", kMicrometre, "0.0", 0, 1000, false, "",
      "material taken off at the foot of the involute, normal to the driving flank",
      [](V& v) -> Slot { return &v.modification.root.amount; }},
@@ -116,9 +116,9 @@ std::vector<Key> make_keys() {
     {Part::modification, "modification", "root_relief_length_mm", kMillimetre, "0", 0, 1e5, false, "",
      "the same as the length of roll (base radius times roll angle) from the start to the foot of the involute",
      [](V& v) -> Slot { return &v.modification.root.length; }},
-    {Part::modification, "modification", "root_relief_shape", kNone, "linear", 0, 0, false, "linear parabolic",
+    {Part::modification, "modification", "root_relief_shape", kNone, "linear", 0, 0, false, kWordsOf<ReliefShape>,
      "how it grows with the roll angle",
-     [](V& v) -> Slot { return &v.modification.root.shape; }},
+     [](V& v) -> Slot { return choice_slot(v.modification.root.shape); }},
     {Part::modification, "modification", "crowning_um", kMicrometre, "0.0", -1000, 1000, false, "",
      "profile crowning: a parabola, 0 midway in the roll angle, this much taken off at both ends of the involute",
      [](V& v) -> Slot { return &v.modification.crowning; }},
@@ -202,9 +202,9 @@ std::vector<Key> make_keys() {
     {Part::mesh, "mesh", "corner_contact", kCornerDegree, "true", 0, 90, false, "",
      "tip edge on a flank, off the line of action: true, false, or the largest angle between the normals in degrees",
      [](V& v) -> Slot { return &v.mesh.corner; }},
-    {Part::contact_plane, "mesh", "contact_plane", kNone, "strain", 0, 0, false, "strain stress body",
+    {Part::contact_plane, "mesh", "contact_plane", kNone, "strain", 0, 0, false, kWordsOf<ContactPlane>,
      "plane state of the contact alone (pressure, width, local approach): strain inside a wide face; body: as each gear's [material] plane",
-     [](V& v) -> Slot { return &v.mesh.contact_plane; }},
+     [](V& v) -> Slot { return choice_slot(v.mesh.contact_plane); }},
 
     {Part::bearing_gear, "bearing", "gear", kNone, nullptr, 0, 0, false, "",
      "name of the gear that it carries; a gear without a bearing turns on a rigid axis",
@@ -244,15 +244,15 @@ std::vector<Key> make_keys() {
      },
      "slower, a mesh period takes more than 250000 time steps at the default rate; the static stage is the limit of zero speed"},
 
-    {Part::rung, "fidelity", "body", kNone, "modal", 0, 0, false, "rigid quasi-static lagged modal full",
+    {Part::rung, "fidelity", "body", kNone, "modal", 0, 0, false, kWordsOf<BodyModel>,
      "what of the elastic body moves by itself",
-     [](V& v) -> Slot { return &v.fidelity.body; }},
-    {Part::contact_rung, "fidelity", "contact", kNone, "strips", 0, 0, false, "line strips",
+     [](V& v) -> Slot { return choice_slot(v.fidelity.body); }},
+    {Part::contact_rung, "fidelity", "contact", kNone, "strips", 0, 0, false, kWordsOf<ContactModel>,
      "contact of a tooth pair: one force and Hertz's closed law, or pressure on strips",
-     [](V& v) -> Slot { return &v.fidelity.contact; }},
-    {Part::rung, "fidelity", "integrator", kNone, "exact", 0, 0, false, "newmark exact",
+     [](V& v) -> Slot { return choice_slot(v.fidelity.contact); }},
+    {Part::rung, "fidelity", "integrator", kNone, "exact", 0, 0, false, kWordsOf<Integrator>,
      "time integration: Newmark (Eq. 8), or modal propagators",
-     [](V& v) -> Slot { return &v.fidelity.integrator; }},
+     [](V& v) -> Slot { return choice_slot(v.fidelity.integrator); }},
     {Part::body, "fidelity", "modes", kNone, "61", 1, 100000, false, "",
      "elastic modes of the whole gear; a doublet is never cut (rounded up); without meaning to body = \"full\", which takes all (-1 in its artifacts)",
      [](V& v) -> Slot { return &v.body.modes; }},
@@ -263,9 +263,9 @@ std::vector<Key> make_keys() {
     {Part::body, "discretisation", "element_order", kNone, "2", 1, 2, false, "",
      "order of the elements: 1 (4 nodes) or 2 (9 nodes)",
      [](V& v) -> Slot { return &v.body.element_order; }},
-    {Part::near_field, "discretisation", "near_field", kNone, "subtraction", 0, 0, false, "subtraction matching",
+    {Part::near_field, "discretisation", "near_field", kNone, "subtraction", 0, 0, false, kWordsOf<NearField>,
      "how the half-plane at the contact joins the finite elements: subtracted, or matched at a depth as in P2000",
-     [](V& v) -> Slot { return &v.body.near_field; }},
+     [](V& v) -> Slot { return choice_slot(v.body.near_field); }},
     {Part::near_field, "discretisation", "matching_depth_mm", kMillimetre, "1.0", 0, 100, true, "",
      "depth below the flank at which the two are matched; must stay inside the tooth; only with near_field = \"matching\"",
      [](V& v) -> Slot { return &v.body.matching_depth; }},
@@ -284,9 +284,9 @@ std::vector<Key> make_keys() {
     {Part::time, "discretisation", "periodicity", kNone, "1e-5", 1e-12, 1, false, "",
      "relative change of the state over a mesh period at which a speed counts as steady; round-off is 1e-14",
      [](V& v) -> Slot { return &v.time.periodicity; }},
-    {Part::time, "discretisation", "steady_state", kNone, "extrapolate", 0, 0, false, "extrapolate march",
+    {Part::time, "discretisation", "steady_state", kNone, "extrapolate", 0, 0, false, kWordsOf<SteadyState>,
      "start where the last speeds lead and, once close, skip the rest of a transient, or march through it as a rig would; the same orbits but for a speed or two at the end of a branch",
-     [](V& v) -> Slot { return &v.time.steady_state; }},
+     [](V& v) -> Slot { return choice_slot(v.time.steady_state); }},
   };
   // clang-format on
 }
@@ -305,19 +305,9 @@ const std::vector<Key>& scene_keys() {
   return keys;
 }
 
-std::string next_rung(const std::string& key, const std::string& choice) {
-  for (const Key& candidate : scene_keys()) {
-    if (std::string(candidate.section) != "fidelity" || candidate.name != key) continue;
-    std::istringstream list(candidate.choices);
-    for (std::string word; list >> word;)
-      if (word == choice) return list >> word ? word : "";
-  }
-  fail(Failure::input, key, " = \"", choice, "\" is no rung of [fidelity]");
-}
-
 namespace {
 
-std::string place_of(const Key& key, const std::string& owner) {
+std::string scene_place_of(const Key& key, const std::string& owner) {
   const std::string section(key.section), name(key.name);
   if (section.empty()) return name;
   if (section == "gear" || section == "material") return section + "." + owner + "." + name;
@@ -339,7 +329,7 @@ KeyPlace find_key(const std::string& name) {
   const bool placed = name.find('.') != std::string::npos;
   std::vector<std::string> known;
   for (const Key& key : scene_keys()) {
-    const std::string candidate = placed ? place_of(key, owner) : key.name;
+    const std::string candidate = placed ? scene_place_of(key, owner) : key.name;
     if (candidate == name) return {&key, placed ? owner : ""};
     known.push_back(candidate);
   }
@@ -349,7 +339,7 @@ KeyPlace find_key(const std::string& name) {
   const Key* meant = meant_key(last, note);
   if (!meant && !note.empty()) fail(Failure::usage, "no scene has the key '", name, "': ", note);
   if (meant && (!placed || last == meant->name || !note.empty() || nearest(name, known).empty()))
-    near = placed ? place_of(*meant, owner.empty() ? "<name>" : owner) : meant->name;
+    near = placed ? scene_place_of(*meant, owner.empty() ? "<name>" : owner) : meant->name;
   if (near.empty()) near = nearest(name, known);
   fail(Failure::usage, "no scene has the key '", name, "'",
        near.empty()   ? "; gear-scene --keys lists them"
@@ -396,6 +386,8 @@ std::vector<Parameter> parameters_of(const KeyValues& values, Part part) {
       add(name, **whole);
     } else if (const auto* word = std::get_if<std::string*>(&slot)) {
       add(name, **word);
+    } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
+      add(name, key.word_in(*choice));
     } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
       add(name, std::string(*plane->stress ? "stress" : "strain"));
     } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
@@ -476,6 +468,8 @@ void set_parameters(KeyValues& values, Part part, const ParameterSource& source)
       **whole = static_cast<int>(in_range(key, source, name, source.whole(name)));
     } else if (const auto* word = std::get_if<std::string*>(&slot)) {
       **word = one_of(key.choices, source, name);
+    } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
+      key.assign(*choice, one_of(key.choices, source, name));
     } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
       *plane->stress = one_of(key.choices, source, name) == "stress";
     } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {

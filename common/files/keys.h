@@ -71,9 +71,19 @@ using Points = std::vector<std::array<double, 2>>;  // rad, m: in a scene degree
 struct ToothList {                                  // a number for each tooth, or none
   std::vector<double>* values;
 };
+struct ChoiceSlot {  // of an enumeration; a place counts from 0 in the key's choices
+  void* value;
+  int (*place)(const void*);
+  void (*assign)(void*, int);
+};
+template <WordedChoice Choice>
+ChoiceSlot choice_slot(Choice& choice) {
+  return {&choice, [](const void* at) { return static_cast<int>(*static_cast<const Choice*>(at)); },
+          [](void* at, int place) { *static_cast<Choice*>(at) = static_cast<Choice>(place); }};
+}
 // Where a key's value lives, and thereby its type.
-using Slot = std::variant<double*, int*, std::string*, CornerRule*, PlaneSlot, std::vector<double>*,
-                          RangeSlot, Points*, ToothList>;
+using Slot = std::variant<double*, int*, std::string*, ChoiceSlot, CornerRule*, PlaneSlot,
+                          std::vector<double>*, RangeSlot, Points*, ToothList>;
 
 // SI = value * multiply / divide; two factors because 3.0 / 1000 is the double nearest to 0.003 and 3.0 *
 // 0.001 is not always.
@@ -96,6 +106,11 @@ struct Key {
   Slot (*slot)(KeyValues&);
   const char* reason = "";  // why there is the lower limit, where that is not plain
 
+  // The word of a choice, and a choice by its word, which is one of `choices`.
+  std::string word_in(const ChoiceSlot& slot) const { return word_at(choices, slot.place(slot.value)); }
+  void assign(const ChoiceSlot& slot, const std::string& word) const {
+    slot.assign(slot.value, place_of(choices, word).value());
+  }
   std::string si_name() const;  // name without the unit's suffix
   double to_si(double value) const { return value * unit.multiply / unit.divide; }
 };

@@ -257,7 +257,8 @@ constexpr WordOf kWords[] = {
 void write(const std::string& path, const ReadingsArtifact& a, const Provenance& provenance) {
   ArtifactWriter out(path, "readings", kVersion, "Readings of P2000: " + a.title, provenance);
   out.put("/parameters/readings/title", a.title, {"1", "what the search is", "", ""});
-  out.put("/parameters/readings/contact", a.contact, {"1", "model level of contact in the sweeps", "", ""});
+  out.put("/parameters/readings/contact", name_of(a.contact),
+          {"1", "model level of contact in the sweeps", "", ""});
   out.put("/parameters/readings/outside", a.outside,
           {"1", "readings left out because the model of the pair cannot compute them", "", ""});
   out.file().put("/claim", a.claim, h5::Label{"1", "names of the claims", "claim", ""});
@@ -296,7 +297,7 @@ ReadingsArtifact read_readings(const std::string& path) {
   const ArtifactReader in(path, "readings", kVersion);
   ReadingsArtifact a;
   a.title = in.word("/parameters/readings/title");
-  a.contact = in.word("/parameters/readings/contact");
+  a.contact = in.choice<ContactModel>("/parameters/readings/contact");
   a.outside = in.whole("/parameters/readings/outside");
   a.claim = in.file().strings("/claim");
   const auto claims = static_cast<Eigen::Index>(a.claim.size());

@@ -81,8 +81,8 @@ struct Reading {
 // readings.h5
 struct ReadingsArtifact {
   std::string title;
-  std::string contact = "line";    // of the sweeps
-  std::vector<std::string> claim;  // names
+  ContactModel contact = ContactModel::line;  // of the sweeps
+  std::vector<std::string> claim;             // names
   std::vector<Reading> readings;
   int outside = 0;  // readings that the model of the pair cannot compute
 };

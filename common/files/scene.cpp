@@ -293,6 +293,8 @@ class SectionReader {
       **whole = static_cast<int>(value);
     } else if (const auto* word = std::get_if<std::string*>(&slot)) {
       **word = checked_word(key, node);
+    } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
+      key.assign(*choice, checked_word(key, node));
     } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
       *plane->stress = checked_word(key, node) == "stress";
     } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
@@ -403,6 +405,8 @@ class SectionReader {
       **whole = static_cast<int>(std::strtol(key.fallback, nullptr, 10));
     } else if (const auto* target = std::get_if<std::string*>(&slot)) {
       **target = word;
+    } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
+      key.assign(*choice, word);
     } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
       **corner = CornerRule{word == "true", std::numeric_limits<double>::infinity()};
     } else if (const auto* points = std::get_if<Points*>(&slot)) {
@@ -793,7 +797,7 @@ Scene scene_of(const Source& source) {
     reader.refuse_unknown();
     reader.read(values, rest, false);
     const toml::node* depth = table ? table->get("matching_depth_mm") : nullptr;
-    if (depth && values.body.near_field != "matching")
+    if (depth && values.body.near_field != NearField::matching)
       source.refuse(*depth, text("'matching_depth_mm' in [", name, "] = ", as_written(*depth),
                                  ": near_field is \"", values.body.near_field,
                                  "\", which has no depth; set near_field = \"matching\" or take it out"));
@@ -802,7 +806,7 @@ Scene scene_of(const Source& source) {
   scene.operation = values.operation;
   scene.fidelity = values.fidelity;
   scene.body = values.body;
-  if (scene.fidelity.body == "full") scene.body.modes = kAllModes;
+  if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
   scene.contact = values.contact;
   scene.time = values.time;
   return scene;

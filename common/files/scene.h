@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "base/choice.h"
+
 namespace whine {
 
 // A slit from the root of one tooth into it; see gear/crack.h.
@@ -36,14 +38,19 @@ struct GearDesign {
   Crack crack;                    // of one tooth
 };
 
+// How a relief grows with the roll angle.
+enum class ReliefShape { linear, parabolic };
+template <>
+inline constexpr const char* kWordsOf<ReliefShape> = "linear parabolic";
+
 // Material taken off a flank between a start on it and one of its ends.
 struct Relief {
   double amount = 0;  // m normal to the flank, at the end: the tip edge, or the foot of the involute
   // Where it starts, by one of these; 0: not given.
-  double start_roll = 0;         // rad
-  double start_radius = 0;       // m
-  double length = 0;             // m, length of roll (base radius times roll angle) from the start to the end
-  std::string shape = "linear";  // in the roll angle; or "parabolic"
+  double start_roll = 0;    // rad
+  double start_radius = 0;  // m
+  double length = 0;        // m, length of roll (base radius times roll angle) from the start to the end
+  ReliefShape shape = ReliefShape::linear;
 
   bool operator==(const Relief&) const = default;
 };
@@ -91,13 +98,17 @@ struct Material {
 // BodyDiscretisation::modes that stands for every mode of the mesh.
 inline constexpr int kAllModes = -1;
 
+// How the half-plane at the contact joins the finite elements: subtracted from them, or matched at a depth as in P2000.
+enum class NearField { subtraction, matching };
+template <>
+inline constexpr const char* kWordsOf<NearField> = "subtraction matching";
+
 // Discretisation of a body: what gear-mesh and gear-reduce need beside the gear itself.
 struct BodyDiscretisation {
   double element_size = 0;  // m on the flank
   int element_order = 2;    // 1 or 2
   int modes = 61;           // elastic modes of the whole gear, or kAllModes; doublets are never cut
-  std::string near_field =
-      "subtraction";             // of the half-plane in the finite elements; or "matching" at a depth
+  NearField near_field = NearField::subtraction;
   double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
 };
 
@@ -126,11 +137,16 @@ struct CornerRule {
   double largest_angle = std::numeric_limits<double>::infinity();  // rad between the two normals
 };
 
+// Plane state of the contact: one of the two, or each body's own.
+enum class ContactPlane { strain, stress, body };
+template <>
+inline constexpr const char* kWordsOf<ContactPlane> = "strain stress body";
+
 struct GearMeshSpec {
   std::string driver, driven;  // names of gears
   double centre_distance = 0;  // m
   CornerRule corner;
-  std::string contact_plane = "body";  // plane state of the contact: "strain", "stress", or each body's own
+  ContactPlane contact_plane = ContactPlane::body;
   std::array<FlankModification, 2> modification = {};  // of driver and driven gear
   std::array<ToothErrors, 2> errors = {};              // the same
   std::array<Bearing, 2> bearing = {};                 // the same
@@ -151,14 +167,26 @@ struct Operation {
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
 };
 
-struct Fidelity {
-  std::string body = "modal";        // rigid, quasi-static, lagged, modal, full
-  std::string contact = "strips";    // line, strips
-  std::string integrator = "exact";  // newmark, exact
-};
+// What of the elastic body moves by itself, cheapest first.
+enum class BodyModel { rigid, quasi_static, lagged, modal, full };
+template <>
+inline constexpr const char* kWordsOf<BodyModel> = "rigid quasi-static lagged modal full";
 
-// The choice of a key of [fidelity] that stands after `choice` on its ladder, cheapest first; empty after the last.
-std::string next_rung(const std::string& key, const std::string& choice);
+// One force a tooth pair and Hertz's law, or pressure on strips.
+enum class ContactModel { line, strips };
+template <>
+inline constexpr const char* kWordsOf<ContactModel> = "line strips";
+
+// Newmark's (Eq. 8), or modal propagators.
+enum class Integrator { newmark, exact };
+template <>
+inline constexpr const char* kWordsOf<Integrator> = "newmark exact";
+
+struct Fidelity {
+  BodyModel body = BodyModel::modal;
+  ContactModel contact = ContactModel::strips;
+  Integrator integrator = Integrator::exact;
+};
 
 struct ContactDiscretisation {
   int strips = 8;  // across the contact width at the mean load
@@ -166,11 +194,16 @@ struct ContactDiscretisation {
       0;  // of the static stage per mesh period; 0: as steps_per_period, 128 at least, fewer where teeth differ
 };
 
+// How a steady motion is found: transients are skipped where they can be, or run through period by period, as a rig would.
+enum class SteadyState { extrapolate, march };
+template <>
+inline constexpr const char* kWordsOf<SteadyState> = "extrapolate march";
+
 struct TimeDiscretisation {
-  int steps_per_period = 128;                // stored samples per mesh period
-  double min_sample_rate = 250e3;            // Hz; steps per period are doubled until it is reached
-  double periodicity = 1e-5;                 // relative change of the state at which a speed counts as steady
-  std::string steady_state = "extrapolate";  // or "march": every period on the way, as a rig would
+  int steps_per_period = 128;      // stored samples per mesh period
+  double min_sample_rate = 250e3;  // Hz; steps per period are doubled until it is reached
+  double periodicity = 1e-5;       // relative change of the state at which a speed counts as steady
+  SteadyState steady_state = SteadyState::extrapolate;
 };
 
 struct Scene {

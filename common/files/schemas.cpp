@@ -1445,7 +1445,8 @@ void write(const std::string& path, const HarrisMapArtifact& a, const Provenance
   out.parameters("fidelity", values, Part::contact_rung);
   out.parameters("discretisation", values, Part::contact);
   out.put("/parameters/relief/relieved", a.relieved, {"1", "gears whose tips are relieved", "", ""});
-  out.put("/parameters/relief/shape", a.shape, {"1", "how the relief grows with the roll angle", "", ""});
+  out.put("/parameters/relief/shape", name_of(a.shape),
+          {"1", "how the relief grows with the roll angle", "", ""});
   out.put("/parameters/operation/design_torque", a.design_torque,
           {"N m", "torque on the driver for which the optimum is sought", "", ""});
   out.put("/torque", a.torque, {"N m", "torque on the driver", "torque", ""});
@@ -1503,7 +1504,7 @@ HarrisMapArtifact read_harris_map(const std::string& path) {
   }
   take_settings(values, a);
   a.relieved = in.word("/parameters/relief/relieved");
-  a.shape = in.word("/parameters/relief/shape");
+  a.shape = in.choice<ReliefShape>("/parameters/relief/shape");
   a.design_torque = in.number("/parameters/operation/design_torque");
   a.torque = in.vector("/torque");
   a.relief = in.vector("/relief");
@@ -1749,6 +1750,7 @@ std::string in_scene_unit(KeyValues& values, const Key& key) {
   if (const auto* one = std::get_if<double*>(&slot)) return number(**one, key.unit);
   if (const auto* whole = std::get_if<int*>(&slot)) return text(**whole);
   if (const auto* word = std::get_if<std::string*>(&slot)) return **word;
+  if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) return key.word_in(*choice);
   if (const auto* plane = std::get_if<PlaneSlot>(&slot)) return *plane->stress ? "stress" : "strain";
   if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
     if (!(*corner)->enabled) return "false";

@@ -14,10 +14,11 @@ std::string quoted_text(const std::string& word) {
   return out + "\"";
 }
 
-std::string value_of(const Slot& slot) {
+std::string value_of(const Key& key, const Slot& slot) {
   if (const auto* number = std::get_if<double*>(&slot)) return exact_text(**number);
   if (const auto* whole = std::get_if<int*>(&slot)) return std::to_string(**whole);
   if (const auto* word = std::get_if<std::string*>(&slot)) return quoted_text(**word);
+  if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) return quoted_text(key.word_in(*choice));
   if (const auto* plane = std::get_if<PlaneSlot>(&slot)) return *plane->stress ? "\"stress\"" : "\"strain\"";
   if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
     if (!(*corner)->enabled) return "false";
@@ -48,7 +49,7 @@ void SliceText::add(const std::string& section, const std::string& label, const 
   for (const Key& key : scene_keys()) {
     if (key.section != section || !parts.count(key.part)) continue;
     begin(label);
-    const std::string value = value_of(key.slot(copy));
+    const std::string value = value_of(key, key.slot(copy));
     out_ << key.si_name() << " = " << value;
     if (std::string(key.unit.si) != "1" && value != "true" && value != "false") out_ << "  # " << key.unit.si;
     out_ << "\n";

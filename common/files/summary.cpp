@@ -39,7 +39,8 @@ std::string range_of(const Eigen::VectorXd& frequency) {
 }
 
 std::string contact_plane(const GearMeshSpec& mesh) {
-  return mesh.contact_plane == "body" ? "plane state of the bodies" : "plane " + mesh.contact_plane;
+  return mesh.contact_plane == ContactPlane::body ? "plane state of the bodies"
+                                                  : text("plane ", mesh.contact_plane);
 }
 
 std::string corner_rule(const GearMeshSpec& mesh) {
@@ -97,9 +98,9 @@ void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& b
 }
 
 std::string near_field(const BodyDiscretisation& body) {
-  return body.near_field == "matching"
+  return body.near_field == NearField::matching
              ? text("matching at ", body.matching_depth * 1e3, " mm below the flank")
-             : body.near_field;
+             : name_of(body.near_field);
 }
 
 void show_discretisation(Lines& lines, const BodyDiscretisation& driver, const BodyDiscretisation& driven) {
@@ -151,7 +152,7 @@ void show(Lines& lines, const StaticArtifact& a) {
   show_bearings(lines, a.mesh);
   show_discretisation(lines, a.driver_body, a.driven_body);
   add(lines, "contact", a.fidelity.contact,
-      a.fidelity.contact == "strips"
+      a.fidelity.contact == ContactModel::strips
           ? text(", ", a.contact.strips, " across the contact width at the mean load")
           : "");
   add(lines, "contact ratio", a.contact_ratio);
@@ -419,8 +420,8 @@ std::string in_words(const FlankModification& m) {
   const double degree = std::numbers::pi / 180;
   for (const auto& [end, relief] : {std::pair{"tip", m.tip}, std::pair{"root", m.root}})
     if (relief.amount > 0)
-      part(text(relief.shape == "linear" ? "" : relief.shape + " ", end, " relief ", relief.amount * 1e6,
-                " um ",
+      part(text(relief.shape == ReliefShape::linear ? "" : name_of(relief.shape) + " ", end, " relief ",
+                relief.amount * 1e6, " um ",
                 relief.start_radius > 0 ? text("from radius ", relief.start_radius * 1e3, " mm")
                 : relief.length > 0     ? text("over ", relief.length * 1e3, " mm of roll")
                                         : text("from ", relief.start_roll / degree, " deg")));

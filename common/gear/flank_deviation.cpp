@@ -98,10 +98,11 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
       crowning_(m.crowning),
       slope_(m.slope) {
   if (m.tip.amount > 0)
-    parts_.push_back({start_of(gear, m.tip, "tip", tip_), tip_, m.tip.amount, m.tip.shape == "parabolic"});
-  if (m.root.amount > 0)
     parts_.push_back(
-        {start_of(gear, m.root, "root", form_), form_, m.root.amount, m.root.shape == "parabolic"});
+        {start_of(gear, m.tip, "tip", tip_), tip_, m.tip.amount, m.tip.shape == ReliefShape::parabolic});
+  if (m.root.amount > 0)
+    parts_.push_back({start_of(gear, m.root, "root", form_), form_, m.root.amount,
+                      m.root.shape == ReliefShape::parabolic});
   for (const Part& part : parts_)
     if (part.start == part.end)
       fail(Failure::input, part.end == tip_ ? "tip" : "root", "_relief_um = ", part.amount * 1e6,
@@ -209,11 +210,11 @@ std::vector<FlankRidge> flank_ridges(const ToothGeometry& gear, const FlankModif
     if (per_roll > 0 && roll > 0) ridges.push_back({roll, per_roll / (gear.base_radius() * roll), cause});
   };
   const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
-  if (m.tip.amount > 0 && m.tip.shape == "linear") {
+  if (m.tip.amount > 0 && m.tip.shape == ReliefShape::linear) {
     const double start = start_of(gear, m.tip, "tip", tip);
     add(start, m.tip.amount / (tip - start), "linear tip relief");
   }
-  if (m.root.amount > 0 && m.root.shape == "linear") {
+  if (m.root.amount > 0 && m.root.shape == ReliefShape::linear) {
     const double start = start_of(gear, m.root, "root", form);
     add(start, m.root.amount / (start - form), "linear root relief");
   }

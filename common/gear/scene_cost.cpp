@@ -37,7 +37,7 @@ std::vector<std::string> costs(const Scene& scene) {
   const double each = scene.contact.positions > 0 ? scene.contact.positions
                       : periods > 1               ? std::clamp(16384 / periods, kFewestPositions, 128.0)
                                                   : std::max(128, scene.time.steps_per_period);
-  const bool on_strips = scene.fidelity.contact == "strips";
+  const bool on_strips = scene.fidelity.contact == ContactModel::strips;
   const double statics =
       kPosition * each * periods * (on_strips ? std::pow(strips / kDefaultStrips, kGrowth) : 1);
   if (statics > kMinute)
@@ -63,7 +63,7 @@ std::vector<std::string> costs(const Scene& scene) {
                " modules; mesh and modes take minutes and gigabytes below 0.04, and eight times the "
                "unknowns for a third of it"));
   }
-  if (scene.fidelity.body == "full")
+  if (scene.fidelity.body == BodyModel::full)
     out.push_back(
         "body = \"full\" finds all modes by dense algebra: about a minute a gear for a thousand unknowns a "
         "sector, eight "

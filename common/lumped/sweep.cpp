@@ -252,7 +252,7 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
 
   const GearPair pair(statics.driver, statics.driven, statics.mesh.centre_distance);
   const double force = statics.torque / pair.gear(0).base_radius();
-  const int samples = o.time.steps_per_period, steps = o.integrator == "newmark" ? samples : 0;
+  const int samples = o.time.steps_per_period, steps = o.integrator == Integrator::newmark ? samples : 0;
   springs.mass = o.mass;
   springs.damping_ratio = o.damping_ratio;
   springs.damper_acts = o.damper_acts;
@@ -265,7 +265,7 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
   for (int i = 0; i < count; ++i)
     speeds[i] = o.frequency_from + (o.direction == "up" ? i : count - 1 - i) * o.frequency_step;
   const LumpedMarch march =
-      march_speeds(oscillator, speeds, o.time.periodicity, o.time.steady_state == "march", report);
+      march_speeds(oscillator, speeds, o.time.periodicity, o.time.steady_state == SteadyState::march, report);
 
   if (left_early) *left_early = march.left_early;
 
@@ -279,7 +279,7 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
   a.driver_body = statics.driver_body;
   a.driven_body = statics.driven_body;
   a.mesh = statics.mesh;
-  a.fidelity.body = "rigid";
+  a.fidelity.body = BodyModel::rigid;
   a.fidelity.contact = statics.fidelity.contact;
   a.fidelity.integrator = o.integrator;
   a.contact = statics.contact;

@@ -62,7 +62,7 @@ struct LumpedOptions {
   double mass = 0;                     // kg
   double damping_ratio = 0.08;         // 1: c = 2 ratio sqrt(k_avg m), k_avg the mean of k(t)
   std::string damper_acts = "always";  // or "contact"
-  std::string integrator = "exact";    // or "newmark"
+  Integrator integrator = Integrator::exact;
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
   TimeDiscretisation time;  // steps_per_period: stored samples, and least Newmark steps
   std::string direction;    // "up" or "down"

@@ -62,13 +62,14 @@ ContactRange contact_range(const GearMeshModel& model, const StaticArtifact& sta
 RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParameters& parameters)
     : model_(model),
       parameters_(parameters),
-      full_(parameters.fidelity.body == "full"),
-      lines_(parameters.fidelity.contact == "line"),
-      newmark_(parameters.fidelity.integrator == "newmark"),
+      full_(parameters.fidelity.body == BodyModel::full),
+      lines_(parameters.fidelity.contact == ContactModel::line),
+      newmark_(parameters.fidelity.integrator == Integrator::newmark),
       floating_(model.on_bearings()),
-      relaxation_(
-          full_ || parameters.fidelity.body == "quasi-static" ? 0 : parameters.damping.rayleigh_stiffness) {
-  const std::string& rung = parameters.fidelity.body;
+      relaxation_(full_ || parameters.fidelity.body == BodyModel::quasi_static
+                      ? 0
+                      : parameters.damping.rayleigh_stiffness) {
+  const BodyModel rung = parameters.fidelity.body;
   if (full_ && floating_)
     fail(Failure::input,
          "body = \"full\" in [fidelity] has no bearings: set body = \"modal\" or take the [[bearing]] "
@@ -106,10 +107,10 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
       if (body.nodal_diameter[i] == 0 &&
           (torsional < 0 || std::abs(body.inertia_coupling[i]) > std::abs(body.inertia_coupling[torsional])))
         torsional = i;
-    if (rung != "rigid") {
+    if (rung != BodyModel::rigid) {
       if (torsional < 0) fail(Failure::input, "the body holds no torsional mode; rebuild body.h5");
       for (int i = 0; i < body.eigenfrequency.size(); ++i)
-        if (rung == "modal" || full() || i == torsional) kept_[g].push_back(i);
+        if (rung == BodyModel::modal || full() || i == torsional) kept_[g].push_back(i);
       if (model.bearing[g].elastic()) {
         int swaying = -1;  // the first with one diameter; modes ascend
         for (int i = static_cast<int>(body.eigenfrequency.size()) - 1; i >= 0; --i)
@@ -119,7 +120,7 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
                body.eigenfrequency.size(),
                " modes and none of them has one nodal diameter, as a gear on a bearing needs; raise modes in "
                "[fidelity]");
-        if (rung != "modal")
+        if (rung != BodyModel::modal)
           for (const int half : {swaying, model.gear[g].partner(swaying)}) kept_[g].push_back(half);
         std::sort(kept_[g].begin(), kept_[g].end());
       }
@@ -354,7 +355,7 @@ void RollingDynamics::set_range(const ContactRange& range, int steps, const Wind
   std::array<std::vector<MatrixXd>, 2> tables;  // by offset between teeth, -2 reach..2 reach
   for (int g = 0; g < 2; ++g) {
     const int m = model_.gear[g].table_size();
-    const bool rigid = parameters_.fidelity.body == "rigid";
+    const bool rigid = parameters_.fidelity.body == BodyModel::rigid;
     for (int offset = -2 * reach_; offset <= 2 * reach_; ++offset)
       tables[g].push_back(rigid ? MatrixXd::Zero(m, m) : model_.gear[g].residual(offset, depth, kept_[g]));
     // Of all offsets that the body holds, so that the state keeps its meaning when a wider range reaches more teeth.

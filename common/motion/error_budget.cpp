@@ -68,7 +68,7 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   const Answer reference = answer(base);
 
   std::vector<std::pair<std::string, Answer>> refined;
-  const bool strips = slice.fidelity.contact == "strips";
+  const bool strips = slice.fidelity.contact == ContactModel::strips;
   if (strips) {
     StaticSlice finer = slice;
     finer.contact.strips *= 2;
@@ -125,11 +125,11 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
     }
   };
   const BodyDiscretisation& present = driver.discretisation;
-  const bool matched = present.near_field == "matching";
+  const bool matched = present.near_field == NearField::matching;
   choose(matched ? "subtraction" : text("matching at ", present.matching_depth * 1e3, " mm"), [&] {
     return of_bodies([&](const BodyArtifact& body) {
       BodyDiscretisation other = body.discretisation;
-      other.near_field = matched ? "subtraction" : "matching";
+      other.near_field = matched ? NearField::subtraction : NearField::matching;
       return reduced_again(body, other, static_cast<int>(body.flank_position.size()));
     });
   });
@@ -142,19 +142,19 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
       });
     });
   StaticSlice other = slice;
-  other.fidelity.contact = strips ? "line" : "strips";
-  choose("contact " + other.fidelity.contact, [&] { return solve(driver, driven, other); });
+  other.fidelity.contact = strips ? ContactModel::line : ContactModel::strips;
+  choose(text("contact ", other.fidelity.contact), [&] { return solve(driver, driven, other); });
   budget.choice = changes(chosen, reference);
   return budget;
 }
 
 NextRung next_contact_rung(const BodyArtifact& driver, const BodyArtifact& driven, const StaticSlice& slice,
                            const StaticArtifact& result) {
-  if (slice.fidelity.contact != "line")
+  if (slice.fidelity.contact != ContactModel::line)
     fail(Failure::input, "contact = \"", slice.fidelity.contact,
          "\" is the last rung of contact; the error budget says what its strips are worth");
   StaticSlice next = slice;
-  next.fidelity.contact = "strips";
+  next.fidelity.contact = ContactModel::strips;
   const StaticArtifact strips = static_transmission(driver, driven, next, result.torque);
   const GearPair gears(driver.design, driven.design, slice.mesh.centre_distance);
   const double mean_error = strips.transmission_error.mean(),

@@ -51,7 +51,8 @@ const Ridge* ridge_within(const GearPair& gears, const PairContact& contact, dou
 FlankPressure flank_pressure(const StaticArtifact& s) {
   const GearPair gears(s.driver, s.driven, s.mesh.centre_distance);
   const auto ridges = ridges_of(gears, s.mesh);
-  const bool strips = s.fidelity.contact == "strips", any = !ridges[0].empty() || !ridges[1].empty();
+  const bool strips = s.fidelity.contact == ContactModel::strips,
+             any = !ridges[0].empty() || !ridges[1].empty();
   const std::array flank{FlankDeviation(gears.gear(0), s.mesh.modification[0]),
                          FlankDeviation(gears.gear(1), s.mesh.modification[1])};
   const PairDeviation flanks{{&flank[0], &flank[1]}, {kEveryTooth, kEveryTooth}};

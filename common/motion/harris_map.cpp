@@ -26,7 +26,7 @@ constexpr int kHarmonics = 3;
 constexpr double kTorqueRange = 3, kReliefRange = 2;
 constexpr int kReliefRanges = 4;
 
-FlankModification with_tip(FlankModification m, double amount, double length, const std::string& shape) {
+FlankModification with_tip(FlankModification m, double amount, double length, ReliefShape shape) {
   m.tip = {};
   m.tip.amount = amount;
   m.tip.length = length;
@@ -225,7 +225,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
   set_gears(map, driver, driven);
   map.mesh = statics.mesh;
   for (FlankModification& m : map.mesh.modification) m.tip = {};
-  map.fidelity.contact = "strips";
+  map.fidelity.contact = ContactModel::strips;
   map.contact = statics.contact;
   map.contact.strips = plan.strips;
   map.contact.positions = plan.positions;
@@ -353,7 +353,7 @@ void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifac
            int points, int finer) {
   const Eigen::Index torques = map.torque.size(), reliefs = map.relief.size(), all = torques * reliefs;
   StaticSlice slice;
-  slice.fidelity.contact = "strips";
+  slice.fidelity.contact = ContactModel::strips;
   slice.contact.strips = finer * map.contact.strips;
   slice.contact.positions = finer * positions;
   map.checked = 0;

@@ -18,10 +18,10 @@ struct HarrisPlan {
   std::vector<double> relief;     // m, ascending, from 0 on
   std::vector<double> length;     // m, of roll, from where the relief starts to the tip edge
   std::string relieved = "both";  // or "driver", "driven"
-  std::string shape = "linear";   // or "parabolic"
-  double design_torque = 0;       // N m, within `torque`
-  int positions = 256;            // in a mesh period
-  int strips = 8;                 // across the contact width at the least load of a range
+  ReliefShape shape = ReliefShape::linear;
+  double design_torque = 0;  // N m, within `torque`
+  int positions = 256;       // in a mesh period
+  int strips = 8;            // across the contact width at the least load of a range
 };
 
 // m: length of roll of a tip relief that starts at the highest point of single-pair contact, the same on both gears.

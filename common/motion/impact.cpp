@@ -97,10 +97,10 @@ class HeldPair {
   HeldPair(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
            double mean_stiffness, const ImpactSlice& slice, const ImpactPlan& plan)
       : plan_(plan) {
-    if (slice.fidelity.contact != "strips")
+    if (slice.fidelity.contact != ContactModel::strips)
       fail(Failure::input, "contact = \"", slice.fidelity.contact,
            "\" in [fidelity] is not available in ring-downs; set contact = \"strips\"");
-    if (slice.fidelity.body == "full")
+    if (slice.fidelity.body == BodyModel::full)
       fail(Failure::input,
            "body = \"full\" in [fidelity] is not available in ring-downs: the eigenvalues beside the decays "
            "are those of "
@@ -390,9 +390,9 @@ DampedRoot frozen_root(const HeldMesh& mesh) {
   return lowest;
 }
 
-HeldMesh with_rayleigh_stiffness(HeldMesh mesh, double eta, const std::string& body) {
+HeldMesh with_rayleigh_stiffness(HeldMesh mesh, double eta, BodyModel body) {
   mesh.damping += eta * (mesh.elastic.size() > 0 ? mesh.elastic : mesh.frequency_squared);  // Eq. 21
-  mesh.relaxation = body == "quasi-static" ? 0 : eta;
+  mesh.relaxation = body == BodyModel::quasi_static ? 0 : eta;
   return mesh;
 }
 

@@ -47,7 +47,7 @@ std::vector<HeldState> held_states(const BodyArtifact& driver, const BodyArtifac
                                    const ImpactSlice& slice, int phases);
 
 // The same with eta (s) of Eq. 21. body: the rung of [fidelity].
-HeldMesh with_rayleigh_stiffness(HeldMesh mesh, double eta, const std::string& body);
+HeldMesh with_rayleigh_stiffness(HeldMesh mesh, double eta, BodyModel body);
 
 // statics: of the same torque; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets the
 // bearing dampers. report(done, total) is called after each phase. Errors as ring_down and fit_decay; Error(input)

@@ -20,7 +20,7 @@ namespace {
 constexpr int kStatePhases = 128;
 
 // eta of Eq. 21 that gives the ratio to the pair held; the ratio is nearly linear in it.
-double eta_for(double ratio, const HeldMesh& mesh, const std::string& body, double frequency) {
+double eta_for(double ratio, const HeldMesh& mesh, BodyModel body, double frequency) {
   const double without = frozen_root(with_rayleigh_stiffness(mesh, 0, body)).damping_ratio;
   if (!(ratio > without))
     fail(Failure::input, "bearings and mass-proportional damping alone give a damping ratio of ", without,
@@ -65,7 +65,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
       map_speeds(plan, std::sqrt(rest.mean_stiffness * inverse_mass) / (2 * std::numbers::pi));
 
   ImpactSlice held = slice;
-  held.fidelity.contact = "strips";  // the body under a held contact is read on strips
+  held.fidelity.contact = ContactModel::strips;  // the body under a held contact is read on strips
   held.damping.rayleigh_stiffness = 0;
   JumpMapArtifact result;
   const HeldState* two = nullptr;

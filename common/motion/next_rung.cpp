@@ -15,7 +15,7 @@ namespace whine {
 namespace {
 
 StaticArtifact statics_with(const BodyArtifact& driver, const BodyArtifact& driven,
-                            const StaticArtifact& like, const std::string& contact) {
+                            const StaticArtifact& like, ContactModel contact) {
   StaticSlice slice;
   slice.mesh = like.mesh;
   slice.fidelity = like.fidelity;
@@ -43,41 +43,42 @@ std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifac
                                    const SweepSlice& slice) {
   std::vector<NextSweep> sweeps;
   std::string reasons;
-  for (const std::string key : {"contact", "body"}) {
-    NextSweep next{key,
-                   key == "contact" ? slice.fidelity.contact : slice.fidelity.body,
-                   "",
-                   driver,
-                   driven,
-                   statics,
-                   reference.mean_stiffness,
-                   slice,
-                   ""};
-    next.to = next_rung(key, next.from);
-    const auto give_reason = [&](const std::string& reason) {
-      reasons += text(reasons.empty() ? "" : "; ", key, " = \"", next.from, "\" ", reason);
-    };
-    if (next.to.empty()) {
-      give_reason("is the last rung of " + key);
-      continue;
-    }
-    (key == "contact" ? next.slice.fidelity.contact : next.slice.fidelity.body) = next.to;
-    if (key == "contact") {
-      next.statics = statics_with(driver, driven, statics, next.to);
-      next.mean_stiffness = reference.torque == statics.torque
-                                ? next.statics.mean_stiffness
-                                : statics_with(driver, driven, reference, next.to).mean_stiffness;
-    } else if (next.to == "full") {
+  const Fidelity& from = slice.fidelity;
+  const auto blank = [&](const char* key, const std::string& level) {
+    return NextSweep{key, level, "", driver, driven, statics, reference.mean_stiffness, slice, ""};
+  };
+  const auto give_reason = [&](const NextSweep& next, const std::string& reason) {
+    reasons += text(reasons.empty() ? "" : "; ", next.key, " = \"", next.from, "\" ", reason);
+  };
+  NextSweep by_contact = blank("contact", name_of(from.contact));
+  if (const auto to = next_of(from.contact)) {
+    by_contact.to = name_of(*to);
+    by_contact.slice.fidelity.contact = *to;
+    by_contact.statics = statics_with(driver, driven, statics, *to);
+    by_contact.mean_stiffness = reference.torque == statics.torque
+                                    ? by_contact.statics.mean_stiffness
+                                    : statics_with(driver, driven, reference, *to).mean_stiffness;
+    sweeps.push_back(std::move(by_contact));
+  } else {
+    give_reason(by_contact, "is the last rung of contact");
+  }
+  NextSweep by_body = blank("body", name_of(from.body));
+  if (const auto to = next_of(from.body)) {
+    by_body.to = name_of(*to);
+    by_body.slice.fidelity.body = *to;
+    if (*to == BodyModel::full) {
       try {
-        next.driver = with_all_modes(driver);
-        next.driven = driver.compliance == driven.compliance ? next.driver : with_all_modes(driven);
+        by_body.driver = with_all_modes(driver);
+        by_body.driven = driver.compliance == driven.compliance ? by_body.driver : with_all_modes(driven);
       } catch (const Error& error) {
         if (error.kind() != Failure::input) throw;
-        next.missing = error.what();
-        give_reason("is followed by \"full\": " + next.missing);
+        by_body.missing = error.what();
+        give_reason(by_body, "is followed by \"full\": " + by_body.missing);
       }
     }
-    sweeps.push_back(std::move(next));
+    sweeps.push_back(std::move(by_body));
+  } else {
+    give_reason(by_body, "is the last rung of body");
   }
   if (std::all_of(sweeps.begin(), sweeps.end(), [](const NextSweep& s) { return !s.missing.empty(); }))
     fail(Failure::input, reasons);

@@ -56,7 +56,7 @@ std::optional<std::vector<Segment>> follow(
   auto map = std::make_unique<RollingPeriodMap>(dynamics, steps);
   map->set_parameter(high);
   RollingDynamics::State state = dynamics.rest();
-  const auto settled = settle(dynamics, state, slice.time.periodicity, "extrapolate");
+  const auto settled = settle(dynamics, state, slice.time.periodicity, SteadyState::extrapolate);
   if (!settled) return std::nullopt;
   if (settled->multiple != 1)
     fail(Failure::numerical, "at ", high, " Hz, where the branch begins, the motion ",

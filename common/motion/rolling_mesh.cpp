@@ -34,7 +34,7 @@ const BodyArtifact& finite(const BodyArtifact& body) {
 
 }  // namespace
 
-ElasticGear::ElasticGear(const BodyArtifact& body, const std::string& contact_plane)
+ElasticGear::ElasticGear(const BodyArtifact& body, ContactPlane contact_plane)
     : body_(finite(body)),
       half_plane_(in_contact_plane(body.material, contact_plane), body.design.face_width),
       body_half_plane_(body.material, body.design.face_width),
@@ -46,8 +46,9 @@ ElasticGear::ElasticGear(const BodyArtifact& body, const std::string& contact_pl
 }
 
 double ElasticGear::contact_depth() const {
-  return body_.discretisation.near_field == "matching" ? body_.discretisation.matching_depth
-                                                       : 0.25 * std::numbers::pi * body_.design.module;
+  return body_.discretisation.near_field == NearField::matching
+             ? body_.discretisation.matching_depth
+             : 0.25 * std::numbers::pi * body_.design.module;
 }
 
 double ElasticGear::plane_change(double x, double half_width, double reading) const {

@@ -32,7 +32,7 @@ class ElasticGear {
  public:
   // Throws Error(input) for numbers that are not finite, by the name of their array, and for a flank table with other
   // points than this program's.
-  explicit ElasticGear(const BodyArtifact& body, const std::string& contact_plane = "body");
+  explicit ElasticGear(const BodyArtifact& body, ContactPlane contact_plane = ContactPlane::body);
   const BodyArtifact& body() const { return body_; }
   // In the plane state of the contact.
   const HalfPlaneSurface& half_plane() const { return half_plane_; }

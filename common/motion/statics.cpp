@@ -181,8 +181,8 @@ std::string solve_period(const GearMeshModel& model, const ContactRange& range, 
                          StaticArtifact& result) {
   const double face_width =
       std::min(model.kinematics.gear(0).design().face_width, model.kinematics.gear(1).design().face_width);
-  const ContactRung solve =
-      (result.fidelity.contact == "line" ? line_rung : strips_rung)(model, range, load, face_width);
+  const ContactRung solve = (result.fidelity.contact == ContactModel::line ? line_rung : strips_rung)(
+      model, range, load, face_width);
   const int rows = positions * result.hunting_periods;
   std::vector<std::pair<int, Loaded>> loads;  // row and what a pair carries there
   int lowest = 0, highest = 0;

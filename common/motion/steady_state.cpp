@@ -122,8 +122,8 @@ std::optional<State> Secants::propose() const {
 
 // A subharmonic of order m is a motion whose state repeats after m hunting periods but, long since and without getting any
 // nearer, not after a divisor of m: a slow transient may look like one for a while.
-std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double periodicity,
-                            const std::string& method, const RmsRange& looked_for, Secants* shared) {
+std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double periodicity, SteadyState method,
+                            const RmsRange& looked_for, Secants* shared) {
   Orbit orbit;
   Secants own;
   Secants& secants = shared ? *shared : own;
@@ -233,7 +233,7 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
     if (n >= kStagnation) history.push_back(change);
     if (static_cast<int>(history.size()) > kStagnation) history.pop_front();
 
-    if (method == "march") continue;
+    if (method == SteadyState::march) continue;
     if (proposal.pending && change[1] > proposal.change) {
       reject();
       continue;

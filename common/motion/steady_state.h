@@ -56,16 +56,15 @@ class Secants {
 };
 
 // Marches from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance) over a hunting period, which is
-// a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method "march": plain
-// marching, as a rig would. "extrapolate": once the motion is close, secants of the map that a period is take its slow
+// a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method march: plain
+// marching, as a rig would. extrapolate: once the motion is close, secants of the map that a period is take its slow
 // multipliers out. They are used only where these lie inside the unit circle, and a state that they propose counts only if
 // marching on comes closer still: an unstable orbit is left again. Of teeth that are alike a motion whose RMS leaves
 // `looked_for` is given up, not periodic, its last period as it is; with `looked_for` no ledger is kept. Empty if contact
 // wanted more than the range of the dynamics holds; the state is then spoiled. shared: secants of a speed nearby to begin
 // with, then of this one.
 std::optional<Orbit> settle(RollingDynamics& dynamics, RollingDynamics::State& state, double periodicity,
-                            const std::string& method, const RmsRange& looked_for = {},
-                            Secants* shared = nullptr);
+                            SteadyState method, const RmsRange& looked_for = {}, Secants* shared = nullptr);
 
 // A state on the orbit of one mesh period at a speed.
 struct KnownOrbit {

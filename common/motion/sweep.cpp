@@ -172,7 +172,7 @@ class Sweeper {
   }
 
   // Every mode of a mesh fills the memory once.
-  bool keeps_one_level() const { return slice_.fidelity.body == "full"; }
+  bool keeps_one_level() const { return slice_.fidelity.body == BodyModel::full; }
   RollingDynamics& dynamics(int level) {
     if (static_cast<int>(levels_.size()) <= level) levels_.resize(level + 1);
     if (!levels_[level]) {
@@ -362,7 +362,7 @@ std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::arra
   constexpr double kFlywheel =
       100;  // times the inertia of the drawing: more than what shafts and couplings add
   std::vector<Remark> out;
-  if (fidelity.body != "rigid" && fidelity.body != "quasi-static")
+  if (fidelity.body != BodyModel::rigid && fidelity.body != BodyModel::quasi_static)
     if (const auto damped = damping_remark(statics, inertia, damping)) out.push_back(*damped);
   for (size_t g = 0; g < 2; ++g) {
     const double own = least_body_inertia(ToothGeometry(g ? statics.driven : statics.driver),
@@ -470,8 +470,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   std::vector<RollingDynamics::State> reached;
   for (int i = 0; i < speeds; ++i) {
     const double f = speed(direction == "up" ? i : speeds - 1 - i);
-    steady.push_back(slice.time.steady_state == "march" ? sweeper.run(f)
-                                                        : run_on(sweeper, motions, reached, f));
+    steady.push_back(slice.time.steady_state == SteadyState::march ? sweeper.run(f)
+                                                                   : run_on(sweeper, motions, reached, f));
     motions.push_back(branch_motion(f, steady.back()));
     reached.push_back(sweeper.state());
     const Orbit& s = steady.back();
@@ -489,8 +489,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   std::vector<Jump> jumps;
   for (size_t i = 1; i < motions.size(); ++i)
     if (may_break(motions, i))
-      if (const auto jump =
-              find_jump(sweeper, motions, i, reached, slice.time.steady_state == "march", left_early))
+      if (const auto jump = find_jump(sweeper, motions, i, reached,
+                                      slice.time.steady_state == SteadyState::march, left_early))
         jumps.push_back(*jump);
 
   // Rows of one length: shorter orbits repeat to fill theirs.

@@ -94,10 +94,10 @@ std::vector<Claim> make_claims() {
       }));
   const auto newmark = [](double value) {
     return [=](const SceneAnswers& s) {
-      const std::string& integrator = s.branches(kFigureTorque).up.fidelity.integrator;
-      return integrator == "newmark"
+      const Integrator integrator = s.branches(kFigureTorque).up.fidelity.integrator;
+      return integrator == Integrator::newmark
                  ? Finding{value, ""}
-                 : Finding{kNone, "integrator = \"" + integrator + "\" has no such number"};
+                 : Finding{kNone, text("integrator = \"", integrator, "\" has no such number")};
     };
   };
   c.push_back(of_scale(

@@ -37,7 +37,7 @@ std::string folder(int torque, const std::string& rest) {
   return text("T", torque, "/", rest);
 }
 
-StaticSlice static_slice_of(const Scene& scene, const CornerRule& corner, const std::string& contact) {
+StaticSlice static_slice_of(const Scene& scene, const CornerRule& corner, ContactModel contact) {
   StaticSlice slice;
   slice.mesh = scene.mesh;
   slice.mesh.corner = corner;
@@ -130,7 +130,8 @@ const BodyArtifact& BoreFamily::body(double bore) {
 
 double BoreFamily::mean_stiffness(int steps, const CornerRule& corner) {
   const BodyArtifact& gear = body(steps * kBoreStep);
-  return static_transmission(gear, gear, static_slice_of(scene_, corner, "line"), kTorques[0]).mean_stiffness;
+  return static_transmission(gear, gear, static_slice_of(scene_, corner, ContactModel::line), kTorques[0])
+      .mean_stiffness;
 }
 
 double BoreFamily::tied_bore(const CornerRule& corner) {
@@ -167,8 +168,8 @@ PaperPair::PaperPair(BoreFamily& family, double bore, const Scene& scene, const 
                      const ReadingLevel& level)
     : body_(family.body(bore)), bore_(body_.design.bore_radius), level_(level), time_(scene.time) {
   for (int torque : kSweptTorques) {
-    pair_.statics[folder(torque, "static.h5")] = with_harmonics(
-        static_transmission(body_, body_, static_slice_of(scene, choices.corner, "strips"), torque));
+    pair_.statics[folder(torque, "static.h5")] = with_harmonics(static_transmission(
+        body_, body_, static_slice_of(scene, choices.corner, ContactModel::strips), torque));
     rest_[torque] =
         static_transmission(body_, body_, static_slice_of(scene, choices.corner, level_.contact), torque);
   }

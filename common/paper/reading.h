@@ -25,10 +25,10 @@ inline constexpr double kPaperMass = 1.4;               // kg
 
 // How closely a reading is looked at: the search's settings, or those that confirm its best.
 struct ReadingLevel {
-  double from = 800, to = 3400, step = 50;  // Hz, speeds of the sweeps
-  std::string contact = "line";             // of the sweeps; or "strips"
+  double from = 800, to = 3400, step = 50;    // Hz, speeds of the sweeps
+  ContactModel contact = ContactModel::line;  // of the sweeps
 };
-inline const ReadingLevel kConfirming{800, 3400, 20, "strips"};
+inline const ReadingLevel kConfirming{800, 3400, 20, ContactModel::strips};
 
 // modules: the largest tip radius that a rack's tooth holds (its tip is then one arc):
 // (pi/4 + thinning / 2m - h_f tan a) / (1 / cos a - tan a).

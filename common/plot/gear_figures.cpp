@@ -128,7 +128,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
         {name + " teeth", columns, wire.window(at, kMilli, touch, half_window), "", "", true});
     const BodyDiscretisation& body = g == 0 ? s.driver_body : s.driven_body;
     FigureBlock inner{name + " inner region", columns, {}, "", "", true};
-    if (body.near_field == "matching") {
+    if (body.near_field == NearField::matching) {
       const ToothGeometry& tooth = pair.gear(g);
       for (double t = 0; t <= 1.0001; t += 0.02) {
         const double roll = tooth.form_roll_angle() + t * (tooth.tip_roll_angle() - tooth.form_roll_angle());
@@ -199,7 +199,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
 
   figure.notes.push_back(pair_words(s));
   const std::string inner =
-      s.driver_body.near_field == "matching"
+      s.driver_body.near_field == NearField::matching
           ? "matched to the finite elements at " + shown(s.driver_body.matching_depth * kMilli, 4) +
                 " mm depth"
           : "the half-plane's field is subtracted there, finite elements carry the smooth rest";
@@ -208,7 +208,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
                               " N; approach of the gears ", shown(zone.approach * kMicro, 4),
                               " µm; Hertz: half-width ", shown(half_width * kMicro, 4), " µm, peak ",
                               shown(peak * 1e-6, 4), " MPa"));
-  figure.numbers = {{"matching", s.driver_body.near_field == "matching"},
+  figure.numbers = {{"matching", s.driver_body.near_field == NearField::matching},
                     {"touch_y", touch.y() * kMilli},
                     {"half_window", half_window * kMilli},
                     {"reach", 1.3 * reach * kMilli},

@@ -339,11 +339,8 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
 BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes, int flank_points) {
   const bool all = modes == kAllModes;
   if (modes < 0 && !all) fail(Failure::input, "modes = ", modes, " is below 0");
-  const bool matching = mesh.discretisation.near_field == "matching";
+  const bool matching = mesh.discretisation.near_field == NearField::matching;
   const double depth = mesh.discretisation.matching_depth;
-  if (!matching && mesh.discretisation.near_field != "subtraction")
-    fail(Failure::input, "near_field = \"", mesh.discretisation.near_field,
-         "\" is neither \"subtraction\" nor \"matching\"");
   if (!(material.youngs_modulus > 0) || !(material.density > 0) || !(material.poisson_ratio > -1) ||
       !(material.poisson_ratio < 0.5))
     fail(Failure::input, "youngs_modulus_GPa = ", material.youngs_modulus * 1e-9,

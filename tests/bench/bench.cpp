@@ -405,7 +405,7 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
 // Figure 5 of P2000 on one core, reading and writing apart.
 void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
                    const whine::StaticArtifact& statics, double mean_stiffness, whine::SweepSlice slice,
-                   double eta, const char* method) {
+                   double eta, SteadyState method) {
   using namespace whine;
   slice.damping.rayleigh_stiffness = eta;
   slice.time.steady_state = method;
@@ -420,8 +420,8 @@ void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact&
       imbalance = std::max(imbalance, result.energy_imbalance.maxCoeff());
     }
   });
-  std::printf("  %-6s %9.2g  %-11s %7.2f %8ld  %.0e\n", slice.fidelity.contact.c_str(), eta, method, seconds,
-              periods, imbalance);
+  std::printf("  %-6s %9.2g  %-11s %7.2f %8ld  %.0e\n", name_of(slice.fidelity.contact).c_str(), eta,
+              name_of(method).c_str(), seconds, periods, imbalance);
 }
 
 void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven, whine::StaticSlice slice,
@@ -443,17 +443,17 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
               "ledger", "over", "RMS %", "flops", "kB", "Gflop/s", "GB/s", "limit", "mallocs",
               "its contact problem as a matrix, warm: ns, LEMKE's time over it");
   std::vector<StaticArtifact> at_torque, at_reference;
-  for (const char* contact : {"strips", "line"}) {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     slice.fidelity.contact = sweep_slice.fidelity.contact = contact;
     at_torque.push_back(static_transmission(driver, driven, slice, torque));
     at_reference.push_back(static_transmission(driver, driven, slice, sweep_slice.reference_torque));
     const GearMeshModel model(driver, driven, slice.mesh);
     SweepSlice finer = sweep_slice;
-    finer.fidelity.integrator = "newmark";
+    finer.fidelity.integrator = Integrator::newmark;
     finer.time.steps_per_period = 1024;
     RollingRig rig(model, at_torque.back(), sweep_slice), reference(model, at_torque.back(), finer);
     for (double frequency : {1350.0, 2400.0, 3300.0})
-      rolling_steps(rig, reference, frequency, slice.fidelity.contact == "strips", peak);
+      rolling_steps(rig, reference, frequency, slice.fidelity.contact == ContactModel::strips, peak);
   }
   std::printf(
       "Sweeps up and down on one core, %g to %g Hz in steps of %g Hz; CPU without reading and writing\n",
@@ -461,8 +461,8 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
   std::printf("  %-6s %9s  %-11s %7s %8s  %s\n", "", "Rayleigh s", "", "CPU s", "periods", "ledger");
   for (size_t c = 0; c < at_torque.size(); ++c)
     for (double eta : {sweep_slice.damping.rayleigh_stiffness, 5.5e-6})
-      for (const char* method : {"extrapolate", "march"}) {
-        sweep_slice.fidelity.contact = c == 0 ? "strips" : "line";
+      for (const auto method : {SteadyState::extrapolate, SteadyState::march}) {
+        sweep_slice.fidelity.contact = c == 0 ? ContactModel::strips : ContactModel::line;
         rolling_sweep(driver, driven, at_torque[c], at_reference[c].mean_stiffness, sweep_slice, eta, method);
       }
 }

@@ -63,7 +63,10 @@ struct Setting {
   int strips = 0, modes = 0, flank_points = 0;
   double element = 0;  // m
   double periodicity = 0;
-  std::string steady_state, integrator, body, contact;
+  SteadyState steady_state;
+  Integrator integrator;
+  BodyModel body;
+  ContactModel contact;
 };
 
 struct Answer {
@@ -335,7 +338,7 @@ std::vector<Axis> axes(const Setting& usual) {
     axis.against = text(finest, " (", column, ")");
     all.push_back(axis);
   };
-  const auto of_steps = [](const char* integrator) {
+  const auto of_steps = [](Integrator integrator) {
     return [integrator](Setting& s, double n) {
       s.steps = static_cast<int>(n);
       s.sample_rate = 1;
@@ -343,11 +346,11 @@ std::vector<Axis> axes(const Setting& usual) {
     };
   };
   // Each integrator against the other.
-  vary("steps, exact", "steps per period", {32, 64, 128, 256, 512}, 1024, of_steps("exact"));
-  of_steps("newmark")(all.back().reference, 1024);
+  vary("steps, exact", "steps per period", {32, 64, 128, 256, 512}, 1024, of_steps(Integrator::exact));
+  of_steps(Integrator::newmark)(all.back().reference, 1024);
   all.back().against += ", Newmark";
-  vary("steps, Newmark", "steps per period", {32, 64, 128, 256, 512}, 1024, of_steps("newmark"));
-  of_steps("exact")(all.back().reference, 1024);
+  vary("steps, Newmark", "steps per period", {32, 64, 128, 256, 512}, 1024, of_steps(Integrator::newmark));
+  of_steps(Integrator::exact)(all.back().reference, 1024);
   all.back().against += ", exact";
   vary("strips", "strips", {4, 6, 8, 10, 15, 30}, 60,
        [](Setting& s, double n) { s.strips = static_cast<int>(n); });
@@ -362,12 +365,12 @@ std::vector<Axis> axes(const Setting& usual) {
   vary("periodicity", "change of the state per period", {1e-4, 1e-5, 1e-6, 1e-7}, 1e-9,
        [](Setting& s, double change) { s.periodicity = change; });
   // Not "rigid": nothing but the bearings would damp it, and it has no steady motion at most of these speeds.
-  constexpr const char* kRungs[] = {"quasi-static", "lagged", "modal"};
+  constexpr BodyModel kRungs[] = {BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal};
   vary("body", "0 quasi-static, 1 lagged", {0, 1}, 2,
        [&](Setting& s, double rung) { s.body = kRungs[static_cast<int>(rung)]; });
   all.back().against = "modal";
   vary("contact", "0 line", {0}, 1,
-       [](Setting& s, double rung) { s.contact = rung == 0 ? "line" : "strips"; });
+       [](Setting& s, double rung) { s.contact = rung == 0 ? ContactModel::line : ContactModel::strips; });
   all.back().against = "strips";
   return all;
 }
@@ -463,7 +466,7 @@ void body(int argc, char** argv) {
   Setting fine = usual, coarser = usual;
   fine.sample_rate = coarser.sample_rate = 1;
   fine.steps = 512, coarser.steps = 256;
-  fine.integrator = "newmark", coarser.integrator = "exact";
+  fine.integrator = Integrator::newmark, coarser.integrator = Integrator::exact;
   fine.strips = 20, coarser.strips = 15;
   fine.modes = 121, coarser.modes = 91;
   fine.flank_points = 36, coarser.flank_points = 30;
