@@ -12,8 +12,7 @@ template <class Choice>
 inline constexpr const char* kWordsOf = nullptr;
 
 template <class Choice>
-concept WordedChoice = std::is_enum_v<Choice> && kWordsOf<Choice>
-!= nullptr;
+concept WordedChoice = std::is_enum_v<Choice> && bool(kWordsOf<Choice>);
 
 // The word at a place in a list of words, from 0; empty behind the last.
 std::string word_at(const char* words, int place);
