@@ -49,7 +49,7 @@ void body(int argc, char** argv) {
   whine::tell("gear-reduce: ", result.eigenfrequency.size(), " modes from ", result.eigenfrequency.minCoeff(),
               " Hz, first torsional ", result.eigenfrequency[torsional], " Hz, body inertia ", result.inertia,
               " kg m2, near field by ", slice.discretisation.near_field,
-              slice.discretisation.near_field == NearField::matching
+              slice.discretisation.near_field == whine::NearField::matching
                   ? whine::text(" at ", slice.discretisation.matching_depth * 1e3, " mm")
                   : "",
               ", asymmetry of the flexibility ", result.asymmetry, " -> ", output);

@@ -127,8 +127,8 @@ void body(int argc, char** argv) {
   const bool cracked = driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
   const bool modified =
       driver.modification != FlankModification{} || driven.modification != FlankModification{};
-  const bool rings_down = scene.fidelity.contact == ContactModel::strips &&
-                          scene.fidelity.body != BodyModel::full && !differ && !cracked;
+  const bool rings_down = scene.fidelity.contact == whine::ContactModel::strips &&
+                          scene.fidelity.body != whine::BodyModel::full && !differ && !cracked;
   out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";
   out << name("TEETH") << " := "
       << (differ    ? "differ"

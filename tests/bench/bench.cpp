@@ -405,7 +405,7 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
 // Figure 5 of P2000 on one core, reading and writing apart.
 void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
                    const whine::StaticArtifact& statics, double mean_stiffness, whine::SweepSlice slice,
-                   double eta, SteadyState method) {
+                   double eta, whine::SteadyState method) {
   using namespace whine;
   slice.damping.rayleigh_stiffness = eta;
   slice.time.steady_state = method;
