@@ -16,7 +16,7 @@ namespace whine {
 namespace {
 
 // Raise a number whenever a dataset of that schema changes its name, shape or meaning.
-constexpr int kMeshVersion = 1, kBodyVersion = 3, kStaticVersion = 4, kErrorBudgetVersion = 2,
+constexpr int kMeshVersion = 1, kBodyVersion = 4, kStaticVersion = 4, kErrorBudgetVersion = 2,
               kImpactVersion = 1, kSweepVersion = 4, kResponseVersion = 3, kJumpMapVersion = 1,
               kBranchVersion = 1, kHarrisMapVersion = 1, kVariantVersion = 2, kStudyVersion = 2,
               kLoadedVersion = 1;
@@ -375,6 +375,22 @@ void write(const std::string& path, const BodyArtifact& a, const Provenance& pro
                   d == 0 ? ", less the half-plane relative to reference_depth" : ""),
              "flank_position flank_position", ""});
   }
+  want_rows("back_flank_mode", a.back_flank_mode.rows(), points);
+  want_rows("back_flank_mode (columns)", a.back_flank_mode.cols(), modes);
+  want_rows("far_compliance", a.far_compliance.rows(), (a.design.teeth / 2 - a.offsets) * points);
+  want_rows("back_compliance", a.back_compliance.rows(), a.design.teeth * points);
+  out.put("/back_flank_mode", a.back_flank_mode,
+          {"kg^-0.5", "flank_mode of the other flank of tooth 0", "flank_position mode", ""});
+  if (a.far_compliance.rows() > 0)
+    out.put("/compliance/far", a.far_compliance,
+            {"m N-1", "as offset_<d>, of the teeth from `offsets` + 1 to half of all, one below the other",
+             "tooth_flank_position flank_position", ""});
+  out.put(
+      "/compliance/back", a.back_compliance,
+      {"m N-1",
+       "inward normal displacement of the other flank of all teeth counter-clockwise from the loaded one on, "
+       "per unit normal force",
+       "tooth_flank_position flank_position", ""});
   if (a.crack_compliance.size() > 0) {
     want_rows("crack_compliance", a.crack_compliance.rows(), (2 * a.offsets + 1) * points);
     want_rows("crack_compliance (columns)", a.crack_compliance.cols(), (2 * a.offsets + 1) * points);
@@ -420,6 +436,13 @@ BodyArtifact read_body(const std::string& path) {
   a.offsets = in.whole("/compliance/offsets");
   for (int d = 0; d <= a.offsets; ++d)
     a.compliance.push_back(in.matrix(text("/compliance/offset_", d), points, points));
+  const int teeth = a.design.teeth;
+  if (2 * a.offsets > teeth)
+    in.file().refuse(text("holds tables of ", a.offsets, " tooth offsets of a gear of ", teeth, " teeth"));
+  a.back_flank_mode = in.matrix("/back_flank_mode", points, modes);
+  if (teeth / 2 > a.offsets)
+    a.far_compliance = in.matrix("/compliance/far", (teeth / 2 - a.offsets) * points, points);
+  a.back_compliance = in.matrix("/compliance/back", teeth * points, points);
   if (a.design.crack.depth > 0)
     a.crack_compliance =
         in.matrix("/compliance/crack", (2 * a.offsets + 1) * points, (2 * a.offsets + 1) * points);

@@ -1,5 +1,6 @@
 #include "motion/rolling_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include "base/error.h"
 #include "base/refusal.h"
 #include "contact/lanes.h"
+#include "gear/train.h"
 
 namespace whine {
 
@@ -26,6 +28,8 @@ const BodyArtifact& finite(const BodyArtifact& body) {
   require(body.flank_mode, "flank_mode");
   require(body.eigenfrequency, "eigenfrequency");
   require(body.inertia_coupling, "inertia_coupling");
+  require(body.far_compliance, "compliance between teeth far apart");
+  require(body.back_compliance, "compliance of the back flanks");
   require(body.crack_compliance, "compliance of its crack");
   for (size_t d = 0; d < body.compliance.size(); ++d)
     require(body.compliance[d], text("compliance at tooth offset ", d));
@@ -65,6 +69,19 @@ MatrixXd ElasticGear::compliance(int offset, double depth) const {
   const double from = own_plane_ ? contact_depth() : body_.reference_depth;
   if (own_plane_) r.array() += body_half_plane_.coefficient() * std::log(body_.reference_depth / from);
   r.array() += half_plane_.coefficient() * std::log(from / depth);
+  return r;
+}
+
+MatrixXd ElasticGear::compliance(const ToothFlank& read, const ToothFlank& loaded, double depth) const {
+  const int teeth = body_.design.teeth, n = table_size();
+  // Seen in a mirror, a force on a trailing flank is one on a leading flank, and offsets count the other way.
+  const int turn = loaded.side == FlankSide::leading ? 1 : -1;
+  const int ahead = ((turn * (read.tooth - loaded.tooth)) % teeth + teeth) % teeth;
+  if (read.side != loaded.side) return body_.back_compliance.middleRows(ahead * n, n);
+  const int offset = 2 * ahead > teeth ? ahead - teeth : ahead, distance = std::abs(offset);
+  if (distance <= body_.offsets) return compliance(offset, depth);
+  MatrixXd r = body_.far_compliance.middleRows((distance - body_.offsets - 1) * n, n);
+  if (offset < 0) r.transposeInPlace();
   return r;
 }
 
@@ -110,12 +127,24 @@ VectorXd ElasticGear::mode_on_tooth(int column, int tooth) const {
 }
 
 GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh)
-    : kinematics(driver.design, driven.design, mesh.centre_distance),
-      gear{ElasticGear(driver, mesh.contact_plane), ElasticGear(driven, mesh.contact_plane)},
+    : GearMeshModel({std::make_shared<const ElasticGear>(driver, mesh.contact_plane),
+                     std::make_shared<const ElasticGear>(driven, mesh.contact_plane)},
+                    mesh, pair_system(mesh, driver.design, driven.design).meshes[0]) {}
+
+GearMeshModel::GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, const System::Mesh& placed)
+    : kinematics(gears[0].body().design, gears[1].body().design, mesh.centre_distance),
+      gear(gears),
       corner(mesh.corner),
       deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0]),
                 FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1])},
-      bearing(mesh.bearing) {}
+      bearing(mesh.bearing),
+      layout(placed) {}
+
+Vec2 GearMeshModel::outward_in_system(int g, const PairContact& contact) const {
+  Vec2 own = outward(g, contact);
+  if (layout.side[0].sense < 0) own.x() = -own.x();
+  return Eigen::Rotation2Dd(layout.direction - 0.5 * std::numbers::pi) * own;
+}
 
 VectorXd MeshPosition::to_strips(const Eigen::Ref<const VectorXd>& at_nodes) const {
   if (!law.empty()) return at_nodes;
