@@ -139,6 +139,8 @@ struct GearMeshSpec {
   const std::string& gear(int g) const { return g == 0 ? driver : driven; }
 };
 
+inline constexpr int kSides = 2;  // of a mesh: first the one that pushes
+
 // A flank of a tooth: the one that leads in counter-clockwise rotation, and its mirror image.
 enum class FlankSide { leading, trailing };
 

@@ -106,9 +106,9 @@ void as_drawn(ImpactSlice& slice, const StaticArtifact& s) {
 
 void require_inertia(const GearMeshSpec& mesh, const std::array<const BodyArtifact*, 2>& bodies,
                      const std::array<double, 2>& inertia) {
-  for (size_t g = 0; g < 2; ++g)
+  for (size_t g = 0; g < kSides; ++g)
     if (!(inertia[g] > bodies[g]->inertia))
-      refuse(Failure::input, "[gear.", g ? mesh.driven : mesh.driver,
+      refuse(Failure::input, "[gear.", mesh.gear(static_cast<int>(g)),
              "] of the scene: ", too_light(inertia[g], shown_number(bodies[g]->inertia)));
 }
 

@@ -201,7 +201,7 @@ bool MeshPosition::reaches_window_end(const Eigen::Ref<const VectorXd>& p) const
 
 int hunting_periods(const GearMeshModel& model) {
   int periods = 1;
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     periods = std::lcm(periods, model.deviation[g].repeats());
     if (model.gear[g].cracked()) periods = std::lcm(periods, model.kinematics.gear(g).design().teeth);
   }
@@ -293,14 +293,14 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Conta
   for (const PairStrips& s : position.pairs)
     position.first_strip.push_back(position.first_strip.back() + s.size());
   position.gap = flank_gaps(model, position, period);
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     position.strip_lever[g].resize(position.strips());
     position.node_lever[g].resize(position.nodes());
     position.table_weights[g].resize(position.nodes(), model.gear[g].table_size());
   }
   for (size_t j = 0; j < position.pairs.size(); ++j) {
     const PairStrips& s = position.pairs[j];
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       position.strip_lever[g].segment(position.first_strip[j], s.size()).setConstant(s.contact.lever[g]);
       position.node_lever[g].segment<kWindowNodes>(j * kWindowNodes).setConstant(s.contact.lever[g]);
       for (int k = 0; k < kWindowNodes; ++k)
@@ -358,7 +358,7 @@ LineGap line_gap(const GearPair& gears, const PairContact& contact, const PairDe
       const double angle = (k + 0.5) * std::numbers::pi / kNodes, cosine = std::cos(angle);
       const double x = middle + half_width * cosine;
       std::array<double, 2> roll;
-      for (int g = 0; g < 2; ++g) {  // along the flank's arc: x to 1e-4 of itself
+      for (int g = 0; g < kSides; ++g) {  // along the flank's arc: x to 1e-4 of itself
         const double rb = gears.gear(g).base_radius(), sign = g == 0 ? 1 : -1;
         roll[g] = std::sqrt(std::max(0.0, contact.roll[g] * contact.roll[g] + 2 * sign * x / rb));
       }
@@ -413,7 +413,7 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
   const double coefficient =
       model.gear[0].half_plane().coefficient() + model.gear[1].half_plane().coefficient();
   position.first_strip = {0};
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     position.strip_lever[g].resize(n);
     position.table_weights[g].resize(n, model.gear[g].table_size());
   }
@@ -430,7 +430,7 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     line.gap = VectorXd::Constant(1, flanks.gap);
     if (model.common_flanks().differs()) {
       const FlankGap touch = gears.gap_at(contact, flanks.touch);
-      for (int g = 0; g < 2; ++g) line.gap_roll[g] = VectorXd::Constant(1, touch.roll[g]);
+      for (int g = 0; g < kSides; ++g) line.gap_roll[g] = VectorXd::Constant(1, touch.roll[g]);
     }
     position.pairs.push_back(line);
     position.first_strip.push_back(j + 1);
@@ -442,7 +442,7 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     const FlankGap middle =
         gears.gap_at(contact, law.at_edge(pair_force) ? edge + (near == 0 ? -1 : 1) * law.centroid(pair_force)
                                                       : flanks.touch);
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       position.strip_lever[g][j] = contact.lever[g];
       position.table_weights[g].row(j) = model.gear[g].table().weights(middle.roll[g]);
     }
@@ -518,7 +518,7 @@ MatrixXd hub_translation(const GearMeshModel& model, const MeshPosition& positio
 }
 
 void add_bearings(const GearMeshModel& model, const MeshPosition& position, MatrixXd& a) {
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     if (!model.bearing[g].elastic()) continue;
     const MatrixXd rows = hub_translation(model, position, g);
     a += rows * rows.transpose() / model.bearing[g].stiffness;
@@ -533,7 +533,7 @@ Vec2 bearing_force(const GearMeshModel& model, const MeshPosition& position, int
 MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period) {
   const auto pairs = static_cast<Eigen::Index>(position.pairs.size());
   MatrixXd c;
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     if (!model.gear[g].cracked()) continue;
     const auto tooth = [&](Eigen::Index pair) {
       return GearMeshModel::tooth(g, position.pairs[static_cast<size_t>(pair)].pair - period);

@@ -47,7 +47,7 @@ SystemModel::SystemModel(const System& of, const std::vector<BodyArtifact>& bodi
   for (size_t m = 0; m < specs.size(); ++m) {
     const System::Mesh& placed = layout.meshes[m];
     GearMeshSpec spec = specs[m];
-    for (size_t s = 0; s < 2; ++s) {
+    for (size_t s = 0; s < kSides; ++s) {
       const int b = placed.side[s].body;
       spec.bearing[s] = layout.bodies[static_cast<size_t>(b)].bearing;
       if (specs.size() > 1 && body[static_cast<size_t>(b)]->cracked())
@@ -62,7 +62,7 @@ SystemModel::SystemModel(const System& of, const std::vector<BodyArtifact>& bodi
 
 double SystemModel::base_radius(int b) const {
   for (const GearMeshModel& of : mesh)
-    for (int s = 0; s < 2; ++s)
+    for (int s = 0; s < kSides; ++s)
       if (of.layout.side[static_cast<size_t>(s)].body == b) return of.kinematics.gear(s).base_radius();
   fail(Failure::input, "[gear.", layout.bodies[static_cast<size_t>(b)].name, "] is in no mesh");
 }
@@ -97,7 +97,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
     const GearMeshModel& model = system.mesh[m];
     const int first = out.first_strip[m];
     out.gap(out.strips_of(m)) = position.gap;
-    for (int s = 0; s < 2; ++s) {
+    for (int s = 0; s < kSides; ++s) {
       const int b = model.layout.side[static_cast<size_t>(s)].body;
       map.rotation(out.strips_of(m), b) = sign_of(s) * (position.strip_lever[static_cast<size_t>(s)] /
                                                         model.kinematics.gear(s).base_radius());
@@ -109,7 +109,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       ContactSegment segment;
       segment.mesh = static_cast<int>(m);
       segment.pair = strips.pair;
-      for (size_t s = 0; s < 2; ++s) segment.tooth[s] = model.layout.side[s].tooth(strips.pair - at.period);
+      for (size_t s = 0; s < kSides; ++s) segment.tooth[s] = model.layout.side[s].tooth(strips.pair - at.period);
       segment.flank = model.layout.side[0].flank;
       segment.phase = at.phase + strips.pair;
       segment.gap = strips.contact.gap;
@@ -119,7 +119,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
                                model.kinematics.gear(1).design().face_width);
       segment.first_strip = first + position.first_strip[j];
       segment.strips = position.first_strip[j + 1] - position.first_strip[j];
-      for (int s = 0; s < 2; ++s) {
+      for (int s = 0; s < kSides; ++s) {
         MatrixXd& rows = map.translation[static_cast<size_t>(model.layout.side[static_cast<size_t>(s)].body)];
         if (rows.size() > 0)
           rows.middleRows(segment.first_strip, segment.strips).rowwise() =
@@ -403,7 +403,7 @@ double mesh_deflection(const SystemModel& system, const SystemPosition& position
                        int m) {
   const GearMeshModel& mesh = system.mesh[static_cast<size_t>(m)];
   double out = at.transmission_error(system, m);
-  for (int s = 0; s < 2; ++s) {
+  for (int s = 0; s < kSides; ++s) {
     const int b = mesh.layout.side[static_cast<size_t>(s)].body;
     const Bearing& bearing = system.layout.bodies[static_cast<size_t>(b)].bearing;
     if (bearing.elastic())
