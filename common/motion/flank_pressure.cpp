@@ -27,8 +27,7 @@ std::array<std::vector<Ridge>, 2> ridges_of(const GearPair& gears, const GearMes
   std::array<std::vector<Ridge>, 2> out;
   for (int g = 0; g < kSides; ++g)
     for (const FlankRidge& ridge : flank_ridges(gears.gear(g), mesh.modification[g]))
-      out[g].push_back({ridge.roll, ridge.bend,
-                        text("the ", ridge.cause, " of [gear.", mesh.gear(g), "]")});
+      out[g].push_back({ridge.roll, ridge.bend, text("the ", ridge.cause, " of [gear.", mesh.gear(g), "]")});
   return out;
 }
 

@@ -109,7 +109,8 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       ContactSegment segment;
       segment.mesh = static_cast<int>(m);
       segment.pair = strips.pair;
-      for (size_t s = 0; s < kSides; ++s) segment.tooth[s] = model.layout.side[s].tooth(strips.pair - at.period);
+      for (size_t s = 0; s < kSides; ++s)
+        segment.tooth[s] = model.layout.side[s].tooth(strips.pair - at.period);
       segment.flank = model.layout.side[0].flank;
       segment.phase = at.phase + strips.pair;
       segment.gap = strips.contact.gap;
