@@ -216,6 +216,9 @@ BodyArtifact small_body() {
   a.flank_mode = odd_matrix(4, 3, 2);
   a.offsets = 1;
   a.compliance = {odd_matrix(4, 4, 1e-9), odd_matrix(4, 4, 1e-10)};
+  a.far_compliance = odd_matrix(4 * (25 - 1), 4, 1e-11);
+  a.back_compliance = odd_matrix(4 * 50, 4, 1e-10);
+  a.back_flank_mode = odd_matrix(4, 3, 3);
   a.reference_depth = 0.001 / 3;
   a.asymmetry = 1e-4 / 3;
   a.least_eigenvalue = 1e-13 / 3;
@@ -531,6 +534,9 @@ TEST_CASE("body.h5 gives back every value bit by bit") {
   REQUIRE(b.compliance.size() == 2);
   CHECK(a.compliance[0] == b.compliance[0]);
   CHECK(a.compliance[1] == b.compliance[1]);
+  CHECK(a.far_compliance == b.far_compliance);
+  CHECK(a.back_compliance == b.back_compliance);
+  CHECK(a.back_flank_mode == b.back_flank_mode);
   CHECK(a.reference_depth == b.reference_depth);
   CHECK(a.asymmetry == b.asymmetry);
   CHECK(a.least_eigenvalue == b.least_eigenvalue);

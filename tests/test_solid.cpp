@@ -734,19 +734,47 @@ TEST_CASE(
       if (const int u = unknown[2 * whole.node(0, i / 2) + i % 2]; u >= 0)
         force.row(u) += loads.force.row(i).cast<Complex>();
     const Eigen::MatrixXd solution = factor.solve(force).real();
-    auto reading = [&](int tooth) {  // inward on tooth `tooth`, counted counter-clockwise
+    auto displacement = [&](const Eigen::MatrixXd& solution, int tooth) {  // (2 node, load) turned back
       const Eigen::Matrix2d back = Eigen::Rotation2D<double>(-2 * kPi * tooth / teeth).toRotationMatrix();
       Eigen::MatrixXd own = Eigen::MatrixXd::Zero(loads.force.rows(), xi.size());
       for (int i = 0; i < mesh.node_position.rows(); ++i) {
         const int u = unknown[2 * whole.node((tooth + teeth) % teeth, i)];
         if (u >= 0) own.middleRows(2 * i, 2) = back * solution.middleRows(u, 2);
       }
-      return Eigen::MatrixXd(-((tooth == 0 ? own_outward : outward) * own));
+      return own;
     };
-    for (int d = 0; d <= 3; ++d) {
+    auto reading = [&](int tooth) {  // inward on tooth `tooth`, counted counter-clockwise
+      return Eigen::MatrixXd(-((tooth == 0 ? own_outward : outward) * displacement(solution, tooth)));
+    };
+    const Eigen::Index points = xi.size();
+    for (int d = 0; d <= teeth / 2; ++d) {
       Eigen::MatrixXd expected = 0.5 * (reading(d) + reading(-d).transpose());
       if (d == 0) expected += 0.5 * (loads.subtracted + loads.subtracted.transpose());
-      CHECK((body.compliance[d] - expected).norm() < 1e-9 * expected.norm());
+      const Eigen::MatrixXd table =
+          d <= 3 ? body.compliance[d] : body.far_compliance.middleRows((d - 4) * points, points);
+      CHECK((table - expected).norm() < 1e-9 * expected.norm());
+    }
+
+    // The other flank: the mirror image of the load presses it, the driving flanks of all teeth are read. X_-d is what
+    // a force on the driving flank does to it.
+    Eigen::MatrixXcd back_force = Eigen::MatrixXcd::Zero(size, points);
+    for (int i = 0; i < mesh.node_position.rows(); ++i) {
+      Eigen::Index image = 0;
+      const Eigen::RowVector2d mirrored(-mesh.node_position(i, 0), mesh.node_position(i, 1));
+      REQUIRE((mesh.node_position.rowwise() - mirrored).rowwise().norm().minCoeff(&image) < 1e-12);
+      for (int c = 0; c < 2; ++c)
+        if (const int u = unknown[2 * whole.node(0, static_cast<int>(image)) + c]; u >= 0)
+          back_force.row(u) += (c == 0 ? -1 : 1) * loads.force.row(2 * i + c).cast<Complex>();
+    }
+    const Eigen::MatrixXd back_solution = factor.solve(back_force).real();
+    for (int d = 0; d < teeth; ++d) {
+      Eigen::MatrixXd x = -(outward * displacement(back_solution, -d));
+      if (d == 0) x += loads.across;
+      // Reciprocity is what elements and table leave of it.
+      CHECK((x - x.transpose()).norm() < 2e-2 * x.norm());
+      const Eigen::MatrixXd expected = 0.5 * (x + x.transpose());
+      CHECK((body.back_compliance.middleRows(d * points, points) - expected).norm() < 1e-9 * expected.norm());
+      CHECK(expected.norm() > 1e-3 * body.back_compliance.topRows(points).norm());
     }
 
     // Each stored mode, spread over all teeth, is an M-normal mode of the full gear, doublets with both
@@ -770,6 +798,12 @@ TEST_CASE(
       Eigen::VectorXd own(loads.force.rows());
       for (int i = 0; i < own.size(); ++i) own[i] = field(whole.node(0, i / 2), i % 2);
       CHECK((flank + outward * own).norm() < 1e-12 * (1 + flank.norm()));
+      const Eigen::VectorXd back = body.back_flank_mode.col(k);
+      CHECK((back - FlankReader(mesh).back_outward(xi) * own).norm() < 1e-12 * (1 + back.norm()));
+      // A single mode is its own mirror image or the opposite of it; doublets are images of each other's combinations.
+      if (body.nodal_diameter[k] == 0 || 2 * body.nodal_diameter[k] == teeth)
+        CHECK(std::min((back - body.flank_mode.col(k)).norm(), (back + body.flank_mode.col(k)).norm()) <
+              1e-6 * back.norm());
     }
     CHECK(
         (shapes.adjoint() * mass * shapes - Eigen::MatrixXcd::Identity(shapes.cols(), shapes.cols())).norm() <

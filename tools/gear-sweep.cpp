@@ -83,7 +83,7 @@ void body(int argc, char** argv) {
   const whine::StaticArtifact at_torque = whine::read_static(statics),
                               at_reference = whine::read_static(reference);
   const std::vector<std::string> paths = files.of(at_torque.mesh);
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < whine::kSides; ++g)
     for (const std::string& file : {statics, reference})
       whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
   whine::require_contact(at_torque, slice.fidelity, statics);

@@ -58,10 +58,10 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
                            s.high_is_edge ? 1 - (high - centre) / (range.half_window + offset) : 0, n);
   s.gap.resize(n);
   const bool differs = deviation.differs();
-  for (int g = 0; differs && g < 2; ++g) s.gap_roll[g].resize(2 * n);
+  for (int g = 0; differs && g < kSides; ++g) s.gap_roll[g].resize(2 * n);
   const auto gap = [&](double x, int place) {
     const FlankGap exact = gears.gap_at(contact, x);
-    for (int g = 0; differs && g < 2; ++g) s.gap_roll[g][place] = exact.roll[g];
+    for (int g = 0; differs && g < kSides; ++g) s.gap_roll[g][place] = exact.roll[g];
     return exact.gap;
   };
   for (int i = 0; i < n; ++i) {
@@ -79,7 +79,7 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
     node[k] = 0.5 * (low + high) - 0.5 * (high - low) * std::cos(angle);
     weight[k] = (k % 2 ? -1 : 1) * std::sin(angle);
     const FlankGap at = gears.gap_at(contact, node[k]);
-    for (int g = 0; g < 2; ++g) s.node_roll[g][k] = at.roll[g];
+    for (int g = 0; g < kSides; ++g) s.node_roll[g][k] = at.roll[g];
   }
   s.interpolation.resize(n, kWindowNodes);
   for (int i = 0; i < n; ++i) {

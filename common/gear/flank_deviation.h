@@ -99,7 +99,7 @@ struct PairDeviation {
   // m, of both flanks at their roll angles (rad).
   double at(const std::array<double, 2>& roll) const {
     double sum = 0;
-    for (int g = 0; g < 2; ++g)
+    for (int g = 0; g < kSides; ++g)
       if (gear[g] && !gear[g]->none(tooth[g])) sum += gear[g]->at(roll[g], tooth[g]);
     return sum;
   }

@@ -61,7 +61,7 @@ GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double ce
   if (backlash_ < -1e-6)
     fail(Failure::input, "the gears jam: backlash on the line of action is ", shown_number(backlash_ * 1e6),
          " micrometres (limit -1); raise centre_distance_mm or tooth_thinning_mm, or lower profile_shift");
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     const double clearance = centre_distance - gear_[g].tip_radius() - gear_[1 - g].root_radius();
     if (clearance < 0)
       fail(Failure::input, "the gears jam: the tip of the ", kGearName[g], " stands ",
@@ -73,7 +73,7 @@ GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double ce
          ", below 1: teeth would leave before the next ones touch; raise addendum or lower "
          "centre_distance_mm");
   const double lowest[2] = {tangent + path_start_ / rb1, tangent - path_end_ / rb2};
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     if (lowest[g] < gear_[g].form_roll_angle())
       fail(Failure::input, "the gears jam: the tip of the ", kGearName[1 - g], " reaches roll angle ",
            shown_number(lowest[g] * 180 / kPi), " deg of the ", kGearName[g],
@@ -174,7 +174,7 @@ double GearPair::roll_at(int g, const PairContact& c, double x) const {
 FlankGap GearPair::gap_at(const PairContact& c, double x) const {
   FlankGap result;
   double height[2];
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     result.roll[g] = roll_at(g, c, x);
     height[g] = rotated(flank_in_nominal_frame(g, c.nominal[g], result.roll[g]) - c.origin, c.tilt).y();
   }

@@ -13,7 +13,7 @@ std::array<PathPoint, 5> path_points(const GearPair& pair) {
                                   {'D', first + pitch, {}},
                                   {'E', last, {}}};
   for (PathPoint& p : points)
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       const double base = pair.gear(g).base_radius(), along = base * tangent + (g == 0 ? p.path : -p.path);
       p.diameter[static_cast<size_t>(g)] = 2 * std::hypot(base, along);
     }

@@ -9,7 +9,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"body", 3};
+constexpr Schema kSchema{"body", 4};
 
 void describe_compliance(Codec& c, BodyArtifact& a) {
   const std::string at = "/compliance/";
@@ -27,6 +27,24 @@ void describe_compliance(Codec& c, BodyArtifact& a) {
                "flank_position flank_position", kFlexibility},
               &a.compliance[d]);
   }
+  const Eigen::Index points = a.flank_position.size();
+  const int teeth = a.design.teeth, half = teeth / 2;
+  if (c.in() && 2 * a.offsets > teeth)
+    c.in()->file().refuse(
+        text("holds tables of ", a.offsets, " tooth offsets of a gear of ", teeth, " teeth"));
+  c.axis("far_tooth_flank_position", (half - a.offsets) * points);
+  if (c.lists() || half > a.offsets)
+    c.dataset({at + "far", "m N-1",
+               "as offset_<d>, of the teeth from `offsets` + 1 to half of all, one below the other",
+               "far_tooth_flank_position flank_position", kFlexibility},
+              &a.far_compliance);
+  c.axis("back_tooth_flank_position", teeth * points);
+  c.dataset({at + "back", "m N-1",
+             "inward normal displacement of the other flank of all teeth counter-clockwise from the loaded "
+             "one on, per unit "
+             "normal force",
+             "back_tooth_flank_position flank_position", kFlexibility},
+            &a.back_compliance);
   c.axis("tooth_flank_position", (2 * a.offsets + 1) * a.flank_position.size());
   if (c.lists() || (c.in() ? a.design.crack.depth > 0 : a.crack_compliance.size() > 0))
     c.dataset(
@@ -80,6 +98,9 @@ void describe(Codec& c, BodyArtifact& a) {
              "outward normal displacement of the mass-normal modes on the flank of tooth 0",
              "flank_position mode", kMode},
             &a.flank_mode);
+  c.dataset({"/back_flank_mode", "kg^-0.5", "flank_mode of the other flank of tooth 0", "flank_position mode",
+             kMode},
+            &a.back_flank_mode);
   describe_compliance(c, a);
   if (c.out() && a.vtk_point.rows() > 0)
     put_vtk(c.out()->file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}, false});

@@ -289,7 +289,7 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
   a.damping.rayleigh_stiffness = a.damping.bearing_ratio = 0;
   a.torque = statics.torque;
   // m = I1 I2 / (I1 r2^2 + I2 r1^2) with equal shares.
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     (g == 0 ? a.driver_inertia : a.driven_inertia) = 2 * o.mass * std::pow(pair.gear(g).base_radius(), 2);
   a.mean_stiffness = stiffness;
   a.natural_frequency = oscillator.mean_frequency();

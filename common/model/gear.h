@@ -9,6 +9,8 @@
 
 namespace whine {
 
+inline constexpr int kSides = 2;  // of a mesh: first the one that pushes
+
 // A slit from the root of one tooth into it; see gear/crack.h.
 struct Crack {
   int tooth = 0;                        // its number, counter-clockwise from tooth 0

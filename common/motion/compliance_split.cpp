@@ -24,7 +24,7 @@ ComplianceSplit compliance_split(const StaticArtifact& s) {
   ComplianceSplit out;
   out.whole = 1 / s.mean_stiffness;
   constexpr double kWider = 1.1;
-  for (size_t g = 0; g < 2; ++g) {
+  for (size_t g = 0; g < kSides; ++g) {
     const double bore = design[g]->bore_radius;
     out.body[g] = body_twist(*design[g], *material[g], bore);
     // A bore cannot grow beyond the root circle.

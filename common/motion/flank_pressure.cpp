@@ -25,10 +25,9 @@ struct Ridge {
 
 std::array<std::vector<Ridge>, 2> ridges_of(const GearPair& gears, const GearMeshSpec& mesh) {
   std::array<std::vector<Ridge>, 2> out;
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     for (const FlankRidge& ridge : flank_ridges(gears.gear(g), mesh.modification[g]))
-      out[g].push_back({ridge.roll, ridge.bend,
-                        text("the ", ridge.cause, " of [gear.", g ? mesh.driven : mesh.driver, "]")});
+      out[g].push_back({ridge.roll, ridge.bend, text("the ", ridge.cause, " of [gear.", mesh.gear(g), "]")});
   return out;
 }
 
@@ -36,7 +35,7 @@ std::array<std::vector<Ridge>, 2> ridges_of(const GearPair& gears, const GearMes
 const Ridge* ridge_within(const GearPair& gears, const PairContact& contact, double middle, double half_width,
                           const std::array<std::vector<Ridge>, 2>& ridges) {
   const Ridge* found = nullptr;
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     for (const Ridge& ridge : ridges[g]) {
       // m: along the flank's arc, in the sense of the tangential coordinate
       const double x = (g == 0 ? 0.5 : -0.5) * gears.gear(g).base_radius() *

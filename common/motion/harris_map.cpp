@@ -35,7 +35,7 @@ FlankModification with_tip(FlankModification m, double amount, double length, Re
 
 GearMeshSpec relieved_mesh(const HarrisMapArtifact& map, double relief, double length) {
   GearMeshSpec mesh = map.mesh;
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     if (map.relieved == "both" || map.relieved == (g == 0 ? "driver" : "driven"))
       mesh.modification[g] = with_tip(mesh.modification[g], relief, length, map.shape);
   return mesh;
@@ -257,7 +257,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
 
   for (Eigen::Index s = 0; s < starts; ++s) {
     std::array<FlankDeviation, 2> unit;
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       const ToothGeometry& gear = model.kinematics.gear(g);
       map.start_roll(s, g) = gear.tip_roll_angle() - map.length[s] / gear.base_radius();
       if (map.relieved == "both" || map.relieved == (g == 0 ? "driver" : "driven"))

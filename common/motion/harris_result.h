@@ -15,11 +15,11 @@ namespace whine {
 struct HarrisMapArtifact : MotionParameters {
   std::string relieved;  // "driver", "driven" or "both" gears
   ReliefShape shape = ReliefShape::linear;
-  Eigen::VectorXd torque;       // (torque) N m, ascending
-  Eigen::VectorXd relief;       // (relief) m, ascending
-  Eigen::VectorXd length;       // (start) m: length of roll from where the relief starts to the tip edge
-  MatrixRM start_roll;          // (start, gear) rad: the same as roll angles on driver and driven gear
-  double design_torque = 0;     // N m
+  Eigen::VectorXd torque;    // (torque) N m, ascending
+  Eigen::VectorXd relief;    // (relief) m, ascending
+  Eigen::VectorXd length;    // (start) m: length of roll from where the relief starts to the tip edge
+  MatrixRM start_roll;       // (start, gear) rad: the same as roll angles on driver and driven gear
+  double design_torque = 0;  // N m
   std::vector<MatrixRM> peak_to_peak;             // [start] (torque, relief) m
   std::array<std::vector<MatrixRM>, 3> harmonic;  // first three, amplitudes: [start] (torque, relief) m
   // (start) m: least peak to peak at the design torque, and the relief that has it, between those of the map

@@ -57,7 +57,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
           : static_transmission(driver, driven, statics, slice.reference_torque).mean_stiffness;
   const GearPair kinematics(driver.design, driven.design, statics.mesh.centre_distance);
   double inverse_mass = 0;  // kg-1
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     inverse_mass += std::pow(kinematics.gear(g).base_radius(), 2) /
                     (g == 0 ? slice.driver_inertia : slice.driven_inertia);
   const VectorXd speed =

@@ -102,7 +102,7 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
     const ContactZone& zone = *loaded[static_cast<size_t>(j)];
     out.pair[j] = zone.strips.pair;
     out.tooth_load[j] = zone.force.sum();
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       const int teeth = gears.gear(g).design().teeth;
       out.tooth(j, g) = (GearMeshModel::tooth(g, zone.strips.pair - period) % teeth + teeth) % teeth;
     }
@@ -115,7 +115,7 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
       const auto roll_at = [&](double x) { return gears.gap_at(zone.strips.contact, x).roll; };
       const auto middle = roll_at(zone.strips.middle(i)), low = roll_at(zone.strips.border[i]),
                  high = roll_at(zone.strips.border[i + 1]);
-      for (int g = 0; g < 2; ++g) {
+      for (int g = 0; g < kSides; ++g) {
         out.strip_roll(at, g) = middle[static_cast<size_t>(g)];
         border(at, 2 * g) = low[static_cast<size_t>(g)];
         border(at, 2 * g + 1) = high[static_cast<size_t>(g)];
@@ -128,7 +128,7 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
   GridPart grid;
   MatrixRM cell_gear, cell_tooth;  // (cell, 1)
   MatrixRM line_gear, line_tooth, line_pressure;
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     const ToothGeometry& tooth = gears.gear(g);
     const Material& material = body[g]->material;
     const int teeth = tooth.design().teeth;

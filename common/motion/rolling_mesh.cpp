@@ -1,5 +1,6 @@
 #include "motion/rolling_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include "base/error.h"
 #include "base/refusal.h"
 #include "contact/lanes.h"
+#include "gear/train.h"
 
 namespace whine {
 
@@ -26,6 +28,8 @@ const BodyArtifact& finite(const BodyArtifact& body) {
   require(body.flank_mode, "flank_mode");
   require(body.eigenfrequency, "eigenfrequency");
   require(body.inertia_coupling, "inertia_coupling");
+  require(body.far_compliance, "compliance between teeth far apart");
+  require(body.back_compliance, "compliance of the back flanks");
   require(body.crack_compliance, "compliance of its crack");
   for (size_t d = 0; d < body.compliance.size(); ++d)
     require(body.compliance[d], text("compliance at tooth offset ", d));
@@ -66,6 +70,19 @@ MatrixXd ElasticGear::compliance(int offset, double depth) const {
   const double from = own_plane_ ? contact_depth() : body_.reference_depth;
   if (own_plane_) r.array() += body_half_plane_.coefficient() * std::log(body_.reference_depth / from);
   r.array() += half_plane_.coefficient() * std::log(from / depth);
+  return r;
+}
+
+MatrixXd ElasticGear::compliance(const ToothFlank& read, const ToothFlank& loaded, double depth) const {
+  const int teeth = body_.design.teeth, n = table_size();
+  // Seen in a mirror, a force on a trailing flank is one on a leading flank, and offsets count the other way.
+  const int turn = loaded.side == FlankSide::leading ? 1 : -1;
+  const int ahead = ((turn * (read.tooth - loaded.tooth)) % teeth + teeth) % teeth;
+  if (read.side != loaded.side) return body_.back_compliance.middleRows(ahead * n, n);
+  const int offset = 2 * ahead > teeth ? ahead - teeth : ahead, distance = std::abs(offset);
+  if (distance <= body_.offsets) return compliance(offset, depth);
+  MatrixXd r = body_.far_compliance.middleRows((distance - body_.offsets - 1) * n, n);
+  if (offset < 0) r.transposeInPlace();
   return r;
 }
 
@@ -111,12 +128,24 @@ VectorXd ElasticGear::mode_on_tooth(int column, int tooth) const {
 }
 
 GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh)
-    : kinematics(driver.design, driven.design, mesh.centre_distance),
-      gear{ElasticGear(driver, mesh.contact_plane), ElasticGear(driven, mesh.contact_plane)},
+    : GearMeshModel({std::make_shared<const ElasticGear>(driver, mesh.contact_plane),
+                     std::make_shared<const ElasticGear>(driven, mesh.contact_plane)},
+                    mesh, pair_system(mesh, driver.design, driven.design).meshes[0]) {}
+
+GearMeshModel::GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, const System::Mesh& placed)
+    : kinematics(gears[0].body().design, gears[1].body().design, mesh.centre_distance),
+      gear(gears),
       corner(mesh.corner),
       deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0]),
                 FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1])},
-      bearing(mesh.bearing) {}
+      bearing(mesh.bearing),
+      layout(placed) {}
+
+Vec2 GearMeshModel::outward_in_system(int g, const PairContact& contact) const {
+  Vec2 own = outward(g, contact);
+  if (layout.side[0].sense < 0) own.x() = -own.x();
+  return Eigen::Rotation2Dd(layout.direction - 0.5 * std::numbers::pi) * own;
+}
 
 VectorXd MeshPosition::to_strips(const Eigen::Ref<const VectorXd>& at_nodes) const {
   if (!law.empty()) return at_nodes;
@@ -173,7 +202,7 @@ bool MeshPosition::reaches_window_end(const Eigen::Ref<const VectorXd>& p) const
 
 int hunting_periods(const GearMeshModel& model) {
   int periods = 1;
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     periods = std::lcm(periods, model.deviation[g].repeats());
     if (model.gear[g].cracked()) periods = std::lcm(periods, model.kinematics.gear(g).design().teeth);
   }
@@ -265,14 +294,14 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Conta
   for (const PairStrips& s : position.pairs)
     position.first_strip.push_back(position.first_strip.back() + s.size());
   position.gap = flank_gaps(model, position, period);
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     position.strip_lever[g].resize(position.strips());
     position.node_lever[g].resize(position.nodes());
     position.table_weights[g].resize(position.nodes(), model.gear[g].table_size());
   }
   for (size_t j = 0; j < position.pairs.size(); ++j) {
     const PairStrips& s = position.pairs[j];
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       position.strip_lever[g].segment(position.first_strip[j], s.size()).setConstant(s.contact.lever[g]);
       position.node_lever[g].segment<kWindowNodes>(j * kWindowNodes).setConstant(s.contact.lever[g]);
       for (int k = 0; k < kWindowNodes; ++k)
@@ -330,7 +359,7 @@ LineGap line_gap(const GearPair& gears, const PairContact& contact, const PairDe
       const double angle = (k + 0.5) * std::numbers::pi / kNodes, cosine = std::cos(angle);
       const double x = middle + half_width * cosine;
       std::array<double, 2> roll;
-      for (int g = 0; g < 2; ++g) {  // along the flank's arc: x to 1e-4 of itself
+      for (int g = 0; g < kSides; ++g) {  // along the flank's arc: x to 1e-4 of itself
         const double rb = gears.gear(g).base_radius(), sign = g == 0 ? 1 : -1;
         roll[g] = std::sqrt(std::max(0.0, contact.roll[g] * contact.roll[g] + 2 * sign * x / rb));
       }
@@ -385,7 +414,7 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
   const double coefficient =
       model.gear[0].half_plane().coefficient() + model.gear[1].half_plane().coefficient();
   position.first_strip = {0};
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     position.strip_lever[g].resize(n);
     position.table_weights[g].resize(n, model.gear[g].table_size());
   }
@@ -402,7 +431,7 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     line.gap = VectorXd::Constant(1, flanks.gap);
     if (model.common_flanks().differs()) {
       const FlankGap touch = gears.gap_at(contact, flanks.touch);
-      for (int g = 0; g < 2; ++g) line.gap_roll[g] = VectorXd::Constant(1, touch.roll[g]);
+      for (int g = 0; g < kSides; ++g) line.gap_roll[g] = VectorXd::Constant(1, touch.roll[g]);
     }
     position.pairs.push_back(line);
     position.first_strip.push_back(j + 1);
@@ -414,7 +443,7 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     const FlankGap middle =
         gears.gap_at(contact, law.at_edge(pair_force) ? edge + (near == 0 ? -1 : 1) * law.centroid(pair_force)
                                                       : flanks.touch);
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       position.strip_lever[g][j] = contact.lever[g];
       position.table_weights[g].row(j) = model.gear[g].table().weights(middle.roll[g]);
     }
@@ -490,7 +519,7 @@ MatrixXd hub_translation(const GearMeshModel& model, const MeshPosition& positio
 }
 
 void add_bearings(const GearMeshModel& model, const MeshPosition& position, MatrixXd& a) {
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     if (!model.bearing[g].elastic()) continue;
     const MatrixXd rows = hub_translation(model, position, g);
     a += rows * rows.transpose() / model.bearing[g].stiffness;
@@ -505,7 +534,7 @@ Vec2 bearing_force(const GearMeshModel& model, const MeshPosition& position, int
 MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period) {
   const auto pairs = static_cast<Eigen::Index>(position.pairs.size());
   MatrixXd c;
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     if (!model.gear[g].cracked()) continue;
     const auto tooth = [&](Eigen::Index pair) {
       return GearMeshModel::tooth(g, position.pairs[static_cast<size_t>(pair)].pair - period);

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,12 @@
 #include "solid/reduced_body.h"
 
 namespace whine {
+
+// One of a gear's flanks.
+struct ToothFlank {
+  int tooth = 0;  // its number, counter-clockwise, any whole one
+  FlankSide side = FlankSide::leading;
+};
 
 // A gear's solid as contact sees it.
 //
@@ -47,6 +54,8 @@ class ElasticGear {
   // less the half-plane relative to `depth` (m) on the loaded tooth itself. Zero beyond the stored offsets: teeth so far
   // apart are loaded together only in passing.
   Eigen::MatrixXd compliance(int offset, double depth) const;
+  // The same between any two flanks of the gear, however far apart; of one flank relative to `depth`. Without cracks.
+  Eigen::MatrixXd compliance(const ToothFlank& read, const ToothFlank& loaded, double depth) const;
   // The same less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual
   // flexibility.
   Eigen::MatrixXd residual(int offset, double depth, const std::vector<int>& kept) const;
@@ -69,26 +78,48 @@ class ElasticGear {
   FlankTable table_;
 };
 
-// Gear 0 is the driver.
+// The bodies on the two sides of a mesh; other meshes may hold the same ones.
+class SideGears {
+ public:
+  using Shared = std::shared_ptr<const ElasticGear>;
+  SideGears(Shared first, Shared second) : gear_{std::move(first), std::move(second)} {}
+  const ElasticGear& operator[](size_t side) const { return *gear_[side]; }
+  const Shared& shared(size_t side) const { return gear_[side]; }
+
+ private:
+  std::array<Shared, 2> gear_;
+};
+
+// One mesh: two bodies, each of which it sees from one side. All that it computes is in its own image: side 0 pushes, turns
+// counter-clockwise and stands at the origin, side 1 above it. `layout` says how the mesh lies in its system: turned by its
+// direction, and mirrored where side 0 turns clockwise, which changes no length, no gap and, teeth being their own mirror images,
+// no compliance.
 struct GearMeshModel {
+  // Of a system of one pair.
   GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh);
+  GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, const System::Mesh& layout);
   GearPair kinematics;
-  std::array<ElasticGear, 2> gear;
+  SideGears gear;  // [side]
   CornerRule corner;
-  std::array<FlankDeviation, 2> deviation;
-  std::array<Bearing, 2> bearing;
+  std::array<FlankDeviation, 2> deviation;  // [side]
+  std::array<Bearing, 2> bearing;           // [side]
+  System::Mesh layout;
 
   bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
   // Of gear g: outward displacement of its flank per unit translation of its hub, in the frame of placed().
   Vec2 outward(int g, const PairContact& contact = {}) const {
     return (g == 0 ? 1.0 : -1.0) * contact_normal(kinematics, contact);
   }
-  // Tooth of gear g that works in pair `pair`: pairs count in the sense of motion, teeth counter-clockwise.
+  // The same in the frame of the system.
+  Vec2 outward_in_system(int g, const PairContact& contact = {}) const;
+  // Tooth of side g that works in pair `pair`, in the mesh's own image: pairs count in the sense of motion, teeth
+  // counter-clockwise. Numbers in the system: layout.side[g].tooth(pair).
   static int tooth(int g, int pair) { return g == 0 ? pair : -pair; }
   // Flanks of a pair `period` mesh periods after tooth 0 of both gears met at the pitch point: the reference pair is then that
   // of the teeth `period` places behind.
   PairDeviation flanks(int pair = 0, int period = 0) const {
-    return {{&deviation[0], &deviation[1]}, {tooth(0, pair - period), tooth(1, pair - period)}};
+    return {{&deviation[0], &deviation[1]},
+            {layout.side[0].tooth(pair - period), layout.side[1].tooth(pair - period)}};
   }
   // What all pairs have in common.
   PairDeviation common_flanks() const { return {{&deviation[0], &deviation[1]}, {kEveryTooth, kEveryTooth}}; }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/rolling_mesh.h"
+#include "motion/system_statics.h"
 #include "signal/static_result.h"
 #include "solid/reduced_body.h"
 
@@ -41,14 +41,6 @@ inline constexpr const char* kBeyondSteel =
 
 // Of the statics: teeth that differ, no corner contact, backlash used up, a pressure that no steel carries.
 std::vector<Remark> remarks(const StaticArtifact& statics);
-
-// One pair's strips in static equilibrium.
-struct ContactZone {
-  PairStrips strips;
-  Eigen::VectorXd force;       // (strip) N
-  Eigen::VectorXd separation;  // (strip) m, of the loaded flanks (d of Eq. 18)
-  double approach = 0;         // m: the transmission error at this phase
-};
 
 // Of all pairs in reach at a mesh phase (0 to 1) of a mesh period, with the strips of `statics`, whose contact may also be
 // lines: the equilibrium is solved again. Throws as static_transmission, and Error(input) for a phase or a period that is

@@ -143,7 +143,7 @@ ResponseArtifact response(const SweepArtifact& s) {
   if (s.hunting_periods > 1) r.dte_order.resize(speeds, count * s.hunting_periods);
   r.tooth_load_max.resize(speeds);
   r.mesh_force_max.resize(speeds);
-  for (size_t g = 0; g < 2; ++g)
+  for (size_t g = 0; g < kSides; ++g)
     if (!s.bearing_force[g].empty())
       for (Eigen::VectorXd* v : {&r.bearing_force_max[g], &r.bearing_force_rms[g]}) v->resize(speeds);
   r.separation_fraction.resize(speeds);
@@ -162,7 +162,7 @@ ResponseArtifact response(const SweepArtifact& s) {
                                .amplitude.transpose();
     r.tooth_load_max[f] = s.tooth_load[f].maxCoeff();
     r.mesh_force_max[f] = s.mesh_force.row(f).maxCoeff();
-    for (size_t g = 0; g < 2; ++g) {
+    for (size_t g = 0; g < kSides; ++g) {
       if (s.bearing_force[g].empty()) continue;
       const auto force = s.bearing_force[g][f].topRows(samples);
       r.bearing_force_max[g][f] = force.rowwise().norm().maxCoeff();

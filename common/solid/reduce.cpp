@@ -145,6 +145,11 @@ double beside_flat_surface(const LineLoadField& field, const ToothGeometry& toot
                                    kReferenceDepth);
 }
 
+// Of a point or a normal of the driving flank of tooth 0: that of its other flank.
+Vec2 mirrored(const Vec2& v) {
+  return {-v.x(), v.y()};
+}
+
 // One mode of one harmonic; doublets stand for two real modes.
 struct KeptMode {
   int harmonic = 0;
@@ -154,6 +159,7 @@ struct KeptMode {
   Complex translation;
   Eigen::VectorXcd sector;  // (2 node) kg^-1/2, normalised over the whole gear
   Eigen::VectorXcd flank;   // (point) kg^-1/2
+  Eigen::VectorXcd back;    // (point) kg^-1/2, of the other flank
 };
 
 // Turns the phase so that the outward displacement of the tip-most table point is real and positive.
@@ -265,15 +271,41 @@ SparseReal FlankReader::outward_below(const Eigen::VectorXd& xi, double depth) c
   return reading;
 }
 
+SparseReal FlankReader::back_outward(const Eigen::VectorXd& xi) const {
+  const SparseReal front = outward(xi);
+  std::map<int, int> image;
+  for (const int node : mesh_.flank_node) {
+    const Vec2 mirrored(-mesh_.node_position(node, 0), mesh_.node_position(node, 1));
+    Eigen::Index nearest = 0;
+    const double miss =
+        (mesh_.node_position.rowwise() - mirrored.transpose()).rowwise().norm().minCoeff(&nearest);
+    if (miss > 1e-9 * mirrored.norm())
+      fail(Failure::input, "the mesh has no mirror image of its flank node ", node, " (the nearest node is ",
+           miss * 1e3, " mm off); rebuild the mesh");
+    image[node] = static_cast<int>(nearest);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < front.outerSize(); ++column)
+    for (SparseReal::InnerIterator it(front, column); it; ++it) {
+      const int xy = static_cast<int>(it.col()) % 2;
+      entries.emplace_back(static_cast<int>(it.row()), 2 * image.at(static_cast<int>(it.col()) / 2) + xy,
+                           xy == 0 ? -it.value() : it.value());
+    }
+  SparseReal reading(front.rows(), front.cols());
+  reading.setFromTriplets(entries.begin(), entries.end());
+  return reading;
+}
+
 FlankLoads make_matched_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,
                               double depth) {
   const ToothGeometry tooth(mesh.design);
   const PlaneModuli moduli = plane_strain_equivalent(material);
   const double thickness = mesh.design.face_width;
   const Eigen::Index size = 2 * mesh.node_position.rows(), loads = xi.size();
-  FlankLoads result{
-      -Eigen::MatrixXd(FlankReader(mesh).outward(xi)).transpose(), Eigen::MatrixXd::Zero(size, loads),
-      std::vector<char>(static_cast<size_t>(mesh.node_position.rows()), 0), MatrixRM::Zero(loads, loads)};
+  FlankLoads result{-Eigen::MatrixXd(FlankReader(mesh).outward(xi)).transpose(),
+                    Eigen::MatrixXd::Zero(size, loads),
+                    std::vector<char>(static_cast<size_t>(mesh.node_position.rows()), 0),
+                    MatrixRM::Zero(loads, loads), MatrixRM::Zero(loads, loads)};
   for (Eigen::Index j = 0; j < loads; ++j) {
     const LineLoadField field(tooth.flank_point(xi[j]), tooth.flank_normal(xi[j]), moduli, thickness,
                               kReferenceDepth);
@@ -313,7 +345,7 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
   const TractionIntegral integral(mesh, tooth);
 
   FlankLoads result{Eigen::MatrixXd::Zero(2 * nodes, loads), Eigen::MatrixXd::Zero(2 * nodes, loads),
-                    holds_rest, MatrixRM::Zero(loads, loads)};
+                    holds_rest, MatrixRM::Zero(loads, loads), MatrixRM::Zero(loads, loads)};
   for (Eigen::Index j = 0; j < loads; ++j) {
     const Vec2 load = tooth.flank_point(xi[j]);
     const LineLoadField field(load, tooth.flank_normal(xi[j]), moduli, thickness, kReferenceDepth);
@@ -330,8 +362,11 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
       }
     }
     result.force.col(j) = region_stiffness * cut - traction;
-    for (Eigen::Index i = 0; i < loads; ++i)
+    for (Eigen::Index i = 0; i < loads; ++i) {
       result.subtracted(i, j) = beside_flat_surface(field, tooth, moduli, thickness, xi[i], xi[j]);
+      result.across(i, j) =
+          -mirrored(tooth.flank_normal(xi[i])).dot(field.displacement(mirrored(tooth.flank_point(xi[i]))));
+    }
   }
   return result;
 }
@@ -368,14 +403,16 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
          teeth, " sectors with ", sector.size(), " unknowns; at most ", kMostDense,
          " are found by dense algebra, at four times the memory and eight times the time for twice as many; ",
          coarse_enough(mesh), "; or set body = \"modal\"");
-  const SparseReal outward = FlankReader(mesh).outward(xi);
+  const FlankReader reader(mesh);
+  const SparseReal outward = reader.outward(xi), back_outward = reader.back_outward(xi);
   // What the loaded tooth is read by in place of its surface.
-  const SparseReal below = matching ? FlankReader(mesh).outward_below(xi, depth) : outward;
+  const SparseReal below = matching ? reader.outward_below(xi, depth) : outward;
   FlankLoads loads =
       matching ? make_matched_loads(mesh, material, xi, depth) : make_flank_loads(mesh, material, xi);
 
   // Harmonic by harmonic: flexibility and the lowest modes.
   std::vector<Eigen::MatrixXcd> flexibility;  // [harmonic] (point, load) inward
+  std::vector<Eigen::MatrixXcd> across;       // [harmonic] (point, load) inward, of the other flank
   std::vector<KeptMode> found;
   const Eigen::Index shown = points / 2;       // the load whose displacement is stored for looking
   std::vector<Eigen::VectorXcd> displacement;  // [harmonic] (2 node)
@@ -387,6 +424,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
     factor.factorise(stiffness, what);
     const Eigen::MatrixXcd solution = sector.expand(n, factor.solve(sector.gather(n, loads.force)));
     flexibility.push_back(-(outward.cast<Complex>() * solution));
+    across.push_back(-(back_outward.cast<Complex>() * solution));
     if (matching)
       loads.subtracted -=
           ((sector.single(n) ? 1.0 : 2.0) / teeth * ((below - outward).cast<Complex>() * solution)).real();
@@ -409,6 +447,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
       fix_phase(mode.sector, outward);
       if (sector.single(n)) mode.sector = mode.sector.real().cast<Complex>().eval();
       mode.flank = outward.cast<Complex>() * mode.sector;
+      mode.back = back_outward.cast<Complex>() * mode.sector;
       if (n == 0) mode.coupling = teeth * mode.sector.real().dot(momentum);
       // Half: of the products of two harmonics over all teeth.
       if (n == 1) mode.translation = 0.5 * teeth * mode.sector.dot(linear_momentum);
@@ -445,6 +484,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   body.translation_coupling = MatrixRM::Zero(real_modes, 2);
   body.flank_position = xi;
   body.flank_mode.resize(points, real_modes);
+  body.back_flank_mode.resize(points, real_modes);
   body.reference_depth = kReferenceDepth;
   const WholeGear gear = replicate(mesh);
   body.vtk_point = gear.node_position;
@@ -472,6 +512,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
       const Complex towards = component == 0 ? mode.translation : Complex(0, 1) * mode.translation;
       body.translation_coupling.row(column) << towards.real(), towards.imag();
       body.flank_mode.col(column) = (quarter * mode.flank).real();
+      body.back_flank_mode.col(column) = (quarter * mode.back).real();
       if (column >= kDrawnModes) continue;
       char name[64];
       std::snprintf(name, sizeof name, "mode_%02d_%.0fHz", column + 1, body.eigenfrequency[column]);
@@ -505,9 +546,19 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
     matrix += loads.subtracted.cast<Complex>();  // tooth 0 alone: the same share in every harmonic
     matrix = (0.5 * (matrix + matrix.adjoint())).eval();
   }
-  for (int d = 0; d <= body.offsets; ++d)
-    body.compliance.push_back(
-        offset_sum(d, [&](int n) -> const Eigen::MatrixXcd& { return flexibility[static_cast<size_t>(n)]; }));
+  const auto table_at = [&](int d, const std::vector<Eigen::MatrixXcd>& tables) -> Eigen::MatrixXd {
+    return offset_sum(d, [&](int n) -> const Eigen::MatrixXcd& { return tables[static_cast<size_t>(n)]; });
+  };
+  for (int d = 0; d <= body.offsets; ++d) body.compliance.push_back(table_at(d, flexibility));
+  body.far_compliance.resize(points * (teeth / 2 - body.offsets), points);
+  for (int d = body.offsets + 1; d <= teeth / 2; ++d)
+    body.far_compliance.middleRows((d - body.offsets - 1) * points, points) = table_at(d, flexibility);
+  body.back_compliance.resize(points * teeth, points);
+  for (int d = 0; d < teeth; ++d) {
+    Eigen::MatrixXd x = table_at(d, across);
+    if (d == 0) x += loads.across;
+    body.back_compliance.middleRows(d * points, points) = 0.5 * (x + x.transpose());
+  }
 
   if (mesh.design.crack.depth > 0) body.crack_compliance = crack_compliance(mesh, material, xi, body.offsets);
 

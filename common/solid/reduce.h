@@ -28,6 +28,10 @@ constexpr int kFlankPoints = 24;
 constexpr double kReferenceDepth = 1e-3;  // m
 constexpr int kOffsets = 3;
 
+// Both flanks: the reading of the other flank under a force on the driving flank, X_d on the tooth d counter-clockwise of the
+// loaded one, needs no solution of its own. A tooth is its own mirror image, so a force on the other flank moves the driving flank
+// of tooth -d by X_d, and by reciprocity X_d = X_d^T.
+//
 // modes: elastic modes of the whole gear to keep, 0 or more, or kAllModes; the first torsional zero-diameter mode is always
 // among them. The near field is that of mesh.discretisation. Throws Error(input) for a matching depth whose points are
 // not all inside the tooth and for kAllModes of a mesh that is too fine for dense algebra, Error(numerical) if a
@@ -46,6 +50,9 @@ class FlankReader {
   // The same for the points that lie `depth` (m) below the flank along its normals. Throws Error(input) if one of them
   // is not inside the tooth.
   SparseReal outward_below(const Eigen::VectorXd& xi, double depth) const;
+  // The same as outward() of the other flank of the tooth, which is the mirror image of the driving flank: a displacement read
+  // there is that of the mirrored field read on the driving flank. Throws Error(input) for a mesh that is not its own mirror image.
+  SparseReal back_outward(const Eigen::VectorXd& xi) const;
 
  private:
   // Element of the tooth region that holds p, and where; -1 if none does.
@@ -62,6 +69,8 @@ struct FlankLoads {
   // (point, load) m N-1: inward u_hs at the points xi, less the flat surface displacement; of matched loads also less
   // u_hs at the depth
   MatrixRM subtracted;
+  // (point, load) m N-1: inward u_hs at the points xi of the other flank of the loaded tooth; of matched loads 0
+  MatrixRM across;
 };
 FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi);
 FlankLoads make_matched_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,

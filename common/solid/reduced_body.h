@@ -34,6 +34,13 @@ struct BodyArtifact {
   // reference_depth
   std::vector<MatrixRM> compliance;
   double reference_depth = 0;  // m
+  // The same between teeth that are farther apart, and between the two flanks of teeth: what joins the meshes of one gear with
+  // several others. Pairs of one mesh take nothing of it.
+  // (offset flank, flank) m N-1: as compliance, offsets + 1 .. teeth / 2, one below the other
+  MatrixRM far_compliance;
+  // (tooth flank, flank) m N-1: of the other flank of tooth 0 .. teeth - 1; no half-plane is taken off
+  MatrixRM back_compliance;
+  MatrixRM back_flank_mode;  // (flank, mode) kg^-1/2: as flank_mode, on the other flank
   // (tooth flank, tooth flank) m N-1, or empty: what the crack adds to the compliance between the teeth from `offsets`
   // clockwise of the cracked one to `offsets` counter-clockwise of it, tooth by tooth
   MatrixRM crack_compliance;

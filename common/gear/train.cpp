@@ -1,0 +1,72 @@
+#include "gear/train.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace whine {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// rad, counter-clockwise from tooth 0: of its flank where that meets the pitch circle of a mesh.
+double flank_angle(const GearPair& pair, int side, FlankSide flank) {
+  const Vec2 p = pair.gear(side).flank_point(std::tan(pair.working_pressure_angle()));
+  const double leading = std::atan2(p.y(), p.x()) - 0.5 * kPi;
+  return flank == FlankSide::leading ? leading : -leading;
+}
+
+bool in_mesh(const System& system, int body) {
+  for (const System::Mesh& mesh : system.meshes)
+    for (const System::Side& side : mesh.side)
+      if (side.body == body) return true;
+  return false;
+}
+
+}  // namespace
+
+int add_input_gear(System& system, const std::string& name, const GearDesign& gear, const Bearing& bearing) {
+  system.bodies.push_back({name, gear.teeth, 1, 0, {}, bearing});
+  return static_cast<int>(system.bodies.size()) - 1;
+}
+
+int add_driven_gear(System& system, int on, const GearDesign& driver, const std::string& name,
+                    const GearDesign& gear, double centre_distance, double direction,
+                    const Bearing& bearing) {
+  const GearPair pair(driver, gear, centre_distance);
+  System::Body& first = system.bodies[static_cast<size_t>(on)];
+  const FlankSide flank = first.sense > 0 ? FlankSide::leading : FlankSide::trailing;
+  const double from_tooth = flank_angle(pair, 0, flank);
+  // Angles stand from +y, directions from +x.
+  const double towards = direction - 0.5 * kPi;
+  System::Mesh mesh;
+  mesh.centre_distance = centre_distance;
+  mesh.direction = direction;
+  const int number = static_cast<int>(system.bodies.size());
+  mesh.side = {System::Side{on, flank, first.sense, 0}, System::Side{number, flank, -first.sense, 0}};
+  if (!in_mesh(system, on)) {
+    first.angle = towards - from_tooth;
+  } else {
+    const double ahead = first.sense * (first.angle + from_tooth - towards) * first.teeth / (2 * kPi);
+    mesh.phase = ahead - std::floor(ahead);
+    mesh.side[0].first_tooth = -first.sense * static_cast<int>(std::floor(ahead));
+  }
+  System::Body second{name, gear.teeth, -first.sense, 0, first.centre, bearing};
+  second.centre[0] += centre_distance * std::cos(direction);
+  second.centre[1] += centre_distance * std::sin(direction);
+  second.angle =
+      towards + kPi - flank_angle(pair, 1, flank) + second.sense * mesh.phase * 2 * kPi / second.teeth;
+  system.bodies.push_back(second);
+  system.meshes.push_back(mesh);
+  return number;
+}
+
+System pair_system(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven) {
+  System system;
+  add_input_gear(system, mesh.driver, driver, mesh.bearing[0]);
+  const int output = add_driven_gear(system, 0, driver, mesh.driven, driven, mesh.centre_distance, 0.5 * kPi,
+                                     mesh.bearing[1]);
+  system.drives.push_back({output, System::DriveKind::held, 0});
+  return system;
+}
+
+}  // namespace whine
