@@ -102,7 +102,7 @@ TEST_CASE(
   CHECK(solved(strain, ContactPlane::strain).transmission_error ==
         solved(strain, ContactPlane::body).transmission_error);
   CHECK(solved(strain, ContactPlane::stress).contact_pressure(0, 1) <
-        0.96 * solved(strain, "body").contact_pressure(0, 1));
+        0.96 * solved(strain, ContactPlane::body).contact_pressure(0, 1));
   const ElasticGear gear(stress, ContactPlane::strain);
   const auto flank = [&](double depth) {
     return gear.compliance(0, depth)(10, 12) + gear.half_plane().line(1e-4, depth);

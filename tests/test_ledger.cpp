@@ -62,7 +62,7 @@ double left_over(const Ledger& l) {
 TEST_CASE("the ledger closes to 1e-9 of the input energy over 1e5 steps in which contact is lost") {
   constexpr int kSteps = 128, kPeriods = 100000 / kSteps + 1;
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    Rig rig(contact.c_str(), 5.5e-6);
+    Rig rig(contact, 5.5e-6);
     rig.start(2900, kSteps, 5);
     Ledger ledger;
     double least = 1;
@@ -111,7 +111,7 @@ TEST_CASE(
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     std::vector<double> step, switching, averaging;
     for (int steps = 128; steps <= 2048; steps *= 2) {
-      Rig rig(contact.c_str(), 5.5e-6);
+      Rig rig(contact, 5.5e-6);
       rig.start(2900, steps, 200);
       CHECK(rig.period.pair_load.colwise().sum().minCoeff() == 0);
       Ledger ledger;
@@ -134,7 +134,7 @@ TEST_CASE(
 #ifdef WHINE_COUNTS_MEMORY
 TEST_CASE("a mesh period takes no memory, with a ledger or without") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    Rig rig(contact.c_str(), 5.5e-6);
+    Rig rig(contact, 5.5e-6);
     rig.start(2900, 128, 5);
     Ledger ledger;
     for (Ledger* kept : {static_cast<Ledger*>(nullptr), &ledger}) {
