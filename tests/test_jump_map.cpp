@@ -8,16 +8,17 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "io/scene.h"
 #include "io/impact_codec.h"
 #include "io/jump_map_codec.h"
+#include "io/scene.h"
 #include "io/scene_keys.h"
 #include "io/static_codec.h"
 #include "io/variant.h"
 #include "motion/impact.h"
 #include "motion/jump_map.h"
 #include "paper_pair.h"
-#include "plot/map_figures.h"
+#include "plot/jump_map_figures.h"
+#include "plot/sensitivity_figure.h"
 #include "relative.h"
 
 using namespace whine;

@@ -9,7 +9,7 @@
 
 namespace whine {
 
-// variants/ab/ab12....h5 of a study: what one variant answers. As the artifacts of schemas.h.
+// variants/ab/ab12....h5 of a study: what one variant answers.
 struct VariantArtifact : MotionParameters {
   double torque = 0, reference_torque = 0;  // N m on the driver; the second sets the bearing dampers
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // Hz

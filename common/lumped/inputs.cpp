@@ -1,0 +1,26 @@
+#include "lumped/inputs.h"
+
+#include "lumped/stiffness.h"
+
+namespace whine {
+namespace {
+
+constexpr int kHertzChords = 16;  // 4e-4 from the law itself over two mesh periods with contact loss
+
+}  // namespace
+
+LumpedParameters springs_of(const LumpedInputs& inputs, const SpringChoice& choice,
+                            Eigen::VectorXi& numbers) {
+  const StaticArtifact& pair = inputs.at_torque;
+  numbers = Eigen::VectorXi::Zero(1);
+  if (choice.model == "rectangular")
+    return cells_of(choice.stated ? stated_wave(pair, choice.fewer, choice.more, choice.duty)
+                                  : rectangular_wave(inputs.at_reference));
+  const int positions = static_cast<int>(pair.mesh_phase.size());
+  const int cells = choice.cells > 0 ? choice.cells : positions * ((1023 + positions) / positions);
+  if (choice.model == "pairs") return cells_of_pairs(pair, cells, numbers, choice.hertz ? kHertzChords : 0);
+  return cells_of(choice.model == "secant" ? pair.stiffness_secant : pair.stiffness_tangent, cells,
+                  pair.unloaded_error);
+}
+
+}  // namespace whine

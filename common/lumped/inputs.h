@@ -1,0 +1,25 @@
+// What a lumped model is made from: statics at its torque and at the reference torque, and the springs that stand for the mesh.
+#pragma once
+#include <string>
+
+#include "lumped/sweep.h"
+
+namespace whine {
+
+struct LumpedInputs {
+  StaticArtifact at_torque, at_reference;  // equal where the levels are not those of another torque
+};
+
+// Which springs stand for the mesh.
+struct SpringChoice {
+  std::string model;    // "rectangular", "secant", "tangent", "pairs"
+  bool stated = false;  // rectangular: with these levels (N m-1) and this share of the second
+  double fewer = 0, more = 0, duty = 0;
+  int cells = 0;       // in a mesh period; 0: a multiple of the static positions, 1024 or more
+  bool hertz = false;  // pairs: polygons of Hertz's law
+};
+
+// numbers: of the tooth pairs that the springs stand for, filled.
+LumpedParameters springs_of(const LumpedInputs& inputs, const SpringChoice& choice, Eigen::VectorXi& numbers);
+
+}  // namespace whine
