@@ -23,7 +23,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kWidening = 1.6;  // of the contact zone, as of a sweep
 constexpr int kMostLevel = 8;
 constexpr int kMultipliers = 8;  // that are kept of each orbit
 constexpr int kMostSegments = 64;

@@ -13,6 +13,7 @@
 #include "contact/line_contact.h"
 #include "contact/strips.h"
 #include "gear/pair.h"
+#include "model/system.h"
 #include "solid/flank_table.h"
 #include "solid/reduced_body.h"
 
@@ -85,6 +86,7 @@ class SideGears {
   SideGears(Shared first, Shared second) : gear_{std::move(first), std::move(second)} {}
   const ElasticGear& operator[](size_t side) const { return *gear_[side]; }
   const Shared& shared(size_t side) const { return gear_[side]; }
+  static constexpr size_t size() { return 2; }
 
  private:
   std::array<Shared, 2> gear_;

@@ -122,7 +122,6 @@ class Sweeper {
   }
 
  private:
-  static constexpr double kWidening = 1.6;
   static constexpr int kMostLevel = 8;
 
   MotionBounds bounds(int level) const { return {model_, statics_, std::pow(kWidening, level)}; }
