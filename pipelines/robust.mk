@@ -19,7 +19,7 @@ deps-fuzz: | $(with_deps) ## install the packages that only `fuzz` uses
 
 .PHONY: test-sanitize
 test-sanitize: $(B)/bin/whine-tests | $(with_deps) ## the tests under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, but for the slow cases in tests/unsanitized
-	@B=$(B) TESTS=sanitize tests/run
+	@B=$(B) TESTS=sanitize LSAN_OPTIONS=suppressions=tests/leaks:print_suppressions=0 tests/run
 
 # --- faults
 

@@ -12,7 +12,6 @@
 
 #include "base/error.h"
 #include "base/refusal.h"
-#include "contact/lanes.h"
 #include "gear/body_inertia.h"
 #include "gear/numbers.h"
 #include "gear/pair.h"
