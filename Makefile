@@ -66,7 +66,7 @@ CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitespa
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)
-LDLIBS = -lgmsh -lcholmod $(shell pkg-config --libs hdf5 fftw3 libcrypto)
+LDLIBS = -lgmsh -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
 
 # With `deps` among the goals whatever uses a package waits for it, in any order of the goals and under -j.
 with_deps := $(filter deps,$(goals))
@@ -185,6 +185,11 @@ deps: ## install the Debian packages that `figures` and `test` need
 .PHONY: deps-vtk
 deps-vtk: wanted := python3-vtk9
 deps-vtk: | $(with_deps) ## install VTK for the one check in `test` that reads artifacts as ParaView does
+	$(install_wanted)
+
+.PHONY: deps-python
+deps-python: wanted := python3-xarray python3-h5netcdf
+deps-python: | $(with_deps) ## install xarray for the one check in `test` that opens artifacts by their axes
 	$(install_wanted)
 
 # --- tests and upkeep -----------------------------------------------------------------------------------------

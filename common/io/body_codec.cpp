@@ -14,6 +14,10 @@ constexpr Schema kSchema{"body", 4};
 void describe_compliance(Codec& c, BodyArtifact& a) {
   const std::string at = "/compliance/";
   c.dataset({at + "offsets", "1", "largest tooth offset of the tables", "", {0, 1000}}, &a.offsets);
+  const Eigen::Index points = a.flank_position.size();
+  c.axis("loaded_position", points);
+  for (const char* axis : {"tooth_flank_position", "loaded_tooth_flank_position"})
+    c.axis(axis, (2 * a.offsets + 1) * points);
   const auto tables = static_cast<std::size_t>(a.offsets) + 1;
   if (c.out() && a.compliance.size() != tables)
     fail(Failure::numerical, "result compliance has ", a.compliance.size(), " rows, expected ", tables);
@@ -24,34 +28,32 @@ void describe_compliance(Codec& c, BodyArtifact& a) {
                text("inward normal displacement of the tooth ", number,
                     " counter-clockwise of the loaded one per unit normal force",
                     d == 0 && !c.lists() ? ", less the half-plane relative to reference_depth" : ""),
-               "flank_position flank_position", kFlexibility},
+               "flank_position loaded_position", kFlexibility},
               &a.compliance[d]);
   }
-  const Eigen::Index points = a.flank_position.size();
   const int teeth = a.design.teeth, half = teeth / 2;
   if (c.in() && 2 * a.offsets > teeth)
     c.in()->file().refuse(
         text("holds tables of ", a.offsets, " tooth offsets of a gear of ", teeth, " teeth"));
-  c.axis("far_tooth_flank_position", (half - a.offsets) * points);
+  c.axis("far_position", (half - a.offsets) * points);
   if (c.lists() || half > a.offsets)
     c.dataset({at + "far", "m N-1",
                "as offset_<d>, of the teeth from `offsets` + 1 to half of all, one below the other",
-               "far_tooth_flank_position flank_position", kFlexibility},
+               "far_position loaded_position", kFlexibility},
               &a.far_compliance);
-  c.axis("back_tooth_flank_position", teeth * points);
+  c.axis("back_position", teeth * points);
   c.dataset({at + "back", "m N-1",
              "inward normal displacement of the other flank of all teeth counter-clockwise from the loaded "
              "one on, per unit "
              "normal force",
-             "back_tooth_flank_position flank_position", kFlexibility},
+             "back_position loaded_position", kFlexibility},
             &a.back_compliance);
-  c.axis("tooth_flank_position", (2 * a.offsets + 1) * a.flank_position.size());
   if (c.lists() || (c.in() ? a.design.crack.depth > 0 : a.crack_compliance.size() > 0))
     c.dataset(
         {at + "crack", "m N-1",
          "what the crack adds between the teeth from `offsets` clockwise of the cracked one to `offsets` "
          "counter-clockwise of it, tooth by tooth",
-         "tooth_flank_position tooth_flank_position", kFlexibility},
+         "tooth_flank_position loaded_tooth_flank_position", kFlexibility},
         &a.crack_compliance);
   c.dataset({at + "reference_depth", "m", "depth relative to which the half-plane is taken off", "", kSize},
             &a.reference_depth);
