@@ -35,18 +35,18 @@ void describe_compliance(Codec& c, BodyArtifact& a) {
   if (c.in() && 2 * a.offsets > teeth)
     c.in()->file().refuse(
         text("holds tables of ", a.offsets, " tooth offsets of a gear of ", teeth, " teeth"));
-  c.axis("far_tooth_flank_position", (half - a.offsets) * points);
+  c.axis("far_position", (half - a.offsets) * points);
   if (c.lists() || half > a.offsets)
     c.dataset({at + "far", "m N-1",
                "as offset_<d>, of the teeth from `offsets` + 1 to half of all, one below the other",
-               "far_tooth_flank_position loaded_position", kFlexibility},
+               "far_position loaded_position", kFlexibility},
               &a.far_compliance);
-  c.axis("back_tooth_flank_position", teeth * points);
+  c.axis("back_position", teeth * points);
   c.dataset({at + "back", "m N-1",
              "inward normal displacement of the other flank of all teeth counter-clockwise from the loaded "
              "one on, per unit "
              "normal force",
-             "back_tooth_flank_position loaded_position", kFlexibility},
+             "back_position loaded_position", kFlexibility},
             &a.back_compliance);
   if (c.lists() || (c.in() ? a.design.crack.depth > 0 : a.crack_compliance.size() > 0))
     c.dataset(
