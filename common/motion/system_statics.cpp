@@ -15,11 +15,17 @@ using Eigen::VectorXd;
 
 namespace {
 constexpr double kStripsDepth = 1e-3;  // m: statics do not depend on it, near field and far field cancel it
+
+// [mesh] N: what contact is looked for with; of a mesh without load a thousandth of the largest.
+VectorXd loads_of_ranges(const SystemModel& system) {
+  const VectorXd loads = mesh_loads(system);
+  return loads.cwiseMax(1e-3 * loads.maxCoeff());
 }
+}  // namespace
 
 std::vector<ContactRange> static_ranges(const SystemModel& system, int strips, double window,
                                         double widening) {
-  const VectorXd loads = mesh_loads(system);
+  const VectorXd loads = loads_of_ranges(system);
   std::vector<ContactRange> out;
   for (size_t m = 0; m < system.mesh.size(); ++m) {
     const GearMeshModel& mesh = system.mesh[m];
@@ -74,7 +80,7 @@ std::vector<SystemAnswer> rest_over_period(const SystemModel& system, ContactMod
 
 SystemStatics::SystemStatics(const SystemModel& system, ContactModel contact, std::vector<ContactRange> range)
     : system_(system), lines_(contact == ContactModel::line), alike_(true), range_(std::move(range)) {
-  const VectorXd load = mesh_loads(system);
+  const VectorXd load = loads_of_ranges(system);
   for (size_t m = 0; m < system.mesh.size(); ++m) {
     // The half window is Hertz's half-width under the whole load: the laws of lines rise over all of it, and the tables keep
     // what lies deeper.
