@@ -107,7 +107,7 @@ $(objects): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
 # which a test may be the first that wants it, is not of the tests.
 $(filter $(B)/obj/tests/%,$(objects)): private CPPFLAGS += -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 
-step_objects := $(B)/obj/common/motion/march.o $(filter $(B)/obj/common/contact/%,$(objects))
+step_objects := $(B)/obj/common/motion/step_kernel.o $(B)/obj/common/motion/step_kernel_pack.o $(filter $(B)/obj/common/contact/%,$(objects))
 $(step_objects): private CXXFLAGS += $(STEP_FLAGS)
 $(step_objects): private INCLUDE_PRECOMPILED :=
 

@@ -71,7 +71,7 @@ DynamicParameters parameters_of(const std::string& body, const std::string& cont
 }
 
 // Hz, ascending: torsion and two translations of each gear, a mesh of stiffness k between them.
-VectorXd lumped_frequencies(const GearMeshModel& model, const std::array<double, 2>& inertia,
+VectorXd lumped_frequencies(const GearMeshModel& model, const std::vector<double>& inertia,
                             const std::array<double, 2>& mass, double k) {
   MatrixXd m = MatrixXd::Zero(6, 6), stiffness = MatrixXd::Zero(6, 6);
   VectorXd row(6);

@@ -7,6 +7,8 @@
 
 namespace whine {
 
+using Eigen::Matrix4Xd;
+using Eigen::Vector4d;
 using Eigen::VectorXd;
 
 namespace {
@@ -94,66 +96,90 @@ RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
   return result;
 }
 
-void RollingDynamics::displace_locally(const Position& position, const double* p, VectorXd& result) const {
+void RollingDynamics::size_ledger() {
+  const int coordinates = kernel_.coordinates(), fields = StepKernel::kSides * kernel_.fields(),
+            own = static_cast<int>(coordinates_.size());
+  int strips = kMostPairs, pairs = 1;
+  for (const Position& position : positions_) {
+    strips = std::max(strips, position.mesh.strips());
+    pairs = std::max(pairs, static_cast<int>(position.mesh.pairs.size()));
+  }
+  LedgerWorkspace& l = ledger_work_;
+  for (Instant& instant : l.instants) {
+    for (VectorXd* x : {&instant.at.z, &instant.at.v, &instant.at.force}) x->setZero(coordinates);
+    for (VectorXd* x :
+         {&instant.at.lag, &instant.at.load, &instant.field, &instant.moved_load, &instant.forgotten_field})
+      x->setZero(fields);
+    for (VectorXd* x : {&instant.p, &instant.d, &instant.local}) x->setZero(strips);
+    for (Matrix4Xd* x : {&instant.moment, &instant.reading}) x->setZero(4, pairs);
+  }
+  for (VectorXd* x : {&l.turned_back, &l.frequency_squared, &l.damping, &l.torque}) x->setZero(coordinates);
+  l.frequency_squared.head(own) = frequency_squared_;
+  l.torque.head(own) = torque_force_;
+  for (int i = 0; i < own; ++i) l.damping[i] = coordinates_[i].damping;
+}
+
+void RollingDynamics::displace_locally(int i, const double* p, VectorXd& result) const {
+  const Position& position = positions_[i];
   const int strips = position.mesh.strips();
   if (lines()) {
     result.head(strips).noalias() = position.at_once.lazyProduct(Eigen::Map<const VectorXd>(p, strips));
     return;
   }
   result.head(strips).setZero();
-  alignas(Lanes) double nodes[kPairNodes * kMostPairs];
-  strip_compliance(position, &stream_[position.frame.at_once]).add_product(p, nodes, result.data());
+  double nodes[StepKernel::kPairNodes * kMostPairs];
+  kernel_.at_once(i).add_product(p, nodes, result.data());
 }
 
 // The instant that the workspace holds; p, d: (strip). What lagged loads displace goes on from the instant before as the lag
 // itself does; without one it is computed anew.
-void RollingDynamics::fill(Instant& now, const Instant* before, const Position& position, const double* p,
+void RollingDynamics::fill(Instant& now, const Instant* before, int position, const double* p,
                            const double* d) const {
-  const int strips = position.mesh.strips(), of_gear = all_fields();
-  now.position = &position;
+  const MeshPosition& mesh = positions_[position].mesh;
+  const int strips = mesh.strips(), of_gear = kernel_.fields();
+  const Lag& lag = kernel_.lag();
+  now.position = position;
   now.renamed = 0;
   now.forgotten = now.stored_forgotten = 0;
-  now.z = work_.z;
-  now.v = work_.v;
-  now.force = work_.force;
-  now.lag = work_.lag;
-  now.load = work_.load;
-  for (int g = 0; g < 2; ++g) displace(g, &now.load[g * of_gear], &now.moved_load[g * of_gear]);
-  for (int k = 0; before && k < 2 * of_gear; k += kLanes)
-    lanes(&now.field[k]) = lag_.decay * lanes(&before->field[k]) +
-                           lag_.from_old * lanes(&before->moved_load[k]) +
-                           lag_.from_new * lanes(&now.moved_load[k]);
-  for (int g = 0; !before && g < 2; ++g) displace(g, &now.lag[g * of_gear], &now.field[g * of_gear]);
+  now.at = kernel_.vectors();
+  for (int g = 0; g < StepKernel::kSides; ++g)
+    kernel_.displace(g, &now.at.load[g * of_gear], &now.moved_load[g * of_gear]);
+  if (before)
+    now.field = lag.decay * before->field + lag.from_old * before->moved_load + lag.from_new * now.moved_load;
+  for (int g = 0; !before && g < StepKernel::kSides; ++g)
+    kernel_.displace(g, &now.at.lag[g * of_gear], &now.field[g * of_gear]);
   std::copy(p, p + strips, now.p.data());
   std::copy(d, d + strips, now.d.data());
   displace_locally(position, now.p.data(), now.local);
-  alignas(Lanes) double unused[2 * kFields];
-  for (size_t j = 0; j < position.mesh.pairs.size(); ++j) {
-    lanes(&now.moment[j * kLanes]) = collect(position, j, p + position.mesh.first_strip[j], unused);
-    lanes(&now.reading[j * kLanes]) = reading(position, j, now.z.data());
+  double unused[StepKernel::kSides * StepKernel::kFields];
+  for (size_t j = 0; j < mesh.pairs.size(); ++j) {
+    const auto pair = static_cast<int>(j);
+    now.moment.col(pair) = kernel_.collect(position, pair, p + mesh.first_strip[j], unused);
+    now.reading.col(pair) = kernel_.reading(position, pair, now.at.z.data());
   }
   now.at_once = 0.5 * now.p.head(strips).dot(now.local.head(strips));
-  for (size_t j = 0; j < position.mesh.law.size(); ++j) now.at_once += stored(position.mesh.law[j], p[j]);
+  for (size_t j = 0; j < mesh.law.size(); ++j) now.at_once += stored(mesh.law[j], p[j]);
 }
 
 // Teeth get the names that they have in the next mesh period. One of each gear is no longer followed.
 void RollingDynamics::rename(Instant& now) const {
-  const int of_gear = all_fields(), of_tooth = kFields;
-  for (double* y : {now.z.data(), now.v.data(), now.force.data()}) turn_doublets(y);
-  now.stored_forgotten = -0.5 * now.lag.dot(now.field);
+  const int of_gear = kernel_.fields(), of_tooth = StepKernel::kFields;
+  StepKernel::Vectors& at = now.at;
+  for (double* y : {at.z.data(), at.v.data(), at.force.data()}) kernel_.turn_doublets(y);
+  now.stored_forgotten = -0.5 * at.lag.dot(now.field);
   now.forgotten = 0;
   // The load of a tooth that goes under load: a corner rule has then taken its pair out.
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < StepKernel::kSides; ++g) {
     const int last = (g + 1) * of_gear - of_tooth;
-    now.forgotten += 0.5 * now.load.segment(last, of_tooth).dot(now.field.segment(last, of_tooth));
+    now.forgotten += 0.5 * at.load.segment(last, of_tooth).dot(now.field.segment(last, of_tooth));
   }
   now.forgotten_field = now.field;
-  for (double* x : {now.lag.data(), now.load.data(), now.forgotten_field.data()}) advance_fields(x);
-  for (int g = 0; g < 2; ++g) {
-    displace(g, &now.lag[g * of_gear], &now.field[g * of_gear]);
-    displace(g, &now.load[g * of_gear], &now.moved_load[g * of_gear]);
+  for (double* x : {at.lag.data(), at.load.data(), now.forgotten_field.data()}) kernel_.advance_fields(x);
+  for (int g = 0; g < StepKernel::kSides; ++g) {
+    kernel_.displace(g, &at.lag[g * of_gear], &now.field[g * of_gear]);
+    kernel_.displace(g, &at.load[g * of_gear], &now.moved_load[g * of_gear]);
   }
-  now.stored_forgotten += 0.5 * now.lag.dot(now.field);
+  now.stored_forgotten += 0.5 * at.lag.dot(now.field);
   now.forgotten += now.stored_forgotten;
   now.forgotten_field -= now.field;
   now.renamed = 1;
@@ -172,34 +198,36 @@ void RollingDynamics::rename(Instant& now) const {
 //
 // Force on modes and on the lag goes through a pair's shape rows and fields: p . h z = moment . reading, p . U = share of p
 // in the fields . their displacement.
-void RollingDynamics::record_step(const Instant& a, const Instant& b, Ledger& ledger) {
-  const MeshPosition &old_mesh = a.position->mesh, &new_mesh = b.position->mesh;
-  const int of_gear = all_fields(), of_tooth = kFields, coordinates = static_cast<int>(a.z.size());
-  double rolling = 0, switching = 0, cutting = 0, forgetting = a.forgotten;
+RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, const Instant& b) {
+  using Fields = Eigen::Matrix<double, StepKernel::kFields, 1>;
+  const MeshPosition &old_mesh = positions_[a.position].mesh, &new_mesh = positions_[b.position].mesh;
+  constexpr int of_tooth = StepKernel::kFields;
+  const int of_gear = kernel_.fields();
+  ContactWork work;
+  work.forgetting = a.forgotten;
   const bool lines = this->lines();
-
-  const double* old_z = b.z.data();  // of the new instant, in the names of the old position
+  const double* old_z = b.at.z.data();  // of the new instant, in the names of the old position
   if (a.renamed) {
-    ledger_work_.turned_back = b.z;
-    turn_doublets(ledger_work_.turned_back.data(), -1);
+    ledger_work_.turned_back = b.at.z;
+    kernel_.turn_doublets(ledger_work_.turned_back.data(), -1);
     old_z = ledger_work_.turned_back.data();
   }
   // J: shares of a force in fields (driver's, then driven gear's) on the displacement of a tooth.
   const auto shares_on = [&](const double* shares, const VectorXd& field, int slot) {
-    double work = 0;
-    for (int g = 0; g < 2; ++g)
-      work += dot(shares + g * of_tooth, &field[g * of_gear + slot * of_tooth], 0, of_tooth);
-    return work;
+    double sum = 0;
+    for (int g = 0; g < StepKernel::kSides; ++g)
+      sum += Fields::Map(shares + g * of_tooth).dot(field.segment<of_tooth>(g * of_gear + slot * of_tooth));
+    return sum;
   };
   const auto load_on = [&](const VectorXd& load, const VectorXd& field, int slot) {
-    double work = 0;
-    for (int g = 0; g < 2; ++g) {
+    double sum = 0;
+    for (int g = 0; g < StepKernel::kSides; ++g) {
       const int at = g * of_gear + slot * of_tooth;
-      work += dot(&load[at], &field[at], 0, of_tooth);
+      sum += load.segment<of_tooth>(at).dot(field.segment<of_tooth>(at));
     }
-    return work;
+    return sum;
   };
-  alignas(Lanes) double old_on_new[2 * kFields], new_on_old[2 * kFields];
+  double old_on_new[StepKernel::kSides * of_tooth], new_on_old[StepKernel::kSides * of_tooth];
   unsigned met = 0;
   for (size_t i = 0; i < old_mesh.pairs.size(); ++i) {
     const int pair = old_mesh.pairs[i].pair + a.renamed, slot = pair + reach_, from = old_mesh.first_strip[i];
@@ -213,12 +241,14 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, Ledger& le
       const int to = new_mesh.first_strip[j];
       if (p0.isZero(0) && b.p.segment(to, new_mesh.pairs[j].size()).isZero(0)) continue;  // no force, no work
     }
-    const Lanes moment00 = lanes(&a.moment[i * kLanes]), read_old_new = reading(*a.position, i, old_z);
-    if (a.renamed && followed) forgetting += 0.5 * load_on(a.load, a.forgotten_field, slot);
+    const auto old_pair = static_cast<int>(i), new_pair = static_cast<int>(j);
+    const Vector4d moment00 = a.moment.col(old_pair),
+                   read_old_new = kernel_.reading(a.position, old_pair, old_z);
+    if (a.renamed && followed) work.forgetting += 0.5 * load_on(a.at.load, a.forgotten_field, slot);
     if (j == new_mesh.pairs.size()) {
-      if (lines) cutting += bent(old_mesh.law[i], p0[0], 0);
-      cutting += 0.5 * (p0.dot(gap0) - sum(moment00 * read_old_new));
-      if (followed) cutting += 0.5 * load_on(a.load, b.field, slot);
+      if (lines) work.cutting += bent(old_mesh.law[i], p0[0], 0);
+      work.cutting += 0.5 * (p0.dot(gap0) - moment00.dot(read_old_new));
+      if (followed) work.cutting += 0.5 * load_on(a.at.load, b.field, slot);
       continue;
     }
     const int to = new_mesh.first_strip[j], n = new_mesh.pairs[j].size();
@@ -228,98 +258,99 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, Ledger& le
       const HertzLine &law0 = old_mesh.law[i], &law1 = new_mesh.law[j];
       const HertzLine::Point old0 = at(law0, p0[0]), old1 = at(law0, p1[0]), new0 = at(law1, p0[0]),
                              new1 = at(law1, p1[0]);
-      switching += 0.5 * (bent(p0[0], old0, p1[0], old1) + bent(p0[0], new0, p1[0], new1));
-      rolling -= 0.5 * (new0.energy - old0.energy + new1.energy - old1.energy) -
-                 0.25 * (p1[0] - p0[0]) *
-                     (new1.indentation - old1.indentation - (new0.indentation - old0.indentation));
+      work.switching += 0.5 * (bent(p0[0], old0, p1[0], old1) + bent(p0[0], new0, p1[0], new1));
+      work.rolling -= 0.5 * (new0.energy - old0.energy + new1.energy - old1.energy) -
+                      0.25 * (p1[0] - p0[0]) *
+                          (new1.indentation - old1.indentation - (new0.indentation - old0.indentation));
     }
-    switching += 0.5 * (p0.dot(b.d.segment(to, n)) - p1.dot(a.d.segment(from, n)));
-    rolling -= 0.5 * ((p0 + p1).dot(gap1 - gap0) + p0.dot(b.local.segment(to, n)) -
-                      p1.dot(a.local.segment(from, n)));
-    const Lanes moment01 = collect(*b.position, j, p0.data(), old_on_new),
-                moment10 = collect(*a.position, i, p1.data(), new_on_old);
-    rolling += 0.5 * sum(moment01 * lanes(&b.reading[j * kLanes]) - moment10 * lanes(&a.reading[i * kLanes]) +
-                         lanes(&b.moment[j * kLanes]) * reading(*b.position, j, a.z.data()) -
-                         moment00 * read_old_new);
-    rolling -= 0.5 * (shares_on(old_on_new, b.field, slot) - shares_on(new_on_old, a.field, slot) +
-                      load_on(b.load, a.field, slot) - load_on(a.load, b.field, slot));
-    if (a.renamed) forgetting += 0.5 * shares_on(new_on_old, a.forgotten_field, slot);
+    work.switching += 0.5 * (p0.dot(b.d.segment(to, n)) - p1.dot(a.d.segment(from, n)));
+    work.rolling -= 0.5 * ((p0 + p1).dot(gap1 - gap0) + p0.dot(b.local.segment(to, n)) -
+                           p1.dot(a.local.segment(from, n)));
+    const Vector4d moment01 = kernel_.collect(b.position, new_pair, p0.data(), old_on_new),
+                   moment10 = kernel_.collect(a.position, old_pair, p1.data(), new_on_old),
+                   read_new_old = kernel_.reading(b.position, new_pair, a.at.z.data());
+    work.rolling +=
+        0.5 *
+        (moment01.cwiseProduct(b.reading.col(new_pair)) - moment10.cwiseProduct(a.reading.col(old_pair)) +
+         b.moment.col(new_pair).cwiseProduct(read_new_old) - moment00.cwiseProduct(read_old_new))
+            .sum();
+    work.rolling -= 0.5 * (shares_on(old_on_new, b.field, slot) - shares_on(new_on_old, a.field, slot) +
+                           load_on(b.at.load, a.field, slot) - load_on(a.at.load, b.field, slot));
+    if (a.renamed) work.forgetting += 0.5 * shares_on(new_on_old, a.forgotten_field, slot);
   }
   for (size_t j = 0; j < new_mesh.pairs.size(); ++j)
     if (!(met >> j & 1)) {
-      const int to = new_mesh.first_strip[j], n = new_mesh.pairs[j].size();
-      if (lines) cutting += bent(new_mesh.law[j], 0, b.p[to]);
-      cutting -= 0.5 * (b.p.segment(to, n).dot(new_mesh.gap.segment(to, n)) -
-                        sum(lanes(&b.moment[j * kLanes]) * reading(*b.position, j, a.z.data())) +
-                        load_on(b.load, a.field, new_mesh.pairs[j].pair + reach_));
+      const int to = new_mesh.first_strip[j], n = new_mesh.pairs[j].size(), new_pair = static_cast<int>(j);
+      if (lines) work.cutting += bent(new_mesh.law[j], 0, b.p[to]);
+      work.cutting -=
+          0.5 * (b.p.segment(to, n).dot(new_mesh.gap.segment(to, n)) -
+                 b.moment.col(new_pair).dot(kernel_.reading(b.position, new_pair, a.at.z.data())) +
+                 load_on(b.at.load, a.field, new_mesh.pairs[j].pair + reach_));
     }
-  const double local = b.at_once - a.at_once;
+  return work;
+}
 
-  // Modes: force = torque - h^T p.
-  Lanes torque_sum{}, kinetic_sum{}, modal_sum{}, damping_sum{};
-  for (int c = 0; c < coordinates; c += kLanes) {
-    const Lanes z0 = lanes(&a.z[c]), z1 = lanes(&b.z[c]), v0 = lanes(&a.v[c]), v1 = lanes(&b.v[c]),
-                w2 = lanes(&ledger_work_.frequency_squared[c]), rate = lanes(&ledger_work_.damping[c]);
-    torque_sum += lanes(&work_.torque[c]) * (z1 - z0);
-    kinetic_sum += v1 * v1 - v0 * v0;
-    modal_sum += w2 * (z1 * z1 - z0 * z0);
-    if (newmark_) {
-      const Lanes v = 0.5 * (v0 + v1);  // the trapezoidal rule's own velocity
-      damping_sum += rate * (step_ * v * v);
-    } else {
-      const Lanes push = 0.5 * (lanes(&a.force[c]) + lanes(&b.force[c])) - w2 * z0;
-      damping_sum += rate * (lanes(&damping_.speed[c]) * v0 * v0 + 2 * lanes(&damping_.mixed[c]) * v0 * push +
-                             lanes(&damping_.push[c]) * push * push);
-    }
+// Force = torque - h^T p.
+RollingDynamics::ModalWork RollingDynamics::modal_work(const Instant& a, const Instant& b) const {
+  const auto z0 = a.at.z.array(), z1 = b.at.z.array(), v0 = a.at.v.array(), v1 = b.at.v.array(),
+             w2 = ledger_work_.frequency_squared.array(), rate = ledger_work_.damping.array();
+  ModalWork work;
+  work.torque = (ledger_work_.torque.array() * (z1 - z0)).sum();
+  work.kinetic = 0.5 * (v1 * v1 - v0 * v0).sum();
+  work.modal = 0.5 * (w2 * (z1 * z1 - z0 * z0)).sum();
+  if (newmark_) {  // the trapezoidal rule's own velocity
+    work.damping = step_ * (rate * (0.5 * (v0 + v1)).square()).sum();
+  } else {
+    const auto push = 0.5 * (a.at.force.array() + b.at.force.array()) - w2 * z0;
+    work.damping = (rate * (damping_.speed.array() * v0 * v0 + 2 * damping_.mixed.array() * v0 * push +
+                            damping_.push.array() * push * push))
+                       .sum();
   }
-  const double torque = sum(torque_sum), kinetic = 0.5 * sum(kinetic_sum), modal = 0.5 * sum(modal_sum),
-               modal_damping = sum(damping_sum);
+  return work;
+}
 
-  // Lag: eta G' + G = g, energy G R G / 2, dissipation eta G' R G', g linear in the step.
-  Lanes stored1{}, stored0{}, mean{}, behind2{}, behind_change{}, change2{}, load_behind{}, load_change{},
-      change_behind{}, mean_change{};
-  for (int k = 0; k < 2 * of_gear; k += kLanes) {
-    const Lanes load0 = lanes(&a.load[k]), load1 = lanes(&b.load[k]), lag0 = lanes(&a.lag[k]),
-                field0 = lanes(&a.field[k]), field1 = lanes(&b.field[k]), moved0 = lanes(&a.moved_load[k]),
-                change = load1 - load0, moved_change = lanes(&b.moved_load[k]) - moved0,
-                behind = load0 - lag0, moved_behind = moved0 - field0;
-    stored1 += lanes(&b.lag[k]) * field1;
-    stored0 += lag0 * field0;
-    mean += (load0 + load1) * (field1 - field0);
-    behind2 += behind * moved_behind;
-    behind_change += behind * moved_change;
-    change2 += change * moved_change;
-    load_behind += load0 * moved_behind;
-    load_change += load0 * moved_change;
-    change_behind += change * moved_behind;
-    mean_change += (load0 + load1) * moved_change;
-  }
-  double lag_damping = 0, exact = 0.5 * sum(mean_change);
+// eta G' + G = g, energy G R G / 2, dissipation eta G' R G', g linear in the step.
+RollingDynamics::LagWork RollingDynamics::lag_work(const Instant& a, const Instant& b) const {
+  const auto load0 = a.at.load.array(), load1 = b.at.load.array(), lag0 = a.at.lag.array(),
+             field0 = a.field.array(), field1 = b.field.array(), moved0 = a.moved_load.array(),
+             moved1 = b.moved_load.array();
+  LagWork work;
+  work.residual = 0.5 * ((b.at.lag.array() * field1).sum() - (lag0 * field0).sum()) + a.stored_forgotten;
+  double exact = 0.5 * ((load0 + load1) * (moved1 - moved0)).sum();
   if (relaxation() > 0) {
-    lag_damping = damping_.decay2 * sum(behind2) + 2 * damping_.mixed2 * sum(behind_change) +
-                  damping_.growth2 * sum(change2);
-    exact = damping_.decay * sum(load_behind) + damping_.growth * sum(load_change) +
-            damping_.late_decay * sum(change_behind) + damping_.late_growth * sum(change2);
+    const auto behind = load0 - lag0, change = load1 - load0, moved_behind = moved0 - field0,
+               moved_change = moved1 - moved0;
+    const double change2 = (change * moved_change).sum();
+    work.damping = damping_.decay2 * (behind * moved_behind).sum() +
+                   2 * damping_.mixed2 * (behind * moved_change).sum() + damping_.growth2 * change2;
+    exact = damping_.decay * (load0 * moved_behind).sum() + damping_.growth * (load0 * moved_change).sum() +
+            damping_.late_decay * (change * moved_behind).sum() + damping_.late_growth * change2;
   }
-  const double averaging = 0.5 * sum(mean) - exact;
-  const double residual = 0.5 * (sum(stored1) - sum(stored0)) + a.stored_forgotten;
+  work.averaging = 0.5 * ((load0 + load1) * (field1 - field0)).sum() - exact;
+  return work;
+}
 
-  ledger.kinetic += kinetic;
-  ledger.modal += modal;
-  ledger.residual += residual;
+void RollingDynamics::record_step(const Instant& a, const Instant& b, Ledger& ledger) {
+  const ContactWork contact = contact_work(a, b);
+  const ModalWork modes = modal_work(a, b);
+  const LagWork lag = lag_work(a, b);
+  const double local = b.at_once - a.at_once;
+  ledger.kinetic += modes.kinetic;
+  ledger.modal += modes.modal;
+  ledger.residual += lag.residual;
   ledger.local += local;
-  ledger.torque += torque;
-  ledger.rolling += rolling;
-  ledger.modal_damping += modal_damping;
-  ledger.lag_damping += lag_damping;
-  ledger.switching += switching;
-  ledger.cutting += cutting;
-  ledger.averaging += averaging;
-  ledger.forgetting += forgetting;
-  ledger.throughput += std::abs(torque) + std::abs(rolling);
+  ledger.torque += modes.torque;
+  ledger.rolling += contact.rolling;
+  ledger.modal_damping += modes.damping;
+  ledger.lag_damping += lag.damping;
+  ledger.switching += contact.switching;
+  ledger.cutting += contact.cutting;
+  ledger.averaging += lag.averaging;
+  ledger.forgetting += contact.forgetting;
+  ledger.throughput += std::abs(modes.torque) + std::abs(contact.rolling);
   double& balance = ledger_work_.balance;
-  balance += kinetic + modal + residual + local + modal_damping + lag_damping - torque - rolling - switching -
-             cutting - forgetting + averaging;
+  balance += modes.kinetic + modes.modal + lag.residual + local + modes.damping + lag.damping - modes.torque -
+             contact.rolling - contact.switching - contact.cutting - contact.forgetting + lag.averaging;
   ledger.imbalance = std::max(ledger.imbalance, std::abs(balance));
 }
 

@@ -21,8 +21,9 @@ RollingPeriodMap::RollingPeriodMap(RollingDynamics& dynamics, int steps)
   dynamics.rest();  // sets the scale of distances
   coordinates_ = static_cast<int>(dynamics.coordinates_.size());
   double largest = 0;
-  for (int g = 0; g < 2; ++g) largest = std::max(largest, dynamics.coupling(g, 0).diagonal().maxCoeff());
-  if (dynamics.relaxation() > 0 && largest > 0) fields_ = 2 * dynamics.all_fields();
+  for (int g = 0; g < dynamics_.gears(); ++g)
+    largest = std::max(largest, dynamics.kernel_.system().block(g, 0).diagonal().maxCoeff());
+  if (dynamics.relaxation() > 0 && largest > 0) fields_ = dynamics.gears() * dynamics.kernel_.fields();
   unit_ = units(0);
   if (size() > kMostSize)
     fail(Failure::input, "a state of ", size(), " numbers has a tangent with the square of that, at most ",
@@ -45,13 +46,13 @@ VectorXd RollingPeriodMap::units(int cut) const {
   unit.head(n) = scale * dynamics_.frequency_squared_.cwiseSqrt().cwiseInverse();
   unit[0] = scale / dynamics_.rigid_frequency_;
   unit.segment(n, n).setConstant(scale);
-  constexpr int kFields = RollingDynamics::kFields;
-  for (int g = 0; g < 2 && fields_ > 0; ++g) {
-    const VectorXd own = dynamics_.coupling(g, 0).diagonal();
+  constexpr int kFields = StepKernel::kFields;
+  for (int g = 0; g < dynamics_.gears() && fields_ > 0; ++g) {
+    const VectorXd own = dynamics_.kernel_.system().block(g, 0).diagonal();
     constexpr double kLeast = 1e-10;  // of the largest: fields that hardly move anything
     const VectorXd stored = own.cwiseMax(kLeast * own.maxCoeff());
-    for (int tooth = 0; tooth < fields_ / 2 / kFields; ++tooth)
-      unit.segment<kFields>(2 * n + g * fields_ / 2 + tooth * kFields) =
+    for (int tooth = 0; tooth < of_gear() / kFields; ++tooth)
+      unit.segment<kFields>(2 * n + g * of_gear() + tooth * kFields) =
           scale * stored.cwiseSqrt().cwiseInverse();
   }
   const double load = dynamics_.parameters_.torque / dynamics_.model_.kinematics.gear(0).base_radius();
@@ -63,26 +64,25 @@ void RollingPeriodMap::set_parameter(double mesh_frequency) {
   dynamics_.set_speed(mesh_frequency, steps_);
   mesh_frequency_ = mesh_frequency;
   coefficients_.resize(static_cast<size_t>(coordinates_) * kCoefficients);
-  using Of = RollingDynamics::SpeedCoefficients;
-  for (int c = 0; c < coordinates_; ++c) {
-    double* to = &coefficients_[static_cast<size_t>(c) * kCoefficients];
-    for (const auto of : {Of::a11, Of::a12, Of::a21, Of::a22, Of::push_z, Of::push_v, Of::bq})
-      *to++ = dynamics_.speed_.at(of, c);
-  }
+  double* to = coefficients_.data();
+  for (const Propagator& a : dynamics_.kernel_.propagators())
+    for (const double coefficient : {a.a11, a.a12, a.a21, a.a22, a.push_z(), a.push_v(), a.bq})
+      *to++ = coefficient;
 }
 
 VectorXd RollingPeriodMap::flat(const State& state) const {
-  const int n = coordinates_, fields = dynamics_.all_fields();
+  const int n = coordinates_, fields = dynamics_.kernel_.fields();
   VectorXd y(size());
   y.head(n) = state.z;
   y.segment(n, n) = state.v;
-  for (int g = 0; g < 2 && fields_ > 0; ++g) y.segment(2 * n + g * fields, fields) = state.lag[g].reshaped();
+  for (int g = 0; g < dynamics_.gears() && fields_ > 0; ++g)
+    y.segment(2 * n + g * fields, fields) = state.lag[g].reshaped();
   y.tail(channels(0)) = position(0).mesh.to_nodes(state.p);
   return y.cwiseQuotient(unit_);
 }
 
 State RollingPeriodMap::state(const VectorXd& y) const {
-  const int n = coordinates_, fields = dynamics_.all_fields();
+  const int n = coordinates_, fields = dynamics_.kernel_.fields();
   const VectorXd own = y.cwiseProduct(unit_), nodes = own.tail(channels(0));
   const Position& position = this->position(0);
   State state;
@@ -90,11 +90,12 @@ State RollingPeriodMap::state(const VectorXd& y) const {
   state.z = own.head(n);
   state.v = own.segment(n, n);
   state.force = dynamics_.torque_force_ - position.participation.transpose() * nodes;
-  for (int g = 0; g < 2; ++g) {
-    state.load[g] = MatrixXd::Zero(RollingDynamics::kFields, 2 * dynamics_.reach_ + 1);
-    state.lag[g] = state.load[g];
+  state.load.assign(position.field_weight.size(),
+                    MatrixXd::Zero(StepKernel::kFields, 2 * dynamics_.reach_ + 1));
+  state.lag = state.load;
+  for (int g = 0; g < dynamics_.gears(); ++g) {
     for (size_t j = 0; j < position.mesh.pairs.size(); ++j)
-      state.load[g].col(position.frame.pair[j].slot) =
+      state.load[g].col(position.pair[j].slot) =
           position.field_weight[g](position.mesh.nodes_of(j), Eigen::all).transpose() *
           nodes(position.mesh.nodes_of(j));
     if (fields_ > 0) state.lag[g].reshaped() = own.segment(2 * n + g * fields, fields);
@@ -115,7 +116,7 @@ VectorXd RollingPeriodMap::apply(const VectorXd& y) {
 std::vector<std::vector<int>> RollingPeriodMap::active_sets() const {
   std::vector<std::vector<int>> sets(steps_);
   for (int i = 0; i < steps_; ++i) {
-    const RollingDynamics::Step& step = dynamics_.step_data_[i];
+    const StepKernel::Step& step = dynamics_.kernel_.step(i);
     if (!dynamics_.lines())
       sets[i] = step.active.strips;
     else
@@ -142,7 +143,7 @@ std::vector<ContactEvent> RollingPeriodMap::events() const {
 
 MatrixXd RollingPeriodMap::node_forces(int sample) const {
   const Position& position = this->position(sample);
-  const RollingDynamics::Step& step = dynamics_.step_data_[sample];
+  const StepKernel::Step& step = dynamics_.kernel_.step(sample);
   const MeshPosition& mesh = position.mesh;
   const int nodes = mesh.nodes();
   MatrixXd result = MatrixXd::Zero(nodes, nodes);
@@ -160,13 +161,13 @@ MatrixXd RollingPeriodMap::node_forces(int sample) const {
   }
   const std::vector<int>& active = step.active.strips;
   if (active.empty()) return result;
-  const StripCompliance compliance = dynamics_.strip_compliance(position, step.compliance.data());
+  const StripCompliance compliance = dynamics_.kernel_.compliance(sample);
   MatrixXd whole(compliance.size(), compliance.size());
   compliance.assemble_columns(active, active, whole.data());
   const MatrixXd a = whole(active, active);
   MatrixXd weights = MatrixXd::Zero(static_cast<Eigen::Index>(active.size()), nodes);
   for (size_t k = 0; k < active.size(); ++k) {
-    const int j = active[k] / position.frame.of_pair, i = active[k] % position.frame.of_pair;
+    const int j = active[k] / compliance.strips, i = active[k] % compliance.strips;
     weights.row(static_cast<Eigen::Index>(k))(mesh.nodes_of(j)) = mesh.pairs[j].interpolation.row(i);
   }
   const Eigen::LLT<MatrixXd> factor(a);
@@ -178,25 +179,25 @@ MatrixXd RollingPeriodMap::node_forces(int sample) const {
 }
 
 RollingPeriodMap::Replay RollingPeriodMap::prepare(int sample) {
-  constexpr int kFields = RollingDynamics::kFields;
+  constexpr int kFields = StepKernel::kFields;
   const Position& position = this->position(sample);
   const MeshPosition& mesh = position.mesh;
   const bool lines = dynamics_.lines();
-  const int rows_of_pair = lines ? 1 : RollingDynamics::kShapeRows, n = coordinates_;
+  const int rows_of_pair = lines ? 1 : StepKernel::kShapeRows, n = coordinates_;
   Replay r;
-  r.present = position.frame.present;
+  r.present = static_cast<int>(mesh.pairs.size());
   r.nodes_of_pair = mesh.nodes_per_pair;
   r.rows = (r.present * rows_of_pair + 1) / 2 * 2;
   r.nodes = padded(mesh.nodes());
-  for (int j = 0; j < r.present; ++j) r.slot[j] = position.frame.pair[j].slot;
+  for (int j = 0; j < r.present; ++j) r.slot[j] = position.pair[j].slot;
 
   MatrixXd basis = MatrixXd::Zero(r.nodes, r.rows);  // (node, row)
   for (int j = 0; j < r.present; ++j)
     if (lines)
       basis(j, j) = 1;
     else
-      basis.block<kWindowNodes, RollingDynamics::kShapeRows>(
-          j * kWindowNodes, j * RollingDynamics::kShapeRows) = RollingDynamics::shape_basis();
+      basis.block<kWindowNodes, StepKernel::kShapeRows>(j * kWindowNodes, j * StepKernel::kShapeRows) =
+          StepKernel::shape_basis();
   const auto place = [&](Eigen::Index count) {
     const size_t at = numbers_.size();
     numbers_.resize(at + static_cast<size_t>(count));
@@ -207,12 +208,11 @@ RollingPeriodMap::Replay RollingPeriodMap::prepare(int sample) {
       basis.topRows(mesh.nodes()).transpose() * position.participation;
 
   MatrixXd reading = MatrixXd::Zero(r.nodes, fields_);  // (node, lagged field) m N-1
-  for (int g = 0; g < 2 && fields_ > 0; ++g)
+  for (int g = 0; g < dynamics_.gears() && fields_ > 0; ++g)
     for (int j = 0; j < r.present; ++j)
       for (int tooth = 0; tooth <= 2 * dynamics_.reach_; ++tooth) {
-        const MatrixXd& block = dynamics_.coupling(g, r.slot[j] - tooth);
-        reading.block(j * r.nodes_of_pair, g * fields_ / 2 + tooth * kFields, r.nodes_of_pair,
-                      block.cols()) +=
+        const MatrixXd& block = dynamics_.kernel_.system().block(g, r.slot[j] - tooth);
+        reading.block(j * r.nodes_of_pair, g * of_gear() + tooth * kFields, r.nodes_of_pair, block.cols()) +=
             position.field_weight[g](mesh.nodes_of(j), Eigen::seqN(0, block.rows())) * block;
       }
   MatrixXd forces = MatrixXd::Zero(r.nodes, r.nodes);
@@ -226,11 +226,11 @@ RollingPeriodMap::Replay RollingPeriodMap::prepare(int sample) {
   r.shape = place(basis.size());
   Eigen::Map<MatrixXd>(&numbers_[r.shape], r.nodes, r.rows) = 0.5 * basis;
   if (fields_ > 0) {
-    r.field = place(static_cast<Eigen::Index>(r.present) * 2 * kFields * r.nodes_of_pair);
+    r.field = place(static_cast<Eigen::Index>(r.present) * dynamics_.gears() * kFields * r.nodes_of_pair);
     for (int j = 0; j < r.present; ++j)
-      for (int g = 0; g < 2; ++g)
+      for (int g = 0; g < dynamics_.gears(); ++g)
         Eigen::Map<MatrixXd>(
-            &numbers_[r.field + static_cast<size_t>((2 * j + g) * kFields * r.nodes_of_pair)],
+            &numbers_[r.field + static_cast<size_t>((dynamics_.gears() * j + g) * kFields * r.nodes_of_pair)],
             r.nodes_of_pair, kFields) = position.field_weight[g](mesh.nodes_of(j), Eigen::all);
   }
   return r;
@@ -331,12 +331,12 @@ void RollingPeriodMap::read(const Replay& next) {
 // lag = decay lag + share loads of the node forces, of the teeth that carry them.
 void RollingPeriodMap::relax(const Replay& at, double decay, double share) {
   using R = Row<kWide>;
-  constexpr int kFields = RollingDynamics::kFields;
+  constexpr int kFields = StepKernel::kFields;
   double* lag = moved_.data();
   if (fields_ == 0) return;
-  for (int g = 0; g < 2; ++g)
-    for (int k = (g * fields_ / 2 + live_first_ * kFields) * kWide;
-         k < (g * fields_ / 2 + live_last_ * kFields) * kWide; k += kLanes)
+  for (int g = 0; g < dynamics_.gears(); ++g)
+    for (int k = (g * of_gear() + live_first_ * kFields) * kWide;
+         k < (g * of_gear() + live_last_ * kFields) * kWide; k += kLanes)
       lanes(lag + k) *= decay;
   for (int j = 0; j < at.present; ++j) {
     live_first_ = std::min(live_first_, at.slot[j]);
@@ -344,8 +344,8 @@ void RollingPeriodMap::relax(const Replay& at, double decay, double share) {
   }
   const double* weight = numbers_.data() + at.field;
   for (int j = 0; j < at.present; ++j)
-    for (int g = 0; g < 2; ++g) {
-      double* own = lag + (g * fields_ / 2 + at.slot[j] * kFields) * kWide;
+    for (int g = 0; g < dynamics_.gears(); ++g) {
+      double* own = lag + (g * of_gear() + at.slot[j] * kFields) * kWide;
       for (int k = 0; k < kFields; ++k, own += kWide, weight += at.nodes_of_pair) {
         R load{};
         for (int i = 0; i < at.nodes_of_pair; ++i)
@@ -360,8 +360,8 @@ void RollingPeriodMap::relax(const Replay& at, double decay, double share) {
 // Node forces of what modes and lag move, and forces on shape rows of those.
 void RollingPeriodMap::solve(const Replay& at) {
   using R = Row<kWide>;
-  const int columns = fields_ + at.rows, half = fields_ / 2;
-  const int first = live_first_ * RollingDynamics::kFields, last = live_last_ * RollingDynamics::kFields;
+  const int columns = fields_ + at.rows;
+  const int first = live_first_ * StepKernel::kFields, last = live_last_ * StepKernel::kFields;
   const double* solve = numbers_.data() + at.solve;
   for (int i = 0; i < at.nodes; i += kLanes, solve += static_cast<size_t>(columns) * kLanes) {
     R sum[kLanes] = {};
@@ -373,10 +373,8 @@ void RollingPeriodMap::solve(const Replay& at) {
         for (int l = 0; l < kLanes; ++l) sum[l].add(own[l], x);
       }
     };
-    if (fields_ > 0) {
-      add(first, last);
-      add(half + first, half + last);
-    }
+    for (int g = 0; g < dynamics_.gears() && fields_ > 0; ++g)
+      add(g * of_gear() + first, g * of_gear() + last);
     add(fields_, columns);
     for (int l = 0; l < kLanes; ++l) sum[l].put(&nodes_[(i + l) * kWide]);
   }
@@ -411,7 +409,7 @@ void RollingPeriodMap::push(const Replay& at, double sign) {
 void RollingPeriodMap::rename() {
   using R = Row<kWide>;
   for (double* y : {z_.data(), v_.data()})
-    for (const RollingDynamics::Turn& turn : dynamics_.turns_) {
+    for (const StepSystem::Turn& turn : dynamics_.kernel_.system().turns) {
       double* at = y + turn.cosine * kWide;
       R cosine{}, sine{};
       if (turn.sine < 0) {
@@ -429,11 +427,11 @@ void RollingPeriodMap::rename() {
     }
   live_first_ = std::min(live_first_ + 1, live_last_);
   live_last_ = std::min(live_last_ + 1, 2 * dynamics_.reach_ + 1);
-  constexpr int kTooth = RollingDynamics::kFields * kWide;
-  const int of_gear = fields_ / 2 * kWide;
-  for (int g = 0; g < 2 && fields_ > 0; ++g) {
-    double* own = moved_.data() + g * of_gear;
-    std::copy_backward(own, own + of_gear - kTooth, own + of_gear);
+  constexpr int kTooth = StepKernel::kFields * kWide;
+  const int numbers = of_gear() * kWide;
+  for (int g = 0; g < dynamics_.gears() && fields_ > 0; ++g) {
+    double* own = moved_.data() + g * numbers;
+    std::copy_backward(own, own + numbers - kTooth, own + numbers);
     std::fill(own, own + kTooth, 0.0);
   }
 }
@@ -442,7 +440,7 @@ void RollingPeriodMap::rename() {
 // without them, and are pushed in the pass that takes them to the next step.
 void RollingPeriodMap::replay(int cut, int first, const VectorXd& unit, MatrixXd& result) {
   const int n = coordinates_, size = static_cast<int>(unit.size()), end = 2 * n + fields_;
-  const Lag lag = dynamics_.lag_;
+  const Lag lag = dynamics_.kernel_.lag();
   for (std::vector<double>* x : {&z_, &v_, &moved_, &nodes_}) std::fill(x->begin(), x->end(), 0.0);
   const auto row = [&](int i) {
     return i < n       ? &z_[i * kWide]
@@ -456,7 +454,7 @@ void RollingPeriodMap::replay(int cut, int first, const VectorXd& unit, MatrixXd
   for (int k = 0; k < count; ++k) {
     row(first + k)[k] = unit[first + k];
     if (first + k < 2 * n || first + k >= end) continue;
-    const int tooth = (first + k - 2 * n) % (fields_ / 2) / RollingDynamics::kFields;
+    const int tooth = (first + k - 2 * n) % (of_gear()) / StepKernel::kFields;
     live_first_ = std::min(live_first_, tooth);
     live_last_ = std::max(live_last_, tooth + 1);
   }

@@ -71,7 +71,8 @@ class RollingPeriodMap : public PeriodMap {
   };
   static constexpr int kCoefficients = 7;  // of a coordinate: a11, a12, a21, a22, push_z, push_v, bq
   const Position& position(int sample) const;
-  int channels(int cut) const;  // nodes of all pairs at a step
+  int of_gear() const { return fields_ / dynamics_.gears(); }  // fields
+  int channels(int cut) const;                                 // nodes of all pairs at a step
   Eigen::VectorXd units(int cut) const;
   Eigen::MatrixXd node_forces(int sample) const;  // (node, node) N m-1: W^T A_FF^-1 W
   Replay prepare(int sample);
@@ -87,7 +88,7 @@ class RollingPeriodMap : public PeriodMap {
   void rename();
 
   RollingDynamics& dynamics_;
-  int steps_, coordinates_ = 0, fields_ = 0;  // fields of both gears; 0 without a lag
+  int steps_, coordinates_ = 0, fields_ = 0;  // fields of all gears; 0 without a lag
   double mesh_frequency_ = 0;
   bool left_zone_ = false;
   Eigen::VectorXd unit_;  // (size) of phase 0

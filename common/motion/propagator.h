@@ -10,6 +10,11 @@ namespace whine {
 struct Propagator {
   double a11, a12, a21, a22;
   double bq, bv;
+
+  // What half of a new force takes off q and v by the end of the next step, that force held on it: of this one as bq and bv, bv
+  // being a12.
+  double push_z() const { return a11 * bq + a12 * a12 + bq; }
+  double push_v() const { return a21 * bq + a22 * a12 + a12; }
 };
 
 // frequency w: rad s-1, >= 0; damping c: s-1, >= 0; step h: s, > 0.

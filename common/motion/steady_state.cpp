@@ -42,7 +42,7 @@ double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
 void begin_with_end_of(const RollingDynamics::Period& before, RollingDynamics::Period& period) {
   period.transmission_error[0] = before.transmission_error[0];
   if (before.pair_load.rows() == period.pair_load.rows()) period.pair_load.col(0) = before.pair_load.col(0);
-  for (size_t g = 0; g < 2; ++g)
+  for (size_t g = 0; g < period.bearing_force.size(); ++g)
     if (period.bearing_force[g].size() > 0) period.bearing_force[g].col(0) = before.bearing_force[g].col(0);
 }
 
@@ -65,7 +65,7 @@ State combination(const std::vector<const State*>& states, const VectorXd& weigh
   add([](auto& s) -> auto& { return s.z; });
   add([](auto& s) -> auto& { return s.v; });
   add([](auto& s) -> auto& { return s.force; });
-  for (int g = 0; g < 2; ++g) {
+  for (size_t g = 0; g < sum.lag.size(); ++g) {
     add([g](auto& s) -> auto& { return s.lag[g]; });
     add([g](auto& s) -> auto& { return s.load[g]; });
   }

@@ -320,7 +320,7 @@ VectorXd least_closing(const SweepArtifact& s) {
   VectorXd least(s.transmission_error.rows());
   for (Eigen::Index i = 0; i < least.size(); ++i) {
     VectorXd closing = s.transmission_error.row(i).transpose();
-    for (size_t g = 0; g < 2; ++g)
+    for (size_t g = 0; g < s.bearing_force.size(); ++g)
       if (!s.bearing_force[g].empty())
         closing += (g == 0 ? 1 : -1) / s.mesh.bearing[g].stiffness *
                    (s.bearing_force[g][static_cast<size_t>(i)] * contact_normal(gears));
@@ -340,7 +340,7 @@ Eigen::VectorXd backlash_left(const SweepArtifact& s) {
 namespace {
 
 // The eta that a scene without [damping] gets is that of P2000's pair; others it damps by what nobody chose.
-std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::array<double, 2>& inertia,
+std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::vector<double>& inertia,
                                      const Damping& damping) {
   const auto of_paper = [](const GearDesign& g) { return g.teeth == 50 && std::abs(g.module - 3e-3) < 1e-9; };
   const double ratio = stiffness_damping_ratio(statics, damping, inertia[0], inertia[1]);
@@ -357,14 +357,14 @@ std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::a
 
 }  // namespace
 
-std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, 2>& inertia,
+std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::vector<double>& inertia,
                                   const Damping& damping, const Fidelity& fidelity) {
   constexpr double kFlywheel =
       100;  // times the inertia of the drawing: more than what shafts and couplings add
   std::vector<Remark> out;
   if (fidelity.body != "rigid" && fidelity.body != "quasi-static")
     if (const auto damped = damping_remark(statics, inertia, damping)) out.push_back(*damped);
-  for (size_t g = 0; g < 2; ++g) {
+  for (size_t g = 0; g < inertia.size(); ++g) {
     const double own = least_body_inertia(ToothGeometry(g ? statics.driven : statics.driver),
                                           g ? statics.driven_material : statics.driver_material);
     if (inertia[g] > kFlywheel * own)
@@ -503,7 +503,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   double least_error = std::numeric_limits<double>::infinity();
   for (int i = 0; i < speeds; ++i) {
     MatrixRM loads = MatrixRM::Zero(longest * samples, 2 * reach + 1);
-    for (int g = 0; g < 2; ++g)
+    for (size_t g = 0; g < model.bearing.size(); ++g)
       if (model.bearing[g].elastic()) result.bearing_force[g].emplace_back(longest * samples, 2);
     for (const RollingDynamics::Period& period : steady[i].record) {
       least_error = std::min(least_error, period.transmission_error.minCoeff());
@@ -522,7 +522,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
         loads.row(row).segment(reach - own_reach, 2 * own_reach + 1) =
             period.pair_load.col(n * stride).transpose();
         result.mesh_force(i, row) = loads.row(row).sum();
-        for (int g = 0; g < 2; ++g)
+        for (size_t g = 0; g < model.bearing.size(); ++g)
           if (model.bearing[g].elastic())
             result.bearing_force[g].back().row(row) = period.bearing_force[g].col(n * stride).transpose();
       }

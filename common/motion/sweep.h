@@ -1,7 +1,6 @@
 // Speed sweeps: the state is carried from speed to speed, as on a test rig, and each speed runs until it is
 // periodic.
 #pragma once
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -33,8 +32,8 @@ double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& dam
                                double driven_inertia);
 
 // What is out of the ordinary in the numbers of a scene that only motions need: a damping that nobody chose for these gears,
-// inertias a hundred times those of the drawing. inertia: kg m2, of driver and driven gear.
-std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, 2>& inertia,
+// inertias a hundred times those of the drawing. inertia: (gear) kg m2.
+std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::vector<double>& inertia,
                                   const Damping& damping, const Fidelity& fidelity);
 
 // What a reader of a sweep of elastic gears has to know beside its numbers, in words: a default damping that is not for these
