@@ -2,9 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <numbers>
 
@@ -13,6 +11,7 @@
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
 #include "orbits/branch.h"
+#include "orbits/recurrence.h"
 #include "signal/branch_end.h"
 
 namespace whine {
@@ -22,9 +21,6 @@ using Matrix = LumpedOscillator::Matrix;
 
 namespace {
 
-constexpr int kMostMultiple = 8;     // longest subharmonic looked for, in mesh periods
-constexpr int kSubharmonic = 50;     // periods before one is looked for
-constexpr double kApart = 10;        // times periodicity: from there on two states may be a subharmonic's
 constexpr double kClose = 1e-2;      // change per period from which Newton's method is tried
 constexpr double kFarthest = 0.1;    // that it may lead away
 constexpr double kRoundOff = 1e-13;  // of the state
@@ -64,7 +60,7 @@ void record(LumpedOscillator& oscillator, LumpedOrbit& orbit) {
   orbit.record.clear();
   orbit.ledger = {};
   double mean = 0, square = 0;
-  const int periods = orbit.multiple > 0 ? orbit.multiple : kMostMultiple;
+  const int periods = orbit.multiple > 0 ? orbit.multiple : Recurrence<State>::kMostMultiple;
   for (int i = 0; i < periods; ++i) {
     orbit.record.push_back(oscillator.record(y, orbit.ledger));
     mean += orbit.record.back().mean / periods;
@@ -89,40 +85,32 @@ BranchMotion branch_motion(double mesh_frequency, const LumpedOrbit& orbit) {
   return {mesh_frequency, orbit.rms, orbit.multiple};
 }
 
-// Between the speeds i - 1 and i of a sweep, or beyond where the sweep left the branch early; nothing if the branch leads from
-// one to the other. kept: the orbit at speed i - 1.
-std::optional<LumpedJump> find_jump(LumpedOscillator& oscillator, const std::vector<BranchMotion>& motions,
+// Between the speeds i - 1 and i of a sweep; kept: the orbit at speed i - 1.
+std::optional<LumpedJump> jump_from(LumpedOscillator& oscillator, const std::vector<BranchMotion>& motions,
                                     size_t i, const LumpedOrbit& kept, double periodicity, bool march_only,
                                     std::vector<BranchPoint>& left_early) {
-  const double from = motions[i - 1].mesh_frequency, to = motions[i].mesh_frequency;
-  const LumpedJump whole{0.5 * (from + to), std::abs(to - from), false, kept.start};
-  if (kept.multiple == 0) return whole;
   LumpedOrbit branch = kept;
   std::vector<std::pair<double, LumpedOrbit>> runs;  // by speed, Hz
-  std::vector<BranchPoint> points;
-  BranchWalk walk;
-  walk.step = to - from;
-  walk.limit = motions.back().mesh_frequency;
-  while (std::abs(walk.step) > kFinest * walk.fineness) walk.fineness *= 2;
-  walk.run = [&](double mesh_frequency, double) {
+  BranchFollower follower;
+  follower.finest = kFinest;
+  follower.run = [&](double mesh_frequency, double) {
     oscillator.set_speed(mesh_frequency);
     runs.emplace_back(mesh_frequency,
                       settle(oscillator, branch.start, periodicity, march_only, kFollowPeriods));
     return branch_motion(mesh_frequency, runs.back().second);
   };
-  walk.keep = [&](int n) {
+  follower.keep = [&](int n) {
     branch = runs[n].second;
-    points.push_back(branch_point(runs[n].first, branch));
+    return branch_point(runs[n].first, branch);
   };
-  const auto end = branch_end(walk, motions, i);
-  if (!end) return std::nullopt;
-  left_early.insert(left_early.end(), points.begin(), points.end());
-  if (end->outlived) return whole;
-  const double width = std::abs(end->next - end->last);
-  if (const auto fold = find_fold(oscillator, branch.start, end->last, branch.multiple))
-    if (std::abs(fold->mesh_frequency - end->last) < 1e3 * width)
-      return LumpedJump{fold->mesh_frequency, width, true, fold->start};
-  return LumpedJump{0.5 * (end->last + end->next), width, false, branch.start};
+  const auto jump = find_jump(
+      motions, i, [&] { return follower; }, &left_early);
+  if (!jump) return std::nullopt;
+  if (jump->located)
+    if (const auto fold = find_fold(oscillator, branch.start, jump->last, branch.multiple))
+      if (std::abs(fold->mesh_frequency - jump->last) < 1e3 * jump->width)
+        return LumpedJump{fold->mesh_frequency, jump->width, true, fold->start};
+  return LumpedJump{jump->frequency, jump->width, false, jump->located ? branch.start : kept.start};
 }
 
 }  // namespace
@@ -135,45 +123,38 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
                    int most_periods) {
   LumpedOrbit orbit;
   State y = start;
-  std::deque<State> past{y};
-  std::deque<std::array<double, kMostMultiple + 1>> history;
+  Recurrence<State> recurrence(periodicity, y);
   int pause = 0, patience = 1;
   const auto away = [&](const State& a, const State& b) {
     return oscillator.size(a - b) / std::max(1e-300, oscillator.size(b));
   };
+  // Newton's method on P^m(y) = y, if it leads to an orbit nearby that is stable and no shorter one's.
+  const auto newton = [&](int m) -> std::optional<LumpedOrbit> {
+    const double change = recurrence.change(m);
+    LumpedOrbit tried = orbit;
+    tried.start = y;
+    const bool found = solve_orbit(oscillator, tried, m);
+    orbit.periods = tried.periods;
+    if (!found) return std::nullopt;
+    const double rho = modulus(tried.monodromy), moved = away(tried.start, y);
+    for (int d = 1; d < m; ++d)
+      if (m % d == 0 && away(image(oscillator, tried.start, d, nullptr), tried.start) < 1e-6)
+        return std::nullopt;
+    if (!(rho < 1 && moved < kFarthest && moved * (1 - rho) < 10 * change + kRoundOff)) return std::nullopt;
+    return tried;
+  };
   for (int n = 1; n <= most_periods; ++n) {
     oscillator.march(y);
     ++orbit.periods;
-    const int known = std::min(static_cast<int>(past.size()), n < kSubharmonic ? 1 : kMostMultiple);
-    std::array<double, kMostMultiple + 1> changes;  // infinite: not known
-    changes.fill(std::numeric_limits<double>::infinity());
-    for (int m = 1; m <= known; ++m) changes[m] = away(y, past[past.size() - m]);
-    // Over d periods the state neither repeats nor comes any nearer to it, as a slow transient would.
-    const auto stagnates = [&](int d) {
-      return static_cast<int>(history.size()) == kSubharmonic && changes[d] > 0.999 * history.front()[d];
-    };
-    for (int m = 1; m <= known; ++m) {
-      const double change = changes[m];
-      bool shorter = false;
-      for (int d = 1; d < m; ++d)
-        shorter =
-            shorter || (m % d == 0 && (changes[d] < kApart * periodicity || (march_only && !stagnates(d))));
-      if (shorter) continue;
+    recurrence.compare(y, n, away);
+    for (int m = 1; m <= recurrence.known(); ++m) {
+      if (!recurrence.primitive(m, march_only)) continue;
+      const double change = recurrence.change(m);
       if (!march_only && change < kClose && pause == 0) {
-        LumpedOrbit tried = orbit;
-        tried.start = y;
-        if (solve_orbit(oscillator, tried, m)) {
-          const double rho = modulus(tried.monodromy), moved = away(tried.start, y);
-          bool primitive = true;
-          for (int d = 1; d < m; ++d)
-            if (m % d == 0 && away(image(oscillator, tried.start, d, nullptr), tried.start) < 1e-6)
-              primitive = false;
-          if (rho < 1 && primitive && moved < kFarthest && moved * (1 - rho) < 10 * change + kRoundOff) {
-            record(oscillator, tried);
-            return tried;
-          }
+        if (auto found = newton(m)) {
+          record(oscillator, *found);
+          return *found;
         }
-        orbit.periods = tried.periods;
         pause = patience = std::min(2 * patience, kLongestPause);
       }
       if (change < (march_only ? periodicity : std::min(periodicity, 10 * kRoundOff))) {
@@ -186,13 +167,10 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
       }
     }
     pause = std::max(0, pause - 1);
-    if (n >= kSubharmonic) history.push_back(changes);
-    if (static_cast<int>(history.size()) > kSubharmonic) history.pop_front();
-    past.push_back(y);
-    if (static_cast<int>(past.size()) > kMostMultiple) past.pop_front();
+    recurrence.keep(y, n);
   }
   orbit.start = y;
-  orbit.residual = past.size() > 1 ? away(y, past[past.size() - 2]) : 0;
+  orbit.residual = recurrence.change(1);
   record(oscillator, orbit);
   return orbit;
 }
@@ -223,7 +201,7 @@ LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>
   for (size_t i = 1; i < motions.size(); ++i)
     if (may_break(motions, i))
       if (const auto jump =
-              find_jump(oscillator, motions, i, out.orbits[i - 1], periodicity, march_only, out.left_early))
+              jump_from(oscillator, motions, i, out.orbits[i - 1], periodicity, march_only, out.left_early))
         out.jumps.push_back(*jump);
   return out;
 }

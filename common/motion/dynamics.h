@@ -212,6 +212,8 @@ class RollingDynamics {
   struct LagWork {
     double residual = 0, damping = 0, averaging = 0;
   };
+  // J: shares of a force in fields, those of one side `apart` from those of the other, on the displacement of a tooth.
+  double field_work(const double* shares, int apart, const Eigen::VectorXd& field, int slot) const;
   ContactWork contact_work(const Instant& before, const Instant& after);
   ModalWork modal_work(const Instant& before, const Instant& after) const;
   LagWork lag_work(const Instant& before, const Instant& after) const;

@@ -1,11 +1,12 @@
 // The coordinates of gears, and what flanks move by them.
+#include "motion/dynamics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/dense.h"
 #include "base/error.h"
-#include "motion/dynamics.h"
 
 namespace whine {
 

@@ -1,4 +1,6 @@
 // The pair at a phase that does not roll: natural frequencies with its contact frozen, damping, what gear-impact moves.
+#include "motion/dynamics.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -6,7 +8,6 @@
 
 #include "base/dense.h"
 #include "base/error.h"
-#include "motion/dynamics.h"
 
 namespace whine {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "motion/dynamics.h"
 
@@ -35,6 +36,14 @@ double bent(double from, const HertzLine::Point& at_from, double to, const Hertz
 }
 double bent(const HertzLine& law, double from, double to) {
   return bent(from, at(law, from), to, at(law, to));
+}
+
+// N m, switching and rolling: what a line's law stores while the force and the law change, less the mean force's work.
+std::pair<double, double> law_work(const HertzLine& law0, const HertzLine& law1, double p0, double p1) {
+  const HertzLine::Point old0 = at(law0, p0), old1 = at(law0, p1), new0 = at(law1, p0), new1 = at(law1, p1);
+  return {0.5 * (bent(p0, old0, p1, old1) + bent(p0, new0, p1, new1)),
+          0.25 * (p1 - p0) * (new1.indentation - old1.indentation - (new0.indentation - old0.indentation)) -
+              0.5 * (new0.energy - old0.energy + new1.energy - old1.energy)};
 }
 
 // Calls at(t, weight) over (0, step), in panels over which nothing with the given rate (s-1) changes much.
@@ -198,11 +207,18 @@ void RollingDynamics::rename(Instant& now) const {
 //
 // Force on modes and on the lag goes through a pair's shape rows and fields: p . h z = moment . reading, p . U = share of p
 // in the fields . their displacement.
+double RollingDynamics::field_work(const double* shares, int apart, const VectorXd& field, int slot) const {
+  constexpr int kFields = StepKernel::kFields;
+  double work = 0;
+  for (int g = 0; g < StepKernel::kSides; ++g)
+    work += Eigen::Matrix<double, kFields, 1>::Map(shares + g * apart)
+                .dot(field.segment<kFields>(g * kernel_.fields() + slot * kFields));
+  return work;
+}
+
 RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, const Instant& b) {
-  using Fields = Eigen::Matrix<double, StepKernel::kFields, 1>;
   const MeshPosition &old_mesh = positions_[a.position].mesh, &new_mesh = positions_[b.position].mesh;
   constexpr int of_tooth = StepKernel::kFields;
-  const int of_gear = kernel_.fields();
   ContactWork work;
   work.forgetting = a.forgotten;
   const bool lines = this->lines();
@@ -212,20 +228,11 @@ RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, con
     kernel_.turn_doublets(ledger_work_.turned_back.data(), -1);
     old_z = ledger_work_.turned_back.data();
   }
-  // J: shares of a force in fields (driver's, then driven gear's) on the displacement of a tooth.
   const auto shares_on = [&](const double* shares, const VectorXd& field, int slot) {
-    double sum = 0;
-    for (int g = 0; g < StepKernel::kSides; ++g)
-      sum += Fields::Map(shares + g * of_tooth).dot(field.segment<of_tooth>(g * of_gear + slot * of_tooth));
-    return sum;
+    return field_work(shares, of_tooth, field, slot);
   };
   const auto load_on = [&](const VectorXd& load, const VectorXd& field, int slot) {
-    double sum = 0;
-    for (int g = 0; g < StepKernel::kSides; ++g) {
-      const int at = g * of_gear + slot * of_tooth;
-      sum += load.segment<of_tooth>(at).dot(field.segment<of_tooth>(at));
-    }
-    return sum;
+    return field_work(&load[slot * of_tooth], kernel_.fields(), field, slot);
   };
   double old_on_new[StepKernel::kSides * of_tooth], new_on_old[StepKernel::kSides * of_tooth];
   unsigned met = 0;
@@ -255,13 +262,9 @@ RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, con
     const auto p1 = b.p.segment(to, n);
     const auto gap1 = new_mesh.gap.segment(to, n);
     if (lines) {
-      const HertzLine &law0 = old_mesh.law[i], &law1 = new_mesh.law[j];
-      const HertzLine::Point old0 = at(law0, p0[0]), old1 = at(law0, p1[0]), new0 = at(law1, p0[0]),
-                             new1 = at(law1, p1[0]);
-      work.switching += 0.5 * (bent(p0[0], old0, p1[0], old1) + bent(p0[0], new0, p1[0], new1));
-      work.rolling -= 0.5 * (new0.energy - old0.energy + new1.energy - old1.energy) -
-                      0.25 * (p1[0] - p0[0]) *
-                          (new1.indentation - old1.indentation - (new0.indentation - old0.indentation));
+      const auto [switching, rolling] = law_work(old_mesh.law[i], new_mesh.law[j], p0[0], p1[0]);
+      work.switching += switching;
+      work.rolling += rolling;
     }
     work.switching += 0.5 * (p0.dot(b.d.segment(to, n)) - p1.dot(a.d.segment(from, n)));
     work.rolling -= 0.5 * ((p0 + p1).dot(gap1 - gap0) + p0.dot(b.local.segment(to, n)) -

@@ -1,10 +1,11 @@
 // Integrates a mesh period over the steps of step_kernel.h.
+#include "motion/dynamics.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/refusal.h"
-#include "motion/dynamics.h"
 
 namespace whine {
 

@@ -1,12 +1,12 @@
 #include "motion/steady_state.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "orbits/recurrence.h"
 
 namespace whine {
 
@@ -18,9 +18,6 @@ namespace {
 
 constexpr int kMostPeriods = 3000;  // mesh periods per speed, before it counts as not periodic
 constexpr int kLeastTurns = 100;    // but this many hunting periods
-constexpr int kMostMultiple = 8;    // longest subharmonic looked for, in hunting periods
-constexpr int kStagnation = 50;     // periods over which a subharmonic must not come nearer to a shorter one
-constexpr double kApart = 10;       // times periodicity: from there on two states may be a subharmonic's
 constexpr int kSecants = 2;         // as many multipliers go at once: the slowest two, of one resonance
 constexpr double kClose = 1e-2;     // change per period below which the motion counts as close to its orbit
 constexpr double kFarAlong = 2.5;   // of the last step along a branch: further it does not foretell
@@ -120,8 +117,7 @@ std::optional<State> Secants::propose() const {
   return combination(states, weight);
 }
 
-// A subharmonic of order m is a motion whose state repeats after m hunting periods but, long since and without getting any
-// nearer, not after a divisor of m: a slow transient may look like one for a while.
+// Orders of subharmonics are in hunting periods.
 std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double periodicity,
                             const std::string& method, const RmsRange& looked_for, Secants* shared) {
   Orbit orbit;
@@ -131,8 +127,7 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
   // The map whose orbits are looked for: a hunting period, which is a mesh period for teeth that are alike.
   const int hunting = dynamics.hunting_periods(), most = std::max(kMostPeriods / hunting, kLeastTurns);
   const bool watched = hunting == 1 && (looked_for.least > 0 || std::isfinite(looked_for.most));
-  std::deque<State> past{state};
-  std::deque<std::array<double, kMostMultiple + 1>> history;  // change over m periods
+  Recurrence<State> recurrence(periodicity, state);
   RollingDynamics::Period period;
   State start = state;  // of the last turn
   struct Proposal {
@@ -150,8 +145,7 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
     march_on();
     proposal.pending = false;
     state = proposal.marched;
-    past.assign(1, state);
-    history.clear();
+    recurrence.restart(state);
   };
   const auto turn = [&] {
     start = state;
@@ -184,32 +178,19 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
         return orbit;
       }
     }
-    std::array<double, kMostMultiple + 1> change;  // infinite: not known
-    change.fill(std::numeric_limits<double>::infinity());
-    const int known = static_cast<int>(past.size());
-    for (int m = 1; m <= std::min(known, n < kStagnation ? 1 : kMostMultiple); ++m)
-      change[m] = dynamics.distance(state, past[known - m]);
-    const auto stagnates = [&](int m) {
-      return static_cast<int>(history.size()) == kStagnation && change[m] > kApart * periodicity &&
-             change[m] > 0.999 * history.front()[m];
-    };
-    int multiple = 0;
-    for (int m = 1; m <= std::min(known, kMostMultiple) && multiple == 0; ++m) {
-      if (!(change[m] < periodicity)) continue;
-      multiple = m;
-      for (int d = 1; d < m; ++d)
-        if (m % d == 0 && !stagnates(d)) multiple = 0;
-    }
-    if (change[1] == 0) multiple = 1;
+    recurrence.compare(state, n, [&](const State& a, const State& b) { return dynamics.distance(a, b); });
+    const int multiple = recurrence.multiple();
     if (multiple > 0 || n >= most) {
       // Not periodic: reported as such, with the last periods as they are.
       const State reached = state;
       orbit.multiple = multiple * hunting;
       orbit.periods = n * hunting;
-      orbit.residual = change[std::max(multiple, 1)];
+      orbit.residual = recurrence.change(std::max(multiple, 1));
       orbit.ledger = {};
       orbit.record.clear();
-      const int recorded = hunting * (multiple > 0 ? multiple : hunting > 1 ? 1 : kMostMultiple);
+      const int recorded = hunting * (multiple > 0  ? multiple
+                                      : hunting > 1 ? 1
+                                                    : Recurrence<State>::kMostMultiple);
       RollingDynamics::Period before = period;
       for (int k = 0; k < recorded; ++k) {
         if (!dynamics.march(state, period, watched ? nullptr : &orbit.ledger)) return std::nullopt;
@@ -228,13 +209,10 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
       ++n;
       march_on();
     }
-    past.push_back(state);
-    if (known == kMostMultiple) past.pop_front();
-    if (n >= kStagnation) history.push_back(change);
-    if (static_cast<int>(history.size()) > kStagnation) history.pop_front();
+    recurrence.keep(state, n);
 
     if (method == "march") continue;
-    if (proposal.pending && change[1] > proposal.change) {
+    if (proposal.pending && recurrence.change(1) > proposal.change) {
       reject();
       continue;
     }
@@ -243,13 +221,12 @@ std::optional<Orbit> settle(RollingDynamics& dynamics, State& state, double peri
       continue;
     }
     secants.take(dynamics, start, state);
-    if (!secants.ready() || change[1] >= kClose) continue;
+    if (!secants.ready() || recurrence.change(1) >= kClose) continue;
     if (const auto foretold = secants.propose()) {
-      proposal = {state, change[1], true};
+      proposal = {state, recurrence.change(1), true};
       proposed = true;
       state = *foretold;
-      past.assign(1, state);
-      history.clear();
+      recurrence.restart(state);
     }
   }
 }

@@ -1,11 +1,11 @@
 // What a step streams, laid side by side: positions, steps at a speed, states.
+#include "motion/step_kernel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 #include <utility>
-
-#include "motion/step_kernel.h"
 
 namespace whine {
 

@@ -12,7 +12,6 @@
 
 #include "base/error.h"
 #include "base/refusal.h"
-#include "contact/lanes.h"
 #include "files/fit.h"
 #include "gear/numbers.h"
 #include "gear/pair.h"
@@ -165,7 +164,8 @@ class Sweeper {
     ContactRange range = contact_range(model_, statics_, bounds(level));
     if (level > 0) {
       const double wider = range.half_window / lowest_.half_window;
-      range.strips = padded(static_cast<int>(std::ceil(wider * lowest_.strips)));
+      constexpr int kAtOnce = StepKernel::kStripsAtOnce;
+      range.strips = kAtOnce * static_cast<int>(std::ceil(wider * lowest_.strips / kAtOnce));
       range.half_window = lowest_.half_window * range.strips / lowest_.strips;
     }
     return range;
@@ -240,55 +240,49 @@ Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
   return sweeper.run_from(foretold(sweeper.dynamics(), known, mesh_frequency), mesh_frequency);
 }
 
-struct Jump {
-  double frequency, width;
-};
-// Between the speeds i - 1 and i of a sweep, or beyond where the sweep left the branch early; nothing if the branch leads from
-// one to the other. reached: the states at the end of speeds.
-std::optional<Jump> find_jump(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
-                              const std::vector<RollingDynamics::State>& reached, bool march,
-                              std::vector<BranchPoint>* left_early) {
-  const BranchMotion &from = motions[i - 1], &to = motions[i];
-  const double width = std::abs(to.mesh_frequency - from.mesh_frequency);
-  const Jump whole{0.5 * (from.mesh_frequency + to.mesh_frequency), width};
-  if (from.multiple == 0) return whole;
+// How the branch of the motion i - 1 of a sweep is followed; reached: the states at the end of speeds.
+BranchFollower follow_branch(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
+                             const std::vector<RollingDynamics::State>& reached, bool march) {
   struct Run {
     Orbit orbit;
     KnownOrbit end;
     Secants secants;
   };
-  std::vector<Run> runs;
-  std::vector<KnownOrbit> branch;
-  Secants secants;  // of the branch
-  double rms = from.rms;
+  struct Branch {
+    std::vector<Run> runs;
+    std::vector<KnownOrbit> known;
+    Secants secants;
+    double rms = 0;
+    bool single = false;
+  };
+  const auto branch = std::make_shared<Branch>();
+  const BranchMotion& from = motions[i - 1];
+  branch->rms = from.rms;
   // Of a subharmonic nothing says in which of its periods a run ends.
-  const bool single = from.multiple == sweeper.hunting_periods();
+  branch->single = from.multiple == sweeper.hunting_periods();
   size_t first = i - 1;
-  while (single && first > 0 && i - first < 3 && motions[first - 1].multiple == from.multiple) --first;
-  for (size_t k = first; k < i; ++k) branch.push_back({motions[k].mesh_frequency, reached[k]});
-  std::vector<BranchPoint> points;
-  BranchWalk walk;
-  walk.step = to.mesh_frequency - from.mesh_frequency;
-  walk.limit = motions.back().mesh_frequency;
-  walk.run = [&](double mesh_frequency, double most) {
-    sweeper.state() = march ? branch.back().state : foretold(sweeper.dynamics(), branch, mesh_frequency);
-    sweeper.secants() = secants;
-    const Orbit orbit = sweeper.run(mesh_frequency, single ? RmsRange{rms / most, rms * most} : RmsRange{});
-    runs.push_back({orbit, {mesh_frequency, sweeper.state()}, sweeper.secants()});
+  while (branch->single && first > 0 && i - first < 3 && motions[first - 1].multiple == from.multiple)
+    --first;
+  for (size_t k = first; k < i; ++k) branch->known.push_back({motions[k].mesh_frequency, reached[k]});
+  BranchFollower follower;
+  follower.run = [&sweeper, branch, march](double mesh_frequency, double most) {
+    sweeper.state() =
+        march ? branch->known.back().state : foretold(sweeper.dynamics(), branch->known, mesh_frequency);
+    sweeper.secants() = branch->secants;
+    const Orbit orbit = sweeper.run(
+        mesh_frequency, branch->single ? RmsRange{branch->rms / most, branch->rms * most} : RmsRange{});
+    branch->runs.push_back({orbit, {mesh_frequency, sweeper.state()}, sweeper.secants()});
     return branch_motion(mesh_frequency, orbit);
   };
-  walk.keep = [&](int n) {
-    branch.push_back(runs[n].end);
-    secants = runs[n].secants;
-    if (!single || branch.size() > 3) branch.erase(branch.begin());
-    rms = runs[n].orbit.rms;
-    points.push_back(branch_point(runs[n].end.mesh_frequency, runs[n].orbit));
+  follower.keep = [branch](int n) {
+    const Run& run = branch->runs[static_cast<size_t>(n)];
+    branch->known.push_back(run.end);
+    branch->secants = run.secants;
+    if (!branch->single || branch->known.size() > 3) branch->known.erase(branch->known.begin());
+    branch->rms = run.orbit.rms;
+    return branch_point(run.end.mesh_frequency, run.orbit);
   };
-  const auto end = branch_end(walk, motions, i);
-  if (!end) return std::nullopt;
-  if (left_early) left_early->insert(left_early->end(), points.begin(), points.end());
-  if (end->outlived) return whole;
-  return Jump{0.5 * (end->last + end->next), std::abs(end->next - end->last)};
+  return follower;
 }
 
 }  // namespace
@@ -486,12 +480,14 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
   }
 
-  std::vector<Jump> jumps;
+  std::vector<BranchJump> jumps;
   for (size_t i = 1; i < motions.size(); ++i)
-    if (may_break(motions, i))
-      if (const auto jump =
-              find_jump(sweeper, motions, i, reached, slice.time.steady_state == "march", left_early))
-        jumps.push_back(*jump);
+    if (may_break(motions, i)) {
+      const auto follower = [&] {
+        return follow_branch(sweeper, motions, i, reached, slice.time.steady_state == "march");
+      };
+      if (const auto jump = find_jump(motions, i, follower, left_early)) jumps.push_back(*jump);
+    }
 
   // Rows of one length: shorter orbits repeat to fill theirs.
   size_t longest = 1;

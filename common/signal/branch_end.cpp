@@ -171,4 +171,25 @@ std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<Br
   }
 }
 
+std::optional<BranchJump> find_jump(const std::vector<BranchMotion>& sweep, size_t i,
+                                    const std::function<BranchFollower()>& follower,
+                                    std::vector<BranchPoint>* left_early) {
+  const double from = sweep[i - 1].mesh_frequency, to = sweep[i].mesh_frequency;
+  const BranchJump whole{0.5 * (from + to), std::abs(to - from)};
+  if (sweep[i - 1].multiple == 0) return whole;
+  const BranchFollower follow = follower();
+  std::vector<BranchPoint> points;
+  BranchWalk walk;
+  walk.step = to - from;
+  walk.limit = sweep.back().mesh_frequency;
+  while (follow.finest > 0 && std::abs(walk.step) > follow.finest * walk.fineness) walk.fineness *= 2;
+  walk.run = follow.run;
+  walk.keep = [&](int n) { points.push_back(follow.keep(n)); };
+  const auto end = branch_end(walk, sweep, i);
+  if (!end) return std::nullopt;
+  if (left_early) left_early->insert(left_early->end(), points.begin(), points.end());
+  if (end->outlived) return whole;
+  return BranchJump{0.5 * (end->last + end->next), std::abs(end->next - end->last), true, end->last};
+}
+
 }  // namespace whine

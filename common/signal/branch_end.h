@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "signal/branches.h"
+
 namespace whine {
 
 // The motion that a speed led to.
@@ -40,5 +42,23 @@ struct BranchEnd {
 // basin has become narrower than its step. Steps shrink in time where three motions foretell a fold, at which speed is
 // quadratic in the level of the motion.
 std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<BranchMotion>& sweep, size_t i);
+
+// How a model goes on from the motion i - 1 of a sweep: as BranchWalk, `keep` with what a map of jumps takes of the motion.
+struct BranchFollower {
+  std::function<BranchMotion(double mesh_frequency, double most)> run;
+  std::function<BranchPoint(int n)> keep;
+  double finest = 0;  // Hz: steps are halved down to that; 0: to 1/64 of the sweep's
+};
+struct BranchJump {
+  double frequency = 0, width = 0;  // Hz: middle and width of the interval in which the branch ends
+  bool located = false;             // by following the branch; otherwise between the two speeds of the sweep
+  double last = 0;                  // Hz: furthest speed on the branch, if located
+};
+// The jump between the motions i - 1 and i of a sweep, or beyond where the sweep left the branch early, by branch_end(); nothing
+// if the branch leads from one to the other. follower: called for a motion i - 1 that is periodic. left_early: takes the motions
+// kept on the way, if given.
+std::optional<BranchJump> find_jump(const std::vector<BranchMotion>& sweep, size_t i,
+                                    const std::function<BranchFollower()>& follower,
+                                    std::vector<BranchPoint>* left_early);
 
 }  // namespace whine
