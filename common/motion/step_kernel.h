@@ -77,9 +77,9 @@ struct StepState {
 class StepKernel {
  public:
   static constexpr int kStripsAtOnce = kLanes;  // windows have a multiple of it
-  static constexpr int kSides = 2;         // of a mesh
-  static constexpr int kFields = 12;       // relaxed, per tooth
-  static constexpr int kSharedFields = 8;  // the first of them: what teeth of a gear do to each other
+  static constexpr int kSides = 2;              // of a mesh
+  static constexpr int kFields = 12;            // relaxed, per tooth
+  static constexpr int kSharedFields = 8;       // the first of them: what teeth of a gear do to each other
   static constexpr int kPairNodes = StripCompliance::kPairNodes;  // columns of nodes
   static constexpr int kShapeRows = 2;  // per pair: what modes are read and loaded through
   static_assert(kFields == 12 && kSharedFields == 8 && kPairNodes == 8 && kPairNodes >= kWindowNodes);
