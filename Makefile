@@ -61,7 +61,7 @@ STEP_FLAGS := $(if $(SANITIZE),,-O3)
 # Rooms that read, write, draw and print, the programs' own sources and tests, whose numbers come out of the other rooms: compiled in
 # half the time.
 COLD_FLAGS := $(if $(SANITIZE),,-Og)
-cold_rooms := plot paper files
+cold_rooms := plot paper io
 CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
@@ -112,7 +112,7 @@ $(step_objects): private CXXFLAGS += $(STEP_FLAGS)
 $(step_objects): private INCLUDE_PRECOMPILED :=
 
 # HDF5 stays in one room: nobody else finds its headers.
-$(filter $(B)/obj/common/files/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
+$(filter $(B)/obj/common/io/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
 # A program waits for the sources behind the headers that it includes, and for no other.
 links := $(shell awk -f pipelines/sources.awk $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/fuzz/*.cpp))

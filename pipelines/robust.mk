@@ -76,12 +76,12 @@ lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks 
 FUZZ_SECONDS ?= 60
 fuzz_targets := scene study artifact sealed
 # Dense decompositions take clang minutes and a gigabyte, and no reader uses one.
-fuzz_sources := $(filter-out common/base/dense%,$(wildcard common/base/*.cpp common/files/*.cpp))
+fuzz_sources := $(filter-out common/base/dense%,$(wildcard common/base/*.cpp common/model/*.cpp common/io/*.cpp))
 fuzz_flags := -std=c++20 -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
 
 $(B)/fuzz/ $(B)/fuzz/found/:
 	@mkdir -p $@
-$(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base/*.h common/files/*.h) | $(filter deps-fuzz,$(goals)) $(with_deps)
+$(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base/*.h common/model/*.h common/solid/*.h common/signal/*.h common/motion/*.h common/io/*.h) | $(filter deps-fuzz,$(goals)) $(with_deps)
 	@mkdir -p $(@D)
 	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) $(fuzz_flags) -c -o $@ $<
 

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "files/schemas.h"
+#include "io/schemas.h"
 #include "motion/dynamics.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"

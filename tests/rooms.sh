@@ -1,28 +1,29 @@
-# The rooms of common/: a room includes only rooms below it, heavy libraries stay behind their walls.
+# The layers of common/: a layer includes only layers below it, heavy libraries stay behind their walls.
 set -uo pipefail
 
 declare -A below=(
   [base]="base"
-  [files]="base files"
-  [gear]="base files gear"
-  [solid]="base files gear solid"
-  [contact]="base files gear solid contact"
+  [model]="base model"
+  [gear]="base model gear"
+  [solid]="base model gear solid"
+  [contact]="base model gear solid contact"
+  [signal]="base model signal"
   [orbits]="base orbits"
-  [motion]="base files gear solid contact signal orbits motion"
-  [signal]="base files signal"
-  [lumped]="base files gear solid contact signal orbits lumped"
-  [plot]="base files gear solid contact signal orbits lumped motion plot"
-  [paper]="base files gear solid contact signal orbits lumped motion plot paper"
+  [motion]="base model gear solid contact signal orbits motion"
+  [lumped]="base model gear solid contact signal orbits lumped"
+  [io]="base model gear solid contact signal orbits motion lumped io"
+  [plot]="base model gear solid contact signal orbits motion lumped io plot"
+  [paper]="base model gear solid contact signal orbits motion lumped io plot paper"
 )
 faults=$(for file in common/*/*.h common/*/*.cpp; do
-  room=$(basename "$(dirname "$file")")
-  [ -n "${below[$room]:-}" ] || { echo "$file: room '$room' has no place in the order"; continue; }
+  layer=$(basename "$(dirname "$file")")
+  [ -n "${below[$layer]:-}" ] || { echo "$file: layer '$layer' has no place in the order"; continue; }
   for other in $(sed -n 's|^#include "\([a-z_]*\)/.*|\1|p' "$file"); do
-    case " ${below[$room]} " in *" $other "*) ;; *) echo "$file includes $other/, which is not below $room/" ;; esac
+    case " ${below[$layer]} " in *" $other "*) ;; *) echo "$file includes $other/, which is not below $layer/" ;; esac
   done
-  sed -n "s|^#include \"\([^/]*\)\"|$file includes \"\1\" without its room|p" "$file"
+  sed -n "s|^#include \"\([^/]*\)\"|$file includes \"\1\" without its layer|p" "$file"
 done)
-if [ -z "$faults" ]; then echo "ok: rooms include only rooms below them"; else echo "FAILED: $faults"; fi
+if [ -z "$faults" ]; then echo "ok: layers include only layers below them"; else echo "FAILED: $faults"; fi
 
 # confined <header> <pattern of files that may include it>
 confined() {
@@ -30,11 +31,11 @@ confined() {
   found=$(grep -l "#include <$1" common/*/* tools/* tests/*.cpp | grep -v -E "^($2)$" | tr '\n' ' ')
   if [ -z "$found" ]; then echo "ok: only $2 includes $1"; else echo "FAILED: $1 is included by $found"; fi
 }
-confined hdf5 'common/files/.*\.cpp|common/files/h5\.h'
+confined hdf5 'common/io/.*\.cpp|common/io/h5\.h'
 confined gmsh 'common/solid/mesher\.cpp'
 confined cholmod 'common/solid/.*\.cpp'
 confined fftw3 'common/signal/.*\.cpp'
-confined toml 'common/files/.*\.cpp|common/files/toml\.h'
+confined toml 'common/io/.*\.cpp|common/io/toml\.h'
 confined CLI/ 'common/base/options\.cpp'
 
 found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/* tools/* | head -3)

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "files/scene.h"
+#include "io/scene.h"
 
 // A complete scene with required keys only; line numbers are relied on below.
 inline const char* const kScene = R"([gear.pinion]

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "files/variant.h"
+#include "io/variant.h"
 #include "motion/impact.h"
 #include "motion/jump_map.h"
 #include "paper_pair.h"

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "files/scene.h"
-#include "files/variant.h"
 #include "gear/involute.h"
 #include "gear/scene_geometry.h"
+#include "io/scene.h"
+#include "io/variant.h"
 #include "relative.h"
 #include "scene_file.h"
 

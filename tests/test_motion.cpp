@@ -8,8 +8,8 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "gear/body_inertia.h"
 #include "gear/numbers.h"
-#include "gear/scene_geometry.h"
 #include "motion/dynamics.h"
 #include "motion/error_budget.h"
 #include "motion/rolling_mesh.h"

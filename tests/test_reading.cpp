@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "files/claim_sets.h"
-#include "files/readings.h"
 #include "gear/involute.h"
+#include "io/claim_sets.h"
+#include "io/readings.h"
 #include "motion/impact.h"
 #include "paper/consistency.h"
 #include "paper/reading.h"

@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "failure_of.h"
-#include "files/publish.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
+#include "io/publish.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
 #include "paper_pair.h"

@@ -12,10 +12,10 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "files/publish.h"
-#include "files/scene.h"
-#include "files/scene_place.h"
 #include "gear/scene_geometry.h"
+#include "io/publish.h"
+#include "io/scene.h"
+#include "io/scene_place.h"
 #include "relative.h"
 #include "scene_file.h"
 
@@ -664,8 +664,11 @@ TEST_CASE("what only the geometry refuses is named with the line of its key, thr
   const auto refused = [&](const std::string& scene, bool is_file = true) {
     const std::string path = file.path(scene);
     try {
-      check_geometry(read_scene(path), path, is_file);
-      check_inertia(read_scene(path), path, is_file);
+      const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
+        return is_file ? scene_place(path, sections, words) : path;
+      };
+      check_geometry(read_scene(path), where);
+      check_inertia(read_scene(path), where);
     } catch (const Error& error) {
       const std::string message = error.what();
       return message.substr(message.find("x.toml"));

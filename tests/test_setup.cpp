@@ -6,8 +6,8 @@
 #include <map>
 #include <numbers>
 
-#include "files/study.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
+#include "io/study.h"
 #include "motion/compliance_split.h"
 #include "motion/study_variant.h"
 #include "paper_pair.h"
@@ -72,7 +72,7 @@ TEST_CASE(
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
   ImpactSlice slice;
   slice.driven_inertia = 0.0148;
-  as_drawn(slice, body, body);
+  as_drawn(slice, {body.inertia, body.inertia});
   CHECK(slice.driver_inertia == relative(1.001 * body.inertia, 1e-12));
   CHECK(slice.driven_inertia == 0.0148);
   ImpactSlice by_outline;

@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "failure_of.h"
-#include "files/publish.h"
+#include "io/publish.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
 #include "plot/map_figures.h"

@@ -16,13 +16,13 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "files/fit.h"
-#include "files/named_files.h"
-#include "files/provenance.h"
-#include "files/scene.h"
-#include "files/schemas.h"
+#include "gear/body_inertia.h"
 #include "gear/pair.h"
-#include "gear/scene_geometry.h"
+#include "io/fit.h"
+#include "io/named_files.h"
+#include "io/provenance.h"
+#include "io/scene.h"
+#include "io/schemas.h"
 #include "motion/harris_map.h"
 #include "motion/statics.h"
 
@@ -183,7 +183,7 @@ void body(int argc, char** argv) {
   if (checks > 0) whine::check(map, first, second, plan.positions, static_cast<int>(checks));
   if (dynamic) {
     whine::SweepSlice moving = whine::read_sweep_slice(params);
-    whine::as_drawn(moving, first, second);
+    whine::as_drawn(moving, {first.inertia, second.inertia});
     whine::add_dynamics(map, first, second, moving, whine::read_static(reference).mean_stiffness, report);
     progress.reset();
   }

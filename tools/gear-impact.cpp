@@ -13,11 +13,11 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "files/named_files.h"
-#include "files/provenance.h"
-#include "files/scene.h"
-#include "files/schemas.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
+#include "io/named_files.h"
+#include "io/provenance.h"
+#include "io/scene.h"
+#include "io/schemas.h"
 #include "motion/impact.h"
 #include "motion/sweep.h"
 
@@ -91,7 +91,7 @@ void body(int argc, char** argv) {
                 slice.reference_torque, " N m; give the static.h5 of that torque");
 
   const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
-  whine::as_drawn(slice, first, second);
+  whine::as_drawn(slice, {first.inertia, second.inertia});
   std::optional<whine::Progress> progress;
   const auto report = [&](long done, long total) {
     if (!progress) progress.emplace("gear-impact", total);

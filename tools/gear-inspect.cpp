@@ -14,11 +14,11 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "files/artifact_place.h"
-#include "files/fit.h"
-#include "files/provenance.h"
-#include "files/publish.h"
-#include "files/summary.h"
+#include "io/artifact_place.h"
+#include "io/fit.h"
+#include "io/provenance.h"
+#include "io/publish.h"
+#include "io/summary.h"
 
 namespace {
 

@@ -14,12 +14,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "files/fit.h"
-#include "files/named_files.h"
-#include "files/provenance.h"
-#include "files/scene.h"
-#include "files/schemas.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
+#include "io/fit.h"
+#include "io/named_files.h"
+#include "io/provenance.h"
+#include "io/scene.h"
+#include "io/schemas.h"
 #include "motion/jump_map.h"
 
 namespace {
@@ -94,7 +94,7 @@ void body(int argc, char** argv) {
   if (!contact.empty()) statics.fidelity.contact = slice.fidelity.contact = contact;
   const std::vector<std::string> paths = files.of(statics.mesh);
   const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
-  whine::as_drawn(slice, first, second);
+  whine::as_drawn(slice, {first.inertia, second.inertia});
   whine::require_body(first, statics.driver_body, statics.mesh.driver, paths[0]);
   whine::require_body(second, statics.driven_body, statics.mesh.driven, paths[1]);
 

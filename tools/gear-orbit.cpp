@@ -13,12 +13,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "files/fit.h"
-#include "files/named_files.h"
-#include "files/provenance.h"
-#include "files/scene.h"
-#include "files/schemas.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
+#include "io/fit.h"
+#include "io/named_files.h"
+#include "io/provenance.h"
+#include "io/scene.h"
+#include "io/schemas.h"
 #include "motion/pair_branch.h"
 
 namespace {
@@ -60,7 +60,7 @@ void body(int argc, char** argv) {
                 slice.reference_torque, " N m; give the static.h5 of that torque");
   const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
                             driven_body = whine::read_body(paths[1]);
-  whine::as_drawn(slice, driver_body, driven_body);
+  whine::as_drawn(slice, {driver_body.inertia, driven_body.inertia});
 
   std::optional<whine::Progress> progress;
   const whine::BranchArtifact result =

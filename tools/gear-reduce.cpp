@@ -14,10 +14,10 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "files/fit.h"
-#include "files/provenance.h"
-#include "files/scene.h"
-#include "files/schemas.h"
+#include "io/fit.h"
+#include "io/provenance.h"
+#include "io/scene.h"
+#include "io/schemas.h"
 #include "solid/reduce.h"
 
 namespace {

@@ -12,9 +12,9 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "files/provenance.h"
-#include "files/publish.h"
-#include "files/summary.h"
+#include "io/provenance.h"
+#include "io/publish.h"
+#include "io/summary.h"
 #include "motion/sweep.h"
 #include "plot/report.h"
 #include "signal/response.h"

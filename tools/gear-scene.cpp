@@ -18,12 +18,13 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "files/fit.h"
-#include "files/publish.h"
-#include "files/scene.h"
-#include "files/variant.h"
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
+#include "io/fit.h"
+#include "io/publish.h"
+#include "io/scene.h"
+#include "io/scene_place.h"
+#include "io/variant.h"
 
 namespace {
 
@@ -82,8 +83,11 @@ void body(int argc, char** argv) {
   // 1. The whole scene is checked before anything is written.
   const std::string stem = checked_stem(path);
   const Scene scene = read_scene(path);
-  check_geometry(scene, path, true);
-  check_inertia(scene, path, true);
+  const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
+    return scene_place(path, sections, words);
+  };
+  check_geometry(scene, where);
+  check_inertia(scene, where);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
 

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "files/provenance.h"
-#include "files/publish.h"
+#include "io/provenance.h"
+#include "io/publish.h"
 #include "paper/scorecard.h"
 
 namespace {

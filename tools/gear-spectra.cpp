@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "base/tool.h"
-#include "files/provenance.h"
-#include "files/schemas.h"
+#include "io/provenance.h"
+#include "io/schemas.h"
 #include "signal/response.h"
 
 namespace {

@@ -6,7 +6,7 @@
 //            <out>/bodies/<hash>/body.toml                     one per distinct gear
 //            --output                                          make fragment: variants by their pair of bodies
 //            --gather: study.h5 instead, a row for each variant
-// Equations  none; variants are scenes as gear-scene --set makes them, draws as files/study.h says
+// Equations  none; variants are scenes as gear-scene --set makes them, draws as io/study.h says
 // Example    gear-study --study data/studies/damping-torque-relief.toml --output build/studies/damping-torque-relief.mk --out out
 //            gear-study --gather out/studies/damping-torque-relief/plan.toml --output out/studies/damping-torque-relief/study.h5
 #include <algorithm>
@@ -18,11 +18,11 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "files/provenance.h"
-#include "files/publish.h"
-#include "files/study.h"
-#include "files/variant.h"
 #include "gear/scene_geometry.h"
+#include "io/provenance.h"
+#include "io/publish.h"
+#include "io/study.h"
+#include "io/variant.h"
 
 namespace {
 
@@ -86,10 +86,12 @@ void plan(const std::string& path, const std::string& output, const std::string&
     const std::string slice = variant_slice(variant.scene, variant.torque, study.directions);
     // One whose slice is there has been checked before.
     if (!holds(home + variant_file(body_hash(slice)) + ".toml", slice)) {
-      const std::string where = path + ": " + variant_name(study, i, values);
-      check_geometry(variant.scene, where, false);
+      const auto where = [&](const std::vector<std::string>&, const std::string&) {
+        return path + ": " + variant_name(study, i, values);
+      };
+      check_geometry(variant.scene, where);
       // Where refusals are marked its stage does so.
-      if (!study.directions.empty() && !study.marks_refusals) check_inertia(variant.scene, where, false);
+      if (!study.directions.empty() && !study.marks_refusals) check_inertia(variant.scene, where);
     }
     variants.push_back({body_hash(slice), values});
     if (slices.emplace(variants.back().name, slice).second) of_pair[pair].push_back(variants.back().name);

@@ -13,12 +13,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "files/fit.h"
-#include "files/named_files.h"
-#include "files/provenance.h"
-#include "files/scene.h"
-#include "files/schemas.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
+#include "io/fit.h"
+#include "io/named_files.h"
+#include "io/provenance.h"
+#include "io/scene.h"
+#include "io/schemas.h"
 #include "motion/next_rung.h"
 #include "motion/sweep.h"
 
@@ -93,7 +93,7 @@ void body(int argc, char** argv) {
 
   const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
                             driven_body = whine::read_body(paths[1]);
-  whine::as_drawn(slice, driver_body, driven_body);
+  whine::as_drawn(slice, {driver_body.inertia, driven_body.inertia});
   std::vector<whine::NextSweep> next;
   if (next_rung) next = whine::next_sweeps(driver_body, driven_body, at_torque, at_reference, slice);
   const auto run = [&](const whine::BodyArtifact& a, const whine::BodyArtifact& b,

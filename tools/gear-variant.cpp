@@ -15,11 +15,11 @@
 #include "base/progress.h"
 #include "base/refusal.h"
 #include "base/tool.h"
-#include "files/fit.h"
-#include "files/named_files.h"
-#include "files/provenance.h"
-#include "files/study.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
+#include "io/fit.h"
+#include "io/named_files.h"
+#include "io/provenance.h"
+#include "io/study.h"
 #include "motion/study_variant.h"
 
 namespace {
@@ -63,7 +63,7 @@ void body(int argc, char** argv) {
   const whine::BodyArtifact& second = other ? *other : first;
   whine::require_body(first, slice.statics.driver_body, slice.statics.mesh.driver, paths[0]);
   whine::require_body(second, slice.statics.driven_body, slice.statics.mesh.driven, paths[1]);
-  if (!slice.directions.empty()) whine::as_drawn(slice.motion, first, second);
+  if (!slice.directions.empty()) whine::as_drawn(slice.motion, {first.inertia, second.inertia});
   whine::VariantArtifact result = whine::variant_parameters(first, second, slice);
   std::vector<whine::Remark> remarks;
   try {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "model/gear.h"
 #include "solid/half_plane.h"
 
 namespace whine {

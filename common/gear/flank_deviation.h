@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gear/tooth_errors.h"
+#include "model/gear.h"
 
 namespace whine {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gear/flank_deviation.h"
+#include "model/gear.h"
 
 namespace whine {
 

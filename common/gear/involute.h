@@ -6,7 +6,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "files/scene.h"
+#include "model/gear.h"
 
 namespace whine {
 

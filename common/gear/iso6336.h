@@ -10,7 +10,7 @@
 // Below a load of 100 N/mm c' falls as (load / 100)^0.25; other materials than steel scale by their moduli,
 // 2 E1 E2 / (E1 + E2) over 206 GPa. Of shafts and bores it knows nothing.
 #pragma once
-#include "files/scene.h"
+#include "model/gear.h"
 
 namespace whine {
 

@@ -9,6 +9,7 @@
 
 #include "gear/flank_deviation.h"
 #include "gear/involute.h"
+#include "model/gear.h"
 
 namespace whine {
 

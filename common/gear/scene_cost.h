@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "files/scene.h"
+#include "model/scene.h"
 
 namespace whine {
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gear/involute.h"
+#include "model/gear.h"
 
 namespace whine {
 

@@ -16,7 +16,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "files/schemas.h"
+#include "signal/sweep_result.h"
 
 namespace whine {
 

@@ -3,7 +3,8 @@
 // Cells make the motion exact; what they leave out is k(t) within a cell. For N cells that carry the means of the curve
 // the error of the response falls with 1 / N^2.
 #pragma once
-#include "files/schemas.h"
+#include "signal/static_result.h"
+#include "signal/sweep_result.h"
 
 namespace whine {
 

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
 #include "lumped/oscillator.h"
 #include "signal/branches.h"
+#include "signal/jump_map_result.h"
+#include "signal/static_result.h"
+#include "signal/sweep_result.h"
 
 namespace whine {
 

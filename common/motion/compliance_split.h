@@ -9,9 +9,9 @@
 #pragma once
 #include <array>
 
-#include "files/schemas.h"
 #include "gear/iso6336.h"
 #include "motion/statics.h"
+#include "signal/static_result.h"
 
 namespace whine {
 

@@ -44,11 +44,11 @@
 #include "contact/lanes.h"
 #include "contact/line_contact.h"
 #include "contact/strip_compliance.h"
-#include "files/schemas.h"
 #include "motion/held_motion.h"
 #include "motion/ledger.h"
 #include "motion/propagator.h"
 #include "motion/rolling_mesh.h"
+#include "signal/static_result.h"
 
 namespace whine {
 

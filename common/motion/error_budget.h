@@ -2,7 +2,9 @@
 // beside them what another model of near field or contact would change; and what the next rung of contact would, at
 // each position.
 #pragma once
-#include "files/schemas.h"
+#include "motion/error_budget_result.h"
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

@@ -5,8 +5,9 @@
 #pragma once
 #include <string>
 
-#include "files/schemas.h"
+#include "motion/loaded_result.h"
 #include "motion/statics.h"
+#include "signal/static_result.h"
 
 namespace whine {
 

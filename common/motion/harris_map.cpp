@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "contact/load_path.h"
-#include "files/fit.h"
 #include "motion/rolling_mesh.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"

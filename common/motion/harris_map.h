@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
+#include "motion/harris_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

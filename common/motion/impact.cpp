@@ -11,8 +11,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
-#include "files/fit.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
 #include "motion/rolling_mesh.h"
 
 namespace whine {
@@ -108,7 +107,8 @@ class HeldPair {
     if (plan.phases < 2 || plan.phases % 2)
       fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
     require_like_teeth(statics.mesh, "a pair that is held at a mesh phase (gear-impact, gear-jump-map)");
-    require_inertia(statics.mesh, {&driver, &driven}, {slice.driver_inertia, slice.driven_inertia});
+    require_inertia(statics.mesh, {driver.inertia, driven.inertia},
+                    {slice.driver_inertia, slice.driven_inertia});
     const GearMeshModel model(driver, driven, statics.mesh);
     DynamicParameters parameters;
     parameters.torque = statics.torque;

@@ -6,9 +6,11 @@
 #include <functional>
 #include <string>
 
-#include "files/schemas.h"
 #include "motion/dynamics.h"
+#include "motion/impact_result.h"
 #include "signal/decay.h"
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

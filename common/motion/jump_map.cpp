@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "files/fit.h"
 #include "gear/pair.h"
 #include "motion/impact.h"
 #include "motion/statics.h"

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
 #include "signal/branches.h"
+#include "signal/jump_map_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "files/fit.h"
 #include "motion/loaded_view.h"
 #include "solid/loaded_gear.h"
 

@@ -1,6 +1,10 @@
 // Both gears of a pair at rest in one mesh position: where their teeth touch, how they are deformed and stressed.
 #pragma once
+#include "motion/loaded_result.h"
 #include "motion/statics.h"
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

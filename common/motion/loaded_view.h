@@ -1,6 +1,6 @@
 // What ParaView shows of loaded gears, small enough to be handed on: whole elements where the teeth are loaded, their corners elsewhere.
 #pragma once
-#include "files/schemas.h"
+#include "motion/loaded_result.h"
 
 namespace whine {
 

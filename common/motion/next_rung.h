@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
+#include "signal/static_result.h"
+#include "signal/sweep_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

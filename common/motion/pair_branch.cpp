@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/refusal.h"
 #include "contact/lanes.h"
-#include "gear/scene_geometry.h"
+#include "gear/body_inertia.h"
 #include "motion/period_map.h"
 #include "motion/steady_state.h"
 #include "motion/sweep.h"
@@ -125,7 +125,8 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   if (!(slice.frequency_from > 0) || !(slice.frequency_to > slice.frequency_from))
     fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ",
          slice.frequency_from, " to ", slice.frequency_to, " Hz");
-  require_inertia(statics.mesh, {&driver, &driven}, {slice.driver_inertia, slice.driven_inertia});
+  require_inertia(statics.mesh, {driver.inertia, driven.inertia},
+                  {slice.driver_inertia, slice.driven_inertia});
   const GearMeshModel model(driver, driven, statics.mesh);
   DynamicParameters parameters;
   parameters.torque = statics.torque;

@@ -8,8 +8,9 @@
 #include <functional>
 #include <string>
 
-#include "files/scene.h"
-#include "files/schemas.h"
+#include "motion/branch_result.h"
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

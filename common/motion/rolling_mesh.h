@@ -11,9 +11,9 @@
 #include "contact/half_plane_strip.h"
 #include "contact/line_contact.h"
 #include "contact/strips.h"
-#include "files/schemas.h"
 #include "gear/pair.h"
 #include "solid/flank_table.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

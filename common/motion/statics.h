@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
 #include "motion/rolling_mesh.h"
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

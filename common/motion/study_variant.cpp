@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "model/answers.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
 #include "signal/response.h"

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "files/study.h"
 #include "motion/statics.h"
+#include "motion/variant_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

@@ -13,10 +13,9 @@
 #include "base/error.h"
 #include "base/refusal.h"
 #include "contact/lanes.h"
-#include "files/fit.h"
+#include "gear/body_inertia.h"
 #include "gear/numbers.h"
 #include "gear/pair.h"
-#include "gear/scene_geometry.h"
 #include "motion/dynamics.h"
 #include "motion/steady_state.h"
 #include "signal/branch_end.h"
@@ -345,7 +344,7 @@ std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::a
   const auto of_paper = [](const GearDesign& g) { return g.teeth == 50 && std::abs(g.module - 3e-3) < 1e-9; };
   const double ratio = stiffness_damping_ratio(statics, damping, inertia[0], inertia[1]);
   const bool fits = of_paper(statics.driver) && of_paper(statics.driven) && ratio >= 0.01 && ratio <= 0.12;
-  if (!default_rayleigh_stiffness(damping) || fits) return {};
+  if (damping.rayleigh_stiffness != kDefaultRayleighStiffness || fits) return {};
   std::ostringstream percent;
   percent << std::setprecision(3) << ratio * 100;
   return remark(
@@ -427,7 +426,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     fail(Failure::input, "the speed range from ", slice.frequency_from, " to ", slice.frequency_to,
          " Hz in steps of ", slice.frequency_step, " Hz is empty");
 
-  require_inertia(statics.mesh, {&driver, &driven}, {slice.driver_inertia, slice.driven_inertia});
+  require_inertia(statics.mesh, {driver.inertia, driven.inertia},
+                  {slice.driver_inertia, slice.driven_inertia});
   const GearMeshModel model(driver, driven, statics.mesh);
   DynamicParameters parameters;
   parameters.torque = statics.torque;

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
 #include "motion/statics.h"
 #include "signal/branches.h"
+#include "signal/static_result.h"
+#include "signal/sweep_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "files/provenance.h"
+#include "io/provenance.h"
 
 namespace whine {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
+#include "io/schemas.h"
 
 namespace whine {
 

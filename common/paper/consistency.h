@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "files/claim_sets.h"
-#include "files/readings.h"
+#include "io/claim_sets.h"
+#include "io/readings.h"
 
 namespace whine {
 

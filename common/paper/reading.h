@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "files/readings.h"
+#include "io/readings.h"
 #include "paper/scorecard.h"
 
 namespace whine {

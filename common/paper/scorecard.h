@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "files/fitted_numbers.h"
+#include "io/fitted_numbers.h"
 #include "paper/claims.h"
 
 namespace whine {

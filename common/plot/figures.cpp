@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "files/publish.h"
+#include "io/publish.h"
 
 namespace whine {
 

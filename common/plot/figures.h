@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/schemas.h"
+#include "io/schemas.h"
 
 namespace whine {
 

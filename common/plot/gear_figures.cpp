@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "contact/half_plane_strip.h"
-#include "files/summary.h"
 #include "gear/pair.h"
+#include "io/summary.h"
 #include "plot/wireframe.h"
 
 namespace whine {

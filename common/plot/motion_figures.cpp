@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "files/summary.h"
 #include "gear/pair.h"
+#include "io/summary.h"
 #include "motion/sweep.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "files/provenance.h"
-#include "files/schemas.h"
+#include "io/provenance.h"
+#include "io/schemas.h"
 #include "motion/statics.h"
 
 namespace whine {

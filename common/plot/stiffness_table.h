@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
+#include "io/schemas.h"
 
 namespace whine {
 

@@ -1,6 +1,6 @@
 // The figure of a study: its answers against the keys that vary.
 #pragma once
-#include "files/study.h"
+#include "io/study.h"
 #include "plot/figures.h"
 
 namespace whine {

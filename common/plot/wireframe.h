@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "files/schemas.h"
 #include "gear/pair.h"
+#include "io/schemas.h"
 
 namespace whine {
 

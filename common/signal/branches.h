@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
+#include "signal/jump_map_result.h"
+#include "signal/sweep_result.h"
 
 namespace whine {
 

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "files/schemas.h"
+#include "signal/response_result.h"
+#include "signal/sweep_result.h"
 
 namespace whine {
 

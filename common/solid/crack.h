@@ -14,8 +14,8 @@
 #pragma once
 #include <vector>
 
-#include "files/schemas.h"
 #include "gear/involute.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

@@ -7,7 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "files/schemas.h"
+#include "base/matrix.h"
+#include "model/gear.h"
 
 namespace whine {
 

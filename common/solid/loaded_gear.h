@@ -5,8 +5,8 @@
 // elsewhere the elements alone. One right-hand side per loaded tooth, all harmonics of the cyclic gear. Near the contact,
 // stresses are those of pressure that is even over each strip, at the nodes: what peaks between two nodes is not seen.
 #pragma once
-#include "files/schemas.h"
 #include "solid/sector.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

@@ -11,8 +11,8 @@
 #include <functional>
 #include <vector>
 
-#include "files/schemas.h"
 #include "gear/involute.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

@@ -16,9 +16,10 @@
 // places, so the table is not symmetric, and both the spread of the nodal load, (element / d)^2, and the finite
 // body, d / tooth, leave their errors in it.
 #pragma once
-#include "files/schemas.h"
 #include "gear/involute.h"
 #include "solid/elements.h"
+#include "solid/reduced_body.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

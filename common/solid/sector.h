@@ -6,9 +6,9 @@
 // problems of the size of one sector: Olson, Shaw, Shi, Pierre and Parker, Applied Mechanics Reviews 66
 // (2014) 040803. Bore nodes are fixed.
 #pragma once
-#include "files/schemas.h"
 #include "solid/elements.h"
 #include "solid/factor.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

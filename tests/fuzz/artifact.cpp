@@ -2,13 +2,13 @@
 //
 // -DSEALED: the content hash is put right first, so that the bytes reach HDF5 and the readers behind it; no accident makes
 // such a file.
-#include "files/artifact.h"
+#include "io/artifact.h"
 #include "base/error.h"
 #include "file_of.h"
-#include "files/provenance.h"
-#include "files/schemas.h"
-#include "files/study.h"
-#include "files/summary.h"
+#include "io/provenance.h"
+#include "io/schemas.h"
+#include "io/study.h"
+#include "io/summary.h"
 
 using namespace whine;
 

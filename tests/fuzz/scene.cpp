@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "file_of.h"
-#include "files/scene.h"
-#include "files/variant.h"
+#include "io/scene.h"
+#include "io/variant.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "file_of.h"
-#include "files/study.h"
+#include "io/study.h"
 
 namespace {
 

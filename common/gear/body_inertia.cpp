@@ -1,0 +1,64 @@
+#include "gear/body_inertia.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/refusal.h"
+#include "gear/involute.h"
+#include "gear/numbers.h"
+
+namespace whine {
+
+std::string too_light(double inertia, const std::string& least) {
+  return text("total_inertia_kgm2 = ", shown_number(inertia), " lies below the inertia of its own body, ",
+              least, " kg m2: it is that of all that turns with the gear; raise it");
+}
+
+double least_body_inertia(const ToothGeometry& tooth, const Material& material) {
+  constexpr int kSteps = 400;
+  // Chords of a coarse mesh cut off less.
+  constexpr double kSafe = 0.995;
+  const GearDesign& design = tooth.design();
+  const double root = tooth.root_radius(), tip = tooth.tip_radius(), bore = design.bore_radius;
+  const double form = tooth.base_radius() * std::hypot(1.0, tooth.form_roll_angle());
+  // Below the involute a tooth only widens.
+  const auto angle = [&](double r) {
+    const double within = std::max(r, form);
+    return tooth.thickness_at_radius(within) / within;
+  };
+  double teeth = 0;
+  const double step = (tip - root) / kSteps;
+  for (int i = 0; i < kSteps; ++i) {
+    const double r = root + (i + 0.5) * step;
+    teeth += design.teeth * angle(r) * r * r * r * step;
+  }
+  return kSafe * material.density * design.face_width *
+         (0.5 * std::numbers::pi * (std::pow(root, 4) - std::pow(bore, 4)) + teeth);
+}
+
+void as_drawn(ImpactSlice& slice, const std::array<double, 2>& body_inertia) {
+  constexpr double kMore = 1.001;
+  if (slice.driver_inertia == 0) slice.driver_inertia = kMore * body_inertia[0];
+  if (slice.driven_inertia == 0) slice.driven_inertia = kMore * body_inertia[1];
+}
+
+void as_drawn(ImpactSlice& slice, const PairParameters& pair) {
+  constexpr double kFillets = 1.015;
+  const auto drawn = [&](const GearDesign& design, const Material& material) {
+    return kFillets * least_body_inertia(ToothGeometry(design), material);
+  };
+  if (slice.driver_inertia == 0) slice.driver_inertia = drawn(pair.driver, pair.driver_material);
+  if (slice.driven_inertia == 0) slice.driven_inertia = drawn(pair.driven, pair.driven_material);
+}
+
+void require_inertia(const GearMeshSpec& mesh, const std::array<double, 2>& body_inertia,
+                     const std::array<double, 2>& inertia) {
+  for (size_t g = 0; g < 2; ++g)
+    if (!(inertia[g] > body_inertia[g]))
+      refuse(Failure::input, "[gear.", g ? mesh.driven : mesh.driver,
+             "] of the scene: ", too_light(inertia[g], shown_number(body_inertia[g])));
+}
+
+}  // namespace whine

@@ -1,0 +1,454 @@
+#include "io/artifact.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "io/artifact_place.h"
+#include "io/fit.h"
+#include "io/provenance.h"
+#include "io/publish.h"
+#include "io/ranges.h"
+
+namespace whine {
+namespace {
+
+const std::string kFamily = "whine/";
+
+h5::Label record(const std::string& long_name, const std::string& axes = "") {
+  return {"1", long_name, axes, ""};
+}
+
+bool is_hdf5(const std::string& bytes) {
+  return bytes.compare(0, 4, "\x89HDF") == 0;
+}
+
+const std::string kSealed = "/provenance/content_sha256";
+const std::string kSeal = "sha256 of this file with zeros in place of these digits: ";
+const std::string kUnsealed(64, '0');
+
+// Of an artifact whose content is what its writer has published. Error(io) otherwise; what is no HDF5 file is left to
+// its reader.
+std::string artifact_bytes(const std::string& path) {
+  std::string bytes = read_bytes(path, rebuild_advice(path));
+  if (!is_hdf5(bytes)) return bytes;
+  const auto refuse = [&](const char* what) {
+    fail(Failure::io, path, ": ", what, " (", bytes.size(), " bytes); ", rebuild_advice(path));
+  };
+  const auto at = bytes.find(kSeal);
+  if (at == std::string::npos || bytes.size() - at < kSeal.size() + kUnsealed.size())
+    refuse("carries no content hash: it is truncated, damaged or of an earlier version of this program");
+  const auto digits = bytes.begin() + static_cast<std::ptrdiff_t>(at + kSeal.size());
+  std::string found(kUnsealed);
+  std::swap_ranges(found.begin(), found.end(), digits);
+  if (sha256(bytes) != found) refuse("is not what was written: truncated, damaged or edited");
+  std::copy(found.begin(), found.end(), digits);
+  return bytes;
+}
+
+Origin origin_of(const h5::Reader& file) {
+  Origin out;
+  out.schema = file.string_attribute("/", "schema");
+  if (out.schema.compare(0, kFamily.size(), kFamily) != 0) {
+    file.refuse("is a file of '" + out.schema + "', not of this program");
+  }
+  out.schema_version = file.int_attribute("/", "schema_version");
+  out.title = file.string_attribute("/", "title");
+  const auto word = [&](const std::string& name) {
+    const auto words = file.strings("/provenance/" + name);
+    return words.empty() ? std::string() : words.front();
+  };
+  out.tool = word("tool");
+  out.version = word("version");
+  out.command = word("command");
+  const auto roles = file.strings("/provenance/input_role");
+  const auto paths = file.strings("/provenance/input_path");
+  const auto hashes = file.strings("/provenance/input_sha256");
+  if (paths.size() != roles.size() || hashes.size() != roles.size()) {
+    file.refuse("/provenance names inputs of different number");
+  }
+  for (std::size_t i = 0; i < roles.size(); ++i) out.inputs.push_back({roles[i], paths[i], hashes[i]});
+  out.history = file.strings("/provenance/history");
+  const std::string operation = "/parameters/operation/", model = "/parameters/fidelity/model";
+  out.has_torque = file.has(operation + "torque");
+  if (out.has_torque) out.torque = file.doubles(operation + "torque").at(0);
+  if (file.has(operation + "direction")) out.direction = file.strings(operation + "direction").at(0);
+  if (file.has(model)) out.model = file.strings(model).at(0);
+  if (out.model == "finite elements") out.model.clear();
+  return out;
+}
+
+Eigen::Index as_index(std::size_t value) {
+  return static_cast<Eigen::Index>(value);
+}
+
+// Checks a shape against what is wanted (-1: any) and names both if they differ.
+void want_shape(const h5::Reader& file, const std::string& name, const std::vector<Eigen::Index>& wanted) {
+  const h5::Shape shape = file.shape(name);
+  bool same = shape.size() == wanted.size();
+  for (std::size_t i = 0; same && i < shape.size(); ++i) {
+    same = wanted[i] < 0 || as_index(shape[i]) == wanted[i];
+  }
+  if (same) return;
+  const auto shown = [](const auto& extents) {
+    std::string out;
+    for (auto extent : extents) {
+      const auto number = static_cast<long long>(extent);
+      out += (out.empty() ? "" : " x ") + (number < 0 ? std::string("any") : std::to_string(number));
+    }
+    return out.empty() ? std::string("scalar") : out;
+  };
+  file.refuse("dataset " + name + " has shape " + shown(shape) + ", expected " + shown(wanted));
+}
+
+class SectionSource : public ParameterSource {
+ public:
+  SectionSource(const ArtifactReader& reader, const std::string& section)
+      : reader_(reader), prefix_("/parameters/" + section + "/") {}
+  bool has(const std::string& name) const override { return reader_.file().has(prefix_ + name); }
+  double number(const std::string& name) const override { return reader_.number(prefix_ + name); }
+  int whole(const std::string& name) const override { return reader_.whole(prefix_ + name); }
+  std::string word(const std::string& name) const override { return reader_.word(prefix_ + name); }
+  [[noreturn]] void refuse(const std::string& name, const std::string& what) const override {
+    reader_.file().refuse("dataset " + prefix_ + name + " " + what);
+  }
+
+ private:
+  const ArtifactReader& reader_;
+  std::string prefix_;
+};
+
+}  // namespace
+
+void put_seal(h5::Writer& file) {
+  file.put(kSealed, kSeal + kUnsealed,
+           record("content hash, which readers check before they parse the file"));
+}
+
+std::string sealed(std::string bytes) {
+  const auto at = bytes.find(kSeal);
+  if (at == std::string::npos || bytes.size() - at < kSeal.size() + kUnsealed.size())
+    fail(Failure::numerical, "the file has no place for its content hash");
+  bytes.replace(at + kSeal.size(), kUnsealed.size(), kUnsealed);
+  return bytes.replace(at + kSeal.size(), kUnsealed.size(), sha256(bytes));
+}
+
+std::string rebuild_advice(const std::string& path) {
+  const std::string target = recorded_path(path);
+  // make has no targets outside its own folder.
+  if (target.rfind("...", 0) == 0 || target.rfind("../", 0) == 0) {
+    return "it lies outside the working folder: make it again where it was made";
+  }
+  if (target.rfind("out/", 0) != 0)
+    return "make has targets below out/ only, such as out/<scene>/T150/static.h5: give one of these, or make "
+           "it again "
+           "as it was made";
+  // make takes what stands there for made, whatever it is.
+  std::error_code code;
+  const auto found = std::filesystem::symlink_status(path, code);
+  const std::string remove = !std::filesystem::exists(found)        ? ""
+                             : std::filesystem::is_directory(found) ? "remove this folder; "
+                                                                    : "delete it; ";
+  // Of a scene or a study that is none of the project's make has to be told where it is.
+  const std::string scene = target.substr(4, target.find('/', 4) - 4);
+  if (const std::string studies = "out/studies/"; target.rfind(studies, 0) == 0) {
+    const std::string study =
+        target.substr(studies.size(), target.find('/', studies.size()) - studies.size());
+    const bool own = !std::filesystem::is_regular_file("data/studies/" + study + ".toml");
+    return remove + "rebuild it with: make " + (own ? "STUDY=path/to/" + study + ".toml " : "") + target;
+  }
+  std::string file = recorded_scene("out/" + scene);
+  if (!std::filesystem::is_regular_file(file)) file = "data/scenes/" + scene + ".toml";
+  const bool of_none = scene == "bodies" || scene == "figures" || scene.find('.') != std::string::npos;
+  std::string told;
+  if (!of_none && !std::filesystem::is_regular_file(file))
+    told = "SCENE=path/to/" + scene + ".toml ";
+  else if (!of_none && file.rfind("data/scenes/", 0) != 0)
+    told = "SCENE=" + file + " ";
+  return remove + "rebuild it with: make " + told + target;
+}
+
+Origin read_origin(const std::string& path) {
+  return origin_of(h5::Reader(artifact_bytes(path), path, rebuild_advice(path)));
+}
+
+namespace {
+
+// hashes: of files that were read before, by path.
+void require_fresh(const std::string& artifact, std::map<std::string, std::string>& hashes) {
+  const Origin origin = read_origin(artifact);
+  if (const std::string wrong = misplaced(artifact, origin); !wrong.empty())
+    fail(Failure::input, artifact, ": ", wrong, "; ", rebuild_advice(artifact));
+  for (const InputRecord& input : origin.inputs) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(input.path, ignored)) continue;
+    const auto [hash, first] = hashes.try_emplace(input.path);
+    if (first) hash->second = sha256_of_file(input.path);
+    if (hash->second != input.sha256)
+      fail(Failure::input, artifact, ": is stale: its input '", input.role, "', ", input.path,
+           ", is not what it was; ", rebuild_advice(artifact));
+  }
+}
+
+}  // namespace
+
+void require_fresh(const std::string& artifact) {
+  std::map<std::string, std::string> none;
+  require_fresh(artifact, none);
+}
+
+Provenance made_by(int argc, char** argv, std::vector<std::string> inputs) {
+  std::map<std::string, std::string> known_inputs;  // of the inputs, which a thousand variants share
+  Provenance out{program_name(argv[0]), command_line(argc, argv), std::move(inputs), {}};
+  std::map<std::string, std::string>
+      known;  // a file in two roles, as the body of gears that are alike, is read once
+  for (const std::string& input : out.inputs) {
+    const std::string path = input.substr(input.find('=') + 1);
+    const auto [hash, first] = known.try_emplace(path);
+    if (first) {
+      // No target makes a slice of a scene.
+      const bool artifact = path.ends_with(".h5");
+      // One that is missing has no hash: its reader knows what to advise.
+      if (artifact || std::filesystem::exists(path)) {
+        const std::string bytes = read_bytes(path, artifact ? rebuild_advice(path) : "");
+        hash->second = sha256(bytes);
+        if (is_hdf5(bytes)) require_fresh(path, known_inputs);
+      }
+    }
+    out.sha256.push_back(hash->second);
+  }
+  return out;
+}
+
+std::string recorded_input(const std::string& artifact, const std::string& role) {
+  for (const auto& input : read_origin(artifact).inputs) {
+    if (input.role == role) return input.sha256;
+  }
+  fail(Failure::input, artifact, ": records no input '", role, "'; ", rebuild_advice(artifact));
+}
+
+void require_made_from(const std::string& artifact, const std::string& role, const std::string& input) {
+  if (recorded_input(artifact, role) == sha256_of_file(input)) return;
+  fail(Failure::input, artifact, ": is stale: its input '", role, "' was not what ", input, " is now; ",
+       rebuild_advice(artifact));
+}
+
+ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int version,
+                               const std::string& title, const Provenance& provenance)
+    : path_(std::move(path)), inputs_(provenance.inputs), sha256_(provenance.sha256) {
+  put_seal(file_);
+  file_.attribute("/", "schema", kFamily + kind);
+  file_.attribute("/", "schema_version", version);
+  file_.attribute("/", "title", title);
+  file_.group("/parameters");
+
+  std::vector<std::string> roles, paths, hashes, history;
+  std::map<std::string, std::string> known;  // hashes by path
+  std::set<std::string> told;                // lines of the history
+  for (const std::string& input : provenance.inputs) {
+    const auto equals = input.find('=');
+    if (equals == std::string::npos) fail(Failure::numerical, "input '", input, "' is not role=path");
+    const std::string place = input.substr(equals + 1);
+    roles.push_back(input.substr(0, equals));
+    paths.push_back(recorded_path(place));
+    const auto [hash, first] = known.try_emplace(place);
+    const std::string bytes = first ? artifact_bytes(place) : "";
+    if (first) hash->second = sha256(bytes);
+    hashes.push_back(hash->second);
+    if (!is_hdf5(bytes)) continue;
+    const Origin origin = origin_of(h5::Reader(bytes, place, rebuild_advice(place)));
+    std::vector<std::string> lines = origin.history;
+    lines.push_back(origin.tool + " " + origin.version + ": " + origin.command);
+    for (const std::string& line : lines)
+      if (told.insert(line).second) history.push_back(line);
+  }
+  const std::string folder = "/provenance/";
+  file_.put(folder + "tool", provenance.tool, record("program that made this file"));
+  file_.put(folder + "version", std::string(kVersion), record("version of the program"));
+  file_.put(folder + "command", provenance.command, record("command, paths relative to its working folder"));
+  file_.put(folder + "blas", blas_name(), record("linear algebra library"));
+  file_.put(folder + "input_role", roles, record("role of each input", "input"));
+  file_.put(folder + "input_path", paths,
+            record("path of each input, relative to the working folder", "input"));
+  file_.put(folder + "input_sha256", hashes, record("SHA-256 of each input file", "input"));
+  file_.put(folder + "history", history, record("earlier stages, oldest first", "stage"));
+}
+
+void ArtifactWriter::put(const std::string& name, double value, const h5::Label& label) {
+  file_.put(name, &value, {}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, int value, const h5::Label& label) {
+  file_.put(name, &value, {}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const std::string& value, const h5::Label& label) {
+  file_.put(name, value, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const Eigen::VectorXd& values, const h5::Label& label) {
+  file_.put(name, values.data(), {static_cast<std::size_t>(values.size())}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const Eigen::VectorXi& values, const h5::Label& label) {
+  file_.put(name, values.data(), {static_cast<std::size_t>(values.size())}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const MatrixRM& values, const h5::Label& label) {
+  file_.put(name, values.data(),
+            {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
+}
+
+void ArtifactWriter::put(const std::string& name, const MatrixRMi& values, const h5::Label& label) {
+  file_.put(name, values.data(),
+            {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
+}
+
+void ArtifactWriter::parameters(const std::string& section, const KeyValues& values, Part part) {
+  for (const Parameter& parameter : parameters_of(values, part)) {
+    std::visit(
+        [&](const auto& value) {
+          put("/parameters/" + section + "/" + parameter.name, value,
+              {parameter.units, parameter.meaning, "", ""});
+        },
+        parameter.value);
+  }
+  if (part != Part::mesh) return;
+  if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
+    parameters(section, values, Part::contact_plane);
+  // Gears as they are designed have no such section.
+  for (int g = 0; g < 2; ++g)
+    if (values.mesh.modification[g] != FlankModification{}) {
+      KeyValues own;
+      own.modification = values.mesh.modification[g];
+      parameters(kModificationOf[g], own, Part::modification);
+    }
+  for (int g = 0; g < 2; ++g)
+    if (!values.mesh.errors[g].none()) {
+      KeyValues own;
+      own.errors = values.mesh.errors[g];
+      parameters(kErrorOf[g], own, Part::error);
+    }
+  for (int g = 0; g < 2; ++g)
+    if (values.mesh.bearing[g].elastic()) {
+      KeyValues own;
+      own.bearing = values.mesh.bearing[g];
+      parameters(kBearingOf[g], own, Part::bearing);
+    }
+}
+
+void ArtifactWriter::publish() {
+  std::map<std::string, std::string> now;
+  for (std::size_t i = 0; i < sha256_.size(); ++i) {
+    const std::string place = inputs_[i].substr(inputs_[i].find('=') + 1);
+    const auto [hash, first] = now.try_emplace(place);
+    if (first) hash->second = sha256_of_file(place);
+    if (hash->second != sha256_[i])
+      fail(Failure::input, path_, ": is not written, because its input ", place,
+           " was replaced while it was being made; ", rebuild_advice(path_));
+  }
+  whine::publish(path_, sealed(file_.finish()));
+}
+
+ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind, int version)
+    : file_(artifact_bytes(path), path, rebuild_advice(path)) {
+  const std::string schema = file_.string_attribute("/", "schema");
+  if (schema != kFamily + kind) {
+    file_.refuse(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));
+  }
+  const int found = file_.int_attribute("/", "schema_version");
+  if (found != version) {
+    file_.refuse(text("is schema version ", found, ", this program reads ", version));
+  }
+}
+
+namespace {
+
+template <class Values>
+void require_range(const h5::Reader& file, const std::string& name, const Values& values) {
+  const Range* const range = range_of(name);
+  if (!range) return;
+  for (const auto value : values)
+    if (const std::string why = outside(*range, value); !why.empty())
+      file.refuse("dataset " + name + " " + why);
+}
+
+}  // namespace
+
+std::vector<double> ArtifactReader::doubles(const std::string& name) const {
+  std::vector<double> values = file_.doubles(name);
+  require_range(file_, name, values);
+  return values;
+}
+
+std::vector<int> ArtifactReader::ints(const std::string& name) const {
+  std::vector<int> values = file_.ints(name);
+  require_range(file_, name, values);
+  return values;
+}
+
+double ArtifactReader::number(const std::string& name) const {
+  want_shape(file_, name, {});
+  return doubles(name).at(0);
+}
+
+int ArtifactReader::whole(const std::string& name) const {
+  want_shape(file_, name, {});
+  return ints(name).at(0);
+}
+
+std::string ArtifactReader::word(const std::string& name) const {
+  want_shape(file_, name, {});
+  return file_.strings(name).at(0);
+}
+
+Eigen::VectorXd ArtifactReader::vector(const std::string& name, Eigen::Index size) const {
+  want_shape(file_, name, {size});
+  const auto values = doubles(name);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), as_index(values.size()));
+}
+
+Eigen::VectorXi ArtifactReader::whole_vector(const std::string& name, Eigen::Index size) const {
+  want_shape(file_, name, {size});
+  const auto values = ints(name);
+  return Eigen::Map<const Eigen::VectorXi>(values.data(), as_index(values.size()));
+}
+
+MatrixRM ArtifactReader::matrix(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
+  want_shape(file_, name, {rows, columns});
+  const auto shape = file_.shape(name);
+  const auto values = doubles(name);
+  return Eigen::Map<const MatrixRM>(values.data(), as_index(shape[0]), as_index(shape[1]));
+}
+
+MatrixRMi ArtifactReader::whole_matrix(const std::string& name, Eigen::Index rows,
+                                       Eigen::Index columns) const {
+  want_shape(file_, name, {rows, columns});
+  const auto shape = file_.shape(name);
+  const auto values = ints(name);
+  return Eigen::Map<const MatrixRMi>(values.data(), as_index(shape[0]), as_index(shape[1]));
+}
+
+void ArtifactReader::parameters(const std::string& section, KeyValues& values, Part part) const {
+  set_parameters(values, part, SectionSource(*this, section));
+  if (part != Part::mesh) return;
+  const SectionSource mesh(*this, section);
+  if (mesh.has("contact_plane")) set_parameters(values, Part::contact_plane, mesh);
+  for (int g = 0; g < 2; ++g) {
+    KeyValues own;
+    const SectionSource source(*this, kModificationOf[g]);
+    if (source.has("tip_relief")) set_parameters(own, Part::modification, source);
+    values.mesh.modification[g] = own.modification;
+    const SectionSource errors(*this, kErrorOf[g]);
+    if (errors.has("iso_class")) set_parameters(own, Part::error, errors);
+    values.mesh.errors[g] = own.errors;
+    const SectionSource bearing(*this, kBearingOf[g]);
+    if (bearing.has("stiffness")) set_parameters(own, Part::bearing, bearing);
+    values.mesh.bearing[g] = own.bearing;
+  }
+}
+
+}  // namespace whine

@@ -1,0 +1,76 @@
+// What all artifacts share: root attributes, /provenance, /parameters, publication; and the checks on
+// reading.
+//
+// Private to the layer io/; schemas.cpp says what stands in each artifact.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "io/h5.h"
+#include "io/keys.h"
+#include "io/schemas.h"
+
+namespace whine {
+
+// The dataset /provenance/content_sha256 ends with the SHA-256 of the file in which these 64 digits are zeros. It is
+// checked on the bytes of the file, so that HDF5 never parses a file that is not what its writer has made. No attribute:
+// those are under a checksum of HDF5's own.
+void put_seal(h5::Writer& file);
+// The bytes of such a file with the digits that they ask for. Error(numerical) if there is no place for them.
+std::string sealed(std::string bytes);
+
+class ArtifactWriter {
+ public:
+  // kind: "static" for the schema "whine/static".
+  ArtifactWriter(std::string path, const std::string& kind, int version, const std::string& title,
+                 const Provenance& provenance);
+
+  h5::Writer& file() { return file_; }
+
+  void put(const std::string& name, double value, const h5::Label& label);
+  void put(const std::string& name, int value, const h5::Label& label);
+  void put(const std::string& name, const std::string& value, const h5::Label& label);
+  void put(const std::string& name, const Eigen::VectorXd& values, const h5::Label& label);
+  void put(const std::string& name, const Eigen::VectorXi& values, const h5::Label& label);
+  void put(const std::string& name, const MatrixRM& values, const h5::Label& label);
+  void put(const std::string& name, const MatrixRMi& values, const h5::Label& label);
+
+  // /parameters/<section>/<key> for all keys of a part.
+  void parameters(const std::string& section, const KeyValues& values, Part part);
+
+  // Writes the file whole or not at all. Error(input) if an input is not what it was when the stage read it.
+  void publish();
+
+ private:
+  std::string path_;
+  std::vector<std::string> inputs_, sha256_;  // "role=path", and what was recorded of it
+  h5::Writer file_;
+};
+
+class ArtifactReader {
+ public:
+  // Refuses everything that is not the given schema in the given version. Numbers are refused outside of the range of their
+  // dataset (io/ranges.h) or, of a key of a scene, of the key.
+  ArtifactReader(const std::string& path, const std::string& kind, int version);
+
+  const h5::Reader& file() const { return file_; }
+
+  std::vector<double> doubles(const std::string& name) const;
+  std::vector<int> ints(const std::string& name) const;
+  double number(const std::string& name) const;
+  int whole(const std::string& name) const;
+  std::string word(const std::string& name) const;
+  // -1: any length. Error(input) if the shape is another.
+  Eigen::VectorXd vector(const std::string& name, Eigen::Index size = -1) const;
+  Eigen::VectorXi whole_vector(const std::string& name, Eigen::Index size = -1) const;
+  MatrixRM matrix(const std::string& name, Eigen::Index rows = -1, Eigen::Index columns = -1) const;
+  MatrixRMi whole_matrix(const std::string& name, Eigen::Index rows = -1, Eigen::Index columns = -1) const;
+
+  void parameters(const std::string& section, KeyValues& values, Part part) const;
+
+ private:
+  h5::Reader file_;
+};
+
+}  // namespace whine

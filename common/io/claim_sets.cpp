@@ -1,0 +1,83 @@
+#include "io/claim_sets.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "io/publish.h"
+#include "io/toml.h"
+
+namespace whine {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words words_of(const toml::node& node) {
+  Words out;
+  if (const toml::array* list = node.as_array())
+    for (const toml::node& item : *list) out.push_back(item.value<std::string>().value_or(""));
+  return out;
+}
+
+// Each alternative of one with each of the other.
+std::vector<Words> both(const std::vector<Words>& one, const std::vector<Words>& other) {
+  std::vector<Words> out;
+  for (const Words& a : one)
+    for (const Words& b : other) {
+      out.push_back(a);
+      out.back().insert(out.back().end(), b.begin(), b.end());
+    }
+  return out;
+}
+
+}  // namespace
+
+std::vector<ClaimSet> read_claim_sets(const std::string& path) {
+  toml::table root;
+  try {
+    root = parse_toml(read_bytes(path, "check the path of the sets of claims"));
+  } catch (const toml::parse_error& error) {
+    fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
+  }
+  const toml::array* rows = root.get_as<toml::array>("set");
+  if (!rows) fail(Failure::input, path, ":1: lacks [[set]]");
+  std::vector<ClaimSet> out;
+  for (const toml::node& node : *rows) {
+    const auto refuse = [&](const std::string& what) {
+      fail(Failure::input, path, ":", node.source().begin.line, ": ", what);
+    };
+    const toml::table* row = node.as_table();
+    if (!row) refuse("[[set]] must be tables");
+    ClaimSet set;
+    set.alternatives = {{}};
+    for (const auto& [label, value] : *row) {
+      const std::string key(label.str());
+      if (key == "name") {
+        set.name = value.value<std::string>().value_or("");
+      } else if (key == "says") {
+        set.says = value.value<std::string>().value_or("");
+      } else if (key == "claims") {
+        set.alternatives = both(set.alternatives, {words_of(value)});
+      } else if (key == "any") {
+        std::vector<Words> any;
+        if (const toml::array* lists = value.as_array())
+          for (const toml::node& list : *lists) any.push_back(words_of(list));
+        set.alternatives = both(set.alternatives, any);
+      } else if (key == "with") {
+        for (const std::string& name : words_of(value)) {
+          const auto earlier =
+              std::find_if(out.begin(), out.end(), [&](const ClaimSet& s) { return s.name == name; });
+          if (earlier == out.end()) refuse(text("'with' names '", name, "', which no earlier set is called"));
+          set.alternatives = both(set.alternatives, earlier->alternatives);
+        }
+      } else {
+        refuse(text("unknown key '", key, "'; known are name, says, claims, any, with"));
+      }
+    }
+    if (set.name.empty() || set.alternatives.empty() || set.alternatives.front().empty())
+      refuse("a set needs a name and claims");
+    out.push_back(set);
+  }
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,89 @@
+#include "io/fit.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "io/keys.h"
+#include "io/provenance.h"
+#include "io/publish.h"
+
+namespace whine {
+namespace {
+
+const std::string kRecord = "/params/scene.txt";
+
+}  // namespace
+
+void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::string& path) {
+  KeyValues found, wanted;
+  found.design = mesh.design;
+  found.body = mesh.discretisation;
+  wanted.design = slice.design;
+  wanted.body = slice.discretisation;
+  found.body.modes = wanted.body.modes;
+  for (const Part part : {Part::design, Part::crack, Part::body}) {
+    const auto have = parameters_of(found, part), want = parameters_of(wanted, part);
+    for (std::size_t i = 0; i < want.size(); ++i) {
+      if (have[i].value == want[i].value) continue;
+      const auto shown = [](const Parameter& parameter) {
+        return std::visit([](const auto& value) { return text(value); }, parameter.value);
+      };
+      fail(Failure::input, path, ": is the mesh of another gear: its ", want[i].name, " is ", shown(have[i]),
+           ", the slice of the scene says ", shown(want[i]), want[i].units == "1" ? "" : " " + want[i].units,
+           "; ", rebuild_advice(path));
+    }
+  }
+}
+
+void require_body(const BodyArtifact& body, const std::string& hash, const std::string& role,
+                  const std::string& path) {
+  const std::string found = body_hash(body_slice({body.design, body.material, body.discretisation}));
+  if (hash.empty() || found == hash) return;
+  fail(Failure::input, path, ": is the body ", found, ", but the ", role, " of this scene is ", hash,
+       ": it is of other gear values, or driver and driven are swapped; give out/bodies/", hash,
+       "/body.h5 (make out/bodies/", hash, "/body.h5)");
+}
+
+void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path) {
+  if (statics.fidelity.contact == wanted.contact) return;
+  fail(Failure::input, path, ": was made with contact = \"", statics.fidelity.contact,
+       "\", the slice of this stage says \"", wanted.contact, "\"; ", rebuild_advice(path));
+}
+
+std::string slice_for(const Scene& scene, const std::string& path) {
+  const std::filesystem::path place(path);
+  const std::string name = place.filename().string();
+  if (name == "static.toml") return static_slice(scene);
+  if (name == "impact.toml") return impact_slice(scene);
+  if (name == "sweep.toml") return sweep_slice(scene);
+  if (name == "map.toml") return map_slice(scene);
+  if (name == "lumped.toml" || name == "lumped_map.toml") return lumped_slice(scene, name == "lumped.toml");
+  for (const SceneGear& gear : scene.gears) {
+    const std::string slice = body_slice(scene, gear.name), folder = place.parent_path().filename().string();
+    if (name == "body.toml" && (folder == body_hash(slice) || folder == gear.name)) return slice;
+  }
+  return "";
+}
+
+std::string recorded_scene(const std::string& home) {
+  const std::string path = home + kRecord;
+  if (!std::filesystem::is_regular_file(path)) return "";
+  const std::string line = read_bytes(path);
+  return line.substr(0, line.find('\n'));
+}
+
+void record_scene(const std::string& home, const std::string& scene) {
+  namespace fs = std::filesystem;
+  std::error_code gone;
+  const std::string before = recorded_scene(home);
+  if (!before.empty() && fs::is_regular_file(before, gone) && !fs::equivalent(before, scene, gone)) {
+    if (read_bytes(before) != read_bytes(scene))
+      fail(Failure::input, scene, ": ", home, " is of ", before,
+           ", which says otherwise; rename one of the two, or delete ", home);
+    return;  // a copy: the folder stays that of the first
+  }
+  const fs::path path = fs::absolute(scene).lexically_normal().lexically_relative(fs::current_path());
+  publish_if_changed(home + kRecord, path.generic_string() + "\n");
+}
+
+}  // namespace whine

@@ -1,0 +1,561 @@
+#include "io/h5.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "base/error.h"
+
+namespace whine::h5 {
+namespace {
+
+// Large enough to be worth a filter; below it the chunk's book-keeping costs more than it saves.
+constexpr std::size_t kFilterBytes = 8192;
+constexpr std::size_t kChunkBytes = 1 << 20;
+
+// An HDF5 identifier that is closed by the function that its kind wants.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
+    if (id_ < 0) fail(Failure::numerical, "HDF5 refused to ", what, "; this is a fault of the program");
+  }
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT: HDF5 calls take the number
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+// Our errors say what went wrong in one line; HDF5's stack of them would hide it.
+void silence() {
+  static const bool done = [] {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    return true;
+  }();
+  (void)done;
+}
+
+// HDF5 takes two files in memory for one if their names agree; the name is not stored.
+std::string memory_name() {
+  static std::atomic<long> count{0};
+  return text("whine-", ++count, ".h5");
+}
+
+void check(herr_t status, const std::string& what) {
+  if (status < 0) fail(Failure::numerical, "HDF5 refused to ", what, "; this is a fault of the program");
+}
+
+// Of no fixed length for attributes, which readers of other languages then show as text.
+Handle string_type(std::size_t size = H5T_VARIABLE) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "copy a type");
+  check(H5Tset_size(type, size), "set a string size");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "set a character set");
+  return type;
+}
+
+Handle space_of(const Shape& shape) {
+  if (shape.empty()) return Handle(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar space");
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  return Handle(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose,
+                "make a space");
+}
+
+std::size_t count_of(const Shape& shape) {
+  std::size_t count = 1;
+  for (std::size_t n : shape) count *= n;
+  return count;
+}
+
+// Groups of any size list their members in their header. HDF5 1.10 frees what it has not yet filled in where it comes upon
+// damage in the other form, a heap with an index.
+void list_in_header(hid_t group_creation) {
+  check(H5Pset_link_phase_change(group_creation, 65535, 0), "select how groups list their members");
+}
+
+// The bytes of a file that is made in memory. H5Fget_file_image clears a mark in the superblock and leaves its checksum as
+// it was (1.10), so they are taken where HDF5 gives its memory back.
+struct Image {
+  std::string bytes;
+  bool wanted = false;
+
+  static void* take(std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); }
+  static void* resize(void* memory, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::realloc(memory, size);
+  }
+  static herr_t give_back(void* memory, H5FD_file_image_op_t, void* self) {
+    auto& image = *static_cast<Image*>(self);
+    if (image.wanted) {
+      constexpr std::size_t kEndOfFile = 28;  // in the superblock; more memory may have been taken
+      std::uint64_t size = 0;
+      std::memcpy(&size, static_cast<const char*>(memory) + kEndOfFile, sizeof size);
+      image.bytes.assign(static_cast<const char*>(memory), size);
+    }
+    std::free(memory);
+    return 0;
+  }
+  static void* same(void* self) { return self; }
+  static herr_t keep(void*) { return 0; }
+};
+
+std::uint64_t number_at(const std::string& bytes, std::size_t at, int length) {
+  std::uint64_t out = 0;
+  for (int i = length - 1; i >= 0; --i)
+    out = out << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
+  return out;
+}
+
+// Where `mark` stands in `bytes`, ascending, as far as the address of that place stands somewhere in them, too. One pass for
+// all marks: a file may consist of little else.
+std::vector<std::size_t> referred(const std::string& bytes, const std::string& mark) {
+  std::vector<std::size_t> places, out;
+  for (std::size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1))
+    places.push_back(at);
+  if (places.empty()) return out;
+  std::vector<bool> found(places.size());
+  std::uint64_t address = 0;  // that ends at i
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    address = address >> 8 | std::uint64_t(static_cast<unsigned char>(bytes[i])) << 56;
+    if (i < 7 || address < places.front() || address > places.back()) continue;
+    const auto place = std::lower_bound(places.begin(), places.end(), address);
+    if (*place == address) found[static_cast<std::size_t>(place - places.begin())] = true;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (found[i]) out.push_back(places[i]);
+  return out;
+}
+
+// Global heaps, which hold texts of no fixed length, are the only structures without a checksum in the files that are
+// made here, and HDF5 follows the sizes in them unchecked: for ever, if one is damaged. Whether all are sound to which the
+// file refers, and none lies in another: their mark (with the version, without which HDF5 does not take it for one) may also
+// stand among numbers.
+bool heaps_are_sound(const std::string& bytes) {
+  constexpr std::size_t kHeader = 16;      // of a heap and of an object in it
+  std::vector<std::size_t> seen(1 << 16);  // index -> heap, counted from 1
+  std::size_t heap = 0, free_from = 0;
+  for (const std::size_t at : referred(bytes, "GCOL\1")) {
+    if (at < free_from || bytes.size() - at < kHeader) return false;
+    ++heap;
+    std::size_t left = number_at(bytes, at + 8, 8);
+    if (left < kHeader || left > bytes.size() - at) return false;
+    free_from = at + left;
+    std::size_t object = at + kHeader;
+    for (left -= kHeader; left >= kHeader;) {
+      const std::size_t index = number_at(bytes, object, 2), size = number_at(bytes, object + 8, 8);
+      if (index == 0) {  // the rest is free
+        if (size != left) return false;
+        break;
+      }
+      if (seen[index] == heap || size > left - kHeader) return false;
+      seen[index] = heap;
+      const std::size_t whole = std::min(left, kHeader + (size + 7) / 8 * 8);
+      object += whole;
+      left -= whole;
+    }
+  }
+  return true;
+}
+
+template <class T>
+struct Types;
+template <>
+struct Types<double> {
+  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
+  static hid_t file() { return H5T_IEEE_F64LE; }
+};
+template <>
+struct Types<float> {
+  static hid_t memory() { return H5T_NATIVE_FLOAT; }
+  static hid_t file() { return H5T_IEEE_F32LE; }
+};
+template <>
+struct Types<int> {
+  static hid_t memory() { return H5T_NATIVE_INT; }
+  static hid_t file() { return H5T_STD_I32LE; }
+};
+template <>
+struct Types<std::int64_t> {
+  static hid_t memory() { return H5T_NATIVE_INT64; }
+  static hid_t file() { return H5T_STD_I64LE; }
+};
+template <>
+struct Types<std::uint8_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT8; }
+  static hid_t file() { return H5T_STD_U8LE; }
+};
+
+}  // namespace
+
+struct Writer::Impl {
+  hid_t file = -1;
+  Image image;
+
+  // All of one length, so that they stand where they belong and not in a heap.
+  void put(const std::string& path, const std::vector<std::string>& words, const Shape& shape,
+           const Label& label) {
+    std::size_t longest = 0;
+    for (const std::string& word : words) longest = std::max(longest, word.size());
+    std::string block;
+    for (const std::string& word : words) block += word + std::string(longest + 1 - word.size(), '\0');
+    const Handle type = string_type(longest + 1);
+    put(path, type, type, longest + 1, block.data(), shape, label);
+  }
+
+  void attribute(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type, hid_t space,
+                 const void* value) {
+    const Handle id(H5Acreate2(object, name.c_str(), file_type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                    "make the attribute " + name);
+    check(H5Awrite(id, memory_type, value), "write the attribute " + name);
+  }
+
+  void text_attribute(hid_t object, const std::string& name, const std::string& value) {
+    const Handle type = string_type();
+    const char* data = value.c_str();
+    attribute(object, name, type, type, space_of({}), &data);
+  }
+
+  Handle object(const std::string& path) {
+    return Handle(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path);
+  }
+
+  void make_groups(const std::string& path) {
+    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+      const std::string part = path.substr(0, end);
+      if (!part.empty() && H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) {
+        const Handle list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "make a property list");
+        check(H5Pset_obj_track_times(list, 0), "switch object times off");
+        list_in_header(list);
+        const Handle made(H5Gcreate2(file, part.c_str(), H5P_DEFAULT, list, H5P_DEFAULT), H5Gclose,
+                          "make the group " + part);
+      }
+      if (end == std::string::npos) return;
+    }
+  }
+
+  void put(const std::string& path, hid_t file_type, hid_t memory_type, std::size_t item_bytes,
+           const void* data, const Shape& shape, const Label& label) {
+    if (label.units.empty() || label.long_name.empty() || (!shape.empty() && label.axes.empty())) {
+      fail(Failure::numerical, "dataset ", path, " lacks units, long_name or axes");
+    }
+    const auto slash = path.rfind('/');
+    if (slash != 0 && slash != std::string::npos) make_groups(path.substr(0, slash));
+    const Handle space = space_of(shape);
+    const Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
+    check(H5Pset_obj_track_times(list, 0), "switch object times off");
+    const std::size_t count = count_of(shape);
+    if (!shape.empty() && item_bytes > 0 && count * item_bytes >= kFilterBytes) {
+      // Whole rows per chunk, about a megabyte: readers take curves of one speed or one table at a time.
+      std::vector<hsize_t> chunk(shape.begin(), shape.end());
+      const std::size_t row = count / shape[0] * item_bytes;
+      chunk[0] = std::clamp<hsize_t>(kChunkBytes / row, 1, shape[0]);
+      check(H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data()), "set chunks of " + path);
+      check(H5Pset_shuffle(list), "set the shuffle filter");
+      check(H5Pset_deflate(list, 4), "set the deflate filter");
+    }
+    const Handle set(H5Dcreate2(file, path.c_str(), file_type, space, H5P_DEFAULT, list, H5P_DEFAULT),
+                     H5Dclose, "make the dataset " + path);
+    if (count > 0) {
+      check(H5Dwrite(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "write the dataset " + path);
+    }
+    text_attribute(set, "units", label.units);
+    text_attribute(set, "long_name", label.long_name);
+    if (!shape.empty()) text_attribute(set, "axes", label.axes);
+    if (!label.equation.empty()) text_attribute(set, "equation", label.equation);
+  }
+
+  template <class T>
+  void put(const std::string& path, const T* data, const Shape& shape, const Label& label) {
+    if constexpr (std::is_floating_point_v<T>) {
+      for (std::size_t i = 0; i < count_of(shape); ++i) {
+        if (!std::isfinite(data[i])) {
+          fail(Failure::numerical, "the result ", path, " is not finite (", data[i], " at index ", i,
+               "); nothing is written");
+        }
+      }
+    }
+    put(path, Types<T>::file(), Types<T>::memory(), sizeof(T), data, shape, label);
+  }
+};
+
+Writer::Writer() : impl_(std::make_unique<Impl>()) {
+  silence();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
+  check(H5Pset_fapl_core(access, 1 << 20, 0), "select memory as a file");
+  check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "select strong closing");
+  // The format in which all but global heaps has a checksum: HDF5 then refuses what is damaged before it follows it.
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "select a file format");
+  H5FD_file_image_callbacks_t calls{Image::take, nullptr,     Image::resize, Image::give_back,
+                                    Image::same, Image::keep, &impl_->image};
+  check(H5Pset_file_image_callbacks(access, &calls), "take its memory");
+  const Handle create(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a property list");
+  check(H5Pset_obj_track_times(create, 0), "switch object times off");
+  list_in_header(create);
+  impl_->file = H5Fcreate(memory_name().c_str(), H5F_ACC_TRUNC, create, access);
+  if (impl_->file < 0) fail(Failure::numerical, "HDF5 refused to make a file in memory");
+}
+
+Writer::~Writer() {
+  if (impl_->file >= 0) H5Fclose(impl_->file);
+}
+
+void Writer::group(const std::string& path) {
+  impl_->make_groups(path);
+}
+
+void Writer::put(const std::string& path, const double* data, const Shape& shape, const Label& label) {
+  impl_->put(path, data, shape, label);
+}
+void Writer::put(const std::string& path, const float* data, const Shape& shape, const Label& label) {
+  impl_->put(path, data, shape, label);
+}
+void Writer::put(const std::string& path, const int* data, const Shape& shape, const Label& label) {
+  impl_->put(path, data, shape, label);
+}
+void Writer::put(const std::string& path, const std::int64_t* data, const Shape& shape, const Label& label) {
+  impl_->put(path, data, shape, label);
+}
+void Writer::put(const std::string& path, const std::uint8_t* data, const Shape& shape, const Label& label) {
+  impl_->put(path, data, shape, label);
+}
+
+void Writer::put(const std::string& path, const std::vector<std::string>& data, const Label& label) {
+  impl_->put(path, data, {data.size()}, label);
+}
+
+void Writer::put(const std::string& path, const std::string& value, const Label& label) {
+  impl_->put(path, std::vector<std::string>{value}, {}, label);
+}
+
+void Writer::attribute(const std::string& path, const std::string& name, const std::string& value) {
+  impl_->text_attribute(impl_->object(path), name, value);
+}
+
+void Writer::attribute(const std::string& path, const std::string& name,
+                       const std::vector<std::int64_t>& values) {
+  impl_->attribute(impl_->object(path), name, H5T_STD_I64LE, H5T_NATIVE_INT64, space_of({values.size()}),
+                   values.data());
+}
+
+void Writer::attribute(const std::string& path, const std::string& name, int value) {
+  impl_->attribute(impl_->object(path), name, H5T_STD_I32LE, H5T_NATIVE_INT, space_of({}), &value);
+}
+
+void Writer::ascii_attribute(const std::string& path, const std::string& name, const std::string& value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "copy a type");
+  check(H5Tset_size(type, value.size()), "set a string size");
+  check(H5Tset_strpad(type, H5T_STR_NULLPAD), "set a string padding");
+  impl_->attribute(impl_->object(path), name, type, type, space_of({}), value.data());
+}
+
+std::string Writer::finish() {
+  impl_->image.wanted = true;
+  check(H5Fclose(std::exchange(impl_->file, -1)), "close the file");
+  return std::move(impl_->image.bytes);
+}
+
+struct Reader::Impl {
+  std::string path, hint;
+  std::size_t size = 0;  // of the file, in bytes
+  hid_t file = -1;
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    fail(Failure::input, path, ": ", what, hint.empty() ? "" : "; ", hint);
+  }
+
+  Handle dataset(const std::string& name) const {
+    const hid_t id = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+    if (id < 0) refuse("dataset " + name + " is missing or damaged");
+    return Handle(id, H5Dclose, "open " + name);
+  }
+
+  Shape shape_of(hid_t set) const {
+    const Handle space(H5Dget_space(set), H5Sclose, "get a space");
+    const int rank = H5Sget_simple_extent_ndims(space);
+    std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
+    if (rank > 0) H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+    return Shape(extent.begin(), extent.end());
+  }
+
+  std::vector<std::string> take_strings(hid_t type, std::size_t count, const std::string& name,
+                                        herr_t (*read)(hid_t, hid_t, void*), hid_t object) const {
+    if (H5Tget_class(type) != H5T_STRING) refuse(name + " is not text");
+    std::vector<std::string> out;
+    if (H5Tis_variable_str(type) > 0) {
+      // What refers to a heap has a checksum in an attribute only.
+      if (H5Iget_type(object) != H5I_ATTR) refuse(name + " is text of no fixed length");
+      const Handle memory = string_type();
+      std::vector<char*> pointers(count, nullptr);
+      if (count > 0 && read(object, memory, pointers.data()) < 0) refuse(name + " cannot be read");
+      for (char* pointer : pointers) {
+        out.emplace_back(pointer ? pointer : "");
+        if (pointer) H5free_memory(pointer);
+      }
+    } else {
+      const std::size_t size = H5Tget_size(type);
+      std::string block(size * count, '\0');
+      if (count > 0 && read(object, type, block.data()) < 0) refuse(name + " cannot be read");
+      out.reserve(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::string item = block.substr(i * size, size);
+        out.push_back(item.substr(0, item.find('\0')));
+      }
+    }
+    return out;
+  }
+
+  // The number of values, before memory is taken for them. Deflate makes at most 1032 bytes of one, of the chunks that are
+  // written here at most 1010: what a dataset holds is bounded by what is stored of it. In memory a value may be wider, a byte
+  // become a double or a text; all that is taken at a time is bounded by the whole file, because a table of empty texts is hardly
+  // stored at all: a file of 1 MiB never asks for 1 GiB.
+  std::size_t stored_count(hid_t set, std::size_t item_bytes, std::size_t memory_bytes,
+                           const std::string& name) const {
+    constexpr double kMost = 1020;
+    const Shape shape = shape_of(set);
+    const double stored = std::min(static_cast<double>(H5Dget_storage_size(set)), static_cast<double>(size));
+    double count = 1;
+    for (std::size_t n : shape) count *= static_cast<double>(n);
+    const double bytes = count * static_cast<double>(item_bytes),
+                 memory = count * static_cast<double>(memory_bytes);
+    if (bytes > kMost * stored)
+      refuse(text("dataset ", name, " says that it holds ", bytes, " bytes, but ", stored, " are stored"));
+    if (memory > kMost * static_cast<double>(size))
+      refuse(text("dataset ", name, " would take ", memory, " bytes of memory, but the file has ", size));
+    return count_of(shape);
+  }
+
+  template <class T>
+  std::vector<T> numbers(const std::string& name, bool whole) const {
+    const Handle set = dataset(name);
+    const Handle type(H5Dget_type(set), H5Tclose, "get a type");
+    const H5T_class_t kind = H5Tget_class(type);
+    if (kind != H5T_INTEGER && (whole || kind != H5T_FLOAT)) {
+      refuse("dataset " + name + (whole ? " does not hold whole numbers" : " does not hold numbers"));
+    }
+    const std::size_t item = H5Tget_size(type);
+    std::vector<T> out(stored_count(set, item, std::max(item, sizeof(T)), name));
+    if (!out.empty() && H5Dread(set, Types<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) {
+      refuse("dataset " + name + " cannot be read (damaged file)");
+    }
+    if constexpr (std::is_floating_point_v<T>) {
+      for (T value : out) {
+        if (!std::isfinite(value)) refuse("dataset " + name + " holds a value that is not finite");
+      }
+    }
+    return out;
+  }
+};
+
+Reader::Reader(const std::string& bytes, std::string path, std::string hint)
+    : impl_(std::make_unique<Impl>()) {
+  silence();
+  impl_->path = std::move(path);
+  impl_->hint = std::move(hint);
+  impl_->size = bytes.size();
+  const auto broken = [&](const std::string& what) {
+    fail(Failure::io, impl_->path, ": ", what, " (", bytes.size(), " bytes)", impl_->hint.empty() ? "" : "; ",
+         impl_->hint);
+  };
+  static const std::string signature("\x89HDF\r\n\x1a\n", 8);
+  if (bytes.empty()) broken("the file is empty");
+  if (bytes.compare(0, 8, signature) != 0) broken("is not an HDF5 file");
+  constexpr char kSuperblock = 3;  // of the format with checksums
+  if (bytes.size() > 8 && bytes[8] != kSuperblock)
+    broken("is of an earlier version of this program, or damaged");
+  if (!heaps_are_sound(bytes)) broken("the file is damaged");
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
+  check(H5Pset_fapl_core(access, 1 << 20, 0), "select memory as a file");
+  check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "select strong closing");
+  // HDF5 copies the image; the const_cast only meets its signature.
+  check(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), "take a file image");
+  impl_->file = H5Fopen(memory_name().c_str(), H5F_ACC_RDONLY, access);
+  if (impl_->file < 0) broken("the file is truncated or damaged");
+}
+
+Reader::~Reader() {
+  if (impl_->file >= 0) H5Fclose(impl_->file);
+}
+
+void Reader::refuse(const std::string& what) const {
+  impl_->refuse(what);
+}
+
+bool Reader::has(const std::string& path) const {
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    if (H5Lexists(impl_->file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> Reader::children(const std::string& group) const {
+  std::vector<std::string> names;
+  if (group != "/" && !has(group)) impl_->refuse("group " + group + " is missing");
+  const Handle id(H5Gopen2(impl_->file, group.c_str(), H5P_DEFAULT), H5Gclose, "open " + group);
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+    static_cast<std::vector<std::string>*>(out)->push_back(name);
+    return 0;
+  };
+  hsize_t start = 0;
+  check(H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, &start, collect, &names), "list " + group);
+  return names;
+}
+
+Shape Reader::shape(const std::string& path) const {
+  return impl_->shape_of(impl_->dataset(path));
+}
+
+std::vector<double> Reader::doubles(const std::string& path) const {
+  return impl_->numbers<double>(path, false);
+}
+
+std::vector<int> Reader::ints(const std::string& path) const {
+  return impl_->numbers<int>(path, true);
+}
+
+std::vector<std::string> Reader::strings(const std::string& path) const {
+  const Handle set = impl_->dataset(path);
+  const Handle type(H5Dget_type(set), H5Tclose, "get a type");
+  const auto read = [](hid_t object, hid_t memory, void* out) {
+    return H5Dread(object, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out);
+  };
+  const std::size_t item = H5Tget_size(type);  // once in a block, once as a text
+  return impl_->take_strings(type, impl_->stored_count(set, item, 2 * item + sizeof(std::string), path),
+                             "dataset " + path, read, set);
+}
+
+std::string Reader::string_attribute(const std::string& path, const std::string& name) const {
+  const std::string what = "attribute " + name + " of " + path;
+  const hid_t opened = H5Aopen_by_name(impl_->file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+  if (opened < 0) impl_->refuse(what + " is missing or damaged");
+  const Handle id(opened, H5Aclose, "open " + what);
+  const Handle type(H5Aget_type(id), H5Tclose, "get a type");
+  const Handle space(H5Aget_space(id), H5Sclose, "get a space");
+  const auto read = [](hid_t object, hid_t memory, void* out) { return H5Aread(object, memory, out); };
+  if (H5Sget_simple_extent_npoints(space) != 1) impl_->refuse(what + " is not one text");
+  return impl_->take_strings(type, 1, what, read, id).at(0);
+}
+
+int Reader::int_attribute(const std::string& path, const std::string& name) const {
+  const std::string what = "attribute " + name + " of " + path;
+  const hid_t opened = H5Aopen_by_name(impl_->file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+  if (opened < 0) impl_->refuse(what + " is missing or damaged");
+  const Handle id(opened, H5Aclose, "open " + what);
+  const Handle type(H5Aget_type(id), H5Tclose, "get a type");
+  const Handle space(H5Aget_space(id), H5Sclose, "get a space");
+  int value = 0;
+  if (H5Tget_class(type) != H5T_INTEGER || H5Sget_simple_extent_npoints(space) != 1 ||
+      H5Aread(id, H5T_NATIVE_INT, &value) < 0) {
+    impl_->refuse(what + " is not one whole number");
+  }
+  return value;
+}
+
+}  // namespace whine::h5

@@ -1,0 +1,521 @@
+#include "io/keys.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/ranges.h"
+#include "io/suggestion.h"
+
+namespace whine {
+namespace {
+
+constexpr Unit kNone{"", "1"};
+constexpr Unit kMillimetre{"_mm", "m", 1, 1000};
+constexpr Unit kMicrometre{"_um", "m", 1, 1e6};
+constexpr Unit kDegree{"_deg", "rad", std::numbers::pi, 180};
+constexpr Unit kCornerDegree{"", "rad", std::numbers::pi, 180};
+constexpr Unit kInertia{"_kgm2", "kg m2"};
+constexpr Unit kGigapascal{"_GPa", "Pa", 1e9};
+constexpr Unit kDensity{"_kgm3", "kg m-3"};
+constexpr Unit kPerSecond{"_per_s", "s-1"};
+constexpr Unit kSecond{"_s", "s"};
+constexpr Unit kNewtonMetre{"_Nm", "N m"};
+constexpr Unit kHertz{"_Hz", "Hz"};
+constexpr Unit kKilohertz{"_kHz", "Hz", 1000};
+constexpr Unit kNewtonPerMicrometre{"_N_um", "N m-1", 1e6};
+constexpr Unit kNewtonSecondPerMetre{"_Ns_m", "N s m-1"};
+constexpr Unit kKilogram{"_kg", "kg"};
+
+std::vector<Key> make_keys() {
+  using V = KeyValues;
+  // clang-format off
+  return {
+    {Part::title, "", "title", kNone, "", 0, 0, false, "",
+     "what the scene is; stands on figures",
+     [](V& v) -> Slot { return &v.title; }},
+
+    {Part::reference, "gear", "like", kNone, "", 0, 0, false, "",
+     "another gear whose keys this one takes over, its modification too, its errors and its crack not; keys given here besides override",
+     [](V& v) -> Slot { return &v.like; }},
+    {Part::design, "gear", "teeth", kNone, nullptr, 5, 2000, false, "",
+     "number of teeth",
+     [](V& v) -> Slot { return &v.design.teeth; }},
+    {Part::design, "gear", "module_mm", kMillimetre, nullptr, 0.05, 200, false, "",
+     "module of the generating rack",
+     [](V& v) -> Slot { return &v.design.module; },
+     "drawings have 0.05 to 50 mm; 0.003 would be 3 mm in metres"},
+    {Part::design, "gear", "pressure_angle_deg", kDegree, nullptr, 5, 45, false, "",
+     "pressure angle of the generating rack",
+     [](V& v) -> Slot { return &v.design.pressure_angle; }},
+    {Part::design, "gear", "profile_shift", kNone, "0.0", -3, 3, false, "",
+     "profile shift, in modules",
+     [](V& v) -> Slot { return &v.design.profile_shift; }},
+    {Part::design, "gear", "addendum", kNone, "1.0", 0, 3, true, "",
+     "addendum, in modules",
+     [](V& v) -> Slot { return &v.design.addendum; }},
+    {Part::design, "gear", "dedendum", kNone, "1.25", 0, 3, true, "",
+     "dedendum, in modules",
+     [](V& v) -> Slot { return &v.design.dedendum; }},
+    {Part::diameter, "gear", "tip_diameter_mm", kMillimetre, "", 0, 1e6, true, "",
+     "diameter of the tip circle, in place of addendum: module (teeth + 2 profile_shift + 2 addendum)",
+     [](V& v) -> Slot { return &v.tip_diameter; }},
+    {Part::diameter, "gear", "root_diameter_mm", kMillimetre, "", 0, 1e6, true, "",
+     "diameter of the root circle, in place of dedendum: module (teeth + 2 profile_shift - 2 dedendum)",
+     [](V& v) -> Slot { return &v.root_diameter; }},
+    {Part::design, "gear", "rack_tip_radius", kNone, "0.38", 0, 1, false, "",
+     "tip radius of the rack, in modules; the root is the trochoid that this rack cuts",
+     [](V& v) -> Slot { return &v.design.rack_tip_radius; }},
+    {Part::design, "gear", "tooth_thinning_mm", kMillimetre, "0.0", 0, 50, false, "",
+     "arc taken off the tooth at the pitch circle, for backlash",
+     [](V& v) -> Slot { return &v.design.tooth_thinning; }},
+    {Part::design, "gear", "face_width_mm", kMillimetre, nullptr, 0.05, 5000, false, "",
+     "face width",
+     [](V& v) -> Slot { return &v.design.face_width; },
+     "0.025 would be 25 mm in metres"},
+    {Part::design, "gear", "bore_radius_mm", kMillimetre, nullptr, 0, 1e5, true, "",
+     "radius inside which the gear is as good as rigid: its shaft, hub or web. The body between it and the root circle twists, which all pairs in mesh share: often a fifth of the compliance, with a shaft's radius up to half",
+     [](V& v) -> Slot { return &v.design.bore_radius; }},
+    {Part::inertia, "gear", "total_inertia_kgm2", kInertia, "0.0", 0, 1e9, false, "",
+     "inertia of the whole gear about its axis; what the body lacks is lumped on the hub. 0: as drawn, the body between bore and tip alone",
+     [](V& v) -> Slot { return &v.total_inertia; }},
+    {Part::reference, "gear", "material", kNone, nullptr, 0, 0, false, "",
+     "name of a [material.<name>] section",
+     [](V& v) -> Slot { return &v.material_name; }},
+
+    {Part::modification, "modification", "tip_relief_um", kMicrometre, "0.0", 0, 1000, false, "",
+     "material taken off at the tip edge, normal to the driving flank",
+     [](V& v) -> Slot { return &v.modification.tip.amount; }},
+    {Part::modification, "modification", "tip_relief_start_deg", kDegree, "0", 0, 90, false, "",
+     "roll angle at which it starts; 0: not given; of the three ways to say the start one is given",
+     [](V& v) -> Slot { return &v.modification.tip.start_roll; }},
+    {Part::modification, "modification", "tip_relief_start_radius_mm", kMillimetre, "0", 0, 1e5, false, "",
+     "the same as a radius",
+     [](V& v) -> Slot { return &v.modification.tip.start_radius; }},
+    {Part::modification, "modification", "tip_relief_length_mm", kMillimetre, "0", 0, 1e5, false, "",
+     "the same as the length of roll (base radius times roll angle) from the start to the tip edge",
+     [](V& v) -> Slot { return &v.modification.tip.length; }},
+    {Part::modification, "modification", "tip_relief_shape", kNone, "linear", 0, 0, false, "linear parabolic",
+     "how it grows with the roll angle",
+     [](V& v) -> Slot { return &v.modification.tip.shape; }},
+    {Part::modification, "modification", "root_relief_um", kMicrometre, "0.0", 0, 1000, false, "",
+     "material taken off at the foot of the involute, normal to the driving flank",
+     [](V& v) -> Slot { return &v.modification.root.amount; }},
+    {Part::modification, "modification", "root_relief_start_deg", kDegree, "0", 0, 90, false, "",
+     "roll angle at which it starts; 0: not given; of the three ways to say the start one is given",
+     [](V& v) -> Slot { return &v.modification.root.start_roll; }},
+    {Part::modification, "modification", "root_relief_start_radius_mm", kMillimetre, "0", 0, 1e5, false, "",
+     "the same as a radius",
+     [](V& v) -> Slot { return &v.modification.root.start_radius; }},
+    {Part::modification, "modification", "root_relief_length_mm", kMillimetre, "0", 0, 1e5, false, "",
+     "the same as the length of roll (base radius times roll angle) from the start to the foot of the involute",
+     [](V& v) -> Slot { return &v.modification.root.length; }},
+    {Part::modification, "modification", "root_relief_shape", kNone, "linear", 0, 0, false, "linear parabolic",
+     "how it grows with the roll angle",
+     [](V& v) -> Slot { return &v.modification.root.shape; }},
+    {Part::modification, "modification", "crowning_um", kMicrometre, "0.0", -1000, 1000, false, "",
+     "profile crowning: a parabola, 0 midway in the roll angle, this much taken off at both ends of the involute",
+     [](V& v) -> Slot { return &v.modification.crowning; }},
+    {Part::modification, "modification", "slope_um", kMicrometre, "0.0", -1000, 1000, false, "",
+     "profile slope: linear in the roll angle, 0 at the foot of the involute, this much taken off at the tip",
+     [](V& v) -> Slot { return &v.modification.slope; }},
+    {Part::modification, "modification", "points", kNone, "", -1000, 1000, false, "",
+     "[[roll angle in degrees, micrometres taken off], ...], ascending; monotone cubics between, constant outside; adds to the others",
+     [](V& v) -> Slot { return &v.modification.points; }},
+
+    {Part::error, "error", "single_pitch_um", kMicrometre, "", -1000, 1000, false, "",
+     "a number for each tooth: deviation of the pitch from the driving flank before (of tooth 0 the last) to this one, along the reference circle; they sum up to 0. Teeth count counter-clockwise on both gears, the driver turns so; tooth 0 of both is in mesh at phase 0. Positive, here and below: material stands, contact begins early",
+     [](V& v) -> Slot { return ToothList{&v.errors.single_pitch}; }},
+    {Part::error, "error", "cumulative_pitch_um", kMicrometre, "", -1000, 1000, false, "",
+     "the same as place of each flank, along the reference circle; adds to single_pitch_um",
+     [](V& v) -> Slot { return ToothList{&v.errors.cumulative_pitch}; }},
+    {Part::error, "error", "eccentricity_um", kMicrometre, "0.0", 0, 1000, false, "",
+     "distance of the toothing's axis from that of rotation; the run-out is about twice it",
+     [](V& v) -> Slot { return &v.errors.eccentricity; }},
+    {Part::error, "error", "eccentricity_tooth", kNone, "0.0", -2000, 2000, false, "",
+     "number of the tooth towards which; between two teeth a fraction",
+     [](V& v) -> Slot { return &v.errors.eccentric_tooth; }},
+    {Part::error, "error", "profile_slope_um", kMicrometre, "", -1000, 1000, false, "",
+     "a number for each tooth: rise of its profile from the foot of the involute to the tip edge; 0 at the reference circle",
+     [](V& v) -> Slot { return ToothList{&v.errors.profile_slope}; }},
+    {Part::error, "error", "profile_form_um", kMicrometre, "", -1000, 1000, false, "",
+     "a number for each tooth: sine waves along its profile, from peak to valley; 0 at the reference circle, where positive ones rise to the tip",
+     [](V& v) -> Slot { return ToothList{&v.errors.profile_form}; }},
+    {Part::error, "error", "profile_form_waves", kNone, "3.0", 0.5, 100, false, "",
+     "number of these waves from the foot of the involute to the tip edge",
+     [](V& v) -> Slot { return &v.errors.profile_form_waves; }},
+    {Part::error, "error", "iso_class", kNone, "0", 0, 11, false, "",
+     "deviations of pitch, profile slope and form drawn at random within this class of ISO 1328-1:2013; 0: none; adds to the lists",
+     [](V& v) -> Slot { return &v.errors.iso_class; }},
+    {Part::error, "error", "iso_share", kNone, "1.0", 0, 1, true, "",
+     "share of the class's limits that the draw takes up: of pitch, and of profile, the limit that is used most just has it",
+     [](V& v) -> Slot { return &v.errors.iso_share; }},
+    {Part::error, "error", "seed", kNone, "1", 0, 2147483647, false, "",
+     "of the draw; two gears with one seed have errors of one kind",
+     [](V& v) -> Slot { return &v.errors.seed; }},
+    {Part::error_file, "error", "file", kNone, "", 0, 0, false, "",
+     "measured errors, path from the folder of the scene: a .toml with the lists above, or a .csv whose columns are named tooth and as those lists; keys given here besides override",
+     [](V& v) -> Slot { return &v.error_file; }},
+
+    {Part::crack, "crack", "tooth", kNone, "0", 0, 1999, false, "",
+     "number of the cracked tooth, counter-clockwise from tooth 0",
+     [](V& v) -> Slot { return &v.design.crack.tooth; }},
+    {Part::crack, "crack", "depth_mm", kMillimetre, nullptr, 0, 1000, false, "",
+     "length of a straight slit from the root of the driving flank into the tooth; 0: none; a quarter of a module must be left",
+     [](V& v) -> Slot { return &v.design.crack.depth; }},
+    {Part::crack, "crack", "start_deg", kDegree, "30", 1, 89, false, "",
+     "where on the fillet: angle of the fillet's tangent there against the tooth's centre line",
+     [](V& v) -> Slot { return &v.design.crack.start; }},
+    {Part::crack, "crack", "angle_deg", kDegree, "60", 5, 135, false, "",
+     "direction against the tooth's centre line: 0 to the axis, 90 straight across; 90 - start_deg is square to the fillet",
+     [](V& v) -> Slot { return &v.design.crack.angle; }},
+
+    {Part::material, "material", "youngs_modulus_GPa", kGigapascal, nullptr, 0, 2000, true, "",
+     "Young's modulus",
+     [](V& v) -> Slot { return &v.material.youngs_modulus; }},
+    {Part::material, "material", "poisson_ratio", kNone, nullptr, 0, 0.495, false, "",
+     "Poisson's ratio",
+     [](V& v) -> Slot { return &v.material.poisson_ratio; }},
+    {Part::material, "material", "density_kgm3", kDensity, nullptr, 100, 30000, false, "",
+     "density",
+     [](V& v) -> Slot { return &v.material.density; },
+     "steel has 7850; 7.85 would be its g/cm3"},
+    {Part::material, "material", "plane", kNone, nullptr, 0, 0, false, "stress strain",
+     "plane state of the whole body: stress for face widths up to about 5 tooth thicknesses (8 modules), strain for wider ones, 10 % stiffer (Cornell 1981); that of the contact is contact_plane in [[mesh]]",
+     [](V& v) -> Slot { return PlaneSlot{&v.material.plane_stress}; }},
+
+    {Part::mesh, "mesh", "driver", kNone, nullptr, 0, 0, false, "",
+     "name of the driving gear",
+     [](V& v) -> Slot { return &v.mesh.driver; }},
+    {Part::mesh, "mesh", "driven", kNone, nullptr, 0, 0, false, "",
+     "name of the driven gear",
+     [](V& v) -> Slot { return &v.mesh.driven; }},
+    {Part::mesh, "mesh", "centre_distance_mm", kMillimetre, nullptr, 0, 1e5, true, "",
+     "distance of the two axes",
+     [](V& v) -> Slot { return &v.mesh.centre_distance; }},
+    {Part::mesh, "mesh", "corner_contact", kCornerDegree, "true", 0, 90, false, "",
+     "tip edge on a flank, off the line of action: true, false, or the largest angle between the normals in degrees",
+     [](V& v) -> Slot { return &v.mesh.corner; }},
+    {Part::contact_plane, "mesh", "contact_plane", kNone, "strain", 0, 0, false, "strain stress body",
+     "plane state of the contact alone (pressure, width, local approach): strain inside a wide face; body: as each gear's [material] plane",
+     [](V& v) -> Slot { return &v.mesh.contact_plane; }},
+
+    {Part::bearing_gear, "bearing", "gear", kNone, nullptr, 0, 0, false, "",
+     "name of the gear that it carries; a gear without a bearing turns on a rigid axis",
+     [](V& v) -> Slot { return &v.bearing_gear; }},
+    {Part::bearing, "bearing", "stiffness_N_um", kNewtonPerMicrometre, nullptr, 0, 1e6, true, "",
+     "radial stiffness of all that carries the gear (bearings, shaft, housing), alike in all directions",
+     [](V& v) -> Slot { return &v.bearing.stiffness; },
+     "nothing else holds the gear; take the section out for a rigid axis"},
+    {Part::bearing, "bearing", "damping_Ns_m", kNewtonSecondPerMetre, "0.0", 0, 1e7, false, "",
+     "radial viscous damping of the same",
+     [](V& v) -> Slot { return &v.bearing.damping; }},
+    {Part::bearing, "bearing", "mass_kg", kKilogram, "0.0", 0, 1e6, false, "",
+     "mass of all that moves with the gear's hub, its body included; 0: as drawn, the body between bore and tip alone",
+     [](V& v) -> Slot { return &v.bearing.mass; }},
+
+    {Part::damping, "damping", "rayleigh_mass_per_s", kPerSecond, "0.0", 0, 1e6, false, "",
+     "mu of Eq. 21: multiplies the mass matrix",
+     [](V& v) -> Slot { return &v.damping.rayleigh_mass; }},
+    {Part::damping, "damping", "rayleigh_stiffness_s", kSecond, "7.7e-6", 0, 1, false, "",
+     "eta of Eq. 21: multiplies the stiffness matrix",
+     [](V& v) -> Slot { return &v.damping.rayleigh_stiffness; }},
+    {Part::damping, "damping", "undamped_depth_mm", kMillimetre, "0.5", 0, 1000, true, "",
+     "half-plane compliance relative to this depth is instantaneous",
+     [](V& v) -> Slot { return &v.damping.undamped_depth; }},
+    {Part::damping, "damping", "bearing_ratio", kNone, "0.005", 0, 1, false, "",
+     "damping ratio of the torque damper at each axis",
+     [](V& v) -> Slot { return &v.damping.bearing_ratio; }},
+
+    {Part::load, "operation", "torque_Nm", kNewtonMetre, nullptr, 0, 999999, true, "",
+     "torque on the driver: a number or a list; the first sets the bearing dampers",
+     [](V& v) -> Slot { return &v.operation.torques; },
+     "without load nothing presses the teeth together; a small torque shows them as good as unloaded"},
+    {Part::operation, "operation", "mesh_frequency_Hz", kHertz, nullptr, 1, 1e6, false, "",
+     "speeds of a sweep: { from = , to = , step = }",
+     [](V& v) -> Slot {
+       return RangeSlot{&v.operation.frequency_from, &v.operation.frequency_to, &v.operation.frequency_step};
+     },
+     "slower, a mesh period takes more than 250000 time steps at the default rate; the static stage is the limit of zero speed"},
+
+    {Part::rung, "fidelity", "body", kNone, "modal", 0, 0, false, kBodyLadder,
+     "what of the elastic body moves by itself",
+     [](V& v) -> Slot { return &v.fidelity.body; }},
+    {Part::contact_rung, "fidelity", "contact", kNone, "strips", 0, 0, false, kContactLadder,
+     "contact of a tooth pair: one force and Hertz's closed law, or pressure on strips",
+     [](V& v) -> Slot { return &v.fidelity.contact; }},
+    {Part::rung, "fidelity", "integrator", kNone, "exact", 0, 0, false, "newmark exact",
+     "time integration: Newmark (Eq. 8), or modal propagators",
+     [](V& v) -> Slot { return &v.fidelity.integrator; }},
+    {Part::body, "fidelity", "modes", kNone, "61", 1, 100000, false, "",
+     "elastic modes of the whole gear; a doublet is never cut (rounded up); without meaning to body = \"full\", which takes all (-1 in its artifacts)",
+     [](V& v) -> Slot { return &v.body.modes; }},
+
+    {Part::body, "discretisation", "element_mm", kMillimetre, "0.4", 0, 100, true, "",
+     "element size on the flank",
+     [](V& v) -> Slot { return &v.body.element_size; }},
+    {Part::body, "discretisation", "element_order", kNone, "2", 1, 2, false, "",
+     "order of the elements: 1 (4 nodes) or 2 (9 nodes)",
+     [](V& v) -> Slot { return &v.body.element_order; }},
+    {Part::near_field, "discretisation", "near_field", kNone, "subtraction", 0, 0, false, "subtraction matching",
+     "how the half-plane at the contact joins the finite elements: subtracted, or matched at a depth as in P2000",
+     [](V& v) -> Slot { return &v.body.near_field; }},
+    {Part::near_field, "discretisation", "matching_depth_mm", kMillimetre, "1.0", 0, 100, true, "",
+     "depth below the flank at which the two are matched; must stay inside the tooth; only with near_field = \"matching\"",
+     [](V& v) -> Slot { return &v.body.matching_depth; }},
+    {Part::contact, "discretisation", "strips", kNone, "8", 3, 1001, false, "",
+     "pressure strips across the contact width at the mean load; a window holds whole fours of them",
+     [](V& v) -> Slot { return &v.contact.strips; }},
+    {Part::contact, "discretisation", "positions", kNone, "0", 0, 65536, false, "",
+     "positions of the static stage per mesh period; 0: as steps_per_period, 128 at least, for teeth that differ fewer (16 at least), so that there are 16384 in all",
+     [](V& v) -> Slot { return &v.contact.positions; }},
+    {Part::time, "discretisation", "steps_per_period", kNone, "128", 8, 65536, false, "",
+     "stored samples per mesh period; steps are doubled until min_sample_rate_kHz is reached",
+     [](V& v) -> Slot { return &v.time.steps_per_period; }},
+    {Part::time, "discretisation", "min_sample_rate_kHz", kKilohertz, "250", 0, 1e6, false, "",
+     "least rate of time steps",
+     [](V& v) -> Slot { return &v.time.min_sample_rate; }},
+    {Part::time, "discretisation", "periodicity", kNone, "1e-5", 1e-12, 1, false, "",
+     "relative change of the state over a mesh period at which a speed counts as steady; round-off is 1e-14",
+     [](V& v) -> Slot { return &v.time.periodicity; }},
+    {Part::time, "discretisation", "steady_state", kNone, "extrapolate", 0, 0, false, "extrapolate march",
+     "start where the last speeds lead and, once close, skip the rest of a transient, or march through it as a rig would; the same orbits but for a speed or two at the end of a branch",
+     [](V& v) -> Slot { return &v.time.steady_state; }},
+  };
+  // clang-format on
+}
+
+constexpr const char* kAngle = "_largest_angle";
+
+}  // namespace
+
+std::string Key::si_name() const {
+  const std::string whole(name), suffix(unit.suffix);
+  return whole.substr(0, whole.size() - suffix.size());
+}
+
+const std::vector<Key>& scene_keys() {
+  static const std::vector<Key> keys = make_keys();
+  return keys;
+}
+
+namespace {
+
+std::string place_of(const Key& key, const std::string& owner) {
+  const std::string section(key.section), name(key.name);
+  if (section.empty()) return name;
+  if (section == "gear" || section == "material") return section + "." + owner + "." + name;
+  if (section == "modification" || section == "error" || section == "crack")
+    return "gear." + owner + "." + section + "." + name;
+  if (section == "bearing" && !owner.empty()) return section + "." + owner + "." + name;
+  return section + "." + name;
+}
+
+}  // namespace
+
+KeyPlace find_key(const std::string& name) {
+  std::string owner;
+  for (const char* group : {"gear.", "material.", "bearing."})
+    if (name.rfind(group, 0) == 0) {
+      const auto from = std::string(group).size(), to = name.find('.', from);
+      if (to != std::string::npos) owner = name.substr(from, to - from);
+    }
+  const bool placed = name.find('.') != std::string::npos;
+  std::vector<std::string> known;
+  for (const Key& key : scene_keys()) {
+    const std::string candidate = placed ? place_of(key, owner) : key.name;
+    if (candidate == name) return {&key, placed ? owner : ""};
+    known.push_back(candidate);
+  }
+  // A right key in a wrong place, or a word for one, is nearer than any key that is spelt alike there.
+  const std::string last = name.substr(name.rfind('.') + 1);
+  std::string note, near;
+  const Key* meant = meant_key(last, note);
+  if (!meant && !note.empty()) fail(Failure::usage, "no scene has the key '", name, "': ", note);
+  if (meant && (!placed || last == meant->name || !note.empty() || nearest(name, known).empty()))
+    near = placed ? place_of(*meant, owner.empty() ? "<name>" : owner) : meant->name;
+  if (near.empty()) near = nearest(name, known);
+  fail(Failure::usage, "no scene has the key '", name, "'",
+       near.empty()   ? "; gear-scene --keys lists them"
+       : note.empty() ? "; did you mean '" + near + "'?"
+                      : "; did you mean '" + near + "' (" + note + ")?");
+}
+
+std::string exact_text(double value) {
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  std::string out(buffer, end);
+  if (out.find_first_of(".en") == std::string::npos) out += ".0";
+  return out;
+}
+
+std::string exact_text(const std::vector<double>& values) {
+  std::string out;
+  for (const double value : values) out += (out.empty() ? "" : ", ") + exact_text(value);
+  return "[" + out + "]";
+}
+
+std::string exact_text(const Points& points) {
+  std::string out;
+  for (const auto& [roll, removed] : points)
+    out += (out.empty() ? "[" : ", [") + exact_text(roll) + ", " + exact_text(removed) + "]";
+  return "[" + out + "]";
+}
+
+const std::array<Unit, 2> kPointUnits{kDegree, kMicrometre};
+
+std::vector<Parameter> parameters_of(const KeyValues& values, Part part) {
+  KeyValues copy = values;  // slots point at what may be changed
+  std::vector<Parameter> out;
+  for (const Key& key : scene_keys()) {
+    if (key.part != part) continue;
+    const std::string name = key.si_name();
+    const auto add = [&](const std::string& label, const auto& value) {
+      out.push_back({label, key.unit.si, key.meaning, value});
+    };
+    const Slot slot = key.slot(copy);
+    if (const auto* number = std::get_if<double*>(&slot)) {
+      add(name, **number);
+    } else if (const auto* whole = std::get_if<int*>(&slot)) {
+      add(name, **whole);
+    } else if (const auto* word = std::get_if<std::string*>(&slot)) {
+      add(name, **word);
+    } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
+      add(name, std::string(*plane->stress ? "stress" : "strain"));
+    } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
+      out.push_back(
+          {name, "1", "1: a tip edge may touch a flank off the line of action", (*corner)->enabled ? 1 : 0});
+      if (std::isfinite((*corner)->largest_angle)) {
+        out.push_back(
+            {name + kAngle, "rad", "largest angle between the two normals", (*corner)->largest_angle});
+      }
+    } else if (const auto* range = std::get_if<RangeSlot>(&slot)) {
+      add(name + "_from", *range->from);
+      add(name + "_to", *range->to);
+      add(name + "_step", *range->step);
+    } else if (const auto* points = std::get_if<Points*>(&slot)) {
+      if (!(*points)->empty()) add(name, exact_text(**points));
+    } else if (const auto* list = std::get_if<ToothList>(&slot)) {
+      if (!list->values->empty()) add(name, exact_text(*list->values));
+    } else {
+      fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
+    }
+  }
+  return out;
+}
+
+namespace {
+
+// Of a list that is kept as text; none if it is not there.
+std::vector<double> numbers_in(const ParameterSource& source, const std::string& name) {
+  std::vector<double> numbers;
+  const std::string word = source.has(name) ? source.word(name) : "";
+  for (const char* at = word.c_str(); *at;) {
+    char* end = nullptr;
+    const double number = std::strtod(at, &end);
+    if (end != at) numbers.push_back(number);
+    at = end != at ? end : at + 1;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+namespace {
+
+// A limit of a key, to the rounding of its unit, as a limit in SI.
+Range si_range(const Key& key) {
+  constexpr double kRoundOff = 1e-9;
+  const double least = key.to_si(key.least), most = key.to_si(key.most);
+  return {least - kRoundOff * std::abs(least), most + kRoundOff * std::abs(most), key.open};
+}
+
+double in_range(const Key& key, const ParameterSource& source, const std::string& name, double value) {
+  // body = "full" takes every mode; a body that only statics use may have none.
+  if (std::string(key.name) == "modes" && (value == kAllModes || value == 0)) return value;
+  if (key.most > key.least)
+    if (const std::string why = outside(si_range(key), value); !why.empty()) source.refuse(name, why);
+  return value;
+}
+
+std::string one_of(const std::string& choices, const ParameterSource& source, const std::string& name) {
+  const std::string word = source.word(name);
+  std::istringstream all(choices);
+  for (std::string choice; all >> choice;)
+    if (choice == word) return word;
+  if (!choices.empty()) source.refuse(name, "is '" + word + "', which is none of: " + choices);
+  return word;
+}
+
+}  // namespace
+
+void set_parameters(KeyValues& values, Part part, const ParameterSource& source) {
+  for (const Key& key : scene_keys()) {
+    if (key.part != part) continue;
+    const std::string name = key.si_name();
+    const Slot slot = key.slot(values);
+    if (const auto* number = std::get_if<double*>(&slot)) {
+      **number = in_range(key, source, name, source.number(name));
+    } else if (const auto* whole = std::get_if<int*>(&slot)) {
+      **whole = static_cast<int>(in_range(key, source, name, source.whole(name)));
+    } else if (const auto* word = std::get_if<std::string*>(&slot)) {
+      **word = one_of(key.choices, source, name);
+    } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
+      *plane->stress = one_of(key.choices, source, name) == "stress";
+    } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
+      (*corner)->enabled = source.whole(name) != 0;
+      (*corner)->largest_angle = source.has(name + kAngle)
+                                     ? in_range(key, source, name + kAngle, source.number(name + kAngle))
+                                     : std::numeric_limits<double>::infinity();
+    } else if (const auto* range = std::get_if<RangeSlot>(&slot)) {
+      *range->from = source.number(name + "_from");
+      *range->to = source.number(name + "_to");
+      *range->step = source.number(name + "_step");
+    } else if (const auto* points = std::get_if<Points*>(&slot)) {
+      (*points)->clear();
+      const std::vector<double> numbers = numbers_in(source, name);
+      for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
+        (*points)->push_back({numbers[i], numbers[i + 1]});
+    } else if (const auto* list = std::get_if<ToothList>(&slot)) {
+      *list->values = numbers_in(source, name);
+      for (const double item : *list->values) in_range(key, source, name, item);
+    } else {
+      fail(Failure::numerical, "the key ", name, " is a list, which /parameters does not hold");
+    }
+  }
+}
+
+std::string scene_key_table() {
+  const auto shown = [](double value) { return text(value); };
+  std::ostringstream out;
+  out << "| section | key | default | range | meaning |\n|---|---|---|---|---|\n";
+  for (const Key& key : scene_keys()) {
+    const std::string section(key.section);
+    std::string label = "[" + section + "]";
+    if (section.empty()) label = "(top)";
+    if (section == "gear" || section == "material") label = "[" + section + ".<name>]";
+    if (section == "modification" || section == "error" || section == "crack")
+      label = "[gear.<name>." + section + "]";
+    if (section == "mesh" || section == "bearing") label = "[[" + section + "]]";
+    std::string range = "text";
+    if (*key.choices) {
+      range = key.choices;
+      std::replace(range.begin(), range.end(), ' ', '/');
+    } else if (key.most > key.least) {
+      range = key.open ? "> " + shown(key.least) + ", <= " + shown(key.most)
+                       : shown(key.least) + " to " + shown(key.most);
+    }
+    const std::string fallback = !key.fallback ? "required" : *key.fallback ? key.fallback : "none";
+    out << "| `" << label << "` | `" << key.name << "` | " << fallback << " | " << range << " | "
+        << key.meaning << " |\n";
+  }
+  return out.str();
+}
+
+}  // namespace whine

@@ -1,0 +1,149 @@
+// The one table of all scene keys. The scene reader, the slices, /parameters in the artifacts and the printed
+// key table all walk it, so that a key's name, unit, range, default and meaning stand in one place.
+//
+// Private to the layer io/.
+#pragma once
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/scene.h"
+
+namespace whine {
+
+// Everything that keys fill, once each; a scene has several gears and reads them one after the other.
+struct KeyValues {
+  std::string title;
+  std::string like, material_name;             // of a gear
+  double total_inertia = 0;                    // kg m2, of a gear
+  double tip_diameter = 0, root_diameter = 0;  // m, of a gear; 0: addendum and dedendum say them
+  GearDesign design;
+  FlankModification modification;
+  ToothErrors errors;
+  std::string error_file;
+  Bearing bearing;
+  std::string bearing_gear;
+  Material material;
+  GearMeshSpec mesh;
+  Damping damping;
+  Operation operation;
+  Fidelity fidelity;
+  BodyDiscretisation body;
+  ContactDiscretisation contact;
+  TimeDiscretisation time;
+};
+
+// Keys that travel together: a slice or an artifact holds whole parts.
+enum class Part {
+  title,
+  reference,  // like, material: names of other sections
+  design,
+  diameter,  // other words for parts of a design, in a scene alone
+  crack,     // of a design; a slice or an artifact holds it only where there is one
+  inertia,
+  modification,
+  error,
+  error_file,
+  bearing,
+  bearing_gear,  // whose it is, in a scene alone
+  material,
+  mesh,
+  contact_plane,  // of a mesh; a slice or an artifact holds it only where it is not that of the bodies
+  damping,
+  load,          // torque
+  operation,     // speeds
+  rung,          // body and integrator
+  contact_rung,  // contact
+  body,
+  near_field,  // of a body; a slice holds it only where it is not the default
+  contact,
+  time
+};
+
+struct PlaneSlot {
+  bool* stress;
+};
+struct RangeSlot {
+  double *from, *to, *step;
+};
+using Points = std::vector<std::array<double, 2>>;  // rad, m: in a scene degrees and micrometres
+struct ToothList {                                  // a number for each tooth, or none
+  std::vector<double>* values;
+};
+// Where a key's value lives, and thereby its type.
+using Slot = std::variant<double*, int*, std::string*, CornerRule*, PlaneSlot, std::vector<double>*,
+                          RangeSlot, Points*, ToothList>;
+
+// SI = value * multiply / divide; two factors because 3.0 / 1000 is the double nearest to 0.003 and 3.0 *
+// 0.001 is not always.
+struct Unit {
+  const char* suffix;  // of the key's name in a scene: "_mm"
+  const char* si;      // UDUNITS form
+  double multiply = 1, divide = 1;
+};
+
+struct Key {
+  Part part;
+  const char* section;  // as in the scene: "gear", "material", "mesh", ...
+  const char* name;     // in a scene, with the unit's suffix
+  Unit unit;
+  const char* fallback;  // default in the scene's unit; nullptr: the key is required
+  double least, most;    // range in the scene's unit; of a range of speeds: of its two ends
+  bool open;             // least itself is not allowed
+  const char* choices;   // of a word, blank between; "" for numbers
+  const char* meaning;   // one line
+  Slot (*slot)(KeyValues&);
+  const char* reason = "";  // why there is the lower limit, where that is not plain
+
+  std::string si_name() const;  // name without the unit's suffix
+  double to_si(double value) const { return value * unit.multiply / unit.divide; }
+};
+
+const std::vector<Key>& scene_keys();
+
+// A key by its name ("bore_radius_mm") or by its place in a scene ("gear.pinion.bore_radius_mm",
+// "gear.pinion.modification.tip_relief_um", "damping.rayleigh_stiffness_s"). Error(usage), by the nearest one, if no scene has
+// it there.
+struct KeyPlace {
+  const Key* key;
+  std::string owner;  // the one gear or material; "": a key alone means all of them
+};
+KeyPlace find_key(const std::string& name);
+
+// Shortest text that reads back as the same double; always a TOML float.
+std::string exact_text(double value);
+std::string exact_text(const Points& points);
+std::string exact_text(const std::vector<double>& values);  // [1.0, 2.0]
+
+// Sections of /parameters and of slices that hold what is taken off the driver's and the driven gear's flanks.
+inline constexpr const char* kModificationOf[2] = {"driver_modification", "driven_modification"};
+inline constexpr const char* kErrorOf[2] = {"driver_error", "driven_error"};
+inline constexpr const char* kBearingOf[2] = {"driver_bearing", "driven_bearing"};
+
+// Units of the two numbers of a point.
+extern const std::array<Unit, 2> kPointUnits;
+
+// One value for /parameters/<section>/<name>.
+struct Parameter {
+  std::string name, units, meaning;
+  std::variant<double, int, std::string> value;
+};
+
+// The values of a part, and back. A limit that is infinite is left out and read back as infinite.
+std::vector<Parameter> parameters_of(const KeyValues& values, Part part);
+
+class ParameterSource {
+ public:
+  virtual ~ParameterSource() = default;
+  virtual bool has(const std::string& name) const = 0;
+  virtual double number(const std::string& name) const = 0;
+  virtual int whole(const std::string& name) const = 0;
+  virtual std::string word(const std::string& name) const = 0;
+  // Throws Error(input) that names the source, the parameter and what is wrong with it.
+  [[noreturn]] virtual void refuse(const std::string& name, const std::string& what) const = 0;
+};
+// Values outside of the range of their key are refused.
+void set_parameters(KeyValues& values, Part part, const ParameterSource& source);
+
+}  // namespace whine

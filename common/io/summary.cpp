@@ -1,0 +1,488 @@
+#include "io/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/schemas.h"
+#include "io/study.h"
+
+namespace whine {
+namespace {
+
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+template <class... Parts>
+void add(Lines& lines, const std::string& name, const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(5);
+  (out << ... << parts);
+  lines.emplace_back(name, out.str());
+}
+
+std::string jumps(const Eigen::VectorXd& frequency, const Eigen::VectorXd& width) {
+  std::string out;
+  for (Eigen::Index j = 0; j < frequency.size(); ++j) {
+    out += text(j ? ", " : "", std::round(frequency[j]), " +- ", std::round(width[j] * 5) / 10, " Hz");
+  }
+  return out.empty() ? "none" : out;
+}
+
+std::string range_of(const Eigen::VectorXd& frequency) {
+  const Eigen::Index n = frequency.size();
+  return n == 0 ? "no speeds"
+                : text(n, " speeds, ", frequency[0], " to ", frequency[n - 1], " Hz mesh frequency");
+}
+
+std::string contact_plane(const GearMeshSpec& mesh) {
+  return mesh.contact_plane == "body" ? "plane state of the bodies" : "plane " + mesh.contact_plane;
+}
+
+std::string corner_rule(const GearMeshSpec& mesh) {
+  if (!mesh.corner.enabled) return "pairs on the line of action only";
+  if (std::isinf(mesh.corner.largest_angle)) return "tip edges touch wherever they reach";
+  return text("tip edges touch up to ", mesh.corner.largest_angle * 180 / std::numbers::pi,
+              " deg between the normals");
+}
+
+// Nothing for flanks as they are designed.
+void show_modification(Lines& lines, const GearMeshSpec& mesh) {
+  for (int g = 0; g < 2; ++g)
+    if (mesh.modification[g] != FlankModification{})
+      add(lines, g == 0 ? "driver's flanks" : "driven gear's flanks", in_words(mesh.modification[g]));
+}
+
+// Nothing for gears on rigid axes.
+void show_bearings(Lines& lines, const GearMeshSpec& mesh) {
+  for (int g = 0; g < 2; ++g)
+    if (const Bearing& b = mesh.bearing[g]; b.elastic())
+      add(lines, text("bearing of ", mesh.gear(g)), b.stiffness * 1e-6, " N/um, ", b.damping, " N s/m, ",
+          b.mass > 0 ? text(b.mass, " kg") : "mass as drawn");
+}
+
+// Nothing for teeth that are all alike.
+void show_errors(Lines& lines, const GearMeshSpec& mesh) {
+  const auto largest = [](const std::vector<double>& teeth) {
+    double most = 0;
+    for (const double deviation : teeth) most = std::max(most, std::abs(deviation));
+    return most * 1e6;
+  };
+  for (int g = 0; g < 2; ++g) {
+    const ToothErrors& e = mesh.errors[g];
+    if (e.none()) continue;
+    std::string words;
+    const auto part = [&](const auto&... parts) { words += text(words.empty() ? "" : ", ", parts...); };
+    if (e.iso_class > 0)
+      part("class ", e.iso_class, " of ISO 1328-1, ", e.iso_share * 100, " % of its limits, seed ", e.seed);
+    if (e.eccentricity != 0)
+      part("eccentricity ", e.eccentricity * 1e6, " um towards tooth ", e.eccentric_tooth);
+    for (const auto& [name, teeth] :
+         {std::pair{"single pitch", &e.single_pitch}, std::pair{"cumulative pitch", &e.cumulative_pitch},
+          std::pair{"profile slope", &e.profile_slope}, std::pair{"profile form", &e.profile_form}})
+      if (largest(*teeth) > 0) part(name, " up to ", largest(*teeth), " um");
+    add(lines, g == 0 ? "driver's teeth" : "driven gear's teeth", words);
+  }
+}
+
+void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& body) {
+  add(lines, "gear", gear.teeth, " teeth, module ", gear.module * 1e3, " mm, face width ",
+      gear.face_width * 1e3, " mm, bore radius ", gear.bore_radius * 1e3, " mm");
+  if (gear.crack.depth > 0)
+    add(lines, "crack", "tooth ", gear.crack.tooth, ", a slit of ", gear.crack.depth * 1e3, " mm");
+  add(lines, "elements", "order ", body.element_order, ", ", body.element_size * 1e3, " mm on the flank");
+}
+
+std::string near_field(const BodyDiscretisation& body) {
+  return body.near_field == "matching"
+             ? text("matching at ", body.matching_depth * 1e3, " mm below the flank")
+             : body.near_field;
+}
+
+void show_discretisation(Lines& lines, const BodyDiscretisation& driver, const BodyDiscretisation& driven) {
+  const auto elements = [](const BodyDiscretisation& b) {
+    return text("order ", b.element_order, ", ", b.element_size * 1e3, " mm on the flank");
+  };
+  const auto both = [&](const char* name, const std::string& first, const std::string& second) {
+    add(lines, name, first, first == second ? "" : "; driven gear: " + second);
+  };
+  both("elements", elements(driver), elements(driven));
+  both("near field", near_field(driver), near_field(driven));
+}
+
+void show_damping(Lines& lines, const Damping& damping) {
+  add(lines, "damping", "eta ", damping.rayleigh_stiffness * 1e6, " us, bearing ratio ",
+      damping.bearing_ratio * 100, " %");
+}
+
+void show(Lines& lines, const MeshArtifact& a) {
+  show_gear(lines, a.design, a.discretisation);
+  add(lines, "sector", a.node_position.rows(), " nodes, ", a.element_node.rows(), " elements of ",
+      a.element_node.cols(), " nodes");
+  add(lines, "flank", a.flank_node.size(), " nodes on the driving flank");
+}
+
+void show(Lines& lines, const BodyArtifact& a) {
+  show_gear(lines, a.design, a.discretisation);
+  add(lines, "inertia of the body", a.inertia, " kg m2, mass ", a.mass, " kg");
+  std::string modes;
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(a.eigenfrequency.size(), 8); ++i) {
+    modes += text(i ? ", " : "", std::round(a.eigenfrequency[i]), " (", a.nodal_diameter[i], ")");
+  }
+  add(lines, "modes", a.eigenfrequency.size(), "; Hz (nodal diameters): ", modes,
+      a.eigenfrequency.size() > 8 ? ", ..." : "");
+  add(lines, "near field", near_field(a.discretisation));
+  add(lines, "flank table", a.flank_position.size(), " points, tooth offsets 0 to ", a.offsets);
+  add(lines, "asymmetry", a.asymmetry,
+      " relative, made symmetric; flexibility that the modes leave out, least ", a.least_eigenvalue * 1e6,
+      " um/N (round-off of the log of the contact below 0)");
+}
+
+void show(Lines& lines, const StaticArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", centre distance ",
+      a.mesh.centre_distance * 1e3, " mm");
+  add(lines, "corner contact", corner_rule(a.mesh));
+  add(lines, "state of the contact", contact_plane(a.mesh));
+  show_modification(lines, a.mesh);
+  show_errors(lines, a.mesh);
+  show_bearings(lines, a.mesh);
+  show_discretisation(lines, a.driver_body, a.driven_body);
+  add(lines, "contact", a.fidelity.contact,
+      a.fidelity.contact == "strips"
+          ? text(", ", a.contact.strips, " across the contact width at the mean load")
+          : "");
+  add(lines, "contact ratio", a.contact_ratio);
+  add(lines, "mean stiffness", a.mean_stiffness * 1e-6, " N/um (secant)");
+  if (a.transmission_error.size() > 0) {
+    const auto& te = a.transmission_error;
+    add(lines, "transmission error", te.mean() * 1e6, " um mean, ", (te.maxCoeff() - te.minCoeff()) * 1e6,
+        " um peak to peak");
+    add(lines, "largest tooth load", a.tooth_load.size() ? a.tooth_load.maxCoeff() : 0.0, " N");
+  }
+  if (a.hunting_periods > 1)
+    add(lines, "hunting period", a.hunting_periods, " mesh periods, after which the same teeth meet");
+  if (a.contact_pressure.size() > 0) {
+    Eigen::Index i = 0, j = 0;
+    const double peak = a.contact_pressure.maxCoeff(&i, &j);
+    add(lines, "peak pressure", peak * 1e-6, " MPa inside a flank, half-width there ",
+        a.contact_half_width(i, j) * 1e3, " mm, at mesh phase ", a.mesh_phase[i]);
+  }
+  add(lines, "certificate", a.mesh_phase.size(), " positions; least gap ", a.least_gap * 1e6,
+      " um, least force ", a.least_force, " N, torque residual ", a.torque_residual);
+  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " um");
+}
+
+void show(Lines& lines, const LoadedArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", mesh phase ", a.mesh_phase);
+  show_modification(lines, a.mesh);
+  show_discretisation(lines, a.driver_body, a.driven_body);
+  add(lines, "transmission error", a.transmission_error * 1e6, " um");
+  for (Eigen::Index i = 0; i < a.pair.size(); ++i)
+    add(lines, text("pair ", a.pair[i]), a.tooth_load[i], " N on tooth ", a.tooth(i, 0), " of the driver, ",
+        a.tooth(i, 1), " of the driven gear; largest root stress ", a.root_stress(i, 0) * 1e-6, " MPa of ",
+        a.mesh.driver, ", ", a.root_stress(i, 1) * 1e-6, " MPa of ", a.mesh.driven);
+  if (a.strip_pressure.size() > 0)
+    add(lines, "contact", (a.strip_force.array() > 0).count(), " strips with force, largest pressure ",
+        a.strip_pressure.maxCoeff() * 1e-6, " MPa");
+  for (int g = 0; g < 2; ++g)
+    add(lines, g == 0 ? "certificate, driver" : "certificate, driven gear", "hub holds ", a.hub_torque[g],
+        " N m of ", a.contact_torque[g], ", strain energy over work ",
+        a.strain_energy[g] / a.contact_work[g]);
+}
+
+void show(Lines& lines, const ErrorBudgetArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", contact ", a.fidelity.contact);
+  const auto rows = [&](const StaticChanges& changes, const std::string& before) {
+    std::string rest = changes.entry;
+    for (Eigen::Index i = 0; i < changes.mean_stiffness_change.size(); ++i) {
+      const auto comma = rest.find(", ");
+      add(lines, before + rest.substr(0, comma), "mean stiffness ", changes.mean_stiffness_change[i] * 100,
+          " %, peak to peak ", changes.peak_to_peak_change[i] * 100, " %, first harmonic ",
+          changes.harmonic_change(i, 0) * 100, " %");
+      rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
+    }
+  };
+  rows(a.refinement, "");
+  add(lines, "sum", a.refinement.mean_stiffness_change.cwiseAbs().sum() * 100, " % of the mean stiffness");
+  rows(a.choice, "or ");
+  if (!a.choice_missing.empty()) add(lines, "not computed", a.choice_missing);
+}
+
+void show(Lines& lines, const ImpactArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.torque_step * 100, " % let go");
+  show_damping(lines, a.damping);
+  for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
+    add(lines, i < a.state_phase.size() ? text("loaded pairs: ", a.contact_state[i]) : a.contact_state[i],
+        a.natural_frequency[i], " Hz, damping ratio ", a.damping_ratio[i] * 100, " %; undamped ",
+        a.undamped_frequency[i], " Hz");
+  add(lines, "fit", a.mesh_phase.size(), " phases; largest residual ", a.fit_residual.maxCoeff(),
+      "; furthest from the eigenvalues ",
+      ((a.phase_natural_frequency - a.eigen_frequency).array() / a.eigen_frequency.array()).abs().maxCoeff() *
+          100,
+      " % in frequency, ",
+      ((a.phase_damping_ratio - a.eigen_damping_ratio).array() / a.eigen_damping_ratio.array())
+              .abs()
+              .maxCoeff() *
+          100,
+      " % in damping");
+  add(lines, "least mesh force", a.least_mesh_force * 100, " % of the static one");
+}
+
+void show(Lines& lines, const SweepArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.direction, ", ",
+      range_of(a.mesh_frequency));
+  const LumpedParameters& l = a.lumped;
+  const bool lumped = l.cell_end.size() > 0;
+  if (lumped) {
+    add(lines, "model", a.model, ", one degree of freedom, ", l.cell_end.size(), " cells of ",
+        l.stiffness.cols(), l.stiffness.cols() == 1 ? " spring" : " springs", ", mean stiffness ",
+        a.mean_stiffness * 1e-6, " N/um, mass ", l.mass, " kg, integrator ", a.fidelity.integrator);
+    add(lines, "damping", "ratio ", l.damping_ratio * 100, " %, c = ", l.damper, " N s/m, acts ",
+        l.damper_acts == "contact" ? "in contact" : l.damper_acts);
+  } else {
+    add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
+        a.fidelity.integrator);
+    show_damping(lines, a.damping);
+  }
+  add(lines, "corner contact", corner_rule(a.mesh));
+  add(lines, "state of the contact", contact_plane(a.mesh));
+  show_modification(lines, a.mesh);
+  show_errors(lines, a.mesh);
+  show_bearings(lines, a.mesh);
+  if (a.mesh_frequency.size() > 0) {
+    Eigen::Index worst = 0;
+    const Eigen::VectorXd rms =
+        ((a.transmission_error.colwise() - a.transmission_error.rowwise().mean()).rowwise().squaredNorm() /
+         static_cast<double>(std::max<Eigen::Index>(a.transmission_error.cols(), 1)))
+            .cwiseSqrt();
+    const double peak = rms.maxCoeff(&worst);
+    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
+        ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
+    if (!lumped) {
+      const auto line = [&a](const char* name) {
+        for (size_t i = 0; i < kEnergyLines.size(); ++i)
+          if (std::string(name) == kEnergyLines[i].name)
+            return Eigen::ArrayXd(a.energy.col(static_cast<Eigen::Index>(i)));
+        return Eigen::ArrayXd();
+      };
+      const Eigen::ArrayXd damped = line("modal_damping") + line("lag_damping");
+      add(lines, "energy", "at most ", damped.maxCoeff(),
+          " J damped in the stored periods; of that the scheme's own work, ", "strips that switch ",
+          (line("switching") / damped).abs().maxCoeff() * 100, " %, averaging ",
+          (line("averaging") / damped).abs().maxCoeff() * 100, " %");
+    }
+    const Eigen::Index open = (a.period_multiple.array() == 0).count();
+    if (open > 0) add(lines, "not periodic", open, " of ", a.period_multiple.size(), " speeds");
+    add(lines, "mean speed held by", "at most ", a.drift_force.maxCoeff(), " N from the output");
+  }
+  add(lines, "certificate", "least gap ", a.least_gap * 1e6, " um, least force ", a.least_force, " N, ",
+      a.fallbacks, " solutions by Lawson and Hanson");
+  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " um");
+  add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
+}
+
+void show(Lines& lines, const BranchArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", range_of(a.mesh_frequency));
+  add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
+      a.fidelity.integrator);
+  show_damping(lines, a.damping);
+  const Eigen::Index points = a.mesh_frequency.size();
+  if (points > 0) {
+    Eigen::Index worst = 0;
+    const double peak = a.dte_rms.maxCoeff(&worst);
+    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "orbits", points, ", of them ", points - a.stable.sum(), " unstable; largest residual ",
+        a.residual.maxCoeff());
+  }
+  for (Eigen::Index i = 0; i < a.fold_frequency.size(); ++i)
+    add(lines, "fold", a.fold_frequency[i], " Hz, ", a.fold_smooth[i] ? "smooth" : "at a kink",
+        ", multiplier ", a.fold_multiplier(i, 0), " before and ", a.fold_multiplier(i, 1), " after");
+  const auto list = [&](const char* name, const Eigen::VectorXd& frequencies) {
+    std::string all;
+    for (double f : frequencies) all += (all.empty() ? "" : ", ") + text(f);
+    if (!all.empty()) add(lines, name, all, " Hz");
+  };
+  list("period doubling", a.flip_frequency);
+  list("torus", a.torus_frequency);
+  if (a.grazing_frequency.size() > 0)
+    add(lines, "grazing", a.grazing_frequency.size(), " places from ", a.grazing_frequency.minCoeff(), " to ",
+        a.grazing_frequency.maxCoeff(), " Hz");
+  add(lines, "end", a.end);
+}
+
+void show(Lines& lines, const ResponseArtifact& a) {
+  add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
+  add(lines, "model", a.model);
+  if (a.mesh_frequency.size() > 0) {
+    Eigen::Index worst = 0;
+    const double peak = a.dte_rms.maxCoeff(&worst);
+    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "largest tooth load", a.tooth_load_max.maxCoeff(), " N, all pairs ",
+        a.mesh_force_max.maxCoeff(), " N");
+    for (int g = 0; g < 2; ++g)
+      if (a.bearing_force_max[g].size() > 0)
+        add(lines, text("bearing of ", a.mesh.gear(g)), "force at most ", a.bearing_force_max[g].maxCoeff(),
+            " N, its oscillation at most ", a.bearing_force_rms[g].maxCoeff(), " N RMS");
+    add(lines, "contact lost", (a.separation_fraction.array() > 0).count(), " speeds, at most ",
+        a.separation_fraction.maxCoeff() * 100, " % of the period");
+  }
+  add(lines, "natural frequency", a.natural_frequency,
+      " Hz (mean over the period, contact frozen under the static load)");
+  add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
+}
+
+void show(Lines& lines, const JumpMapArtifact& a) {
+  add(lines, "operating point", a.torque, " N m, ", range_of(a.mesh_frequency));
+  add(lines, "model", a.model);
+  add(lines, "stiffness", "mean ", a.mean_stiffness * 1e-6, " N/um, first harmonic ",
+      a.first_harmonic / a.mean_stiffness * 100, " % of it");
+  for (Eigen::Index i = 0; i < a.damping_ratio.size(); ++i) {
+    const bool two = a.two_branches[i], lost = a.loss_to[i] > 0;
+    add(lines, text(a.damping_ratio[i] * 100, " %"), two ? "two branches from " : "one branch",
+        two ? text(a.branches_from[i], a.open_below[i] ? " or less" : "", " to ", a.branches_to[i], " Hz")
+            : "",
+        lost ? text(", contact lost from ", a.loss_from[i], " to ", a.loss_to[i], " Hz") : ", contact kept",
+        ", peak tooth load ", a.peak_tooth_load.row(i).maxCoeff(), " N, held ",
+        a.held_tooth_load.row(i).maxCoeff(), " N");
+  }
+}
+
+}  // namespace
+
+namespace {
+
+void show(Lines& lines, const HarrisMapArtifact& a) {
+  show_gear(lines, a.driver, a.driver_body);
+  show_modification(lines, a.mesh);
+  show_errors(lines, a.mesh);
+  show_bearings(lines, a.mesh);
+  add(lines, "torque", a.torque.size(), " from ", a.torque[0], " to ", a.torque[a.torque.size() - 1], " N m");
+  add(lines, "tip relief", a.relief.size(), " from ", a.relief[0] * 1e6, " to ",
+      a.relief[a.relief.size() - 1] * 1e6, " um, ", a.shape, ", on ",
+      a.relieved == "both" ? "both gears" : "the " + a.relieved + (a.relieved == "driven" ? " gear" : ""));
+  for (Eigen::Index s = 0; s < a.length.size(); ++s)
+    add(lines, text("start ", a.start_roll(s, 0) * 180 / std::numbers::pi, " deg"), "at ", a.design_torque,
+        " N m ", a.optimum_relief[s] * 1e6, " um leave ", a.optimum_peak_to_peak[s] * 1e6,
+        " um peak to peak");
+  if (a.checked > 0)
+    add(lines, "finer solution", a.checked, " points differ by ", a.largest_error * 100, " % at most");
+  for (Eigen::Index s = 0; s < static_cast<Eigen::Index>(a.dynamic_rms.size()); ++s)
+    add(lines, "RMS at worst speed", a.dynamic_rms[s].minCoeff() * 1e6, " to ",
+        a.dynamic_rms[s].maxCoeff() * 1e6, " um");
+}
+
+void show(Lines& lines, const VariantArtifact& a) {
+  show_gear(lines, a.driver, a.driver_body);
+  show_modification(lines, a.mesh);
+  add(lines, "torque", a.torque, " N m");
+  if (!a.directions.empty())
+    add(lines, "speeds", a.frequency_from, " to ", a.frequency_to, " Hz, ", a.directions.size(),
+        a.directions.size() == 1 ? " direction" : " directions");
+  if (!a.refusal.empty()) add(lines, "refused", a.refusal);
+  const std::vector<AnswerKind> kinds = answer_kinds(a.directions);
+  for (Eigen::Index i = 0; i < a.answer.size(); ++i)
+    add(lines, kinds[i].name, a.answer[i], " ", kinds[i].units == "1" ? "" : kinds[i].units);
+}
+
+void show(Lines& lines, const StudyArtifact& a) {
+  std::string keys;
+  for (const VariedKey& key : a.plan.keys) keys += (keys.empty() ? "" : ", ") + key.name;
+  const auto refused =
+      a.refusal.size() - static_cast<size_t>(std::count(a.refusal.begin(), a.refusal.end(), ""));
+  add(lines, "study", a.variants.size(), " variants of ", a.plan.scene,
+      a.plan.random ? ", drawn at random" : ", all combinations", ", ", refused, " refused, ",
+      (a.unsteady.array() > 0).count(), " with speeds that did not settle");
+  add(lines, "keys", keys);
+  for (const AnswerKind& kind : answer_kinds(a.plan.directions)) {
+    const auto found = std::find(a.plan.answers.begin(), a.plan.answers.end(), kind.name);
+    if (found == a.plan.answers.end()) continue;
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t v = 0; v < a.refusal.size(); ++v)
+      if (a.refusal[v].empty()) {
+        const double value = a.answer(static_cast<Eigen::Index>(v), found - a.plan.answers.begin());
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+    if (least <= most) add(lines, kind.name, least, " to ", most, " ", kind.units == "1" ? "" : kind.units);
+  }
+}
+
+}  // namespace
+
+std::string in_words(const FlankModification& m) {
+  std::string out;
+  const auto part = [&](const std::string& words) { out += (out.empty() ? "" : ", ") + words; };
+  const double degree = std::numbers::pi / 180;
+  for (const auto& [end, relief] : {std::pair{"tip", m.tip}, std::pair{"root", m.root}})
+    if (relief.amount > 0)
+      part(text(relief.shape == "linear" ? "" : relief.shape + " ", end, " relief ", relief.amount * 1e6,
+                " um ",
+                relief.start_radius > 0 ? text("from radius ", relief.start_radius * 1e3, " mm")
+                : relief.length > 0     ? text("over ", relief.length * 1e3, " mm of roll")
+                                        : text("from ", relief.start_roll / degree, " deg")));
+  if (m.crowning != 0) part(text("crowning ", m.crowning * 1e6, " um"));
+  if (m.slope != 0) part(text("slope ", m.slope * 1e6, " um"));
+  if (!m.points.empty()) part(text(m.points.size(), " points"));
+  return out.empty() ? "as designed" : out;
+}
+
+std::vector<std::pair<std::string, std::string>> summary(const std::string& path, const std::string& schema) {
+  Lines lines;
+  if (schema == "whine/mesh") {
+    show(lines, read_mesh(path));
+  } else if (schema == "whine/body") {
+    show(lines, read_body(path));
+  } else if (schema == "whine/static") {
+    show(lines, read_static(path));
+  } else if (schema == "whine/loaded") {
+    show(lines, read_loaded(path));
+  } else if (schema == "whine/error_budget") {
+    show(lines, read_error_budget(path));
+  } else if (schema == "whine/impact") {
+    show(lines, read_impact(path));
+  } else if (schema == "whine/sweep") {
+    show(lines, read_sweep(path));
+  } else if (schema == "whine/response") {
+    show(lines, read_response(path));
+  } else if (schema == "whine/branch") {
+    show(lines, read_branch(path));
+  } else if (schema == "whine/jump_map") {
+    show(lines, read_jump_map(path));
+  } else if (schema == "whine/harris_map") {
+    show(lines, read_harris_map(path));
+  } else if (schema == "whine/variant") {
+    show(lines, read_variant(path));
+  } else if (schema == "whine/study") {
+    show(lines, read_study_artifact(path));
+  } else {
+    add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
+  }
+  return lines;
+}
+
+std::string scene_words(const std::string& path) {
+  constexpr size_t kMostBytes = 160;
+  namespace fs = std::filesystem;
+  for (fs::path folder = fs::path(path).lexically_normal().parent_path(); folder.has_filename();
+       folder = folder.parent_path()) {
+    std::ifstream file(folder / "params" / "title.txt");
+    std::string title;
+    if (!file) continue;
+    std::getline(file, title);
+    const std::string name = folder.filename().string();
+    std::string words = title.empty() || title == name ? name : name + ": " + title;
+    if (words.size() > kMostBytes) {
+      size_t end = kMostBytes;
+      while (end > 0 && (static_cast<unsigned char>(words[end]) & 0xC0) == 0x80) --end;  // amid a character
+      words = words.substr(0, end) + "...";
+    }
+    return words;
+  }
+  return "";
+}
+
+}  // namespace whine

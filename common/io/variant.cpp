@@ -1,0 +1,121 @@
+#include "io/variant.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/keys.h"
+#include "io/publish.h"
+#include "io/suggestion.h"
+#include "io/toml.h"
+
+namespace whine {
+namespace {
+
+toml::table parsed(const std::string& bytes, const std::string& path) {
+  try {
+    return parse_toml(bytes);
+  } catch (const toml::parse_error& error) {
+    fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
+  }
+}
+
+// What the right side of "key=value" would be in a scene; a bare word is text.
+void set(toml::table& section, const std::string& key, const std::string& value) {
+  try {
+    const toml::table line = parse_toml("value = " + value);
+    if (line.size() == 1) {
+      line.get("value")->visit([&](const auto& node) { section.insert_or_assign(key, node); });
+      return;
+    }
+  } catch (const toml::parse_error&) {
+  }
+  section.insert_or_assign(key, value);
+}
+
+// owner "": any.
+void require_member(const toml::table& members, const std::string& group, const std::string& owner,
+                    const std::string& path) {
+  if (owner.empty() || members.contains(owner)) return;
+  std::vector<std::string> names;
+  for (const auto& [label, item] : members) names.emplace_back(label.str());
+  const std::string near = nearest(owner, names);
+  fail(Failure::input, path, ": has no [", group, ".", owner, "]",
+       near.empty() ? "" : "; did you mean '" + near + "'?");
+}
+
+}  // namespace
+
+std::string scene_variant(const std::string& path, const std::vector<std::string>& changes) {
+  toml::table scene = parsed(read_bytes(path, "check the path of the scene"), path);
+  for (const std::string& change : changes) {
+    const size_t equals = change.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == change.size())
+      fail(Failure::usage, "--set ", change, ": write key=value, as in bore_radius_mm=35");
+    const std::string name = change.substr(0, equals), value = change.substr(equals + 1);
+    const KeyPlace place = [&] {
+      try {
+        return find_key(name);
+      } catch (const Error& error) {
+        fail(error.kind(), "--set ", change, ": ", error.what());
+      }
+    }();
+    const std::string section = place.key->section, leaf = place.key->name, owner = place.owner;
+    if (section.empty()) {
+      set(scene, leaf, value);
+      continue;
+    }
+    const bool in_gear = section == "modification" || section == "error" || section == "crack";
+    const std::string group = in_gear ? "gear" : section;
+    const bool in_list = group == "mesh" || group == "bearing",
+               has_owner = group == "gear" || group == "material";
+    toml::node* node = scene.get(group);
+    if (!node && (in_list || has_owner))
+      fail(Failure::input, path, ": lacks the section [", group, "] of the key '", name, "'");
+    if (in_list) {
+      bool found = owner.empty();
+      if (toml::array* list = node->as_array())
+        for (toml::node& item : *list)
+          if (toml::table* table = item.as_table(); table && (owner.empty() || (*table)["gear"] == owner)) {
+            set(*table, leaf, value);
+            found = true;
+          }
+      if (!found) fail(Failure::input, path, ": has no [[", group, "]] of the gear '", owner, "'");
+    } else if (has_owner) {
+      toml::table* members = node->as_table();
+      if (!members) continue;  // what it is instead is told when the scene is read
+      require_member(*members, group, owner, path);
+      for (auto&& [label, item] : *members) {
+        toml::table* table = item.as_table();
+        if (!table || (!owner.empty() && label.str() != owner)) continue;
+        const bool here = !owner.empty();
+        if (!in_gear) {
+          if (here || table->contains(leaf) || !table->contains("like")) set(*table, leaf, value);
+          continue;
+        }
+        toml::table* own = table->get_as<toml::table>(section);
+        if (!own && !here && (section == "crack" || (section == "modification" && table->contains("like"))))
+          continue;
+        if (!own) own = table->insert(section, toml::table{}).first->second.as_table();
+        if (own) set(*own, leaf, value);
+      }
+    } else {
+      if (!node) node = &scene.insert(section, toml::table{}).first->second;
+      if (toml::table* table = node->as_table()) set(*table, leaf, value);
+    }
+  }
+  // Paths start from the folder of the scene, and the variant has another.
+  if (toml::table* gears = scene.get_as<toml::table>("gear"))
+    for (auto&& [label, item] : *gears)
+      if (toml::node* file = toml::node_view(item)["error"]["file"].node(); file && file->is_string())
+        toml::node_view(item)["error"].as_table()->insert_or_assign(
+            "file", (std::filesystem::absolute(path).parent_path() / *file->value<std::string>())
+                        .lexically_normal()
+                        .string());
+  std::ostringstream out;
+  out << "# Made by gear-scene --set from another scene; edit that one.\n" << scene << "\n";
+  return out.str();
+}
+
+}  // namespace whine

@@ -1,0 +1,234 @@
+#include "io/vtk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <numbers>
+
+#include "base/error.h"
+#include "io/publish.h"
+
+namespace whine {
+namespace {
+
+// To 2^-30 m, so that deflate finds zeros behind.
+double to_nanometre(double x) {
+  constexpr double kPerMetre = 1 << 30;
+  return std::round(x * kPerMetre) / kPerMetre;
+}
+
+// To 12 bits behind the leading one, 1.2e-4.
+float to_three_digits(double x) {
+  int exponent = 0;
+  const double share = std::frexp(x, &exponent);
+  return static_cast<float>(std::ldexp(std::round(std::ldexp(share, 13)), exponent - 13));
+}
+
+constexpr std::uint8_t kLine = 3, kQuad = 9, kBiquadraticQuad = 28;  // VTK cell types
+
+}  // namespace
+
+VtkGrid whole_gear(const MeshArtifact& sector) {
+  const int teeth = sector.design.teeth;
+  const Eigen::Index nodes = sector.node_position.rows(), elements = sector.element_node.rows();
+  if (teeth < 1 || nodes == 0) fail(Failure::numerical, "a sector without nodes or teeth cannot be a gear");
+
+  // A node on the clockwise edge of copy j is its image on the counter-clockwise edge of copy j - 1.
+  std::vector<Eigen::Index> image(static_cast<std::size_t>(nodes), -1),
+      own(static_cast<std::size_t>(nodes), -1);
+  for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k) {
+    image.at(static_cast<std::size_t>(sector.side_node(k, 0))) = sector.side_node(k, 1);
+  }
+  Eigen::Index per_copy = 0;
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    if (image[static_cast<std::size_t>(i)] < 0) own[static_cast<std::size_t>(i)] = per_copy++;
+  }
+  const auto number = [&](int copy, Eigen::Index node) {
+    const Eigen::Index partner = image[static_cast<std::size_t>(node)];
+    if (partner >= 0) {
+      copy = (copy + teeth - 1) % teeth;
+      node = partner;
+    }
+    if (own[static_cast<std::size_t>(node)] < 0) {
+      fail(Failure::numerical, "sector node ", node, " lies on both edges of the sector");
+    }
+    return copy * per_copy + own[static_cast<std::size_t>(node)];
+  };
+  const auto turned = [&](int copy, Eigen::Index node) {
+    const double angle = 2.0 * std::numbers::pi * copy / teeth, c = std::cos(angle), s = std::sin(angle);
+    const double x = sector.node_position(node, 0), y = sector.node_position(node, 1);
+    return Eigen::Vector2d(c * x - s * y, s * x + c * y);
+  };
+  for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k) {
+    const Eigen::Vector2d low = turned(1, sector.side_node(k, 0)), high = turned(0, sector.side_node(k, 1));
+    if ((low - high).norm() > 1e-9 * high.norm()) {
+      fail(Failure::numerical, "the sector does not close: nodes ", sector.side_node(k, 0), " and ",
+           sector.side_node(k, 1), " are ", (low - high).norm(), " m apart after a turn of one tooth");
+    }
+  }
+
+  VtkGrid out;
+  out.point.resize(per_copy * teeth, 2);
+  out.cell.resize(elements * teeth, sector.element_node.cols());
+  Eigen::VectorXi region(elements * teeth), tooth(elements * teeth);
+  for (int copy = 0; copy < teeth; ++copy) {
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      if (own[static_cast<std::size_t>(i)] >= 0) out.point.row(number(copy, i)) = turned(copy, i).transpose();
+    }
+    for (Eigen::Index e = 0; e < elements; ++e) {
+      for (Eigen::Index k = 0; k < sector.element_node.cols(); ++k) {
+        out.cell(copy * elements + e, k) = static_cast<int>(number(copy, sector.element_node(e, k)));
+      }
+      region[copy * elements + e] = e < sector.element_region.size() ? sector.element_region[e] : 0;
+      tooth[copy * elements + e] = copy;
+    }
+  }
+  for (const MeshArtifact& cracked : sector.cracked_tooth) {
+    // Its nodes on the sector edges are those of its neighbours, all others are added; the intact tooth's cells go.
+    const int copy = sector.design.crack.tooth;
+    std::vector<Eigen::Index> shown(static_cast<std::size_t>(cracked.node_position.rows()), -1);
+    for (Eigen::Index k = 0; k < sector.side_node.size(); ++k)
+      shown.at(static_cast<std::size_t>(cracked.side_node.data()[k])) =
+          number(copy, sector.side_node.data()[k]);
+    const Eigen::Index before = out.point.rows(), kept = elements * (teeth - 1),
+                       all = kept + cracked.element_node.rows();
+    Eigen::Index count = before;
+    for (Eigen::Index& at : shown)
+      if (at < 0) at = count++;
+    out.point.conservativeResize(count, 2);
+    const double angle = 2.0 * std::numbers::pi * copy / teeth, c = std::cos(angle), s = std::sin(angle);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      if (shown[i] >= before) {
+        const double x = cracked.node_position(static_cast<Eigen::Index>(i), 0),
+                     y = cracked.node_position(static_cast<Eigen::Index>(i), 1);
+        out.point.row(shown[i]) << c * x - s * y, s * x + c * y;
+      }
+    MatrixRMi cell(all, out.cell.cols());
+    Eigen::VectorXi own_region(all), own_tooth(all);
+    const Eigen::Index first = copy * elements, rest = kept - first;
+    cell << out.cell.topRows(first), out.cell.bottomRows(rest),
+        cracked.element_node.unaryExpr(
+            [&shown](int i) { return static_cast<int>(shown[static_cast<std::size_t>(i)]); });
+    own_region << region.head(first), region.tail(rest), cracked.element_region;
+    own_tooth << tooth.head(first), tooth.tail(rest),
+        Eigen::VectorXi::Constant(cracked.element_node.rows(), copy);
+    out.cell = cell;
+    region = own_region;
+    tooth = own_tooth;
+  }
+  out.cell_numbers = {{"region", region}, {"tooth", tooth}};
+  return out;
+}
+
+void put_vtk(h5::Writer& file, const VtkGrid& grid) {
+  const std::string group = "/VTKHDF/";
+  const auto points = static_cast<std::size_t>(grid.point.rows());
+  const auto lines = static_cast<std::size_t>(grid.line.rows());
+  const auto cells = static_cast<std::size_t>(grid.cell.rows()) + lines;
+  const auto corners = static_cast<std::size_t>(grid.cell.cols());
+  if (corners != 4 && corners != 9) {
+    fail(Failure::numerical, "cells of ", corners, " nodes cannot be shown; 4 or 9 are known");
+  }
+  file.group("/VTKHDF");
+  file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+  file.ascii_attribute("/VTKHDF", "Type", "UnstructuredGrid");
+
+  const auto count = [&](const std::string& name, std::size_t value, const std::string& meaning) {
+    const auto number = static_cast<std::int64_t>(value);
+    file.put(group + name, &number, {1}, {"1", meaning, "partition", ""});
+  };
+  count("NumberOfPoints", points, "number of points");
+  count("NumberOfCells", cells, "number of cells");
+  const auto corners_of = [&](Eigen::Index e) {
+    return corners == 9 && grid.cell(e, 4) < 0 ? std::size_t{4} : corners;
+  };
+  std::size_t ids = 2 * lines;
+  for (Eigen::Index e = 0; e < grid.cell.rows(); ++e) ids += corners_of(e);
+  count("NumberOfConnectivityIds", ids, "length of Connectivity");
+
+  const auto in_space = [&](const MatrixRM& plane, auto zero) {
+    std::vector<decltype(zero)> out(points * 3, zero);
+    for (std::size_t i = 0; i < points; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        out[3 * i + k] =
+            static_cast<decltype(zero)>(plane(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+      }
+    }
+    return out;
+  };
+  MatrixRM place = grid.point;
+  if (grid.rounded) place = place.unaryExpr([](double x) { return to_nanometre(x); });
+  file.put(group + "Points", in_space(place, 0.0).data(), {points, 3},
+           {"m", "position of the points", "point xyz", ""});
+
+  std::vector<std::int64_t> connectivity, offsets;
+  for (const MatrixRMi* kind : {&grid.cell, &grid.line}) {
+    for (Eigen::Index e = 0; e < kind->rows(); ++e) {
+      offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+      const auto own = kind == &grid.cell ? static_cast<Eigen::Index>(corners_of(e)) : kind->cols();
+      for (Eigen::Index k = 0; k < own; ++k) {
+        const int node = (*kind)(e, k);
+        if (node < 0 || node >= grid.point.rows()) {
+          fail(Failure::numerical, "cell ", e, " names point ", node, " of ", points);
+        }
+        connectivity.push_back(node);
+      }
+    }
+  }
+  offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  std::vector<std::uint8_t> types(cells, corners == 4 ? kQuad : kBiquadraticQuad);
+  for (Eigen::Index e = 0; e < grid.cell.rows(); ++e)
+    if (corners_of(e) == 4) types[static_cast<std::size_t>(e)] = kQuad;
+  std::fill(types.end() - static_cast<std::ptrdiff_t>(lines), types.end(), kLine);
+  file.put(group + "Connectivity", connectivity.data(), {connectivity.size()},
+           {"1", "points of each cell", "connectivity", ""});
+  file.put(group + "Offsets", offsets.data(), {offsets.size()},
+           {"1", "where each cell begins in Connectivity", "cell", ""});
+  file.put(group + "Types", types.data(), {types.size()}, {"1", "VTK cell type: 3, 9 or 28", "cell", ""});
+
+  for (const auto& [name, values] : grid.vectors) {
+    if (values.rows() != grid.point.rows() || values.cols() != 2) {
+      fail(Failure::numerical, "point data '", name, "' is ", values.rows(), " x ", values.cols(),
+           ", expected ", points, " x 2");
+    }
+    file.put(group + "PointData/" + name, in_space(values, 0.0F).data(), {points, 3},
+             {"1", name + ", for looking: single precision", "point xyz", ""});
+  }
+  for (const auto& [name, values] : grid.cell_numbers) {
+    file.put(group + "CellData/" + name, values.data(), {cells}, {"1", name + " of the cell", "cell", ""});
+  }
+  const auto put_fields = [&](const std::vector<LoadedArtifact::Field>& fields, const std::string& of,
+                              const std::string& axis, std::size_t rows) {
+    for (const auto& [name, units, values] : fields) {
+      const auto columns = static_cast<std::size_t>(values.cols());
+      if (values.rows() != static_cast<Eigen::Index>(rows) || columns < 1 || columns > 3) {
+        fail(Failure::numerical, of, " '", name, "' is ", values.rows(), " x ", values.cols(), ", expected ",
+             rows, " x 1, 2 or 3");
+      }
+      const std::size_t width = columns == 2 ? 3 : columns;
+      std::vector<float> data(rows * width, 0.0F);
+      for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t k = 0; k < columns; ++k) {
+          const double value = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+          data[i * width + k] = grid.rounded ? to_three_digits(value) : static_cast<float>(value);
+        }
+      const h5::Shape shape = width == 1 ? h5::Shape{rows} : h5::Shape{rows, width};
+      file.put(
+          group + of + "/" + name, data.data(), shape,
+          {units, name + (grid.rounded ? ", for looking: three digits" : ", for looking: single precision"),
+           axis + (width == 1 ? "" : " component"), ""});
+    }
+  };
+  put_fields(grid.point_data, "PointData", "point", points);
+  put_fields(grid.cell_data, "CellData", "cell", cells);
+}
+
+void link_for_paraview(const std::string& path) {
+  const std::filesystem::path file(path);
+  if (file.extension() != ".h5") return;
+  std::filesystem::path link(file);
+  publish_link(link.replace_extension(".hdf").string(), file.filename().string());
+}
+
+}  // namespace whine

@@ -1,0 +1,39 @@
+#include "model/scene.h"
+
+#include <sstream>
+
+#include "base/error.h"
+
+namespace whine {
+
+std::string next_rung(const std::string& key, const std::string& choice) {
+  std::istringstream ladder(key == "body" ? kBodyLadder : key == "contact" ? kContactLadder : "");
+  for (std::string word; ladder >> word;)
+    if (word == choice) return ladder >> word ? word : "";
+  fail(Failure::input, key, " = \"", choice, "\" is no rung of [fidelity]");
+}
+
+const SceneGear& Scene::gear(const std::string& name) const {
+  for (const SceneGear& candidate : gears) {
+    if (candidate.name == name) return candidate;
+  }
+  fail(Failure::input, "the scene has no gear '", name, "'");
+}
+
+void require_like_teeth(const GearMeshSpec& mesh, const std::string& stage) {
+  for (int g = 0; g < 2; ++g)
+    if (!mesh.errors[g].none())
+      fail(Failure::input, stage, " does not take teeth that differ: [gear.", g ? mesh.driven : mesh.driver,
+           ".error] gives the ", g ? "driven gear" : "driver",
+           " deviations tooth by tooth; use a scene without this section");
+}
+
+void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage) {
+  for (int g = 0; g < 2; ++g)
+    if (mesh.bearing[g].elastic())
+      fail(Failure::input, stage, " is of gears on rigid axes, and [gear.", mesh.gear(g),
+           "] is on a bearing of ", mesh.bearing[g].stiffness * 1e-6,
+           " N/um; take a scene without [[bearing]]");
+}
+
+}  // namespace whine

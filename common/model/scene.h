@@ -1,0 +1,103 @@
+// What a scene says, in SI: gears, their mesh, damping, operation, fidelity and accuracy. No file: io/ reads and writes it.
+#pragma once
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "model/gear.h"
+
+namespace whine {
+
+// BodyDiscretisation::modes that stands for every mode of the mesh.
+inline constexpr int kAllModes = -1;
+
+// Discretisation of a body: what gear-mesh and gear-reduce need beside the gear itself.
+struct BodyDiscretisation {
+  double element_size = 0;  // m on the flank
+  int element_order = 2;    // 1 or 2
+  int modes = 61;           // elastic modes of the whole gear, or kAllModes; doublets are never cut
+  std::string near_field =
+      "subtraction";             // of the half-plane in the finite elements; or "matching" at a depth
+  double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
+};
+
+// Off the line of action a tip edge may touch a flank.
+struct CornerRule {
+  bool enabled = true;
+  double largest_angle = std::numeric_limits<double>::infinity();  // rad between the two normals
+};
+
+struct GearMeshSpec {
+  std::string driver, driven;  // names of gears
+  double centre_distance = 0;  // m
+  CornerRule corner;
+  std::string contact_plane = "body";  // plane state of the contact: "strain", "stress", or each body's own
+  std::array<FlankModification, 2> modification = {};  // of driver and driven gear
+  std::array<ToothErrors, 2> errors = {};              // the same
+  std::array<Bearing, 2> bearing = {};                 // the same
+
+  bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
+  const std::string& gear(int g) const { return g == 0 ? driver : driven; }
+};
+
+// Of a scene that says nothing; it is that of the pair of P2000.
+inline constexpr double kDefaultRayleighStiffness = 7.7e-6;  // s
+
+struct Damping {
+  double rayleigh_mass = 0;        // mu of eq. 21, s-1
+  double rayleigh_stiffness = 0;   // eta of eq. 21, s
+  double undamped_depth = 0.5e-3;  // m
+  double bearing_ratio = 0.005;    // 1
+};
+
+struct Operation {
+  std::vector<double> torques;                                      // N m on the driver
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
+};
+
+struct Fidelity {
+  std::string body = "modal";        // rigid, quasi-static, lagged, modal, full
+  std::string contact = "strips";    // line, strips
+  std::string integrator = "exact";  // newmark, exact
+};
+
+// The choice of a key of [fidelity] that stands after `choice` on its ladder, cheapest first; empty after the last. Throws
+// Error(input) for a choice that is not on it.
+inline constexpr const char* kBodyLadder = "rigid quasi-static lagged modal full";
+inline constexpr const char* kContactLadder = "line strips";
+std::string next_rung(const std::string& key, const std::string& choice);
+
+struct ContactDiscretisation {
+  int strips = 8;  // across the contact width at the mean load
+  int positions =
+      0;  // of the static stage per mesh period; 0: as steps_per_period, 128 at least, fewer where teeth differ
+};
+
+struct TimeDiscretisation {
+  int steps_per_period = 128;                // stored samples per mesh period
+  double min_sample_rate = 250e3;            // Hz; steps per period are doubled until it is reached
+  double periodicity = 1e-5;                 // relative change of the state at which a speed counts as steady
+  std::string steady_state = "extrapolate";  // or "march": every period on the way, as a rig would
+};
+
+struct Scene {
+  std::string title;
+  std::vector<SceneGear> gears;  // `like` resolved
+  GearMeshSpec mesh;
+  Damping damping;
+  Operation operation;
+  Fidelity fidelity;
+  BodyDiscretisation body;
+  ContactDiscretisation contact;
+  TimeDiscretisation time;
+
+  const SceneGear& gear(const std::string& name) const;  // throws Error(input) if there is none
+};
+
+// Throw Error(input) that names the gear and `stage` ("a Harris map"), which knows nothing of ...
+void require_like_teeth(const GearMeshSpec& mesh,
+                        const std::string& stage);  // ... teeth that differ from each other,
+void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage);  // ... elastic bearings.
+
+}  // namespace whine

@@ -1,0 +1,33 @@
+// A branch of periodic orbits.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "base/matrix.h"
+#include "model/stages.h"
+
+namespace whine {
+
+// branch.h5: periodic orbits of one mesh period along their branch, stable or not, points in the order of its arc
+struct BranchArtifact : MotionParameters {
+  double torque = 0;                                  // N m on the driver
+  Eigen::VectorXd mesh_frequency, dte_rms, dte_mean;  // (point) Hz, m, m
+  MatrixRM dte_harmonic;                              // (point, harmonic 1..) m, amplitude
+  std::vector<MatrixRM>
+      floquet_multiplier;    // (point) (multiplier, 2) 1: real and imaginary part, largest modulus first
+  Eigen::VectorXi stable;    // (point) 1: all multipliers lie inside the unit circle
+  Eigen::VectorXi steps;     // (point) 1: time steps per mesh period
+  Eigen::VectorXd residual;  // (point) 1: change of the state over a period, relative
+  Eigen::VectorXd segment_mismatch;          // (change of steps) 1: relative change of the orbit there
+  Eigen::VectorXd fold_frequency, fold_rms;  // (fold) Hz, m: where the branch turns
+  Eigen::VectorXi fold_smooth;               // (fold) 1: a multiplier is 1; 0: at a kink
+  MatrixRM fold_multiplier;  // (fold, 2) 1: the real multiplier nearest to 1 before and after it
+  Eigen::VectorXd flip_frequency, torus_frequency;   // Hz
+  Eigen::VectorXd grazing_frequency, grazing_phase;  // (grazing) Hz, share of the mesh period
+  Eigen::VectorXi grazing_pair,
+      grazing_closes;  // (grazing) pair that comes into, or out of, contact; 1: it closes
+  std::string end;     // why the branch was followed no further
+};
+
+}  // namespace whine

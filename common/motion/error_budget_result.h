@@ -1,0 +1,29 @@
+// What refining, and what choosing another model, changes in the static answer.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+
+#include "base/matrix.h"
+#include "model/stages.h"
+
+namespace whine {
+
+// What changing one thing alone changes in the static answer.
+struct StaticChanges {
+  std::string entry;                      // names of the entries, separated by ", "
+  Eigen::VectorXd mean_stiffness_change;  // (entry) 1, relative
+  Eigen::VectorXd peak_to_peak_change;    // (entry) 1, relative, of the transmission error
+  // (entry) 1, relative, of the largest pressure inside a flank; empty: not known, or no contact stays inside
+  Eigen::VectorXd pressure_change;
+  MatrixRM harmonic_change;  // (entry, harmonic 1..5) 1, of the transmission error, over its first harmonic
+};
+
+// error_budget.h5
+struct ErrorBudgetArtifact : PairParameters {
+  double torque = 0;         // N m on the driver
+  StaticChanges refinement;  // discretisations: their changes are errors and add up
+  StaticChanges choice;      // models that could be chosen instead: for information, no errors and in no sum
+  std::string choice_missing;  // which of them could not be computed, and why; "" if all were
+};
+
+}  // namespace whine

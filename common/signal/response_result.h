@@ -1,0 +1,34 @@
+// What a sweep says, per speed.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <string>
+
+#include "base/matrix.h"
+#include "model/stages.h"
+
+namespace whine {
+
+// response.h5: what a sweep says, per speed
+struct ResponseArtifact : MotionParameters {
+  double torque = 0;
+  std::string direction, model;       // model: "finite elements" or a lumped model's name
+  Eigen::VectorXd mesh_frequency;     // (speed) Hz
+  Eigen::VectorXd dte_rms, dte_mean;  // (speed) m
+  MatrixRM dte_harmonic;              // (speed, harmonic 1..) m, amplitude
+  int hunting_periods = 1;            // as in the sweep
+  // (speed, order 1..) m, amplitude of the harmonics of the hunting frequency, up to those above; empty if it is the mesh
+  // frequency
+  MatrixRM dte_order;
+  Eigen::VectorXd tooth_load_max, mesh_force_max;  // (speed) N
+  // [gear] (speed) N: largest force on its bearing, and RMS of what of it oscillates; empty for a rigid bearing
+  std::array<Eigen::VectorXd, 2> bearing_force_max, bearing_force_rms;
+  Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
+  Eigen::VectorXd separations_per_period;      // (speed) 1
+  Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
+  Eigen::VectorXi period_multiple;             // (speed) 1; 0: not periodic within the limit
+  // what the sweep was computed with, so that a figure needs no other file
+  double natural_frequency = 0;  // Hz: as in the sweep
+};
+
+}  // namespace whine
