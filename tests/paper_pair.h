@@ -9,7 +9,8 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "io/schemas.h"
+#include "io/body_codec.h"
+#include "io/sweep_codec.h"
 #include "motion/dynamics.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"

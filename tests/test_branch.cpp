@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/branch_codec.h"
+#include "io/response_codec.h"
+#include "io/static_codec.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
 #include "motion/pair_branch.h"

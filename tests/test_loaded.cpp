@@ -9,6 +9,9 @@
 
 #include "base/error.h"
 #include "failure_of.h"
+#include "io/loaded_codec.h"
+#include "io/mesh_codec.h"
+#include "io/static_codec.h"
 #include "motion/loaded_pair.h"
 #include "paper_pair.h"
 #include "relative.h"

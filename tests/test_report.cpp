@@ -12,6 +12,7 @@
 #include "failure_of.h"
 #include "gear/body_inertia.h"
 #include "io/publish.h"
+#include "io/scene_keys.h"
 #include "motion/statics.h"
 #include "motion/sweep.h"
 #include "paper_pair.h"

@@ -76,7 +76,7 @@ TEST_CASE(
   CHECK(slice.driver_inertia == relative(1.001 * body.inertia, 1e-12));
   CHECK(slice.driven_inertia == 0.0148);
   ImpactSlice by_outline;
-  as_drawn(by_outline, at_rest(40e-3));
+  as_outlined(by_outline, at_rest(40e-3));
   CHECK(by_outline.driver_inertia == relative(body.inertia, 0.01));
 }
 

@@ -1,5 +1,6 @@
 // Studies: what their reader refuses and by which words, what a grid and a sample hold, slices, plans and artifacts. Answers beside
 // those of the stages one by one: tests/study.sh.
+#include "io/scene.h"
 #include "io/study.h"
 
 #include <doctest/doctest.h>

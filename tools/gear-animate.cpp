@@ -10,11 +10,12 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/mesh_codec.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/publish.h"
-#include "io/schemas.h"
 #include "io/summary.h"
+#include "io/sweep_codec.h"
 #include "plot/animation.h"
 #include "plot/gnuplot.h"
 #include "plot/plot_file.h"

@@ -14,10 +14,12 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
+#include "io/body_codec.h"
+#include "io/impact_codec.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/schemas.h"
+#include "io/static_codec.h"
 #include "motion/impact.h"
 #include "motion/sweep.h"
 

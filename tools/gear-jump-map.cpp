@@ -15,11 +15,12 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
+#include "io/body_codec.h"
 #include "io/fit.h"
+#include "io/jump_map_codec.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/schemas.h"
 #include "motion/jump_map.h"
 
 namespace {

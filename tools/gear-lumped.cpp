@@ -17,9 +17,11 @@
 #include "base/tool.h"
 #include "gear/body_inertia.h"
 #include "io/fit.h"
+#include "io/jump_map_codec.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/schemas.h"
+#include "io/static_codec.h"
+#include "io/sweep_codec.h"
 #include "lumped/stiffness.h"
 #include "lumped/sweep.h"
 
@@ -156,7 +158,7 @@ void body(int argc, char** argv) {
   const whine::StaticArtifact at_reference = reference.empty() ? at_torque : whine::read_static(reference);
   if (!params.empty()) {
     whine::SweepSlice slice = whine::read_lumped_slice(params, !map);
-    whine::as_drawn(slice, at_torque);
+    whine::as_outlined(slice, at_torque);
     whine::require_contact(at_torque, slice.fidelity, statics);
     o.time = slice.time;
     o.mass = whine::reduced_mass(at_torque, slice.driver_inertia, slice.driven_inertia);

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/mesh_codec.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/schemas.h"
 #include "solid/elements.h"
 #include "solid/mesher.h"
 

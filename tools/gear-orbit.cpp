@@ -14,11 +14,13 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
+#include "io/body_codec.h"
+#include "io/branch_codec.h"
 #include "io/fit.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/schemas.h"
+#include "io/static_codec.h"
 #include "motion/pair_branch.h"
 
 namespace {

@@ -14,10 +14,11 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "io/body_codec.h"
 #include "io/fit.h"
+#include "io/mesh_codec.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/schemas.h"
 #include "solid/reduce.h"
 
 namespace {

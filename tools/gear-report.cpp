@@ -12,9 +12,13 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/error_budget_codec.h"
+#include "io/impact_codec.h"
 #include "io/provenance.h"
 #include "io/publish.h"
+#include "io/static_codec.h"
 #include "io/summary.h"
+#include "io/sweep_codec.h"
 #include "motion/sweep.h"
 #include "plot/report.h"
 #include "signal/response.h"

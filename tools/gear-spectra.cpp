@@ -9,7 +9,8 @@
 
 #include "base/tool.h"
 #include "io/provenance.h"
-#include "io/schemas.h"
+#include "io/response_codec.h"
+#include "io/sweep_codec.h"
 #include "signal/response.h"
 
 namespace {

@@ -19,10 +19,13 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "gear/scene_geometry.h"
+#include "io/scene.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/study.h"
+#include "io/study_codec.h"
 #include "io/variant.h"
+#include "io/variant_codec.h"
 
 namespace {
 

@@ -16,10 +16,12 @@
 #include "base/refusal.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
+#include "io/body_codec.h"
 #include "io/fit.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/study.h"
+#include "io/variant_codec.h"
 #include "motion/study_variant.h"
 
 namespace {

@@ -44,7 +44,7 @@ void as_drawn(ImpactSlice& slice, const std::array<double, 2>& body_inertia) {
   if (slice.driven_inertia == 0) slice.driven_inertia = kMore * body_inertia[1];
 }
 
-void as_drawn(ImpactSlice& slice, const PairParameters& pair) {
+void as_outlined(ImpactSlice& slice, const PairParameters& pair) {
   constexpr double kFillets = 1.015;
   const auto drawn = [&](const GearDesign& design, const Material& material) {
     return kFillets * least_body_inertia(ToothGeometry(design), material);

@@ -11,7 +11,6 @@
 #include "io/fit.h"
 #include "io/provenance.h"
 #include "io/publish.h"
-#include "io/ranges.h"
 
 namespace whine {
 namespace {
@@ -83,25 +82,6 @@ Origin origin_of(const h5::Reader& file) {
 
 Eigen::Index as_index(std::size_t value) {
   return static_cast<Eigen::Index>(value);
-}
-
-// Checks a shape against what is wanted (-1: any) and names both if they differ.
-void want_shape(const h5::Reader& file, const std::string& name, const std::vector<Eigen::Index>& wanted) {
-  const h5::Shape shape = file.shape(name);
-  bool same = shape.size() == wanted.size();
-  for (std::size_t i = 0; same && i < shape.size(); ++i) {
-    same = wanted[i] < 0 || as_index(shape[i]) == wanted[i];
-  }
-  if (same) return;
-  const auto shown = [](const auto& extents) {
-    std::string out;
-    for (auto extent : extents) {
-      const auto number = static_cast<long long>(extent);
-      out += (out.empty() ? "" : " x ") + (number < 0 ? std::string("any") : std::to_string(number));
-    }
-    return out.empty() ? std::string("scalar") : out;
-  };
-  file.refuse("dataset " + name + " has shape " + shown(shape) + ", expected " + shown(wanted));
 }
 
 class SectionSource : public ParameterSource {
@@ -368,67 +348,83 @@ ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind,
 namespace {
 
 template <class Values>
-void require_range(const h5::Reader& file, const std::string& name, const Values& values) {
-  const Range* const range = range_of(name);
-  if (!range) return;
+void require_range(const h5::Reader& file, const std::string& name, const Range& range,
+                   const Values& values) {
   for (const auto value : values)
-    if (const std::string why = outside(*range, value); !why.empty())
+    if (const std::string why = outside(range, value); !why.empty())
       file.refuse("dataset " + name + " " + why);
 }
 
 }  // namespace
 
-std::vector<double> ArtifactReader::doubles(const std::string& name) const {
+void ArtifactReader::require_shape(const std::string& name, const std::vector<Eigen::Index>& wanted) const {
+  const h5::Shape shape = file_.shape(name);
+  bool same = shape.size() == wanted.size();
+  for (std::size_t i = 0; same && i < shape.size(); ++i)
+    same = wanted[i] < 0 || as_index(shape[i]) == wanted[i];
+  if (same) return;
+  const auto shown = [](const auto& extents) {
+    std::string out;
+    for (auto extent : extents) {
+      const auto number = static_cast<long long>(extent);
+      out += (out.empty() ? "" : " x ") + (number < 0 ? std::string("any") : std::to_string(number));
+    }
+    return out.empty() ? std::string("scalar") : out;
+  };
+  file_.refuse("dataset " + name + " has shape " + shown(shape) + ", expected " + shown(wanted));
+}
+
+std::vector<double> ArtifactReader::doubles(const std::string& name, const Range& range,
+                                            const std::vector<Eigen::Index>& shape) const {
+  require_shape(name, shape);
   std::vector<double> values = file_.doubles(name);
-  require_range(file_, name, values);
+  require_range(file_, name, range, values);
   return values;
 }
 
-std::vector<int> ArtifactReader::ints(const std::string& name) const {
+std::vector<int> ArtifactReader::ints(const std::string& name, const Range& range,
+                                      const std::vector<Eigen::Index>& shape) const {
+  require_shape(name, shape);
   std::vector<int> values = file_.ints(name);
-  require_range(file_, name, values);
+  require_range(file_, name, range, values);
   return values;
 }
 
-double ArtifactReader::number(const std::string& name) const {
-  want_shape(file_, name, {});
-  return doubles(name).at(0);
+double ArtifactReader::number(const std::string& name, const Range& range) const {
+  return doubles(name, range, {}).at(0);
 }
 
-int ArtifactReader::whole(const std::string& name) const {
-  want_shape(file_, name, {});
-  return ints(name).at(0);
+int ArtifactReader::whole(const std::string& name, const Range& range) const {
+  return ints(name, range, {}).at(0);
 }
 
 std::string ArtifactReader::word(const std::string& name) const {
-  want_shape(file_, name, {});
+  require_shape(name, {});
   return file_.strings(name).at(0);
 }
 
-Eigen::VectorXd ArtifactReader::vector(const std::string& name, Eigen::Index size) const {
-  want_shape(file_, name, {size});
-  const auto values = doubles(name);
+Eigen::VectorXd ArtifactReader::vector(const std::string& name, const Range& range, Eigen::Index size) const {
+  const auto values = doubles(name, range, {size});
   return Eigen::Map<const Eigen::VectorXd>(values.data(), as_index(values.size()));
 }
 
-Eigen::VectorXi ArtifactReader::whole_vector(const std::string& name, Eigen::Index size) const {
-  want_shape(file_, name, {size});
-  const auto values = ints(name);
+Eigen::VectorXi ArtifactReader::whole_vector(const std::string& name, const Range& range,
+                                             Eigen::Index size) const {
+  const auto values = ints(name, range, {size});
   return Eigen::Map<const Eigen::VectorXi>(values.data(), as_index(values.size()));
 }
 
-MatrixRM ArtifactReader::matrix(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
-  want_shape(file_, name, {rows, columns});
+MatrixRM ArtifactReader::matrix(const std::string& name, const Range& range, Eigen::Index rows,
+                                Eigen::Index columns) const {
+  const auto values = doubles(name, range, {rows, columns});
   const auto shape = file_.shape(name);
-  const auto values = doubles(name);
   return Eigen::Map<const MatrixRM>(values.data(), as_index(shape[0]), as_index(shape[1]));
 }
 
-MatrixRMi ArtifactReader::whole_matrix(const std::string& name, Eigen::Index rows,
+MatrixRMi ArtifactReader::whole_matrix(const std::string& name, const Range& range, Eigen::Index rows,
                                        Eigen::Index columns) const {
-  want_shape(file_, name, {rows, columns});
+  const auto values = ints(name, range, {rows, columns});
   const auto shape = file_.shape(name);
-  const auto values = ints(name);
   return Eigen::Map<const MatrixRMi>(values.data(), as_index(shape[0]), as_index(shape[1]));
 }
 

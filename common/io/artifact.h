@@ -1,15 +1,17 @@
 // What all artifacts share: root attributes, /provenance, /parameters, publication; and the checks on
 // reading.
 //
-// Private to the layer io/; schemas.cpp says what stands in each artifact.
+// Private to the layer io/; the codecs (io/codec.h) say what stands in each artifact.
 #pragma once
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "base/matrix.h"
 #include "io/h5.h"
 #include "io/keys.h"
-#include "io/schemas.h"
+#include "io/provenance.h"
+#include "io/ranges.h"
 
 namespace whine {
 
@@ -50,26 +52,32 @@ class ArtifactWriter {
 
 class ArtifactReader {
  public:
-  // Refuses everything that is not the given schema in the given version. Numbers are refused outside of the range of their
-  // dataset (io/ranges.h) or, of a key of a scene, of the key.
+  // Refuses everything that is not the given schema in the given version.
   ArtifactReader(const std::string& path, const std::string& kind, int version);
 
   const h5::Reader& file() const { return file_; }
 
-  std::vector<double> doubles(const std::string& name) const;
-  std::vector<int> ints(const std::string& name) const;
-  double number(const std::string& name) const;
-  int whole(const std::string& name) const;
+  // Values of a dataset. Error(input) if a number is out of range or the shape is another; a length of -1 is any.
+  std::vector<double> doubles(const std::string& name, const Range& range,
+                              const std::vector<Eigen::Index>& shape) const;
+  double number(const std::string& name, const Range& range = {}) const;
+  int whole(const std::string& name, const Range& range = {}) const;
   std::string word(const std::string& name) const;
-  // -1: any length. Error(input) if the shape is another.
-  Eigen::VectorXd vector(const std::string& name, Eigen::Index size = -1) const;
-  Eigen::VectorXi whole_vector(const std::string& name, Eigen::Index size = -1) const;
-  MatrixRM matrix(const std::string& name, Eigen::Index rows = -1, Eigen::Index columns = -1) const;
-  MatrixRMi whole_matrix(const std::string& name, Eigen::Index rows = -1, Eigen::Index columns = -1) const;
+  Eigen::VectorXd vector(const std::string& name, const Range& range, Eigen::Index size = -1) const;
+  Eigen::VectorXi whole_vector(const std::string& name, const Range& range, Eigen::Index size = -1) const;
+  MatrixRM matrix(const std::string& name, const Range& range, Eigen::Index rows = -1,
+                  Eigen::Index columns = -1) const;
+  MatrixRMi whole_matrix(const std::string& name, const Range& range, Eigen::Index rows = -1,
+                         Eigen::Index columns = -1) const;
+  // Names both shapes if they differ.
+  void require_shape(const std::string& name, const std::vector<Eigen::Index>& wanted) const;
 
   void parameters(const std::string& section, KeyValues& values, Part part) const;
 
  private:
+  std::vector<int> ints(const std::string& name, const Range& range,
+                        const std::vector<Eigen::Index>& shape) const;
+
   h5::Reader file_;
 };
 

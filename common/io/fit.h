@@ -3,7 +3,9 @@
 #include <string>
 
 #include "io/scene.h"
-#include "io/schemas.h"
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

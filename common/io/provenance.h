@@ -4,9 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "io/schemas.h"
-
 namespace whine {
+
+// Where an artifact comes from; filled by the tool, completed by the writer.
+struct Provenance {
+  std::string tool;     // program name
+  std::string command;  // as typed, paths relative to the working folder
+  // "role=path"; each is hashed (SHA-256 of the file) and its history copied
+  std::vector<std::string> inputs;
+  // of the inputs before they were read; a writer refuses to publish what was made while one of them changed.
+  // Empty: not known
+  std::vector<std::string> sha256 = {};
+};
 
 struct InputRecord {
   std::string role, path, sha256;  // path relative to the working folder of the run

@@ -82,10 +82,10 @@ constexpr int kMostKeys = 32;
 
 class StudyFile {
  public:
-  explicit StudyFile(const std::string& path, std::size_t most = 1 << 20) : path_(path) {
+  explicit StudyFile(const std::string& path) : path_(path) {
     const std::string bytes = read_bytes(path, "check the path of the study");
     try {
-      root_ = parse_toml(bytes, most);
+      root_ = parse_toml(bytes);
     } catch (const toml::parse_error& error) {
       refuse_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
     }
@@ -561,113 +561,6 @@ StudyVariant study_variant(const Study& study, long index, const std::vector<std
 
 std::string variant_file(const std::string& name) {
   return "variants/" + name.substr(0, 2) + "/" + name;
-}
-
-namespace {
-
-std::string quoted(const std::string& word) {
-  std::ostringstream out;
-  out << toml::value<std::string>(word);
-  return out.str();
-}
-
-std::string quoted(const Words& words) {
-  Words all;
-  for (const std::string& word : words) all.push_back(quoted(word));
-  return "[" + joined(all) + "]";
-}
-
-constexpr const char* kPlanStart = "# What is gathered of a study; made by gear-study.";
-
-}  // namespace
-
-std::vector<std::string> keys_without_effect(const StudyPlan& study,
-                                             const std::vector<GatheredVariant>& variants) {
-  Words idle;
-  for (size_t k = 0; k < study.keys.size(); ++k) {
-    std::map<Words, const GatheredVariant*> first;  // by the values of all other keys
-    bool compared = false, changes = false;
-    for (const GatheredVariant& variant : variants) {
-      Words others = variant.values;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      const auto [at, added] = first.emplace(others, &variant);
-      if (added || at->second->values[k] == variant.values[k]) continue;
-      compared = true;
-      changes = changes || at->second->name != variant.name;
-    }
-    if (compared && !changes) idle.push_back(study.keys[k].name);
-  }
-  return idle;
-}
-
-std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>& variants) {
-  std::ostringstream out;
-  Words names;
-  for (const VariedKey& key : study.keys) names.push_back(key.name);
-  out << kPlanStart << "\ntitle = " << quoted(study.title) << "\nscene = " << quoted(study.scene)
-      << "\ndirections = " << quoted(study.directions) << "\nrandom = " << (study.random ? "true" : "false")
-      << "\nseed = " << study.seed << "\nmarks_refusals = " << (study.marks_refusals ? "true" : "false")
-      << "\nanswers = " << quoted(study.answers) << "\nkeys = " << quoted(names)
-      << "\nfigure_answers = " << quoted(study.figure_answers)
-      << "\nfigure_keys = " << quoted(study.figure_keys)
-      << "\nfigure_colour = " << quoted(study.figure_colour) << "\nvariants = [\n";
-  for (const GatheredVariant& variant : variants) {
-    Words row{variant.name};
-    row.insert(row.end(), variant.values.begin(), variant.values.end());
-    out << "  " << quoted(row) << ",\n";
-  }
-  out << "]\n";
-  return out.str();
-}
-
-std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& path) {
-  constexpr std::size_t kMostOfVariants = 1 << 28;  // bytes: a line for each
-  const StudyFile file(path, kMostOfVariants);
-  const toml::table& root = file.root();
-  const auto refuse = [&]() {
-    file.refuse("is no plan of a study that gear-study has written; make it again: make study STUDY=<name>");
-  };
-  const auto words = [&](const toml::node* node) {
-    Words out;
-    if (!node || !node->is_array()) refuse();
-    for (const toml::node& item : *node->as_array()) {
-      if (!item.is_string()) refuse();
-      out.push_back(item.as_string()->get());
-    }
-    return out;
-  };
-  StudyPlan plan;
-  plan.title = root["title"].value_or(std::string());
-  plan.scene = root["scene"].value_or(std::string());
-  plan.directions = words(root.get("directions"));
-  plan.random = root["random"].value_or(false);
-  plan.seed = root["seed"].value_or(0);
-  plan.marks_refusals = root["marks_refusals"].value_or(false);
-  plan.answers = words(root.get("answers"));
-  for (const std::string& name : words(root.get("keys"))) plan.keys.push_back(varied_key(name));
-  plan.figure_answers = words(root.get("figure_answers"));
-  plan.figure_keys = words(root.get("figure_keys"));
-  plan.figure_colour = root["figure_colour"].value_or(std::string());
-  // gear-study finds answers and keys by their names.
-  Words answers, keys;
-  const auto within = [](const Words& some, const Words& all) {
-    return std::all_of(some.begin(), some.end(), [&](const std::string& word) { return among(word, all); });
-  };
-  if (!within(plan.directions, {"up", "down"})) refuse();
-  for (const AnswerKind& kind : answer_kinds(plan.directions)) answers.push_back(kind.name);
-  for (const VariedKey& key : plan.keys) keys.push_back(key.name);
-  if (!within(plan.answers, answers) || !within(plan.figure_answers, plan.answers) ||
-      !within(plan.figure_keys, keys) || (!plan.figure_colour.empty() && !among(plan.figure_colour, keys)))
-    refuse();
-  std::vector<GatheredVariant> variants;
-  const toml::array* rows = root["variants"].as_array();
-  if (!rows || rows->empty()) refuse();
-  for (const toml::node& row : *rows) {
-    Words all = words(&row);
-    if (all.size() != plan.keys.size() + 1 || all[0].size() < 2) refuse();
-    variants.push_back({all[0], Words(all.begin() + 1, all.end())});
-  }
-  return {plan, variants};
 }
 
 }  // namespace whine

@@ -22,10 +22,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/matrix.h"
-#include "io/schemas.h"
 #include "model/answers.h"
-#include "motion/variant_result.h"
+#include "model/stages.h"
 
 namespace whine {
 
@@ -111,22 +109,8 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
 // folder with all of them would be slow.
 std::string variant_file(const std::string& name);
 
-// As the slices of scene.h.
+// As the stage parameters of scene.h.
 std::string variant_slice(const Scene& scene, double torque, const std::vector<std::string>& directions);
 VariantSlice read_variant_slice(const std::string& path);
-
-// study.h5: what the variants of a study answer.
-struct StudyArtifact {
-  StudyPlan plan;
-  std::vector<GatheredVariant> variants;
-  MatrixRM answer;                   // (variant, answer of the plan) SI; 0 where the variant was refused
-  std::vector<std::string> refusal;  // (variant) why, "" if it was not
-  Eigen::VectorXi unsteady;  // (variant) speeds, of all its sweeps, at which no periodic motion was found
-};
-
-void write(const std::string& path, const VariantArtifact&, const Provenance&);
-void write(const std::string& path, const StudyArtifact&, const Provenance&);
-VariantArtifact read_variant(const std::string& path);
-StudyArtifact read_study_artifact(const std::string& path);
 
 }  // namespace whine

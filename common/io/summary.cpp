@@ -8,8 +8,20 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "io/schemas.h"
+#include "io/body_codec.h"
+#include "io/branch_codec.h"
+#include "io/error_budget_codec.h"
+#include "io/harris_map_codec.h"
+#include "io/impact_codec.h"
+#include "io/jump_map_codec.h"
+#include "io/loaded_codec.h"
+#include "io/mesh_codec.h"
+#include "io/response_codec.h"
+#include "io/static_codec.h"
 #include "io/study.h"
+#include "io/study_codec.h"
+#include "io/sweep_codec.h"
+#include "io/variant_codec.h"
 
 namespace whine {
 namespace {

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "io/h5.h"
-#include "io/schemas.h"
+#include "motion/loaded_result.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

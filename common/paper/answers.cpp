@@ -4,7 +4,11 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "io/impact_codec.h"
 #include "io/provenance.h"
+#include "io/response_codec.h"
+#include "io/static_codec.h"
+#include "io/sweep_codec.h"
 
 namespace whine {
 namespace {

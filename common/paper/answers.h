@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "io/schemas.h"
+#include "motion/impact_result.h"
+#include "signal/response_result.h"
+#include "signal/static_result.h"
+#include "signal/sweep_result.h"
 
 namespace whine {
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "io/readings_codec.h"
 #include "paper/scorecard.h"
 
 namespace whine {

@@ -5,6 +5,7 @@
 
 #include "io/claim_sets.h"
 #include "io/readings.h"
+#include "io/readings_codec.h"
 
 namespace whine {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "io/readings_codec.h"
 #include "signal/branches.h"
 #include "signal/response.h"
 

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "motion/impact_result.h"
 #include "paper/answers.h"
 #include "paper/claims.h"
 #include "signal/branches.h"
 #include "signal/response.h"
+#include "signal/static_result.h"
 
 namespace whine::paper {
 

@@ -14,8 +14,12 @@
 #include <string>
 #include <vector>
 
+#include "io/scene.h"
 #include "io/readings.h"
+#include "io/readings_codec.h"
 #include "paper/scorecard.h"
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
 
 namespace whine {
 

@@ -1,6 +1,8 @@
 // One mesh period of a steady motion, picture by picture: the teeth as they roll, bend and part.
 #pragma once
 #include "plot/figures.h"
+#include "signal/sweep_result.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/publish.h"
+#include "signal/static_result.h"
 
 namespace whine {
 

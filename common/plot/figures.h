@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/schemas.h"
+#include "signal/static_result.h"
 
 namespace whine {
 

@@ -11,6 +11,7 @@
 #include "gear/pair.h"
 #include "io/summary.h"
 #include "plot/wireframe.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 #include "motion/statics.h"
 #include "plot/figures.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "io/scene_keys.h"
+#include "motion/harris_result.h"
 
 namespace whine {
 namespace {

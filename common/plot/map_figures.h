@@ -2,7 +2,9 @@
 #pragma once
 #include <vector>
 
+#include "motion/harris_result.h"
 #include "plot/figures.h"
+#include "signal/jump_map_result.h"
 
 namespace whine {
 

@@ -1,6 +1,10 @@
 // Figures of gears that run: responses to speed, motions at one speed, their tooth loads.
 #pragma once
+#include "motion/branch_result.h"
+#include "motion/impact_result.h"
 #include "plot/figures.h"
+#include "signal/response_result.h"
+#include "signal/sweep_result.h"
 
 namespace whine {
 

@@ -15,6 +15,7 @@
 #include "gear/pair.h"
 #include "gear/path_points.h"
 #include "io/publish.h"
+#include "io/scene_keys.h"
 #include "io/summary.h"
 #include "motion/flank_pressure.h"
 #include "plot/figures.h"

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "io/provenance.h"
-#include "io/schemas.h"
+#include "motion/error_budget_result.h"
+#include "motion/impact_result.h"
 #include "motion/statics.h"
+#include "signal/response_result.h"
 
 namespace whine {
 

@@ -6,6 +6,7 @@
 #include "gear/pair.h"
 #include "gear/path_points.h"
 #include "plot/figures.h"
+#include "signal/static_result.h"
 
 namespace whine {
 

@@ -13,6 +13,9 @@
 #include "base/error.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
+#include "motion/error_budget_result.h"
+#include "motion/impact_result.h"
+#include "signal/response_result.h"
 #include "signal/spectrum.h"
 
 namespace whine {

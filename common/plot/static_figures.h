@@ -1,6 +1,9 @@
 // Figures and tables of gears at rest: transmission error, stiffness, loads, errors, natural frequencies.
 #pragma once
+#include "motion/error_budget_result.h"
+#include "motion/impact_result.h"
 #include "plot/figures.h"
+#include "signal/response_result.h"
 
 namespace whine {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/schemas.h"
+#include "signal/static_result.h"
 
 namespace whine {
 

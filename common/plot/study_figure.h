@@ -1,6 +1,7 @@
 // The figure of a study: its answers against the keys that vary.
 #pragma once
 #include "io/study.h"
+#include "io/study_codec.h"
 #include "plot/figures.h"
 
 namespace whine {

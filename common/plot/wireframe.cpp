@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gear/pair.h"
-#include "io/schemas.h"
+#include "solid/sector_mesh.h"
 
 namespace whine {
 

@@ -15,18 +15,21 @@
 #include <string>
 #include <vector>
 
+#include "../peer/lemke.h"
 #include "base/tool.h"
 #include "calculix.h"
 #include "contact/complementarity.h"
+#include "io/body_codec.h"
+#include "io/mesh_codec.h"
 #include "io/named_files.h"
 #include "io/scene.h"
-#include "io/schemas.h"
+#include "io/static_codec.h"
+#include "io/sweep_codec.h"
 #include "motion/rolling_mesh.h"
 #include "rolling.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #if __has_include(<siconos/numerics/lcp_cst.h>)
-#include "../peer/lemke.h"
 #define WHINE_HAS_SICONOS 1
 #endif
 

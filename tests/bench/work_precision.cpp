@@ -27,10 +27,10 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/body_codec.h"
 #include "io/named_files.h"
 #include "io/publish.h"
 #include "io/scene.h"
-#include "io/schemas.h"
 #include "motion/dynamics.h"
 #include "motion/statics.h"
 #include "motion/steady_state.h"

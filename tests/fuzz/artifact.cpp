@@ -2,13 +2,25 @@
 //
 // -DSEALED: the content hash is put right first, so that the bytes reach HDF5 and the readers behind it; no accident makes
 // such a file.
-#include "io/artifact.h"
 #include "base/error.h"
 #include "file_of.h"
+#include "io/artifact.h"
+#include "io/body_codec.h"
+#include "io/branch_codec.h"
+#include "io/error_budget_codec.h"
+#include "io/harris_map_codec.h"
+#include "io/impact_codec.h"
+#include "io/jump_map_codec.h"
+#include "io/loaded_codec.h"
+#include "io/mesh_codec.h"
 #include "io/provenance.h"
-#include "io/schemas.h"
+#include "io/response_codec.h"
+#include "io/static_codec.h"
 #include "io/study.h"
+#include "io/study_codec.h"
 #include "io/summary.h"
+#include "io/sweep_codec.h"
+#include "io/variant_codec.h"
 
 using namespace whine;
 

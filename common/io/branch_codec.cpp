@@ -1,0 +1,79 @@
+#include "io/branch_codec.h"
+
+#include "io/codec.h"
+
+namespace whine {
+namespace {
+
+using namespace ranges;
+
+constexpr Schema kSchema{"branch", 1};
+
+void describe_points(Codec& c, BranchArtifact& a) {
+  c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);
+  c.dataset(
+      {"/dte_rms", "m", "RMS of the oscillating part of the dynamic transmission error", "point", kSize},
+      &a.dte_rms);
+  c.dataset({"/dte_mean", "m", "mean of the dynamic transmission error", "point", kLength}, &a.dte_mean);
+  c.dataset({"/dte_harmonic", "m", "amplitude of the harmonics 1, 2, ... of the mesh frequency",
+             "point harmonic", kSize},
+            &a.dte_harmonic);
+  c.dataset({"/floquet_multiplier", "1",
+             "multipliers of the orbit over a mesh period, largest modulus first: real and imaginary part",
+             "point multiplier part", kMultiplier},
+            &a.floquet_multiplier);
+  c.dataset({"/stable", "1", "1: all multipliers lie inside the unit circle", "point", kFlag}, &a.stable);
+  c.dataset({"/steps", "1", "time steps per mesh period", "point", kNumber}, &a.steps);
+  c.dataset({"/residual", "1", "relative change of the state over a mesh period", "point", {0, 1e300}},
+            &a.residual);
+  c.dataset({"/segment_mismatch", "1", "relative change of the orbit where the number of steps changes",
+             "segment", kPositive},
+            &a.segment_mismatch);
+}
+
+void describe_events(Codec& c, BranchArtifact& a) {
+  c.dataset({"/fold_frequency", "Hz", "mesh frequency at which the branch turns", "fold", kFrequency},
+            &a.fold_frequency);
+  c.dataset({"/fold_rms", "m", "RMS of the oscillating transmission error there", "fold", kSize},
+            &a.fold_rms);
+  c.dataset({"/fold_smooth", "1", "1: a multiplier is 1 there; 0: at a kink, where contacts of a step change",
+             "fold", kFlag},
+            &a.fold_smooth);
+  c.dataset({"/fold_multiplier", "1", "real multiplier nearest to 1, before and after the fold", "fold side",
+             kMultiplier},
+            &a.fold_multiplier);
+  c.dataset({"/flip_frequency", "Hz", "mesh frequency at which a multiplier passes -1", "flip", kFrequency},
+            &a.flip_frequency);
+  c.dataset(
+      {"/torus_frequency", "Hz",
+       "mesh frequency at which the modulus of a complex pair of multipliers passes 1", "torus", kFrequency},
+      &a.torus_frequency);
+  c.dataset({"/grazing_frequency", "Hz", "mesh frequency at which the sequence of contacts changes",
+             "grazing", kFrequency},
+            &a.grazing_frequency);
+  c.dataset({"/grazing_phase", "1", "mesh phase of the contact that comes or goes", "grazing", kShare},
+            &a.grazing_phase);
+  c.dataset({"/grazing_pair", "1", "its tooth pair", "grazing", kPair}, &a.grazing_pair);
+  c.dataset({"/grazing_closes", "1", "1: it closes, 0: it opens", "grazing", kFlag}, &a.grazing_closes);
+}
+
+}  // namespace
+
+void describe(Codec& c, BranchArtifact& a) {
+  describe_pair(c, a);
+  describe_motion(c, a);
+  describe_torque(c, a.torque);
+  describe_points(c, a);
+  describe_events(c, a);
+  c.dataset({"/end", "1", "why the branch was followed no further", ""}, &a.end);
+}
+
+void write(const std::string& path, const BranchArtifact& a, const Provenance& provenance) {
+  write_artifact(path, kSchema, "Branch of periodic orbits: " + pair_title(a.mesh, a.torque), a, provenance);
+}
+
+BranchArtifact read_branch(const std::string& path) {
+  return read_artifact<BranchArtifact>(path, kSchema);
+}
+
+}  // namespace whine

@@ -1,0 +1,347 @@
+#include "io/codec.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <type_traits>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+using namespace ranges;
+
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> out;
+  for (std::string word; in >> word;) out.push_back(word);
+  return out;
+}
+
+Eigen::Index fixed_length(const std::string& axis) {
+  for (const char* two : {"xy", "gear", "part", "side", "face", "edge", "direction"})
+    if (axis == two) return 2;
+  return -1;
+}
+
+h5::Label label(const Dataset& d) {
+  return {d.units, d.meaning, d.axes, d.equation};
+}
+
+std::vector<std::size_t> sizes(const std::vector<Eigen::Index>& shape) {
+  return {shape.begin(), shape.end()};
+}
+
+// --- shapes of members
+
+std::vector<Eigen::Index> shape_of(const double&) {
+  return {};
+}
+std::vector<Eigen::Index> shape_of(const int&) {
+  return {};
+}
+std::vector<Eigen::Index> shape_of(const std::string&) {
+  return {};
+}
+template <class T>
+std::vector<Eigen::Index> shape_of(const Eigen::Matrix<T, Eigen::Dynamic, 1>& values) {
+  return {values.size()};
+}
+std::vector<Eigen::Index> shape_of(const Eigen::Vector2d&) {
+  return {2};
+}
+template <class T>
+std::vector<Eigen::Index> shape_of(
+    const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& values) {
+  return {values.rows(), values.cols()};
+}
+std::vector<Eigen::Index> shape_of(const std::vector<MatrixRM>& values) {
+  const auto count = static_cast<Eigen::Index>(values.size());
+  if (values.empty()) return {0, 0, 0};
+  return {count, values[0].rows(), values[0].cols()};
+}
+std::vector<Eigen::Index> shape_of(const std::vector<std::string>& values) {
+  return {static_cast<Eigen::Index>(values.size())};
+}
+
+// --- writing
+
+template <class T>
+void put(ArtifactWriter& out, const Dataset& d, const T& value) {
+  out.put(d.name, value, label(d));
+}
+void put(ArtifactWriter& out, const Dataset& d, const Eigen::Vector2d& value) {
+  out.put(d.name, Eigen::VectorXd(value), label(d));
+}
+void put(ArtifactWriter& out, const Dataset& d, const std::vector<std::string>& value) {
+  out.file().put(d.name, value, label(d));
+}
+void put(ArtifactWriter& out, const Dataset& d, const std::vector<MatrixRM>& value) {
+  std::vector<Eigen::Index> shape = shape_of(value);
+  std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(shape[0] * shape[1] * shape[2]));
+  for (const MatrixRM& rows : value) {
+    if (rows.rows() != shape[1] || rows.cols() != shape[2])
+      fail(Failure::numerical, "result ", d.name, " has parts of ", rows.rows(), " x ", rows.cols(),
+           " and of ", shape[1], " x ", shape[2]);
+    all.insert(all.end(), rows.data(), rows.data() + rows.size());
+  }
+  out.file().put(d.name, all.data(), sizes(shape), label(d));
+}
+
+// --- reading; shape: what is known of it
+
+using Shape = std::vector<Eigen::Index>;
+
+void take(const ArtifactReader& in, const Dataset& d, const Shape&, double& value) {
+  value = in.number(d.name, d.range);
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape&, int& value) {
+  value = in.whole(d.name, d.range);
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape&, std::string& value) {
+  value = in.word(d.name);
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, Eigen::VectorXd& value) {
+  value = in.vector(d.name, d.range, shape[0]);
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, Eigen::VectorXi& value) {
+  value = in.whole_vector(d.name, d.range, shape[0]);
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape&, Eigen::Vector2d& value) {
+  value = in.vector(d.name, d.range, 2);
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, MatrixRM& value) {
+  value = in.matrix(d.name, d.range, shape[0], shape[1]);
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, MatrixRMi& value) {
+  value = in.whole_matrix(d.name, d.range, shape[0], shape[1]);
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, std::vector<MatrixRM>& value) {
+  const std::vector<double> all = in.doubles(d.name, d.range, shape);
+  const h5::Shape found = in.file().shape(d.name);
+  const auto rows = static_cast<Eigen::Index>(found[1]), columns = static_cast<Eigen::Index>(found[2]);
+  value.clear();
+  for (std::size_t i = 0; i < found[0]; ++i)
+    value.push_back(Eigen::Map<const MatrixRM>(all.data() + i * found[1] * found[2], rows, columns));
+}
+void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, std::vector<std::string>& value) {
+  in.require_shape(d.name, shape);
+  value = in.file().strings(d.name);
+}
+
+}  // namespace
+
+std::vector<Eigen::Index> Codec::known_shape(const std::string& axes) const {
+  std::vector<Eigen::Index> shape;
+  for (const std::string& axis : words(axes)) {
+    const auto found = lengths_.find(axis);
+    shape.push_back(found != lengths_.end() ? found->second : fixed_length(axis));
+  }
+  return shape;
+}
+
+void Codec::note_shape(const Dataset& d, const std::vector<Eigen::Index>& shape) {
+  const std::vector<std::string> axes = words(d.axes);
+  const std::vector<Eigen::Index> known = known_shape(d.axes);
+  if (shape.size() != axes.size())
+    fail(Failure::numerical, "result ", d.name, " has ", shape.size(), " axes, its description '", d.axes,
+         "'");
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (known[i] >= 0 && shape[i] != known[i])
+      fail(Failure::numerical, "result ", d.name, " has ", shape[i], i == 0 ? " rows" : " columns",
+           ", expected ", known[i], " along ", axes[i]);
+    lengths_.emplace(axes[i], shape[i]);
+  }
+}
+
+void Codec::dataset(const Dataset& d, const Member& member) {
+  if (list_) {
+    list_->push_back(d);
+    return;
+  }
+  std::visit(
+      [&](auto* value) {
+        if (in_) take(*in_, d, known_shape(d.axes), *value);
+        note_shape(d, shape_of(*value));
+        if (out_) put(*out_, d, *value);
+      },
+      member);
+}
+
+void Codec::column(const Dataset& d, MatrixRM& values, Eigen::Index column, Eigen::Index columns) {
+  Eigen::VectorXd one;
+  if (out_) {
+    if (values.cols() != columns)
+      fail(Failure::numerical, "result ", d.name, " is of ", values.cols(), " columns instead of ", columns);
+    one = values.col(column);
+  }
+  dataset(d, &one);
+  if (!in_) return;
+  if (values.cols() != columns || values.rows() != one.size()) values.resize(one.size(), columns);
+  values.col(column) = one;
+}
+
+bool Codec::optional(const std::string& name, bool there) const {
+  return list_ || (in_ ? in_->file().has(name) : there);
+}
+
+void Codec::axis(const std::string& name, Eigen::Index length) {
+  lengths_[name] = length;
+}
+
+Eigen::Index Codec::length(const std::string& axis) const {
+  const auto found = lengths_.find(axis);
+  return found == lengths_.end() ? 0 : found->second;
+}
+
+void Codec::parameters(const std::string& section, KeyValues& values, Part part) const {
+  if (out_) out_->parameters(section, values, part);
+  if (in_) in_->parameters(section, values, part);
+}
+
+// --- what several artifacts have in common
+
+namespace {
+
+// Gears without a crack have no such section.
+void describe_crack(Codec& c, const std::string& section, KeyValues& values) {
+  if (!c.lists() && c.optional("/parameters/" + section + "_crack/depth", values.design.crack.depth > 0))
+    c.parameters(section + "_crack", values, Part::crack);
+}
+
+// One gear of a pair: geometry, material and the discretisation of its body, under its role.
+void describe_gear(Codec& c, const std::string& role, GearDesign& design, Material& material,
+                   BodyDiscretisation& body) {
+  KeyValues values;
+  values.design = design;
+  values.material = material;
+  values.body = body;
+  for (const Part part : {Part::design, Part::material, Part::body, Part::near_field})
+    c.parameters(role, values, part);
+  describe_crack(c, role, values);
+  if (!c.in()) return;
+  design = values.design;
+  material = values.material;
+  body = values.body;
+}
+
+void describe_inertia(Codec& c, const std::string& role, double& inertia) {
+  KeyValues values;
+  values.total_inertia = inertia;
+  c.parameters(role, values, Part::inertia);
+  if (c.in()) inertia = values.total_inertia;
+}
+
+}  // namespace
+
+void describe_design(Codec& c, const std::string& section, GearDesign& design) {
+  KeyValues values;
+  values.design = design;
+  c.parameters(section, values, Part::design);
+  describe_crack(c, section, values);
+  if (c.in()) design = values.design;
+}
+
+void describe_pair(Codec& c, PairParameters& a, bool fidelity) {
+  describe_gear(c, "driver", a.driver, a.driver_material, a.driver_body);
+  describe_gear(c, "driven", a.driven, a.driven_material, a.driven_body);
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.fidelity = a.fidelity;
+  values.contact = a.contact;
+  c.parameters("mesh", values, Part::mesh);
+  if (fidelity) c.parameters("fidelity", values, Part::contact_rung);
+  c.parameters("discretisation", values, Part::contact);
+  if (!c.in()) return;
+  a.mesh = values.mesh;
+  a.fidelity = values.fidelity;
+  a.contact = values.contact;
+}
+
+void describe_motion(Codec& c, MotionParameters& a, bool time) {
+  describe_inertia(c, "driver", a.driver_inertia);
+  describe_inertia(c, "driven", a.driven_inertia);
+  KeyValues values;
+  values.damping = a.damping;
+  values.fidelity = a.fidelity;
+  values.time = a.time;
+  c.parameters("damping", values, Part::damping);
+  c.parameters("fidelity", values, Part::rung);
+  if (time) c.parameters("discretisation", values, Part::time);
+  if (!c.in()) return;
+  a.damping = values.damping;
+  a.fidelity = values.fidelity;
+  a.time = values.time;
+}
+
+void describe_torque(Codec& c, double& torque) {
+  c.dataset({"/parameters/operation/torque", "N m", "torque on the driver", "", kDrive}, &torque);
+}
+
+void describe_speeds(Codec& c, double& from, double& to, double& step) {
+  for (const auto& [name, value] : {std::pair{"from", &from}, std::pair{"to", &to}, std::pair{"step", &step}})
+    c.dataset(
+        {text("/parameters/operation/mesh_frequency_", name), "Hz", "speeds of the sweeps", "", kFrequency},
+        value);
+}
+
+void describe_bearing_dampers(Codec& c, double& mean_stiffness, double& driver, double& driven) {
+  constexpr Range kDamper{0, 1e12};
+  c.dataset({"/parameters/damping/mean_stiffness", "N m-1",
+             "mean secant stiffness that sets the bearing dampers", "", kStiff},
+            &mean_stiffness);
+  c.dataset({"/parameters/damping/driver_bearing_damper", "N m s", "torque damper at the axis of the driver",
+             "", kDamper, "c = 2 ratio I w"},
+            &driver);
+  c.dataset({"/parameters/damping/driven_bearing_damper", "N m s",
+             "torque damper at the axis of the driven gear", "", kDamper, "c = 2 ratio I w"},
+            &driven);
+}
+
+void describe_backlash(Codec& c, double& margin) {
+  if (c.optional("/backlash_margin", !std::isinf(margin)))
+    c.dataset({"/backlash_margin", "m", "least backlash left along the line of action", "", kLength},
+              &margin);
+  else if (c.in())
+    margin = std::numeric_limits<double>::infinity();
+}
+
+void describe_hunting(Codec& c, int& periods) {
+  if (c.optional("/hunting_periods", periods > 1))
+    c.dataset({"/hunting_periods", "1",
+               "mesh periods of a hunting period, after which the same teeth meet, as far as teeth differ",
+               "", kPeriods},
+              &periods);
+}
+
+void describe_natural_frequency(Codec& c, double& frequency) {
+  c.dataset({"/natural_frequency", "Hz",
+             "natural frequency: mean over the period with the contact frozen under the static load", "",
+             kFrequency},
+            &frequency);
+}
+
+std::string of_body(const Codec& c, const GearMeshSpec& mesh, int g, const std::string& dataset) {
+  return "/body/" + (c.lists() ? "<gear>" : mesh.gear(g)) + "/" + dataset;
+}
+
+std::string gear_title(const GearDesign& design) {
+  return text(design.teeth, " teeth, module ", design.module * 1e3, " mm");
+}
+
+std::string pair_title(const GearMeshSpec& mesh, double torque) {
+  return text(mesh.driver, " drives ", mesh.driven, " with ", torque, " N m");
+}
+
+void require_indices(const Codec& c, const std::string& name, const Eigen::Ref<const MatrixRMi>& index,
+                     Eigen::Index count) {
+  if (!c.in() || index.size() == 0) return;
+  if (index.minCoeff() < 0 || index.maxCoeff() >= count)
+    c.in()->file().refuse(text("dataset ", name, " holds the number ",
+                               index.minCoeff() < 0 ? index.minCoeff() : index.maxCoeff(),
+                               ", allowed are 0 to ", count - 1));
+}
+
+}  // namespace whine

@@ -1,0 +1,129 @@
+// How an artifact is stored: one function describes its datasets, each once, with name, unit, meaning, axes, range and the member that
+// holds it. Writing, reading, the checks of shapes and the page of datasets all walk that function:
+//
+//   void describe(Codec& c, StaticArtifact& a) {
+//     c.dataset({"/mesh_phase", "1", "mesh phase", "mesh_phase", kPhase}, &a.mesh_phase);
+//     c.dataset({"/transmission_error", "m", "...", "mesh_phase", kLength}, &a.transmission_error);
+//   }
+//
+// Datasets of one file that share an axis have the same length along it; the first one sets it. Axes of directions and gears
+// (xy, gear, ...) have the length 2.
+//
+// Private to the layer io/.
+#pragma once
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/matrix.h"
+#include "io/artifact.h"
+#include "io/ranges.h"
+
+namespace whine {
+
+struct Dataset {
+  std::string name;        // "/certificate/least_gap"
+  std::string units;       // UDUNITS form, "1" if none
+  std::string meaning;     // long_name
+  std::string axes;        // in index order, blank between; empty for a scalar
+  Range range = {};        // of its numbers
+  std::string equation{};  // where it comes from
+};
+
+// A list of matrices is one dataset with three axes, the first along the list.
+using Member = std::variant<double*, int*, std::string*, Eigen::VectorXd*, Eigen::VectorXi*, Eigen::Vector2d*,
+                            MatrixRM*, MatrixRMi*, std::vector<MatrixRM>*, std::vector<std::string>*>;
+
+class Codec {
+ public:
+  explicit Codec(ArtifactWriter& out) : out_(&out) {}
+  explicit Codec(const ArtifactReader& in) : in_(&in) {}
+  // Lists the datasets, with the optional ones.
+  explicit Codec(std::vector<Dataset>& list) : list_(&list) {}
+
+  // Writes the member, or reads and checks it, or lists the dataset. A writer fails with Error(numerical) and a reader with
+  // Error(input) if the length along an axis is not that of the axis; a reader also if a number is out of range.
+  void dataset(const Dataset& dataset, const Member& member);
+
+  // One column of a matrix of `columns` columns, each of which is a dataset of its own.
+  void column(const Dataset& dataset, MatrixRM& values, Eigen::Index column, Eigen::Index columns);
+
+  // Whether the file has an optional part: what `there` says to a writer, whether dataset `name` stands in the file to a reader.
+  bool optional(const std::string& name, bool there) const;
+
+  // Sets the length of an axis before a dataset does.
+  void axis(const std::string& name, Eigen::Index length);
+  Eigen::Index length(const std::string& axis) const;  // 0 if no dataset has it
+
+  // /parameters/<section>/<key> of all keys of a part.
+  void parameters(const std::string& section, KeyValues& values, Part part) const;
+
+  bool lists() const { return list_ != nullptr; }
+  ArtifactWriter* out() const { return out_; }      // nullptr unless it writes
+  const ArtifactReader* in() const { return in_; }  // nullptr unless it reads
+
+ private:
+  std::vector<Eigen::Index> known_shape(const std::string& axes) const;  // -1: not yet known
+  void note_shape(const Dataset& dataset, const std::vector<Eigen::Index>& shape);
+
+  ArtifactWriter* out_ = nullptr;
+  const ArtifactReader* in_ = nullptr;
+  std::vector<Dataset>* list_ = nullptr;
+  std::map<std::string, Eigen::Index> lengths_;
+};
+
+// What stands in a file of a schema; version: raised whenever a dataset changes its name, shape or meaning.
+struct Schema {
+  const char* kind;
+  int version;
+};
+
+template <class Artifact>
+void write_artifact(const std::string& path, const Schema& schema, const std::string& title,
+                    const Artifact& a, const Provenance& provenance) {
+  ArtifactWriter out(path, schema.kind, schema.version, title, provenance);
+  Codec codec(out);
+  describe(codec, const_cast<Artifact&>(a));  // a writer changes no member
+  out.publish();
+}
+
+template <class Artifact>
+Artifact read_artifact(const std::string& path, const Schema& schema) {
+  const ArtifactReader in(path, schema.kind, schema.version);
+  Codec codec(in);
+  Artifact a;
+  describe(codec, a);
+  return a;
+}
+
+// --- what several artifacts have in common
+
+void describe_design(Codec& codec, const std::string& section, GearDesign& design);
+// Gears, mesh, model level of the contact and its discretisation; fidelity: false leaves the model level out.
+void describe_pair(Codec& codec, PairParameters& a, bool fidelity = true);
+// What a motion has beside: inertias, damping, model levels; time: with the discretisation of time.
+void describe_motion(Codec& codec, MotionParameters& a, bool time = true);
+void describe_torque(Codec& codec, double& torque);
+// Speeds of sweeps, Hz.
+void describe_speeds(Codec& codec, double& from, double& to, double& step);
+// N m-1, N m s: bearing dampers and the mean stiffness that sets them.
+void describe_bearing_dampers(Codec& codec, double& mean_stiffness, double& driver, double& driven);
+// Left out where back flanks are ignored: the margin (m) is then infinite.
+void describe_backlash(Codec& codec, double& margin);
+// Mesh periods of a hunting period; left out where all teeth are alike: 1.
+void describe_hunting(Codec& codec, int& periods);
+void describe_natural_frequency(Codec& codec, double& frequency);
+
+// "/body/pinion/bearing_force": what belongs to the gear that stands there, by its name.
+std::string of_body(const Codec& codec, const GearMeshSpec& mesh, int g, const std::string& dataset);
+
+std::string gear_title(const GearDesign& design);
+std::string pair_title(const GearMeshSpec& mesh, double torque);
+
+// Numbers that index arrays later are checked on reading: 0 to count - 1.
+void require_indices(const Codec& codec, const std::string& name, const Eigen::Ref<const MatrixRMi>& index,
+                     Eigen::Index count);
+
+}  // namespace whine

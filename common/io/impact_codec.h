@@ -1,0 +1,16 @@
+// impact.h5: ring-down at fixed mesh phases.
+#pragma once
+#include <string>
+
+#include "io/provenance.h"
+#include "motion/impact_result.h"
+
+namespace whine {
+
+class Codec;
+
+void describe(Codec& codec, ImpactArtifact& a);
+void write(const std::string& path, const ImpactArtifact& a, const Provenance& provenance);
+ImpactArtifact read_impact(const std::string& path);
+
+}  // namespace whine

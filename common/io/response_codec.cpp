@@ -1,0 +1,78 @@
+#include "io/response_codec.h"
+
+#include "base/error.h"
+#include "io/codec.h"
+
+namespace whine {
+namespace {
+
+using namespace ranges;
+
+constexpr Schema kSchema{"response", 3};
+
+void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
+  if (!c.optional(of_body(c, a.mesh, g, "bearing_force_max"), a.bearing_force_max[g].size() > 0)) return;
+  c.dataset({of_body(c, a.mesh, g, "bearing_force_max"), "N", "largest force of the gear on its bearing",
+             "mesh_frequency", kForce},
+            &a.bearing_force_max[g]);
+  c.dataset({of_body(c, a.mesh, g, "bearing_force_rms"), "N",
+             "RMS of the oscillating part of the force of the gear on its bearing, x and y together",
+             "mesh_frequency", kForce},
+            &a.bearing_force_rms[g]);
+}
+
+}  // namespace
+
+void describe(Codec& c, ResponseArtifact& a) {
+  const char* const axis = "mesh_frequency";
+  describe_pair(c, a);
+  describe_motion(c, a);
+  describe_torque(c, a.torque);
+  c.dataset({"/parameters/operation/direction", "1", "direction of marching through the speeds", ""},
+            &a.direction);
+  c.dataset({"/parameters/fidelity/model", "1", "finite elements, or the name of a lumped model", ""},
+            &a.model);
+  describe_natural_frequency(c, a.natural_frequency);
+  c.dataset({"/mesh_frequency", "Hz", "mesh frequency, in order of marching", axis, kSpeed},
+            &a.mesh_frequency);
+  c.dataset({"/dte_rms", "m", "RMS of the oscillating part of the dynamic transmission error", axis, kSize},
+            &a.dte_rms);
+  c.dataset({"/dte_mean", "m", "mean of the dynamic transmission error", axis, kLength}, &a.dte_mean);
+  c.dataset({"/dte_harmonic", "m", "amplitude of the harmonics 1, 2, ... of the mesh frequency",
+             "mesh_frequency harmonic", kSize},
+            &a.dte_harmonic);
+  describe_hunting(c, a.hunting_periods);
+  if (c.lists() || a.hunting_periods > 1)
+    c.dataset({"/dte_order", "m", "amplitude of the harmonics 1, 2, ... of the hunting frequency",
+               "mesh_frequency order", kSize},
+              &a.dte_order);
+  c.dataset({"/tooth_load_max", "N", "largest normal force of one tooth pair", axis, kLoad},
+            &a.tooth_load_max);
+  c.dataset({"/mesh_force_max", "N", "largest normal force of all pairs together", axis, kLoad},
+            &a.mesh_force_max);
+  for (int g = 0; g < (c.lists() ? 1 : 2); ++g) describe_bearings(c, a, g);
+  c.dataset({"/separation_fraction", "1", "share of the period without force", axis, kShare},
+            &a.separation_fraction);
+  c.dataset({"/separations_per_period", "1", "losses of contact per mesh period", axis, kPositive},
+            &a.separations_per_period);
+  c.dataset(
+      {"/jump_frequency", "Hz", "middle of the interval in which the response jumps", "jump", kFrequency},
+      &a.jump_frequency);
+  c.dataset({"/jump_width", "Hz", "width of the interval in which the response jumps", "jump", kFrequency},
+            &a.jump_width);
+  c.dataset(
+      {"/period_multiple", "1",
+       "mesh periods after which the motion repeats; 0: not periodic within the limit", axis, kMultiple},
+      &a.period_multiple);
+}
+
+void write(const std::string& path, const ResponseArtifact& a, const Provenance& provenance) {
+  write_artifact(path, kSchema, text("Response, sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), a,
+                 provenance);
+}
+
+ResponseArtifact read_response(const std::string& path) {
+  return read_artifact<ResponseArtifact>(path, kSchema);
+}
+
+}  // namespace whine

@@ -1,0 +1,131 @@
+#include "io/scene_keys.h"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "base/error.h"
+#include "io/keys.h"
+
+namespace whine {
+namespace {
+
+// What an artifact of a pair says to the keys of a scene, from the side of one of its gears. It need not know of motion.
+template <class Artifact>
+KeyValues keys_of(const Artifact& a, bool driver) {
+  KeyValues values;
+  values.mesh = a.mesh;
+  values.contact = a.contact;
+  values.fidelity = a.fidelity;
+  if constexpr (requires { a.damping; }) {
+    values.time = a.time;
+    values.damping = a.damping;
+  }
+  values.design = driver ? a.driver : a.driven;
+  values.material = driver ? a.driver_material : a.driven_material;
+  values.body = driver ? a.driver_body : a.driven_body;
+  values.modification = a.mesh.modification[driver ? 0 : 1];
+  values.errors = a.mesh.errors[driver ? 0 : 1];
+  values.bearing = a.mesh.bearing[driver ? 0 : 1];
+  if constexpr (requires { a.damping; }) values.total_inertia = driver ? a.driver_inertia : a.driven_inertia;
+  return values;
+}
+
+// As a scene would have it; "" for a list that is empty.
+std::string in_scene_unit(KeyValues& values, const Key& key) {
+  const auto number = [](double si, const Unit& unit) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.6g", si * unit.divide / unit.multiply);
+    return std::string(buffer);
+  };
+  std::string list;
+  const Slot slot = key.slot(values);
+  if (const auto* one = std::get_if<double*>(&slot)) return number(**one, key.unit);
+  if (const auto* whole = std::get_if<int*>(&slot)) return text(**whole);
+  if (const auto* word = std::get_if<std::string*>(&slot)) return **word;
+  if (const auto* plane = std::get_if<PlaneSlot>(&slot)) return *plane->stress ? "stress" : "strain";
+  if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
+    if (!(*corner)->enabled) return "false";
+    return std::isinf((*corner)->largest_angle) ? "true"
+                                                : text((*corner)->largest_angle * 180 / std::numbers::pi);
+  }
+  if (const auto* points = std::get_if<Points*>(&slot))
+    for (const auto& [roll, removed] : **points)
+      list += text(list.empty() ? "" : ", ", "[", number(roll, kPointUnits[0]), ", ",
+                   number(removed, kPointUnits[1]), "]");
+  if (const auto* teeth = std::get_if<ToothList>(&slot))
+    for (const double value : *teeth->values) list += (list.empty() ? "" : ", ") + number(value, key.unit);
+  return list.empty() ? "" : "[" + list + "]";
+}
+
+// Title, names of other sections, torques and speeds are no properties of what was computed.
+bool of_operation(const Key& key) {
+  return key.part == Part::title || key.part == Part::reference || key.part == Part::error_file ||
+         key.part == Part::bearing_gear || key.part == Part::load || key.part == Part::operation;
+}
+
+template <class Artifact>
+std::vector<SceneKey> scene_keys_in(const Artifact& a) {
+  KeyValues driver = keys_of(a, true), driven = keys_of(a, false);
+  const bool moves = requires {
+    a.damping;
+  };
+  const auto stands = [&](Part part) {
+    switch (part) {
+      case Part::inertia:
+      case Part::damping:
+      case Part::rung:
+      case Part::time:
+        return moves;
+      case Part::crack:
+        return driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
+      case Part::modification:
+        return driver.modification != FlankModification{} || driven.modification != FlankModification{};
+      case Part::error:
+        return !driver.errors.none() || !driven.errors.none();
+      case Part::bearing:
+        return a.mesh.on_bearings();
+      default:
+        return true;
+    }
+  };
+  std::vector<SceneKey> out;
+  for (const Key& key : scene_keys()) {
+    if (of_operation(key) || !stands(key.part)) continue;
+    const std::string section(key.section), first = in_scene_unit(driver, key),
+                                            second = in_scene_unit(driven, key);
+    const bool of_gears =
+        section != "mesh" && section != "damping" && section != "fidelity" && section != "discretisation";
+    if (!first.empty() || !second.empty())
+      out.push_back({section, key.name, first, of_gears || first != second ? second : "", key.meaning});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<SceneKey> scene_keys_of(const StaticArtifact& a) {
+  return scene_keys_in(a);
+}
+
+std::vector<SceneKey> scene_keys_of(const ResponseArtifact& a) {
+  return scene_keys_in(a);
+}
+
+std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to) {
+  const auto changes = [&](bool driver) {
+    KeyValues old = keys_of(from, driver), fresh = keys_of(to, driver);
+    std::string out;
+    for (const Key& key : scene_keys()) {
+      if (of_operation(key)) continue;
+      const std::string a = in_scene_unit(old, key), b = in_scene_unit(fresh, key);
+      if (a != b) out += text(out.empty() ? "" : ", ", key.name, " ", a, " → ", b);
+    }
+    return out;
+  };
+  const std::string driver = changes(true), driven = changes(false);
+  if (driver == driven) return driver;
+  return text("driver: ", driver, "; driven: ", driven);
+}
+
+}  // namespace whine

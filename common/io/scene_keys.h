@@ -1,0 +1,27 @@
+// What an artifact was made from, in the keys and units of a scene.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "signal/jump_map_result.h"
+#include "signal/response_result.h"
+#include "signal/static_result.h"
+
+namespace whine {
+
+// A key of a scene with its value as a scene would have it, in the unit of its name. Keys of gears and materials have a value
+// for driver and driven gear each, others one.
+struct SceneKey {
+  std::string section, name, driver, driven, meaning;
+};
+
+// What an artifact was made from, but for torques and speeds; of a static.h5 without what concerns motion. Sections that
+// neither gear has (modification, error, crack) are left out.
+std::vector<SceneKey> scene_keys_of(const StaticArtifact& artifact);
+std::vector<SceneKey> scene_keys_of(const ResponseArtifact& artifact);
+
+// What two maps were made from that differs, in a scene's keys and units: "bore_radius_mm 40 -> 35"; "" if nothing
+// does. Gears by the driver's, if both gears changed alike.
+std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to);
+
+}  // namespace whine

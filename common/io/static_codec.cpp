@@ -1,0 +1,97 @@
+#include "io/static_codec.h"
+
+#include "base/error.h"
+#include "io/codec.h"
+
+namespace whine {
+namespace {
+
+using namespace ranges;
+
+constexpr Schema kSchema{"static", 4};
+
+void describe_curves(Codec& c, StaticArtifact& a) {
+  const char* const without = a.mesh.on_bearings() ? ", without the bearings" : "";
+  c.dataset({"/mesh_phase", "1", "mesh phase; 0: reference pair at the pitch point, 1: one mesh period",
+             "mesh_phase", kPhase},
+            &a.mesh_phase);
+  c.dataset({"/transmission_error", "m",
+             "transmission error along the line of action, positive when the driver is ahead", "mesh_phase",
+             kLength, "r1 theta1 + r2 theta2"},
+            &a.transmission_error);
+  c.dataset({"/unloaded_transmission_error", "m",
+             "transmission error without load: of what flanks deviate by", "mesh_phase", kLength},
+            &a.unloaded_error);
+  c.dataset({"/mesh_stiffness_secant", "N m-1", text("secant mesh stiffness", without), "mesh_phase", kSpring,
+             "(T / r1) / (transmission_error - unloaded_transmission_error)"},
+            &a.stiffness_secant);
+  c.dataset({"/mesh_stiffness_tangent", "N m-1",
+             text("tangent mesh stiffness at fixed phase, contact changes included", without), "mesh_phase",
+             kSpring, "d(T / r1) / d transmission_error"},
+            &a.stiffness_tangent);
+  c.dataset(
+      {"/pair", "1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", kPair},
+      &a.pair);
+  c.dataset({"/tooth_load", "N", "normal force of each tooth pair", "mesh_phase pair", kForce},
+            &a.tooth_load);
+  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
+    if (c.lists() || a.mesh.bearing[g].elastic())
+      c.dataset(
+          {of_body(c, a.mesh, g, "bearing_force"), "N",
+           "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns "
+           "counter-clockwise",
+           "mesh_phase xy", kForce},
+          &a.bearing_force[g]);
+  c.dataset({"/contact_pressure", "Pa",
+             "largest contact pressure of each pair inside its flanks; 0 where a corner or nothing touches",
+             "mesh_phase pair", kPressure},
+            &a.contact_pressure);
+  c.dataset({"/contact_half_width", "m",
+             "half width of each contact inside the flanks, twice the standard deviation of its pressure",
+             "mesh_phase pair", kSize},
+            &a.contact_half_width);
+}
+
+}  // namespace
+
+void describe(Codec& c, StaticArtifact& a) {
+  describe_pair(c, a);
+  describe_torque(c, a.torque);
+  c.dataset({"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "", {0, 100, true}},
+            &a.contact_ratio);
+  describe_curves(c, a);
+  c.dataset({"/transmission_error_harmonic", "m",
+             "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic", kLength},
+            &a.transmission_error_harmonic);
+  c.dataset({"/mesh_stiffness_harmonic", "N m-1",
+             "mean, then amplitudes of the harmonics of the secant stiffness", "harmonic", kSpring},
+            &a.stiffness_harmonic);
+  describe_hunting(c, a.hunting_periods);
+  if (c.lists() || (c.in() ? a.hunting_periods > 1 : a.transmission_error_order.size() > 0))
+    c.dataset({"/transmission_error_order", "m",
+               "mean, then amplitudes of the harmonics of the hunting frequency", "order", kLength},
+              &a.transmission_error_order);
+  c.dataset({"/mean_stiffness", "N m-1", "mean of the secant stiffness over a mesh period", "", kStiff},
+            &a.mean_stiffness);
+  c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force, over all positions", "",
+             kLength, "d >= 0 where p = 0 (with Eq. 18, 20)"},
+            &a.least_gap);
+  c.dataset({"/certificate/least_force", "N", "least force of a strip in contact, over all positions", "",
+             kForce, "p >= 0 where d = 0 (with Eq. 18, 20)"},
+            &a.least_force);
+  c.dataset(
+      {"/certificate/torque_residual", "1", "largest relative residual of the torque, over all positions", "",
+       kPositive, "|sum a p - T| / T"},
+      &a.torque_residual);
+  describe_backlash(c, a.backlash_margin);
+}
+
+void write(const std::string& path, const StaticArtifact& a, const Provenance& provenance) {
+  write_artifact(path, kSchema, "Static transmission error: " + pair_title(a.mesh, a.torque), a, provenance);
+}
+
+StaticArtifact read_static(const std::string& path) {
+  return read_artifact<StaticArtifact>(path, kSchema);
+}
+
+}  // namespace whine

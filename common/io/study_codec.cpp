@@ -1,0 +1,122 @@
+#include "io/study_codec.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/codec.h"
+#include "model/answers.h"
+
+namespace whine {
+namespace {
+
+using namespace ranges;
+
+constexpr Schema kSchema{"study", 2};
+
+// The dataset of a key: its place without dots, its name without the unit.
+std::string dataset_of(const VariedKey& key) {
+  const std::string leaf = find_key(key.name).key->si_name();
+  const auto dot = key.name.rfind('.');
+  std::string place = dot == std::string::npos ? "" : key.name.substr(0, dot + 1);
+  std::replace(place.begin(), place.end(), '.', '_');
+  std::replace(place.begin(), place.end(), '-', '_');
+  return "/key/" + place + leaf;
+}
+
+void describe_plan(Codec& c, StudyPlan& plan) {
+  const std::string at = "/parameters/study/";
+  c.dataset({at + "title", "1", "what the study is", ""}, &plan.title);
+  c.dataset({at + "scene", "1", "scene whose variants these are", ""}, &plan.scene);
+  std::string directions;
+  for (const std::string& direction : plan.directions)
+    directions += (directions.empty() ? "" : " ") + direction;
+  c.dataset({at + "directions", "1", "directions of the sweeps; none: at rest", ""}, &directions);
+  std::string kind = plan.random ? "sample" : "grid";
+  c.dataset({at + "plan", "1", "all combinations, or random ones", ""}, &kind);
+  c.dataset({at + "seed", "1", "of the draws of a sample", "", {0, 2147483647.0}}, &plan.seed);
+  std::vector<std::string> keys;
+  for (const VariedKey& key : plan.keys) keys.push_back(key.name);
+  c.dataset({at + "key", "1", "keys that vary, as the study names them", "key"}, &keys);
+  c.dataset({at + "answer", "1", "answers that are gathered", "answer"}, &plan.answers);
+  c.dataset({at + "figure_answer", "1", "answers that the figure shows", "figure_answer"},
+            &plan.figure_answers);
+  c.dataset({at + "figure_key", "1", "keys against which it shows them", "figure_key"}, &plan.figure_keys);
+  c.dataset({at + "figure_colour", "1", "key by which it colours them", ""}, &plan.figure_colour);
+  if (!c.in()) return;
+  plan.random = kind == "sample";
+  plan.directions.clear();
+  std::istringstream words(directions);
+  for (std::string word; words >> word;) plan.directions.push_back(word);
+  plan.keys.clear();
+  for (const std::string& name : keys) plan.keys.push_back(varied_key(name));
+}
+
+// Values of one key in all variants: numbers in SI, others as a scene has them.
+void describe_values(Codec& c, StudyArtifact& a, std::size_t k) {
+  const VariedKey& key = a.plan.keys[k];
+  const std::string meaning = key.name + ": " + key.meaning;
+  const auto variants = static_cast<Eigen::Index>(a.variants.size());
+  std::vector<std::string> texts;
+  if (c.out())
+    for (const GatheredVariant& variant : a.variants) texts.push_back(variant.values.at(k));
+  if (key.number) {
+    Eigen::VectorXd si(c.out() ? variants : 0);
+    for (Eigen::Index v = 0; v < si.size(); ++v) si[v] = key.si(texts[v]);
+    c.dataset({dataset_of(key), key.units, meaning, "variant", kQuantity}, &si);
+    for (Eigen::Index v = 0; c.in() && v < variants; ++v) {
+      char buffer[40];
+      std::snprintf(buffer, sizeof buffer, "%.12g", si[v] * key.to_si_divide / key.to_si_multiply);
+      texts.emplace_back(buffer);
+    }
+  } else {
+    c.dataset({dataset_of(key), "1", meaning, "variant"}, &texts);
+  }
+  for (std::size_t v = 0; c.in() && v < a.variants.size(); ++v) a.variants[v].values.push_back(texts[v]);
+}
+
+}  // namespace
+
+void describe(Codec& c, StudyArtifact& a) {
+  describe_plan(c, a.plan);
+  std::vector<std::string> names;
+  for (const GatheredVariant& variant : a.variants) names.push_back(variant.name);
+  c.dataset({"/variant", "1", "name of the variant's slice and artifact", "variant"}, &names);
+  if (c.in())
+    for (const std::string& name : names) a.variants.push_back({name, {}});
+  for (std::size_t k = 0; k < a.plan.keys.size(); ++k) describe_values(c, a, k);
+  const std::vector<AnswerKind> kinds = answer_kinds(a.plan.directions);
+  const auto answers = static_cast<Eigen::Index>(a.plan.answers.size());
+  for (const AnswerKind& kind : kinds) {
+    const auto found = std::find(a.plan.answers.begin(), a.plan.answers.end(), kind.name);
+    if (found != a.plan.answers.end())
+      c.column(
+          {"/answer/" + kind.name, kind.units, kind.meaning + "; 0 where refused is 1", "variant", kQuantity},
+          a.answer, found - a.plan.answers.begin(), answers);
+  }
+  if (c.in())
+    for (const std::string& name : a.plan.answers)
+      if (std::none_of(kinds.begin(), kinds.end(), [&](const AnswerKind& k) { return k.name == name; }))
+        c.in()->file().refuse("names the answer '" + name + "', which no variant gives");
+  Eigen::VectorXi refused(static_cast<Eigen::Index>(a.refusal.size()));
+  for (Eigen::Index v = 0; v < refused.size(); ++v) refused[v] = a.refusal[v].empty() ? 0 : 1;
+  c.dataset({"/refused", "1", "1: a stage refused the variant, it has no answers", "variant", kFlag},
+            &refused);
+  c.dataset({"/refusal", "1", "why; empty where it was not refused", "variant"}, &a.refusal);
+  c.dataset(
+      {"/unsteady", "1", "speeds, of all sweeps, at which no periodic motion was found", "variant", kNumber},
+      &a.unsteady);
+}
+
+void write(const std::string& path, const StudyArtifact& a, const Provenance& provenance) {
+  if (a.answer.rows() != static_cast<Eigen::Index>(a.variants.size()))
+    fail(Failure::numerical, "result answer has ", a.answer.rows(), " rows, expected ", a.variants.size());
+  write_artifact(path, kSchema, "Study: " + a.plan.title, a, provenance);
+}
+
+StudyArtifact read_study_artifact(const std::string& path) {
+  return read_artifact<StudyArtifact>(path, kSchema);
+}
+
+}  // namespace whine

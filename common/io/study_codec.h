@@ -1,0 +1,27 @@
+// study.h5: what the variants of a study answer.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "base/matrix.h"
+#include "io/provenance.h"
+#include "io/study.h"
+
+namespace whine {
+
+class Codec;
+
+struct StudyArtifact {
+  StudyPlan plan;
+  std::vector<GatheredVariant> variants;
+  MatrixRM answer;                   // (variant, answer of the plan) SI; 0 where the variant was refused
+  std::vector<std::string> refusal;  // (variant) why, "" if it was not
+  Eigen::VectorXi unsteady;  // (variant) speeds, of all its sweeps, at which no periodic motion was found
+};
+
+void describe(Codec& codec, StudyArtifact& a);
+void write(const std::string& path, const StudyArtifact& a, const Provenance& provenance);
+StudyArtifact read_study_artifact(const std::string& path);
+
+}  // namespace whine

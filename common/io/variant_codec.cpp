@@ -1,0 +1,62 @@
+#include "io/variant_codec.h"
+
+#include <sstream>
+
+#include "base/error.h"
+#include "io/codec.h"
+#include "model/answers.h"
+
+namespace whine {
+namespace {
+
+using namespace ranges;
+
+constexpr Schema kSchema{"variant", 2};
+
+void describe_directions(Codec& c, std::vector<std::string>& directions) {
+  std::string line;
+  for (const std::string& direction : directions) line += (line.empty() ? "" : " ") + direction;
+  c.dataset({"/parameters/operation/directions", "1", "directions of the sweeps; none: at rest", ""}, &line);
+  if (!c.in()) return;
+  directions.clear();
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    if (word != "up" && word != "down")
+      c.in()->file().refuse("names the direction '" + word + "'; there are up and down");
+    directions.push_back(word);
+  }
+}
+
+}  // namespace
+
+void describe(Codec& c, VariantArtifact& a) {
+  describe_pair(c, a);
+  describe_torque(c, a.torque);
+  describe_directions(c, a.directions);
+  if (c.lists() || !a.directions.empty()) {
+    describe_motion(c, a);
+    c.dataset({"/parameters/operation/reference_torque", "N m",
+               "torque whose mean stiffness sets the bearing dampers", "", kDrive},
+              &a.reference_torque);
+    describe_speeds(c, a.frequency_from, a.frequency_to, a.frequency_step);
+  }
+  c.dataset({"/refusal", "1", "why a stage refused the variant; empty: none did", ""}, &a.refusal);
+  if (!a.refusal.empty()) return;
+  const std::vector<AnswerKind> kinds = answer_kinds(a.directions);
+  const auto count = static_cast<Eigen::Index>(kinds.size());
+  if (c.out() && a.answer.size() != count)
+    fail(Failure::numerical, "result answer has ", a.answer.size(), " rows, expected ", count);
+  if (!c.out()) a.answer.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    c.dataset({"/answer/" + kinds[i].name, kinds[i].units, kinds[i].meaning, "", kQuantity}, &a.answer[i]);
+}
+
+void write(const std::string& path, const VariantArtifact& a, const Provenance& provenance) {
+  write_artifact(path, kSchema, "Variant of a study: " + pair_title(a.mesh, a.torque), a, provenance);
+}
+
+VariantArtifact read_variant(const std::string& path) {
+  return read_artifact<VariantArtifact>(path, kSchema);
+}
+
+}  // namespace whine
