@@ -14,6 +14,10 @@ constexpr Schema kSchema{"body", 3};
 void describe_compliance(Codec& c, BodyArtifact& a) {
   const std::string at = "/compliance/";
   c.dataset({at + "offsets", "1", "largest tooth offset of the tables", "", {0, 1000}}, &a.offsets);
+  const Eigen::Index points = a.flank_position.size();
+  c.axis("loaded_position", points);
+  for (const char* axis : {"tooth_flank_position", "loaded_tooth_flank_position"})
+    c.axis(axis, (2 * a.offsets + 1) * points);
   const auto tables = static_cast<std::size_t>(a.offsets) + 1;
   if (c.out() && a.compliance.size() != tables)
     fail(Failure::numerical, "result compliance has ", a.compliance.size(), " rows, expected ", tables);
@@ -24,16 +28,15 @@ void describe_compliance(Codec& c, BodyArtifact& a) {
                text("inward normal displacement of the tooth ", number,
                     " counter-clockwise of the loaded one per unit normal force",
                     d == 0 && !c.lists() ? ", less the half-plane relative to reference_depth" : ""),
-               "flank_position flank_position", kFlexibility},
+               "flank_position loaded_position", kFlexibility},
               &a.compliance[d]);
   }
-  c.axis("tooth_flank_position", (2 * a.offsets + 1) * a.flank_position.size());
   if (c.lists() || (c.in() ? a.design.crack.depth > 0 : a.crack_compliance.size() > 0))
     c.dataset(
         {at + "crack", "m N-1",
          "what the crack adds between the teeth from `offsets` clockwise of the cracked one to `offsets` "
          "counter-clockwise of it, tooth by tooth",
-         "tooth_flank_position tooth_flank_position", kFlexibility},
+         "tooth_flank_position loaded_tooth_flank_position", kFlexibility},
         &a.crack_compliance);
   c.dataset({at + "reference_depth", "m", "depth relative to which the half-plane is taken off", "", kSize},
             &a.reference_depth);

@@ -18,6 +18,7 @@ void describe_points(Codec& c, BranchArtifact& a) {
   c.dataset({"/dte_harmonic", "m", "amplitude of the harmonics 1, 2, ... of the mesh frequency",
              "point harmonic", kSize},
             &a.dte_harmonic);
+  c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
   c.dataset({"/floquet_multiplier", "1",
              "multipliers of the orbit over a mesh period, largest modulus first: real and imaginary part",
              "point multiplier part", kMultiplier},

@@ -183,6 +183,13 @@ void Codec::column(const Dataset& d, MatrixRM& values, Eigen::Index column, Eige
   values.col(column) = one;
 }
 
+void Codec::numbers(const std::string& axis, int first, const std::string& meaning) {
+  if (in_) return;
+  Eigen::VectorXi values(length(axis));
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = first + static_cast<int>(i);
+  dataset({"/" + axis, "1", meaning, axis, kNumber}, &values);
+}
+
 bool Codec::optional(const std::string& name, bool there) const {
   return list_ || (in_ ? in_->file().has(name) : there);
 }

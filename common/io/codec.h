@@ -53,6 +53,9 @@ class Codec {
   // Whether the file has an optional part: what `there` says to a writer, whether dataset `name` stands in the file to a reader.
   bool optional(const std::string& name, bool there) const;
 
+  // Writes the dataset /<axis> with first, first + 1, ...: the numbers of harmonics, by which xarray knows them. No reader wants it.
+  void numbers(const std::string& axis, int first, const std::string& meaning);
+
   // Sets the length of an axis before a dataset does.
   void axis(const std::string& name, Eigen::Index length);
   Eigen::Index length(const std::string& axis) const;  // 0 if no dataset has it

@@ -10,7 +10,7 @@ using namespace ranges;
 constexpr Schema kSchema{"error_budget", 2};
 
 void describe_changes(Codec& c, const std::string& group, StaticChanges& a, const std::string& what) {
-  const std::string axis = group.substr(1) + "/entry";
+  const std::string axis = group.substr(1) + "/change";  // `entry` names them in one text
   c.dataset({group + "/entry", "1", what + ", in the order of the entries", ""}, &a.entry);
   c.dataset(
       {group + "/mean_stiffness_change", "1", "relative change of the mean secant stiffness", axis, kSigned},
@@ -34,6 +34,7 @@ void describe(Codec& c, ErrorBudgetArtifact& a) {
   describe_pair(c, a);
   describe_torque(c, a.torque);
   describe_changes(c, "/refinement", a.refinement, "what was refined alone");
+  c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
   describe_changes(c, "/choice", a.choice,
                    "what was chosen instead, for information and in no sum of errors");
   if (c.optional("/choice/missing", !a.choice_missing.empty()))

@@ -1,12 +1,16 @@
 #include "io/h5.h"
 
 #include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -199,6 +203,15 @@ struct Writer::Impl {
   hid_t file = -1;
   Image image;
 
+  // Datasets with axes, in the order in which they were made, and where each stands.
+  struct WithAxes {
+    std::string path;
+    std::vector<std::string> axes;
+    Shape shape;
+  };
+  std::vector<WithAxes> with_axes;
+  std::map<std::string, std::size_t> extent_of;  // of each dimension scale, by its path
+
   // All of one length, so that they stand where they belong and not in a heap.
   void put(const std::string& path, const std::vector<std::string>& words, const Shape& shape,
            const Label& label) {
@@ -270,6 +283,72 @@ struct Writer::Impl {
     text_attribute(set, "long_name", label.long_name);
     if (!shape.empty()) text_attribute(set, "axes", label.axes);
     if (!label.equation.empty()) text_attribute(set, "equation", label.equation);
+    if (shape.empty() || path.starts_with("/VTKHDF")) return;
+    std::istringstream words(label.axes);
+    WithAxes made{path, {}, shape};
+    for (std::string word; words >> word;) made.axes.push_back(word);
+    if (made.axes.size() != shape.size())
+      fail(Failure::numerical, "dataset ", path, " has ", shape.size(), " dimensions and the axes '",
+           label.axes, "'");
+    with_axes.push_back(std::move(made));
+  }
+
+  // Dimension scales (HDF5's H5DS), by which netCDF and xarray know the axes. A dataset of one axis that is called like it is its
+  // scale; other axes have a scale without values, as netCDF has dimensions without a variable.
+  void scale_axes() {
+    for (const WithAxes& set : with_axes)
+      if (set.axes.size() == 1 && name_in(set.path) == name_in(set.axes[0])) {
+        const Handle id(H5Dopen2(file, set.path.c_str(), H5P_DEFAULT), H5Dclose, "open " + set.path);
+        check(H5DSset_scale(id, name_in(set.path).c_str()), "make a scale of " + set.path);
+        extent_of[set.path] = set.shape[0];
+      }
+    for (const WithAxes& set : with_axes)
+      for (std::size_t i = 0; i < set.axes.size(); ++i) {
+        const std::string scale = scale_of(set, i);
+        if (scale == set.path) continue;
+        const Handle id(H5Dopen2(file, set.path.c_str(), H5P_DEFAULT), H5Dclose, "open " + set.path);
+        const Handle other(H5Dopen2(file, scale.c_str(), H5P_DEFAULT), H5Dclose, "open " + scale);
+        check(H5DSattach_scale(id, other, static_cast<unsigned>(i)), "attach an axis to " + set.path);
+      }
+  }
+
+  // "/ring_down/time" -> "time", "/ring_down".
+  static std::string name_in(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+  static std::string folder_of(const std::string& path) {
+    const auto slash = path.rfind('/');
+    return slash == std::string::npos ? "" : path.substr(0, slash);
+  }
+
+  // The scale of an axis stands in the group of the dataset or in one above it; where there is none, it is made in its own.
+  std::string scale_of(const WithAxes& set, std::size_t i) {
+    const std::string& axis = set.axes[i];
+    const bool elsewhere = axis.find('/') != std::string::npos;
+    const std::string home = elsewhere ? "/" + folder_of(axis) : folder_of(set.path),
+                      name = "/" + name_in(axis);
+    for (std::string folder = home;; folder = folder_of(folder)) {
+      const auto found = extent_of.find(folder + name);
+      if (found != extent_of.end()) {
+        if (found->second != set.shape[i])
+          fail(Failure::numerical, "dataset ", set.path, " has the length ", set.shape[i], " along ", axis,
+               ", which has ", found->second);
+        return found->first;
+      }
+      if (folder.empty()) break;
+    }
+    return make_scale(home + name, set.shape[i]);
+  }
+
+  std::string make_scale(const std::string& path, std::size_t extent) {
+    const Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
+    check(H5Pset_obj_track_times(list, 0), "switch object times off");
+    const Handle space = space_of({extent});
+    const Handle id(H5Dcreate2(file, path.c_str(), H5T_STD_U8LE, space, H5P_DEFAULT, list, H5P_DEFAULT),
+                    H5Dclose, "make the axis " + path + ", a name that something else may have");
+    char name[80];  // the words by which netCDF knows a dimension without a variable
+    std::snprintf(name, sizeof name, "This is a netCDF dimension but not a netCDF variable.%10zu", extent);
+    check(H5DSset_scale(id, name), "make a scale of " + path);
+    extent_of[path] = extent;
+    return path;
   }
 
   template <class T>
@@ -357,6 +436,7 @@ void Writer::ascii_attribute(const std::string& path, const std::string& name, c
 }
 
 std::string Writer::finish() {
+  impl_->scale_axes();
   impl_->image.wanted = true;
   check(H5Fclose(std::exchange(impl_->file, -1)), "close the file");
   return std::move(impl_->image.bytes);

@@ -45,7 +45,8 @@ class Writer {
   // Fixed-length ASCII, which VTK's reader asks for.
   void ascii_attribute(const std::string& path, const std::string& name, const std::string& value);
 
-  // The bytes of the file; the writer is spent afterwards.
+  // The bytes of the file, with a dimension scale (H5DS) attached to each axis of each dataset outside of /VTKHDF; the writer is
+  // spent afterwards. Error(numerical) if datasets differ in the length of an axis.
   std::string finish();
 
  private:

@@ -26,7 +26,7 @@ void describe_sector(Codec& file, const std::string& group, MeshArtifact& a) {
   c.dataset({group + "/bore_node", "1", "nodes on the rigid hub", "bore_node", kNumber}, &a.bore_node);
   c.dataset(
       {group + "/side_node", "1", "node on the clockwise edge and its image on the counter-clockwise edge",
-       "side_node edge", kNumber},
+       "side_pair edge", kNumber},
       &a.side_node);
   c.dataset({group + "/flank_node", "1", "nodes of the driving flank, root to tip", "flank_node", kNumber},
             &a.flank_node);
@@ -55,7 +55,7 @@ void describe(Codec& c, MeshArtifact& a) {
     describe_sector(c, "/cracked_tooth", cracked);
     c.dataset({"/cracked_tooth/slit_node", "1",
                "the same point on the two faces of the slit, mouth to tip; the tip itself is one node",
-               "slit_node face", kNumber},
+               "slit_pair face", kNumber},
               &cracked.slit_node);
     if (c.in()) {
       cracked.design = a.design;

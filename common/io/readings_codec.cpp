@@ -89,7 +89,7 @@ void describe_claims(Codec& c, ReadingsArtifact& a) {
         exists(i, j) = a.readings[i].exists.at(j);
       }
   }
-  const char* const axes = "reading claim";
+  const char* const axes = "draw claim";
   c.dataset({"/value", "1", "what the claim is about, in the claim's unit; 0 where it does not exist", axes,
              kQuantity},
             &value);
@@ -124,13 +124,13 @@ void describe(Codec& c, ReadingsArtifact& a) {
   for (const NumberOf& n : reading_numbers()) {
     Eigen::VectorXd values(static_cast<Eigen::Index>(a.readings.size()));
     for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = n.get(a.readings[i]);
-    c.dataset({text("/reading/", n.name), n.units, n.meaning, "reading", n.range}, &values);
+    c.dataset({text("/reading/", n.name), n.units, n.meaning, "draw", n.range}, &values);
     for (Eigen::Index i = 0; c.in() && i < values.size(); ++i) n.set(a.readings[i], values[i]);
   }
   for (const WordOf& w : kWords) {
     std::vector<std::string> values;
     for (const Reading& r : a.readings) values.push_back(r.choices.*w.member);
-    c.dataset({text("/reading/", w.name), "1", w.meaning, "reading"}, &values);
+    c.dataset({text("/reading/", w.name), "1", w.meaning, "draw"}, &values);
     for (std::size_t i = 0; c.in() && i < values.size(); ++i) a.readings[i].choices.*w.member = values[i];
   }
 }

@@ -41,11 +41,14 @@ void describe(Codec& c, ResponseArtifact& a) {
   c.dataset({"/dte_harmonic", "m", "amplitude of the harmonics 1, 2, ... of the mesh frequency",
              "mesh_frequency harmonic", kSize},
             &a.dte_harmonic);
+  c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
   describe_hunting(c, a.hunting_periods);
-  if (c.lists() || a.hunting_periods > 1)
+  if (c.lists() || a.hunting_periods > 1) {
     c.dataset({"/dte_order", "m", "amplitude of the harmonics 1, 2, ... of the hunting frequency",
                "mesh_frequency order", kSize},
               &a.dte_order);
+    c.numbers("order", 1, "number of the harmonic of the hunting frequency");
+  }
   c.dataset({"/tooth_load_max", "N", "largest normal force of one tooth pair", axis, kLoad},
             &a.tooth_load_max);
   c.dataset({"/mesh_force_max", "N", "largest normal force of all pairs together", axis, kLoad},

@@ -66,11 +66,14 @@ void describe(Codec& c, StaticArtifact& a) {
   c.dataset({"/mesh_stiffness_harmonic", "N m-1",
              "mean, then amplitudes of the harmonics of the secant stiffness", "harmonic", kSpring},
             &a.stiffness_harmonic);
+  c.numbers("harmonic", 0, "number of the harmonic of the mesh frequency; 0: the mean");
   describe_hunting(c, a.hunting_periods);
-  if (c.lists() || (c.in() ? a.hunting_periods > 1 : a.transmission_error_order.size() > 0))
+  if (c.lists() || (c.in() ? a.hunting_periods > 1 : a.transmission_error_order.size() > 0)) {
     c.dataset({"/transmission_error_order", "m",
                "mean, then amplitudes of the harmonics of the hunting frequency", "order", kLength},
               &a.transmission_error_order);
+    c.numbers("order", 0, "number of the harmonic of the hunting frequency; 0: the mean");
+  }
   c.dataset({"/mean_stiffness", "N m-1", "mean of the secant stiffness over a mesh period", "", kStiff},
             &a.mean_stiffness);
   c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force, over all positions", "",
