@@ -187,6 +187,11 @@ deps-vtk: wanted := python3-vtk9
 deps-vtk: | $(with_deps) ## install VTK for the one check in `test` that reads artifacts as ParaView does
 	$(install_wanted)
 
+.PHONY: deps-python
+deps-python: wanted := python3-xarray python3-h5netcdf
+deps-python: | $(with_deps) ## install xarray for the one check in `test` that opens artifacts by their axes
+	$(install_wanted)
+
 # --- tests and upkeep -----------------------------------------------------------------------------------------
 
 .PHONY: hard-cases test test-all format check-format

@@ -3,7 +3,7 @@
 #   make reading        the search over data/studies/reading*.toml, and its best again with strips; out/reading/
 #   make consistency    out/figures/consistency.md, printed, and the figure out/figures/reading.{tsv,svg,png}
 #   make docs           both, and the scorecard, into data/published/README.md; and what docs-tables does
-#   make docs-tables    keys, targets, options, scenes and studies into their pages: seconds
+#   make docs-tables    keys, targets, datasets, options, scenes and studies into their pages: seconds
 #
 # A part holds whole tooth forms, so that a search that is broken off goes on with those that are missing.
 
@@ -49,10 +49,11 @@ docs: docs-tables out/figures/scorecard.md out/figures/consistency.md out/figure
 	$(call replace_block,$(published_page),gear-scorecard,out/figures/scorecard.md)
 	$(call replace_block,$(published_page),gear-reading,out/figures/consistency.md)
 	cp out/figures/reading.png data/published/reading.png
-docs-tables: build ## put the tables of keys, targets, options, scenes and studies into their pages (seconds; tests/pages.sh compares)
+docs-tables: build ## put the tables of keys, targets, datasets, options, scenes and studies into their pages (seconds; tests/pages.sh compares)
 	@mkdir -p $(B)/tables
-	@for table in keys targets options scenes studies; do pipelines/tables.sh $$table $(B)/bin > $(B)/tables/$$table; done
+	@for table in keys targets datasets options scenes studies; do pipelines/tables.sh $$table $(B)/bin > $(B)/tables/$$table; done
 	$(call replace_block,data/README.md,keys,$(B)/tables/keys)
+	$(call replace_block,pipelines/README.md,datasets,$(B)/tables/datasets)
 	$(call replace_block,pipelines/README.md,targets,$(B)/tables/targets)
 	$(call replace_block,tools/README.md,options,$(B)/tables/options)
 	$(call replace_block,data/scenes/README.md,scenes,$(B)/tables/scenes)

@@ -4,6 +4,7 @@
 #   keys      keys of a scene, from gear-scene --keys                 data/README.md
 #   targets   targets of make by task, from the comments of makefiles pipelines/README.md
 #   options   options and examples of the programs, from --help       tools/README.md
+#   datasets  datasets of the artifacts, from gear-inspect --datasets  pipelines/README.md
 #   scenes    files and titles of the scenes                          data/scenes/README.md
 #   studies   files and titles of the studies                         data/studies/README.md
 #
@@ -22,6 +23,7 @@ titles() {
 
 case $1 in
   keys) "$2/gear-scene" --keys ;;
+  datasets) "$2/gear-inspect" --datasets ;;
   targets)
     echo '| `make ...` | makes |'
     echo '|---|---|'

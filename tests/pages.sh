@@ -46,7 +46,7 @@ while read -r name; do is_variable[$name]=1; done < <(grep -o -w '[A-Z][A-Z_]\+'
 while read -r name; do is_key[$name]=1; done < <("$bin/gear-scene" --keys | cut -d'|' -f3 | tr -d '` ')
 programs=$(set +f; cd tools && echo gear-*.cpp)
 for program in ${programs//.cpp/}; do help_of[$program]=$("$bin/$program" --help | tr -s ' \n,' '   '); done
-sources_of_files=$(set +f; cat common/io/*.h common/io/*.cpp)
+sources_of_files=$(set +f; cat common/io/*.h common/io/*.cpp common/*/*_result.h common/model/*.cpp)
 while IFS= read -r line; do
   case $line in '#'* | '') continue ;; esac
   excepted["${line%%  # *}"]=1
@@ -224,7 +224,7 @@ found=$(for name in "${!excepted[@]}"; do grep -q -x -F -e "$name" "$work/used" 
 [ -z "$found" ] && ok "every line of tests/pages.exceptions is needed" || wrong "every line of tests/pages.exceptions is needed" "$found"
 
 # --- generated tables
-for table in data/README.md:keys pipelines/README.md:targets tools/README.md:options data/scenes/README.md:scenes data/studies/README.md:studies; do
+for table in data/README.md:keys pipelines/README.md:targets pipelines/README.md:datasets tools/README.md:options data/scenes/README.md:scenes data/studies/README.md:studies; do
   page=${table%:*} name=${table#*:} claim="the table of ${table#*:} in ${table%:*} is up to date"
   sed "1,/^<!-- $name -->\$/d; /^<!-- end of $name -->\$/,\$d" "$page" > "$work/table"
   if [ -s "$work/table" ] && pipelines/tables.sh "$name" "$B/bin" | diff - "$work/table" > "$work/said"; then ok "$claim"; else

@@ -20,17 +20,20 @@
 #include "base/tool.h"
 #include "io/artifact.h"
 #include "io/body_codec.h"
+#include "io/branch_codec.h"
 #include "io/error_budget_codec.h"
 #include "io/fit.h"
 #include "io/h5.h"
 #include "io/harris_map_codec.h"
 #include "io/impact_codec.h"
+#include "io/jump_map_codec.h"
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/ranges.h"
+#include "io/readings_codec.h"
 #include "io/response_codec.h"
 #include "io/static_codec.h"
 #include "io/study.h"
@@ -471,6 +474,46 @@ StudyArtifact small_study() {
   a.answer.row(1).setZero();
   a.refusal = {"", "it jams", ""};
   a.unsteady = Eigen::Vector3i(2, 0, 1);
+  return a;
+}
+
+BranchArtifact small_branch() {
+  BranchArtifact a;
+  set_pair(a);
+  a.mesh = small_static().mesh;
+  a.torque = 150;
+  a.driver_inertia = a.driven_inertia = 0.01;
+  a.mesh_frequency = odd_vector(2, 2e3);
+  a.dte_rms = a.dte_mean = a.residual = odd_vector(2, 1e-6);
+  a.dte_harmonic = odd_matrix(2, 3, 1e-6);
+  a.floquet_multiplier = {odd_matrix(4, 2, 0.9), odd_matrix(4, 2, 0.7)};
+  a.stable = a.steps = Eigen::Vector2i(1, 1);
+  a.fold_frequency = odd_vector(1, 2e3);
+  a.fold_rms = odd_vector(1, 1e-6);
+  a.fold_smooth = Eigen::VectorXi::Ones(1);
+  a.fold_multiplier = odd_matrix(1, 2, 1);
+  a.end = "leaves the speeds of the scene";
+  return a;
+}
+
+JumpMapArtifact small_jump_map() {
+  JumpMapArtifact a;
+  set_pair(a);
+  a.mesh = small_static().mesh;
+  a.torque = 150;
+  a.driver_inertia = a.driven_inertia = 0.01;
+  a.rayleigh_stiffness = a.damping_ratio = a.branches_from = a.branches_to = a.loss_from = a.loss_to =
+      a.excitation = odd_vector(2, 1);
+  a.two_branches = a.open_below = a.unsteady = Eigen::Vector2i(1, 0);
+  a.peak_tooth_load = a.held_tooth_load = odd_matrix(2, 2, 3e3);
+  a.jump_case = a.jump_direction = Eigen::VectorXi::Ones(1);
+  a.jump_frequency = a.jump_width = odd_vector(1, 2e3);
+  a.mesh_frequency = odd_vector(3, 2e3);
+  for (int d = 0; d < 2; ++d) {
+    a.dte_rms[d] = odd_matrix(2, 3, 1e-6);
+    a.tooth_load_max[d] = odd_matrix(2, 3, 4e3);
+    a.separation_fraction[d] = odd_matrix(2, 3, 0.9);
+  }
   return a;
 }
 
@@ -1208,10 +1251,10 @@ TEST_CASE("a file that deflates to little is not read into a thousand times its 
   const std::vector<std::string> words(1 << 20);
   const std::vector<double> doubles(1 << 14);
   write_static_like("out/wide.h5", [&](h5::Writer& file) {
-    const h5::Label label{"1", "zeros", "place", ""};
-    file.put("/bytes", bytes.data(), {bytes.size()}, label);
-    file.put("/words", words, label);
-    file.put("/doubles", doubles.data(), {doubles.size()}, label);
+    const auto along = [](const char* axis) { return h5::Label{"1", "zeros", axis, ""}; };
+    file.put("/bytes", bytes.data(), {bytes.size()}, along("bytes"));
+    file.put("/words", words, along("words"));
+    file.put("/doubles", doubles.data(), {doubles.size()}, along("doubles"));
   });
   const std::string whole = read_bytes("out/wide.h5");
   const h5::Reader file(whole, "out/wide.h5", "");
@@ -1349,10 +1392,26 @@ TEST_CASE(
 
   BodyArtifact ragged = small_body();
   ragged.flank_mode = odd_matrix(4, 2, 1);
-  write("ragged.h5", ragged, kMade);  // columns are checked on reading
-  const Caught shape = caught([] { read_body("ragged.h5"); });
+  const Caught written = caught([&] { write("ragged.h5", ragged, kMade); });
+  CHECK(written.kind == kNumerical);
+  CHECK(written.says("/flank_mode has 2 columns, expected 3 along mode"));
+  CHECK_FALSE(fs::exists("ragged.h5"));
+
+  write_static_like("ragged.h5", [](h5::Writer& file) {
+    file.attribute("/", "schema", std::string("whine/readings"));
+    file.attribute("/", "schema_version", 1);
+    const std::string at = "/parameters/readings/";
+    const int none = 0;
+    const double values[] = {1, 2, 3};
+    for (const char* word : {"title", "contact"})
+      file.put(at + word, std::string("x"), {"1", "word", "", ""});
+    file.put(at + "outside", &none, {}, {"1", "number", "", ""});
+    file.put("/claim", std::vector<std::string>{"a", "b"}, {"1", "names", "claim", ""});
+    file.put("/value", values, {1, 3}, {"1", "numbers", "row column", ""});
+  });
+  const Caught shape = caught([] { read_readings("ragged.h5"); });
   CHECK(shape.kind == kInput);
-  CHECK(shape.says("/flank_mode has shape 4 x 2, expected 4 x 3"));
+  CHECK(shape.says("/value has shape 1 x 3, expected any x 2"));
 
   StaticArtifact broken = small_static();
   broken.transmission_error[1] = std::nan("");
@@ -1501,4 +1560,41 @@ TEST_CASE("a tool's exit status says the kind of failure") {
   CHECK(own == 3);
   CHECK(io == 4);
   CHECK(memory == 1);
+}
+
+// tests/xarray.sh opens what WHINE_KEEP keeps of this case.
+TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of harmonics among them") {
+  Folder folder;
+  write("mesh.h5", small_mesh(), kMade);
+  write("body.h5", small_body(), kMade);
+  write("static.h5", small_static(), kMade);
+  write("error_budget.h5", small_budget(), kMade);
+  write("loaded.h5", small_loaded(), kMade);
+  write("impact.h5", small_impact(), kMade);
+  write("sweep.h5", small_sweep(), kMade);
+  write("response.h5", small_response(), kMade);
+  write("branch.h5", small_branch(), kMade);
+  write("jump_map.h5", small_jump_map(), kMade);
+  write("harris_map.h5", small_harris_map(), kMade);
+  write("variant.h5", small_variant(), kMade);
+  write("study.h5", small_study(), kMade);
+  // A coordinate is one by HDF5's attribute CLASS.
+  const auto is_scale = [](const std::string& path, const std::string& dataset) {
+    return h5::Reader(read_bytes(path), path, "").string_attribute(dataset, "CLASS") == "DIMENSION_SCALE";
+  };
+  CHECK(is_scale("static.h5", "/mesh_phase"));
+  CHECK(is_scale("sweep.h5", "/sample"));  // without values
+  CHECK(is_scale("impact.h5", "/ring_down/time"));
+  CHECK(is_scale("study.h5", "/variant"));
+  const auto first = [](const std::string& path) {
+    return h5::Reader(read_bytes(path), path, "").ints("/harmonic").at(0);
+  };
+  CHECK(first("static.h5") == 0);  // the mean
+  CHECK(first("response.h5") == 1);
+  CHECK(read_branch("branch.h5").floquet_multiplier[1] == small_branch().floquet_multiplier[1]);
+  CHECK(read_jump_map("jump_map.h5").dte_rms[1] == small_jump_map().dte_rms[1]);
+
+  SweepArtifact sweep = small_sweep();
+  sweep.pair.conservativeResize(sweep.pair.size() - 1);
+  CHECK(caught([&] { write("x.h5", sweep, kMade); }).says("along pair"));
 }

@@ -3,6 +3,7 @@
 // Reads      any artifacts (HDF5); their inputs at the paths recorded in /provenance, relative to the
 //            working folder; the scene (--scene, or the one that out/<scene>/params/scene.txt names)
 //            With --check: every artifact (.h5) below the folders given, out/ if none is
+//            With --datasets: nothing
 // Writes     nothing; prints on standard output. Exit status 3 if an input has changed or is missing
 //            With --check: a line on standard error for each fault, nothing if all is well. Exit status 3 if an
 //            artifact is damaged, of another version, not finite, or made from other files than those beside it
@@ -15,6 +16,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/artifact_place.h"
+#include "io/datasets.h"
 #include "io/fit.h"
 #include "io/provenance.h"
 #include "io/publish.h"
@@ -127,10 +129,16 @@ int body(int argc, char** argv) {
   options.add("--scene", scene,
               "compare stage parameters with this scene; default: the one that out/<scene>/ was made of, if "
               "it is there");
+  bool datasets = false;
+  options.flag("--datasets", datasets, "print the table of the datasets of all artifacts (Markdown)");
   options.footer(
       "Example:\n"
       "  gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5");
   options.parse(argc, argv);
+  if (datasets) {
+    std::cout << dataset_table();
+    return 0;
+  }
   if (checked) {
     if (paths.empty()) paths = {"out"};
     int faults = 0;

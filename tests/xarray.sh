@@ -1,0 +1,72 @@
+# Each kind of artifact in xarray: every group opens with h5netcdf, without a warning, with named axes and their coordinates.
+#
+# Needs Debian's python3-xarray and python3-h5netcdf (make deps-python). The artifacts are those of one case of test_files.cpp.
+set -uo pipefail
+B=${B:-build}
+python=$(for candidate in python3 /usr/bin/python3; do "$candidate" -c 'import xarray, h5netcdf' 2> /dev/null && { echo "$candidate"; break; }; done)
+if [ -z "$python" ]; then
+  echo "skipped: artifacts in xarray (python3-xarray and python3-h5netcdf are not installed; make deps-python)"
+  exit 0
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+if ! WHINE_KEEP=$work "$B/bin/whine-tests" --no-colors=true -tc='axes of each kind of artifact*' > "$work/said" 2>&1 || [ ! -e "$work/study.h5" ]; then
+  echo "FAILED: one artifact of each kind: $(tail -n 3 "$work/said" | tr '\n' '|')"
+  exit 1
+fi
+cd "$work" && "$python" - << 'PYTHON'
+import warnings
+
+import h5netcdf
+import xarray
+
+warnings.simplefilter("error")
+
+
+def groups(group, path="/"):
+    yield path
+    for name in group.groups:
+        yield from groups(group[name], path.rstrip("/") + "/" + name)
+
+
+def check(claim, right, said=""):
+    print(f"ok: {claim}" if right else f"FAILED: {claim}: {said}")
+
+
+# kind: group, dataset, its axes in order, those of them that have coordinates in that group
+expected = {
+    "mesh": ("/sector", "flank_roll_angle", ("flank_node",), {"flank_node"}),
+    "body": ("/", "flank_mode", ("flank_position", "mode"), {"flank_position"}),
+    "static": ("/", "tooth_load", ("mesh_phase", "pair"), {"mesh_phase", "pair"}),
+    "error_budget": ("/choice", "harmonic_change", ("change", "harmonic"), set()),
+    "loaded": ("/strip", "roll_angle", ("strip", "gear"), set()),
+    "impact": ("/ring_down", "transmission_error", ("mesh_phase", "time"), {"mesh_phase", "time"}),
+    "sweep": ("/", "tooth_load", ("mesh_frequency", "sample", "pair"), {"mesh_frequency", "pair"}),
+    "response": ("/", "dte_harmonic", ("mesh_frequency", "harmonic"), {"mesh_frequency", "harmonic"}),
+    "branch": ("/", "floquet_multiplier", ("point", "multiplier", "part"), set()),
+    "jump_map": ("/up", "dte_rms", ("case", "mesh_frequency"), set()),
+    "harris_map": ("/", "peak_to_peak", ("relief_length", "torque", "relief"), {"relief_length", "torque", "relief"}),
+    "variant": ("/answer", "mean_stiffness", (), set()),
+    "study": ("/", "unsteady", ("variant",), {"variant"}),
+}
+for kind, (group, name, axes, coordinates) in expected.items():
+    path = kind + ".h5"
+    try:
+        with h5netcdf.File(path, "r") as file:
+            found = [g for g in groups(file) if not g.startswith("/VTKHDF")]
+        for each in found:
+            with xarray.open_dataset(path, engine="h5netcdf", group=each) as data:
+                data.load()
+                unnamed = [n for n, v in data.variables.items() if any(d.startswith("phony") for d in v.dims)]
+                if unnamed:
+                    raise ValueError(f"{each}: {unnamed} have axes without a name")
+        with xarray.open_dataset(path, engine="h5netcdf", group=group) as data:
+            array = data[name]
+            check(f"{path}: {len(found)} groups; {group} {name} {axes}", array.dims == axes and set(array.coords) == coordinates
+                  and array.attrs["units"] and array.attrs["long_name"], f"{array.dims}, {set(array.coords)}")
+    except Exception as error:
+        check(path, False, f"{type(error).__name__}: {error}")
+with xarray.open_dataset("response.h5", engine="h5netcdf") as data:
+    first = data.dte_harmonic.sel(harmonic=1)
+    check("a harmonic is chosen by its number", (first.values == data.dte_harmonic.values[:, 0]).all())
+PYTHON
