@@ -8,9 +8,9 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "io/scene.h"
 #include "io/impact_codec.h"
 #include "io/jump_map_codec.h"
+#include "io/scene.h"
 #include "io/scene_keys.h"
 #include "io/static_codec.h"
 #include "io/variant.h"

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "io/scene.h"
 #include "io/readings.h"
 #include "io/readings_codec.h"
+#include "io/scene.h"
 #include "paper/scorecard.h"
 #include "signal/static_result.h"
 #include "solid/reduced_body.h"

@@ -2,9 +2,9 @@
 //
 // -DSEALED: the content hash is put right first, so that the bytes reach HDF5 and the readers behind it; no accident makes
 // such a file.
+#include "io/artifact.h"
 #include "base/error.h"
 #include "file_of.h"
-#include "io/artifact.h"
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
 #include "io/error_budget_codec.h"
