@@ -484,7 +484,7 @@ void body(int argc, char** argv) {
   const PlotFile data(figure);
   publish_tables(
       figure, output,
-      {recorded_path(statics), recorded_path(sweeps), recorded_path(driver), recorded_path(driven)});
+      {recorded_path(statics), recorded_path(sweeps), recorded_path(paths[0]), recorded_path(paths[1])});
   publish(output + ".svg", draw(figure, data.path(), recipe, Picture::svg));
   publish(output + ".png", draw(figure, data.path(), recipe, Picture::png));
   tell("work-precision -> ", output, ".{tsv,svg,png}");
