@@ -92,7 +92,6 @@ paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scen
 $(foreach f,profile-chart relief-jumps waterfall tooth-loads bearing-forces fig03 fig05 fig05-branches fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig07-branches fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
-published_table1 := data/published/parker2000-table1.tsv
 
 report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 # at the paper's own speeds, torques or levels
@@ -103,6 +102,7 @@ other_figures := fig05-branches fig07-branches load-sharing waterfall tooth-load
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
+printed_claims := data/published/claims.toml
 # What gear-scorecard --files lists, of both scenes of the paper.
 scorecard_files := $(foreach t,100 150 200 300 600,T$t/static.h5 T$t/up/response.h5 T$t/down/response.h5) \
   $(foreach t,100 150 200 300,T$t/impact.h5 T$t/rectangular/up/response.h5 T$t/rectangular/down/response.h5) \
@@ -115,8 +115,8 @@ figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inpu
 $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
   $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) $(other_figures) table1)))
 
-$(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) data/published/fitted.toml $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
-	$(B)/bin/gear-scorecard --fitted data/published/fitted.toml --output out/figures/scorecard $(inputs_scorecard)
+$(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(printed_claims) data/published/fitted.toml $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
+	$(B)/bin/gear-scorecard --printed $(printed_claims) --fitted data/published/fitted.toml --output out/figures/scorecard $(inputs_scorecard)
 
 define figure_rule # figure, path without extension, inputs, what else it depends on
 $2.tsv $2.svg $2.png &: $3 $4 $(call titles,$3) pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
@@ -156,7 +156,7 @@ endef
 define figure_rules # scene; needs its fragment
 $(if $(filter $(paper_scene),$1),\
   $(foreach f,$(figures),$(eval $(call figure_rule,$f,out/figures/$f,$(call inputs_of_paper,$f)))) \
-  $(eval $(call table_rule,out/figures/table1,$(call inputs_of_paper,table1),$(published_table1))))
+  $(eval $(call table_rule,out/figures/table1,$(call inputs_of_paper,table1),$(printed_claims))))
 $(if $(filter $(calibrated_scene),$1),\
   $(eval $(call animation_rule,out/figures/animation/motion,$1,150,--mesh-frequency 2400)))
 $(eval $(call animation_rule,out/$1/report/animation/motion,$1,$(firstword $(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))

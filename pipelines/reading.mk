@@ -14,17 +14,17 @@ reading_parts := $(foreach p,$(reading_plans),$(patsubst %,out/reading/$p/part_%
 claim_sets := data/published/claim_sets.toml
 
 define reading_rules # plan
-out/reading/$1/part_%.h5: data/studies/$1.toml data/scenes/$(reading_scene).toml $(call id,gear-reading) | $(B)/bin/gear-reading
+out/reading/$1/part_%.h5: data/studies/$1.toml data/scenes/$(reading_scene).toml $(printed_claims) $(call id,gear-reading) | $(B)/bin/gear-reading
 	@mkdir -p $$(@D)
-	$$(call run,reading) --plan $$< --part $$*/$(READING_PARTS) --output $$@ $$(call landed,reading)
+	$$(call run,reading) --plan $$< --printed $(printed_claims) --part $$*/$(READING_PARTS) --output $$@ $$(call landed,reading)
 endef
 $(foreach p,$(reading_plans),$(eval $(call reading_rules,$p)))
 
 out/reading/readings.h5: $(reading_parts) $(call id,gear-reading) | $(B)/bin/gear-reading
 	$(B)/bin/gear-reading --output $@ $(filter %.h5,$^)
 
-out/reading/confirmed.h5: out/reading/readings.h5 data/scenes/$(reading_scene).toml $(call id,gear-reading) | $(B)/bin/gear-reading
-	$(call run,reading) --confirm 20 --scene data/scenes/$(reading_scene).toml --output $@ $< $(call landed,reading)
+out/reading/confirmed.h5: out/reading/readings.h5 data/scenes/$(reading_scene).toml $(printed_claims) $(call id,gear-reading) | $(B)/bin/gear-reading
+	$(call run,reading) --confirm 20 --printed $(printed_claims) --scene data/scenes/$(reading_scene).toml --output $@ $< $(call landed,reading)
 
 out/figures/consistency.md out/figures/consistency.tsv &: out/reading/readings.h5 out/reading/confirmed.h5 $(claim_sets) $(call id,gear-reading) | $(B)/bin/gear-reading
 	@mkdir -p out/figures

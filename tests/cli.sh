@@ -6,6 +6,7 @@ B=${B:-build}
 bin=$PWD/$B/bin
 scene_of_paper=$PWD/data/scenes/parker2000-standard-tooth.toml
 plots=$PWD/pipelines/plots
+claims=$PWD/data/published/claims.toml
 tests=$PWD/tests
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -86,7 +87,7 @@ done
 # --- every program's --help ends with examples, and they run, in the order of the flow on a coarse pair of the paper's name
 mkdir -p examples/data/scenes
 ln -s "$(dirname "$plots")" examples/pipelines
-cp -r "$(dirname "$scene_of_paper")/../studies" examples/data/
+cp -r "$(dirname "$scene_of_paper")"/../{studies,published} examples/data/
 sed "$coarse; s/^torque_Nm = .*/torque_Nm = [100, 150]/; s/from = 2000, to = 2100/from = 2350, to = 2400/" "$scene_of_paper" > examples/data/scenes/parker2000.toml
 flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard report study variant"
 examples_of() { "$bin/$1" --help | sed '1,/^Examples\{0,1\}:$/d; s/^ *//; /^$/d'; }
@@ -137,13 +138,13 @@ rm -rf examples
 # --- the command line
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
   [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-orbit]="${stage_orbit[*]}" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
-  [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --output x out/scene/T100/static.h5"
+  [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --printed $claims --output x out/scene/T100/static.h5"
   [gear-report]="$bin/gear-report out/scene/T100/static.h5 --output x"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-loaded]="${stage_loaded[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-study]="$bin/gear-study --study scene.toml --output study.mk"
-  [gear-reading]="$bin/gear-reading --plan scene.toml --output x"
+  [gear-reading]="$bin/gear-reading --printed $claims --plan scene.toml --output x"
   [gear-variant]="$bin/gear-variant --params out/scene/params/static.toml --body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/pinion/body.h5 --output x"
   [gear-harris]="gear-harris --static-params out/scene/params/static.toml --body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/pinion/body.h5 --design-torque 100 --output x")
 for program in "$bin"/gear-*; do
@@ -262,17 +263,17 @@ if grep -q -E 'warning|subharmonic' <<< "$($(sweep scene up) 2>&1)"; then wrong 
 mkdir -p card/s
 "$bin/gear-scorecard" --files > files
 while read -r file; do mkdir -p "card/s/$(dirname "$file")"; cp out/scene/T100/up/response.h5 "card/s/$file"; done < files
-card=("$bin/gear-scorecard" --output card/x $(sed 's|^|card/s/|' files))
+card=("$bin/gear-scorecard" --printed "$claims" --output card/x $(sed 's|^|card/s/|' files))
 refused "a scorecard from a sweep that is not that of its path" 3 'card/s/T100/down/response.h5: is the sweep up of finite elements' "${card[@]}"
 cp out/scene/T100/static.h5 card/s/T100/down/response.h5
 refused "a scorecard from an artifact of another kind" 3 'card/s/T100/down/response.h5' "${card[@]}"
 refused "a scorecard from part of a scene" 3 'T100/impact.h5 of s is missing; there is no card/s/T100/impact.h5' "${card[@]:0:4}"
 mkdir -p out/s/T100; cp out/scene/T100/static.h5 out/s/T100
 refused "a scorecard from part of a scene of make" 3 'T100/down/response.h5 of s is missing; make it with: make out/s/T100/down/response.h5' \
-  "$bin/gear-scorecard" --output card/x out/s/T100/static.h5
+  "$bin/gear-scorecard" --printed "$claims" --output card/x out/s/T100/static.h5
 rm -r out/s
 refused "a scorecard from a file that no claim reads" 3 'card/s/T100/mesh.h5: no claim reads it' "${card[@]}" card/s/T100/mesh.h5
-refused "a scorecard without artifacts" 2 'artifacts of a scene are needed' "$bin/gear-scorecard" --output card/x
+refused "a scorecard without artifacts" 2 'artifacts of a scene are needed' "$bin/gear-scorecard" --printed "$claims" --output card/x
 rm -rf card files
 
 # --- lumped models

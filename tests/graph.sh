@@ -34,7 +34,7 @@ fi
 # --- what the scorecard reads, from the real program
 wanted=$("$B/bin/gear-scorecard" --files | sed 's|^|out/parker2000/|; p; s|^out/parker2000/|out/parker2000-standard-tooth/|; p; s|^out/parker2000-standard-tooth/|out/parker2000-calibrated/|' | sort)
 given=$(make $sanitize -n out/figures/scorecard.txt 2> /dev/null | sed ':a;/\\$/{N;s/\\\n//;ba}' |
-  sed -n 's|.*bin/gear-scorecard --fitted data/published/fitted.toml --output out/figures/scorecard ||p' | tr ' ' '\n' | sort)
+  sed -n 's|.*bin/gear-scorecard --printed data/published/claims.toml --fitted data/published/fitted.toml --output out/figures/scorecard ||p' | tr ' ' '\n' | sort)
 if [ -n "$wanted" ] && [ "$wanted" = "$given" ]; then ok "make scorecard gives gear-scorecard the files that it lists, of all three scenes"; else
   wrong "make scorecard gives gear-scorecard the files that it lists, of all three scenes" "$(diff <(echo "$wanted") <(echo "$given") | head -3 | tr '\n' ' ')"; fi
 

@@ -235,7 +235,7 @@ done
 card=$work/card
 sed '1,/^<!-- gear-scorecard -->$/d; /^<!-- end of gear-scorecard -->$/,$d' data/published/README.md > "$card"
 claim="the scorecard in data/published/README.md holds every claim with its printed value"
-if [ -s "$card" ] && sed -n '3,$p' "$card" | awk -F ' [|] ' '{ print $1 " | " $2 " | " $3 " | " $4 " | " $5 " |" }' | diff - <("$bin/gear-scorecard" --claims) > "$work/said"
+if [ -s "$card" ] && sed -n '3,$p' "$card" | awk -F ' [|] ' '{ print $1 " | " $2 " | " $3 " | " $4 " | " $5 " |" }' | diff - <("$bin/gear-scorecard" --claims --printed data/published/claims.toml) > "$work/said"
 then ok "$claim"; else wrong "$claim" "make docs puts it there: $(head -n 2 "$work/said" | tr '\n' '|')"; fi
 # columns 6 to 8: a verdict for each scene
 for scene in 6:parker2000 7:parker2000-standard-tooth 8:parker2000-calibrated; do

@@ -6,15 +6,18 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "base/error.h"
 #include "failure_of.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
+#include "paper/table1.h"
 #include "paper_pair.h"
 #include "plot/gear_figures.h"
 #include "plot/gnuplot.h"
 #include "plot/motion_figures.h"
+#include "plot/response_figures.h"
 #include "plot/static_figures.h"
 #include "plot/wireframe.h"
 #include "relative.h"
@@ -480,13 +483,21 @@ ImpactArtifact some_impact(double torque) {
 }
 
 TEST_CASE("table of natural frequencies: both means, deviations from what is published, torques ascend") {
-  const auto folder = std::filesystem::temp_directory_path() / text("whine-table-", getpid());
-  std::filesystem::create_directories(folder);
-  const std::string file = folder / "published.tsv", broken = folder / "broken.tsv";
-  std::ofstream(file) << "# a comment\n100\tone\t2600\n100\ttwo\t3000\n100\tmean\t2900\n"
-                         "200\tone\t2700\n200\ttwo\t3200\n200\tmean\t3000\n";
-  std::ofstream(broken) << "100\tone\tfast\n";
-  const Figure table = natural_frequency_table({some_impact(200), some_impact(100)}, file);
+  std::vector<PrintedClaim> printed;
+  for (const auto& [torque, contact, frequency] : {std::tuple{100, "one", 2600.0},
+                                                   {100, "two", 3000.0},
+                                                   {100, "mean", 2900.0},
+                                                   {200, "one", 2700.0},
+                                                   {200, "two", 3200.0},
+                                                   {200, "mean", 3000.0}}) {
+    PrintedClaim claim;
+    claim.value = "natural-frequency";
+    claim.torque = torque;
+    claim.contact = contact;
+    claim.printed = frequency;
+    printed.push_back(claim);
+  }
+  const Figure table = natural_frequency_table({some_impact(200), some_impact(100)}, printed);
   const auto& rows = table.blocks.at(0).rows;
   REQUIRE(rows.size() == 2);
   REQUIRE(rows[0].size() == 13);
@@ -501,22 +512,19 @@ TEST_CASE("table of natural frequencies: both means, deviations from what is pub
   CHECK(words.find("two pairs                   100     3100.0         3000        +3.33\n") !=
         std::string::npos);
 
-  CHECK(natural_frequency_table({some_impact(100)}, "").blocks[0].rows[0].size() == 5);
-  CHECK(natural_frequency_text(natural_frequency_table({some_impact(100)}, "")).find("published") ==
+  CHECK(natural_frequency_table({some_impact(100)}, {}).blocks[0].rows[0].size() == 5);
+  CHECK(natural_frequency_text(natural_frequency_table({some_impact(100)}, {})).find("published") ==
         std::string::npos);
-  CHECK(failure_of([] { natural_frequency_table({}, ""); }) == Failure::input);
+  CHECK(failure_of([] { natural_frequency_table({}, {}); }) == Failure::input);
   CHECK(failure_of([] {
-          natural_frequency_table({some_impact(100), some_impact(100)}, "");
+          natural_frequency_table({some_impact(100), some_impact(100)}, {});
         }) == Failure::input);
-  CHECK(failure_of([&] { natural_frequency_table({some_impact(300)}, file); }) == Failure::input);
-  CHECK(failure_of([&] { natural_frequency_table({some_impact(100)}, broken); }) == Failure::input);
-  CHECK(failure_of([&] { natural_frequency_table({some_impact(100)}, folder / "none"); }) == Failure::io);
+  CHECK(failure_of([&] { natural_frequency_table({some_impact(300)}, printed); }) == Failure::input);
   CHECK(failure_of([] {
           ImpactArtifact a = some_impact(100);
           a.contact_state[0] = "two";
-          natural_frequency_table({a}, "");
+          natural_frequency_table({a}, {});
         }) == Failure::input);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("response figure: scene and measured damping ratio stand at the panel that they belong to") {

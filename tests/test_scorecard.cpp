@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <numbers>
@@ -18,6 +20,11 @@ using namespace whine;
 namespace {
 
 const double kNone = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<Claim>& paper_claims() {
+  static const std::vector<Claim> all = read_claims("data/published/claims.toml");
+  return all;
+}
 
 const Claim& claim(const std::string& id) {
   for (const Claim& c : paper_claims())
@@ -117,18 +124,51 @@ TEST_CASE("scorecard: every claim says where, what, in which unit and what decid
   }
 }
 
-TEST_CASE("scorecard: the frequencies of Table 1 are those of data/published") {
-  std::ifstream file("data/published/parker2000-table1.tsv");
-  std::string line;
+TEST_CASE("scorecard: what is wrong in a file of claims is named with its line") {
+  const auto folder = std::filesystem::temp_directory_path() / text("whine-claims-", getpid());
+  std::filesystem::create_directories(folder);
+  const std::string file = folder / "claims.toml";
+  const auto said = [&](const std::string& changed, const std::string& into) {
+    std::string words =
+        "[[claim]]\nid = \"kink\"\nplace = \"2.1\"\nsays = \"x\"\nkind = \"number\"\nunit = \"Hz\"\n"
+        "printed = 2\ntolerance = 0.5\nbasis = \"y\"\ntorque_Nm = 100\n";
+    if (!changed.empty()) words.replace(words.find(changed), changed.size(), into);
+    std::ofstream(file) << words;
+    const std::string message = message_of([&] { read_claims(file); });
+    const size_t path = message.find(file);
+    return path == std::string::npos ? message : message.substr(path + file.size());
+  };
+  REQUIRE(said("", "") == "nothing");
+  CHECK(read_claims(file)[0].tolerance == 0.5);
+  CHECK(said("torque_Nm", "torque").rfind(":10: unknown key 'torque'; known are id, place", 0) == 0);
+  CHECK(said("printed = 2", "printed = \"2\"") == ":7: 'printed' must be a number");
+  CHECK(said("printed = 2", "printed = inf").rfind(":7: 'printed' = inf", 0) == 0);
+  CHECK(said("torque_Nm = 100", "torque_Nm = 1.5") == ":10: 'torque_Nm' must be a whole number");
+  CHECK(said("printed = 2\n", "") == ":1: claim 'kink': a number needs 'printed'");
+  CHECK(said("tolerance = 0.5", "tolerance = -1") ==
+        ":1: claim 'kink': tolerance = -1, at least 0 is needed");
+  CHECK(said("kind = \"number\"", "kind = \"statement\"") == ":1: claim 'kink': a statement has no 'unit'");
+  CHECK(said("kind = \"number\"", "kind = \"count\"").rfind(":1: kind = 'count': known are number", 0) == 0);
+  CHECK(said("basis = \"y\"", "basis = \"\"") == ":1: [[claim]] needs 'basis'");
+  CHECK(said("torque_Nm = 100\n", "") == ":1: claim 'kink': the value 'kink' needs 'torque_Nm'");
+  CHECK(said("torque_Nm = 100", "torque_Nm = 100\norder = 2") ==
+        ":1: claim 'kink': the value 'kink' has no 'order'");
+  CHECK(said("id = \"kink\"", "id = \"k\"").rfind(":1: claim 'k': there is no value 'k'; known are ", 0) ==
+        0);
+  CHECK(said("torque_Nm = 100\n", "torque_Nm = 100\n[[claims]]\n") ==
+        ":11: unknown key 'claims'; known is [[claim]]");
+  CHECK(said("id = ", "id ").find("is not valid TOML") != std::string::npos);
+  std::ofstream(file) << "";
+  CHECK(message_of([&] { read_claims(file); }).find(":1: lacks [[claim]]") != std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("scorecard: Table 1 is nine claims, each with its torque and contact state") {
   int rows = 0;
-  while (std::getline(file, line)) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream words(line);
-    std::string torque, state;
-    double printed = 0;
-    words >> torque >> state >> printed;
-    CAPTURE(line);
-    CHECK(claim("table1-" + state + "-" + torque).printed == printed);
+  for (const Claim& c : paper_claims()) {
+    if (c.value != kNaturalFrequency) continue;
+    CHECK(c.id == text("table1-", c.contact, "-", c.torque));
+    CHECK(c.place == "Table 1");
     ++rows;
   }
   CHECK(rows == 9);
@@ -312,19 +352,35 @@ TEST_CASE("scorecard: the bottom line counts what the rows say, in every renderi
   const auto always = [](double value) {
     return [=](const SceneAnswers&) { return Finding{value, "a note"}; };
   };
-  std::vector<Claim> claims(7);
-  claims[0] = {"a", "1", "agrees", Scale::number, "Hz", 100, 1, "why", always(100.5)};
-  claims[1] = {"b", "1", "taken over", Scale::number, "1", 50, 0, "why", always(50), true};
-  claims[2] = {"c", "2", "differs", Scale::statement, "yes/no", 1, 0, "why", always(kNone)};
-  claims[3] = {"d", "3", "rig", Scale::incomparable, "yes/no", kNone, 0, "why", always(kNone)};
-  claims[4] = {"e", "3", "misprint", Scale::misprint, "mm", 7, 0, "why", always(70)};
-  claims[5] = {"f", "3", "a fit", Scale::number, "%", 7, 0.5, "why", always(7.25)};
-  claims[6] = {"g", "3", "readings", Scale::number, "N", 3000, 1, "why", [](const SceneAnswers& s) {
-                 s.at_rest(100);
-                 s.at_rest(300);
-                 s.branches(150);
-                 return Finding{3000, "read as a 1 N, b 3000 N", "b"};
-               }};
+  const auto claim_of = [](const std::string& id, const std::string& place, const std::string& words,
+                           Scale scale, const std::string& unit, double printed, double tolerance,
+                           const auto& find) {
+    Claim c;
+    c.id = id;
+    c.place = place;
+    c.text = words;
+    c.scale = scale;
+    c.unit = unit;
+    c.printed = printed;
+    c.tolerance = tolerance;
+    c.basis = "why";
+    c.find = find;
+    return c;
+  };
+  const auto readings = [](const SceneAnswers& s) {
+    s.at_rest(100);
+    s.at_rest(300);
+    s.branches(150);
+    return Finding{3000, "read as a 1 N, b 3000 N", "b"};
+  };
+  std::vector<Claim> claims{claim_of("a", "1", "agrees", Scale::number, "Hz", 100, 1, always(100.5)),
+                            claim_of("b", "1", "taken over", Scale::number, "1", 50, 0, always(50)),
+                            claim_of("c", "2", "differs", Scale::statement, "yes/no", 1, 0, always(kNone)),
+                            claim_of("d", "3", "rig", Scale::incomparable, "yes/no", kNone, 0, always(kNone)),
+                            claim_of("e", "3", "misprint", Scale::misprint, "mm", 7, 0, always(70)),
+                            claim_of("f", "3", "a fit", Scale::number, "%", 7, 0.5, always(7.25)),
+                            claim_of("g", "3", "readings", Scale::number, "N", 3000, 1, readings)};
+  claims[1].given = true;
   SceneAnswers scene;
   scene.name = "x";
   for (const char* file : {"T100/static.h5", "T300/static.h5"}) scene.statics[file] = {};

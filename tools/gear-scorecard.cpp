@@ -1,6 +1,6 @@
 // gear-scorecard: what P2000 prints, claim by claim, beside what scenes answer.
 //
-// Reads      the artifacts that `gear-scorecard --files` lists, of each scene
+// Reads      the artifacts that `gear-scorecard --files` lists, of each scene; what P2000 prints (data/published/claims.toml)
 // Writes     <output>.tsv, <output>.md, <output>.txt: every claim with its value in each scene, its deviation and its verdict,
 //            for programs, for data/published/README.md and for a terminal
 #include <cstdio>
@@ -15,11 +15,12 @@ namespace {
 
 void body(int argc, char** argv) {
   whine::Options options{"What P2000 prints beside the results of scenes", "gear-scorecard"};
-  std::string output, fitted;
+  std::string output, printed, fitted;
   std::vector<std::string> inputs;
   bool files = false, claims = false;
   options.add("inputs", inputs, "artifacts: <scene>/<file> for each file that --files lists");
   options.add("--output", output, "path of the results without extension");
+  options.add("--printed", printed, "what P2000 prints, claim by claim: data/published/claims.toml");
   options.add("--fitted", fitted,
               "which numbers of scenes were fitted to which claims: data/published/fitted.toml");
   options.flag("--files", files, "print which artifacts of a scene are read");
@@ -27,19 +28,22 @@ void body(int argc, char** argv) {
                "print the claims as rows of a table: id, place, text, printed value, what decides");
   options.footer(
       "Example:\n"
-      "  gear-scorecard --claims");
+      "  gear-scorecard --claims --printed data/published/claims.toml");
   options.parse(argc, argv);
 
   if (files)
     for (const std::string& file : whine::scorecard_files()) std::puts(file.c_str());
-  if (claims) std::fputs(whine::claims_markdown(whine::paper_claims()).c_str(), stdout);
-  if (files || claims) return;
+  if (files && !claims) return;
+  if (printed.empty()) whine::fail(whine::Failure::usage, "--printed is needed: data/published/claims.toml");
+  const std::vector<whine::Claim> all = whine::read_claims(printed);
+  if (claims) std::fputs(whine::claims_markdown(all).c_str(), stdout);
+  if (claims) return;
   if (output.empty()) whine::fail(whine::Failure::usage, "--output is needed");
   if (inputs.empty())
     whine::fail(whine::Failure::usage, "artifacts of a scene are needed; --files lists them");
 
   const whine::Scorecard card =
-      whine::score(whine::paper_claims(), whine::read_answers(inputs),
+      whine::score(all, whine::read_answers(inputs),
                    fitted.empty() ? std::vector<whine::FittedNumber>{} : whine::read_fitted_numbers(fitted));
   for (const std::string& path : inputs) whine::require_fresh(path);
   std::vector<std::string> sources;

@@ -1,12 +1,13 @@
-// What P2000 prints, claim by claim, and how each is read from what a scene answers.
+// What P2000 prints, claim by claim, beside the value of a scene that each is compared with.
 //
-// A claim is data: where it is printed, what it says, which tolerance or criterion decides and why, and one function that
-// reads its value.
+// A claim is data of data/published/claims.toml: where it is printed, what it says, which tolerance or criterion decides and why.
+// It names its value; paper/claim_values.h says how values are read from what a scene answers.
 #pragma once
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "files/printed_claims.h"
 #include "paper/answers.h"
 
 namespace whine {
@@ -19,30 +20,18 @@ struct Finding {
       {};  // of a number that the text lets one read in several ways: the one that `value` is
 };
 
-enum class Scale {
-  number,       // agrees within a tolerance
-  statement,    // yes or no, by a criterion
-  choice,       // how P2000 computes: given if the scene does so, too, else incomparable
-  misprint,     // P2000's own numbers contradict it
-  incomparable  // nothing of ours can stand against it
-};
+// The value of the claims that are Table 1.
+inline constexpr const char* kNaturalFrequency = "natural-frequency";
 
 inline constexpr const char *kPaperScene = "parker2000", *kCalibratedScene = "parker2000-calibrated";
 
-struct Claim {
-  std::string id, place, text;  // place: section, table or figure of P2000
-  Scale scale;
-  std::string unit;  // "1" for a pure number, "yes/no" for a statement
-  double printed;    // in the unit; 1 for a statement; NaN where the text has no number
-  double tolerance;  // in the unit, inclusive; 0 for a statement
-  std::string
-      basis;  // why this tolerance or criterion; when the answer is yes; why there is nothing to compare
+struct Claim : PrintedClaim {
   std::function<Finding(const SceneAnswers&)> find;
-  bool given = false;  // an input that scenes take over from P2000
 };
 
-// In the order of P2000.
-const std::vector<Claim>& paper_claims();
+// In the order of the file. Throws Error(input), with file:line, as read_printed_claims; for a value that is not known; for a
+// torque, mesh frequency, order or contact that the value needs and that is missing, or that it does not need.
+std::vector<Claim> read_claims(const std::string& path);
 
 // A number as findings show it; whole numbers stay whole.
 std::string digits(double value, int count = 4);

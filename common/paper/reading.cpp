@@ -84,12 +84,6 @@ double root(const Function& excess, double low, double high, double tolerance) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-struct TableRow {
-  const char* state;
-  std::array<double, 3> frequency;  // Hz, Table 1 at kTorques
-};
-constexpr TableRow kTableRows[] = {
-    {"one", {2480, 2480, 2560}}, {"two", {3040, 3040, 3040}}, {"mean", {2900, 2900, 2920}}};
 // What damping as printed makes of a natural frequency.
 const double kDamped = std::sqrt(1 - kPaperDampingRatio * kPaperDampingRatio);
 
@@ -164,8 +158,12 @@ double BoreFamily::tied_bore(const CornerRule& corner) {
 }
 
 PaperPair::PaperPair(BoreFamily& family, double bore, const Scene& scene, const OpenChoices& choices,
-                     const ReadingLevel& level)
-    : body_(family.body(bore)), bore_(body_.design.bore_radius), level_(level), time_(scene.time) {
+                     const ReadingLevel& level, std::vector<Claim> claims)
+    : claims_(std::move(claims)),
+      body_(family.body(bore)),
+      bore_(body_.design.bore_radius),
+      level_(level),
+      time_(scene.time) {
   for (int torque : kSweptTorques) {
     pair_.statics[folder(torque, "static.h5")] = with_harmonics(
         static_transmission(body_, body_, static_slice_of(scene, choices.corner, "strips"), torque));
@@ -225,9 +223,10 @@ double PaperPair::tied_inertia(const std::string& from) {
     for (size_t t = 0; t < (from == "table" ? kTorques.size() : 1); ++t) {
       const ImpactArtifact held = frozen_impact(body_, body_, pair_.at_rest(kTorques[t]), reference_stiffness,
                                                 impact_slice({}, inertia), kHeldPhases);
-      for (const TableRow& row : kTableRows) {
-        if (from != "table" && from != row.state) continue;
-        sum += row.frequency[t] / (kDamped * held.undamped_frequency[row_of(held, row.state)]);
+      for (const Claim& row : claims_) {
+        if (row.value != kNaturalFrequency || row.torque != kTorques[t]) continue;
+        if (from != "table" && from != row.contact) continue;
+        sum += row.printed / (kDamped * held.undamped_frequency[row_of(held, row.contact)]);
         ++count;
       }
     }
@@ -347,7 +346,7 @@ Reading PaperPair::judge(Reading out) const {
   out.jump_up = primary(figure.up);
   out.jump_down = primary(figure.down);
   const std::set<std::string> fitted = fitted_claims(choices);
-  for (const Claim& claim : paper_claims()) {
+  for (const Claim& claim : claims_) {
     const Finding finding = claim.find(answers);
     const bool exists = std::isfinite(finding.value);
     out.verdict.push_back(static_cast<int>(verdict(claim, finding, fitted.contains(claim.id))));

@@ -55,9 +55,10 @@ class BoreFamily {
 // A pair of gears with all that does not depend on inertia and damping: statics, lumped models.
 class PaperPair {
  public:
-  // bore: m; that of BoreFamily::tied_bore, or of a reading that is to be confirmed.
+  // bore: m; that of BoreFamily::tied_bore, or of a reading that is to be confirmed. claims: what readings are judged by, and
+  // Table 1, which the inertia is fitted to.
   PaperPair(BoreFamily& family, double bore, const Scene& scene, const OpenChoices& choices,
-            const ReadingLevel& level);
+            const ReadingLevel& level, std::vector<Claim> claims);
   // Fits inertia and damping and judges. Throws Error as the stages do where the model of the pair does not hold.
   Reading evaluate(const OpenChoices& choices);
   // Judges with the inertia and damping that the reading has.
@@ -70,6 +71,7 @@ class PaperPair {
   ImpactSlice impact_slice(const OpenChoices& choices, double inertia) const;
   void add_lumped(const Scene& scene);
 
+  std::vector<Claim> claims_;
   const BodyArtifact& body_;
   double bore_;
   ReadingLevel level_;

@@ -1,4 +1,4 @@
-// Figures and tables of gears at rest: transmission error, stiffness, loads, errors, natural frequencies.
+// Figures and tables of gears at rest: transmission error, stiffness, loads, errors.
 #pragma once
 #include "plot/figures.h"
 
@@ -29,16 +29,6 @@ Figure sidebands_figure(const StaticArtifact& statics, const ResponseArtifact& m
 // tooth is on the far side of its gear. Throws Error(input) for a pair without a crack or with errors tooth by tooth, which
 // nothing tells from its mark.
 Figure crack_figure(const StaticArtifact& statics);
-
-// Natural frequencies by ring-down with few and with many pairs in contact and on the mean, a row for each torque
-// (ascending). The mean stands there twice: over the phases of a mesh period, and over the two states, weighted by the
-// shares of the period that the contact ratio gives them. published: a file of lines "torque <tab> contact <tab>
-// frequency" in N m and Hz, contact one, two, .. or mean; deviations from it in percent; "" for none. Throws Error(input)
-// for no artifact, two of one torque, or a state or a published value that is missing; Error(io) if the file cannot be read.
-Figure natural_frequency_table(std::vector<ImpactArtifact> impacts, const std::string& published);
-
-// The same as lines for a terminal.
-std::string natural_frequency_text(const Figure& table);
 
 // Changes of the static answer by each refinement, as bars, in per cent; apart from them those by another
 // choice of near field or contact.
