@@ -12,7 +12,8 @@
 #include "motion/impact.h"
 #include "motion/jump_map.h"
 #include "paper_pair.h"
-#include "plot/map_figures.h"
+#include "plot/jump_map_figures.h"
+#include "plot/sensitivity_figure.h"
 #include "relative.h"
 
 using namespace whine;

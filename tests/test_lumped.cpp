@@ -16,6 +16,7 @@
 #include "lumped/sweep.h"
 #include "paper_pair.h"
 #include "plot/motion_figures.h"
+#include "plot/response_figures.h"
 #include "relative.h"
 #include "signal/response.h"
 

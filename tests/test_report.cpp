@@ -17,6 +17,7 @@
 #include "paper_pair.h"
 #include "plot/motion_figures.h"
 #include "plot/report.h"
+#include "plot/report_figures.h"
 #include "plot/static_figures.h"
 #include "relative.h"
 #include "signal/response.h"

@@ -14,7 +14,7 @@
 #include "files/publish.h"
 #include "plot/figures.h"
 #include "plot/gnuplot.h"
-#include "plot/map_figures.h"
+#include "plot/harris_figure.h"
 #include "plot/plot_file.h"
 #include "plot/wireframe.h"
 #include "relative.h"

@@ -110,10 +110,12 @@ std::string frame_name(int frame) {
   return name;
 }
 
-}  // namespace
+double half_window_of(const SweepArtifact& s) {
+  return 1.75 * std::numbers::pi * s.driver.module;
+}
 
-Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& s,
-                        double mesh_frequency, int frames) {
+void check_inputs(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& s,
+                  int frames) {
   if (frames < 2 || frames > 1000)
     fail(Failure::input, "an animation of ", frames, " frames; from 2 to 1000 are possible");
   if (s.model != "finite elements")
@@ -130,8 +132,19 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
            mesh[g]->design.teeth, " teeth, module ", mesh[g]->design.module * kMilli,
            " mm) is not of the sweep's gear (", wanted[g]->teeth, " teeth, module ",
            wanted[g]->module * kMilli, " mm)");
+}
 
-  // 1. The motion.
+// The motion that is shown: one orbit.
+struct ShownMotion {
+  double speed;  // Hz
+  int periods, per_period;
+  Index samples;
+  Eigen::VectorXd error, force;  // (sample) m, N
+  const MatrixRM& loads;         // (sample, pair) N; more samples than those of the orbit
+};
+
+// At the mesh frequency, Hz; 0: where the transmission error oscillates most.
+ShownMotion motion_of(const SweepArtifact& s, double mesh_frequency) {
   const auto oscillation = [&s](Index row) {
     const Eigen::VectorXd x = s.transmission_error.row(row);
     return std::sqrt((x.array() - x.mean()).square().mean());
@@ -149,125 +162,185 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
   const int periods = std::max(1, s.period_multiple[row]), per_period = s.time.steps_per_period;
   const Index samples =
       std::min<Index>(static_cast<Index>(periods) * per_period, s.transmission_error.cols());
-  const Eigen::VectorXd error = s.transmission_error.row(row).head(samples).transpose(),
-                        force = s.mesh_force.row(row).head(samples).transpose();
-  const MatrixRM& loads = s.tooth_load[static_cast<size_t>(row)];
+  return {speed,
+          periods,
+          per_period,
+          samples,
+          s.transmission_error.row(row).head(samples).transpose(),
+          s.mesh_force.row(row).head(samples).transpose(),
+          s.tooth_load[static_cast<size_t>(row)]};
+}
 
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
-  const double static_force = s.torque / pair.gear(0).base_radius();
-  const double magnified = round_down(0.3 * s.driver.module / error.cwiseAbs().maxCoeff());
-  const double drawn_back = std::max(
-      0.0,
-      (1.1 * magnified * std::max(0.0, -error.minCoeff()) + 0.04 * s.driver.module - pair.backlash()) / 2);
-  const double inverse_mass[2] = {std::pow(pair.gear(0).base_radius(), 2) / s.driver_inertia,
-                                  std::pow(pair.gear(1).base_radius(), 2) / s.driven_inertia};
+// Columns of pairs that carry load at all: from the first to the last of them.
+struct LoadedPairs {
+  Index first, last = -1;
+};
 
-  Figure figure;
-  figure.height = 1200;
-  // 2. What is below the teeth in every picture.
-  Index first = loads.cols(), last = -1;  // columns of pairs that carry load at all
-  for (Index j = 0; j < loads.cols(); ++j)
-    if (loads.col(j).head(samples).maxCoeff() > 0) {
+// What is below the teeth in every picture: the history, and the intervals without contact.
+LoadedPairs add_history(const SweepArtifact& s, const ShownMotion& m, Figure& figure) {
+  LoadedPairs pairs{m.loads.cols()};
+  Index &first = pairs.first, &last = pairs.last;
+  for (Index j = 0; j < m.loads.cols(); ++j)
+    if (m.loads.col(j).head(m.samples).maxCoeff() > 0) {
       first = std::min(first, j);
       last = j;
     }
   FigureBlock history{"history", {"mesh period [1]", "dte [µm]", "mesh force [N]"}, {}};
   for (Index j = first; j <= last; ++j) history.columns.push_back(text("pair ", s.pair[j], " [N]"));
   FigureBlock lost{"contact lost", {"from [1]", "to [1]"}, {}};
-  for (Index k = 0; k <= samples; ++k) {
-    const Index at = k % samples;
-    std::vector<double> values{static_cast<double>(k) / per_period, error[at] * kMicro, force[at]};
+  for (Index k = 0; k <= m.samples; ++k) {
+    const Index at = k % m.samples;
+    std::vector<double> values{static_cast<double>(k) / m.per_period, m.error[at] * kMicro, m.force[at]};
     // A mesh period later every pair is one place further.
     for (Index j = first; j <= last; ++j) {
-      const Index column = k == samples ? j + periods : j;
-      values.push_back(column < loads.cols() ? loads(at, column) : 0.0);
+      const Index column = k == m.samples ? j + m.periods : j;
+      values.push_back(column < m.loads.cols() ? m.loads(at, column) : 0.0);
     }
     history.rows.push_back(values);
-    if (k == samples || force[at] > 0) continue;
-    const double from = (k - 0.5) / per_period, to = (k + 0.5) / per_period;
+    if (k == m.samples || m.force[at] > 0) continue;
+    const double from = (k - 0.5) / m.per_period, to = (k + 0.5) / m.per_period;
     if (!lost.rows.empty() && lost.rows.back()[1] >= from - 1e-9)
       lost.rows.back()[1] = to;
     else
       lost.rows.push_back({from, to});
   }
   figure.blocks = {history, lost};
+  return pairs;
+}
+
+// The teeth of one picture after the other.
+class Pictures {
+ public:
+  // drawn_back: m, by which back flanks are drawn thinner.
+  Pictures(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& s,
+           const ShownMotion& m, double magnified, double drawn_back)
+      : s_(s),
+        motion_(m),
+        pair_(s.driver, s.driven, s.mesh.centre_distance),
+        outline_{ElasticOutline(driver, s.driver_material), ElasticOutline(driven, s.driven_material)},
+        pitch_point_(0, pair_.gear(0).base_radius() / std::cos(pair_.working_pressure_angle())),
+        inverse_mass_{std::pow(pair_.gear(0).base_radius(), 2) / s.driver_inertia,
+                      std::pow(pair_.gear(1).base_radius(), 2) / s.driven_inertia},
+        magnified_(magnified),
+        drawn_back_(drawn_back) {}
+
+  // At sample k: both gears and the forces between them.
+  void add(const std::string& name, Index k, Figure& figure) const;
+
+ private:
+  using Presses = std::vector<ElasticOutline::Press>;
+  // m, by which the tooth of a pair leans away from the other gear's at a mesh phase.
+  double lean(double phase, int number) const;
+  FigureBlock teeth(const std::string& name, int g, Index k, double phase, const Presses& presses,
+                    FigureBlock& pressing) const;
+
+  const SweepArtifact& s_;
+  const ShownMotion& motion_;
+  GearPair pair_;
+  ElasticOutline outline_[2];
+  Vec2 pitch_point_;
+  double inverse_mass_[2];
+  double magnified_, drawn_back_;
+};
+
+// Only displacements are magnified. A pair that is micrometres apart would be drawn as if it had run into each other: its
+// gap is magnified, too, as far as that takes.
+double Pictures::lean(double phase, int number) const {
+  const double path = (phase + number) * pair_.base_pitch(),
+               tangent = std::tan(pair_.working_pressure_angle());
+  if (tangent + path / pair_.gear(0).base_radius() <= 0 || tangent - path / pair_.gear(1).base_radius() <= 0)
+    return 0.0;
+  const PairContact contact = pair_.contact(phase + number);
+  if (!(contact.gap > 0) || !contact.on_flank) return 0.0;
+  return 0.5 * std::min((magnified_ - 1) * contact.gap,
+                        std::max(0.0, magnified_ * motion_.error.maxCoeff() - contact.gap));
+}
+
+FigureBlock Pictures::teeth(const std::string& name, int g, Index k, double phase, const Presses& presses,
+                            FigureBlock& pressing) const {
+  const double half_window = half_window_of(s_);
+  Placement at = placed(pair_, g, phase);
+  const double share = inverse_mass_[g] / (inverse_mass_[0] + inverse_mass_[1]);
+  at.angle += magnified_ * motion_.error[k] * share / pair_.gear(g).base_radius();
+  const double pitch = 2 * std::numbers::pi / pair_.gear(g).design().teeth;
+  // Tooth 0 stands at `upright`; the mesh is above the driver's centre and below the driven gear's.
+  const double upright = std::remainder(at.angle - (g == 0 ? 0.0 : std::numbers::pi), 2 * std::numbers::pi);
+  const int middle = static_cast<int>(std::lround(-upright / pitch));
+  FigureBlock block{name + (g == 0 ? " driver" : " driven"), {"x [mm]", "y [mm]"}, {}, "", "", true};
+  // A contour goes from the clockwise side of its sector to the other: so do the teeth, in one closed line.
+  const auto add = [&](const Vec2& p) {
+    // micrometres are enough for the eye and keep the file small
+    block.rows.push_back({std::round(p.x() * 1e6) * 1e-3, std::round(p.y() * 1e6) * 1e-3});
+  };
+  const double deep = g == 0 ? -3 * half_window : 3 * half_window;
+  std::vector<Vec2> line;
+  for (int j = middle - 3; j <= middle + 3; ++j)
+    for (const Vec2& p : outline_[g].tooth(j, presses, magnified_, drawn_back_, lean(phase, g == 0 ? j : -j)))
+      line.push_back(at(p) - pitch_point_);
+  add({line.front().x(), deep});
+  for (const Vec2& p : line) add(p);
+  add({line.back().x(), deep});
+  add({line.front().x(), deep});
+  if (g == 0)
+    for (const ElasticOutline::Press& press : presses) {
+      const Eigen::Rotation2Dd turn(pitch * press.tooth);
+      const Vec2 p = at(turn * pair_.gear(0).flank_point(press.roll)) - pitch_point_;
+      pressing.rows.push_back(
+          {p.x() * kMilli, p.y() * kMilli, press.force, static_cast<double>(press.tooth)});
+    }
+  return block;
+}
+
+void Pictures::add(const std::string& name, Index k, Figure& figure) const {
+  const double phase =
+      static_cast<double>(k) / motion_.per_period - std::floor(static_cast<double>(k) / motion_.per_period);
+  Presses presses[2];
+  FigureBlock pressing{name + " force", {"x [mm]", "y [mm]", "load [N]", "pair [1]"}, {}, "", "", true};
+  for (Index j = 0; j < motion_.loads.cols(); ++j) {
+    if (!(motion_.loads(k, j) > 0)) continue;
+    const int number = s_.pair[j];
+    const PairContact contact = pair_.contact(phase + number);
+    if (!contact.on_flank) continue;
+    for (int g = 0; g < 2; ++g)
+      presses[g].push_back(
+          {g == 0 ? number : -number, contact.roll[static_cast<size_t>(g)], motion_.loads(k, j)});
+  }
+  for (int g = 0; g < 2; ++g) figure.blocks.push_back(teeth(name, g, k, phase, presses[g], pressing));
+  if (pressing.rows.empty()) pressing.rows.push_back({0, 0, 0, 0});
+  figure.blocks.push_back(pressing);
+}
+
+}  // namespace
+
+Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& s,
+                        double mesh_frequency, int frames) {
+  check_inputs(driver, driven, s, frames);
+  // 1. The motion.
+  const ShownMotion m = motion_of(s, mesh_frequency);
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double static_force = s.torque / pair.gear(0).base_radius();
+  const double magnified = round_down(0.3 * s.driver.module / m.error.cwiseAbs().maxCoeff());
+  const double drawn_back = std::max(
+      0.0,
+      (1.1 * magnified * std::max(0.0, -m.error.minCoeff()) + 0.04 * s.driver.module - pair.backlash()) / 2);
+
+  Figure figure;
+  figure.height = 1200;
+  // 2. What is below the teeth in every picture.
+  const auto [first, last] = add_history(s, m, figure);
 
   // 3. The teeth, picture by picture.
-  const ElasticOutline outline[2] = {ElasticOutline(driver, s.driver_material),
-                                     ElasticOutline(driven, s.driven_material)};
-  const Vec2 pitch_point(0, pair.gear(0).base_radius() / std::cos(pair.working_pressure_angle()));
-  const double half_window = 1.75 * std::numbers::pi * s.driver.module;
-  const Vec2 along(-std::cos(pair.working_pressure_angle()), std::sin(pair.working_pressure_angle()));
+  const Pictures pictures(driver, driven, s, m, magnified, drawn_back);
   FigureBlock state{"frames", {"mesh period [1]", "dte [µm]", "mesh force [N]"}, {}};
   for (int frame = 0; frame < frames; ++frame) {
-    const Index k = static_cast<Index>(frame) * samples / frames;
-    const double phase =
-        static_cast<double>(k) / per_period - std::floor(static_cast<double>(k) / per_period);
-    state.rows.push_back({static_cast<double>(k) / per_period, error[k] * kMicro, force[k]});
-    std::vector<ElasticOutline::Press> presses[2];
-    FigureBlock pressing{
-        frame_name(frame) + " force", {"x [mm]", "y [mm]", "load [N]", "pair [1]"}, {}, "", "", true};
-    for (Index j = 0; j < loads.cols(); ++j) {
-      if (!(loads(k, j) > 0)) continue;
-      const int number = s.pair[j];
-      const PairContact contact = pair.contact(phase + number);
-      if (!contact.on_flank) continue;
-      for (int g = 0; g < 2; ++g)
-        presses[g].push_back({g == 0 ? number : -number, contact.roll[static_cast<size_t>(g)], loads(k, j)});
-    }
-    // Only displacements are magnified. A pair that is micrometres apart would be drawn as if it had run into each other: its
-    // gap is magnified, too, as far as that takes.
-    const auto lean_of = [&](int number) {
-      const double path = (phase + number) * pair.base_pitch(),
-                   tangent = std::tan(pair.working_pressure_angle());
-      if (tangent + path / pair.gear(0).base_radius() <= 0 ||
-          tangent - path / pair.gear(1).base_radius() <= 0)
-        return 0.0;
-      const PairContact contact = pair.contact(phase + number);
-      if (!(contact.gap > 0) || !contact.on_flank) return 0.0;
-      return 0.5 * std::min((magnified - 1) * contact.gap,
-                            std::max(0.0, magnified * error.maxCoeff() - contact.gap));
-    };
-    for (int g = 0; g < 2; ++g) {
-      Placement at = placed(pair, g, phase);
-      const double share = inverse_mass[g] / (inverse_mass[0] + inverse_mass[1]);
-      at.angle += magnified * error[k] * share / pair.gear(g).base_radius();
-      const double pitch = 2 * std::numbers::pi / pair.gear(g).design().teeth;
-      // Tooth 0 stands at `upright`; the mesh is above the driver's centre and below the driven gear's.
-      const double upright =
-          std::remainder(at.angle - (g == 0 ? 0.0 : std::numbers::pi), 2 * std::numbers::pi);
-      const int middle = static_cast<int>(std::lround(-upright / pitch));
-      FigureBlock teeth{
-          frame_name(frame) + (g == 0 ? " driver" : " driven"), {"x [mm]", "y [mm]"}, {}, "", "", true};
-      // A contour goes from the clockwise side of its sector to the other: so do the teeth, in one closed line.
-      const auto add = [&](const Vec2& p) {
-        // micrometres are enough for the eye and keep the file small
-        teeth.rows.push_back({std::round(p.x() * 1e6) * 1e-3, std::round(p.y() * 1e6) * 1e-3});
-      };
-      const double deep = g == 0 ? -3 * half_window : 3 * half_window;
-      std::vector<Vec2> line;
-      for (int j = middle - 3; j <= middle + 3; ++j)
-        for (const Vec2& p : outline[g].tooth(j, presses[g], magnified, drawn_back, lean_of(g == 0 ? j : -j)))
-          line.push_back(at(p) - pitch_point);
-      add({line.front().x(), deep});
-      for (const Vec2& p : line) add(p);
-      add({line.back().x(), deep});
-      add({line.front().x(), deep});
-      figure.blocks.push_back(teeth);
-      if (g == 0)
-        for (const ElasticOutline::Press& press : presses[0]) {
-          const Eigen::Rotation2Dd turn(pitch * press.tooth);
-          const Vec2 p = at(turn * pair.gear(0).flank_point(press.roll)) - pitch_point;
-          pressing.rows.push_back(
-              {p.x() * kMilli, p.y() * kMilli, press.force, static_cast<double>(press.tooth)});
-        }
-    }
-    if (pressing.rows.empty()) pressing.rows.push_back({0, 0, 0, 0});
-    figure.blocks.push_back(pressing);
+    const Index k = static_cast<Index>(frame) * m.samples / frames;
+    state.rows.push_back({static_cast<double>(k) / m.per_period, m.error[k] * kMicro, m.force[k]});
+    pictures.add(frame_name(frame), k, figure);
   }
   figure.blocks.push_back(state);
 
-  figure.title = text("Gears at ", speed, " Hz mesh frequency, ", s.torque, " N m, speed ",
+  const Vec2 along(-std::cos(pair.working_pressure_angle()), std::sin(pair.working_pressure_angle()));
+  figure.title = text("Gears at ", m.speed, " Hz mesh frequency, ", s.torque, " N m, speed ",
                       s.direction == "up" ? "rising" : "falling");
   figure.notes = {text("Vibration and deflection magnified ", magnified,
                        " times; teeth bend as at rest under the loads of the moment; gaps are "
@@ -277,19 +350,19 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
                                              " mm thinner, the model has none")
                                       : "")};
   figure.numbers = {{"frames", frames},
-                    {"periods", periods},
+                    {"periods", m.periods},
                     {"magnified", magnified},
                     {"drawn_back", drawn_back * kMilli},
-                    {"half_window", half_window * kMilli},
+                    {"half_window", half_window_of(s) * kMilli},
                     {"along_x", along.x()},
                     {"along_y", along.y()},
                     {"static_force", static_force},
-                    {"largest_force", force.maxCoeff()},
-                    {"least_error", error.minCoeff() * kMicro},
-                    {"largest_error", error.maxCoeff() * kMicro},
+                    {"largest_force", m.force.maxCoeff()},
+                    {"least_error", m.error.minCoeff() * kMicro},
+                    {"largest_error", m.error.maxCoeff() * kMicro},
                     {"pairs", static_cast<double>(std::max<Index>(0, last - first + 1))},
-                    {"first_pair", first < loads.cols() ? s.pair[first] : 0.0},
-                    {"losses", static_cast<double>(lost.rows.size())}};
+                    {"first_pair", first < m.loads.cols() ? s.pair[first] : 0.0},
+                    {"losses", static_cast<double>(figure.blocks[1].rows.size())}};
   return figure;
 }
 

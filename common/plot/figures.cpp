@@ -23,6 +23,11 @@ std::string fixed(double value, int decimals) {
   return buffer;
 }
 
+std::string rounded(double value, int decimals) {
+  const double scale = std::pow(10, decimals);
+  return text(std::round(value * scale) / scale);
+}
+
 std::string letter_of(size_t i) {
   return std::string(1, static_cast<char>('a' + i));
 }

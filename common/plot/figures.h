@@ -42,6 +42,8 @@ struct Figure {
 // %.<digits>g, %.<decimals>f: text() would show ten digits.
 std::string shown(double value, int digits);
 std::string fixed(double value, int decimals);
+// To these decimals, without zeros at the end.
+std::string rounded(double value, int decimals);
 
 // 0: "a", the letter of a panel.
 std::string letter_of(size_t i);

@@ -103,6 +103,60 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
   return figure;
 }
 
+namespace {
+
+// Outline, teeth in the window about `touch`, and the inner region of one gear.
+void add_body(const MeshArtifact& mesh, const StaticArtifact& s, const GearPair& pair, int g,
+              const Vec2& touch, double half_window, Figure& figure) {
+  const std::string name = g == 0 ? "driver" : "driven";
+  const Wireframe wire(mesh);
+  const Placement at = placed(pair, g);
+  const std::vector<std::string> columns{"x [mm]", "y [mm]"};
+  figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli), "", "", true});
+  figure.blocks.push_back(
+      {name + " teeth", columns, wire.window(at, kMilli, touch, half_window), "", "", true});
+  const BodyDiscretisation& body = g == 0 ? s.driver_body : s.driven_body;
+  FigureBlock inner{name + " inner region", columns, {}, "", "", true};
+  if (body.near_field == "matching") {
+    const ToothGeometry& tooth = pair.gear(g);
+    for (double t = 0; t <= 1.0001; t += 0.02) {
+      const double roll = tooth.form_roll_angle() + t * (tooth.tip_roll_angle() - tooth.form_roll_angle());
+      const Vec2 p = at(tooth.flank_point(roll) - body.matching_depth * tooth.flank_normal(roll)) * kMilli;
+      inner.rows.push_back({p.x(), p.y()});
+    }
+  } else {
+    inner.rows = tooth_elements(mesh, at, kMilli);
+  }
+  figure.blocks.push_back(inner);
+}
+
+// Hertz's line contact (Johnson, Contact Mechanics, 4.2c) of a force.
+struct HertzContact {
+  double half_width, peak;  // m, Pa
+};
+
+HertzContact hertz_contact(const StaticArtifact& s, const GearPair& pair, double force, double face_width) {
+  const auto coefficient = [&](const Material& material) {
+    return HalfPlaneSurface(in_contact_plane(material, s.mesh.contact_plane), face_width).coefficient();
+  };
+  const double compliance = coefficient(s.driver_material) + coefficient(s.driven_material);
+  const double half_width = std::sqrt(2 * pair.relative_curvature_radius(0.0) * force * compliance);
+  const double peak = 2 * force / (std::numbers::pi * half_width * face_width);
+  return {half_width, peak};
+}
+
+FigureBlock hertz_block(const HertzContact& contact) {
+  FigureBlock hertz{"Hertz", {"along flank [mm]", "pressure [MPa]"}, {}};
+  for (int k = 0; k <= 120; ++k) {
+    const double x = -std::cos(std::numbers::pi * k / 120);
+    hertz.rows.push_back(
+        {x * contact.half_width * kMilli, 1e-6 * contact.peak * std::sqrt(std::max(0.0, 1 - x * x))});
+  }
+  return hertz;
+}
+
+}  // namespace
+
 Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s,
                            const ContactZone& zone) {
   require_same_gear("driver", driver.design, s.driver);
@@ -117,29 +171,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
 
   Figure figure;
   figure.title = text("Contact zone of the reference pair at the pitch point, ", torque_words(s.torque));
-  for (int g = 0; g < 2; ++g) {
-    const MeshArtifact& mesh = g == 0 ? driver : driven;
-    const std::string name = g == 0 ? "driver" : "driven";
-    const Wireframe wire(mesh);
-    const Placement at = placed(pair, g);
-    const std::vector<std::string> columns{"x [mm]", "y [mm]"};
-    figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli), "", "", true});
-    figure.blocks.push_back(
-        {name + " teeth", columns, wire.window(at, kMilli, touch, half_window), "", "", true});
-    const BodyDiscretisation& body = g == 0 ? s.driver_body : s.driven_body;
-    FigureBlock inner{name + " inner region", columns, {}, "", "", true};
-    if (body.near_field == "matching") {
-      const ToothGeometry& tooth = pair.gear(g);
-      for (double t = 0; t <= 1.0001; t += 0.02) {
-        const double roll = tooth.form_roll_angle() + t * (tooth.tip_roll_angle() - tooth.form_roll_angle());
-        const Vec2 p = at(tooth.flank_point(roll) - body.matching_depth * tooth.flank_normal(roll)) * kMilli;
-        inner.rows.push_back({p.x(), p.y()});
-      }
-    } else {
-      inner.rows = tooth_elements(mesh, at, kMilli);
-    }
-    figure.blocks.push_back(inner);
-  }
+  for (int g = 0; g < 2; ++g) add_body(g == 0 ? driver : driven, s, pair, g, touch, half_window, figure);
   FigureBlock action{"line of action", {"x [mm]", "y [mm]"}, {}, "", "", true};
   for (double side : {-1.0, 1.0}) {
     const Vec2 p = (touch + side * half_window * normal) * kMilli;
@@ -182,20 +214,9 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
                                strips.gap[i] * kMicro, zone.separation[i] * kMicro,
                                1e-6 * zone.force[i] / (strips.width(i) * face_width)});
   }
-  // Hertz's line contact (Johnson, Contact Mechanics, 4.2c) of the same force.
   const double force = zone.force.sum();
-  const auto coefficient = [&](const Material& material) {
-    return HalfPlaneSurface(in_contact_plane(material, s.mesh.contact_plane), face_width).coefficient();
-  };
-  const double compliance = coefficient(s.driver_material) + coefficient(s.driven_material);
-  const double half_width = std::sqrt(2 * pair.relative_curvature_radius(0.0) * force * compliance);
-  const double peak = 2 * force / (std::numbers::pi * half_width * face_width);
-  FigureBlock hertz{"Hertz", {"along flank [mm]", "pressure [MPa]"}, {}};
-  for (int k = 0; k <= 120; ++k) {
-    const double x = -std::cos(std::numbers::pi * k / 120);
-    hertz.rows.push_back({x * half_width * kMilli, 1e-6 * peak * std::sqrt(std::max(0.0, 1 - x * x))});
-  }
-  figure.blocks.insert(figure.blocks.end(), {candidates, flanks, hertz});
+  const auto [half_width, peak] = hertz_contact(s, pair, force, face_width);
+  figure.blocks.insert(figure.blocks.end(), {candidates, flanks, hertz_block({half_width, peak})});
 
   figure.notes.push_back(pair_words(s));
   const std::string inner =

@@ -1,316 +1,17 @@
 #include "plot/motion_figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <tuple>
 
 #include "base/error.h"
-#include "files/summary.h"
 #include "gear/pair.h"
-#include "motion/sweep.h"
+#include "plot/response_figures.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 
 namespace whine {
 namespace {
-
-template <class Artifact>
-auto gears_of(const Artifact& s) {
-  const auto of_gear = [](const GearDesign& g) {
-    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
-  };
-  return std::tuple(of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
-                    s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
-                    s.mesh.contact_plane, s.damping.rayleigh_stiffness, s.damping.rayleigh_mass,
-                    s.damping.bearing_ratio, s.damping.undamped_depth);
-}
-
-// All that two sweeps must share to be one experiment, besides the torque.
-template <class Sweep>
-auto choices_of(const Sweep& s, const LumpedParameters& lumped) {
-  return std::tuple(s.model, gears_of(s), s.fidelity.body, s.fidelity.contact, s.fidelity.integrator,
-                    lumped.mass, lumped.damping_ratio, lumped.damper_acts);
-}
-
-template <class Sweep>
-bool elastic(const Sweep& s) {
-  return s.model == "finite elements";
-}
-
-std::string lumped_words(const LumpedParameters& lumped) {
-  if (!(lumped.mass > 0)) return "mass and damping ratio: see its sweep.h5";
-  return text("mass ", shown(lumped.mass, 5), " kg, damping ratio ",
-              shown(lumped.damping_ratio * kPercent, 4), " %, damper ",
-              lumped.damper_acts == "contact" ? "in contact only" : "always on");
-}
-
-template <class Sweep>
-std::string choice_words(const Sweep& s) {
-  if (!elastic(s))
-    return text("one degree of freedom (Eq. 23), mesh stiffness: ", s.model, "; integrator ",
-                s.fidelity.integrator, "; its statics: ", corner_words(s.mesh.corner));
-  std::string words = "Rayleigh damping η = " + shown(s.damping.rayleigh_stiffness * kMicro, 6) + " µs";
-  if (s.damping.rayleigh_mass != 0) words += ", µ = " + shown(s.damping.rayleigh_mass, 6) + " s⁻¹";
-  return words + text(", undamped to ", shown(s.damping.undamped_depth * kMilli, 4),
-                      " mm depth, bearing ratio ", shown(s.damping.bearing_ratio, 4), "; ",
-                      corner_words(s.mesh.corner), "; body ", s.fidelity.body, ", contact ",
-                      s.fidelity.contact, ", integrator ", s.fidelity.integrator);
-}
-
-// Sweeps of the same choices, both directions at each torque (ascending), those of other flanks in the order in which they
-// come.
-template <class Sweep>
-struct ChoicePanel {
-  struct Curve {
-    const Sweep *up = nullptr, *down = nullptr;
-  };
-  std::string choices, scene;
-  LumpedParameters lumped;
-  std::vector<Curve> curves;
-};
-
-// In the order in which the choices come. Throws Error(input) where a direction is missing or given twice.
-template <class Sweep>
-std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& told) {
-  std::vector<ChoicePanel<Sweep>> panels;
-  std::vector<const Sweep*> first;  // of each panel
-  for (size_t i = 0; i < sweeps.size(); ++i) {
-    const Sweep& s = sweeps[i];
-    const LumpedParameters lumped = told.lumped.empty() ? LumpedParameters{} : told.lumped.at(i);
-    if (s.direction != "up" && s.direction != "down")
-      fail(Failure::input, "figure: a sweep of direction '", s.direction, "'; up and down are known");
-    size_t p = 0;
-    while (p < first.size() && choices_of(*first[p], panels[p].lumped) != choices_of(s, lumped)) ++p;
-    if (p == first.size()) {
-      first.push_back(&s);
-      panels.push_back({choice_words(s), told.scenes.empty() ? "" : told.scenes.at(i), lumped, {}});
-    }
-    auto& curves = panels[p].curves;
-    const auto of = [](const auto& c) { return c.up ? c.up : c.down; };
-    const auto same = [&](const auto& c) {
-      return of(c)->torque == s.torque && of(c)->mesh.modification == s.mesh.modification;
-    };
-    auto at = std::find_if(curves.begin(), curves.end(), same);
-    if (at == curves.end())
-      at = curves.emplace(std::find_if(curves.begin(), curves.end(),
-                                       [&](const auto& c) { return of(c)->torque > s.torque; }));
-    const Sweep*& place = s.direction == "up" ? at->up : at->down;
-    if (place)
-      fail(Failure::input, "figure: two sweeps ", s.direction, " at ", torque_words(s.torque), " with ",
-           choice_words(s), "; give each once");
-    place = &s;
-  }
-  for (const auto& panel : panels)
-    for (const auto& c : panel.curves)
-      if (!c.up || !c.down)
-        fail(Failure::input, "figure: the sweep ", c.up ? "up" : "down", " at ",
-             torque_words((c.up ? c.up : c.down)->torque), " with ", panel.choices, " has no sweep ",
-             c.up ? "down" : "up",
-             " of the same torque, gears, model, damping, corner rule and fidelity beside it; make both from "
-             "one scene");
-  return panels;
-}
-
-// Torques and damping of a panel: "150 N m; damping ratio 5.81 % with one pair, 6.95 % with two pairs in contact, by ring-down". Without the
-// impact.h5 of its sweeps the torques alone.
-template <class Sweep>
-std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& told) {
-  std::vector<std::string> torques, at;
-  std::string ratios, state, with_one;
-  const auto once = [](std::vector<std::string>& list, const std::string& word) {
-    if (list.empty() || list.back() != word) list.push_back(word);
-  };
-  size_t known = 0;
-  for (const auto& curve : panel.curves) {
-    const Sweep& s = *curve.up;
-    once(torques, shown(s.torque, 6));
-    const auto found =
-        std::find_if(told.impacts.begin(), told.impacts.end(), [&](const ImpactArtifact& impact) {
-          return impact.torque == s.torque && gears_of(impact) == gears_of(s) &&
-                 impact.mesh.modification == s.mesh.modification && impact.state_phase.size() > 0;
-        });
-    if (!elastic(s) || found == told.impacts.end()) continue;
-    // Many pairs as without load; with any load there may be more.
-    static const std::array<std::string, 4> kCounts{"one", "two", "three", "four"};
-    const size_t many = static_cast<size_t>(
-        std::ceil(GearPair(s.driver, s.driven, s.mesh.centre_distance).contact_ratio() - 1e-9));
-    const auto& states = found->contact_state;
-    const auto wanted = std::find(states.begin(), states.end(), many <= 4 ? kCounts[many - 1] : "");
-    const Eigen::Index i = wanted != states.end() ? wanted - states.begin() : found->state_phase.size() - 1;
-    state = known++ == 0 || state == states[i] ? states[i] : "most";
-    ratios += (ratios.empty() ? "" : ", ") + fixed(found->damping_ratio[i] * kPercent, 2);
-    if (i > 0 && states[0] == "one")
-      with_one += (with_one.empty() ? "" : ", ") + fixed(found->damping_ratio[0] * kPercent, 2);
-    once(at, shown(s.torque, 6));
-  }
-  const auto in_a_row = [](const std::vector<std::string>& list) {
-    std::string row;
-    for (const std::string& word : list) row += (row.empty() ? "" : ", ") + word;
-    return row + " N m";
-  };
-  const std::string words = in_a_row(torques);
-  if (!elastic(*panel.curves[0].up)) return words + "; " + lumped_words(panel.lumped);
-  if (known == 0) return words;
-  return words + "; damping ratio " + (with_one.empty() ? "" : with_one + " % with one pair, ") + ratios +
-         " %" + (at == torques ? "" : " at " + in_a_row(at)) + " with " + state +
-         (state == "one" ? " pair" : " pairs") + " in contact, by ring-down";
-}
-
-// Rows after which a curve breaks: where the march left a branch that ends at a jump, and where the RMS changes by half of
-// itself at once and 2.5 times as much as in the steps beside, which is another branch, too.
-std::vector<bool> broken_after(const ResponseArtifact& r) {
-  const Eigen::Index n = r.mesh_frequency.size();
-  std::vector<bool> jumps(n, false), broken;
-  for (const Eigen::Index i : rows_before_jumps(r))
-    if (i >= 0) jumps[i] = true;
-  broken = jumps;
-  const auto change = [&](Eigen::Index i) {
-    return i < 0 || i + 1 >= n || jumps[i] ? 0.0 : std::abs(std::log(r.dte_rms[i + 1] / r.dte_rms[i]));
-  };
-  for (Eigen::Index i = 0; i + 1 < n; ++i)
-    if (r.dte_rms[i] > 0 && r.dte_rms[i + 1] > 0 &&
-        change(i) > std::max(std::log(1.5), 2.5 * std::max(change(i - 1), change(i + 1))))
-      broken[i] = true;
-  return broken;
-}
-
-FigureBlock branch_block(const std::string& name, const ResponseArtifact& r) {
-  FigureBlock block{name,
-                    {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
-                     "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
-                    {},
-                    "responses",
-                    name};
-  const std::vector<bool> broken = broken_after(r);
-  for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
-    block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
-                          r.separation_fraction[i], r.mesh_force_max[i], r.tooth_load_max[i],
-                          static_cast<double>(r.period_multiple[i])});
-    // A line across would pretend that there are states between.
-    if (broken[i]) block.rows.emplace_back();
-  }
-  return block;
-}
-
-// In order of frequency. What the RMS and the mean are after a jump is read off the branch on which the march goes on.
-FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
-  FigureBlock block{name,
-                    {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
-                     "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
-                    {},
-                    "jumps",
-                    name};
-  const std::vector<Eigen::Index> left = rows_before_jumps(r);
-  for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
-    const double f = r.jump_frequency[j];
-    const Eigen::Index at = row_before(r.mesh_frequency, f), i = left[j];
-    if (at < 0)
-      fail(Failure::input, "response: a jump at ", f, " Hz lies outside the sweep, ",
-           r.mesh_frequency.minCoeff(), " to ", r.mesh_frequency.maxCoeff(), " Hz");
-    const double share = (f - r.mesh_frequency[at]) / (r.mesh_frequency[at + 1] - r.mesh_frequency[at]);
-    const auto after = [&](const Eigen::VectorXd& v) {
-      return (i == at ? v[at + 1] : (1 - share) * v[at] + share * v[at + 1]) * kMicro;
-    };
-    block.rows.push_back({f, r.dte_rms[i] * kMicro, after(r.dte_rms), r.jump_width[j], r.dte_mean[i] * kMicro,
-                          after(r.dte_mean), r.mesh_frequency[i]});
-  }
-  std::sort(block.rows.begin(), block.rows.end());
-  return block;
-}
-
-// The branch of a sweep's pair at its torque; none if it is not among them.
-const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& told) {
-  if (!elastic(r)) return nullptr;
-  const auto found = std::find_if(told.branches.begin(), told.branches.end(), [&](const BranchArtifact& b) {
-    return b.torque == r.torque && gears_of(b) == gears_of(r) && b.mesh.modification == r.mesh.modification &&
-           b.fidelity.body == r.fidelity.body && b.fidelity.contact == r.fidelity.contact &&
-           b.fidelity.integrator == r.fidelity.integrator;
-  });
-  return found == told.branches.end() ? nullptr : &*found;
-}
-
-// Unstable orbits in the order of the arc, each stretch from the fold, or the last stable orbit, to the next.
-FigureBlock unstable_block(const std::string& name, const BranchArtifact& b) {
-  FigureBlock block{
-      name, {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]"}, {}, "unstable orbits", name};
-  const auto add = [&](Eigen::Index i) {
-    block.rows.push_back({b.mesh_frequency[i], b.dte_rms[i] * kMicro, b.dte_mean[i] * kMicro});
-  };
-  const Eigen::Index n = b.mesh_frequency.size();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (b.stable[i]) continue;
-    if (i > 0 && b.stable[i - 1]) add(i - 1);
-    add(i);
-    if (i + 1 == n || !b.stable[i + 1]) continue;
-    add(i + 1);
-    block.rows.emplace_back();
-  }
-  return block;
-}
-
-FigureBlock fold_block(const std::string& name, const BranchArtifact& b) {
-  FigureBlock block{name,
-                    {"fold_frequency [Hz]", "dte_rms [µm]", "multiplier before [1]", "multiplier after [1]"},
-                    {},
-                    "folds",
-                    name};
-  for (Eigen::Index i = 0; i < b.fold_frequency.size(); ++i)
-    block.rows.push_back(
-        {b.fold_frequency[i], b.fold_rms[i] * kMicro, b.fold_multiplier(i, 0), b.fold_multiplier(i, 1)});
-  return block;
-}
-
-// " 1241, 1410" of a block of jumps; after the sixth only how many more there are.
-std::string listed(const FigureBlock& jumps) {
-  constexpr size_t kMostListed = 6;
-  std::string list;
-  for (size_t j = 0; j < std::min(jumps.rows.size(), kMostListed); ++j)
-    list += (j ? ", " : " ") + fixed(jumps.rows[j][0], 0);
-  return jumps.rows.size() > kMostListed ? text(list, " and ", jumps.rows.size() - kMostListed, " more")
-                                         : list;
-}
-
-// What tells the curves of a panel apart: their torques, or their flanks where those differ at one torque.
-template <class Sweep>
-std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
-  bool others = false, torques = false;
-  for (const auto& curve : panel.curves) {
-    others |= curve.up->torque == s.torque && curve.up->mesh.modification != s.mesh.modification;
-    torques |= curve.up->torque != s.torque;
-  }
-  if (!others) return torque_words(s.torque);
-  const auto& both = s.mesh.modification;
-  const std::string flanks = both[0] == both[1]
-                                 ? in_words(both[0])
-                                 : "driver " + in_words(both[0]) + ", driven " + in_words(both[1]);
-  return flanks + (torques ? ", " + torque_words(s.torque) : "");
-}
-
-std::string loss_words(const ChoicePanel<ResponseArtifact>& panel) {
-  const auto& curves = panel.curves;
-  const auto loss_words = [](const auto& curve) {
-    const std::string ranges = loss_ranges(*curve.up, *curve.down);
-    return ranges == "nowhere" ? ranges : ranges + " Hz";
-  };
-  const std::string first = loss_words(curves[0]);
-  std::string each;
-  bool alike = true;
-  for (const auto& c : curves) {
-    const std::string words = loss_words(c);
-    alike = alike && words == first;
-    const std::string label = curve_label(panel, *c.up);
-    each += (each.empty() ? " " : "; ") + (label == torque_words(c.up->torque) ? "at " + label : label) +
-            ": " + words;
-  }
-  if (alike && first == "nowhere") return "contact is never lost";
-  return alike && curves.size() > 1 ? "contact lost at every torque: " + first : "contact lost" + each;
-}
-
-// ---- motions at one speed
-// -------------------------------------------------------------------------------------------
 
 struct Motion {
   const SweepArtifact* sweep = nullptr;
@@ -471,118 +172,46 @@ void add_load_axes(Figure& figure, const SweepArtifact& sweep, double largest) {
   figure.numbers.emplace_back("last_tooth", kLastTooth);
 }
 
+constexpr Eigen::Index kOrders = 5;  // that a waterfall shows
+
+// Of each `group` neighbouring speeds the spectrum of the one with the largest RMS, up to `end` (Hz).
+FigureBlock spectra_block(const SweepArtifact& sweep, const ResponseArtifact& r, Eigen::Index group,
+                          double end) {
+  FigureBlock lines{"spectra " + sweep.direction,
+                    {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"},
+                    {},
+                    "spectra",
+                    sweep.direction};
+  const Eigen::Index speeds = r.mesh_frequency.size();
+  for (Eigen::Index g = 0; g < speeds; g += group) {
+    Eigen::Index row = 0;
+    r.dte_rms.segment(g, std::min(group, speeds - g)).maxCoeff(&row);
+    const double f = r.mesh_frequency[g + row];
+    const Motion m = motion_at(sweep, f);
+    const Eigen::VectorXd x = m.orbit(sweep.transmission_error);
+    const int count = resolved_harmonics(x.size(), static_cast<int>(std::floor(end / f * m.periods)));
+    const Harmonics h = harmonics(x, count);
+    for (int k = 1; k <= count; ++k)
+      lines.rows.push_back({f, k * f / m.periods, h.amplitude[k - 1] * kMicro});
+  }
+  return lines;
+}
+
+// Amplitudes of the first `known` orders of the mesh frequency at every speed.
+FigureBlock orders_block(const ResponseArtifact& r, Eigen::Index known) {
+  FigureBlock orders{"orders " + r.direction, {"mesh_frequency [Hz]"}, {}, "orders", r.direction};
+  for (Eigen::Index k = 1; k <= known; ++k) orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
+  const std::vector<bool> broken = broken_after(r);
+  for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
+    std::vector<double> row{r.mesh_frequency[i]};
+    for (Eigen::Index k = 0; k < known; ++k) row.push_back(r.dte_harmonic(i, k) * kMicro);
+    orders.rows.push_back(row);
+    if (broken[i]) orders.rows.emplace_back();
+  }
+  return orders;
+}
+
 }  // namespace
-
-std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down) {
-  std::map<double, bool> parts;
-  for (const ResponseArtifact* r : {&up, &down})
-    for (Eigen::Index f = 0; f < r->mesh_frequency.size(); ++f)
-      parts[r->mesh_frequency[f]] |= r->separation_fraction[f] > 0;
-  const std::string ranges = speed_ranges(parts);
-  if (ranges.empty()) return "nowhere";
-  return parts.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too
-}
-
-Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told) {
-  if (sweeps.empty())
-    fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
-  std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps, told);
-  Figure figure;
-  std::vector<double> torques;
-  bool any_elastic = false, any_lumped = false;
-  for (const auto& r : sweeps) {
-    torques.push_back(r.torque);
-    (elastic(r) ? any_elastic : any_lumped) = true;
-  }
-  std::sort(torques.begin(), torques.end());
-  torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
-  figure.title = "Dynamic transmission error (DTE) against mesh frequency, ";
-  for (size_t i = 0; i < torques.size(); ++i) figure.title += (i ? ", " : "") + shown(torques[i], 6);
-  figure.title += " N m";
-  figure.notes.push_back(
-      std::string("f_n: ") +
-      (any_elastic ? "mean natural frequency over the mesh period, contact frozen under the static load"
-                   : "") +
-      (any_elastic && any_lumped ? "; one degree of freedom: " : "") +
-      (any_lumped ? "natural frequency of the mass on the mean stiffness" : ""));
-  figure.height = panels.size() == 1 ? 1060 : 240 + 660 * static_cast<int>(panels.size());
-  double from = std::numeric_limits<double>::infinity(), to = 0;
-  const auto number = [&](const std::string& name, double value) {
-    figure.numbers.emplace_back(name, value);
-  };
-  for (size_t p = 0; p < panels.size(); ++p) {
-    const std::string letter = letter_of(p);
-    const auto& curves = panels[p].curves;
-    if (curves.size() > kMostCurves)
-      fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
-           " curves can be told apart");
-    std::string labels, jumps, found_jumps;
-    double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;
-    bool lost = false;
-    for (size_t c = 0; c < curves.size(); ++c) {
-      const std::string label = curve_label(panels[p], *curves[c].up);
-      labels += "'" + label + "' ";
-      std::string found;
-      for (const ResponseArtifact* r : {curves[c].up, curves[c].down}) {
-        const std::string name = letter + " " + label + " ";
-        figure.blocks.push_back(branch_block(name + r->direction, *r));
-        figure.blocks.push_back(jump_block(name + "jumps " + r->direction, *r));
-        const std::string at = listed(figure.blocks.back());
-        if (!at.empty())
-          found +=
-              (found.empty() ? " " : ", ") + std::string(r->direction == "up" ? "rising" : "falling") + at;
-        number(text("jumps_", r->direction, "_", letter, "_", c + 1),
-               static_cast<double>(r->jump_frequency.size()));
-        from = std::min(from, r->mesh_frequency.minCoeff());
-        to = std::max(to, r->mesh_frequency.maxCoeff());
-        rms = std::max(rms, r->dte_rms.maxCoeff());
-        mean_high = std::max(mean_high, r->dte_mean.maxCoeff());
-        mean_low = std::min(mean_low, r->dte_mean.minCoeff());
-        lost |= r->separation_fraction.maxCoeff() > 0;
-      }
-      if (const BranchArtifact* branch = branch_of(*curves[c].up, told)) {
-        const std::string name = letter + " " + label + " ";
-        figure.blocks.push_back(unstable_block(name + "unstable", *branch));
-        number(text("unstable_", letter, "_", c + 1), static_cast<double>(figure.blocks.back().rows.size()));
-        figure.blocks.push_back(fold_block(name + "folds", *branch));
-        number(text("folds_", letter, "_", c + 1), static_cast<double>(branch->fold_frequency.size()));
-        rms = std::max(rms, branch->dte_rms.maxCoeff());
-      }
-      const std::string words = label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz");
-      jumps += "'" + words + "' ";
-      found_jumps += (c ? "; " : "") + words;
-      number(text("natural_frequency_", letter, "_", c + 1), curves[c].up->natural_frequency);
-    }
-    // Scene, operating point, choices: lines above the panel.
-    std::vector<std::string> lines{operating_words(panels[p], told), panels[p].choices};
-    if (!panels[p].scene.empty()) lines.insert(lines.begin(), panels[p].scene);
-    std::string note, heading;
-    for (size_t i = 0; i < lines.size(); ++i) {
-      note += (i ? "; " : "") + lines[i];
-      heading += (i ? "\n" : "") + without_markup(lines[i]);
-    }
-    const std::string loss = loss_words(panels[p]);
-    figure.notes.push_back("(" + letter + ") " + note);
-    figure.notes.push_back("(" + letter + ") " + found_jumps + "; " + loss);
-    figure.words.emplace_back("heading_" + letter, heading);
-    figure.words.emplace_back("loss_" + letter, loss);
-    number("heading_lines_" + letter, static_cast<double>(lines.size()));
-    figure.words.emplace_back("labels_" + letter, labels);
-    figure.words.emplace_back("jump_labels_" + letter, jumps);
-    number("curves_" + letter, static_cast<double>(curves.size()));
-    number("rms_max_" + letter, rms * kMicro);
-    number("mean_max_" + letter, mean_high * kMicro);
-    number("mean_min_" + letter, mean_low * kMicro);
-    number("contact_lost_" + letter, lost);
-  }
-  Eigen::Index speeds = 0;
-  for (const auto& r : sweeps) speeds = std::max(speeds, r.mesh_frequency.size());
-  number("speeds", static_cast<double>(speeds));
-  number("panels", static_cast<double>(panels.size()));
-  number("frequency_from", from);
-  number("frequency_to", to);
-  return figure;
-}
 
 Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
                         const Background& told) {
@@ -666,7 +295,7 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   bool lost = false;
   for (const SweepArtifact* sweep : {curve.up, curve.down}) {
     const ResponseArtifact r = response(*sweep);
-    figure.blocks.push_back(branch_block(sweep->direction, r));
+    figure.blocks.push_back(response_block(sweep->direction, r));
     Eigen::Index row = 0;
     if (const double here = r.dte_rms.maxCoeff(&row); here > rms) {
       rms = here;
@@ -702,60 +331,8 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   return figure;
 }
 
-Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& told) {
-  const auto panels = panels_of(sweeps, told);
-  if (panels.size() != 1 || panels[0].curves.size() != 1)
-    fail(Failure::input, "figure: sweeps of ",
-         panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
-         " torques or sets of choices given; bearing forces against speed are of one");
-  const auto& curve = panels[0].curves[0];
-  const GearMeshSpec& mesh = curve.up->mesh;
-  if (!mesh.on_bearings())
-    fail(Failure::input,
-         "figure: no gear of this pair is on an elastic bearing; add [[bearing]] to the scene");
-  Figure figure;
-  figure.title = "Forces on the bearings against mesh frequency, " + torque_words(curve.up->torque);
-  figure.notes = {operating_words(panels[0], told), panels[0].choices};
-  std::string labels;
-  double rms = 0, most = 0;
-  int curves = 0;
-  for (int g = 0; g < 2; ++g) {
-    const Bearing& bearing = mesh.bearing[g];
-    if (!bearing.elastic()) continue;
-    ++curves;
-    labels += text("'", mesh.gear(g), ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
-    for (const ResponseArtifact* r : {curve.up, curve.down}) {
-      const std::string name = text(curves, " ", r->direction);
-      FigureBlock block{name,
-                        {"mesh_frequency [Hz]", "bearing_force_rms [N]", "bearing_force_max [N]"},
-                        {},
-                        "forces",
-                        mesh.gear(g) + " " + r->direction};
-      const std::vector<bool> broken = broken_after(*r);
-      for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
-        block.rows.push_back({r->mesh_frequency[i], r->bearing_force_rms[g][i], r->bearing_force_max[g][i]});
-        if (broken[i]) block.rows.emplace_back();
-      }
-      rms = std::max(rms, r->bearing_force_rms[g].maxCoeff());
-      most = std::max(most, r->bearing_force_max[g].maxCoeff());
-      figure.blocks.push_back(block);
-    }
-  }
-  figure.words.emplace_back("labels", labels);
-  const GearPair gears(curve.up->driver, curve.up->driven, mesh.centre_distance);
-  figure.numbers = {{"curves", curves},
-                    {"rms_max", rms},
-                    {"force_max", most},
-                    {"static_force", curve.up->torque / gears.gear(0).base_radius()},
-                    {"frequency_from", curve.up->mesh_frequency.minCoeff()},
-                    {"frequency_to", curve.up->mesh_frequency.maxCoeff()},
-                    {"natural_frequency", curve.up->natural_frequency}};
-  return figure;
-}
-
 Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
   constexpr Eigen::Index kMostSpectra = 160;
-  constexpr int kOrders = 5;
   constexpr double kLeast = 1e-4;  // of the largest amplitude
   if (sweeps.empty() || sweeps.size() > 2)
     fail(Failure::input, "figure: ", sweeps.size(),
@@ -767,19 +344,18 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
       if (sweep.direction == direction) shown.push_back(&sweep);
   if (shown.empty())
     fail(Failure::input, "figure: a sweep of direction '", sweeps[0].direction, "'; up and down are known");
-  const auto words_of = [](const SweepArtifact& sweep) {
-    return std::string("speed ") + (sweep.direction == "up" ? "rising" : "falling");
-  };
   const SweepArtifact& first = *shown.front();
   Figure figure;
-  figure.title =
-      text("Spectra of the dynamic transmission error against mesh frequency, ", torque_words(first.torque),
-           ", ", shown.size() == 1 ? words_of(first) : "speed rising and falling");
+  figure.title = text("Spectra of the dynamic transmission error against mesh frequency, ",
+                      torque_words(first.torque), ", ",
+                      shown.size() == 2         ? "speed rising and falling"
+                      : first.direction == "up" ? "speed rising"
+                                                : "speed falling");
   figure.notes.push_back(elastic(first) ? choice_words(first)
                                         : choice_words(first) + "; " + lumped_words(first.lumped));
   figure.height = shown.size() == 1 ? 1000 : 1760;
 
-  double largest = 0, slowest = std::numeric_limits<double>::infinity(), fastest = 0, end = 0;
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0, end = 0;
   Eigen::Index group = 1, known = kOrders;
   for (const SweepArtifact* sweep : shown) {
     slowest = std::min(slowest, sweep->mesh_frequency.minCoeff());
@@ -788,38 +364,14 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
     group = std::max(group, (sweep->mesh_frequency.size() + kMostSpectra - 1) / kMostSpectra);
   }
   std::string directions;
+  double largest = 0;
   for (const SweepArtifact* sweep : shown) {
     const ResponseArtifact r = response(*sweep);
-    const Eigen::Index speeds = r.mesh_frequency.size();
-    const std::string& d = sweep->direction;
-    FigureBlock lines{
-        "spectra " + d, {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"}, {}, "spectra", d};
-    for (Eigen::Index g = 0; g < speeds; g += group) {
-      Eigen::Index row = 0;
-      r.dte_rms.segment(g, std::min(group, speeds - g)).maxCoeff(&row);
-      const double f = r.mesh_frequency[g + row];
-      const Motion m = motion_at(*sweep, f);
-      const Eigen::VectorXd x = m.orbit(sweep->transmission_error);
-      const int count = resolved_harmonics(x.size(), static_cast<int>(std::floor(end / f * m.periods)));
-      const Harmonics h = harmonics(x, count);
-      for (int k = 1; k <= count; ++k) {
-        lines.rows.push_back({f, k * f / m.periods, h.amplitude[k - 1] * kMicro});
-        largest = std::max(largest, lines.rows.back()[2]);
-      }
-    }
-    FigureBlock orders{"orders " + d, {"mesh_frequency [Hz]"}, {}, "orders", d};
     known = std::min(known, r.dte_harmonic.cols());
-    for (Eigen::Index k = 1; k <= known; ++k)
-      orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
-    const std::vector<bool> broken = broken_after(r);
-    for (Eigen::Index i = 0; i < speeds; ++i) {
-      std::vector<double> row{r.mesh_frequency[i]};
-      for (Eigen::Index k = 0; k < known; ++k) row.push_back(r.dte_harmonic(i, k) * kMicro);
-      orders.rows.push_back(row);
-      if (broken[i]) orders.rows.emplace_back();
-    }
-    figure.blocks.insert(figure.blocks.end(), {lines, orders});
-    directions += (directions.empty() ? "" : " ") + d;
+    FigureBlock lines = spectra_block(*sweep, r, group, end);
+    for (const std::vector<double>& row : lines.rows) largest = std::max(largest, row[2]);
+    figure.blocks.insert(figure.blocks.end(), {std::move(lines), orders_block(r, known)});
+    directions += (directions.empty() ? "" : " ") + sweep->direction;
   }
   figure.notes.push_back(
       group == 1 ? "a spectrum at each speed"

@@ -243,6 +243,196 @@ FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
   return table;
 }
 
+// Answers that are the same in all variants, as words; "" if there are none.
+std::string constant_words(const StudyArtifact& a, const ShownAnswers& answers) {
+  std::string words;
+  if (!answers.constant.empty()) {
+    words = "the same in all variants, without a panel:";
+    for (size_t i = 0; i < answers.constant.size(); ++i) {
+      const std::string& name = answers.constant[i];
+      const auto drawn = std::find(a.refusal.begin(), a.refusal.end(), "") - a.refusal.begin();
+      const Shown unit = shown_units(kind_of(a, name).units);
+      char value[32];
+      std::snprintf(value, sizeof value, "%.5g", a.answer(drawn, answer_of(a, name)) * unit.scale);
+      words += text(i ? ", " : " ", label_of(name), " ");
+      words += absent(name, a.answer(drawn, answer_of(a, name)))
+                   ? std::string("none")
+                   : text(value, *unit.units ? " " : "", unit.units);
+    }
+  }
+  return words;
+}
+
+// What only the table says: values of keys that are no numbers, and reasons of refusals, which may be long.
+void add_notes_of_table(const StudyArtifact& a, const std::vector<Axis>& axes, Figure& figure) {
+  for (size_t k = 0; k < axes.size(); ++k)
+    if (!a.plan.keys[k].number) {
+      std::string list;
+      for (const std::string& level : axes[k].levels) list += (list.empty() ? "" : ", ") + level;
+      figure.notes.push_back(text("values of ", a.plan.keys[k].name, ", counted from 1: ", list));
+    }
+  std::map<std::string, size_t> reasons;
+  for (const std::string& why : a.refusal)
+    if (!why.empty()) ++reasons[why];
+  constexpr size_t kMostReasons = 20;
+  size_t listed = 0;
+  for (const auto& [why, count] : reasons)
+    if (listed++ < kMostReasons) figure.notes.push_back(text("refused (", count, "): ", why));
+  if (reasons.size() > kMostReasons)
+    figure.notes.push_back(
+        text("and ", reasons.size() - kMostReasons, " other reasons; study.h5 holds them all"));
+}
+
+// How the variants are told apart by one of the keys: all alike without one.
+struct Colours {
+  bool coloured = false;
+  size_t by = 0;                   // the key
+  std::vector<double> rgb, marks;  // of each variant
+};
+
+// The colour of a value between 0 and 1: by place among few levels, by value where there are many.
+class ColourScale {
+ public:
+  explicit ColourScale(const Axis& axis)
+      : levels_(axis.levels.size()),
+        least_(*std::min_element(axis.at.begin(), axis.at.end())),
+        most_(*std::max_element(axis.at.begin(), axis.at.end())) {}
+  double most() const { return most_; }
+  double rgb(double value, size_t place) const { return colour(share(value, place)); }
+  double shape(size_t place) const { return mark(levels_ <= kFewLevels ? place : 0); }
+
+ private:
+  double share(double value, size_t place) const {
+    if (levels_ <= kFewLevels)
+      return levels_ > 1 ? static_cast<double>(place) / static_cast<double>(levels_ - 1) : 0.2;
+    return most_ > least_ ? (value - least_) / (most_ - least_) : 0.2;
+  }
+  size_t levels_;
+  double least_, most_;
+};
+
+// Adds the legend of the colours.
+Colours colours_of(const StudyArtifact& a, const std::vector<Axis>& axes, Figure& figure) {
+  const size_t variants = a.variants.size();
+  Colours found{!a.plan.figure_colour.empty(), 0, std::vector<double>(variants, colour(0.2)),
+                std::vector<double>(variants, mark(0))};
+  if (!found.coloured) {
+    figure.numbers.emplace_back("colours", 0);
+    return found;
+  }
+  found.by = key_of(a, a.plan.figure_colour);
+  const Axis& axis = axes[found.by];
+  const ColourScale scale(axis);
+  const size_t levels = axis.levels.size();
+  for (size_t v = 0; v < variants; ++v) {
+    const auto level = std::find(axis.levels.begin(), axis.levels.end(), a.variants[v].values[found.by]);
+    const auto place = static_cast<size_t>(level - axis.levels.begin());
+    found.rgb[v] = scale.rgb(axis.at[v], place);
+    found.marks[v] = scale.shape(place);
+  }
+  const VariedKey& key = a.plan.keys[found.by];
+  const AxisUnits units = axis_units(key, scale.most());
+  figure.words.emplace_back("colour_label", with_unit(axis_name(key), units.words));
+  const size_t entries = std::min(levels, kFewLevels);
+  for (size_t e = 0; e < entries; ++e) {
+    const size_t place = entries > 1 ? e * (levels - 1) / (entries - 1) : 0;
+    const std::string& level = axis.levels[place];
+    const double value = key.number ? std::strtod(level.c_str(), nullptr) : static_cast<double>(place) + 1;
+    char short_number[32];
+    std::snprintf(short_number, sizeof short_number, "%.5g", value * units.scale);
+    figure.words.emplace_back(text("colour_name", e + 1), key.number ? short_number : without_markup(level));
+    figure.numbers.emplace_back(text("colour_rgb", e + 1), scale.rgb(value, place));
+    figure.numbers.emplace_back(text("colour_mark", e + 1), scale.shape(place));
+  }
+  figure.numbers.emplace_back("colours", static_cast<double>(entries));
+  return found;
+}
+
+// Column c from 1, of key k.
+void add_column(const StudyArtifact& a, const std::vector<Axis>& axes, const Colours& colours, size_t k,
+                size_t c, Figure& figure) {
+  const VariedKey& key = a.plan.keys[k];
+  // Along the key that colours, a line between points of two colours would have the colour of neither.
+  figure.numbers.emplace_back(text("own_colour", c), colours.coloured && k == colours.by);
+  const AxisUnits units = axis_units(key, *std::max_element(axes[k].at.begin(), axes[k].at.end()));
+  figure.words.emplace_back(text("x", c), with_unit(axis_name(key), units.words));
+  figure.numbers.emplace_back(text("scale", c), units.scale);
+  const size_t ticks = key.number ? 0 : axes[k].levels.size();
+  for (size_t l = 0; l < ticks; ++l)
+    figure.words.emplace_back(text("tick", c, "_", l + 1), tick_label(axes[k].levels[l]));
+  figure.numbers.emplace_back(text("ticks", c), static_cast<double>(ticks));
+}
+
+// What one answer is in each variant, in the unit of the figure, and which variants have it.
+struct DrawnAnswer {
+  std::string name;
+  std::vector<double> value;
+  std::vector<size_t> drawn;
+};
+
+// Row r and column c from 1: the answer against key k.
+void add_panel(const StudyArtifact& a, const Axis& axis, const Colours& colours, const DrawnAnswer& answer,
+               size_t k, size_t r, size_t c, Figure& figure) {
+  // What the pair answers at rest does not depend on how its motion ends.
+  const bool of_motion = answer.name.ends_with("_up") || answer.name.ends_with("_down");
+  FigureBlock panel{
+      text("panel", r, "_", c),
+      {with_unit(a.plan.keys[k].name, ""), answer.name, "colour [rgb]", "unsteady speeds [1]", "mark [1]"},
+      {},
+      "",
+      "",
+      true};
+  std::vector<size_t> order = answer.drawn;
+  // Those that agree in all other keys come one after the other.
+  const auto others = [&](size_t v) {
+    std::vector<std::string> rest = a.variants[v].values;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+    return rest;
+  };
+  if (!a.plan.random)
+    std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) {
+      const auto x = others(i), y = others(j);
+      return x != y ? x < y : axis.at[i] < axis.at[j];
+    });
+  double crossed = 0;
+  for (size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && !a.plan.random && others(order[i]) != others(order[i - 1])) panel.rows.emplace_back();
+    const int own_unsteady = a.unsteady[static_cast<Index>(order[i])];
+    crossed += of_motion && own_unsteady > 0;
+    panel.rows.push_back({axis.at[order[i]], answer.value[order[i]], colours.rgb[order[i]],
+                          of_motion ? static_cast<double>(own_unsteady) : 0.0, colours.marks[order[i]]});
+  }
+  figure.numbers.emplace_back(text("drawn", r, "_", c), static_cast<double>(order.size()));
+  figure.numbers.emplace_back(text("crossed", r, "_", c), crossed);
+  figure.blocks.push_back(panel);
+  std::vector<double> x, y;
+  for (const size_t v : answer.drawn) {
+    x.push_back(axis.at[v]);
+    y.push_back(answer.value[v]);
+  }
+  char correlation[32];
+  std::snprintf(correlation, sizeof correlation, "ρ = %.2f", rank_correlation(x, y));
+  figure.words.emplace_back(text("correlation", r, "_", c),
+                            a.plan.random && a.plan.keys[k].number ? correlation : "");
+}
+
+// The distribution of an answer in a sample, and three of its percentiles.
+void add_spread(const DrawnAnswer& answer, size_t r, Figure& figure) {
+  std::vector<double> sorted;
+  sorted.reserve(answer.drawn.size());
+  for (const size_t v : answer.drawn) sorted.push_back(answer.value[v]);
+  std::sort(sorted.begin(), sorted.end());
+  FigureBlock spread{text("spread", r), {"share [%]", answer.name}, {}, "", "", true};
+  for (size_t i = 0; i < sorted.size(); ++i)
+    spread.rows.push_back(
+        {100 * (static_cast<double>(i) + 0.5) / static_cast<double>(sorted.size()), sorted[i]});
+  figure.blocks.push_back(spread);
+  const double shares[] = {0.05, 0.5, 0.95};
+  for (int p = 0; p < 3; ++p)
+    figure.numbers.emplace_back(text("percentile", r, "_", p + 1),
+                                sorted.empty() ? 0 : percentile(sorted, shares[p]));
+}
+
 }  // namespace
 
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
@@ -281,21 +471,7 @@ Figure study_figure(const StudyArtifact& a) {
                             " speeds that did not settle (column 'unsteady speeds'; crossed)");
   figure.words.emplace_back("subtitle", without_markup(figure.notes[0]));
   const ShownAnswers answers = shown_answers(a);
-  std::string second_line;
-  if (!answers.constant.empty()) {
-    second_line = "the same in all variants, without a panel:";
-    for (size_t i = 0; i < answers.constant.size(); ++i) {
-      const std::string& name = answers.constant[i];
-      const auto drawn = std::find(a.refusal.begin(), a.refusal.end(), "") - a.refusal.begin();
-      const Shown unit = shown_units(kind_of(a, name).units);
-      char value[32];
-      std::snprintf(value, sizeof value, "%.5g", a.answer(drawn, answer_of(a, name)) * unit.scale);
-      second_line += text(i ? ", " : " ", label_of(name), " ");
-      second_line += absent(name, a.answer(drawn, answer_of(a, name)))
-                         ? std::string("none")
-                         : text(value, *unit.units ? " " : "", unit.units);
-    }
-  }
+  std::string second_line = constant_words(a, answers);
   // A column of a key that does nothing would only repeat all lines as level ones.
   std::vector<std::string> columns_of = a.plan.figure_keys;
   const std::vector<std::string> idle = keys_without_effect(a.plan, a.variants);
@@ -305,157 +481,31 @@ Figure study_figure(const StudyArtifact& a) {
   }
   if (!second_line.empty()) figure.notes.push_back(second_line);
   figure.words.emplace_back("second_line", without_markup(second_line));
-  for (size_t k = 0; k < axes.size(); ++k)
-    if (!a.plan.keys[k].number) {
-      std::string list;
-      for (const std::string& level : axes[k].levels) list += (list.empty() ? "" : ", ") + level;
-      figure.notes.push_back(text("values of ", a.plan.keys[k].name, ", counted from 1: ", list));
-    }
-  // In the table only: reasons may be long.
-  std::map<std::string, size_t> reasons;
-  for (const std::string& why : a.refusal)
-    if (!why.empty()) ++reasons[why];
-  constexpr size_t kMostReasons = 20;
-  size_t listed = 0;
-  for (const auto& [why, count] : reasons)
-    if (listed++ < kMostReasons) figure.notes.push_back(text("refused (", count, "): ", why));
-  if (reasons.size() > kMostReasons)
-    figure.notes.push_back(
-        text("and ", reasons.size() - kMostReasons, " other reasons; study.h5 holds them all"));
+  add_notes_of_table(a, axes, figure);
   figure.blocks.push_back(table_of(a, axes));
 
-  const bool coloured = !a.plan.figure_colour.empty();
-  const size_t by = coloured ? key_of(a, a.plan.figure_colour) : 0;
-  std::vector<double> rgb(variants, colour(0.2)), marks(variants, mark(0));
-  if (coloured) {
-    const std::vector<double>& at = axes[by].at;
-    const double least = *std::min_element(at.begin(), at.end()),
-                 most = *std::max_element(at.begin(), at.end());
-    // By place among few levels, by value where there are many.
-    const size_t levels = axes[by].levels.size();
-    const auto share = [&](double value, size_t place) {
-      if (levels <= kFewLevels)
-        return levels > 1 ? static_cast<double>(place) / static_cast<double>(levels - 1) : 0.2;
-      return most > least ? (value - least) / (most - least) : 0.2;
-    };
-    const auto place_of = [&](const std::string& level) {
-      return static_cast<size_t>(std::find(axes[by].levels.begin(), axes[by].levels.end(), level) -
-                                 axes[by].levels.begin());
-    };
-    for (size_t v = 0; v < variants; ++v) {
-      const size_t place = place_of(a.variants[v].values[by]);
-      rgb[v] = colour(share(at[v], place));
-      if (levels <= kFewLevels) marks[v] = mark(place);
-    }
-    const VariedKey& key = a.plan.keys[by];
-    const AxisUnits units = axis_units(key, most);
-    figure.words.emplace_back("colour_label", with_unit(axis_name(key), units.words));
-    const size_t entries = std::min(levels, kFewLevels);
-    for (size_t e = 0; e < entries; ++e) {
-      const size_t place = entries > 1 ? e * (levels - 1) / (entries - 1) : 0;
-      const std::string& level = axes[by].levels[place];
-      const double value = key.number ? std::strtod(level.c_str(), nullptr) : static_cast<double>(place) + 1;
-      char short_number[32];
-      std::snprintf(short_number, sizeof short_number, "%.5g", value * units.scale);
-      figure.words.emplace_back(text("colour_name", e + 1),
-                                key.number ? short_number : without_markup(level));
-      figure.numbers.emplace_back(text("colour_rgb", e + 1), colour(share(value, place)));
-      figure.numbers.emplace_back(text("colour_mark", e + 1), mark(levels <= kFewLevels ? place : 0));
-    }
-    figure.numbers.emplace_back("colours", static_cast<double>(entries));
-  } else {
-    figure.numbers.emplace_back("colours", 0);
-  }
-
-  const size_t rows = answers.rows.size(), columns = columns_of.size();
-  for (size_t c = 0; c < columns; ++c) {
-    const size_t k = key_of(a, columns_of[c]);
-    const VariedKey& key = a.plan.keys[k];
-    // Along the key that colours, a line between points of two colours would have the colour of neither.
-    figure.numbers.emplace_back(text("own_colour", c + 1), coloured && k == by);
-    const AxisUnits units = axis_units(key, *std::max_element(axes[k].at.begin(), axes[k].at.end()));
-    figure.words.emplace_back(text("x", c + 1), with_unit(axis_name(key), units.words));
-    figure.numbers.emplace_back(text("scale", c + 1), units.scale);
-    const size_t ticks = key.number ? 0 : axes[k].levels.size();
-    for (size_t l = 0; l < ticks; ++l)
-      figure.words.emplace_back(text("tick", c + 1, "_", l + 1), tick_label(axes[k].levels[l]));
-    figure.numbers.emplace_back(text("ticks", c + 1), static_cast<double>(ticks));
-  }
-  for (size_t r = 0; r < rows; ++r) {
-    const std::string& name = answers.rows[r];
-    const Shown unit = shown_units(kind_of(a, name).units);
+  const Colours colours = colours_of(a, axes, figure);
+  std::vector<size_t> columns;  // their keys
+  for (const std::string& name : columns_of) columns.push_back(key_of(a, name));
+  for (size_t c = 0; c < columns.size(); ++c) add_column(a, axes, colours, columns[c], c + 1, figure);
+  for (size_t r = 0; r < answers.rows.size(); ++r) {
+    DrawnAnswer answer{answers.rows[r], std::vector<double>(variants), {}};
+    const Shown unit = shown_units(kind_of(a, answer.name).units);
     figure.words.emplace_back(text("y", r + 1),
-                              label_of(name) + (*unit.units ? text("\n(", unit.units, ")") : ""));
-    // What the pair answers at rest does not depend on how its motion ends.
-    const bool of_motion = name.ends_with("_up") || name.ends_with("_down");
-    std::vector<double> value(variants);
-    std::vector<size_t> drawn;
+                              label_of(answer.name) + (*unit.units ? text("\n(", unit.units, ")") : ""));
     for (size_t v = 0; v < variants; ++v) {
-      value[v] = a.answer(static_cast<Index>(v), answer_of(a, name)) * unit.scale;
-      if (a.refusal[v].empty() && !absent(name, value[v])) drawn.push_back(v);
+      answer.value[v] = a.answer(static_cast<Index>(v), answer_of(a, answer.name)) * unit.scale;
+      if (a.refusal[v].empty() && !absent(answer.name, answer.value[v])) answer.drawn.push_back(v);
     }
-    for (size_t c = 0; c < columns; ++c) {
-      const size_t k = key_of(a, columns_of[c]);
-      FigureBlock panel{
-          text("panel", r + 1, "_", c + 1),
-          {with_unit(a.plan.keys[k].name, ""), name, "colour [rgb]", "unsteady speeds [1]", "mark [1]"},
-          {},
-          "",
-          "",
-          true};
-      std::vector<size_t> order = drawn;
-      // Those that agree in all other keys come one after the other.
-      const auto others = [&](size_t v) {
-        std::vector<std::string> rest = a.variants[v].values;
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
-        return rest;
-      };
-      if (!a.plan.random)
-        std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) {
-          const auto x = others(i), y = others(j);
-          return x != y ? x < y : axes[k].at[i] < axes[k].at[j];
-        });
-      double crossed = 0;
-      for (size_t i = 0; i < order.size(); ++i) {
-        if (i > 0 && !a.plan.random && others(order[i]) != others(order[i - 1])) panel.rows.emplace_back();
-        const int own_unsteady = a.unsteady[static_cast<Index>(order[i])];
-        crossed += of_motion && own_unsteady > 0;
-        panel.rows.push_back({axes[k].at[order[i]], value[order[i]], rgb[order[i]],
-                              of_motion ? static_cast<double>(own_unsteady) : 0.0, marks[order[i]]});
-      }
-      figure.numbers.emplace_back(text("drawn", r + 1, "_", c + 1), static_cast<double>(order.size()));
-      figure.numbers.emplace_back(text("crossed", r + 1, "_", c + 1), crossed);
-      figure.blocks.push_back(panel);
-      std::vector<double> x, y;
-      for (const size_t v : drawn) {
-        x.push_back(axes[k].at[v]);
-        y.push_back(value[v]);
-      }
-      char correlation[32];
-      std::snprintf(correlation, sizeof correlation, "ρ = %.2f", rank_correlation(x, y));
-      figure.words.emplace_back(text("correlation", r + 1, "_", c + 1),
-                                a.plan.random && a.plan.keys[k].number ? correlation : "");
-    }
-    if (!a.plan.random) continue;
-    std::vector<double> sorted;
-    sorted.reserve(drawn.size());
-    for (const size_t v : drawn) sorted.push_back(value[v]);
-    std::sort(sorted.begin(), sorted.end());
-    FigureBlock spread{text("spread", r + 1), {"share [%]", name}, {}, "", "", true};
-    for (size_t i = 0; i < sorted.size(); ++i)
-      spread.rows.push_back(
-          {100 * (static_cast<double>(i) + 0.5) / static_cast<double>(sorted.size()), sorted[i]});
-    figure.blocks.push_back(spread);
-    const double shares[] = {0.05, 0.5, 0.95};
-    for (int p = 0; p < 3; ++p)
-      figure.numbers.emplace_back(text("percentile", r + 1, "_", p + 1),
-                                  sorted.empty() ? 0 : percentile(sorted, shares[p]));
+    for (size_t c = 0; c < columns.size(); ++c)
+      add_panel(a, axes[columns[c]], colours, answer, columns[c], r + 1, c + 1, figure);
+    if (a.plan.random) add_spread(answer, r + 1, figure);
   }
-  figure.numbers.emplace_back("rows", static_cast<double>(rows));
-  figure.numbers.emplace_back("columns", static_cast<double>(columns));
+  figure.numbers.emplace_back("rows", static_cast<double>(answers.rows.size()));
+  figure.numbers.emplace_back("columns", static_cast<double>(columns.size()));
   figure.numbers.emplace_back("random", a.plan.random ? 1 : 0);
   figure.numbers.emplace_back("variants", static_cast<double>(a.variants.size()));
-  figure.height = 340 + 270 * static_cast<int>(rows);
+  figure.height = 340 + 270 * static_cast<int>(answers.rows.size());
   return figure;
 }
 

@@ -1,4 +1,4 @@
-// Figures of what a scene's open choices are worth: maps of jumps, and the sensitivity to each input.
+// Maps of jumps: torque against damping ratio, of the elastic pair and of lumped models.
 #pragma once
 #include <vector>
 
@@ -17,15 +17,5 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps);
 // torque at P2000's lumped damping, which lose contact at low torque only, in how many cells they answer as the elastic pair,
 // what decides. Throws Error(input) without a lumped model, else as jump_map_figure.
 Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps);
-
-// Peak-to-peak transmission error against torque and tip relief, with the best relief of each torque and the optimum for the
-// design torque; beside it, against torque, that relief of each start and no relief (the Harris cusp). The map is that of
-// the start whose optimum is least. With a dynamic part its map of the RMS at the worst speed stands below.
-Figure harris_map_figure(const HarrisMapArtifact& map);
-
-// What each variant changes against the base, in the last case of the maps: mean
-// stiffness, natural frequencies, ends of the branches, tooth load (held). Every case stands in the table. Throws Error(input)
-// for no variant, one that differs in torque or cases, or one in which no key differs.
-Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMapArtifact>& variants);
 
 }  // namespace whine

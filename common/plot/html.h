@@ -1,0 +1,22 @@
+// Words and tables as HTML.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace whine::html {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+// Words without marks.
+std::string escaped(const std::string& words);
+
+// "<p>inside</p>" of the tag "p"; tags may have attributes. `inside` stands as it is.
+std::string tagged(const std::string& tag, const std::string& inside);
+
+std::string paragraph(const std::string& words);
+
+// Cells are words, not marks; a column of numbers stands to the right. kind: classes of the table.
+std::string table(const std::string& caption, const std::vector<std::string>& head, const Rows& rows,
+                  const std::string& kind = "");
+
+}  // namespace whine::html
