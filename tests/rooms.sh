@@ -31,7 +31,7 @@ confined() {
   if [ -z "$found" ]; then echo "ok: only $2 includes $1"; else echo "FAILED: $1 is included by $found"; fi
 }
 confined hdf5 'common/files/.*\.cpp|common/files/h5\.h'
-confined gmsh 'common/solid/mesher\.cpp'
+confined gmsh 'common/solid/gmsh_mesh\.cpp'
 confined cholmod 'common/solid/.*\.cpp'
 confined fftw3 'common/signal/.*\.cpp'
 confined toml 'common/files/.*\.cpp|common/files/toml\.h'

@@ -1,22 +1,18 @@
 #include "solid/crack.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
-#include "base/dense.h"
 #include "base/error.h"
 #include "gear/crack.h"
 #include "solid/elements.h"
-#include "solid/factor.h"
+#include "solid/exact_boundary.h"
+#include "solid/gmsh_mesh.h"
 #include "solid/mesher.h"
-#include "solid/reduce.h"
 
 namespace whine {
 namespace {
@@ -26,7 +22,6 @@ using Eigen::MatrixXd;
 
 constexpr double kGrowth = 1.0 / 3;  // of an element's size with the distance from a smaller one
 
-using Complex = std::complex<double>;
 using Edge = std::pair<int, int>;  // lower node first
 
 Edge edge_of(int a, int b) {
@@ -194,99 +189,6 @@ class TriangleElements {
   int tip_;
 };
 
-// One sector with all its nodes but those of its two edges eliminated. Unknowns: nodes of the clockwise edge in the frame
-// of the sector's tooth, then nodes of the other edge in the frame of the next tooth; bore nodes are fixed.
-struct Condensed {
-  MatrixXd stiffness;   // (edge unknown, edge unknown) N m-1
-  MatrixXd force;       // (edge unknown, load) 1
-  MatrixXd reading;     // (point, edge unknown) 1: outward displacement by the edges
-  MatrixXd own;         // (point, load) m N-1: outward displacement with the edges held
-  MatrixRM subtracted;  // (point, load) m N-1, see FlankLoads
-  Index edge = 0;       // unknowns of one edge
-};
-
-Condensed condense(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,
-                   const std::string& what) {
-  const SparseReal stiffness =
-      assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width).stiffness;
-  const FlankLoads loads = make_flank_loads(mesh, material, xi);
-  const MatrixXd reading = FlankReader(mesh).outward(xi);
-
-  constexpr int kFixed = -1;
-  const Index size = stiffness.rows();
-  std::vector<int> edge_unknown(static_cast<size_t>(size), kFixed), inner(static_cast<size_t>(size), kFixed);
-  std::vector<char> held(static_cast<size_t>(size / 2), 0);
-  for (int node : mesh.bore_node) held[static_cast<size_t>(node)] = 1;
-  int edge = 0;
-  for (Index i = 0; i < mesh.side_node.rows(); ++i)
-    if (!held[static_cast<size_t>(mesh.side_node(i, 0))]) edge += 2;
-  int at = 0;
-  for (Index i = 0; i < mesh.side_node.rows(); ++i) {
-    const int low = mesh.side_node(i, 0), high = mesh.side_node(i, 1);
-    if (held[static_cast<size_t>(low)]) continue;
-    held[static_cast<size_t>(low)] = held[static_cast<size_t>(high)] = 1;
-    for (int c = 0; c < 2; ++c) {
-      edge_unknown[2 * static_cast<size_t>(low) + static_cast<size_t>(c)] = at + c;
-      edge_unknown[2 * static_cast<size_t>(high) + static_cast<size_t>(c)] = edge + at + c;
-    }
-    at += 2;
-  }
-  int inner_size = 0;
-  for (Index i = 0; i < size; ++i)
-    if (!held[static_cast<size_t>(i / 2)]) inner[static_cast<size_t>(i)] = inner_size++;
-
-  const Index points = xi.size(), unknowns = 2 * edge;
-  std::vector<Eigen::Triplet<Complex>> entries;
-  MatrixXd right = MatrixXd::Zero(inner_size, unknowns + points),
-           edge_force = MatrixXd::Zero(unknowns, points), inner_reading = MatrixXd::Zero(points, inner_size),
-           edge_reading = MatrixXd::Zero(points, unknowns),
-           edge_stiffness = MatrixXd::Zero(unknowns, unknowns);
-  for (Index column = 0; column < size; ++column)
-    for (SparseReal::InnerIterator it(stiffness, column); it; ++it) {
-      const int row_inner = inner[static_cast<size_t>(it.row())],
-                column_inner = inner[static_cast<size_t>(column)],
-                row_edge = edge_unknown[static_cast<size_t>(it.row())],
-                column_edge = edge_unknown[static_cast<size_t>(column)];
-      if (row_inner >= 0 && column_inner >= 0) entries.emplace_back(row_inner, column_inner, it.value());
-      if (row_inner >= 0 && column_edge >= 0) right(row_inner, column_edge) = it.value();
-      if (row_edge >= 0 && column_edge >= 0) edge_stiffness(row_edge, column_edge) = it.value();
-    }
-  for (Index i = 0; i < size; ++i) {
-    if (const int k = inner[static_cast<size_t>(i)]; k >= 0) {
-      right.row(k).tail(points) = loads.force.row(i);
-      inner_reading.col(k) = reading.col(i);
-    }
-    if (const int k = edge_unknown[static_cast<size_t>(i)]; k >= 0) {
-      edge_force.row(k) = loads.force.row(i);
-      edge_reading.col(k) = reading.col(i);
-    }
-  }
-  SparseComplex inside(inner_size, inner_size);
-  inside.setFromTriplets(entries.begin(), entries.end());
-  HermitianFactor factor(inside);
-  factor.factorise(inside, what);
-  const MatrixXd solution = factor.solve(right.cast<Complex>()).real();
-  const auto by_edge = solution.leftCols(unknowns), by_load = solution.rightCols(points);
-  const auto coupling = right.leftCols(unknowns);
-
-  Condensed out;
-  out.edge = edge;
-  out.stiffness = edge_stiffness - coupling.transpose() * by_edge;
-  out.force = edge_force - coupling.transpose() * by_load;
-  out.reading = edge_reading - inner_reading * by_edge;
-  out.own = inner_reading * by_load;
-  out.subtracted = loads.subtracted;
-  const Eigen::Matrix2d turn =
-      Eigen::Rotation2Dd(2 * std::numbers::pi / mesh.design.teeth).toRotationMatrix();
-  for (Index k = edge; k < unknowns; k += 2) {
-    out.stiffness.middleRows(k, 2) = (turn.transpose() * out.stiffness.middleRows(k, 2)).eval();
-    out.stiffness.middleCols(k, 2) = (out.stiffness.middleCols(k, 2) * turn).eval();
-    out.force.middleRows(k, 2) = (turn.transpose() * out.force.middleRows(k, 2)).eval();
-    out.reading.middleCols(k, 2) = (out.reading.middleCols(k, 2) * turn).eval();
-  }
-  return out;
-}
-
 }  // namespace
 
 SlitPatch slit_patch(const std::vector<Vec2>& corner, const std::vector<Vec2>& middle, size_t mouth,
@@ -356,35 +258,64 @@ SlitPatch slit_patch(const std::vector<Vec2>& corner, const std::vector<Vec2>& m
   return patch;
 }
 
-MeshArtifact make_cracked_sector(const MeshArtifact& sector) {
-  const ToothGeometry tooth(sector.design);
-  const Slit slit = crack_slit(tooth);
-  const double h = sector.discretisation.element_size, depth = sector.design.crack.depth;
-  if (!(depth > 0))
-    fail(Failure::input, "crack: depth_mm = ", depth * 1e3, " is not above 0: there is no slit");
-  const bool second = sector.element_node.cols() == 9;
-  const Hole hole = find_hole(sector, slit, 2 * h);
-  const double finest = std::min(h / 6, depth / 10), at_mouth = std::min(h / 2, depth / 4);
+namespace {
 
-  // 1. Nodes that stay: those of elements that stay.
-  NodeList nodes;
-  std::vector<int> renumbered(static_cast<size_t>(sector.node_position.rows()), -1);
-  const auto kept = [&](int node) {
+// The mesh of the cracked sector while it grows.
+struct Growing {
+  explicit Growing(const MeshArtifact& of)
+      : sector(of), renumbered(static_cast<size_t>(of.node_position.rows()), -1) {}
+  // The number of a node of the sector that stays.
+  int kept(int node) {
     int& number = renumbered[static_cast<size_t>(node)];
     if (number < 0) number = nodes.add(sector.node_position.row(node));
     return number;
-  };
-  std::vector<std::vector<int>> elements;
-  std::vector<int> region;
-  for (Index e = 0; e < sector.element_node.rows(); ++e) {
-    if (hole.taken[static_cast<size_t>(e)]) continue;
-    std::vector<int> element;
-    for (Index k = 0; k < sector.element_node.cols(); ++k) element.push_back(kept(sector.element_node(e, k)));
-    elements.push_back(element);
-    region.push_back(sector.element_region[e]);
   }
 
-  // 2. The polygon: the root curve anew with a node at the mouth, then the loop as it is.
+  const MeshArtifact& sector;
+  std::vector<int> renumbered;
+  NodeList nodes;
+  std::vector<std::vector<int>> elements;
+  std::vector<int> region;
+};
+
+// The boundary of the patch: nodes along the root curve, which come first, with their parameters, then the loop as it is.
+struct Polygon {
+  std::vector<int> node;
+  std::vector<double> parameter;
+  size_t mouth = 0, root_nodes = 0;  // place of the mouth; how many are on the root curve
+};
+
+// Adds nodes along the root curve from t0 to t1, whose sides have about the lengths `first` and `last` at the ends and at most
+// 0.75 h (m) between. end: number of the node at t1; -1: a new one.
+void divide(const ToothGeometry& tooth, double t0, double t1, double first, double last, double h, int end,
+            NodeList& nodes, Polygon& polygon) {
+  const auto root = [&tooth](double t) { return tooth.root_point(t); };
+  constexpr int kPieces = 500;
+  std::vector<double> length(kPieces + 1, 0.0);
+  for (int i = 0; i < kPieces; ++i)
+    length[static_cast<size_t>(i) + 1] =
+        length[static_cast<size_t>(i)] +
+        (root(t0 + (t1 - t0) * (i + 1) / kPieces) - root(t0 + (t1 - t0) * i / kPieces)).norm();
+  const double whole = length.back();
+  const std::vector<double> places = graded_places(whole, [&](double s) {
+    return std::min({0.75 * h, first + kGrowth * s, last + kGrowth * (whole - s)});
+  });
+  size_t piece = 0;
+  for (size_t k = 1; k + 1 < places.size(); ++k) {
+    while (length[piece + 1] < places[k]) ++piece;
+    const double share = (places[k] - length[piece]) / (length[piece + 1] - length[piece]);
+    polygon.parameter.push_back(t0 + (t1 - t0) * (static_cast<double>(piece) + share) / kPieces);
+    polygon.node.push_back(nodes.add(root(polygon.parameter.back())));
+  }
+  polygon.parameter.push_back(t1);
+  polygon.node.push_back(end >= 0 ? end : nodes.add(root(t1)));
+}
+
+// The root curve anew with a node at the mouth, then the loop as it is.
+Polygon polygon_of(const ToothGeometry& tooth, const Slit& slit, const Hole& hole, double at_mouth,
+                   Growing& mesh) {
+  const MeshArtifact& sector = mesh.sector;
+  const double h = sector.discretisation.element_size;
   const auto root = [&tooth](double t) { return tooth.root_point(t); };
   const auto length_of = [&](const Side& s) -> double {
     return (sector.node_position.row(s.from) - sector.node_position.row(s.to)).norm();
@@ -397,71 +328,63 @@ MeshArtifact make_cracked_sector(const MeshArtifact& sector) {
   if (!(from < slit.mouth_at && slit.mouth_at < to))
     fail(Failure::numerical,
          "the elements around the crack do not reach both sides of its mouth; lower element_mm");
-  std::vector<int> polygon{kept(hole.loop[0].from)};
-  std::vector<double> parameter{from};
-  size_t mouth = 0;
-  const auto divide = [&](double t0, double t1, double first, double last, int end) {
-    constexpr int kPieces = 500;
-    std::vector<double> length(kPieces + 1, 0.0);
-    for (int i = 0; i < kPieces; ++i)
-      length[static_cast<size_t>(i) + 1] =
-          length[static_cast<size_t>(i)] +
-          (root(t0 + (t1 - t0) * (i + 1) / kPieces) - root(t0 + (t1 - t0) * i / kPieces)).norm();
-    const double whole = length.back();
-    const std::vector<double> places = graded_places(whole, [&](double s) {
-      return std::min({0.75 * h, first + kGrowth * s, last + kGrowth * (whole - s)});
-    });
-    size_t piece = 0;
-    for (size_t k = 1; k + 1 < places.size(); ++k) {
-      while (length[piece + 1] < places[k]) ++piece;
-      const double share = (places[k] - length[piece]) / (length[piece + 1] - length[piece]);
-      parameter.push_back(t0 + (t1 - t0) * (static_cast<double>(piece) + share) / kPieces);
-      polygon.push_back(nodes.add(root(parameter.back())));
-    }
-    parameter.push_back(t1);
-    polygon.push_back(end >= 0 ? end : nodes.add(root(t1)));
-  };
-  divide(from, slit.mouth_at, length_of(hole.loop.back()), at_mouth, -1);
-  mouth = polygon.size() - 1;
-  divide(slit.mouth_at, to, at_mouth, length_of(hole.loop[hole.root_sides % hole.loop.size()]),
-         kept(hole.loop[hole.root_sides - 1].to));
-  const size_t root_nodes = polygon.size();
-  for (size_t i = hole.root_sides + 1; i < hole.loop.size(); ++i) polygon.push_back(kept(hole.loop[i].from));
+  Polygon polygon{{mesh.kept(hole.loop[0].from)}, {from}};
+  divide(tooth, from, slit.mouth_at, length_of(hole.loop.back()), at_mouth, h, -1, mesh.nodes, polygon);
+  polygon.mouth = polygon.node.size() - 1;
+  const int end = mesh.kept(hole.loop[hole.root_sides - 1].to);
+  divide(tooth, slit.mouth_at, to, at_mouth, length_of(hole.loop[hole.root_sides % hole.loop.size()]), h, end,
+         mesh.nodes, polygon);
+  polygon.root_nodes = polygon.node.size();
+  for (size_t i = hole.root_sides + 1; i < hole.loop.size(); ++i)
+    polygon.node.push_back(mesh.kept(hole.loop[i].from));
+  return polygon;
+}
 
-  // 3. The patch in place of the hole.
+// Puts the patch in place of the hole. (pair, 2) nodes of the slit.
+MatrixRMi add_patch(const ToothGeometry& tooth, const Slit& slit, const Hole& hole, const Polygon& polygon,
+                    double at_mouth, double finest, Growing& mesh) {
+  const bool second = mesh.sector.element_node.cols() == 9;
   std::vector<Vec2> corner, middle;
-  for (int node : polygon) corner.push_back(nodes.at(node));
-  std::vector<int> number(polygon);  // of the patch's nodes
+  for (int node : polygon.node) corner.push_back(mesh.nodes.at(node));
+  std::vector<int> number(polygon.node);  // of the patch's nodes
   if (second) {
-    for (size_t i = 0; i + 1 < root_nodes; ++i)
-      number.push_back(nodes.add(root(0.5 * (parameter[i] + parameter[i + 1]))));
-    for (size_t i = hole.root_sides; i < hole.loop.size(); ++i) number.push_back(kept(hole.loop[i].middle));
-    for (size_t i = polygon.size(); i < number.size(); ++i) middle.push_back(nodes.at(number[i]));
+    for (size_t i = 0; i + 1 < polygon.root_nodes; ++i)
+      number.push_back(
+          mesh.nodes.add(tooth.root_point(0.5 * (polygon.parameter[i] + polygon.parameter[i + 1]))));
+    for (size_t i = hole.root_sides; i < hole.loop.size(); ++i)
+      number.push_back(mesh.kept(hole.loop[i].middle));
+    for (size_t i = polygon.node.size(); i < number.size(); ++i) middle.push_back(mesh.nodes.at(number[i]));
   }
-  const SlitPatch patch = slit_patch(corner, middle, mouth, slit.tip, at_mouth, finest, h);
+  const SlitPatch patch = slit_patch(corner, middle, polygon.mouth, slit.tip, at_mouth, finest,
+                                     mesh.sector.discretisation.element_size);
   for (Index i = static_cast<Index>(number.size()); i < patch.node_position.rows(); ++i)
-    number.push_back(nodes.add(patch.node_position.row(i)));
+    number.push_back(mesh.nodes.add(patch.node_position.row(i)));
   const auto numbered = [&number](int node) { return number[static_cast<size_t>(node)]; };
   for (Index e = 0; e < patch.element_node.rows(); ++e) {
     std::vector<int> element;
     for (Index k = 0; k < patch.element_node.cols(); ++k)
       element.push_back(numbered(patch.element_node(e, k)));
-    elements.push_back(element);
-    region.push_back(1);
+    mesh.elements.push_back(element);
+    mesh.region.push_back(1);
   }
+  return patch.slit_node.unaryExpr(numbered);
+}
 
+// Nodes, elements and node sets.
+MeshArtifact assembled(Growing& growing) {
+  const MeshArtifact& sector = growing.sector;
   MeshArtifact mesh;
   mesh.design = sector.design;
   mesh.discretisation = sector.discretisation;
-  mesh.slit_node = patch.slit_node.unaryExpr(numbered);
-  mesh.element_node.resize(static_cast<Index>(elements.size()), sector.element_node.cols());
-  mesh.element_region = Eigen::Map<Eigen::VectorXi>(region.data(), static_cast<Index>(region.size()));
-  for (size_t e = 0; e < elements.size(); ++e)
-    for (size_t k = 0; k < elements[e].size(); ++k)
-      mesh.element_node(static_cast<Index>(e), static_cast<Index>(k)) = elements[e][k];
-  mesh.node_position = nodes.matrix();
+  mesh.element_node.resize(static_cast<Index>(growing.elements.size()), sector.element_node.cols());
+  mesh.element_region =
+      Eigen::Map<Eigen::VectorXi>(growing.region.data(), static_cast<Index>(growing.region.size()));
+  for (size_t e = 0; e < growing.elements.size(); ++e)
+    for (size_t k = 0; k < growing.elements[e].size(); ++k)
+      mesh.element_node(static_cast<Index>(e), static_cast<Index>(k)) = growing.elements[e][k];
+  mesh.node_position = growing.nodes.matrix();
   const auto all_kept = [&](auto set) {
-    for (Index i = 0; i < set.size(); ++i) set.data()[i] = kept(set.data()[i]);
+    for (Index i = 0; i < set.size(); ++i) set.data()[i] = growing.kept(set.data()[i]);
     return set;
   };
   const Index before = mesh.node_position.rows();
@@ -469,9 +392,40 @@ MeshArtifact make_cracked_sector(const MeshArtifact& sector) {
   mesh.side_node = all_kept(sector.side_node);
   mesh.flank_node = all_kept(sector.flank_node);
   mesh.flank_roll_angle = sector.flank_roll_angle;
-  if (nodes.matrix().rows() != before)
+  if (growing.nodes.matrix().rows() != before)
     fail(Failure::numerical,
          "the crack takes elements on the flank, the bore or a sector edge; lower element_mm");
+  return mesh;
+}
+
+}  // namespace
+
+MeshArtifact make_cracked_sector(const MeshArtifact& sector) {
+  const ToothGeometry tooth(sector.design);
+  const Slit slit = crack_slit(tooth);
+  const double h = sector.discretisation.element_size, depth = sector.design.crack.depth;
+  if (!(depth > 0))
+    fail(Failure::input, "crack: depth_mm = ", depth * 1e3, " is not above 0: there is no slit");
+  const bool second = sector.element_node.cols() == 9;
+  const Hole hole = find_hole(sector, slit, 2 * h);
+  const double finest = std::min(h / 6, depth / 10), at_mouth = std::min(h / 2, depth / 4);
+
+  // 1. Nodes that stay: those of elements that stay.
+  Growing growing(sector);
+  for (Index e = 0; e < sector.element_node.rows(); ++e) {
+    if (hole.taken[static_cast<size_t>(e)]) continue;
+    std::vector<int> element;
+    for (Index k = 0; k < sector.element_node.cols(); ++k)
+      element.push_back(growing.kept(sector.element_node(e, k)));
+    growing.elements.push_back(element);
+    growing.region.push_back(sector.element_region[e]);
+  }
+
+  // 2. The patch in place of the hole, within its boundary.
+  const Polygon polygon = polygon_of(tooth, slit, hole, at_mouth, growing);
+  const auto slit_node = add_patch(tooth, slit, hole, polygon, at_mouth, finest, growing);
+  MeshArtifact mesh = assembled(growing);
+  mesh.slit_node = slit_node;
 
   const double area = mesh_area(mesh.node_position, mesh.element_node),
                intact = mesh_area(sector.node_position, sector.element_node);
@@ -506,79 +460,6 @@ MeshArtifact close_slit(const MeshArtifact& cracked) {
   renumber(mesh.flank_node);
   mesh.slit_node.resize(0, 2);
   return mesh;
-}
-
-namespace {
-
-MatrixRM assemble_teeth(const Condensed& plain, const Condensed& special, int teeth, int reach) {
-  const Index edge = plain.edge, size = edge * teeth, points = plain.own.rows();
-  const int window = 2 * reach + 1;
-  if (window > teeth)
-    fail(Failure::input, "compliance between ", window, " teeth of a gear that has ", teeth);
-  if (special.edge != edge) fail(Failure::input, "the sector edges of the two meshes do not match");
-  const auto of = [&](int tooth) -> const Condensed& { return tooth == 0 ? special : plain; };
-  const auto wrapped = [teeth](int k) { return (k % teeth + teeth) % teeth; };
-  // Unknowns of edge k stand between the teeth k - 1 and k.
-  std::vector<Eigen::Triplet<Complex>> entries;
-  for (int tooth = 0; tooth < teeth; ++tooth) {
-    const Index place[2] = {edge * tooth, edge * wrapped(tooth + 1)};
-    for (int a = 0; a < 2; ++a)
-      for (int b = 0; b < 2; ++b)
-        for (Index i = 0; i < edge; ++i)
-          for (Index j = 0; j < edge; ++j)
-            entries.emplace_back(place[a] + i, place[b] + j, of(tooth).stiffness(a * edge + i, b * edge + j));
-  }
-  SparseComplex whole(size, size);
-  whole.setFromTriplets(entries.begin(), entries.end());
-  whole = (0.5 * (whole + SparseComplex(whole.adjoint()))).eval();
-  whole.makeCompressed();
-  Eigen::MatrixXcd right = Eigen::MatrixXcd::Zero(size, window * points);
-  for (int j = -reach; j <= reach; ++j) {
-    auto columns = right.middleCols((j + reach) * points, points);
-    columns.middleRows(edge * wrapped(j), edge) += of(j).force.topRows(edge).cast<Complex>();
-    columns.middleRows(edge * wrapped(j + 1), edge) += of(j).force.bottomRows(edge).cast<Complex>();
-  }
-  HermitianFactor factor(whole);
-  factor.factorise(whole, text("the stiffness of ", teeth, " teeth at their sector edges"));
-  const MatrixXd solution = factor.solve(right).real();
-  MatrixRM compliance(window * points, window * points);
-  for (int i = -reach; i <= reach; ++i) {
-    const Condensed& tooth = of(i);
-    compliance.middleRows((i + reach) * points, points) =
-        -(tooth.reading.leftCols(edge) * solution.middleRows(edge * wrapped(i), edge) +
-          tooth.reading.rightCols(edge) * solution.middleRows(edge * wrapped(i + 1), edge));
-    compliance.block((i + reach) * points, (i + reach) * points, points, points) +=
-        tooth.subtracted - tooth.own;
-  }
-  return 0.5 * (compliance + compliance.transpose());
-}
-
-}  // namespace
-
-MatrixRM teeth_compliance(const MeshArtifact& sector, const MeshArtifact& special, const Material& material,
-                          const Eigen::VectorXd& xi, int reach) {
-  return assemble_teeth(condense(sector, material, xi, "an intact sector"),
-                        condense(special, material, xi, "the sector of tooth 0"), sector.design.teeth, reach);
-}
-
-MatrixRM crack_compliance(const MeshArtifact& sector, const Material& material, const Eigen::VectorXd& xi,
-                          int reach) {
-  if (sector.cracked_tooth.size() != 1) fail(Failure::input, "the mesh has no cracked tooth");
-  const MeshArtifact& open = sector.cracked_tooth[0];
-  const Condensed plain = condense(sector, material, xi, "an intact sector");
-  const int teeth = sector.design.teeth;
-  const MatrixRM share =
-      assemble_teeth(plain, condense(open, material, xi, "the sector with the crack"), teeth, reach) -
-      assemble_teeth(plain, condense(close_slit(open), material, xi, "the sector with its crack closed"),
-                     teeth, reach);
-  const double largest = share.cwiseAbs().maxCoeff();
-  const SymmetricEigen eigen = symmetric_eigenvalues(MatrixXd(share));
-  // Flanks are loaded through the elements' edges and read at points: 1e-4 of the largest at 0.8 mm, 1e-6 at 0.4 mm.
-  if (!(eigen.values[0] >= -1e-3 * largest))
-    fail(Failure::numerical,
-         "what the crack adds to the compliance is not positive semidefinite: least eigenvalue ",
-         eigen.values[0], " m/N, largest entry ", largest, " m/N; lower element_mm");
-  return share;
 }
 
 }  // namespace whine

@@ -7,12 +7,7 @@
 // map of the eight others. Elements are finest at the tip corner, where the stress of a load near the edge is
 // steepest.
 #pragma once
-#include <array>
-#include <functional>
-#include <vector>
-
 #include "files/schemas.h"
-#include "gear/involute.h"
 
 namespace whine {
 
@@ -27,20 +22,5 @@ void check_sector_mesh(const MeshArtifact& mesh);
 
 // m2: area of the exact sector, by quadrature of its boundary curves.
 double exact_sector_area(const GearDesign& design);
-
-// The parameter in [from, to] of the point of `curve` nearest to p.
-double nearest_parameter(const std::function<Vec2(double)>& curve, const Vec2& p, double from, double to);
-
-// Triangles that fill a polygon and keep its edges and those of a slit in it.
-struct Triangulation {
-  std::vector<Vec2>
-      node;  // m: the polygon's corners in their order, the slit's without its first, then new ones
-  std::vector<std::array<int, 3>> triangle;  // counter-clockwise
-};
-
-// polygon: corners, counter-clockwise; slit: from a corner of the polygon to its tip inside. Edges are at most `largest` long
-// and near the tip at most `finest` plus a third of the distance to it (m). Throws Error(numerical) if gmsh cannot.
-Triangulation triangulate(const std::vector<Vec2>& polygon, const std::vector<Vec2>& slit, double finest,
-                          double largest);
 
 }  // namespace whine

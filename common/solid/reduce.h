@@ -16,15 +16,12 @@
 // places, so the table is not symmetric, and both the spread of the nodal load, (element / d)^2, and the finite
 // body, d / tooth, leave their errors in it.
 #pragma once
-#include "files/schemas.h"
-#include "gear/involute.h"
-#include "solid/elements.h"
+#include "solid/flank_loads.h"
 
 namespace whine {
 
-// Number of table points along the flank and depth to which the half-plane in the tables is relative.
+// Number of table points along the flank.
 constexpr int kFlankPoints = 24;
-constexpr double kReferenceDepth = 1e-3;  // m
 constexpr int kOffsets = 3;
 
 // modes: elastic modes of the whole gear to keep, 0 or more, or kAllModes; the first torsional zero-diameter mode is always
@@ -33,37 +30,5 @@ constexpr int kOffsets = 3;
 // factorisation, an eigensolution or a table does not pass its check.
 BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes,
                     int flank_points = kFlankPoints);
-
-// Reading of displacements on the driving flank of a sector mesh.
-class FlankReader {
- public:
-  explicit FlankReader(const MeshArtifact& mesh);
-  // (2 points, 2 node) 1: displacement x0, y0, x1, y1 .. at roll angles xi from nodal displacements of the sector.
-  SparseReal displacement(const Eigen::VectorXd& xi) const;
-  // (points, 2 node) 1: its outward normal component.
-  SparseReal outward(const Eigen::VectorXd& xi) const;
-  // The same for the points that lie `depth` (m) below the flank along its normals. Throws Error(input) if one of them
-  // is not inside the tooth.
-  SparseReal outward_below(const Eigen::VectorXd& xi, double depth) const;
-
- private:
-  // Element of the tooth region that holds p, and where; -1 if none does.
-  Eigen::Index element_at(const Vec2& p, Vec2& reference) const;
-  const MeshArtifact& mesh_;
-  ToothGeometry tooth_;
-};
-
-// Right-hand sides for unit normal forces at roll angles xi of tooth 0, and what they are made of.
-struct FlankLoads {
-  Eigen::MatrixXd force;       // (2 node, load) 1: the right-hand side K x = force
-  Eigen::MatrixXd half_plane;  // (2 node, load) m N-1: u_hs at the nodes where x holds w, 0 where it holds u
-  std::vector<char> holds_rest;  // (node) whether x holds w there; of matched loads nowhere
-  // (point, load) m N-1: inward u_hs at the points xi, less the flat surface displacement; of matched loads also less
-  // u_hs at the depth
-  MatrixRM subtracted;
-};
-FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi);
-FlankLoads make_matched_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,
-                              double depth);
 
 }  // namespace whine
