@@ -182,6 +182,7 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
   return solve_line_contact(c, law, e, start, force, d);
 }
 
+// NOLINTNEXTLINE(readability-function-size): the innermost loop of contact lines, whose steps share all of its state
 Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
                                const Eigen::Ref<const VectorXd>& e, LineStart& start,
                                Eigen::Ref<VectorXd> force, Eigen::Ref<VectorXd> d) {

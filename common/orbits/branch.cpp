@@ -415,6 +415,25 @@ void look_between(Follower& follower, const Point& from, const BranchPosition& a
   }
 }
 
+// Folds, flips and grazing orbits between the last two points of a branch, in the order of the arc.
+void add_special_points(Follower& follower, const Point& here, const Point& next, double location,
+                        OrbitBranch& branch) {
+  const size_t index = branch.points.size() - 2;
+  const BranchPosition a = branch.points[index], b = branch.points[index + 1];
+  std::vector<SpecialPoint> found;
+  // The plane across the tangent at `here` in which the point lies.
+  const double ahead = (next.u - here.u).dot(here.tangent);
+  if (ahead > 0) {
+    look_between(follower, here, a, b, ahead, location, found, index);
+  } else if ((a.turn < 0) != (b.turn < 0)) {  // back from a kink
+    found.push_back(special_at(Special::fold, a, a, b, index));
+    found.back().smooth = false;
+    if (!same_sequence(a.events, b.events)) found.push_back(special_at(Special::grazing, a, a, b, index));
+  }
+  std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.arc < y.arc; });
+  branch.special.insert(branch.special.end(), found.begin(), found.end());
+}
+
 }  // namespace
 
 OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int direction,
@@ -480,23 +499,8 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
       }
       if (at_limit) next = at_limit;
     }
-    const size_t index = branch.points.size() - 1;
     take(*next, last.arc + length);
-    {
-      const BranchPosition a = branch.points[index], b = branch.points[index + 1];
-      std::vector<SpecialPoint> found;
-      // The plane across the tangent at `here` in which the point lies.
-      const double ahead = (next->u - here->u).dot(here->tangent);
-      if (ahead > 0) {
-        look_between(follower, *here, a, b, ahead, settings.location, found, index);
-      } else if ((a.turn < 0) != (b.turn < 0)) {  // back from a kink
-        found.push_back(special_at(Special::fold, a, a, b, index));
-        found.back().smooth = false;
-        if (!same_sequence(a.events, b.events)) found.push_back(special_at(Special::grazing, a, a, b, index));
-      }
-      std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.arc < y.arc; });
-      branch.special.insert(branch.special.end(), found.begin(), found.end());
-    }
+    add_special_points(follower, *here, *next, settings.location, branch);
     if (beyond) {
       branch.reached_limit = true;
       branch.end = text("the parameter reached ", branch.points.back().parameter);

@@ -85,6 +85,7 @@ bool may_break(const std::vector<BranchMotion>& sweep, size_t i) {
   return departure(at_or_none(sweep, i - 2), a, b, after ? after : &b) > kBreak && !is_smooth(sweep, i);
 }
 
+// NOLINTNEXTLINE(readability-function-size): one search, whose steps share what is known ahead and behind
 std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<BranchMotion>& sweep,
                                     size_t i) {
   constexpr int kShrinking = 4;      // steps, in the finest, over which a flank is told from a jump
