@@ -7,8 +7,6 @@
 //            With --check: a line on standard error for each fault, nothing if all is well. Exit status 3 if an
 //            artifact is damaged, of another version, not finite, or made from other files than those beside it
 // Equations  none
-#include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <vector>
 
@@ -16,8 +14,8 @@
 #include "base/tool.h"
 #include "files/artifact_place.h"
 #include "files/fit.h"
+#include "files/freshness.h"
 #include "files/provenance.h"
-#include "files/publish.h"
 #include "files/summary.h"
 
 namespace {
@@ -27,41 +25,6 @@ using namespace whine;
 void line(const std::string& name, const std::string& words) {
   std::cout << "  " << name << std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') << printable(words)
             << "\n";
-}
-
-// The scene that a slice out/<scene>/params/... was cut from; empty if it is not known, or not there any more.
-std::string scene_of(const std::string& slice) {
-  const std::filesystem::path folder = std::filesystem::path(slice).parent_path();
-  if (folder.filename() != "params") return "";
-  const std::filesystem::path home = folder.parent_path();
-  for (const std::string& scene :
-       {recorded_scene(home.generic_string()), "data/scenes/" + home.filename().string() + ".toml"})
-    if (std::filesystem::is_regular_file(scene)) return scene;
-  return "";
-}
-
-// Whether a slice, which is the file it was, is what its scene says today, in words; clears fresh if not.
-std::string against_scene(const std::string& artifact, const InputRecord& input, std::string scene,
-                          bool& fresh) {
-  if (scene.empty()) scene = scene_of(input.path);
-  const std::string now = scene.empty() ? "" : slice_for(read_scene(scene), input.path);
-  if (now.empty())
-    return text("fresh: the slice is what it was; not compared with a scene",
-                scene.empty() ? ", give --scene" : "");
-  if (sha256(now) == input.sha256) return text("fresh: as the slice and as ", scene);
-  fresh = false;
-  return text("STALE: ", scene, " says otherwise now; ", rebuild_advice(artifact));
-}
-
-// What has become of an input since, in words; clears fresh if it is not what it was, or not there to tell.
-std::string state_of(const std::string& path, const InputRecord& input, const std::string& scene,
-                     bool& fresh) {
-  if (std::filesystem::exists(input.path) && sha256_of_file(input.path) == input.sha256)
-    return input.role == "params" ? against_scene(path, input, scene, fresh)
-                                  : "fresh: the file is what it was";
-  fresh = false;
-  return std::filesystem::exists(input.path) ? text("STALE; ", rebuild_advice(path))
-                                             : text("MISSING; ", rebuild_advice(input.path));
 }
 
 // False if an input is not what it was, or not there to tell.
@@ -76,20 +39,6 @@ bool show_origin(const std::string& path, const Origin& origin, const std::strin
   }
   for (const std::string& stage : origin.history) line("earlier", stage);
   return fresh;
-}
-
-// All artifacts below a folder, links not followed, in the order of the alphabet; a path to a file is that file.
-std::vector<std::string> artifacts_below(const std::string& place) {
-  namespace fs = std::filesystem;
-  std::error_code code;
-  if (!fs::is_directory(place, code)) return {place};
-  std::vector<std::string> out;
-  fs::recursive_directory_iterator entry(place, code);
-  for (; !code && entry != fs::recursive_directory_iterator(); entry.increment(code))
-    if (entry->path().extension() == ".h5") out.push_back(entry->path().generic_string());
-  if (code) fail(Failure::io, place, ": cannot be searched: ", code.message(), "; check its permissions");
-  std::sort(out.begin(), out.end());
-  return out;
 }
 
 // The number of faults, each told in a line.

@@ -10,10 +10,8 @@
 //            --variant: a scene with the changes of --set, and nothing else
 //            --keys: prints the table of scene keys
 // Equations  none; units to SI as the key table says
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <vector>
 
 #include "base/error.h"
@@ -21,6 +19,7 @@
 #include "files/fit.h"
 #include "files/publish.h"
 #include "files/scene.h"
+#include "files/scene_fragment.h"
 #include "files/variant.h"
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
@@ -92,16 +91,12 @@ void body(int argc, char** argv) {
     tell("gear-scene: ", home, ": ", moved, " files had times in the future and have those of now instead");
 
   // 2. Slices and links; unchanged ones are left alone, so that make sees what did change.
-  const auto name = [&](const std::string& key) { return "SCENE_" + stem + "_" + key; };
-  std::ostringstream bodies;
-  std::vector<std::string> gears, hashes;
+  BodyHashes bodies;
   for (const SceneGear& gear : scene.gears) {
     const std::string slice = body_slice(scene, gear.name), hash = body_hash(slice);
     publish_if_changed(folder + "/bodies/" + hash + "/body.toml", slice);
     publish_link(home + "/" + gear.name, "../bodies/" + hash);
-    bodies << name("BODY_" + gear.name) << " := " << hash << "\n";
-    gears.push_back(gear.name);
-    if (std::find(hashes.begin(), hashes.end(), hash) == hashes.end()) hashes.push_back(hash);
+    bodies.emplace_back(gear.name, hash);
   }
   const std::pair<const char*, std::string> slices[] = {
       {"static.toml", static_slice(scene)},       {"impact.toml", impact_slice(scene)},
@@ -111,35 +106,11 @@ void body(int argc, char** argv) {
   for (const auto& [file, content] : slices) publish_if_changed(home + "/params/" + file, content);
 
   // 3. The fragment, always written.
-  std::ostringstream out;
-  out << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\n" << name("GEARS") << " :=";
-  for (const auto& gear : gears) out << " " << gear;
-  out << "\n" << name("DRIVER") << " := " << scene.mesh.driver << "\n";
-  out << name("DRIVEN") << " := " << scene.mesh.driven << "\n" << bodies.str() << name("TORQUES") << " :=";
-  for (double torque : scene.operation.torques) out << " " << torque;
-  out << "\n" << name("REFERENCE_TORQUE") << " := " << scene.operation.torques.front() << "\n";
-  const SceneGear &driver = scene.gear(scene.mesh.driver), &driven = scene.gear(scene.mesh.driven);
-  const bool differ = !driver.errors.none() || !driven.errors.none();
-  const bool cracked = driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
-  const bool modified =
-      driver.modification != FlankModification{} || driven.modification != FlankModification{};
-  const bool rings_down =
-      scene.fidelity.contact == "strips" && scene.fidelity.body != "full" && !differ && !cracked;
-  out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";
-  out << name("TEETH") << " := "
-      << (differ    ? "differ"
-          : cracked ? ""
-                    : "alike")
-      << (cracked ? " cracked" : "") << "\n";
-  out << name("MODIFIED") << " := " << (modified ? "yes" : "no") << "\n";
-  out << name("BEARINGS") << " := " << (scene.mesh.on_bearings() ? "elastic" : "rigid") << "\n";
-  out << "BODIES +=";
-  for (const auto& hash : hashes) out << " " << hash;
-  out << "\n";
-  publish(output, out.str());
+  publish(output, scene_fragment(scene, path, stem, bodies));
   for (const std::string& cost : costs(scene)) tell("gear-scene: ", path, ": ", cost);
-  tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", hashes.size(),
-       (hashes.size() == 1 ? " body, " : " bodies, "), scene.operation.torques.size(), " torques");
+  const size_t hashes = different(bodies).size();
+  tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", hashes,
+       (hashes == 1 ? " body, " : " bodies, "), scene.operation.torques.size(), " torques");
 }
 
 }  // namespace

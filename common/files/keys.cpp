@@ -33,6 +33,7 @@ constexpr Unit kNewtonPerMicrometre{"_N_um", "N m-1", 1e6};
 constexpr Unit kNewtonSecondPerMetre{"_Ns_m", "N s m-1"};
 constexpr Unit kKilogram{"_kg", "kg"};
 
+// NOLINTNEXTLINE(readability-function-size): a table of data
 std::vector<Key> make_keys() {
   using V = KeyValues;
   // clang-format off

@@ -214,6 +214,7 @@ double LumpedOscillator::potential(int cell, double x) const {
 
 // visit(region, x, v, time, x at its end, v at its end) sees every part between events.
 template <class Visit>
+// NOLINTNEXTLINE(readability-function-size): one loop over events, whose parts share all of its state
 void LumpedOscillator::run_exact(Piece& piece, double& x, double& v, Matrix* derivative, const Visit& visit) {
   const Cell& cell = cells_[piece.cell];
   const double length = (piece.end - piece.begin) * period_;

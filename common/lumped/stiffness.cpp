@@ -146,41 +146,58 @@ double hertz_deflection(double load, double static_load, double stiffness, doubl
   return load > 0 ? load * (1 / stiffness + 0.5 * coefficient * std::log(static_load / load)) : 0;
 }
 
-LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::VectorXi& numbers, int chords) {
-  if (chords < 0 || chords == 1)
-    fail(Failure::input, "lumped model: ", chords,
-         " chords of Hertz's law; 2 are the least, 0 make linear springs");
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
-  const double force = s.torque / pair.gear(0).base_radius();
-  const FlankDeviation deviation[2] = {{pair.gear(0), s.mesh.modification[0]},
-                                       {pair.gear(1), s.mesh.modification[1]}};
-  const PairDeviation flanks{{&deviation[0], &deviation[1]}, {}};
-  const double farthest = kFarthest * s.transmission_error.maxCoeff();
-  // Nothing where this pair cannot touch.
-  const auto gap_at = [&](double own_phase) -> std::optional<double> {
+namespace {
+
+// Gap of a pair of flanks at a phase of its own, unloaded.
+class PairGap {
+ public:
+  PairGap(const StaticArtifact& s, const GearPair& pair)
+      : s_(s),
+        pair_(pair),
+        deviation_{{pair.gear(0), s.mesh.modification[0]}, {pair.gear(1), s.mesh.modification[1]}},
+        flanks_{{&deviation_[0], &deviation_[1]}, {}},
+        farthest_(kFarthest * s.transmission_error.maxCoeff()) {}
+  PairGap(const PairGap&) = delete;
+  PairGap& operator=(const PairGap&) = delete;
+
+  // m; nothing where this pair cannot touch.
+  std::optional<double> operator()(double own_phase) const {
     // Beyond the tangent points of the base circles there is no contact of these flanks.
-    const double path = own_phase * pair.base_pitch(), tangent = std::tan(pair.working_pressure_angle());
-    if (pair.gear(0).base_radius() * tangent + path <= 0 || pair.gear(1).base_radius() * tangent - path <= 0)
+    const double path = own_phase * pair_.base_pitch(), tangent = std::tan(pair_.working_pressure_angle());
+    if (pair_.gear(0).base_radius() * tangent + path <= 0 ||
+        pair_.gear(1).base_radius() * tangent - path <= 0)
       return std::nullopt;
-    const PairContact c = pair.contact(own_phase);
-    const double gap = flanks.none() || !c.on_flank ? c.gap : pair.gap_at(c, pair.nearest(c, flanks), flanks);
-    if (c.corner && (!s.mesh.corner.enabled || c.normal_angle > s.mesh.corner.largest_angle || !c.on_flank ||
-                     gap > farthest))
+    const PairContact c = pair_.contact(own_phase);
+    const double gap =
+        flanks_.none() || !c.on_flank ? c.gap : pair_.gap_at(c, pair_.nearest(c, flanks_), flanks_);
+    if (c.corner && (!s_.mesh.corner.enabled || c.normal_angle > s_.mesh.corner.largest_angle ||
+                     !c.on_flank || gap > farthest_))
       return std::nullopt;
     return gap;
-  };
+  }
 
-  // Load and stiffness against the pair's own phase, at static positions where it carries load.
-  struct Point {
-    double phase, load, stiffness;
-  };
-  std::vector<Point> points;
+ private:
+  const StaticArtifact& s_;
+  const GearPair& pair_;
+  FlankDeviation deviation_[2];
+  PairDeviation flanks_;
+  double farthest_;
+};
+
+// Load (N) and stiffness (N m-1) of a pair at a phase of its own.
+struct PairPoint {
+  double phase, load, stiffness;
+};
+
+// At static positions where a pair carries load, by phase. force: N, torque over base radius.
+std::vector<PairPoint> loaded_points(const StaticArtifact& s, const PairGap& gap_of, double force) {
+  std::vector<PairPoint> points;
   for (Eigen::Index i = 0; i < s.mesh_phase.size(); ++i) {
     const double total = s.tooth_load.row(i).sum();
     for (Eigen::Index n = 0; n < s.pair.size(); ++n) {
       const double phase = s.mesh_phase[i] + s.pair[n], load = s.tooth_load(i, n);
       if (!(load > 0)) continue;
-      const auto gap = gap_at(phase);
+      const auto gap = gap_of(phase);
       const double deflection = s.transmission_error[i] - gap.value_or(0);
       if (!gap || !(deflection > 0))
         fail(Failure::input, "lumped model: pair ", s.pair[n], " carries ", load, " N at phase ",
@@ -190,47 +207,64 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
     }
   }
   if (points.empty()) fail(Failure::input, "lumped model: no tooth pair carries load in the static result");
-  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.phase < b.phase; });
-  const auto at = [&](double phase) {
-    const auto after = std::lower_bound(points.begin(), points.end(), phase,
-                                        [](const Point& p, double here) { return p.phase < here; });
-    if (after == points.end()) return points.back();
-    if (after == points.begin() || after->phase == phase) return *after;
-    const auto before = after - 1;
-    const double share = (phase - before->phase) / (after->phase - before->phase);
-    return Point{phase, (1 - share) * before->load + share * after->load,
-                 (1 - share) * before->stiffness + share * after->stiffness};
-  };
+  std::sort(points.begin(), points.end(),
+            [](const PairPoint& a, const PairPoint& b) { return a.phase < b.phase; });
+  return points;
+}
 
-  // What a pair's force is made of: springs of its own that come in one after the other.
+// Linear between the points, and as at their ends beyond them.
+PairPoint point_at(const std::vector<PairPoint>& points, double phase) {
+  const auto after = std::lower_bound(points.begin(), points.end(), phase,
+                                      [](const PairPoint& p, double here) { return p.phase < here; });
+  if (after == points.end()) return points.back();
+  if (after == points.begin() || after->phase == phase) return *after;
+  const auto before = after - 1;
+  const double share = (phase - before->phase) / (after->phase - before->phase);
+  return PairPoint{phase, (1 - share) * before->load + share * after->load,
+                   (1 - share) * before->stiffness + share * after->stiffness};
+}
+
+// What a pair's force is made of: springs of its own that come in one after the other, in place `first` of a row. One spring for 0
+// chords, else a polygon of Hertz's law through the point.
+void add_pair(const PairPoint& p, double gap, int chords, double coefficient, double force, Eigen::Index row,
+              Eigen::Index first, LumpedParameters& to) {
+  const int up_to_static = chords / 2, beyond = chords - up_to_static;
+  to.gap(row, first) = gap;
+  to.stiffness(row, first) = p.stiffness;
+  double before = 0, reached = 0, slope = 0;
+  for (int i = 0; i < chords; ++i) {
+    const int below =
+        up_to_static - 1 - i;  // halvings from the static load; from it on equal ratios to the last load
+    const double load = below >= 0 ? std::ldexp(p.load, -below)
+                                   : p.load * std::pow(4 * force / p.load, -below / double(beyond));
+    const double deflection = hertz_deflection(load, p.load, p.stiffness, coefficient);
+    const double chord = (load - before) / (deflection - reached);
+    if (!(chord > slope))
+      fail(Failure::input, "lumped model: Hertz's law does not stiffen between ", before, " and ", load,
+           " N; the static result is of no contact of these flanks");
+    to.gap(row, first + i) = gap + reached;
+    to.stiffness(row, first + i) = chord - slope;
+    before = load;
+    reached = deflection;
+    slope = chord;
+  }
+}
+
+}  // namespace
+
+LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::VectorXi& numbers, int chords) {
+  if (chords < 0 || chords == 1)
+    fail(Failure::input, "lumped model: ", chords,
+         " chords of Hertz's law; 2 are the least, 0 make linear springs");
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double force = s.torque / pair.gear(0).base_radius();
+  const PairGap gap_at(s, pair);
+  const std::vector<PairPoint> points = loaded_points(s, gap_at, force);
   const auto surface = [&](const Material& m, const GearDesign& g) {
     return HalfPlaneSurface(in_contact_plane(m, s.mesh.contact_plane), g.face_width).coefficient();
   };
   const double coefficient = surface(s.driver_material, s.driver) + surface(s.driven_material, s.driven);
   const int springs = std::max(1, chords);
-  const int up_to_static = chords / 2, beyond = chords - up_to_static;
-  const auto add_pair = [&](const Point& p, double gap, Eigen::Index row, Eigen::Index first,
-                            LumpedParameters& to) {
-    to.gap(row, first) = gap;
-    to.stiffness(row, first) = p.stiffness;
-    double before = 0, reached = 0, slope = 0;
-    for (int i = 0; i < chords; ++i) {
-      const int below =
-          up_to_static - 1 - i;  // halvings from the static load; from it on equal ratios to the last load
-      const double load = below >= 0 ? std::ldexp(p.load, -below)
-                                     : p.load * std::pow(4 * force / p.load, -below / double(beyond));
-      const double deflection = hertz_deflection(load, p.load, p.stiffness, coefficient);
-      const double chord = (load - before) / (deflection - reached);
-      if (!(chord > slope))
-        fail(Failure::input, "lumped model: Hertz's law does not stiffen between ", before, " and ", load,
-             " N; the static result is of no contact of these flanks");
-      to.gap(row, first + i) = gap + reached;
-      to.stiffness(row, first + i) = chord - slope;
-      before = load;
-      reached = deflection;
-      slope = chord;
-    }
-  };
 
   // Pair n at mesh phase f in [0, 1] has the phase f + n of its own.
   int reach = 1;
@@ -249,8 +283,9 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
       if (!gap) continue;
       // A pair that the others hold apart at rest, by what they bend of its gears, does not touch at rest.
       const bool loaded = phase >= points.front().phase && phase <= points.back().phase;
-      add_pair(at(phase), loaded ? *gap : std::max(*gap, at_phase(s.mesh_phase, s.transmission_error, phase)),
-               j, n * springs, p);
+      add_pair(point_at(points, phase),
+               loaded ? *gap : std::max(*gap, at_phase(s.mesh_phase, s.transmission_error, phase)), chords,
+               coefficient, force, j, n * springs, p);
     }
   }
   return p;

@@ -234,10 +234,10 @@ double reduced_mass(const StaticArtifact& statics, double driver_inertia, double
   return driver_inertia * driven_inertia / (driver_inertia * r2 * r2 + driven_inertia * r1 * r1);
 }
 
-SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
-                           const Eigen::VectorXi& numbers, const LumpedOptions& o,
-                           const std::function<void(long, long, const std::string&)>& report,
-                           std::vector<BranchPoint>* left_early) {
+namespace {
+
+// Throws Error(input) for values that make no model. Speeds (Hz) in the order of the sweep.
+std::vector<double> checked_speeds(const LumpedOptions& o) {
   if (!(o.mass > 0) || !std::isfinite(o.mass))
     fail(Failure::input, "lumped model: the mass is ", o.mass, " kg; it must be above 0");
   if (!(o.damping_ratio >= 0 && o.damping_ratio < 1))
@@ -249,26 +249,15 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
       count < 1)
     fail(Failure::input, "the speed range from ", o.frequency_from, " to ", o.frequency_to,
          " Hz in steps of ", o.frequency_step, " Hz is empty");
-
-  const GearPair pair(statics.driver, statics.driven, statics.mesh.centre_distance);
-  const double force = statics.torque / pair.gear(0).base_radius();
-  const int samples = o.time.steps_per_period, steps = o.integrator == "newmark" ? samples : 0;
-  springs.mass = o.mass;
-  springs.damping_ratio = o.damping_ratio;
-  springs.damper_acts = o.damper_acts;
-  springs.damper = 0;
-  const double stiffness = LumpedOscillator(springs, force, samples).mean_stiffness();
-  springs.damper = 2 * o.damping_ratio * std::sqrt(stiffness * o.mass);
-  LumpedOscillator oscillator(springs, force, samples, steps);
-
   std::vector<double> speeds(count);
   for (int i = 0; i < count; ++i)
     speeds[i] = o.frequency_from + (o.direction == "up" ? i : count - 1 - i) * o.frequency_step;
-  const LumpedMarch march =
-      march_speeds(oscillator, speeds, o.time.periodicity, o.time.steady_state == "march", report);
+  return speeds;
+}
 
-  if (left_early) *left_early = march.left_early;
-
+// A sweep without its motions.
+SweepArtifact described(const StaticArtifact& statics, const LumpedParameters& springs, const GearPair& pair,
+                        const LumpedOptions& o) {
   SweepArtifact a;
   a.model = o.model;
   a.lumped = springs;
@@ -291,14 +280,17 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
   // m = I1 I2 / (I1 r2^2 + I2 r1^2) with equal shares.
   for (int g = 0; g < 2; ++g)
     (g == 0 ? a.driver_inertia : a.driven_inertia) = 2 * o.mass * std::pow(pair.gear(g).base_radius(), 2);
-  a.mean_stiffness = stiffness;
-  a.natural_frequency = oscillator.mean_frequency();
   a.direction = o.direction;
+  return a;
+}
+
+// The motions of all speeds. m: the least transmission error.
+double store_motions(const LumpedMarch& march, const Eigen::VectorXi& numbers, SweepArtifact& a) {
+  const int count = static_cast<int>(march.orbits.size()), samples = a.time.steps_per_period;
   // Several springs may stand for one pair.
   std::vector<int> pairs(numbers.data(), numbers.data() + numbers.size());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   a.pair = Eigen::Map<const Eigen::VectorXi>(pairs.data(), static_cast<Eigen::Index>(pairs.size()));
-  a.mesh_frequency = Eigen::Map<const Eigen::VectorXd>(speeds.data(), count);
   a.periods.resize(count);
   a.residual.resize(count);
   a.period_multiple.resize(count);
@@ -342,6 +334,38 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
     a.mesh_force.row(i) = loads.rowwise().sum().transpose();
     a.tooth_load.push_back(std::move(loads));
   }
+  return least;
+}
+
+}  // namespace
+
+SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
+                           const Eigen::VectorXi& numbers, const LumpedOptions& o,
+                           const std::function<void(long, long, const std::string&)>& report,
+                           std::vector<BranchPoint>* left_early) {
+  const std::vector<double> speeds = checked_speeds(o);
+  const GearPair pair(statics.driver, statics.driven, statics.mesh.centre_distance);
+  const double force = statics.torque / pair.gear(0).base_radius();
+  const int samples = o.time.steps_per_period, steps = o.integrator == "newmark" ? samples : 0;
+  springs.mass = o.mass;
+  springs.damping_ratio = o.damping_ratio;
+  springs.damper_acts = o.damper_acts;
+  springs.damper = 0;
+  const double stiffness = LumpedOscillator(springs, force, samples).mean_stiffness();
+  springs.damper = 2 * o.damping_ratio * std::sqrt(stiffness * o.mass);
+  LumpedOscillator oscillator(springs, force, samples, steps);
+
+  const LumpedMarch march =
+      march_speeds(oscillator, speeds, o.time.periodicity, o.time.steady_state == "march", report);
+
+  if (left_early) *left_early = march.left_early;
+
+  SweepArtifact a = described(statics, springs, pair, o);
+  a.mean_stiffness = stiffness;
+  a.natural_frequency = oscillator.mean_frequency();
+  a.mesh_frequency =
+      Eigen::Map<const Eigen::VectorXd>(speeds.data(), static_cast<Eigen::Index>(speeds.size()));
+  const double least = store_motions(march, numbers, a);
   a.backlash_margin = statics.driver.tooth_thinning + statics.driven.tooth_thinning > 0
                           ? pair.backlash() + least
                           : std::numeric_limits<double>::infinity();

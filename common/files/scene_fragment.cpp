@@ -1,0 +1,52 @@
+#include "files/scene_fragment.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/tool.h"
+#include "files/fit.h"
+#include "files/publish.h"
+
+namespace whine {
+
+std::vector<std::string> different(const BodyHashes& bodies) {
+  std::vector<std::string> hashes;
+  for (const auto& [gear, hash] : bodies)
+    if (std::find(hashes.begin(), hashes.end(), hash) == hashes.end()) hashes.push_back(hash);
+  return hashes;
+}
+
+std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,
+                           const BodyHashes& bodies) {
+  const auto name = [&](const std::string& key) { return "SCENE_" + stem + "_" + key; };
+  std::ostringstream out;
+  out << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\n" << name("GEARS") << " :=";
+  for (const auto& [gear, hash] : bodies) out << " " << gear;
+  out << "\n" << name("DRIVER") << " := " << scene.mesh.driver << "\n";
+  out << name("DRIVEN") << " := " << scene.mesh.driven << "\n";
+  for (const auto& [gear, hash] : bodies) out << name("BODY_" + gear) << " := " << hash << "\n";
+  out << name("TORQUES") << " :=";
+  for (double torque : scene.operation.torques) out << " " << torque;
+  out << "\n" << name("REFERENCE_TORQUE") << " := " << scene.operation.torques.front() << "\n";
+  const SceneGear &driver = scene.gear(scene.mesh.driver), &driven = scene.gear(scene.mesh.driven);
+  const bool differ = !driver.errors.none() || !driven.errors.none();
+  const bool cracked = driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
+  const bool modified =
+      driver.modification != FlankModification{} || driven.modification != FlankModification{};
+  const bool rings_down =
+      scene.fidelity.contact == "strips" && scene.fidelity.body != "full" && !differ && !cracked;
+  out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";
+  out << name("TEETH") << " := "
+      << (differ    ? "differ"
+          : cracked ? ""
+                    : "alike")
+      << (cracked ? " cracked" : "") << "\n";
+  out << name("MODIFIED") << " := " << (modified ? "yes" : "no") << "\n";
+  out << name("BEARINGS") << " := " << (scene.mesh.on_bearings() ? "elastic" : "rigid") << "\n";
+  out << "BODIES +=";
+  for (const auto& hash : different(bodies)) out << " " << hash;
+  out << "\n";
+  return out.str();
+}
+
+}  // namespace whine

@@ -1,0 +1,146 @@
+#include "motion/study_expansion.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <tuple>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "files/provenance.h"
+#include "files/publish.h"
+#include "files/variant.h"
+#include "gear/scene_geometry.h"
+
+namespace whine {
+namespace {
+
+constexpr const char* kUnsteady = "unsteady_";  // answers that count them begin so
+
+bool holds(const std::string& path, const std::string& bytes) {
+  std::error_code code;
+  return std::filesystem::is_regular_file(path, code) && read_bytes(path) == bytes;
+}
+
+// Variants of a sample with the value of one key taken from another variant: with them, keys without effect show.
+void add_probes(const Study& study, std::vector<GatheredVariant>& variants) {
+  constexpr size_t kProbes = 8;  // a key may act with some values of the others only
+  const size_t count = variants.size();
+  for (size_t k = 0; k < study.keys.size(); ++k)
+    for (size_t i = 0; i < std::min(count, kProbes); ++i) {
+      std::vector<std::string> values = variants[i].values;
+      for (size_t j = 1; j < count && values[k] == variants[i].values[k]; ++j)
+        values[k] = variants[(i + j) % count].values[k];
+      try {
+        const StudyVariant probe = study_variant(study, static_cast<long>(i), values);
+        variants.push_back({body_hash(variant_slice(probe.scene, probe.torque, study.directions)), values});
+      } catch (const Error&) {
+        // The values do not go together; so the key matters.
+        variants.push_back({"", values});
+      }
+    }
+}
+
+}  // namespace
+
+ExpandedStudy expand_study(const std::string& path, const std::string& home) {
+  ExpandedStudy plan;
+  const Study& study = plan.study = read_study(path);
+  for (long i = 0; i < study.variants; ++i) {
+    const std::vector<std::string> values = variant_values(study, i);
+    const StudyVariant variant = study_variant(study, i, values);
+    const std::string own = variant.scene.mesh.driver + " " + variant.scene.mesh.driven;
+    if (!plan.gears.empty() && own != plan.gears)
+      fail(Failure::input, path, ": the study varies which gear drives which (", plan.gears, ", ", own,
+           "); make a study of each");
+    plan.gears = own;
+    std::string pair;
+    for (const std::string& gear : {variant.scene.mesh.driver, variant.scene.mesh.driven}) {
+      const std::string body = body_slice(variant.scene, gear);
+      pair += (pair.empty() ? "" : "_") + plan.bodies.emplace(body_hash(body), body).first->first;
+    }
+    const std::string slice = variant_slice(variant.scene, variant.torque, study.directions);
+    // One whose slice is there has been checked before.
+    if (!holds(home + variant_file(body_hash(slice)) + ".toml", slice)) {
+      const std::string where = path + ": " + variant_name(study, i, values);
+      check_geometry(variant.scene, where, false);
+      // Where refusals are marked its stage does so.
+      if (!study.directions.empty() && !study.marks_refusals) check_inertia(variant.scene, where, false);
+    }
+    plan.variants.push_back({body_hash(slice), values});
+    if (plan.slices.emplace(plan.variants.back().name, slice).second)
+      plan.of_pair[pair].push_back(plan.variants.back().name);
+  }
+  if (plan.slices.size() == 1 && study.variants > 1)
+    fail(Failure::input, path, ": the study varies nothing: all ", study.variants,
+         " variants are alike, because what its stage computes depends on none of the keys");
+  return plan;
+}
+
+std::string study_fragment(const ExpandedStudy& plan, const std::string& path, const std::string& stem) {
+  const std::string prefix = "STUDY_" + stem + "_";
+  std::ostringstream out;
+  out << "# Written by gear-study from " << in_comment(recorded_path(path)) << "\n" << prefix << "PAIRS :=";
+  for (const auto& [pair, names] : plan.of_pair) out << " " << pair;
+  for (const auto& [pair, names] : plan.of_pair) {
+    out << "\n" << prefix << pair << " :=";
+    for (const std::string& name : names) out << " " << variant_file(name);
+  }
+  out << "\n" << prefix << "GEARS := " << plan.gears;
+  out << "\n"
+      << prefix << "OPTIONS :=" << (plan.study.marks_refusals ? "--mark-refusals" : "") << "\nBODIES +=";
+  for (const auto& [hash, text] : plan.bodies) out << " " << hash;
+  out << "\n";
+  return out.str();
+}
+
+std::vector<std::string> idle_keys(const ExpandedStudy& plan) {
+  std::vector<GatheredVariant> compared = plan.variants;
+  if (plan.study.random) add_probes(plan.study, compared);
+  return keys_without_effect(plan.study, compared);
+}
+
+GatheredStudy gather_study(const std::string& path) {
+  GatheredStudy gathered;
+  StudyArtifact& study = gathered.study;
+  std::tie(study.plan, study.variants) = read_plan(path);
+  const std::string home = std::filesystem::path(path).parent_path().string() + "/";
+  const std::vector<AnswerKind> kinds = answer_kinds(study.plan.directions);
+  std::vector<Eigen::Index> column;
+  for (const std::string& answer : study.plan.answers)
+    column.push_back(
+        std::find_if(kinds.begin(), kinds.end(), [&](const AnswerKind& k) { return k.name == answer; }) -
+        kinds.begin());
+  study.answer.setZero(static_cast<Eigen::Index>(study.variants.size()),
+                       static_cast<Eigen::Index>(column.size()));
+  study.unsteady.setZero(static_cast<Eigen::Index>(study.variants.size()));
+  for (size_t v = 0; v < study.variants.size(); ++v) {
+    const std::string file = home + variant_file(study.variants[v].name) + ".h5";
+    const VariantArtifact variant = read_variant(file);
+    if (variant.directions != study.plan.directions)
+      fail(Failure::input, file, ": is of another stage than the study; ", rebuild_advice(file));
+    study.refusal.push_back(variant.refusal);
+    // Marked when the study said so; its file is up to date, so nobody but this asks again.
+    if (!variant.refusal.empty() && !study.plan.marks_refusals)
+      fail(Failure::input, path, ": ",
+           variant_name(study.plan, static_cast<long>(v), study.variants[v].values),
+           " was refused: ", variant.refusal, "; take it out, or say refusals = \"mark\"");
+    if (!variant.refusal.empty()) {
+      gathered.refused.push_back(
+          text(variant_name(study.plan, static_cast<long>(v), study.variants[v].values),
+               " was refused: ", variant.refusal));
+      continue;
+    }
+    for (size_t i = 0; i < column.size(); ++i)
+      study.answer(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(i)) = variant.answer[column[i]];
+    // Counted whether or not the study asks for it: the other answers of such a speed are those of a motion that goes on changing.
+    for (size_t i = 0; i < kinds.size(); ++i)
+      if (kinds[i].name.starts_with(kUnsteady))
+        study.unsteady[static_cast<Eigen::Index>(v)] +=
+            static_cast<int>(variant.answer[static_cast<Eigen::Index>(i)]);
+    gathered.unsteady += study.unsteady[static_cast<Eigen::Index>(v)] > 0;
+  }
+  return gathered;
+}
+
+}  // namespace whine
