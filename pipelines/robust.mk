@@ -5,7 +5,7 @@
 #   make fuzz                 FUZZ_SECONDS=60 for each reader, from the corpus in tests/fuzz/corpus
 #   make stress               contact problems and whole scenes by the thousand; STRESS_PROBLEMS, STRESS_SCENES
 #   make test-report          reports of whole scenes, their pages in a headless browser
-#   make lint                 clang-tidy of common/ and tools/, include direction of the rooms, shellcheck
+#   make lint                 clang-tidy of common/ and tools/, include direction of the rooms, sizes of files and functions, shellcheck
 
 .PHONY: deps-lint deps-fuzz
 deps-lint: wanted := clang-tidy clang-format shellcheck
@@ -67,9 +67,9 @@ $(lint_checked): $(B)/lint/%: % .clang-tidy | $(with_deps_lint)
 
 .PHONY: lint
 check-format: | $(with_deps_lint)
-lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks and why), include direction of the rooms, shellcheck
+lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks and why), include direction of the rooms, sizes of files and functions, shellcheck
 	@shellcheck $(lint_scripts)
-	@B=$(B) bash tests/rooms.sh | tee $(B)/lint/rooms; ! grep -q '^FAILED' $(B)/lint/rooms
+	@for test in rooms sizes; do B=$(B) bash tests/$$test.sh | tee $(B)/lint/$$test; done; ! grep -q '^FAILED' $(B)/lint/rooms $(B)/lint/sizes
 
 # --- fuzzing
 
