@@ -63,13 +63,37 @@ if (lost > 0) { set label 104 "■ below 0: contact lost" at screen 0.82, screen
 
 if (any_branch > 0) { set label 105 "short dashes: unstable orbits; ✱ fold" at screen 0.06, screen 52 / height tc rgb "black" font ",14" }
 
-set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
-panel_height = (height - 140) / panels
+# Above a panel its operating point, in one line; below all panels what f_n is, their scenes and choices.
+caption_lines = 1
+array caption[2 * panels + 1]
+array above[panels]
+caption[1] = note1
+do for [p = 1:panels] {
+  rest = of("heading", word(letters, p))
+  letter_words = "{/:Bold (" . word(letters, p) . ")} "
+  if (of("heading_lines", word(letters, p)) > 2) {
+    cut = strstrt(rest, "\n")
+    caption_lines = caption_lines + 1
+    caption[caption_lines] = letter_words . rest[1:cut - 1]
+    rest = rest[cut + 1:*]
+  }
+  cut = strstrt(rest, "\n")
+  above[p] = letter_words . rest[1:cut - 1]
+  caption_lines = caption_lines + 1
+  caption[caption_lines] = letter_words . rest[cut + 1:*]
+}
+base = any_branch > 0 ? 78 : 52
+do for [n = 1:caption_lines] {
+  set label 105 + n caption[n] at screen 0.06, screen (base + 24.0 * (caption_lines - n)) / height tc rgb "black" font ",12"
+}
+set multiplot title title offset 0, -0.3
+foot_height = base - 40 + 24 * caption_lines
+panel_height = (height - 110 - foot_height) / panels
 do for [p = 1:panels] {
   letter = word(letters, p)
   curves = int(of("curves", letter))
-  set tmargin at screen (height - 90 - (p - 1) * panel_height - 118) / height
-  set bmargin at screen (height - 90 - p * panel_height + 120) / height
+  set tmargin at screen (height - 60 - (p - 1) * panel_height - 60) / height
+  set bmargin at screen (height - 60 - p * panel_height + 106) / height
   peak = of("rms_max", letter)
   top = (peak > 0 ? peak : 1.0) * (curves > 3 ? 1.6 : 1.36)
   # The legend stands above all that is drawn.
@@ -81,8 +105,7 @@ do for [p = 1:panels] {
   set yrange [-strip : top]
   if (strip > 0) { set border 2; set xzeroaxis lt 1 lw 1.6 lc rgb "black" } else { set border 3; unset xzeroaxis }
   set ylabel "RMS of oscillating DTE (µm)"
-  set label 1 "{/:Bold (" . letter . ")} " . of("heading", letter) at graph 0, graph 1 \
-    offset 0, 1.55 + 0.8 * (of("heading_lines", letter) - 1) font ",12"
+  set label 1 above[p] at graph 0, graph 1 offset 0, 1.55 font ",12"
 
   # f_n and its fractions, where superharmonic resonances stand
   unset arrow
@@ -140,6 +163,6 @@ do for [p = 1:panels] {
       : sprintf('linespoints lt 1 lw 2 pt %d ps 1.6 lc rgb "%s"', open_mark[i], torque_colour[i]), letter, i, i < curves ? ', ' : '')
   }
   eval("plot " . drawn)
-  do for [n = 101:105] { unset label n }
+  do for [n = 101:105 + caption_lines] { unset label n }
 }
 unset multiplot
