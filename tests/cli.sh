@@ -267,7 +267,7 @@ card=("$bin/gear-scorecard" --printed "$claims" --output card/x $(sed 's|^|card/
 refused "a scorecard from a sweep that is not that of its path" 3 'card/s/T100/down/response.h5: is the sweep up of finite elements' "${card[@]}"
 cp out/scene/T100/static.h5 card/s/T100/down/response.h5
 refused "a scorecard from an artifact of another kind" 3 'card/s/T100/down/response.h5' "${card[@]}"
-refused "a scorecard from part of a scene" 3 'T100/impact.h5 of s is missing; there is no card/s/T100/impact.h5' "${card[@]:0:4}"
+refused "a scorecard from part of a scene" 3 'T100/impact.h5 of s is missing; there is no card/s/T100/impact.h5' "${card[@]:0:6}"
 mkdir -p out/s/T100; cp out/scene/T100/static.h5 out/s/T100
 refused "a scorecard from part of a scene of make" 3 'T100/down/response.h5 of s is missing; make it with: make out/s/T100/down/response.h5' \
   "$bin/gear-scorecard" --printed "$claims" --output card/x out/s/T100/static.h5
