@@ -205,7 +205,7 @@ TEST_CASE("a third gear without torque: the first two are the pair, the second m
     for (size_t i = 0; i < 6; ++i) {
       CHECK(three[i].transmission_error[0] == relative(two[i].transmission_error[0], 1e-12));
       for (const LoadedSegment& load : three[i].loads)
-        if (load.mesh == 1) CHECK(load.force == 0);
+        if (load.mesh == 1) CHECK(load.force < 1e-11 * kTorque / system.base_radius(0));  // touches
     }
   }
   // The last gear free, and nothing held: no torque stays in the train.
