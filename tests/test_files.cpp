@@ -1289,6 +1289,7 @@ TEST_CASE("a number out of its range is refused by its dataset, its value and th
   };
   BodyArtifact body = small_body();
   body.offsets = -1;
+  body.far_compliance = odd_matrix(4 * (25 + 1), 4, 1e-11);
   body.compliance.clear();
   CHECK(says(said(body, read_body), "dataset /compliance/offsets holds -1, allowed is 0 to 1000"));
   body = small_body();
@@ -1410,7 +1411,7 @@ TEST_CASE(
     const int none = 0;
     const double values[] = {1, 2, 3};
     for (const char* word : {"title", "contact"})
-      file.put(at + word, std::string("x"), {"1", "word", "", ""});
+      file.put(at + word, std::string("line"), {"1", "word", "", ""});
     file.put(at + "outside", &none, {}, {"1", "number", "", ""});
     file.put("/claim", std::vector<std::string>{"a", "b"}, {"1", "names", "claim", ""});
     file.put("/value", values, {1, 3}, {"1", "numbers", "row column", ""});
