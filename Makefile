@@ -3,7 +3,7 @@
 #   programs   tools/gear-x.cpp and what it includes of common/ -> build/bin/gear-x   (this file, pipelines/sources.awk)
 #   names      what a user's paths may hold                                  (pipelines/names.mk)
 #   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
-#   studies    variants of a scene -> a table of their answers                   (pipelines/studies.mk)
+#   studies    variants of a scene -> a table of their response quantities       (pipelines/studies.mk)
 #   stages     scene -> mesh -> body -> static -> sweep -> response              (pipelines/stages.mk)
 #   figures    artifacts -> out/figures, out/<scene>/report                      (pipelines/figures.mk)
 #
@@ -58,10 +58,10 @@ CXXFLAGS := -std=c++20 -fvisibility=hidden -Wall -Wextra -Wno-array-bounds $(if 
 # A step runs through loops over two to five lanes, which -O3 unrolls: with it, and without a precompiled header that was made
 # without, steps of lines take 8 % less.
 STEP_FLAGS := $(if $(SANITIZE),,-O3)
-# Rooms that read, write, draw and print, the programs' own sources and tests, whose numbers come out of the other rooms: compiled in
+# Layers that read, write, draw and print, the programs' own sources and tests, whose numbers come out of the other layers: compiled in
 # half the time.
 COLD_FLAGS := $(if $(SANITIZE),,-Og)
-cold_rooms := plot paper io
+cold_layers := report paper io
 CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
@@ -72,8 +72,8 @@ LDLIBS = -lgmsh -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(she
 with_deps := $(filter deps,$(goals))
 
 # The cold ones last: a linker takes an inline function from the first object that has it.
-rooms := $(filter-out $(cold_rooms),$(notdir $(wildcard common/*))) $(cold_rooms)
-library := $(patsubst %.cpp,$(B)/obj/%.o,$(foreach r,$(rooms),$(wildcard common/$r/*.cpp)))
+layers := $(filter-out $(cold_layers),$(notdir $(wildcard common/*))) $(cold_layers)
+library := $(patsubst %.cpp,$(B)/obj/%.o,$(foreach r,$(layers),$(wildcard common/$r/*.cpp)))
 tools := $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp))
 tool_objects := $(tools:%=$(B)/obj/tools/%.o)
 hard_cases := $(B)/obj/tests/hard_cases.o
@@ -94,7 +94,7 @@ cold_precompiled := $(B)/obj/$(if $(COLD_FLAGS),cold,precompiled).h
 $(addsuffix .gch,$(sort $(precompiled) $(cold_precompiled))): common/base/precompiled.h $(B)/flags | $$(@D)/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ $<
 
-cold_objects := $(tool_objects) $(test_objects) $(hard_cases) $(B)/obj/common/base/options.o $(filter $(foreach r,$(cold_rooms),$(B)/obj/common/$r/%),$(library))
+cold_objects := $(tool_objects) $(test_objects) $(hard_cases) $(B)/obj/common/base/options.o $(filter $(foreach r,$(cold_layers),$(B)/obj/common/$r/%),$(library))
 INCLUDE_PRECOMPILED = -include $(precompiled)
 $(cold_objects): private INCLUDE_PRECOMPILED = -include $(cold_precompiled)
 $(cold_objects) $(cold_precompiled).gch: private CXXFLAGS += $(COLD_FLAGS)
@@ -107,11 +107,11 @@ $(objects): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
 # which a test may be the first that wants it, is not of the tests.
 $(filter $(B)/obj/tests/%,$(objects)): private CPPFLAGS += -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 
-step_objects := $(B)/obj/common/motion/step_kernel.o $(B)/obj/common/motion/step_kernel_pack.o $(filter $(B)/obj/common/contact/%,$(objects))
+step_objects := $(B)/obj/common/dynamics/step_kernel.o $(B)/obj/common/dynamics/step_kernel_pack.o $(filter $(B)/obj/common/contact/%,$(objects))
 $(step_objects): private CXXFLAGS += $(STEP_FLAGS)
 $(step_objects): private INCLUDE_PRECOMPILED :=
 
-# HDF5 stays in one room: nobody else finds its headers.
+# HDF5 stays in one layer: nobody else finds its headers.
 $(filter $(B)/obj/common/io/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
 # A program waits for the sources behind the headers that it includes, and for no other.

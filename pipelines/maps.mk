@@ -1,4 +1,4 @@
-# What the choices that P2000 does not state are worth: maps of jumps, and the sensitivity of the answers to each input.
+# What the choices that P2000 does not state are worth: maps of jumps, and the sensitivity of the response quantities to each input.
 #
 #   make jump-map                    coarse; JUMP_MAP=fine beside it. One artifact per torque and corner rule:
 #                                    out/S/T150/jump_map_false.h5, jump_map_1.h5 (degrees), jump_map_true.h5; fine: ..._fine.h5

@@ -5,7 +5,7 @@
 #   make fuzz                 FUZZ_SECONDS=60 for each reader, from the corpus in tests/fuzz/corpus
 #   make stress               contact problems and whole scenes by the thousand; STRESS_PROBLEMS, STRESS_SCENES
 #   make test-report          reports of whole scenes, their pages in a headless browser
-#   make lint                 clang-tidy of common/ and tools/, include direction of the rooms, sizes of files and functions, shellcheck
+#   make lint                 clang-tidy of common/ and tools/, include direction of the layers, sizes of files and functions, shellcheck
 
 .PHONY: deps-lint deps-fuzz
 deps-lint: wanted := clang-tidy clang-format shellcheck
@@ -46,7 +46,7 @@ $(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests
 	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
 
 .PHONY: stress
-stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 200 random scenes: a certificate, a closed ledger or a refusal; STRESS_PROBLEMS, STRESS_SCENES
+stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 200 random scenes: a certificate, a closed energy balance or an error that says why; STRESS_PROBLEMS, STRESS_SCENES
 	@$< $(STRESS_PROBLEMS) $(STRESS_SEED)
 	@B=$(B) tests/stress/scenes.sh $(STRESS_SCENES) $(STRESS_SEED)
 
@@ -67,9 +67,9 @@ $(lint_checked): $(B)/lint/%: % .clang-tidy | $(with_deps_lint)
 
 .PHONY: lint
 check-format: | $(with_deps_lint)
-lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks and why), include direction of the rooms, sizes of files and functions, shellcheck
+lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks and why), include direction of the layers, sizes of files and functions, shellcheck
 	@shellcheck $(lint_scripts)
-	@for test in rooms sizes; do B=$(B) bash tests/$$test.sh | tee $(B)/lint/$$test; done; ! grep -q '^FAILED' $(B)/lint/rooms $(B)/lint/sizes
+	@for test in layers sizes; do B=$(B) bash tests/$$test.sh | tee $(B)/lint/$$test; done; ! grep -q '^FAILED' $(B)/lint/layers $(B)/lint/sizes
 
 # --- fuzzing
 
@@ -81,7 +81,7 @@ fuzz_flags := -std=c++20 -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,addres
 
 $(B)/fuzz/ $(B)/fuzz/found/:
 	@mkdir -p $@
-$(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base/*.h common/model/*.h common/solid/*.h common/signal/*.h common/motion/*.h common/io/*.h) | $(filter deps-fuzz,$(goals)) $(with_deps)
+$(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base/*.h common/model/*.h common/solid/*.h common/signal/*.h common/system/*.h common/dynamics/*.h common/studies/*.h common/io/*.h) | $(filter deps-fuzz,$(goals)) $(with_deps)
 	@mkdir -p $(@D)
 	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) $(fuzz_flags) -c -o $@ $<
 
@@ -106,7 +106,7 @@ $(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h 
 	$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) $(CXXFLAGS) $(COLD_FLAGS) -include $(cold_precompiled) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) \
 	  -o $@ $(filter %.o %.cpp,$^) $(LDLIBS)
 
-# HDF5 1.10 forgets some memory where it refuses a file: leaks are looked for where it takes no part, neither after each input
+# HDF5 1.10 forgets some memory where it rejects a file: leaks are looked for where it takes no part, neither after each input
 # nor at the end.
 # The corpus stays as it is: what a run finds new goes to $(B)/fuzz, and a file that breaks a reader to $(B)/fuzz/found.
 .PHONY: fuzz

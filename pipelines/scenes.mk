@@ -1,13 +1,13 @@
 # Scenes: which scene files the goals need, and what they tell make.
 #
-# gear-scene checks a scene and writes the parameter slices that stages depend on (out/S/params/*.toml), the
+# gear-scene checks a scene and writes the stage parameters that stages depend on (out/S/params/*.toml), the
 # keys of each distinct gear (out/bodies/<hash>/body.toml), the links out/S/<gear>, and a fragment of make:
 #   SCENE_S_GEARS, SCENE_S_DRIVER, SCENE_S_DRIVEN, SCENE_S_BODY_<gear>, SCENE_S_TORQUES, SCENE_S_REFERENCE_TORQUE,
 #   SCENE_S_RINGS_DOWN (no: with its [fidelity], or its teeth, there is no gear-impact), SCENE_S_TEETH (alike, or differ and
 #   cracked), SCENE_S_MODIFIED (yes: flanks are not as designed), SCENE_S_BEARINGS (rigid or elastic), BODIES.
 # Make remakes a fragment before anything else, under -n as well (gear-scene itself is then compiled, too). This
 # happens in every run and costs milliseconds: times cannot tell a scene of the same name in another folder, one that
-# went back in time, or a deleted slice. All that it writes keeps its time if its content stays.
+# went back in time, or a deleted stage parameters. All that it writes keeps its time if its content stays.
 
 # SCENE: the user's scene; out/<its stem>/ is made from it. Without it `static`, `fig05` ... are of the paper's scene.
 scene_stem := $(basename $(notdir $(SCENE)))

@@ -1,7 +1,7 @@
 # What a program is linked from, read off the #include lines: the sources that implement the headers which it sees, the headers
 # that those see, and so on. A source implements the header that it includes first; several may implement one.
 #
-#   awk -f pipelines/sources.awk common/*/*.h common/*/*.cpp tools/*.cpp      one line `program:room/source` for each
+#   awk -f pipelines/sources.awk common/*/*.h common/*/*.cpp tools/*.cpp      one line `program:layer/source` for each
 #
 # Files outside common/ are programs.
 FNR == 1 {

@@ -1,7 +1,7 @@
 # Stages: scene -> mesh.h5 -> body.h5 -> static.h5 -> sweep.h5 -> response.h5, static.h5 -> impact.h5, and
 # static.h5 -> sweep.h5 of a lumped model -> response.h5.
 #
-# A stage depends on the slice of the scene that it reads, on the artifacts that it reads, and on the id of its
+# A stage depends on the stage parameters that it reads, on the artifacts that it reads, and on the id of its
 # program. Bodies are per distinct gear (out/bodies/<hash>), operating points are targets: the torque stands in the path.
 
 # $(call run,stage): how a stage starts; LAUNCH may carry the heavy ones to other machines.

@@ -1,10 +1,10 @@
-# Studies: a scene, keys that vary in it, and a table and a figure of what the variants answer.
+# Studies: a scene, keys that vary in it, and a table and a figure of their response quantities.
 #
 #   make study STUDY=damping-torque-relief     data/studies/<name>.toml, or a path to a study of yours
 #   make study-bodies STUDY=...                only the meshes and bodies that its variants share
 #   make study STUDY=... SHARE=3/10            only the third tenth of the variants, no table: for several makes side by side
 #
-# gear-study checks study and scene and writes a slice for each variant, out/studies/<study>/variants/ab/ab12....toml, named after
+# gear-study checks study and scene and writes stage parameters for each variant, out/studies/<study>/variants/ab/ab12....toml, named after
 # its content: a variant that stays is not made again, whatever else the study says. Beside it gear-variant writes the
 # variant's artifact, .h5; the bodies are those of out/bodies, shared with all scenes and studies. Like fragments of scenes, the
 # fragment of a study is remade in every run: STUDY_S_PAIRS (driver_driven, hashes of bodies), STUDY_S_<pair> (variants),
@@ -66,7 +66,7 @@ study_made := $(if $(filter study,$(goals)),$(if $(SHARE),$(call shared,$(call s
 
 .PHONY: study study-bodies
 study-bodies: $(if $(filter study-bodies,$(goals)),$(call study_bodies,$(study_stem))) ## meshes and bodies that the variants of STUDY share
-study: $(study_made) ## variants of a scene, a table and a figure of their answers: STUDY=name or path; SHARE=3/10
+study: $(study_made) ## variants of a scene, a table and a figure of their response quantities: STUDY=name or path; SHARE=3/10
 	$(call stands,study: $(if $(SHARE),share $(SHARE) of its variants is there,table and figure are $(basename $<).{tsv$(,)png$(,)svg}))
 
 .PHONY: deps-slurm test-slurm

@@ -16,8 +16,8 @@ ok() { echo "ok: $1"; }
 wrong() { echo "FAILED: $1: $2"; }
 contents() { find . -type f ! -name said ! -name 'scene*.toml' -print0 | sort -z | xargs -0 sha256sum; }
 
-# refused <claim> <status> <extended pattern in the message> <command...>
-refused() {
+# rejected <claim> <status> <extended pattern in the message> <command...>
+rejected() {
   local claim=$1 status=$2 pattern=$3 before found
   shift 3
   before=$(contents)
@@ -123,7 +123,7 @@ found=$(cd "$bin" && for program in gear-*; do "./$program" --help | grep -n -o 
 grep -q '^# .*gaps are drawn wider than at scale' examples/animation.tsv && ok "an animation says what is drawn wider than at scale" ||
   wrong "an animation says what is drawn wider than at scale" "$(head -n 4 examples/animation.tsv 2>&1 | tr '\n' ' ')"
 
-# Slices and fragments of make are as good by hand; artifacts bear the command that made them.
+# Stage parameters and fragments of make are as good by hand; artifacts bear the command that made them.
 found=$(grep -o -E -- '--output out/[^ ]*' examples/all | tr '\n' ' ')
 [ -z "$found" ] && ok "no example writes an artifact where make puts its own" || wrong "no example writes an artifact where make puts its own" "$found"
 
@@ -151,12 +151,12 @@ for program in "$bin"/gear-*; do
   name=$(basename "$program")
   "$program" --help > said 2>&1 && grep -q -- --help said && ok "$name --help" || wrong "$name --help" "$(head -n 1 said)"
   "$program" --version > said 2>&1 && grep -q '[0-9]\.[0-9]' said && ok "$name --version" || wrong "$name --version" "$(head -n 1 said)"
-  refused "$name refuses an unknown option" 2 'no-such-option' ${whole[$name]/#gear-/$bin/gear-} --no-such-option
+  rejected "$name rejects an unknown option" 2 'no-such-option' ${whole[$name]/#gear-/$bin/gear-} --no-such-option
 done
 # Links and other spellings of a path are the same file.
 ln -s pinion/body.h5 out/scene/linked.h5
 while read -r name file; do
-  refused "$name refuses to write over its input $file" 2 "--output .* is the same file as the input" ${whole[$name]%--output*} --output $file
+  rejected "$name does not write over its input $file" 2 "--output .* is the same file as the input" ${whole[$name]%--output*} --output $file
 done << 'CASES'
 gear-scene scene.toml
 gear-mesh out/scene/pinion/body.toml
@@ -170,25 +170,25 @@ gear-spectra out/scene/T100/up/sweep.h5
 gear-report out/scene/T100/static.h5
 CASES
 rm out/scene/linked.h5
-refused "a map without a damping" 3 'no case' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")
-refused "a map with a damping ratio that is no number" 2 "damping-ratio.*'much'" "${stage_map[@]/0.05,0.1/much}"
-refused "a map with a corner rule that is none" 2 "corner-contact.*'sometimes'" "${stage_map[@]/false/sometimes}"
-refused "a map with an angle beyond a right one" 2 'corner-contact is 91.* 0 to 90' "${stage_map[@]/false/91}"
-refused "a map whose loads are wanted outside its speeds" 3 'wanted at 2400 Hz, but the speeds run from 2700' "${stage_map[@]/2800/2400}"
+rejected "a map without a damping" 3 'no case' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")
+rejected "a map with a damping ratio that is no number" 2 "damping-ratio.*'much'" "${stage_map[@]/0.05,0.1/much}"
+rejected "a map with a corner rule that is none" 2 "corner-contact.*'sometimes'" "${stage_map[@]/false/sometimes}"
+rejected "a map with an angle beyond a right one" 2 'corner-contact is 91.* 0 to 90' "${stage_map[@]/false/91}"
+rejected "a map whose loads are wanted outside its speeds" 3 'wanted at 2400 Hz, but the speeds run from 2700' "${stage_map[@]/2800/2400}"
 "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=35 --set corner_contact=false --variant scene_variant.toml > said 2>&1
 [ "$(grep -c -E '^(bore_radius_mm = 35|corner_contact = false)$' scene_variant.toml)" = 2 ] && ok "gear-scene --set writes a variant" ||
   wrong "gear-scene --set writes a variant" "$(head -n 1 said)"
-refused "a change of a key that no scene has" 2 "bore_radius_mm" "$bin/gear-scene" --scene scene.toml --set bore_radius=35 --variant scene_x.toml
-refused "a change without a variant to write" 2 'variant' "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=35
+rejected "a change of a key that no scene has" 2 "bore_radius_mm" "$bin/gear-scene" --scene scene.toml --set bore_radius=35 --variant scene_x.toml
+rejected "a change without a variant to write" 2 'variant' "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=35
 "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=90 --variant scene_wide.toml > said 2>&1
-refused "a variant that cannot be" 3 'scene_wide.toml.*bore' "$bin/gear-scene" --scene scene_wide.toml --output wide.mk --out out
+rejected "a variant that cannot be" 3 'scene_wide.toml.*bore' "$bin/gear-scene" --scene scene_wide.toml --output wide.mk --out out
 "$bin/gear-plot" jump-map --plots "$plots" --output map out/scene/T100/jump_map_false.h5 > said 2>&1 && grep -q 'no corner contact' map.svg &&
   ok "a map of one torque is drawn" || wrong "a map of one torque is drawn" "$(head -n 1 said)"
 rm -f map.* scene_variant.toml scene_wide.toml
-refused "a map of the same torque and rule twice" 3 'two maps of 100 N m' "$bin/gear-plot" jump-map --plots "$plots" --output map \
+rejected "a map of the same torque and rule twice" 3 'two maps of 100 N m' "$bin/gear-plot" jump-map --plots "$plots" --output map \
   out/scene/T100/jump_map_false.h5 out/scene/T100/jump_map_false.h5
-refused "the sensitivity to nothing" 3 'one variant' "$bin/gear-plot" sensitivity --plots "$plots" --output map out/scene/T100/jump_map_false.h5
-refused "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
+rejected "the sensitivity to nothing" 3 'one variant' "$bin/gear-plot" sensitivity --plots "$plots" --output map out/scene/T100/jump_map_false.h5
+rejected "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
 ring_down=("${stage_impact[@]::${#stage_impact[@]}-2}")
 "${ring_down[@]}" --calibrate 0.05 --contact-state one > said 2> /dev/null
 eta=$(sed -n 's/^rayleigh_stiffness_s = \([^ ]*\)  # damping ratio 0.05 .* one, .* undamped_depth_mm 0.5.*/\1/p' said)
@@ -197,17 +197,17 @@ sed "s/^rayleigh_stiffness = [^ ]*/rayleigh_stiffness = ${eta:-none}/" out/scene
 if grep -q 'one [0-9.]* Hz 5.000 %' said; then ok "the eta that gear-impact prints gives the damping ratio that was asked for"; else
   wrong "the eta that gear-impact prints gives the damping ratio that was asked for" "$(head -n 1 said)"; fi
 rm -f calibrated.*
-refused "a ring-down without --output or --calibrate" 2 'calibrate is needed' "${ring_down[@]}"
-refused "a ring-down with both" 2 'calibrate' "${stage_impact[@]}" --calibrate 0.05
-refused "a torque step above a half" 3 'torque step of 0.6' "${stage_impact[@]}" --torque-step 0.6
-refused "a ring-down so large that contact comes and goes" 1 'damped oscillations leave [0-9.e-]+ of the decay' "${stage_impact[@]}" --torque-step 0.5
-refused "a damping ratio that no eta gives" 3 'the largest is near' "${ring_down[@]}" --calibrate 0.9
-refused "a contact state that does not occur" 3 "'five' does not occur.*one, two, mean" "${ring_down[@]}" --calibrate 0.05 --contact-state five
+rejected "a ring-down without --output or --calibrate" 2 'calibrate is needed' "${ring_down[@]}"
+rejected "a ring-down with both" 2 'calibrate' "${stage_impact[@]}" --calibrate 0.05
+rejected "a torque step above a half" 3 'torque step of 0.6' "${stage_impact[@]}" --torque-step 0.6
+rejected "a ring-down so large that contact comes and goes" 1 'damped oscillations leave [0-9.e-]+ of the decay' "${stage_impact[@]}" --torque-step 0.5
+rejected "a damping ratio that no eta gives" 3 'the largest is near' "${ring_down[@]}" --calibrate 0.9
+rejected "a contact state that does not occur" 3 "'five' does not occur.*one, two, mean" "${ring_down[@]}" --calibrate 0.05 --contact-state five
 at_torque=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --output x.h5 --torque)
 for torque in ten nan inf 0x10 '' '100 ' 1e999; do
-  refused "a torque of '$torque', which is no finite number" 2 "torque.*('$torque'|is empty)" "${at_torque[@]}" "$torque"; done
-refused "a torque below zero" 3 'torque' "${at_torque[@]}" -5
-refused "a torque whose contact leaves the flanks" 1 '400000 N m contact leaves the flanks: window [0-9.]+ mm' "${at_torque[@]}" 400000
+  rejected "a torque of '$torque', which is no finite number" 2 "torque.*('$torque'|is empty)" "${at_torque[@]}" "$torque"; done
+rejected "a torque below zero" 3 'torque' "${at_torque[@]}" -5
+rejected "a torque whose contact leaves the flanks" 1 '400000 N m contact leaves the flanks: candidate zone [0-9.]+ mm' "${at_torque[@]}" 400000
 for stage in static sweep impact; do
   mkdir -p line; sed 's/^contact = .*/contact = "line"/' out/scene/params/$stage.toml > line/$stage.toml; done
 mkdir -p full; for stage in sweep impact; do sed 's/^body = .*/body = "full"/' out/scene/params/$stage.toml > full/$stage.toml; done
@@ -220,30 +220,30 @@ if "${budget[@]}" > said 2>&1 && "$bin/gear-inspect" budget.h5 > said 2>&1 && gr
   grep -q '>matching<' budget.svg && grep -q '>at 1 mm<' budget.svg && grep -q -P '^curve\terror .*\tmean_stiffness .%.' budget.tsv && grep -q -P '^strips 8 to 16\t1\t' budget.tsv; then ok "gear-static --error-budget, with the other choices apart, and its figure"; else
   wrong "gear-static --error-budget, with the other choices apart, and its figure" "$(head -n 1 said)"; fi
 rm -f budget.*
-refused "the next rung of the last one" 3 'last rung' "${at_torque[@]}" 100 --next-level
-refused "a ring-down with one line per pair" 3 'not available in ring-downs' "${stage_impact[@]//out\/scene\/params/line}"
-refused "a sweep on a static result of another contact" 3 'was made with contact = "line", the slice of this stage says "strips"' \
+rejected "the next model level of the last one" 3 'last model level' "${at_torque[@]}" 100 --next-level
+rejected "a ring-down with one line per pair" 3 'not available in ring-downs' "${stage_impact[@]//out\/scene\/params/line}"
+rejected "a sweep on a static result of another contact" 3 'was made with contact = "line", the parameters of this stage say "strips"' \
   $(sweep scene up | sed 's|--static out/scene/T100|--static line|')
-refused "a sweep whose dampers come from another contact" 3 'line/static.h5: was made with contact = "line"' \
+rejected "a sweep whose dampers come from another contact" 3 'line/static.h5: was made with contact = "line"' \
   $(sweep scene up | sed 's|--reference-static out/scene/T100|--reference-static line|')
 line_sweep="$(sweep scene up | sed 's|out/scene/params|line|; s|--output .*|--output line/sweep.h5|')"
-refused "a sweep with one line per pair from statics on strips" 3 'was made with contact = "strips", the slice of this stage says "line"' $line_sweep
+rejected "a sweep with one line per pair from statics on strips" 3 'was made with contact = "strips", the parameters of this stage say "line"' $line_sweep
 if ${line_sweep//out\/scene\/T100/line} > said 2>&1 && [ -s line/sweep.h5 ]; then ok "a sweep with one line per pair"; else
   wrong "a sweep with one line per pair" "$(head -n 1 said)"; fi
 sed -i 's/^body = .*/body = "lagged"/' line/sweep.toml
 if ${line_sweep//out\/scene\/T100/line} --next-level > said 2>&1 && grep -q 'contact = "line" against "strips" at 3 speeds' said &&
   grep -q 'body = "lagged" against "modal": jumps none against none' said; then ok "gear-sweep --next-level"; else
   wrong "gear-sweep --next-level" "$(head -n 1 said)"; fi
-refused "the next rung of a sweep on the last ones" 3 'contact = "strips" is the last rung of contact; body = "full" is the last rung of body' \
+rejected "the next model level of a sweep on the last ones" 3 'contact = "strips" is the last model level of contact; body = "full" is the last model level of body' \
   $(sweep scene up | sed 's|out/scene/params|full|') --next-level
-refused "every mode from a body with some" 3 'needs a body with every mode .* holds [0-9]+ modes' $(sweep scene up | sed 's|out/scene/params|full|')
-refused "a ring-down with every mode" 3 'body = "full" .* not available in ring-downs' "${stage_impact[@]//out\/scene\/params/full}"
+rejected "every mode from a body with some" 3 'needs a body with every mode .* holds [0-9]+ modes' $(sweep scene up | sed 's|out/scene/params|full|')
+rejected "a ring-down with every mode" 3 'body = "full" .* not available in ring-downs' "${stage_impact[@]//out\/scene\/params/full}"
 rm -rf line full
 for range in 'from = 3000.0, to = 2000.0, step = 50.0' 'from = 2000.0, to = 3000.0, step = 0.0'; do
   mkdir -p bad; sed "s/from = .*/$range }/" out/scene/params/sweep.toml > bad/sweep.toml
-  refused "a slice with the speeds $range" 3 'mesh_frequency' $(sweep scene up | sed 's|out/scene/params|bad|'); done
+  rejected "stage parameters with the speeds $range" 3 'mesh_frequency' $(sweep scene up | sed 's|out/scene/params|bad|'); done
 rm -rf bad
-# --- sweeps that run and say what is out of the ordinary: <claim> | <pattern> | <sed script on the slice>
+# --- sweeps that run and say what is out of the ordinary: <claim> | <pattern> | <sed script on the stage parameters>
 while IFS='|' read -r claim pattern script; do
   mkdir -p said_of; sed -E "$script" out/scene/params/sweep.toml > said_of/sweep.toml
   $(sweep scene up | sed 's|out/scene/params|said_of|; s|--output .*|--output said_of/sweep.h5|') > /dev/null 2> said
@@ -264,16 +264,16 @@ mkdir -p card/s
 "$bin/gear-scorecard" --files > files
 while read -r file; do mkdir -p "card/s/$(dirname "$file")"; cp out/scene/T100/up/response.h5 "card/s/$file"; done < files
 card=("$bin/gear-scorecard" --printed "$claims" --output card/x $(sed 's|^|card/s/|' files))
-refused "a scorecard from a sweep that is not that of its path" 3 'card/s/T100/down/response.h5: is the sweep up of finite elements' "${card[@]}"
+rejected "a scorecard from a sweep that is not that of its path" 3 'card/s/T100/down/response.h5: is the sweep up of finite elements' "${card[@]}"
 cp out/scene/T100/static.h5 card/s/T100/down/response.h5
-refused "a scorecard from an artifact of another kind" 3 'card/s/T100/down/response.h5' "${card[@]}"
-refused "a scorecard from part of a scene" 3 'T100/impact.h5 of s is missing; there is no card/s/T100/impact.h5' "${card[@]:0:6}"
+rejected "a scorecard from an artifact of another kind" 3 'card/s/T100/down/response.h5' "${card[@]}"
+rejected "a scorecard from part of a scene" 3 'T100/impact.h5 of s is missing; there is no card/s/T100/impact.h5' "${card[@]:0:6}"
 mkdir -p out/s/T100; cp out/scene/T100/static.h5 out/s/T100
-refused "a scorecard from part of a scene of make" 3 'T100/down/response.h5 of s is missing; make it with: make out/s/T100/down/response.h5' \
+rejected "a scorecard from part of a scene of make" 3 'T100/down/response.h5 of s is missing; make it with: make out/s/T100/down/response.h5' \
   "$bin/gear-scorecard" --printed "$claims" --output card/x out/s/T100/static.h5
 rm -r out/s
-refused "a scorecard from a file that no claim reads" 3 'card/s/T100/mesh.h5: no claim reads it' "${card[@]}" card/s/T100/mesh.h5
-refused "a scorecard without artifacts" 2 'artifacts of a scene are needed' "$bin/gear-scorecard" --printed "$claims" --output card/x
+rejected "a scorecard from a file that no claim reads" 3 'card/s/T100/mesh.h5: no claim reads it' "${card[@]}" card/s/T100/mesh.h5
+rejected "a scorecard without artifacts" 2 'artifacts of a scene are needed' "$bin/gear-scorecard" --printed "$claims" --output card/x
 rm -rf card files
 
 # --- lumped models
@@ -295,46 +295,46 @@ lumped_map=("$bin/gear-lumped" --map --model secant --damper contact --static ou
 if "${lumped_map[@]}" > said 2>&1 && "$bin/gear-inspect" lumped_map.h5 > said 2>&1 && grep -q 'secant-contact' said &&
   "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map lumped_map.h5 > said 2>&1 && grep -q 'secant, damper in contact' map.svg; then
   ok "gear-lumped --map, and its figure"; else wrong "gear-lumped --map, and its figure" "$(tail -n 1 said)"; fi
-refused "a map of lumped models without one" 3 'one of their artifacts' "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map out/scene/T100/jump_map_false.h5
-refused "a direction for a map" 2 'not taken by --map' "${lumped_map[@]}" --direction up
-refused "neither a direction nor a map" 2 '--direction is needed' $(lumped pairs | sed 's/--direction up//')
-refused "two damping ratios for one sweep" 2 '2 are given; --map takes several' $(lumped pairs) --damping-ratio 0.05,0.1
-refused "loads at a speed of a sweep" 2 'loads-at goes with --map' $(lumped pairs) --loads-at 2400
-refused "a map with a step of zero" 2 'step is 0 Hz' "${lumped_map[@]/#100/0}"
-refused "a map of an undamped model" 3 'damping ratio of 0;' "${lumped_map[@]/#0.05,0.1/0}"
+rejected "a map of lumped models without one" 3 'one of their artifacts' "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map out/scene/T100/jump_map_false.h5
+rejected "a direction for a map" 2 'not taken by --map' "${lumped_map[@]}" --direction up
+rejected "neither a direction nor a map" 2 '--direction is needed' $(lumped pairs | sed 's/--direction up//')
+rejected "two damping ratios for one sweep" 2 '2 are given; --map takes several' $(lumped pairs) --damping-ratio 0.05,0.1
+rejected "loads at a speed of a sweep" 2 'loads-at goes with --map' $(lumped pairs) --loads-at 2400
+rejected "a map with a step of zero" 2 'step is 0 Hz' "${lumped_map[@]/#100/0}"
+rejected "a map of an undamped model" 3 'damping ratio of 0;' "${lumped_map[@]/#0.05,0.1/0}"
 rm -f lumped_map.h5 map.*
-refused "a lumped model that is none" 2 'cubic' $(lumped pairs) --model cubic
-refused "a lumped sweep without speeds" 2 '--params or --from, --to and --step are needed' $(lumped pairs | sed 's/--params [^ ]*//')
-refused "a lumped sweep with half a range" 2 'go together' $(lumped pairs) --from 1000
-refused "a lumped sweep with no speed in its range" 3 'from 2000 to 1000 Hz' $(lumped pairs) --from 2000 --to 1000 --step 10
-refused "levels without their duty" 2 'go together' $(lumped rectangular) --levels 1e8,2e8
-refused "levels of another model" 2 'not of secant' $(lumped secant) "${levels[@]}"
-refused "a level that is not above 0" 3 'level is -1 N/m' $(lumped rectangular) --levels=-1,2e8 --duty 0.5
-refused "a level that no tooth has" 3 'level is 0.001 N/m; it must be above 4[0-9.]+ N/m, at which the static load' $(lumped rectangular) --levels 1e-3,2e8 --duty 0.5
-refused "levels in the wrong order" 3 'second stiffness level is 100000000 N/m; .* must not be below the first' $(lumped rectangular) --levels 2e8,1e8 --duty 0.5
-refused "Hertz's law of a curve" 2 'hertz is of the model pairs, not of secant' $(lumped secant) --hertz
-refused "a whole scene in place of the slice of a lumped model" 3 'scene.toml: is a whole scene; .* out/scene/params/lumped.toml \(make SCENE=scene.toml ' \
+rejected "a lumped model that is none" 2 'cubic' $(lumped pairs) --model cubic
+rejected "a lumped sweep without speeds" 2 '--params or --from, --to and --step are needed' $(lumped pairs | sed 's/--params [^ ]*//')
+rejected "a lumped sweep with half a range" 2 'go together' $(lumped pairs) --from 1000
+rejected "a lumped sweep with no speed in its range" 3 'from 2000 to 1000 Hz' $(lumped pairs) --from 2000 --to 1000 --step 10
+rejected "levels without their duty" 2 'go together' $(lumped rectangular) --levels 1e8,2e8
+rejected "levels of another model" 2 'not of secant' $(lumped secant) "${levels[@]}"
+rejected "a level that is not above 0" 3 'level is -1 N/m' $(lumped rectangular) --levels=-1,2e8 --duty 0.5
+rejected "a level that no tooth has" 3 'level is 0.001 N/m; it must be above 4[0-9.]+ N/m, at which the static load' $(lumped rectangular) --levels 1e-3,2e8 --duty 0.5
+rejected "levels in the wrong order" 3 'second stiffness level is 100000000 N/m; .* must not be below the first' $(lumped rectangular) --levels 2e8,1e8 --duty 0.5
+rejected "Hertz's law of a curve" 2 'hertz is of the model pairs, not of secant' $(lumped secant) --hertz
+rejected "a whole scene in place of the stage parameters of a lumped model" 3 'scene.toml: is a whole scene; .* out/scene/params/lumped.toml \(make SCENE=scene.toml ' \
   $(lumped pairs | sed 's|out/scene/params/lumped.toml|scene.toml|')
-refused "a whole scene in place of the slice of a map" 3 'scene.toml: is a whole scene; .* out/scene/params/map.toml' "${stage_map[@]/out\/scene\/params\/map.toml/scene.toml}"
-refused "the slice of another stage" 3 'static.toml: is what the static stage depends on, and this stage reads what a sweep of a lumped model depends on: give out/<scene>/params/lumped.toml' $(lumped pairs | sed 's|params/lumped.toml|params/static.toml|')
-refused "a slice that is not there" 4 'nowhere.toml: .*make out/<scene>/params/lumped.toml' $(lumped pairs | sed 's|out/scene/params/lumped.toml|nowhere.toml|')
-refused "an artifact that is not there, where make makes none" 4 'nowhere/static.h5: .*below out/ only' $(lumped pairs | sed 's|out/scene/T100/static.h5|nowhere/static.h5|')
-refused "a level that is no number" 2 "levels.*'many'" $(lumped rectangular) --levels 1e8,many --duty 0.5
-refused "one level" 2 'two numbers' $(lumped rectangular) --levels 1e8 --duty 0.5
-for duty in 0 1 1.5; do refused "a duty of $duty" 3 "duty.* is $duty;" $(lumped rectangular) --levels 1e8,2e8 --duty $duty; done
-refused "a damping ratio in per cent" 3 'damping ratio is 8' $(lumped pairs) --damping-ratio 8
-refused "a mass of zero" 3 'mass is 0 kg' $(lumped pairs) --mass 0
-refused "a damping ratio below zero" 3 'damping ratio is -0.1' $(lumped pairs) --damping-ratio=-0.1
-refused "a torque that static.h5 does not hold" 3 'is at 100 N m, --torque says 150' $(lumped pairs) --torque 150
-refused "half a cell" 2 'cells is 12.5' $(lumped secant) --cells 12.5
-refused "Newmark with a damper in contact only" 3 'take the exact integrator' $(lumped pairs) --integrator newmark --damper contact
-refused "a sweep in place of static.h5" 3 'sweep.h5' $(lumped pairs | sed 's|T100/static.h5|T100/up/sweep.h5|')
+rejected "a whole scene in place of the stage parameters of a map" 3 'scene.toml: is a whole scene; .* out/scene/params/map.toml' "${stage_map[@]/out\/scene\/params\/map.toml/scene.toml}"
+rejected "the parameters of another stage" 3 'static.toml: is what the static stage depends on, and this stage reads what a sweep of a lumped model depends on: give out/<scene>/params/lumped.toml' $(lumped pairs | sed 's|params/lumped.toml|params/static.toml|')
+rejected "stage parameters that are not there" 4 'nowhere.toml: .*make out/<scene>/params/lumped.toml' $(lumped pairs | sed 's|out/scene/params/lumped.toml|nowhere.toml|')
+rejected "an artifact that is not there, where make makes none" 4 'nowhere/static.h5: .*below out/ only' $(lumped pairs | sed 's|out/scene/T100/static.h5|nowhere/static.h5|')
+rejected "a level that is no number" 2 "levels.*'many'" $(lumped rectangular) --levels 1e8,many --duty 0.5
+rejected "one level" 2 'two numbers' $(lumped rectangular) --levels 1e8 --duty 0.5
+for duty in 0 1 1.5; do rejected "a duty of $duty" 3 "duty.* is $duty;" $(lumped rectangular) --levels 1e8,2e8 --duty $duty; done
+rejected "a damping ratio in per cent" 3 'damping ratio is 8' $(lumped pairs) --damping-ratio 8
+rejected "a mass of zero" 3 'mass is 0 kg' $(lumped pairs) --mass 0
+rejected "a damping ratio below zero" 3 'damping ratio is -0.1' $(lumped pairs) --damping-ratio=-0.1
+rejected "a torque that static.h5 does not hold" 3 'is at 100 N m, --torque says 150' $(lumped pairs) --torque 150
+rejected "half a cell" 2 'cells is 12.5' $(lumped secant) --cells 12.5
+rejected "Newmark with a damper in contact only" 3 'take the exact integrator' $(lumped pairs) --integrator newmark --damper contact
+rejected "a sweep in place of static.h5" 3 'sweep.h5' $(lumped pairs | sed 's|T100/static.h5|T100/up/sweep.h5|')
 
 # --- scenes: <claim> | <pattern in the message> | <sed script>
 while IFS='|' read -r claim pattern script; do
   [ -n "$claim" ] || continue
   sed -E "$coarse" "$scene_of_paper" | sed -E "$script" > scene_bad.toml
-  refused "scene: $claim" 3 "$pattern" "$bin/gear-scene" --scene scene_bad.toml --output scene.mk --out out
+  rejected "scene: $claim" 3 "$pattern" "$bin/gear-scene" --scene scene_bad.toml --output scene.mk --out out
 done << 'CASES'
 it is empty|gear|d
 an unknown key|face_widht_mm|s/^face_width_mm/face_widht_mm/
@@ -363,7 +363,7 @@ a crack longer than the tooth|gear.pinion.*depth_mm = 20 is longer than the toot
 a crack in a tooth that is not there|'tooth' in .gear.pinion.crack. = 50: the gear has the teeth 0 to 49|s/^\[material.steel\]/[gear.pinion.crack]\ntooth = 50\ndepth_mm = 2\n&/
 a crack that starts off the fillet|start_deg = 2 is not on the fillet|s/^\[material.steel\]/[gear.pinion.crack]\nstart_deg = 2\ndepth_mm = 2\n&/
 CASES
-refused "scene: it is not there" 4 nowhere.toml "$bin/gear-scene" --scene nowhere.toml --output scene.mk --out out
+rejected "scene: it is not there" 4 nowhere.toml "$bin/gear-scene" --scene nowhere.toml --output scene.mk --out out
 
 # --- gears and pairs that cannot exist; whichever stage knows first has to say so
 # impossible <claim> <pattern> <sed script>
@@ -425,22 +425,22 @@ if [ "$(readlink $cracked/wheel)" = "$(readlink out/scene/wheel)" ] && [ "$(read
   grep -q '50 mesh periods' said && "$bin/gear-plot" crack --plots "$plots" --output crack $cracked/T100/static.h5 > said 2>&1; then
   ok "a cracked tooth: mesh, body, statics over a turn and its figure"; else
   wrong "a cracked tooth: mesh, body, statics over a turn and its figure" "$(tail -n 1 said)"; fi
-refused "the mesh of a gear without the crack" 3 "its tooth is 0, the slice of the scene says 3" "$bin/gear-reduce" \
+rejected "the mesh of a gear without the crack" 3 "its tooth is 0, the stage parameters of the scene say 3" "$bin/gear-reduce" \
   --params $cracked/pinion/body.toml --mesh out/scene/pinion/mesh.h5 --output $cracked/pinion/body.h5
-refused "motion with a cracked tooth" 3 "driver has a crack in tooth 3: motion does not yet" "$bin/gear-sweep" --params $cracked/params/sweep.toml "${cracked_pair[@]}" \
+rejected "motion with a cracked tooth" 3 "driver has a crack in tooth 3: motion does not yet" "$bin/gear-sweep" --params $cracked/params/sweep.toml "${cracked_pair[@]}" \
   --static $cracked/T100/static.h5 --reference-static $cracked/T100/static.h5 --direction up --output $cracked/T100/sweep.h5
-refused "a lumped model of a cracked tooth" 3 "50 mesh periods, because a tooth is cracked" "$bin/gear-lumped" --model secant --static $cracked/T100/static.h5 \
+rejected "a lumped model of a cracked tooth" 3 "50 mesh periods, because a tooth is cracked" "$bin/gear-lumped" --model secant --static $cracked/T100/static.h5 \
   --params $cracked/params/sweep.toml --direction up --output $cracked/T100/lumped.h5
-refused "a figure of a crack without one" 3 "no tooth has a crack" "$bin/gear-plot" crack --plots "$plots" --output crack out/scene/T100/static.h5
+rejected "a figure of a crack without one" 3 "no tooth has a crack" "$bin/gear-plot" crack --plots "$plots" --output crack out/scene/T100/static.h5
 rm -rf said crack.* cracked.mk "$(readlink -f $cracked/pinion)" $cracked
 
 # --- artifacts: cut off, of another kind, of another version, not there
 head -c 3000 out/scene/pinion/body.h5 > cut.h5
-refused "an artifact that is cut off" '4' 'cut.h5' "$bin/gear-static" --params out/scene/params/static.toml --body pinion=cut.h5 --body wheel=out/scene/wheel/body.h5 --torque 100 --output x.h5
+rejected "an artifact that is cut off" '4' 'cut.h5' "$bin/gear-static" --params out/scene/params/static.toml --body pinion=cut.h5 --body wheel=out/scene/wheel/body.h5 --torque 100 --output x.h5
 : > empty.h5
-refused "an empty artifact" '4' 'empty.h5' "$bin/gear-spectra" --input empty.h5 --output x.h5
-refused "an artifact of another stage" 3 'static.h5' "$bin/gear-spectra" --input out/scene/T100/static.h5 --output x.h5
-refused "an artifact that is not there" '4' 'none.h5' "$bin/gear-spectra" --input none.h5 --output x.h5
+rejected "an empty artifact" '4' 'empty.h5' "$bin/gear-spectra" --input empty.h5 --output x.h5
+rejected "an artifact of another stage" 3 'static.h5' "$bin/gear-spectra" --input out/scene/T100/static.h5 --output x.h5
+rejected "an artifact that is not there" '4' 'none.h5' "$bin/gear-spectra" --input none.h5 --output x.h5
 mv out/scene/T100/up/sweep.h5 sweep_away.h5
 "$bin/gear-inspect" out/scene/T100/up/response.h5 > said 2>&1
 status=$?
@@ -455,11 +455,11 @@ inspected() {
   local status=$?
   if [ $status = $2 ] && grep -q -E "$3" said; then ok "$1"; else wrong "$1" "status $status: $(grep -E 'input|error' said | tr '\n' '|')"; fi
 }
-inspected "gear-inspect compares slices with the scene of the folder" 0 'input params .* fresh: as the slice and as scene.toml' out/scene/T100/static.h5
+inspected "gear-inspect compares stage parameters with the scene of the folder" 0 'input params .* fresh: as the stage parameters and as scene.toml' out/scene/T100/static.h5
 mv scene.toml away.toml
 inspected "gear-inspect says that it knows no scene" 0 'input params .* not compared with a scene, give --scene' out/scene/T100/static.h5
 mkdir -p data/scenes; sed "s/corner_contact = true/corner_contact = false/" away.toml > data/scenes/scene.toml
-inspected "gear-inspect: a scene that says otherwise than the slice is status 3" 3 'STALE: data/scenes/scene.toml says otherwise' out/scene/T100/static.h5
+inspected "gear-inspect: a scene that says otherwise than the stage parameters is status 3" 3 'STALE: data/scenes/scene.toml says otherwise' out/scene/T100/static.h5
 inspected "and leaves alone what does not depend on it" 0 'as data/scenes/scene.toml' out/scene/T100/impact.h5
 rm -r data
 sed 's/^corner_contact = true/corner_contact = false/' away.toml > scene.toml
@@ -467,20 +467,20 @@ inspected "an edited scene is told with the make that follows it" 3 'input param
 "$bin/gear-inspect" --check out/scene/T100 > /dev/null 2> said && wrong "--check tells an edited scene" "silent" ||
   { grep -q 'static.h5: input params, .*STALE: scene.toml' said && ok "--check tells an edited scene" || wrong "--check tells an edited scene" "$(head -n 1 said)"; }
 mv away.toml scene.toml
-inspected "gear-inspect compares slices with the scene" 0 'input params .* fresh: as the slice and as scene.toml' out/scene/T100/static.h5 out/scene/pinion/body.h5 --scene scene.toml
+inspected "gear-inspect compares stage parameters with the scene" 0 'input params .* fresh: as the stage parameters and as scene.toml' out/scene/T100/static.h5 out/scene/pinion/body.h5 --scene scene.toml
 inspected "gear-inspect of a static result: elements, near field, contact, pressure" 0 'order 1, 1.5 mm on the flank' out/scene/T100/static.h5
 for line in 'near field  *subtraction' 'contact  *strips, 8 across' 'peak pressure  *[0-9.]+ MPa .*half-width there 0.0[0-9]+ mm'; do
   inspected "gear-inspect of a static result: $line" 0 "$line" out/scene/T100/static.h5; done
-refused "a slice in place of a scene" 3 'is a slice, .* give the scene itself' "$bin/gear-scene" --scene out/scene/params/static.toml --output x.mk --out x
-refused "a body's slice in place of a scene" 3 'is a slice, .* give the scene itself' "$bin/gear-scene" --scene out/scene/pinion/body.toml --output x.mk --out x
-if grep -q 'corner_contact.*#' out/scene/params/*.toml; then wrong "a slice gives no unit to true" "$(grep corner_contact out/scene/params/*.toml)"; else
-  ok "a slice gives no unit to true"; fi
+rejected "stage parameters in place of a scene" 3 'holds stage parameters, .* give the scene itself' "$bin/gear-scene" --scene out/scene/params/static.toml --output x.mk --out x
+rejected "a body's stage parameters in place of a scene" 3 'holds stage parameters, .* give the scene itself' "$bin/gear-scene" --scene out/scene/pinion/body.toml --output x.mk --out x
+if grep -q 'corner_contact.*#' out/scene/params/*.toml; then wrong "stage parameters give no unit to true" "$(grep corner_contact out/scene/params/*.toml)"; else
+  ok "stage parameters give no unit to true"; fi
 plot_help=$("$bin/gear-plot" --help | tr -s ' \n' ' ')
 if grep -q 'see above' <<< "$plot_help" || ! grep -q 'From response.h5 of sweeps up and down' <<< "$plot_help"; then wrong "gear-plot --help says what each figure takes" ""; else
   ok "gear-plot --help says what each figure takes"; fi
-refused "a speed for a figure of no single speed" 2 'fig12 takes no --mesh-frequency' "$bin/gear-plot" fig12 --plots "$plots" --mesh-frequency 2400 --output other out/scene/T100/static.h5
-refused "fig15 without speeds" 2 'fig15 needs --mesh-frequency, in Hz, one or two.*0 given' "$bin/gear-plot" fig15 --plots "$plots" --output other out/scene/T100/pairs/up/sweep.h5
-refused "fig15 with three speeds" 2 'fig15 needs .*3 given' "$bin/gear-plot" fig15 --plots "$plots" --mesh-frequency 1,2,3 --output other out/scene/T100/pairs/up/sweep.h5
+rejected "a speed for a figure of no single speed" 2 'fig12 takes no --mesh-frequency' "$bin/gear-plot" fig12 --plots "$plots" --mesh-frequency 2400 --output other out/scene/T100/static.h5
+rejected "fig15 without speeds" 2 'fig15 needs --mesh-frequency, in Hz, one or two.*0 given' "$bin/gear-plot" fig15 --plots "$plots" --output other out/scene/T100/pairs/up/sweep.h5
+rejected "fig15 with three speeds" 2 'fig15 needs .*3 given' "$bin/gear-plot" fig15 --plots "$plots" --mesh-frequency 1,2,3 --output other out/scene/T100/pairs/up/sweep.h5
 mkdir -p titled/params titled/T100 && cp out/scene/T100/static.h5 titled/T100 && echo 'Gears of <a_b> & {c}' > titled/params/title.txt
 if "$bin/gear-plot" fig12 --plots "$plots" --output titled/fig12 titled/T100/static.h5 > said 2>&1 && grep -q '^# scene titled: Gears of <a_b> & {c}$' titled/fig12.tsv &&
   grep -q 'titled: Gears of &lt;a_b.*&amp; {c}' titled/fig12.svg; then ok "the title of a scene stands on its figures as it is written"; else
@@ -505,24 +505,24 @@ sed "$coarse; s/^bore_radius_mm = .*/bore_radius_mm = 38.0/" "$scene_of_paper" >
 other=out/scene_other/pinion
 "$bin/gear-mesh" --params $other/body.toml --output $other/mesh.h5 > /dev/null 2>&1
 "$bin/gear-reduce" --params $other/body.toml --mesh $other/mesh.h5 --output $other/body.h5 > /dev/null 2>&1
-refused "a mesh of another gear" 3 'bore_radius is 0.038, .* 0.04 m; (delete it; )?rebuild it with: make' "${stage_reduce[@]:0:3}" --mesh $other/mesh.h5 --output x.h5
-refused "a driver of another scene" 3 'the pinion of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
+rejected "a mesh of another gear" 3 'bore_radius is 0.038, .* 0.04 m; (delete it; )?rebuild it with: make' "${stage_reduce[@]:0:3}" --mesh $other/mesh.h5 --output x.h5
+rejected "a driver of another scene" 3 'the pinion of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
   --body pinion=$other/body.h5 --body wheel=out/scene/wheel/body.h5 --torque 100 --output x.h5
-refused "a driven gear of another scene" 3 'the wheel of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
+rejected "a driven gear of another scene" 3 'the wheel of this scene' "$bin/gear-static" --params out/scene/params/static.toml \
   --body pinion=out/scene/pinion/body.h5 --body wheel=$other/body.h5 --torque 100 --output x.h5
 "$bin/gear-static" --params out/scene_other/params/static.toml --body pinion=$other/body.h5 --body wheel=$other/body.h5 --torque 100 \
   --output other_static.h5 > /dev/null 2>&1
-refused "the wave of another scene" 3 'other_static.h5: is of another body pinion than out/scene/T100/static.h5' $(lumped rectangular) --reference-static other_static.h5
+rejected "the wave of another scene" 3 'other_static.h5: is of another body pinion than out/scene/T100/static.h5' $(lumped rectangular) --reference-static other_static.h5
 # Changed where HDF5 has a checksum of its own, then the content hash put right. (test_files.cpp: an older schema.)
 cp out/scene/T100/up/sweep.h5 out/old.h5
 place=$(grep -a -b -o -m1 schema_version out/old.h5 | head -n 1 | cut -d: -f1)
 byte=$(od -An -tu1 -j $((place + 40)) -N1 out/old.h5)
 printf "\\x$(printf %x $((byte ^ 1)))" | dd of=out/old.h5 bs=1 seek=$((place + 40)) conv=notrunc status=none
-refused "an artifact that was edited" 4 'out/old.h5: is not what was written: .*delete it; rebuild it with: make out/old.h5' "$bin/gear-spectra" --input out/old.h5 --output x.h5
+rejected "an artifact that was edited" 4 'out/old.h5: is not what was written: .*delete it; rebuild it with: make out/old.h5' "$bin/gear-spectra" --input out/old.h5 --output x.h5
 digits=$(($(grep -a -b -o -m1 'in place of these digits: ' out/old.h5 | head -n 1 | cut -d: -f1) + 26))
 printf '%064d' 0 | dd of=out/old.h5 bs=1 seek=$digits conv=notrunc status=none
 sha256sum < out/old.h5 | head -c 64 | dd of=out/old.h5 bs=1 seek=$digits conv=notrunc status=none
-refused "an artifact that was edited and has its hash put right" 3 'schema of / is missing or damaged; (delete it; )?rebuild it with: make out/old.h5' "$bin/gear-spectra" --input out/old.h5 --output x.h5
+rejected "an artifact that was edited and has its hash put right" 3 'schema of / is missing or damaged; (delete it; )?rebuild it with: make out/old.h5' "$bin/gear-spectra" --input out/old.h5 --output x.h5
 rm out/old.h5
 
 # --- interrupted and full
@@ -563,4 +563,4 @@ for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep
   else ok "$name on a full disk says so, and what was there stays"; fi
 done
 touch file
-refused "a folder that cannot be" 4 'file/x.h5' "$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output file/x.h5
+rejected "a folder that cannot be" 4 'file/x.h5' "$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output file/x.h5

@@ -190,7 +190,7 @@ reader_of() { # the goal that reads a file
     */impact.h5 | */response.h5) ;; */sweep.h5) echo "${1%/*}/response.h5" ;; esac
 }
 # A file that reads as damaged, though make takes it for up to date.
-refused_and_remade() { # <claim> <file>
+rejected_and_remade() { # <claim> <file>
   local claim=$1 file=$2 goal
   goal=$(reader_of $file)
   if [ -n "$goal" ]; then
@@ -203,9 +203,9 @@ refused_and_remade() { # <claim> <file>
 }
 for file in $victims; do
   touch -r $file "$base/stamp"; truncate -s $(($(stat -c %s $file) * RANDOM / 32768)) $file
-  refused_and_remade "a truncated ${file##*/}" $file
+  rejected_and_remade "a truncated ${file##*/}" $file
 done
-touch -r $at/down/sweep.h5 "$base/stamp"; : > $at/down/sweep.h5; refused_and_remade "an empty sweep.h5" $at/down/sweep.h5
+touch -r $at/down/sweep.h5 "$base/stamp"; : > $at/down/sweep.h5; rejected_and_remade "an empty sweep.h5" $at/down/sweep.h5
 if ! c++ -O1 $(pkg-config --cflags hdf5) -o "$base/layout" "$top/tests/faults/layout.cpp" $(pkg-config --libs hdf5) 2> "$log"; then
   wrong "where the values of a dataset stand" "$(head -n 1 "$log")"; fi
 flipped=0 found=0
@@ -242,7 +242,7 @@ sed -i 's/^corner_contact = false/corner_contact = true/' own.toml
 [ -n "$short" ] || find out/studies -path '*/variants/*' -type f | while read -r file; do
   grep -q -F "  $file" <<< "$expected" || rm "$file"; done
 again "and the same when it changes back"
-touch -d 1990-01-01 own.toml out/own/params/*.toml; again "a scene and slices from 1990"
+touch -d 1990-01-01 own.toml out/own/params/*.toml; again "a scene and stage parameters from 1990"
 touch -d 1990-01-01 out/own/pinion/body.h5; again "a body older than its mesh"
 
 # --- two makes

@@ -18,6 +18,6 @@ for target in scene study artifact sealed; do
   [ -x "$bin/whine-replay-$target" ] || { echo "skipped: damaged files for the readers of $target (make replay compiles the programs)"; continue; }
   count=${inputs[$target]}
   [ -z "${long:-}" ] || count=$((4 * count))
-  if said=$("$bin/whine-replay-$target" "$count" 1 "$corpus/$target" 2>&1); then echo "ok: $target: $said, read or refused"; else
+  if said=$("$bin/whine-replay-$target" "$count" 1 "$corpus/$target" 2>&1); then echo "ok: $target: $said, read or rejected"; else
     echo "FAILED: $target: status $?, $(tail -n 1 <<< "$said")"; fi
 done

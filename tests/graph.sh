@@ -153,7 +153,7 @@ expect "another step redoes the maps" "gear-jump-map*24 gear-lumped*64 gear-plot
 make_ -n JUMP_MAP_MODELS= JUMP_MAP_STEP=30 jump-map
 expect "a map without lumped models" "gear-jump-map*24 gear-plot*1"
 make_ -n JUMP_MAP=finer jump-map
-grep -q 'JUMP_MAP=finer: it is coarse or fine' "$log" && ok "a fineness that is none is refused" || wrong "JUMP_MAP=finer is refused" "$(tail -n 1 "$log")"
+grep -q 'JUMP_MAP=finer: it is coarse or fine' "$log" && ok "a fineness that is none is rejected" || wrong "JUMP_MAP=finer is rejected" "$(tail -n 1 "$log")"
 make_ -n sensitivity
 expect "sensitivity: bodies of the variants whose gears differ, a map of each" "gear-jump-map*18 gear-mesh*9 gear-plot*1 gear-reduce*9"
 make_ sensitivity; make_ -n sensitivity
@@ -165,30 +165,30 @@ expect "another dedendum redoes all but the two variants that set their own" "ge
 make_ sensitivity; make_ -n VARIANTS='bore35:bore_radius_mm=35 both:bore_radius_mm=35,dedendum=1.3' sensitivity
 expect "variants of one's own, one of two keys" "gear-jump-map*1 gear-mesh*1 gear-plot*1 gear-reduce*1"
 make_ -n VARIANTS='bad:bore_radius=35' sensitivity
-grep -q "did you mean 'bore_radius_mm'" "$log" && ok "a variant of a key that is none is refused" || wrong "a bad variant is refused" "$(tail -n 1 "$log")"
+grep -q "did you mean 'bore_radius_mm'" "$log" && ok "a variant of a key that is none is rejected" || wrong "a bad variant is rejected" "$(tail -n 1 "$log")"
 make_ -n LAUNCH='srun -n1' JUMP_MAP_STEP=10 jump-map
 [ "$(grep -c '^srun -n1 build.*/bin/gear-jump-map ' "$log")" = 24 ] && [ "$(grep -c '^srun -n1 build.*/bin/gear-lumped --map ' "$log")" = 64 ] && ok "LAUNCH carries the maps" || wrong "LAUNCH carries the maps" "$(tail -n 1 "$log")"
 
 # --- what a goal or a number of a goal may be
-refused_by_make() { # claim, words, arguments of make
+rejected_by_make() { # claim, words, arguments of make
   local claim=$1 words=$2
   shift 2
   make_ -n "$@"
   grep -q -F -- "$words" "$log" && ok "$claim" || wrong "$claim" "no '$words' in: $(tail -n 1 "$log")"
 }
-refused_by_make "a misspelt target gets the one that is spelt alike" 'raport: there is no such target; did you mean report? `make help`' raport
-refused_by_make "a word that is like no target gets make help" 'xyzzyq: there is no such target; `make help`' xyzzyq
+rejected_by_make "a misspelt target gets the one that is spelt alike" 'raport: there is no such target; did you mean report? `make help`' raport
+rejected_by_make "a word that is like no target gets make help" 'xyzzyq: there is no such target; `make help`' xyzzyq
 touch own.toml
-refused_by_make "a scene as a target is told SCENE=" 'own.toml: a scene is given by SCENE in front of a target: make SCENE=own.toml report' own.toml
+rejected_by_make "a scene as a target is told SCENE=" 'own.toml: a scene is given by SCENE in front of a target: make SCENE=own.toml report' own.toml
 rm own.toml
-refused_by_make "a damping in per cent is told the share" 'DAMPING=5: it is a share of critical damping, above 0 and below 1: 0.05 for 5 %' DAMPING=5 calibrate
-refused_by_make "a damping with a decimal comma is refused" 'DAMPING=0,05: it is a share' DAMPING=0,05 calibrate
-refused_by_make "histories without a speed are told how to say one" 'say the mesh frequency in Hz, one of the sweep: make histories AT=1250' histories
+rejected_by_make "a damping in per cent is told the share" 'DAMPING=5: it is a share of critical damping, above 0 and below 1: 0.05 for 5 %' DAMPING=5 calibrate
+rejected_by_make "a damping with a decimal comma is rejected" 'DAMPING=0,05: it is a share' DAMPING=0,05 calibrate
+rejected_by_make "histories without a speed are told how to say one" 'say the mesh frequency in Hz, one of the sweep: make histories AT=1250' histories
 make_ -n AT=1250 TORQUE=100 histories
 grep -q 'gear-plot fig08 --output out/figures/histories-1250Hz-T100 --mesh-frequency 1250 .*out/parker2000/T100/up/sweep.h5' "$log" &&
   grep -q 'gear-plot fig10 --output out/figures/history-loads-1250Hz-T100 --mesh-frequency 1250 ' "$log" && ok "histories at a speed and a torque of one's own" ||
   wrong "histories at a speed and a torque of one's own" "$(tail -n 1 "$log")"
-refused_by_make "a phase beyond the mesh period is told its range" 'PHASE=1.2: it is a share of the mesh period, 0 up to, not including, 1' PHASE=1.2 loaded
+rejected_by_make "a phase beyond the mesh period is told its range" 'PHASE=1.2: it is a share of the mesh period, 0 up to, not including, 1' PHASE=1.2 loaded
 make_ help
 if grep -q '^Other$' "$log"; then wrong "make help has a task for each target" "$(sed -n '/^Other$/,$p' "$log" | tr '\n' ' ')"; else
   [ "$(grep -c '^  [a-z0-9-]* .* ' "$log")" -gt 50 ] && ok "make help has a task for each target" || wrong "make help lists the targets" "$(head -n 3 "$log")"; fi
@@ -258,7 +258,7 @@ for goal in fig04 fig5; do
   [ "$(grep -c . "$log")" = 1 ] && grep -q "$goal: there is no such figure; there are fig01 fig03" "$log" && ok "make $goal lists the figures in one line" || wrong "make $goal lists the figures in one line" "$(cat "$log")"
 done
 make_ SCENE=$scene scorecard && wrong "a scorecard of SCENE ends with an error" "status 0"
-grep -q 'beside its own scenes, parker2000 parker2000-standard-tooth parker2000-calibrated; leave SCENE out' "$log" && ok "a scorecard of SCENE is refused" || wrong "a scorecard of SCENE is refused" "$(tail -n 1 "$log")"
+grep -q 'beside its own scenes, parker2000 parker2000-standard-tooth parker2000-calibrated; leave SCENE out' "$log" && ok "a scorecard of SCENE is rejected" || wrong "a scorecard of SCENE is rejected" "$(tail -n 1 "$log")"
 rm -f calls; make_ calibrate DAMPING=0.05 TORQUE=700 STATE=one
 [ "$(tr '\n' ' ' < calls)" = "gear-static out/parker2000/T700/static.h5 gear-impact  " ] && ok "calibrate runs the static of its torque first" ||
   wrong "calibrate runs the static of its torque first" "$(cat calls "$log")"
@@ -268,7 +268,7 @@ grep -q 'gear-impact .*/T150/static.h5 .* --calibrate 0.07 --contact-state two$'
 make_ -n out/parker2000/pinion/body.h5
 expect "a body by its name is up to date" ""
 make_ -n out/parker2000/T080/static.h5
-grep -q 'T080: the torque' "$log" && ok "a torque that is not as %g prints it is refused" || wrong "T080 is refused" "$(tail -n 1 "$log")"
+grep -q 'T080: the torque' "$log" && ok "a torque that is not as %g prints it is rejected" || wrong "T080 is rejected" "$(tail -n 1 "$log")"
 mkdir -p elsewhere
 sed -E 's/^torque_Nm = .*/torque_Nm = [90]/' scene.original > elsewhere/own.toml
 echo broken > data/scenes/parker2000.toml
@@ -328,8 +328,8 @@ grep -q 'SCENE=nowhere.toml: there is no such file' "$log" && ok "a missing SCEN
 # --- broken off, removed, failed
 make_ $all
 rm -f out/parker2000/params/static.toml out/parker2000/wheel out/parker2000/T200/static.h5
-make_ $all && [ -e out/parker2000/wheel/body.h5 ] && [ -e out/parker2000/T200/static.h5 ] && ok "deleted slices, links and results come back" ||
-  wrong "deleted slices, links and results come back" "$(tail -n 1 "$log")"
+make_ $all && [ -e out/parker2000/wheel/body.h5 ] && [ -e out/parker2000/T200/static.h5 ] && ok "deleted stage parameters, links and results come back" ||
+  wrong "deleted stage parameters, links and results come back" "$(tail -n 1 "$log")"
 rm -rf out; : > calls
 FAIL=out/parker2000/T150/down/sweep.h5 make_ fig05 && wrong "a failed stage fails make" "status 0" || ok "a failed stage fails make"
 make_ -n fig05 # the other scene may not have come as far

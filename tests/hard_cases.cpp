@@ -17,16 +17,16 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "contact/complementarity.h"
-#include "motion/dynamics.h"
-#include "motion/held_motion.h"
-#include "motion/propagator.h"
-#include "motion/statics.h"
-#include "motion/sweep.h"
+#include "dynamics/dynamics.h"
+#include "dynamics/fixed_phase_motion.h"
+#include "dynamics/propagator.h"
 #include "paper_pair.h"
 #include "signal/spectrum.h"
 #include "solid/elements.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
 
 using namespace whine;
 using Eigen::Matrix2d;
@@ -59,15 +59,15 @@ class Table {
     row(what, ">= " + number(bound), number(found), "", found >= bound);
   }
   // `pattern`: part of the message of Error.
-  void refused(const std::string& what, const std::string& pattern, const std::function<void()>& run) {
+  void rejected(const std::string& what, const std::string& pattern, const std::function<void()>& run) {
     std::string message = "accepted";
     try {
       run();
     } catch (const Error& e) {
       message = e.what();
     }
-    const bool refusal = message.find(pattern) != std::string::npos;
-    row(what, "refused", refusal ? "refused" : message, "", refusal);
+    const bool rejection = message.find(pattern) != std::string::npos;
+    row(what, "refused", rejection ? "refused" : message, "", rejection);
   }
   void broken(const std::string& message) { row("the case came to its end", "yes", message, "", false); }
 
@@ -96,9 +96,9 @@ int Table::passed = 0, Table::failed = 0;
 
 // --- systems with known answers
 
-// A unit mass against one strip: contact compliance `local` follows at once, `residual` with a lag.
-HeldMesh one_mass(double torque, double local, double residual = 0, double relaxation = 0) {
-  HeldMesh mesh;
+// A unit mass against one strip: contact compliance `local` is instantaneous, `residual` with relaxation.
+FixedPhaseMesh one_mass(double torque, double local, double residual = 0, double relaxation = 0) {
+  FixedPhaseMesh mesh;
   mesh.frequency_squared = mesh.damping = VectorXd::Zero(1);
   mesh.torque = VectorXd::Constant(1, torque);
   mesh.error_weight = VectorXd::Ones(1);
@@ -136,38 +136,38 @@ const BodyArtifact& paper_body() {
   return body;
 }
 
-StaticSlice static_slice(int positions, bool corner) {
-  StaticSlice slice;
-  slice.mesh.driver = "pinion";
-  slice.mesh.driven = "wheel";
-  slice.mesh.centre_distance = 0.150;
-  slice.mesh.corner.enabled = corner;
-  slice.contact.positions = positions;
-  return slice;
+StaticParameters static_parameters(int positions, bool corner) {
+  StaticParameters settings;
+  settings.mesh.driver = "pinion";
+  settings.mesh.driven = "wheel";
+  settings.mesh.centre_distance = 0.150;
+  settings.mesh.corner.enabled = corner;
+  settings.contact.positions = positions;
+  return settings;
 }
 StaticArtifact statics(double torque, int positions = 128, bool corner = true) {
-  return static_transmission(paper_body(), paper_body(), static_slice(positions, corner), torque);
+  return static_transmission(paper_body(), paper_body(), static_parameters(positions, corner), torque);
 }
 
-SweepSlice sweep_slice(double from, double to, double step, double rayleigh_stiffness) {
-  SweepSlice slice;
-  slice.driver_inertia = slice.driven_inertia = 0.0148;
-  slice.damping.rayleigh_stiffness = rayleigh_stiffness;
-  slice.reference_torque = 100;
-  slice.frequency_from = from;
-  slice.frequency_to = to;
-  slice.frequency_step = step;
-  return slice;
+SweepParameters sweep_parameters(double from, double to, double step, double rayleigh_stiffness) {
+  SweepParameters settings;
+  settings.driver_inertia = settings.driven_inertia = 0.0148;
+  settings.damping.rayleigh_stiffness = rayleigh_stiffness;
+  settings.reference_torque = 100;
+  settings.frequency_from = from;
+  settings.frequency_to = to;
+  settings.frequency_step = step;
+  return settings;
 }
-SweepArtifact run_sweep(const SweepSlice& slice, double torque, const std::string& direction = "up",
+SweepArtifact run_sweep(const SweepParameters& settings, double torque, const std::string& direction = "up",
                         const BodyArtifact& body = paper_body()) {
-  const StaticArtifact at = static_transmission(body, body, static_slice(128, true), torque);
-  return sweep(body, body, at, 463e6, slice, direction, [](long, long, const std::string&) {});
+  const StaticArtifact at = static_transmission(body, body, static_parameters(128, true), torque);
+  return sweep(body, body, at, 463e6, settings, direction, [](long, long, const std::string&) {});
 }
 
 struct Rolling {
   Rolling(double torque, int steps, double rayleigh_stiffness = 7.7e-6, double bearing_ratio = 0.005)
-      : model(paper_body(), paper_body(), static_slice(1, true).mesh), dynamics(model, [&] {
+      : model(paper_body(), paper_body(), static_parameters(1, true).mesh), dynamics(model, [&] {
           DynamicParameters p;
           p.torque = torque;
           p.inertia = {0.0148, 0.0148};
@@ -177,9 +177,9 @@ struct Rolling {
           return p;
         }()) {
     const double load = 150 / kBaseRadius;  // the strips are the same at any torque
-    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+    dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
                                      15, load / model.kinematics.contact_ratio(), 2.5 * load, 2e-5),
-                       steps);
+                      steps);
   }
   GearMeshModel model;
   RollingDynamics dynamics;
@@ -253,7 +253,7 @@ void all_modes(Table& table) {
 
   // By modes, as the library steps.
   const SymmetricEigen eigen = symmetric_eigen(k, m);
-  HeldMesh mesh;
+  FixedPhaseMesh mesh;
   mesh.frequency_squared = eigen.values;
   mesh.damping = mu + eta * eigen.values.array();
   mesh.participation = touching * eigen.vectors;
@@ -262,7 +262,7 @@ void all_modes(Table& table) {
   mesh.gap = gap;
   mesh.newmark = true;
   mesh.torque = amplitude(0) * eigen.vectors.transpose() * push;
-  HeldMotion modes(mesh, step);
+  FixedPhaseMotion modes(mesh, step);
 
   // In full space, with the sets of contact tried one by one.
   const MatrixXd effective = m + 0.5 * step * c + 0.25 * step * step * k;
@@ -334,20 +334,20 @@ void wide_contact(Table& table) {
   const double line = 1e-6 * kPi * modulus / (4 * radius), torque = line * kFaceWidth * kBaseRadius;
   table.relative("torque for a half-width of 1 mm at the pitch point, one pair, plane strain, N m", 12467.7,
                  torque, 1e-5);
-  const StaticArtifact one = static_transmission(strain, strain, static_slice(8, false), torque);
+  const StaticArtifact one = static_transmission(strain, strain, static_parameters(8, false), torque);
   table.relative("half-width that strips find there, mm (curvature changes over the contact)", 1,
                  1e3 * one.contact_half_width(0, 1), 0.03);
   table.relative("largest pressure, GPa", 1e-9 * 2 * line / (kPi * 1e-3), 1e-9 * one.contact_pressure(0, 1),
                  0.03);
-  table.refused("50000 N m at 128 positions, some of whose contacts are wider than the flanks",
-                "at 50000 N m contact leaves the flanks",
-                [&] { static_transmission(strain, strain, static_slice(128, true), 5e4); });
+  table.rejected("50000 N m at 128 positions, some of whose contacts are wider than the flanks",
+                 "at 50000 N m contact leaves the flanks",
+                 [&] { static_transmission(strain, strain, static_parameters(128, true), 5e4); });
 }
 
 void torque_without_size(Table& table) {
   for (double torque : {0.0, -150.0})
-    table.refused(text("statics at ", torque, " N m"), text("torque_Nm = ", torque),
-                  [&] { statics(torque, 8); });
+    table.rejected(text("statics at ", torque, " N m"), text("torque_Nm = ", torque),
+                   [&] { statics(torque, 8); });
   // One pair: half-planes add 2 / (pi E' b) ln(torque ratio) to the compliance, E' of plane stress, both bodies.
   const double tiny = statics(1e-6, 8, false).transmission_error[0] / (1e-6 / kBaseRadius),
                small = statics(1e-2, 8, false).transmission_error[0] / (1e-2 / kBaseRadius);
@@ -356,9 +356,9 @@ void torque_without_size(Table& table) {
 
   // Torque that vanishes: gears that just touch stay there. Torque that turns round: they part for good.
   Rolling before(150, 128);
-  HeldMesh held = before.dynamics.hold(0);
-  held.torque.setZero();
-  HeldMotion still(held, 3e-6);
+  FixedPhaseMesh fixed_pair = before.dynamics.hold(0);
+  fixed_pair.torque.setZero();
+  FixedPhaseMotion still(fixed_pair, 3e-6);
   for (int i = 0; i < 1000; ++i) still.advance();
   table.at_most("no torque, gears that just touch, 1000 steps: |z| + |p|", 0,
                 still.z.norm() + still.p.norm());
@@ -368,11 +368,11 @@ void torque_without_size(Table& table) {
   backward.dynamics.set_speed(2500, 128);
   RollingDynamics::State state = forward.dynamics.rest();
   RollingDynamics::Period period;
-  for (int i = 0; i < 2; ++i) backward.dynamics.march(state, period);
+  for (int i = 0; i < 2; ++i) backward.dynamics.integrate(state, period);
   const double speed = state.v[0];
   double attraction = 0;
   for (int i = 0; i < 3; ++i) {
-    backward.dynamics.march(state, period);
+    backward.dynamics.integrate(state, period);
     attraction = std::max(attraction, period.pair_load.cwiseAbs().maxCoeff());
   }
   table.at_most("torque turned round while rolling: tooth load after two mesh periods, N", 0, attraction);
@@ -403,7 +403,7 @@ BarImpact bar_impact(int n, double courant) {
   const VectorXd root = mass.cwiseSqrt().cwiseInverse();
   const SymmetricEigen eigen = symmetric_eigen(root.asDiagonal() * k * root.asDiagonal());
   const MatrixXd shape = root.asDiagonal() * eigen.vectors;
-  HeldMesh mesh;
+  FixedPhaseMesh mesh;
   mesh.frequency_squared = eigen.values;
   mesh.frequency_squared[0] = 0;
   mesh.damping = mesh.torque = VectorXd::Zero(n);
@@ -413,7 +413,7 @@ BarImpact bar_impact(int n, double courant) {
   mesh.gap = VectorXd::Constant(1, 5);
   BarImpact result;
   result.step = courant * element / 30;
-  HeldMotion bar(mesh, result.step);
+  FixedPhaseMotion bar(mesh, result.step);
   bar.v = shape.transpose() * mass.asDiagonal() * VectorXd::Constant(n, 10);
   const auto energy = [&] {
     return 0.5 * (bar.v.squaredNorm() + mesh.frequency_squared.dot(bar.z.cwiseAbs2()) +
@@ -458,7 +458,7 @@ void elastic_bar(Table& table) {
 void undamped_bounce(Table& table) {
   constexpr int kPerPeriod = 200, kSteps = 1000000;
   const double step = 2 * kPi / kPerPeriod;
-  HeldMotion motion(one_mass(1, 1), step);
+  FixedPhaseMotion motion(one_mass(1, 1), step);
   motion.z[0] = 3;
   motion.touch();
   double first = 0, last = 0, drift = 0, before = 0;
@@ -486,25 +486,25 @@ void step_lengths(Table& table) {
   const RollingDynamics::State start = more.dynamics.rest();
   at.dynamics.rest();
   const auto released = [&](double step, int steps) {
-    HeldMotion motion(at.dynamics.hold(0), step);
+    FixedPhaseMotion motion(at.dynamics.hold(0), step);
     motion.start(start.z, start.p);
     for (int i = 0; i < steps; ++i) motion.advance();
     return motion;
   };
-  const HeldMotion tiny = released(1e-6 * period, 2000), finer = released(0.25e-6 * period, 8000),
-                   usual = released(period / 128, 0);
+  const FixedPhaseMotion tiny = released(1e-6 * period, 2000), finer = released(0.25e-6 * period, 8000),
+                         usual = released(period / 128, 0);
   table.at_most("steps of T / 1e6, 1 % of the torque let go: forces against steps of T / 4e6, relative",
                 1e-11, (tiny.p - finer.p).norm() / finer.p.norm());
   const SymmetricEigen shortest = symmetric_eigenvalues(tiny.compliance()),
                        local = symmetric_eigenvalues(tiny.mesh().local);
-  table.relative("their compliance: least eigenvalue, m/N, against that of what follows at once",
+  table.relative("their compliance: least eigenvalue, m/N, against that of what is instantaneous",
                  local.values[0], shortest.values[0], 1e-3);
   table.at_least("and at steps of T / 128 it is no smaller, over the same", 1,
                  symmetric_eigenvalues(usual.compliance()).values[0] / local.values[0]);
 
   const double static_error = 1e6 * at.dynamics.static_deflection();
   const RollingDynamics::State rest = at.dynamics.rest();
-  HeldMotion huge(at.dynamics.hold(0), 10 * period);
+  FixedPhaseMotion huge(at.dynamics.hold(0), 10 * period);
   const auto deviation = [&] { return std::abs(1e6 * huge.transmission_error() / static_error - 1); };
   const auto largest_of = [&](int steps) {
     double largest = 0;
@@ -519,33 +519,34 @@ void step_lengths(Table& table) {
   table.at_most("5000 steps of 10 T, held, 1 % of the torque let go: largest deviation of DTE over the first",
                 1 + 1e-9, largest_of(5000) / let_go);
   table.at_most("and at the end DTE against static transmission error, relative", 1e-8, deviation());
-  table.at_most("and lagged against present loads, relative", 1e-9,
-                (huge.lagged - huge.p).norm() / huge.p.norm());
+  table.at_most("and relaxed against present loads, relative", 1e-9,
+                (huge.relaxed - huge.p).norm() / huge.p.norm());
   // A force that relaxes in eta counts for half of the first step.
   huge.z[0] *= 1.05;
   huge.touch();
-  table.at_most("the same from a jump of 5 % that the lag does not know of: largest deviation of DTE", 1,
-                largest_of(5000));
+  table.at_most(
+      "the same from a jump of 5 % that the relaxed load does not know of: largest deviation of DTE", 1,
+      largest_of(5000));
   table.at_most("and at the end", 1e-8, deviation());
 
   // Rolling, one step of 10 T per mesh period, always at phase 0: one pair takes the load over from another within a
-  // step, and the lag of both is eta / step behind.
+  // step, and the relaxed load of both is eta / step behind.
   at.dynamics.set_speed(250, 1);
   RollingDynamics::State state = rest;
   state.z[0] *= 1.05;
-  RollingDynamics::Period marched;
+  RollingDynamics::Period integrated;
   double largest = 0;
   for (int i = 0; i < 5000; ++i) {
-    if (!at.dynamics.march(state, marched)) fail(Failure::numerical, "contact left the range");
-    largest = std::max(largest, std::abs(1e6 * marched.transmission_error[0] / static_error - 1));
+    if (!at.dynamics.integrate(state, integrated)) fail(Failure::numerical, "contact left the range");
+    largest = std::max(largest, std::abs(1e6 * integrated.transmission_error[0] / static_error - 1));
   }
   table.at_most("rolling, one such step per mesh period, from 5 % off: largest deviation of DTE", 0.003,
                 largest);
-  table.relative("at the end lagged less present loads, relative: sqrt 2 eta / step",
-                 std::sqrt(2.0) * 7.7e-6 * 250, (state.lag[0] - state.load[0]).norm() / state.load[0].norm(),
-                 1e-6);
+  table.relative("at the end relaxed less present loads, relative: sqrt 2 eta / step",
+                 std::sqrt(2.0) * 7.7e-6 * 250,
+                 (state.relaxed[0] - state.load[0]).norm() / state.load[0].norm(), 1e-6);
 
-  SweepSlice slow = sweep_slice(5, 5, 1, 7.7e-6);
+  SweepParameters slow = sweep_parameters(5, 5, 1, 7.7e-6);
   slow.time.min_sample_rate = 1;
   const StaticArtifact fixed = statics(150);
   const SweepArtifact crawl = run_sweep(slow, 150);
@@ -568,8 +569,8 @@ void stiff_mode(Table& table) {
   table.relative("1 MHz mode, 7 % at 2900 Hz by stiffness, 2 us: slow root, exact", std::exp(-slow * step),
                  roots(exact)[0], 1e-12);
   table.absolute("its fast root", std::exp(-fast * step), roots(exact)[1], 1e-12);
-  table.relative("massless limit: what the lag leaves after the step", std::exp(-step / eta),
-                 lag_step(eta, step).decay, 1e-14);
+  table.relative("massless limit: what the relaxed load leaves after the step", std::exp(-step / eta),
+                 relaxation_step(eta, step).decay, 1e-14);
   table.absolute("Newmark, the reference option: slow root", 0.769586,
                  roots(newmark_propagator(w, c, step))[0], 1e-6);
   table.absolute("Newmark, its ringing root (known defect of the method)", -0.99343,
@@ -582,8 +583,8 @@ void stiff_mode(Table& table) {
                  (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (fast - slow), y[0], 1e-10);
 }
 
-// Spring and dashpot in parallel are a flexibility with a lag; release where the force is zero.
-HeldMesh spring_dashpot(double torque, double frequency, double ratio) {
+// Spring and dashpot in parallel are a flexibility that relaxes; release where the force is zero.
+FixedPhaseMesh spring_dashpot(double torque, double frequency, double ratio) {
   return one_mass(torque, 0, 1 / (frequency * frequency), 2 * ratio / frequency);
 }
 double restitution(double ratio) {
@@ -596,7 +597,7 @@ void restitution_of_dashpot(Table& table) {
   const double step[2] = {2 * kPi / 1000, 2 * kPi / 2000};
   double found = 0;
   for (int k = 0; k < 2; ++k) {
-    HeldMotion motion(spring_dashpot(0, 1, ratio), step[k]);
+    FixedPhaseMotion motion(spring_dashpot(0, 1, ratio), step[k]);
     motion.v[0] = 1;
     int steps = 0;
     do {
@@ -620,7 +621,7 @@ void bouncing_ball(Table& table) {
   for (double e : {0.5, 0.8, 0.9}) {
     double low = 0, high = 0.9;
     for (int i = 0; i < 60; ++i) (restitution(0.5 * (low + high)) > e ? low : high) = 0.5 * (low + high);
-    HeldMotion ball(spring_dashpot(gravity, frequency, low), step);
+    FixedPhaseMotion ball(spring_dashpot(gravity, frequency, low), step);
     ball.z[0] = -height;
     const double zeno = std::sqrt(2 * height / gravity) * (1 + e) / (1 - e);
     int flying = 0;
@@ -639,9 +640,9 @@ void preload(Table& table) {
   const double ratio = 0.08;
   constexpr int kPerPeriod = 1024, kPeriods = 60;
   const auto loses = [&](double share) {
-    HeldMesh mesh = one_mass(1, 1);
+    FixedPhaseMesh mesh = one_mass(1, 1);
     mesh.damping[0] = 2 * ratio;
-    HeldMotion motion(mesh, 2 * kPi / kPerPeriod);
+    FixedPhaseMotion motion(mesh, 2 * kPi / kPerPeriod);
     motion.z[0] = 1;
     motion.touch();
     double least = 1;
@@ -707,10 +708,10 @@ void meissner(Table& table) {
 std::pair<double, int> one_degree(double torque, double mesh_frequency, double ratio, double start) {
   constexpr int kPerPeriod = 1024, kPeriods = 250;
   const double mass = 1.4, k1 = 335596523.71, k2 = 504267825.43, force = torque / kBaseRadius;
-  HeldMesh mesh = one_mass(force / std::sqrt(mass), 1 / k2);
+  FixedPhaseMesh mesh = one_mass(force / std::sqrt(mass), 1 / k2);
   mesh.participation /= std::sqrt(mass);
   mesh.damping[0] = 2 * ratio * std::sqrt(462.1e6 / mass);
-  HeldMotion motion(mesh, 1 / (mesh_frequency * kPerPeriod));
+  FixedPhaseMotion motion(mesh, 1 / (mesh_frequency * kPerPeriod));
   motion.z[0] = start * force / 462.1e6 * std::sqrt(mass);
   motion.touch();
   VectorXd last(kPerPeriod);
@@ -786,17 +787,17 @@ void perturbation(Table& table) {
   RollingDynamics::State state = dynamics.rest();
   dynamics.set_speed(3200, 128);
   RollingDynamics::Period period;
-  for (int i = 0; i < 150; ++i) dynamics.march(state, period);
+  for (int i = 0; i < 150; ++i) dynamics.integrate(state, period);
   const auto blocks = [](RollingDynamics::State& s) {
     using Map = Eigen::Map<VectorXd>;
     std::vector<Map> all;
     for (VectorXd* v : {&s.z, &s.v, &s.force}) all.emplace_back(v->data(), v->size());
     for (int g = 0; g < 2; ++g)
-      for (MatrixXd* m : {&s.lag[g], &s.load[g]}) all.emplace_back(m->data(), m->size());
+      for (MatrixXd* m : {&s.relaxed[g], &s.load[g]}) all.emplace_back(m->data(), m->size());
     return all;
   };
   RollingDynamics::State steady = state;
-  dynamics.march(steady, period);
+  dynamics.integrate(steady, period);
   table.at_most("gears at 3200 Hz after 150 mesh periods: change over one period", 1e-12,
                 dynamics.distance(state, steady));
 
@@ -807,14 +808,14 @@ void perturbation(Table& table) {
   for (const auto& block : base) size += block.size();
   MatrixXd monodromy(size, size);
   RollingDynamics::State image = steady;
-  dynamics.march(image, period);
+  dynamics.integrate(image, period);
   const auto image_blocks = blocks(image);
   Eigen::Index column = 0;
   for (size_t b = 0; b < base.size(); ++b)
     for (Eigen::Index i = 0; i < base[b].size(); ++i, ++column) {
       RollingDynamics::State moved = steady;
       blocks(moved)[b][i] += increment * base[b].norm();
-      dynamics.march(moved, period);
+      dynamics.integrate(moved, period);
       const auto moved_blocks = blocks(moved);
       Eigen::Index row = 0;
       for (size_t k = 0; k < base.size(); ++k) {
@@ -831,8 +832,8 @@ void perturbation(Table& table) {
   constexpr int kSkip = 2, kPeriods = 12;
   double at_skip = 0;
   for (int i = 1; i <= kPeriods; ++i) {
-    dynamics.march(a, period);
-    dynamics.march(b, period);
+    dynamics.integrate(a, period);
+    dynamics.integrate(b, period);
     if (i == kSkip) at_skip = dynamics.distance(a, b);
   }
   const double end = dynamics.distance(a, b);
@@ -845,12 +846,12 @@ void perturbation(Table& table) {
 }
 
 void near_fold(Table& table) {
-  const SweepArtifact up = run_sweep(sweep_slice(2760, 2810, 10, 5.5e-6), 150);
+  const SweepArtifact up = run_sweep(sweep_parameters(2760, 2810, 10, 5.5e-6), 150);
   table.absolute("gears at 150 N m, 5.5e-6 s, up: jumps found between 2760 and 2810 Hz", 1,
                  static_cast<double>(up.jump_frequency.size()), 0);
   if (up.jump_frequency.size() != 1) return;
   const double jump = up.jump_frequency[0];
-  SweepSlice other = sweep_slice(2760, 2810, 10, 5.5e-6);
+  SweepParameters other = sweep_parameters(2760, 2810, 10, 5.5e-6);
   other.fidelity.integrator = Integrator::newmark;
   other.time.steps_per_period = 512;
   const SweepArtifact newmark = run_sweep(other, 150);
@@ -860,25 +861,26 @@ void near_fold(Table& table) {
   table.at_most("its width, Hz", 1, up.jump_width[0]);
   // Steps that go just past it.
   const double fine = std::floor(jump) - 2;
-  const SweepArtifact past = run_sweep(sweep_slice(fine, fine + 6, 1, 5.5e-6), 150);
-  SweepSlice plain = sweep_slice(fine, fine + 6, 1, 5.5e-6);
-  plain.time.steady_state = SteadyState::march;
-  const SweepArtifact marched = run_sweep(plain, 150);
+  const SweepArtifact past = run_sweep(sweep_parameters(fine, fine + 6, 1, 5.5e-6), 150);
+  SweepParameters plain = sweep_parameters(fine, fine + 6, 1, 5.5e-6);
+  plain.time.steady_state = SteadyState::integrate;
+  const SweepArtifact integrated = run_sweep(plain, 150);
   double largest = 0;
   for (int i = 0; i < past.period_multiple.size(); ++i)
     largest = std::max(
-        largest, std::abs(rms(past.transmission_error.row(i)) / rms(marched.transmission_error.row(i)) - 1));
-  table.at_most("steps of 1 Hz across it: RMS of extrapolated orbits against marched ones, relative", 2e-4,
+        largest,
+        std::abs(rms(past.transmission_error.row(i)) / rms(integrated.transmission_error.row(i)) - 1));
+  table.at_most("steps of 1 Hz across it: RMS of extrapolated orbits against integrated ones, relative", 2e-4,
                 largest);
   table.at_least("of these 7 speeds steady", 7, (past.period_multiple.array() > 0).count());
   table.at_least("RMS past it over RMS before it (what counts as a jump)", 1.2,
                  rms(past.transmission_error.row(6)) / rms(past.transmission_error.row(0)));
-  table.at_most("energy ledger across it, relative", 1e-9, past.energy_imbalance.maxCoeff());
+  table.at_most("energy balance across it, relative", 1e-9, past.energy_imbalance.maxCoeff());
 }
 
 void stiff_damping(Table& table) {
   const auto forgotten = [](double eta, double frequency) {  // energy, of the orbit's work of the rolling
-    const SweepArtifact result = run_sweep(sweep_slice(frequency, frequency, 1, eta), 150);
+    const SweepArtifact result = run_sweep(sweep_parameters(frequency, frequency, 1, eta), 150);
     const auto line = [&](const std::string& name) {
       size_t i = 0;
       while (kEnergyLines[i].name != name) ++i;
@@ -887,27 +889,27 @@ void stiff_damping(Table& table) {
     return line("forgetting") / line("rolling");
   };
   for (double eta : {3e-5, 1e-4, 1e-3}) {
-    SweepSlice slice = sweep_slice(2500, 2500, 1, eta), finer = slice;
+    SweepParameters settings = sweep_parameters(2500, 2500, 1, eta), finer = settings;
     finer.time.steps_per_period = 512;
-    const SweepArtifact usual = run_sweep(slice, 150), fine = run_sweep(finer, 150);
+    const SweepArtifact usual = run_sweep(settings, 150), fine = run_sweep(finer, 150);
     const std::string at = text("Rayleigh stiffness factor ", eta, " s, 2500 Hz: ");
     table.at_least(at + "period multiple (0: not steady)", 1, usual.period_multiple[0]);
     table.relative(at + "RMS, um, against 512 steps a period", 1e6 * rms(fine.transmission_error.row(0)),
                    1e6 * rms(usual.transmission_error.row(0)), eta < 1e-3 ? 0.0015 : 0.007);
-    table.at_most(at + "energy ledger, relative", 1e-9, usual.energy_imbalance[0]);
+    table.at_most(at + "energy balance, relative", 1e-9, usual.energy_imbalance[0]);
   }
-  table.at_least("1e-4 s, 2500 Hz: energy in the lag of forgotten teeth, over the work of rolling", 1e-8,
-                 std::abs(forgotten(1e-4, 2500)));
+  table.at_least("1e-4 s, 2500 Hz: energy in the relaxed loads of forgotten teeth, over the work of rolling",
+                 1e-8, std::abs(forgotten(1e-4, 2500)));
   table.at_most("that at 1250 over 2500 Hz, falls with exp(-2 T / eta)", std::exp(-8.0),
                 std::abs(forgotten(1e-4, 1250) / forgotten(1e-4, 2500)));
 }
 
 void ten_times_the_torque(Table& table) {
-  const SweepArtifact result = run_sweep(sweep_slice(2600, 3000, 200, 7.7e-6), 1500);
+  const SweepArtifact result = run_sweep(sweep_parameters(2600, 3000, 200, 7.7e-6), 1500);
   table.at_least("1500 N m, 2600 to 3000 Hz: least period multiple (0: not steady)", 1,
                  result.period_multiple.minCoeff());
-  table.at_most("energy ledger, relative", 1e-9, result.energy_imbalance.maxCoeff());
-  SweepSlice other = sweep_slice(2600, 3000, 200, 7.7e-6);
+  table.at_most("energy balance, relative", 1e-9, result.energy_imbalance.maxCoeff());
+  SweepParameters other = sweep_parameters(2600, 3000, 200, 7.7e-6);
   other.fidelity.integrator = Integrator::newmark;
   other.time.steps_per_period = 512;
   const SweepArtifact newmark = run_sweep(other, 1500);
@@ -916,7 +918,7 @@ void ten_times_the_torque(Table& table) {
         text("RMS at ", result.mesh_frequency[i], " Hz, um, against Newmark with 512 steps a period"),
         1e6 * rms(newmark.transmission_error.row(i)), 1e6 * rms(result.transmission_error.row(i)), 0.002);
   table.at_most("strips that overlap, m", 1e-14, -result.least_gap);
-  SweepSlice slow = sweep_slice(5, 5, 1, 7.7e-6);
+  SweepParameters slow = sweep_parameters(5, 5, 1, 7.7e-6);
   slow.time.min_sample_rate = 1;
   const StaticArtifact fixed = statics(1500);
   // The slope of the static error steps where a pair comes in, which rings at f_n: 0.0033 at either torque.
@@ -930,9 +932,9 @@ void ten_times_the_torque(Table& table) {
 void many_modes(Table& table) {
   const BodyArtifact body = reduce(paper_mesh(), steel(true), 61);
   table.at_least("body with 61 modes: modes", 61, static_cast<double>(body.eigenfrequency.size()));
-  SweepSlice slice = sweep_slice(2800, 2900, 100, 5.5e-6);
-  const SweepArtifact many = run_sweep(slice, 150, "down", body), few = run_sweep(slice, 150, "down");
-  table.at_most("61 modes a gear, contact lost at 2900 Hz: energy ledger, relative", 1e-9,
+  SweepParameters settings = sweep_parameters(2800, 2900, 100, 5.5e-6);
+  const SweepArtifact many = run_sweep(settings, 150, "down", body), few = run_sweep(settings, 150, "down");
+  table.at_most("61 modes a gear, contact lost at 2900 Hz: energy balance, relative", 1e-9,
                 many.energy_imbalance.maxCoeff());
   table.at_most("least mesh force, N", 0, many.mesh_force.minCoeff());
   table.relative("RMS at 2900 Hz, um, against 5 modes a gear", 1e6 * rms(few.transmission_error.row(0)),

@@ -1,4 +1,4 @@
-# Names of files and folders, titles and numbers that were made to do harm: make and the programs take them for data or refuse them.
+# Names of files and folders, titles and numbers that were made to do harm: make and the programs take them for data or reject them.
 #
 # Works on a copy of the tree with the real makefiles and programs. A command that runs leaves a file `mark`.
 set -uo pipefail
@@ -33,7 +33,7 @@ done
 for name in "${attempts[@]}"; do
   shown=$(tr -d '\033' <<< "$name")
   for variable in SCENE STUDY; do
-    claim="$variable=$shown is refused before a shell sees it"
+    claim="$variable=$shown is rejected before a shell sees it"
     before=$(others)
     goal=static
     [ $variable = SCENE ] || goal=study
@@ -51,21 +51,21 @@ done
 for goal in 'out/parker2000/T1;touch${IFS}mark;/static.h5' "out/parker2000/T'\$(touch\${IFS}mark)'/static.h5" 'out/parker2000/T$(shell)/static.h5' 'out/parker2000/T1%/static.h5'; do
   make $sanitize -n "$goal" > "$log" 2>&1
   if [ -e mark ]; then wrong "the target $goal" "runs a command"; rm -f mark
-  elif grep -q '\*\*\* target.*: it holds ' "$log"; then ok "the target $goal is refused"
-  else wrong "the target $goal is refused" "$(tail -n 1 "$log")"; fi
+  elif grep -q '\*\*\* target.*: it holds ' "$log"; then ok "the target $goal is rejected"
+  else wrong "the target $goal is rejected" "$(tail -n 1 "$log")"; fi
 done
 for given in 'TORQUE=1;touch mark' 'PHASE=$(shell touch mark)' 'SHARE=1/2"$(touch mark)"' 'DAMPING=`touch mark`'; do
   make $sanitize -n "$given" STUDY=study.toml study calibrate loaded > "$log" 2>&1
   if [ -e mark ]; then wrong "$given" "runs a command"; rm -f mark
-  elif grep -q '\*\*\* .*: it holds ' "$log"; then ok "$given is refused"
-  else wrong "$given is refused" "$(tail -n 1 "$log")"; fi
+  elif grep -q '\*\*\* .*: it holds ' "$log"; then ok "$given is rejected"
+  else wrong "$given is rejected" "$(tail -n 1 "$log")"; fi
 done
 mkdir -p h
 for given in SCENE STUDY; do
   cp $([ $given = SCENE ] && echo s.toml || echo study.toml) h/.toml
   make $sanitize -n $given=h/.toml $([ $given = SCENE ] && echo static || echo study) > "$log" 2>&1
-  grep -q "\*\*\* $given=h/.toml: the file has no name before .toml" "$log" && ok "$given=h/.toml is refused: its results would be the default's" ||
-    wrong "$given=h/.toml is refused" "$(tail -n 1 "$log")"
+  grep -q "\*\*\* $given=h/.toml: the file has no name before .toml" "$log" && ok "$given=h/.toml is rejected: its results would be the default's" ||
+    wrong "$given=h/.toml is rejected" "$(tail -n 1 "$log")"
 done
 mkdir -p 'mü/ß@a+b,c'
 cp s.toml 'mü/ß@a+b,c/own_1.toml'
@@ -91,8 +91,8 @@ if ! make_ SCENE=s.toml out/s/T100/static.h5 out/s/T200/static.h5 out/s/T100/up/
   exit 1
 fi
 "$bin/gear-inspect" --check out > "$log" 2>&1 && ok "gear-inspect --check finds nothing in what make has made" || wrong "gear-inspect --check finds nothing in what make has made" "$(head -n 1 "$log")"
-# refused <claim> <status> <pattern> <command...>
-refused() {
+# rejected <claim> <status> <pattern> <command...>
+rejected() {
   local claim=$1 status=$2 pattern=$3 found
   shift 3
   timeout 60 "$@" > said.out 2> said
@@ -107,8 +107,8 @@ swapped() {
   local from=$1 to=$2 pattern=$3
   shift 3
   cp -p "$to" kept && cp "$from" "$to"
-  refused "$from in the place of ${to#out/}: gear-inspect --check" 3 "$to: $pattern" "$bin/gear-inspect" --check out
-  refused "$from in the place of ${to#out/}: $(basename "$1")" 3 "$to: $pattern.*delete it; rebuild it with: make " "$@"
+  rejected "$from in the place of ${to#out/}: gear-inspect --check" 3 "$to: $pattern" "$bin/gear-inspect" --check out
+  rejected "$from in the place of ${to#out/}: $(basename "$1")" 3 "$to: $pattern.*delete it; rebuild it with: make " "$@"
   cp -p kept "$to"
 }
 body_of() { readlink "out/$1/pinion" | sed 's|^\.\./|out/|'; }
@@ -116,12 +116,12 @@ swapped out/s/T100/static.h5 out/s/T200/static.h5 'is at 100 N m, but lies in T2
 swapped out/other/T100/static.h5 out/s/T100/static.h5 'was made from out/other/params/static.toml, but lies in out/s' "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
 swapped out/s/T100/up/sweep.h5 out/s/T100/down/sweep.h5 'is of the sweep up, but lies in down' "$bin/gear-spectra" --input out/s/T100/down/sweep.h5 --output x.h5
 swapped out/s/T100/secant/up/sweep.h5 out/s/T100/up/sweep.h5 'is of the lumped model secant, but lies in T100' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/up/sweep.h5
-swapped "$(body_of other)/body.h5" "$(body_of s)/body.h5" 'is of the slice [0-9a-f]{16}, but lies at' "$bin/gear-static" --params out/s/params/static.toml --body pinion="$(body_of s)/body.h5" --body wheel="$(body_of s)/body.h5" --torque 100 --output x.h5
+swapped "$(body_of other)/body.h5" "$(body_of s)/body.h5" 'is of the stage parameters [0-9a-f]{16}, but lies at' "$bin/gear-static" --params out/s/params/static.toml --body pinion="$(body_of s)/body.h5" --body wheel="$(body_of s)/body.h5" --torque 100 --output x.h5
 swapped "$(body_of s)/mesh.h5" out/s/T100/static.h5 "is 'whine/mesh', but (its name is that of )?'whine/static'" "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
 pair=(--body pinion=out/s/pinion/body.h5 --body wheel=out/s/wheel/body.h5)
-refused "gear-impact with the parameters of a sweep" 3 'sweep.toml: is what a sweep depends on, and this stage reads what the ring-down depends on: give out/<scene>/params/impact.toml' \
+rejected "gear-impact with the parameters of a sweep" 3 'sweep.toml: is what a sweep depends on, and this stage reads what the ring-down depends on: give out/<scene>/params/impact.toml' \
   "$bin/gear-impact" --params out/s/params/sweep.toml "${pair[@]}" --static out/s/T100/static.h5 --reference-static out/s/T100/static.h5 --output x.h5
-refused "a report of a lumped sweep" 3 'secant/up/sweep.h5: is of the lumped model secant; a report is of the elastic pair' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/secant/up/sweep.h5
+rejected "a report of a lumped sweep" 3 'secant/up/sweep.h5: is of the lumped model secant; a report is of the elastic pair' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/secant/up/sweep.h5
 
 # --- what is printed and not written
 for program in "$bin"/gear-*; do
@@ -130,33 +130,33 @@ for program in "$bin"/gear-*; do
   grep -q '^Exit status: 0 done; 1 .*; 2 .*; 3 ' <<< "$("$program" --help)" || { wrong "${program##*/} --help" "lacks the exit statuses"; broken=1; }
 done
 [ -z "${broken:-}" ] && ok "every program ends with status 4 where its --help cannot be written, and says the exit statuses there"
-refused "gear-scene --keys on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-scene' --keys > /dev/full"
-refused "gear-inspect on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-inspect' out/s/T100/static.h5 > /dev/full"
+rejected "gear-scene --keys on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-scene' --keys > /dev/full"
+rejected "gear-inspect on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-inspect' out/s/T100/static.h5 > /dev/full"
 
 # --- what make takes for made
 place=out/s/T100/static.h5
 mv $place kept
-: > $place; refused "an empty artifact" 4 "$place: .*delete it; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
-rm $place; mkfifo $place; refused "a pipe for an artifact" 4 "$place: .*delete it; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
-rm $place; mkdir $place; refused "a folder for an artifact" 4 "$place: .*remove this folder; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
-rmdir $place; refused "a missing artifact" 4 "$place: cannot be read: No such file or directory; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+: > $place; rejected "an empty artifact" 4 "$place: .*delete it; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+rm $place; mkfifo $place; rejected "a pipe for an artifact" 4 "$place: .*delete it; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+rm $place; mkdir $place; rejected "a folder for an artifact" 4 "$place: .*remove this folder; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+rmdir $place; rejected "a missing artifact" 4 "$place: cannot be read: No such file or directory; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
 mv kept $place
 
 # --- scenes
 to_scene=("$bin/gear-scene" --output x.mk --out x --scene)
 { printf 'a'; yes .a | head -n 1000000 | tr -d '\n'; echo ' = 1'; } > deep.toml
-refused "a key of a million parts" 3 'deep.toml:1: is not valid TOML: the file is larger than a megabyte' "${to_scene[@]}" deep.toml
+rejected "a key of a million parts" 3 'deep.toml:1: is not valid TOML: the file is larger than a megabyte' "${to_scene[@]}" deep.toml
 { printf 'title = "x" # ............................................\na'; yes .a | head -n 100000 | tr -d '\n'; echo ' = 1'; } > deep.toml
-refused "a key of a hundred thousand parts" 3 'deep.toml:2: is not valid TOML: a key has more than 32 parts' "${to_scene[@]}" deep.toml
+rejected "a key of a hundred thousand parts" 3 'deep.toml:2: is not valid TOML: a key has more than 32 parts' "${to_scene[@]}" deep.toml
 { printf 'title = "'; head -c 200000 /dev/zero | tr '\0' x; echo '"'; grep -v '^title' s.toml; } > long.toml
-refused "a title of 200 kB" 3 "'title' = .*: has 200000 bytes; must be at most 500" "${to_scene[@]}" long.toml
-refused "a path of 200 kB" 4 'cannot be read: File name too long' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 100000 /dev/zero | tr '\\0' x).toml\""
+rejected "a title of 200 kB" 3 "'title' = .*: has 200000 bytes; must be at most 500" "${to_scene[@]}" long.toml
+rejected "a path of 200 kB" 4 'cannot be read: File name too long' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 100000 /dev/zero | tr '\\0' x).toml\""
 { printf '"\\u001b[31mred" = 1\n'; cat s.toml; } > red.toml
-refused "a key with control characters" 3 "red.toml:1: unknown key '\?\[31mred'" "${to_scene[@]}" red.toml
+rejected "a key with control characters" 3 "red.toml:1: unknown key '\?\[31mred'" "${to_scene[@]}" red.toml
 sed 's/^module_mm = .*/module_mm = 0.049999999999999/' s.toml > near.toml
-refused "a value beside its limit" 3 '0.049999999999999: must be at least 0.05 mm' "${to_scene[@]}" near.toml
+rejected "a value beside its limit" 3 '0.049999999999999: must be at least 0.05 mm' "${to_scene[@]}" near.toml
 sed '0,/^\[gear.wheel\]/s//[gear.pinion.crack]\ndepth_mm = 1e-9\n[gear.wheel]/' s.toml > crack.toml
-refused "a crack of 1e-9 mm" 3 'crack.toml:[0-9]*: \[gear.pinion\]: crack: depth_mm = 1e-09 is too short to be meshed: at least 0.01 modules, 0.03 mm' "${to_scene[@]}" crack.toml
+rejected "a crack of 1e-9 mm" 3 'crack.toml:[0-9]*: \[gear.pinion\]: crack: depth_mm = 1e-09 is too short to be meshed: at least 0.01 modules, 0.03 mm' "${to_scene[@]}" crack.toml
 
 
 # --- what a scene makes expensive is said before anything is computed
@@ -169,8 +169,8 @@ costs() { sed "$1" s.toml > dear.toml; "${to_scene[@]}" dear.toml 2>&1 | grep -c
 
 # --- files
 before=$(find . -name '.*' | sort)
-refused "--output ''" 2 '\-\-output is empty; give a value' "$bin/gear-plot" fig12 --output '' $place
-refused "--out ''" 2 '\-\-out is empty; give a value' "$bin/gear-scene" --scene s.toml --output x.mk --out ''
+rejected "--output ''" 2 '\-\-output is empty; give a value' "$bin/gear-plot" fig12 --output '' $place
+rejected "--out ''" 2 '\-\-out is empty; give a value' "$bin/gear-scene" --scene s.toml --output x.mk --out ''
 [ "$(find . -name '.*' | sort)" = "$before" ] || wrong "--output ''" "has written hidden files"
 # exec keeps the number of the process that the name of the temporary file holds
 (
@@ -182,7 +182,7 @@ if [ "$(cat precious.toml)" = precious ] && [ -s x.mk ] && [ ! -L x.mk ]; then o
 
 # --- memory, time, clocks
 if [ -z "$sanitize" ]; then
-  refused "an address space too small for linear algebra" 1 'address space is limited to [0-9]* MB.*raise the limit' \
+  rejected "an address space too small for linear algebra" 1 'address space is limited to [0-9]* MB.*raise the limit' \
     bash -c "ulimit -v 400000; exec '$bin/gear-reduce' --params out/s/pinion/body.toml --mesh out/s/pinion/mesh.h5 --output x.h5"
 fi
 WHINE_PROGRESS_SECONDS=0 "$bin/gear-static" --params out/s/params/static.toml "${pair[@]}" --torque 100 --output x.h5 2> said

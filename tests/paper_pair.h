@@ -9,13 +9,13 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "dynamics/dynamics.h"
 #include "io/body_codec.h"
 #include "io/sweep_codec.h"
-#include "motion/dynamics.h"
-#include "motion/statics.h"
-#include "motion/sweep.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
 
 namespace whine {
 
@@ -35,8 +35,8 @@ inline Material paper_steel() {
 }
 
 // The paper's gear at the default discretisation but for the number of modes, which statics do not see; reduced once per
-// bore, element size and number of modes. WHINE_TEST_BODIES, which tests/run sets, is a folder in which one run of the test program
-// finds the bodies of another.
+// bore, element size and number of modes. WHINE_TEST_BODIES, which tests/run sets, is a folder in which one run of the test
+// program finds the bodies of another.
 inline const BodyArtifact& paper_body(double bore = 40e-3, double element = 0.4e-3, int modes = 5) {
   static std::map<std::tuple<double, double, int>, BodyArtifact> cache;
   const auto key = std::make_tuple(bore, element, modes);
@@ -57,24 +57,24 @@ inline const BodyArtifact& paper_body(double bore = 40e-3, double element = 0.4e
   return cache[key];
 }
 
-inline StaticSlice paper_statics(int positions) {
-  StaticSlice slice;
-  slice.mesh.driver = "pinion";
-  slice.mesh.driven = "wheel";
-  slice.mesh.centre_distance = 0.150;
-  slice.contact.positions = positions;
-  return slice;
+inline StaticParameters paper_statics(int positions) {
+  StaticParameters settings;
+  settings.mesh.driver = "pinion";
+  settings.mesh.driven = "wheel";
+  settings.mesh.centre_distance = 0.150;
+  settings.contact.positions = positions;
+  return settings;
 }
 
-inline SweepSlice paper_sweep(double from, double to, double step) {
-  SweepSlice slice;
-  slice.driver_inertia = slice.driven_inertia = 0.0148;
-  slice.damping.rayleigh_stiffness = 7.7e-6;
-  slice.reference_torque = 100;
-  slice.frequency_from = from;
-  slice.frequency_to = to;
-  slice.frequency_step = step;
-  return slice;
+inline SweepParameters paper_sweep(double from, double to, double step) {
+  SweepParameters settings;
+  settings.driver_inertia = settings.driven_inertia = 0.0148;
+  settings.damping.rayleigh_stiffness = 7.7e-6;
+  settings.reference_torque = 100;
+  settings.frequency_from = from;
+  settings.frequency_to = to;
+  settings.frequency_step = step;
+  return settings;
 }
 
 inline double rms(const SweepArtifact& sweep, int row) {

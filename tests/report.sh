@@ -90,7 +90,7 @@ for case in "there are no words for a figure .mine.|out/fzg/T200/static.h5 out/m
   cp out/fzg/report/fig12.png out/mine.png
   head -c 1000 out/fzg/report/fig12.png > out/fig12.png
   found=$(stop ${case#*|})
-  grep -q "^gear-report: error: .*${case%%|*}" <<< "$found" && [ ! -e out/x ] && ok "gear-report refuses: ${case%%|*}" || wrong "gear-report refuses: ${case%%|*}" "$found"
+  grep -q "^gear-report: error: .*${case%%|*}" <<< "$found" && [ ! -e out/x ] && ok "gear-report rejects: ${case%%|*}" || wrong "gear-report rejects: ${case%%|*}" "$found"
 done
 
 # --- the page in a browser

@@ -1,4 +1,4 @@
-// Scenes for tests: a small one, edits of it, and what it is refused with.
+// Scenes for tests: a small one, edits of it, and what it is rejected with.
 #pragma once
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -50,8 +50,8 @@ class SceneFile {
   }
   whine::Scene read(const std::string& text) const { return whine::read_scene(path(text)); }
 
-  // The message with which a scene is refused, from the file name on; "" if it is not.
-  std::string refusal(const std::string& text) const {
+  // The message with which a scene is rejected, from the file name on; "" if it is not.
+  std::string rejection(const std::string& text) const {
     try {
       whine::read_scene(path(text));
     } catch (const whine::Error& error) {

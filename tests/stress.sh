@@ -1,4 +1,4 @@
-# What tests/stress/scenes.sh takes for a refusal, and what for a fault: with programs that only say what they are told to.
+# What tests/stress/scenes.sh takes for outside the model's range, and what for a fault: with programs that only say what they are told to.
 set -uo pipefail
 top=$PWD
 base=$(mktemp -d)
@@ -18,12 +18,12 @@ tally() {
   said=$(B=fake "$top/tests/stress/scenes.sh" 1 1 "$base/work" 2> /dev/null | tail -n 1 | sed 's/^1 scenes, seed 1: //')
   if [ "$said" = "$2" ]; then echo "ok: $1"; else echo "FAILED: $1: $said"; fi
 }
-ran='1 ran with a ledger closed to 1e-9, 0 refused, 0 wrong' refused='0 ran with a ledger closed to 1e-9, 1 refused, 0 wrong'
-wrong='0 ran with a ledger closed to 1e-9, 0 refused, 1 wrong'
+ran='1 ran with an energy balance closed to 1e-9, 0 rejected, 0 wrong' rejected='0 ran with an energy balance closed to 1e-9, 1 rejected, 0 wrong'
+wrong='0 ran with an energy balance closed to 1e-9, 0 rejected, 1 wrong'
 tally "a scene that runs" "$ran" scene ''
-tally "a ledger that does not close" "$wrong" inspect 'echo energy imbalance 2e-9'
-tally "contact beyond the flanks is a refusal" "$refused" static 'echo "gear-static: error: at 1e+04 N m contact leaves the flanks: a window" >&2; exit 1'
-tally "a rack that cannot be is a refusal" "$refused" scene 'echo "gear-scene: error: own.toml: rack_tip_radius 0.38 modules does not fit the rack tooth (1 mm too wide)" >&2; exit 3'
+tally "an energy balance that does not close" "$wrong" inspect 'echo energy imbalance 2e-9'
+tally "contact beyond the flanks lies outside the model's range" "$rejected" static 'echo "gear-static: error: at 1e+04 N m contact leaves the flanks: a candidate zone" >&2; exit 1'
+tally "a rack that cannot be lies outside the model's range" "$rejected" scene 'echo "gear-scene: error: own.toml: rack_tip_radius 0.38 modules does not fit the rack tooth (1 mm too wide)" >&2; exit 3'
 tally "a fault of the program is none" "$wrong" sweep 'echo "gear-sweep: error: HDF5 refused to make a group; this is a fault of the program" >&2; exit 1'
 tally "a solver that gives up is none" "$wrong" sweep 'echo "gear-sweep: error: 12 contact steps did not end" >&2; exit 1'
 tally "a scene that its reader does not take is none" "$wrong" scene 'echo "gear-scene: error: own.toml:3: unknown key" >&2; exit 3'

@@ -1,5 +1,5 @@
 # Studies from outside: one target per variant, bodies shared, the same numbers as the stages one by one, resumed after a kill, and
-# what is refused by which line. Works on a copy of the tree with the real programs and a coarse scene.
+# what is rejected by which line. Works on a copy of the tree with the real programs and a coarse scene.
 set -uo pipefail
 B=${B:-build}
 base=$(mktemp -d)
@@ -82,44 +82,44 @@ rm -rf out/studies
 make_ STUDY=small.toml SHARE=1/2 study && [ "$(stages variant) $(stages study)" = "2 0" ] && make_ STUDY=small.toml SHARE=2/2 study && [ "$(stages variant)" = 2 ] &&
   make_ STUDY=small.toml study && [ "$(stages variant) $(stages study)" = "0 1" ] && ok "two shares and the table" || wrong "two shares and the table" "$(tail -n 1 "$log")"
 
-# --- refused
-# refused <claim> <pattern> <make arguments>: status not 0, the line, and no file of a study that was not there
-refused() {
+# --- rejected
+# rejected <claim> <pattern> <make arguments>: status not 0, the line, and no file of a study that was not there
+rejected() {
   local claim=$1 pattern=$2
   shift 2
   if make_ "$@"; then wrong "$claim" "make ended with status 0"
   elif ! grep -q -E "$pattern" "$log"; then wrong "$claim" "no '$pattern' in: $(head -n 3 "$log" | tr '\n' ' ')"
   else ok "$claim"; fi
 }
-refused "make study without STUDY lists the studies" 'which study\? .*there are: .*tolerances' study
-refused "a study that does not exist" 'there is no data/studies/nowhere.toml; +there are: ' STUDY=nowhere study
+rejected "make study without STUDY lists the studies" 'which study\? .*there are: .*tolerances' study
+rejected "a study that does not exist" 'there is no data/studies/nowhere.toml; +there are: ' STUDY=nowhere study
 sed 's/rayleigh_stiffness_s/rayleigh_stifness_s/' small.original > typo.toml
-refused "a key that no scene has, by file, line and the nearest" "typo.toml:5: no scene has the key 'damping.rayleigh_stifness_s'; did you mean 'damping.rayleigh_stiffness_s'" STUDY=typo.toml study
+rejected "a key that no scene has, by file, line and the nearest" "typo.toml:5: no scene has the key 'damping.rayleigh_stifness_s'; did you mean 'damping.rayleigh_stiffness_s'" STUDY=typo.toml study
 sed 's/7.7e-6/7.7/' small.original > wide.toml
-refused "a value out of range, by variant and limit" "wide.toml:5: variant 2 \(damping.rayleigh_stiffness_s = 7.7, operation.torque_Nm = 100\): .*must be at most 1 s" STUDY=wide.toml study
+rejected "a value out of range, by variant and limit" "wide.toml:5: variant 2 \(damping.rayleigh_stiffness_s = 7.7, operation.torque_Nm = 100\): .*must be at most 1 s" STUDY=wide.toml study
 sed 's/^scene.*/scene = "gone.toml"/' small.original > lost.toml
-refused "a scene that is not there" "lost.toml: variant 0 .*gone.toml" STUDY=lost.toml study
+rejected "a scene that is not there" "lost.toml: variant 0 .*gone.toml" STUDY=lost.toml study
 printf 'scene = "own.toml"\n[[vary]]\nkey = "mesh.centre_distance_mm"\nvalues = [150, 170]\n' > apart.toml
-refused "gears that do not reach each other, by the variant, before anything runs" "apart.toml: variant 1 \(mesh.centre_distance_mm = 170\): \[\[mesh\]\]" STUDY=apart.toml study
-[ ! -e out/studies/apart ] && [ ! -e out/studies/typo ] && ok "what is refused leaves no files" || wrong "what is refused leaves no files" "$(ls out/studies)"
+rejected "gears that do not reach each other, by the variant, before anything runs" "apart.toml: variant 1 \(mesh.centre_distance_mm = 170\): \[\[mesh\]\]" STUDY=apart.toml study
+[ ! -e out/studies/apart ] && [ ! -e out/studies/typo ] && ok "what is rejected leaves no files" || wrong "what is rejected leaves no files" "$(ls out/studies)"
 printf 'scene = "own.toml"\n[[vary]]\nkey = "damping.rayleigh_stiffness_s"\nvalues = [1e-6, 2e-6]\n' > alike.toml
-refused "keys that the stage does not depend on" "varies nothing: all 2 variants are alike" STUDY=alike.toml study
+rejected "keys that the stage does not depend on" "varies nothing: all 2 variants are alike" STUDY=alike.toml study
 mkdir -p other; cp small.toml other/tolerances.toml
-refused "a study of one's own does not take the place of one of the project" 'out/studies/tolerances is of data/studies/tolerances.toml, which says otherwise; rename the file' STUDY=other/tolerances.toml study
-refused "a share that is none" 'SHARE=3/2: it is i/n' STUDY=small.toml SHARE=3/2 study
+rejected "a study of one's own does not take the place of one of the project" 'out/studies/tolerances is of data/studies/tolerances.toml, which says otherwise; rename the file' STUDY=other/tolerances.toml study
+rejected "a share that is none" 'SHARE=3/2: it is i/n' STUDY=small.toml SHARE=3/2 study
 
-# A torque at which the flanks are not long enough: the stage refuses it.
+# A torque at which the flanks are not long enough: the stage fails.
 printf 'scene = "own.toml"\n[[vary]]\nkey = "operation.torque_Nm"\nvalues = [100, 900000]\n' > heavy.toml
-refused "a variant that a stage refuses, by its values" "gear-variant: error: .*: variant 1 \(operation.torque_Nm = 900000\): at 900000 N m contact leaves the flanks: window [0-9.]* mm either side, and still " -k STUDY=heavy.toml study
+rejected "a variant outside the model's range, by its values" "gear-variant: error: .*: variant 1 \(operation.torque_Nm = 900000\): at 900000 N m contact leaves the flanks: candidate zone [0-9.]* mm either side, and still " -k STUDY=heavy.toml study
 [ "$(find out/studies/heavy -name '*.h5' | wc -l)" = 1 ] && ok "make -k computes the others, but no table" || wrong "make -k computes the others, but no table" "$(find out/studies/heavy -name '*.h5')"
 sed -i '1i refusals = "mark"' heavy.toml
-if make_ STUDY=heavy.toml study && grep -q 'warning: variant 1 (operation.torque_Nm = 900000) was refused: ' "$log" && grep -q '^# refused (1): ' out/studies/heavy/study.tsv; then
+if make_ STUDY=heavy.toml study && grep -q 'warning: variant 1 (operation.torque_Nm = 900000) lies outside the model.s range: ' "$log" && grep -q '^# outside the model.s range (1): ' out/studies/heavy/study.tsv; then
   ok "refusals = \"mark\": a line of the table that says so"; else wrong "refusals = \"mark\"" "$(tail -n 2 "$log" | tr '\n' ' ')"; fi
 sed -i 's/^refusals = .*/refusals = "stop"/' heavy.toml
-refused "refusals = \"stop\" again: what was marked is an error, by variant and reason" \
-  'gear-study: error: out/studies/heavy/plan.toml: variant 1 \(operation.torque_Nm = 900000\) was refused: .*contact leaves the flanks' STUDY=heavy.toml study
+rejected "refusals = \"stop\" again: what was marked is an error, by variant and reason" \
+  'gear-study: error: out/studies/heavy/plan.toml: variant 1 \(operation.torque_Nm = 900000\) lies outside the model.s range: .*contact leaves the flanks' STUDY=heavy.toml study
 
-# Marked is what the pair refuses, not what this machine or a setting does.
+# Marked is what lies outside the model's range, not what this machine or a setting does.
 cat > large.toml <<'STUDY'
 scene = "own.toml"
 refusals = "mark"
@@ -130,7 +130,7 @@ refusals = "mark"
 key = "operation.torque_Nm"
 values = [100, 150]
 STUDY
-refused "refusals = \"mark\" does not mark a setting that asks for too much" 'gear-variant: error: .*: variant [01] .* positions, at most 2097152 are allowed' -k STUDY=large.toml study
+rejected "refusals = \"mark\" does not mark a setting that asks for too much" 'gear-variant: error: .*: variant [01] .* positions, at most 2097152 are allowed' -k STUDY=large.toml study
 [ -z "$(find out/studies/large -name '*.h5')" ] && ok "nor leaves it as an artifact" || wrong "nor leaves it as an artifact" "$(find out/studies/large -name '*.h5')"
 
 # --- what the stages warn of: here a motion that hardly anything damps

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "motion/impact.h"
+#include "dynamics/impact.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/response.h"
@@ -31,17 +31,17 @@ std::array<Bearing, 2> soft(double damping = 0, double factor = 1) {
   return {Bearing{200e6 * factor, damping, 0}, Bearing{120e6 * factor, 1.5 * damping, 0}};
 }
 
-StaticSlice statics_on(const std::array<Bearing, 2>& bearing, bool corner,
-                       ContactModel contact = ContactModel::strips) {
-  StaticSlice slice = paper_statics(16);
-  slice.mesh.bearing = bearing;
-  slice.mesh.corner.enabled = corner;
-  slice.fidelity.contact = contact;
-  return slice;
+StaticParameters statics_on(const std::array<Bearing, 2>& bearing, bool corner,
+                            ContactModel contact = ContactModel::strips) {
+  StaticParameters settings = paper_statics(16);
+  settings.mesh.bearing = bearing;
+  settings.mesh.corner.enabled = corner;
+  settings.fidelity.contact = contact;
+  return settings;
 }
 
-StaticArtifact at_rest(const StaticSlice& slice, const BodyArtifact& body = coarse_body()) {
-  return static_transmission(body, body, slice, 150);
+StaticArtifact at_rest(const StaticParameters& settings, const BodyArtifact& body = coarse_body()) {
+  return static_transmission(body, body, settings, 150);
 }
 
 double force_along(const GearMeshModel& model) {
@@ -50,13 +50,13 @@ double force_along(const GearMeshModel& model) {
 
 // A pair in motion on a range that holds several times the load.
 struct Rig {
-  Rig(const StaticSlice& slice, const DynamicParameters& parameters, int steps = 64,
+  Rig(const StaticParameters& settings, const DynamicParameters& parameters, int steps = 64,
       const BodyArtifact& body = coarse_body())
-      : model(body, body, slice.mesh), dynamics(model, parameters) {
+      : model(body, body, settings.mesh), dynamics(model, parameters) {
     const double load = force_along(model);
-    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+    dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
                                      8, load / model.kinematics.contact_ratio(), 3 * load, 20e-6),
-                       steps);
+                      steps);
     state = dynamics.rest();
   }
   GearMeshModel model;
@@ -123,8 +123,8 @@ TEST_CASE(
 TEST_CASE(
     "rigid bodies on bearings have the six natural frequencies of the lumped pair with the same stiffness") {
   const DynamicParameters parameters = parameters_of(BodyModel::rigid);
-  const StaticSlice slice = statics_on(soft(), false);
-  Rig on(slice, parameters), rigid(statics_on({}, false), parameters);
+  const StaticParameters settings = statics_on(soft(), false);
+  Rig on(settings, parameters), rigid(statics_on({}, false), parameters);
   const std::array<double, 2> mass{coarse_body().mass, coarse_body().mass};
   const double r = on.model.kinematics.gear(0).base_radius();
   for (const int phase : {0, 20, 40}) {
@@ -171,55 +171,55 @@ TEST_CASE(
 }
 
 TEST_CASE("at rest all levels of body give the transmission error of rigid axes and the bearings in series") {
-  for (const auto rung : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal})
+  for (const auto level : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal})
     for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-      const DynamicParameters parameters = parameters_of(rung, contact);
-      const auto slice = [&](const std::array<Bearing, 2>& bearing) {
+      const DynamicParameters parameters = parameters_of(level, contact);
+      const auto settings = [&](const std::array<Bearing, 2>& bearing) {
         return statics_on(bearing, false, contact);
       };
-      const auto settled = [&](const StaticSlice& of) {
+      const auto settled = [&](const StaticParameters& of) {
         const GearMeshModel model(coarse_body(), coarse_body(), of.mesh);
         RollingDynamics dynamics(model, parameters);
         const StaticArtifact statics = at_rest(of);
-        dynamics.set_range(contact_range(model, statics, MotionBounds(model, statics)), 16);
+        dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), 16);
         dynamics.rest();
         return dynamics.static_deflection();
       };
       const double load = 150 / ToothGeometry(paper_gear()).base_radius();
-      CHECK(settled(slice(soft())) - settled(slice({})) == relative(load / 200e6 + load / 120e6, 1e-8));
+      CHECK(settled(settings(soft())) - settled(settings({})) == relative(load / 200e6 + load / 120e6, 1e-8));
     }
 }
 
 TEST_CASE("a period on bearings closes its energy balance; the mean bearing force is the load") {
-  for (const auto rung : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::modal})
+  for (const auto level : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::modal})
     for (const auto contact : {ContactModel::strips, ContactModel::line})
       for (const auto integrator : {Integrator::exact, Integrator::newmark}) {
-        DynamicParameters parameters = parameters_of(rung, contact);
+        DynamicParameters parameters = parameters_of(level, contact);
         parameters.fidelity.integrator = integrator;
         Rig rig(statics_on(soft(4000), true, contact), parameters);
         rig.dynamics.set_speed(900, 64);
         RollingDynamics::Period period;
-        Ledger ledger;
-        REQUIRE(rig.dynamics.march(rig.state, period));
-        for (int i = 0; i < 3; ++i) REQUIRE(rig.dynamics.march(rig.state, period, &ledger));
-        CHECK(ledger.imbalance < 1e-9 * ledger.throughput);
-        CHECK(ledger.modal_damping > 0);
+        EnergyBalance energy_balance;
+        REQUIRE(rig.dynamics.integrate(rig.state, period));
+        for (int i = 0; i < 3; ++i) REQUIRE(rig.dynamics.integrate(rig.state, period, &energy_balance));
+        CHECK(energy_balance.imbalance < 1e-9 * energy_balance.throughput);
+        CHECK(energy_balance.modal_damping > 0);
       }
 }
 
 TEST_CASE(
     "a sweep on bearings: forces on the bearings balance those of the teeth, response, stiff bearings") {
-  const auto swept = [](BodyModel rung, const std::array<Bearing, 2>& bearing) {
-    StaticSlice rest = statics_on(bearing, false);
+  const auto swept = [](BodyModel level, const std::array<Bearing, 2>& bearing) {
+    StaticParameters rest = statics_on(bearing, false);
     rest.contact.positions = 32;
     const StaticArtifact statics = at_rest(rest);
-    SweepSlice slice = paper_sweep(1200, 1400, 200);
-    slice.fidelity.body = rung;
-    slice.time.steps_per_period = 32;
-    slice.time.min_sample_rate = 60e3;
-    slice.time.periodicity = 1e-9;
-    slice.damping.rayleigh_mass = 3000;  // of rigid bodies nothing else is damped
-    return sweep(coarse_body(), coarse_body(), statics, statics.mean_stiffness, slice, "up", no_report);
+    SweepParameters settings = paper_sweep(1200, 1400, 200);
+    settings.fidelity.body = level;
+    settings.time.steps_per_period = 32;
+    settings.time.min_sample_rate = 60e3;
+    settings.time.periodicity = 1e-9;
+    settings.damping.rayleigh_mass = 3000;  // of rigid bodies nothing else is damped
+    return sweep(coarse_body(), coarse_body(), statics, statics.mean_stiffness, settings, "up", no_report);
   };
   const SweepArtifact on = swept(BodyModel::modal, soft(4000));
   const double load = 150 / ToothGeometry(paper_gear()).base_radius();
@@ -242,10 +242,10 @@ TEST_CASE(
     }
   // Rigid axes are the limit, of first order in the flexibility of the bearings. With them one-diameter modes stand in another
   // frame, see dynamics.h, which leaves 3e-7 here.
-  for (const auto rung : {BodyModel::rigid, BodyModel::modal}) {
-    const SweepArtifact rigid = swept(rung, {});
+  for (const auto level : {BodyModel::rigid, BodyModel::modal}) {
+    const SweepArtifact rigid = swept(level, {});
     const auto off = [&](double factor) {
-      return (swept(rung, soft(0, factor)).transmission_error - rigid.transmission_error)
+      return (swept(level, soft(0, factor)).transmission_error - rigid.transmission_error)
                  .cwiseAbs()
                  .maxCoeff() /
              rigid.transmission_error.cwiseAbs().maxCoeff();
@@ -256,16 +256,16 @@ TEST_CASE(
 }
 
 TEST_CASE("ring-down on bearings: the decay has the eigenvalue that the frozen contact says") {
-  StaticSlice rest = statics_on(soft(2000), true);
+  StaticParameters rest = statics_on(soft(2000), true);
   rest.contact.positions = 64;
   rest.contact.strips = 15;
   const StaticArtifact statics = at_rest(rest);
-  ImpactSlice slice;
-  slice.driver_inertia = slice.driven_inertia = 0.0148;
-  slice.damping.rayleigh_stiffness = 7.7e-6;
-  slice.reference_torque = 100;
-  const ImpactArtifact result =
-      impact(coarse_body(), coarse_body(), statics, 463e6, slice, {ImpactPlan().torque_step, 16}, no_report);
+  ImpactParameters settings;
+  settings.driver_inertia = settings.driven_inertia = 0.0148;
+  settings.damping.rayleigh_stiffness = 7.7e-6;
+  settings.reference_torque = 100;
+  const ImpactArtifact result = impact(coarse_body(), coarse_body(), statics, 463e6, settings,
+                                       {ImpactPlan().torque_step, 16}, no_report);
   for (int i = 0; i < 16; ++i) {
     CHECK(result.phase_natural_frequency[i] == relative(result.eigen_frequency[i], 1e-4));
     CHECK(result.phase_damping_ratio[i] == relative(result.eigen_damping_ratio[i], 1e-3));
@@ -284,12 +284,13 @@ TEST_CASE(
   const auto roots = [](double damping, double eta) {
     DynamicParameters parameters = parameters_of(BodyModel::modal);
     parameters.damping.rayleigh_stiffness = eta;
-    const StaticSlice slice = statics_on({Bearing{200e6, damping, 0}, Bearing{200e6, damping, 0}}, false);
-    const GearMeshModel model(coarse_body(), coarse_body(), slice.mesh);
+    const StaticParameters settings =
+        statics_on({Bearing{200e6, damping, 0}, Bearing{200e6, damping, 0}}, false);
+    const GearMeshModel model(coarse_body(), coarse_body(), settings.mesh);
     RollingDynamics dynamics(model, parameters);
-    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+    dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
                                      8, 1000, 4000, 20e-6),
-                       16);
+                      16);
     const VectorXd w2 = dynamics.hold(0).frequency_squared;
     const MatrixXd c = dynamics.bearing_damping();
     const Eigen::Index n = w2.size();
@@ -319,23 +320,23 @@ TEST_CASE(
   CHECK(off(roots(200e6 * 7.7e-6, 7.7e-6)) < 1e-12);
 }
 
-TEST_CASE("bearings are refused where they cannot be: a mass below the body's, too few modes, every mode") {
-  const auto refusal = [](const Bearing& bearing, const BodyArtifact& body, BodyModel rung) {
+TEST_CASE("bearings are rejected where they cannot be: a mass below the body's, too few modes, every mode") {
+  const auto rejection = [](const Bearing& bearing, const BodyArtifact& body, BodyModel level) {
     const GearMeshModel model(body, body, statics_on({bearing, {}}, true).mesh);
     try {
-      RollingDynamics(model, parameters_of(rung));
+      RollingDynamics(model, parameters_of(level));
     } catch (const Error& e) {
       CHECK(e.kind() == Failure::input);
       return std::string(e.what());
     }
     return std::string();
   };
-  CHECK(refusal({1e8, 0, 0}, coarse_body(), BodyModel::modal).empty());
-  CHECK(refusal({1e8, 0, 0.5}, coarse_body(), BodyModel::rigid)
+  CHECK(rejection({1e8, 0, 0}, coarse_body(), BodyModel::modal).empty());
+  CHECK(rejection({1e8, 0, 0.5}, coarse_body(), BodyModel::rigid)
             .find("mass_kg = 0.5 in the [[bearing]] of the driver") == 0);
-  CHECK(refusal({1e8, 0, 0}, coarse_body(), BodyModel::full).find("has no bearings") != std::string::npos);
+  CHECK(rejection({1e8, 0, 0}, coarse_body(), BodyModel::full).find("has no bearings") != std::string::npos);
   BodyArtifact torsion = paper_body(40e-3, 1.2e-3, 0);
-  CHECK(refusal({1e8, 0, 0}, torsion, BodyModel::lagged).find("none of them has one nodal diameter") !=
+  CHECK(rejection({1e8, 0, 0}, torsion, BodyModel::lagged).find("none of them has one nodal diameter") !=
         std::string::npos);
-  CHECK(refusal({1e8, 0, 0}, torsion, BodyModel::rigid).empty());
+  CHECK(rejection({1e8, 0, 0}, torsion, BodyModel::rigid).empty());
 }

@@ -1,5 +1,5 @@
 // Orbits and branches over small maps with known answers, over the lumped pair with its exact folds, and over the elastic pair:
-// stable orbits against marching, unstable ones against the residual and differences of the map.
+// stable orbits against integration, unstable ones against the residual and differences of the map.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -12,19 +12,19 @@
 #include <vector>
 
 #include "base/error.h"
+#include "dynamics/period_map.h"
+#include "dynamics/steady_state.h"
 #include "io/branch_codec.h"
 #include "io/response_codec.h"
 #include "io/static_codec.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
-#include "motion/pair_branch.h"
-#include "motion/period_map.h"
-#include "motion/steady_state.h"
-#include "motion/sweep.h"
 #include "orbits/branch.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/response.h"
+#include "studies/pair_branch.h"
+#include "studies/sweep.h"
 
 using namespace whine;
 using Eigen::MatrixXd;
@@ -47,7 +47,7 @@ class SmallMap : public PeriodMap {
   }
   MatrixXd tangent() override { return tangent_; }
   std::vector<ContactEvent> events() const override { return events_; }
-  VectorXd answer() const override { return VectorXd::Zero(1); }
+  VectorXd observable() const override { return VectorXd::Zero(1); }
 
  private:
   int size_;
@@ -416,13 +416,13 @@ TEST_CASE("orbits: the verdict on a lumped orbit does not depend on where its pe
       LumpedOscillator recorder(cut, kForce, 20);
       recorder.set_speed(nearest->parameter);
       LumpedOscillator::State at = map.state(orbit.start);
-      LumpedLedger ledger;
-      const Eigen::VectorXd x = recorder.record(at, ledger).x;
+      LumpedEnergyBalance energy_balance;
+      const Eigen::VectorXd x = recorder.record(at, energy_balance).x;
       const int sample = static_cast<int>(std::lround(phase * 20));
       LumpedOscillator fine(cut, kForce, 20000);
       fine.set_speed(nearest->parameter);
       at = map.state(orbit.start);
-      const Eigen::VectorXd close = fine.record(at, ledger).x;
+      const Eigen::VectorXd close = fine.record(at, energy_balance).x;
       const double slope =
           (close[(1000 * sample + 1) % 20000] - close[1000 * sample - 1]) * 0.5 * 20000 * nearest->parameter;
       const OrbitSearch found = find_orbit(other, other.flat({x[sample], slope}));
@@ -434,17 +434,17 @@ TEST_CASE("orbits: the verdict on a lumped orbit does not depend on where its pe
   }
 }
 
-TEST_CASE("orbits: the branch of the elastic pair through both folds, beside marching") {
+TEST_CASE("orbits: the branch of the elastic pair through both folds, beside integration") {
   const StaticArtifact statics = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
   const GearMeshModel model(paper_body(), paper_body(), statics.mesh);
   DynamicParameters parameters = paper_parameters(statics.mean_stiffness);
   parameters.damping.rayleigh_stiffness = 5.5e-6;
   RollingDynamics dynamics(model, parameters);
-  dynamics.set_range(contact_range(model, statics, MotionBounds(model, statics, 4.1)), 128);
+  dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics, 4.1)), 128);
   RollingPeriodMap map(dynamics, 128);
   map.set_parameter(2900);
   RollingDynamics::State state = dynamics.rest();
-  REQUIRE(settle(dynamics, state, 1e-8, SteadyState::extrapolate));
+  REQUIRE(find_periodic_orbit(dynamics, state, 1e-8, SteadyState::extrapolate));
   BranchSettings settings;
   settings.low = 1700;
   settings.high = 2950;
@@ -465,7 +465,7 @@ TEST_CASE("orbits: the branch of the elastic pair through both folds, beside mar
   CHECK(folds[0].parameter < folds[1].parameter);
   for (const SpecialPoint& fold : folds)
     CHECK((fold.smooth || (fold.before.real() - 1) * (fold.after.real() - 1) < 0));
-  int marched = 0, unstable = 0;
+  int integrated = 0, unstable = 0;
   for (size_t i = 0; i < branch.points.size(); ++i) {
     const BranchPosition& p = branch.points[i];
     const bool between = p.turn > 0;
@@ -474,14 +474,14 @@ TEST_CASE("orbits: the branch of the elastic pair through both folds, beside mar
     if (i % 8 != 0) continue;
     map.set_parameter(p.parameter);
     if (!between) {
-      // Marching stays.
+      // Integration stays.
       VectorXd y = p.start;
       for (int k = 0; k < 60; ++k) y = map.apply(y);
       CHECK((y - p.start).norm() < 1e-7 * p.start.norm());
-      ++marched;
+      ++integrated;
       continue;
     }
-    // Marching leaves it by its multiplier a period, and differences of the map see that, too.
+    // Integration leaves it by its multiplier a period, and differences of the map see that, too.
     CHECK((map.apply(p.start) - p.start).norm() < 1e-8 * p.start.norm());
     const MatrixXd tangent = map.tangent();
     VectorXd along = VectorXd::Ones(map.size());
@@ -492,22 +492,22 @@ TEST_CASE("orbits: the branch of the elastic pair through both folds, beside mar
     CHECK(difference.dot(along) == relative(p.multipliers[0].real(), 1e-3));
     ++unstable;
   }
-  CHECK(marched >= 2);
+  CHECK(integrated >= 2);
   CHECK(unstable >= 2);
 }
 
 TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of steps") {
   const BodyArtifact& body = paper_body();
-  StaticSlice coarse = paper_statics(128);
+  StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
   const StaticArtifact statics = static_transmission(body, body, coarse, 150);
-  SweepSlice slice = paper_sweep(1700, 2950, 50);
-  slice.damping.rayleigh_stiffness = 5.5e-6;
-  slice.time.periodicity = 1e-6;
+  SweepParameters stage_settings = paper_sweep(1700, 2950, 50);
+  stage_settings.damping.rayleigh_stiffness = 5.5e-6;
+  stage_settings.time.periodicity = 1e-6;
   // 64 steps above 2400 Hz, 128 below.
-  slice.time.steps_per_period = 64;
-  slice.time.min_sample_rate = 64 * 2400;
-  const BranchArtifact branch = pair_branch(body, body, statics, 463e6, slice, no_report);
+  stage_settings.time.steps_per_period = 64;
+  stage_settings.time.min_sample_rate = 64 * 2400;
+  const BranchArtifact branch = pair_branch(body, body, statics, 463e6, stage_settings, no_report);
   INFO(branch.end);
   CHECK(branch.mesh_frequency[0] == relative(2950, 1e-12));
   CHECK(branch.mesh_frequency.tail(1)[0] == relative(1700, 1e-12));
@@ -519,7 +519,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
   REQUIRE(branch.fold_frequency.size() == 2);
   CHECK((branch.stable.array() == 0).any());
   for (const std::string direction : {"down", "up"}) {
-    const SweepArtifact swept = sweep(body, body, statics, 463e6, slice, direction, no_report);
+    const SweepArtifact swept = sweep(body, body, statics, 463e6, stage_settings, direction, no_report);
     REQUIRE(swept.jump_frequency.size() == 1);
     const double fold = branch.fold_frequency[direction == "down" ? 0 : 1];
     MESSAGE(direction << ": jump at " << swept.jump_frequency[0] << " Hz, fold at " << fold << " Hz");

@@ -71,11 +71,11 @@ MatrixXd hilbert(int n) {
 
 MatrixXd random_bodies(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  const int nodes = WindowProblem::kPairs * kWindowNodes;
+  const int nodes = ZoneProblem::kPairs * kZoneNodes;
   const MatrixXd root = MatrixXd::NullaryExpr(nodes, nodes, [&] { return normal(random); });
   return 1e-10 * (root * root.transpose() + MatrixXd::Identity(nodes, nodes));
 }
-WindowProblem random_windows(std::mt19937& random) {
+ZoneProblem random_zones(std::mt19937& random) {
   const double phase = std::uniform_real_distribution<double>(-0.3, 0.3)(random);
   return {phase, random_bodies(random)};
 }
@@ -174,7 +174,7 @@ TEST_CASE("complementarity: one contact point twice is singular, reported and so
 }
 
 TEST_CASE(
-    "complementarity: stages refuse forces that the problem does not determine, or digits that are lost") {
+    "complementarity: stages reject forces that the problem does not determine, or digits that are lost") {
   const MatrixXd a{{1, 2}, {2, 4}};
   const VectorXd e{{-1, -2}};
   VectorXd p(2), d(2);
@@ -203,7 +203,7 @@ TEST_CASE(
   CHECK_THROWS_AS(require_residual(certificate), Error);
 }
 
-TEST_CASE("complementarity: a number that is none, anywhere, from any set: refused, or of no account") {
+TEST_CASE("complementarity: a number that is none, anywhere, from any set: rejected, or of no account") {
   const StripProblem problem = strip_problem(0.3, 8);
   const int n = static_cast<int>(problem.gap.size());
   const VectorXd e = problem.gap.array() - 3e-6;
@@ -213,7 +213,7 @@ TEST_CASE("complementarity: a number that is none, anywhere, from any set: refus
   const int touching = static_cast<int>((sound.p.array() > 0).count());
   REQUIRE(touching > 2);
   REQUIRE(touching < n);
-  int refused = 0, solved = 0;
+  int rejected = 0, solved = 0;
   for (const double bad : {std::nan(""), double(INFINITY), -double(INFINITY)})
     for (const std::vector<int>& start : {std::vector<int>{}, {0, n - 1}, all}) {
       for (int i = 0; i < n; ++i) {
@@ -231,12 +231,12 @@ TEST_CASE("complementarity: a number that is none, anywhere, from any set: refus
             ++solved;
           } catch (const Error& error) {
             CHECK(error.kind() == Failure::numerical);
-            ++refused;
+            ++rejected;
           }
         }
       }
     }
-  CHECK(refused > solved);
+  CHECK(rejected > solved);
   // With a kept inverse, too.
   ComplementaritySolver solver;
   ActiveSet active;
@@ -395,19 +395,19 @@ TEST_CASE("complementarity: no memory is taken once the size is known") {
   CHECK(sets > 1500);
 
   std::mt19937 random(8);
-  const WindowProblem windows = random_windows(random);
-  VectorXd gaps(windows.parts.size()), force(gaps.size()), open(gaps.size()),
-      nodes(WindowProblem::kPairs * WindowProblem::kNodes);
+  const ZoneProblem zones = random_zones(random);
+  VectorXd gaps(zones.parts.size()), force(gaps.size()), open(gaps.size()),
+      nodes(ZoneProblem::kPairs * ZoneProblem::kNodes);
   ActiveSet set;
-  gaps = windows.gap.array() - 1e-7;
-  solver.solve(windows.parts, gaps, set, force, open, nodes.data());
+  gaps = zones.gap.array() - 1e-7;
+  solver.solve(zones.parts, gaps, set, force, open, nodes.data());
   factorisations = sets = 0;
   before = memory_requests;
   for (int step = 0; step < 1000; ++step) {
-    gaps.array() = windows.gap.array() - 4e-6 * (1 + std::sin(0.37 * step));
+    gaps.array() = zones.gap.array() - 4e-6 * (1 + std::sin(0.37 * step));
     if (step % 7 == 0) set.forget();
     if (step % 11 == 0) set.strips.clear();
-    const Certificate c = solver.solve(windows.parts, gaps, set, force, open, nodes.data());
+    const Certificate c = solver.solve(zones.parts, gaps, set, force, open, nodes.data());
     factorisations += c.factorisations;
     sets += c.iterations;
   }
@@ -420,7 +420,7 @@ TEST_CASE("complementarity: no memory is taken once the size is known") {
 #endif
 }
 
-TEST_CASE("complementarity: what has no solution is refused with its numbers") {
+TEST_CASE("complementarity: what has no solution is rejected with its numbers") {
   const auto says = [](const MatrixXd& a, const VectorXd& e, std::vector<int> start = {}) -> std::string {
     try {
       solve(a, e, std::move(start));
@@ -450,14 +450,14 @@ TEST_CASE("compliance in parts: product, matrix and columns are those of the mat
   std::mt19937 random(5);
   std::uniform_real_distribution<double> force(0, 1);
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const WindowProblem problem = random_windows(random);
+    const ZoneProblem problem = random_zones(random);
     const int n = problem.parts.size();
     MatrixXd whole(n, n);
     problem.parts.assemble(whole.data());
     CHECK((whole - problem.a).cwiseAbs().maxCoeff() <= 1e-15 * problem.a.cwiseAbs().maxCoeff());
     VectorXd p = VectorXd::NullaryExpr(n, [&] { return force(random) < 0.5 ? 0.0 : force(random); });
     if (repeat % 4 == 0) p.segment(20, 20).setZero();
-    VectorXd d = problem.gap, nodes = VectorXd::Constant(WindowProblem::kPairs * WindowProblem::kNodes, -1);
+    VectorXd d = problem.gap, nodes = VectorXd::Constant(ZoneProblem::kPairs * ZoneProblem::kNodes, -1);
     problem.parts.add_product(p.data(), nodes.data(), d.data());
     const VectorXd expected = problem.a * p + problem.gap;
     CHECK((d - expected).cwiseAbs().maxCoeff() <= 1e-14 * expected.cwiseAbs().maxCoeff());
@@ -475,11 +475,11 @@ TEST_CASE("strips in parts: the solution of the matrix, whatever set they start 
   std::mt19937 random(6);
   std::uniform_real_distribution<double> approach(-2e-6, 12e-6), share(0, 1);
   for (int repeat = 0; repeat < 200; ++repeat) {
-    const WindowProblem problem = random_windows(random);
+    const ZoneProblem problem = random_zones(random);
     const int n = problem.parts.size();
     ComplementaritySolver solver;
     ActiveSet active, generic;
-    VectorXd p(n), d(n), nodes(WindowProblem::kPairs * WindowProblem::kNodes), expected(n), gaps(n);
+    VectorXd p(n), d(n), nodes(ZoneProblem::kPairs * ZoneProblem::kNodes), expected(n), gaps(n);
     for (int step = 0; step < 6; ++step) {
       // Steps move on a little, jump, start from a set that is wrong, or from one without its inverse.
       const VectorXd e = problem.gap.array() - approach(random);
@@ -514,15 +514,15 @@ TEST_CASE("strips in parts: the solution of the matrix, whatever set they start 
   }
 }
 
-TEST_CASE("strips in parts: a number that is none is refused, wherever it stands") {
+TEST_CASE("strips in parts: a number that is none is rejected, wherever it stands") {
   std::mt19937 random(7);
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (int strip : {0, 27, 33, 59}) {
-      WindowProblem problem = random_windows(random);
+      ZoneProblem problem = random_zones(random);
       const int n = problem.parts.size();
       ComplementaritySolver solver;
       ActiveSet active;
-      VectorXd p(n), d(n), nodes(WindowProblem::kPairs * WindowProblem::kNodes);
+      VectorXd p(n), d(n), nodes(ZoneProblem::kPairs * ZoneProblem::kNodes);
       VectorXd e = problem.gap.array() - 5e-6;
       solver.solve(problem.parts, e, active, p, d, nodes.data());
       e[strip] = bad;
@@ -531,30 +531,30 @@ TEST_CASE("strips in parts: a number that is none is refused, wherever it stands
       e = problem.gap.array() - 5e-6;
       problem.half_plane[strip / 20][static_cast<size_t>(strip % 20 * 21)] = bad;
       active.forget();
-      bool refused = false;
+      bool rejected = false;
       try {
         solver.solve(problem.parts, e, active, p, d, nodes.data());
       } catch (const Error& error) {
         CHECK(error.kind() == Failure::numerical);
-        refused = true;
+        rejected = true;
       }
       // A column that is not looked at may stand as it likes as long as its strip carries nothing.
-      if (!refused) CHECK(p[strip] == 0);
+      if (!rejected) CHECK(p[strip] == 0);
     }
 }
 
 TEST_CASE(
-    "strips in parts that do not say how they share the load are refused, or shared as their matrix is") {
+    "strips in parts that do not say how they share the load are rejected, or shared as their matrix is") {
   std::mt19937 random(9);
-  WindowProblem problem = random_windows(random);
+  ZoneProblem problem = random_zones(random);
   const int n = problem.parts.size();
-  // Nothing but three rigid bodies in a row: every strip of a window gives way as the others.
+  // Nothing but three rigid bodies in a row: every strip of a candidate zone gives way as the others.
   for (auto& half_plane : problem.half_plane) std::fill(half_plane.begin(), half_plane.end(), 1e-9);
   std::fill(problem.at_nodes.begin(), problem.at_nodes.end(), 0.0);
   MatrixXd a(n, n);
   problem.parts.assemble(a.data());
   const VectorXd e = VectorXd::Constant(n, -1e-6);
-  VectorXd p(n), d(n), nodes(WindowProblem::kPairs * WindowProblem::kNodes);
+  VectorXd p(n), d(n), nodes(ZoneProblem::kPairs * ZoneProblem::kNodes);
   std::vector<int> all(static_cast<size_t>(n));
   std::iota(all.begin(), all.end(), 0);
   for (const std::vector<int>& start : {std::vector<int>{}, std::vector<int>{3, 25}, all}) {
@@ -564,16 +564,16 @@ TEST_CASE(
     const Certificate certificate = shifting.solve(problem.parts, e, active, p, d, nodes.data());
     CHECK(certificate.residual <= 1e-10);
     CHECK(kkt_residual(a, e, p) <= 1e-9);
-    for (int j = 0; j < WindowProblem::kPairs; ++j)
-      CHECK(p.segment(j * WindowProblem::kStrips, WindowProblem::kStrips).sum() == relative(1000, 1e-6));
+    for (int j = 0; j < ZoneProblem::kPairs; ++j)
+      CHECK(p.segment(j * ZoneProblem::kStrips, ZoneProblem::kStrips).sum() == relative(1000, 1e-6));
   }
   ActiveSet active;
   active.strips = all;
-  ComplementaritySolver refusing;
-  CHECK(failure_of([&] { refusing.solve(problem.parts, e, active, p, d, nodes.data()); }) ==
+  ComplementaritySolver rejecting;
+  CHECK(failure_of([&] { rejecting.solve(problem.parts, e, active, p, d, nodes.data()); }) ==
         Failure::numerical);
   active.strips = {5, 1000, 3};
   active.forget();
-  CHECK(failure_of([&] { refusing.solve(problem.parts, e, active, p, d, nodes.data()); }) ==
+  CHECK(failure_of([&] { rejecting.solve(problem.parts, e, active, p, d, nodes.data()); }) ==
         Failure::numerical);
 }

@@ -118,7 +118,7 @@ TEST_CASE("Hertz line contact: 12 to 50 strips across, any place of the grid") {
       CHECK(complementarity_residual(a, gap.array() - approach, s.p) < 1e-17);
     }
     // Strips are open or closed as a whole, so the load varies with the place of the grid: an excitation at the strip-
-    // passing frequency, had windows not moved with the contact point. It falls with the square of the strip.
+    // passing frequency, had candidate zones not moved with the contact point. It falls with the square of the strip.
     CHECK((largest - least) / force < 0.3 / (across * across));
   }
 }
@@ -191,9 +191,10 @@ TEST_CASE("a kept active set costs no factorisation, a changed load finds its ow
   CHECK(p.minCoeff() >= 0);
 }
 
-TEST_CASE("window of strips: constant count, exact interpolation of smooth fields, edges where tips are") {
+TEST_CASE(
+    "candidate zone of strips: constant count, exact interpolation of smooth fields, edges where tips are") {
   const GearPair gears(paper_gear(), paper_gear(), 0.150);
-  const ContactRange range{2e-4, 24, 1e-5};
+  const CandidateZone range{2e-4, 24, 1e-5};
   for (double phase : {-0.9, -0.87, -0.5, 0.0, 0.5, 0.87, 0.9}) {
     const PairStrips s = make_strips(gears, 0, gears.contact(phase), range);
     CHECK(s.size() == 24);
@@ -204,15 +205,16 @@ TEST_CASE("window of strips: constant count, exact interpolation of smooth field
   }
 }
 
-TEST_CASE("window of strips between two tip edges: narrow at both, without a step as either comes near") {
+TEST_CASE(
+    "candidate zone of strips between two tip edges: narrow at both, without a step as either comes near") {
   GearDesign short_tooth = paper_gear();
   short_tooth.addendum = 0.8;  // tips within the other's involute on both sides
   const GearPair gears(short_tooth, short_tooth, 0.150);
   const PairContact contact = gears.contact(0.1);
   const double low = contact.x_min, high = contact.x_max;
-  const auto window = [&](double half) { return make_strips(gears, 0, contact, {half, 32, 1e-5}); };
+  const auto zone = [&](double half) { return make_strips(gears, 0, contact, {half, 32, 1e-5}); };
   for (double half : {1.2 * high - 1.2 * low, 0.1, 10.0}) {
-    const PairStrips s = window(half);
+    const PairStrips s = zone(half);
     REQUIRE(s.low_is_edge);
     REQUIRE(s.high_is_edge);
     CHECK(s.border[0] == low);
@@ -223,12 +225,13 @@ TEST_CASE("window of strips between two tip edges: narrow at both, without a ste
     CHECK(width[0] < share * width[16]);
     CHECK(width[31] < share * width[16]);
   }
-  // The window that reaches either edge, then the other, then has the grade of one pass the other's: borders move with it.
+  // The candidate zone that reaches either edge, then the other, then has the grade of one pass the other's: borders move with
+  // it.
   const double first = std::min(-low, high), last = std::max(-low, high);
   VectorXd before;
   double worst = 0;
   for (int k = 0; k <= 4000; ++k) {
-    const PairStrips s = window(0.9 * first + k / 4000.0 * (4 * last - 0.9 * first));
+    const PairStrips s = zone(0.9 * first + k / 4000.0 * (4 * last - 0.9 * first));
     if (k > 0) worst = std::max(worst, (s.border - before).cwiseAbs().maxCoeff());
     before = s.border;
   }
@@ -236,7 +239,7 @@ TEST_CASE("window of strips between two tip edges: narrow at both, without a ste
 
   // A flat punch: pressure F / (pi sqrt(a^2 - x^2)), mean of ln|x| under it ln(a / 2) (Johnson, section 2.8).
   const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
-  const PairStrips s = window(10.0);
+  const PairStrips s = zone(10.0);
   const MatrixXd a = half_plane_compliance(s, surface, surface, 20e-3);
   const double exact = 1e-6 / (2 * surface.line(0.25 * (high - low), 20e-3));
   CHECK(solve(a, VectorXd::Constant(32, -1e-6)).p.sum() == relative(exact, 1e-3));
@@ -248,7 +251,8 @@ TEST_CASE("window of strips between two tip edges: narrow at both, without a ste
     }
 }
 
-TEST_CASE("window of strips: alike at both ends is not of one width; flanks that do not meet have none") {
+TEST_CASE(
+    "candidate zone of strips: alike at both ends is not of one width; flanks that do not meet have none") {
   PairStrips s;
   s.border.resize(9);
   for (int i = 0; i <= 8; ++i) s.border[i] = -1e-4 * std::cos(kPi * i / 8);
@@ -265,7 +269,7 @@ TEST_CASE("window of strips: alike at both ends is not of one width; flanks that
   apart.x_min = 1e-5;
   apart.x_max = 0.5e-5;
   CHECK_THROWS_WITH_AS(make_strips(gears, 0, apart, {2e-4, 24, 1e-5}),
-                       doctest::Contains("no window of strips fits between"), Error);
+                       doctest::Contains("no candidate zone of strips fits between"), Error);
 }
 
 namespace {
@@ -276,12 +280,12 @@ HertzLine paper_line(double depth, double edge_slope = -INFINITY, double radius 
   return HertzLine(surface, surface, radius, depth, edge_slope);
 }
 
-struct StripsAnswer {
+struct StripsSolution {
   double force, centroid;  // N, m
 };
 
 // Strips on two half-planes at an approach; the gap ends at x = from, n strips to x = to.
-StripsAnswer strips_answer(double from, double to, int n, double slope, double approach, double depth) {
+StripsSolution strips_solution(double from, double to, int n, double slope, double approach, double depth) {
   const HalfPlaneSurface surface(strain_steel(), 25.4e-3);
   const double h = (to - from) / n;
   MatrixXd a(n, n);
@@ -351,7 +355,7 @@ TEST_CASE("the law of one line inside a flank, cut by a tip edge and at a corner
       const double at_edge_gap =
           slope < 0 ? 0.5 * slope * slope * kRadius : 0;  // the law counts from the touching point
       const auto strips = [&](int n) {
-        return strips_answer(from, to, n, slope, law.at(force).indentation - at_edge_gap, depth);
+        return strips_solution(from, to, n, slope, law.at(force).indentation - at_edge_gap, depth);
       };
       INFO("force " << force << " slope " << slope);
       // The middle of the first strip stands half a strip off the edge: an error of first order in its width.
@@ -545,7 +549,7 @@ TEST_CASE("line contact: followed from a start nearby or far, d is 0 within roun
   CHECK(quick > 150);  // the others carry nothing, or four
 }
 
-TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be solved is refused") {
+TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be solved is rejected") {
   std::mt19937 random(3);
   const Lines lines = random_lines(2, random);
   VectorXd force = VectorXd::Constant(2, 100.0), d(2);

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "contact/hertz_line.h"
-#include "motion/loaded_pair.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "system/loaded_pair.h"
 
 using namespace whine;
 
@@ -38,11 +38,11 @@ const Coarse& coarse(bool plane_stress, double matching_depth = 0) {
   return made[key];
 }
 
-StaticSlice statics_with(ContactPlane contact_plane, ContactModel contact = ContactModel::strips) {
-  StaticSlice slice = paper_statics(8);
-  slice.mesh.contact_plane = contact_plane;
-  slice.fidelity.contact = contact;
-  return slice;
+StaticParameters statics_with(ContactPlane contact_plane, ContactModel contact = ContactModel::strips) {
+  StaticParameters settings = paper_statics(8);
+  settings.mesh.contact_plane = contact_plane;
+  settings.fidelity.contact = contact;
+  return settings;
 }
 
 StaticArtifact solved(const BodyArtifact& body, ContactPlane contact_plane,

@@ -96,8 +96,8 @@ Eigen::MatrixXd solved(const SparseReal& stiffness, const std::vector<char>& hel
 }
 
 // Rotation (rad per N m) that an edge crack of depth a adds to a strip in bending: 2 b / E times the integral of (K / M)^2
-// (Tada, Paris and Irwin, The Stress Analysis of Cracks Handbook, appendix B), K by Brown and Srawley, ASTM STP 410 (1966), 0.2 %
-// up to a = 0.6 w.
+// (Tada, Paris and Irwin, The Stress Analysis of Cracks Handbook, appendix B), K by Brown and Srawley, ASTM STP 410 (1966),
+// 0.2 % up to a = 0.6 w.
 double handbook_rotation(double a, double w, double thickness, double modulus) {
   const GaussRule rule = gauss_rule(40);
   double sum = 0;
@@ -188,7 +188,7 @@ TEST_CASE("a slit starts on the fillet where its tangent says and goes where its
       }
 }
 
-TEST_CASE("a crack that does not fit its tooth is refused by name") {
+TEST_CASE("a crack that does not fit its tooth is rejected by name") {
   const auto with = [](auto&& change) {
     GearDesign design = cracked_gear(2e-3);
     change(design.crack);
@@ -477,12 +477,12 @@ TEST_CASE("statics over a turn: the cracked tooth's own softness where it works,
     }
 }
 
-TEST_CASE("lines and strips see the same crack, and motion refuses it") {
+TEST_CASE("lines and strips see the same crack, and motion rejects it") {
   const BodyArtifact &cracked = coarse_body(2e-3, 0), &plain = coarse_body(0);
-  StaticSlice slice = paper_statics(8);
-  const StaticArtifact strips = static_transmission(cracked, plain, slice, 150);
-  slice.fidelity.contact = ContactModel::line;
-  const StaticArtifact lines = static_transmission(cracked, plain, slice, 150);
+  StaticParameters settings = paper_statics(8);
+  const StaticArtifact strips = static_transmission(cracked, plain, settings, 150);
+  settings.fidelity.contact = ContactModel::line;
+  const StaticArtifact lines = static_transmission(cracked, plain, settings, 150);
   double most = 0;
   for (Index i = 0; i < strips.transmission_error.size(); ++i) {
     CHECK(lines.transmission_error[i] == relative(strips.transmission_error[i], 1e-2));
@@ -539,8 +539,8 @@ TEST_CASE("artifacts of a cracked gear give back every value bit by bit") {
   const BodyArtifact back = read_body(folder.file("body.h5"));
   CHECK(back.crack_compliance == body.crack_compliance);
   CHECK(back.design.crack.tooth == 7);
-  CHECK(body_hash(body_slice({back.design, back.material, back.discretisation})) ==
-        body_hash(body_slice({design, kSteel, body.discretisation})));
+  CHECK(body_hash(body_parameters({back.design, back.material, back.discretisation})) ==
+        body_hash(body_parameters({design, kSteel, body.discretisation})));
 }
 
 TEST_CASE("a scene's crack is its gear's own, and changes the body of that gear alone") {
@@ -574,19 +574,20 @@ mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }
     return read_scene(path);
   };
   const Scene plain = scene_of("");
-  const std::string intact = body_slice(plain, "pinion");
-  CHECK(body_slice(scene_of("[gear.pinion.crack]\ndepth_mm = 0"), "pinion") == intact);
+  const std::string intact = body_parameters(plain, "pinion");
+  CHECK(body_parameters(scene_of("[gear.pinion.crack]\ndepth_mm = 0"), "pinion") == intact);
   const Scene cracked = scene_of("[gear.pinion.crack]\ntooth = 4\ndepth_mm = 2");
   CHECK(cracked.gear("pinion").design.crack.depth == 2e-3);
   CHECK(cracked.gear("pinion").design.crack.tooth == 4);
   CHECK(cracked.gear("pinion").design.crack.start == relative(kPi / 6, 1e-15));
   CHECK(cracked.gear("wheel").design.crack.depth == 0);
-  CHECK(body_slice(cracked, "wheel") == intact);
-  CHECK(body_slice(cracked, "pinion") != intact);
-  CHECK(sweep_slice(cracked) == sweep_slice(plain));
-  CHECK(static_slice(cracked) != static_slice(plain));
-  std::ofstream(folder.file("body.toml")) << body_slice(cracked, "pinion");
-  CHECK(body_slice(read_body_slice(folder.file("body.toml"))) == body_slice(cracked, "pinion"));
+  CHECK(body_parameters(cracked, "wheel") == intact);
+  CHECK(body_parameters(cracked, "pinion") != intact);
+  CHECK(sweep_parameters(cracked) == sweep_parameters(plain));
+  CHECK(static_parameters(cracked) != static_parameters(plain));
+  std::ofstream(folder.file("body.toml")) << body_parameters(cracked, "pinion");
+  CHECK(body_parameters(read_body_parameters(folder.file("body.toml"))) ==
+        body_parameters(cracked, "pinion"));
 
   for (const auto& [crack, words] :
        {std::pair{"[gear.pinion.crack]\ntooth = 4", "lacks 'depth_mm'"},

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "motion/propagator.h"
+#include "dynamics/propagator.h"
 #include "relative.h"
 
 using namespace whine;
@@ -111,17 +111,18 @@ TEST_CASE("Newmark is second order, its spurious root on stiff damped modes is n
   }
 }
 
-TEST_CASE("lag: exact for linear loads, quasi-static for long steps, massless limit of a truncated mode") {
+TEST_CASE(
+    "relaxed: exact for linear loads, quasi-static for long steps, massless limit of a truncated mode") {
   const double eta = 0.07 / (std::acos(-1.0) * 2900);  // 7 % at 2900 Hz
   for (double h : {1e-9, 1e-7, 2e-6, 5e-5}) {
-    const Lag lag = lag_step(eta, h);
+    const Relaxation relaxed = relaxation_step(eta, h);
     // eta U' + U = a + b t has the solution (U0 - a + eta b) exp(-t/eta) + a + b (t - eta).
     const double u0 = 0.3, a = 1.7, b = -2.1 / h;
     const double exact = (u0 - a + eta * b) * std::exp(-h / eta) + a + b * (h - eta);
-    CHECK(std::abs(lag.decay * u0 + lag.from_old * a + lag.from_new * (a + b * h) - exact) <
+    CHECK(std::abs(relaxed.decay * u0 + relaxed.from_old * a + relaxed.from_new * (a + b * h) - exact) <
           1e-15 * (1 + eta * std::abs(b)));
   }
-  CHECK(lag_step(eta, 1.0).from_new == relative(1, 1e-5));
-  CHECK(lag_step(0, 1e-6).from_new == 1);
-  CHECK(lag_step(eta, 2e-6).decay == relative(0.770818, 1e-6));
+  CHECK(relaxation_step(eta, 1.0).from_new == relative(1, 1e-5));
+  CHECK(relaxation_step(0, 1e-6).from_new == 1);
+  CHECK(relaxation_step(eta, 2e-6).decay == relative(0.770818, 1e-6));
 }

@@ -1,4 +1,4 @@
-// Artifacts: what is written is what is read, whole or not at all, and every wrong file is refused by name.
+// Artifacts: what is written is what is read, whole or not at all, and every wrong file is rejected by name.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -456,7 +456,7 @@ VariantArtifact small_variant() {
   a.frequency_to = 4000.0 / 3;
   a.frequency_step = 20.0 / 3;
   a.directions = {"up", "down"};
-  a.answer = odd_vector(static_cast<Eigen::Index>(answer_kinds(a.directions).size()), 1e-6);
+  a.quantity = odd_vector(static_cast<Eigen::Index>(response_quantities(a.directions).size()), 1e-6);
   return a;
 }
 
@@ -468,14 +468,14 @@ StudyArtifact small_study() {
   a.plan.random = true;
   a.plan.seed = 7;
   a.plan.keys = {varied_key("damping.rayleigh_stiffness_s"), varied_key("fidelity.contact")};
-  a.plan.answers = {"rms_max_up", "te_mean"};
-  a.plan.figure_answers = {"te_mean"};
+  a.plan.quantities = {"rms_max_up", "te_mean"};
+  a.plan.figure_quantities = {"te_mean"};
   a.plan.figure_keys = {"damping.rayleigh_stiffness_s"};
   a.plan.figure_colour = "fidelity.contact";
   a.variants = {{"ab01", {"5.5e-06", "strips"}}, {"ab02", {"7.7e-06", "line"}}, {"cd03", {"4e-06", "line"}}};
-  a.answer = odd_matrix(3, 2, 1e-6);
-  a.answer.row(1).setZero();
-  a.refusal = {"", "it jams", ""};
+  a.quantity = odd_matrix(3, 2, 1e-6);
+  a.quantity.row(1).setZero();
+  a.rejection = {"", "it jams", ""};
   a.unsteady = Eigen::Vector3i(2, 0, 1);
   return a;
 }
@@ -707,7 +707,7 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
   CHECK(std::isinf(read_sweep("sweep.h5").backlash_margin));
 }
 
-TEST_CASE("impact.h5 gives back every value bit by bit, and refuses rows that do not fit") {
+TEST_CASE("impact.h5 gives back every value bit by bit, and rejects rows that do not fit") {
   Folder folder;
   ImpactArtifact a = small_impact();
   write("impact.h5", a, kMade);
@@ -799,17 +799,17 @@ TEST_CASE("bodies are given by the names of their gears, in any order, one for e
   CHECK(both.role("wheel") == "body wheel");
   CHECK(both.and_inputs({"params=x"}) ==
         std::vector<std::string>{"params=x", "body wheel=out/b=c/body.h5", "body pinion=a.h5"});
-  const auto refused = [&](const std::vector<std::string>& words, const std::string& part) {
+  const auto rejected = [&](const std::vector<std::string>& words, const std::string& part) {
     const Caught error = caught([&] { NamedFiles("--body", words).of(mesh); });
     CHECK(error.kind == static_cast<int>(Failure::usage));
     INFO(error.message);
     CHECK(error.says(part));
   };
-  for (const char* word : {"a.h5", "=a.h5", "pinion="}) refused({word}, "write --body <gear>=<path>");
-  refused({"pinion=a.h5", "pinion=b.h5"}, "names the gear 'pinion' twice");
-  refused({"pinion=a.h5"}, "the gear 'wheel' has no file; give --body wheel=<path>");
-  refused({"pinion=a.h5", "whel=b.h5"}, "no gear of this mesh is called 'whel'; did you mean 'wheel'?");
-  refused({"pinion=a.h5", "wheel=b.h5", "carrier=c.h5"}, "they are pinion and wheel");
+  for (const char* word : {"a.h5", "=a.h5", "pinion="}) rejected({word}, "write --body <gear>=<path>");
+  rejected({"pinion=a.h5", "pinion=b.h5"}, "names the gear 'pinion' twice");
+  rejected({"pinion=a.h5"}, "the gear 'wheel' has no file; give --body wheel=<path>");
+  rejected({"pinion=a.h5", "whel=b.h5"}, "no gear of this mesh is called 'whel'; did you mean 'wheel'?");
+  rejected({"pinion=a.h5", "wheel=b.h5", "carrier=c.h5"}, "they are pinion and wheel");
 }
 
 TEST_CASE("response.h5 gives back every value bit by bit") {
@@ -926,13 +926,13 @@ TEST_CASE("variant.h5 gives back every value bit by bit, and a refusal instead")
   CHECK(a.frequency_to == b.frequency_to);
   CHECK(a.frequency_step == b.frequency_step);
   CHECK(a.directions == b.directions);
-  CHECK(a.answer == b.answer);
-  CHECK(b.refusal == "");
-  a.refusal = "it jams";
+  CHECK(a.quantity == b.quantity);
+  CHECK(b.rejection == "");
+  a.rejection = "it jams";
   write("refused.h5", a, kMade);
-  const VariantArtifact refused = read_variant("refused.h5");
-  CHECK(refused.refusal == "it jams");
-  CHECK(refused.answer.size() == 0);
+  const VariantArtifact rejected = read_variant("refused.h5");
+  CHECK(rejected.rejection == "it jams");
+  CHECK(rejected.quantity.size() == 0);
 }
 
 TEST_CASE("study.h5 gives back every value bit by bit") {
@@ -945,8 +945,8 @@ TEST_CASE("study.h5 gives back every value bit by bit") {
   CHECK(a.plan.directions == b.plan.directions);
   CHECK(a.plan.random == b.plan.random);
   CHECK(a.plan.seed == b.plan.seed);
-  CHECK(a.plan.answers == b.plan.answers);
-  CHECK(a.plan.figure_answers == b.plan.figure_answers);
+  CHECK(a.plan.quantities == b.plan.quantities);
+  CHECK(a.plan.figure_quantities == b.plan.figure_quantities);
   CHECK(a.plan.figure_keys == b.plan.figure_keys);
   CHECK(a.plan.figure_colour == b.plan.figure_colour);
   REQUIRE(a.plan.keys.size() == b.plan.keys.size());
@@ -956,8 +956,8 @@ TEST_CASE("study.h5 gives back every value bit by bit") {
     CHECK(a.variants[v].name == b.variants[v].name);
     CHECK(a.variants[v].values == b.variants[v].values);
   }
-  CHECK(a.answer == b.answer);
-  CHECK(a.refusal == b.refusal);
+  CHECK(a.quantity == b.quantity);
+  CHECK(a.rejection == b.rejection);
   CHECK(a.unsteady == b.unsteady);
 }
 
@@ -1047,7 +1047,7 @@ TEST_CASE("no file holds a path of the machine: commands and inputs are relative
   CHECK(command_line(4, argv.data()) == "gear-x --input a.h5 '--out=b c.h5'");
 }
 
-TEST_CASE("an artifact outside the working folder is refused without a make target, which it has not") {
+TEST_CASE("an artifact outside the working folder is rejected without a make target, which it has not") {
   Folder folder;
   const fs::path place = fs::temp_directory_path() / "whine-nowhere" / "x.h5";
   for (const std::string& path : {place.string(), std::string("../whine-nowhere/x.h5")}) {
@@ -1058,18 +1058,18 @@ TEST_CASE("an artifact outside the working folder is refused without a make targ
   }
 }
 
-TEST_CASE("a mesh of another gear, element size or order is refused with both values; modes do not matter") {
+TEST_CASE("a mesh of another gear, element size or order is rejected with both values; modes do not matter") {
   const MeshArtifact mesh = small_mesh();
-  const BodySlice own{mesh.design, {}, mesh.discretisation};
+  const BodyParameters own{mesh.design, {}, mesh.discretisation};
   CHECK(caught([&] { require_mesh(mesh, own, "out/a/mesh.h5"); }).kind == 0);
-  BodySlice other = own;
+  BodyParameters other = own;
   other.discretisation.modes = 50;
   CHECK(caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); }).kind == 0);
   other = own;
   other.design.teeth = 13;
   const Caught teeth = caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); });
   CHECK(teeth.kind == kInput);
-  CHECK(teeth.says("its teeth is 12, the slice of the scene says 13"));
+  CHECK(teeth.says("its teeth is 12, the stage parameters of the scene say 13"));
   CHECK(teeth.says("make SCENE=path/to/a.toml out/a/mesh.h5"));
   other = own;
   other.design.bore_radius = std::nextafter(own.design.bore_radius, 1.0);
@@ -1082,35 +1082,36 @@ TEST_CASE("a mesh of another gear, element size or order is refused with both va
   CHECK(caught([&] { require_mesh(mesh, other, "out/a/mesh.h5"); }).says("its element is"));
 }
 
-TEST_CASE("a body read back has the hash of its slice, and another body is refused with both hashes") {
+TEST_CASE(
+    "a body read back has the hash of its stage parameters, and another body is rejected with both hashes") {
   Folder folder;
   const BodyArtifact body = small_body();
   write("body.h5", body, kMade);
-  const std::string hash = body_hash(body_slice({body.design, body.material, body.discretisation}));
+  const std::string hash = body_hash(body_parameters({body.design, body.material, body.discretisation}));
   CHECK(hash.size() == 16);
   CHECK(caught([&] { require_body(read_body("body.h5"), hash, "driver", "body.h5"); }).kind == 0);
   CHECK(caught([&] { require_body(body, "", "driver", "body.h5"); }).kind == 0);
   BodyArtifact other = body;
   other.material.density *= 2;
-  const Caught refused = caught([&] { require_body(other, hash, "driven", "out/s/wheel/body.h5"); });
-  CHECK(refused.kind == kInput);
-  CHECK(refused.says("out/s/wheel/body.h5: is the body "));
-  CHECK(refused.says("but the driven of this scene is " + hash));
-  CHECK(refused.says("make out/bodies/" + hash + "/body.h5"));
+  const Caught rejected = caught([&] { require_body(other, hash, "driven", "out/s/wheel/body.h5"); });
+  CHECK(rejected.kind == kInput);
+  CHECK(rejected.says("out/s/wheel/body.h5: is the body "));
+  CHECK(rejected.says("but the driven of this scene is " + hash));
+  CHECK(rejected.says("make out/bodies/" + hash + "/body.h5"));
 }
 
-TEST_CASE("a static result of another contact rung than a later stage's is refused with both") {
+TEST_CASE("a static result of another contact level than a later stage's is rejected with both") {
   StaticArtifact statics = small_static();
   statics.fidelity.contact = ContactModel::line;
   Fidelity wanted;
   wanted.contact = ContactModel::line;
   CHECK(caught([&] { require_contact(statics, wanted, "out/s/T100/static.h5"); }).kind == 0);
   wanted.contact = ContactModel::strips;
-  const Caught refused = caught([&] { require_contact(statics, wanted, "out/s/T100/static.h5"); });
-  CHECK(refused.kind == kInput);
-  CHECK(refused.says(
-      "out/s/T100/static.h5: was made with contact = \"line\", the slice of this stage says \"strips\""));
-  CHECK(refused.says("make SCENE=path/to/s.toml out/s/T100/static.h5"));
+  const Caught rejected = caught([&] { require_contact(statics, wanted, "out/s/T100/static.h5"); });
+  CHECK(rejected.kind == kInput);
+  CHECK(rejected.says(
+      "out/s/T100/static.h5: was made with contact = \"line\", the parameters of this stage say \"strips\""));
+  CHECK(rejected.says("make SCENE=path/to/s.toml out/s/T100/static.h5"));
 }
 
 TEST_CASE("the number of an option is decimal, finite and the whole word") {
@@ -1139,7 +1140,7 @@ TEST_CASE("only what lies below out/ has a make target") {
   CHECK(rebuild_advice("results/static.h5").find("below out/ only") != std::string::npos);
 }
 
-TEST_CASE("an artifact of another schema or version is refused with what it is and how to rebuild it") {
+TEST_CASE("an artifact of another schema or version is rejected with what it is and how to rebuild it") {
   Folder folder;
   write("out/static.h5", small_static(), kMade);
   const Caught other = caught([] { read_sweep("out/static.h5"); });
@@ -1180,7 +1181,7 @@ TEST_CASE("one flipped bit in any byte of an artifact is found, whatever reads i
   CHECK(caught([] { read_static("out/static.h5"); }).kind == 0);
 }
 
-TEST_CASE("what HDF5 would follow for ever is refused although the hash is right") {
+TEST_CASE("what HDF5 would follow for ever is rejected although the hash is right") {
   Folder folder;
   write("out/static.h5", small_static(), kMade);
   const std::string whole = read_bytes("out/static.h5");
@@ -1220,7 +1221,7 @@ TEST_CASE("a file that is little else than marks of heaps is looked through in n
   file.attribute("/", "schema", std::string("whine/none"));
   std::string bytes = file.finish();
   // What follows the end that the superblock names is not HDF5's concern. Numbers before it refer to some of so many places by
-  // accident, first of all that end itself: then the file is refused.
+  // accident, first of all that end itself: then the file is rejected.
   for (const std::string mark : {"GCOL\1", "GCOL\1\2\3"}) {
     std::string marks = bytes + std::string(1 << 16, '-');
     while (marks.size() < std::size_t(1) << 20) marks += mark;
@@ -1268,14 +1269,15 @@ TEST_CASE("a file that deflates to little is not read into a thousand times its 
   REQUIRE(whole.size() < (30 << 20) / 1020);
   for (const auto& read : std::vector<std::function<void()>>{
            [&] { file.doubles("/bytes"); }, [&] { file.ints("/bytes"); }, [&] { file.strings("/words"); }}) {
-    const Caught refused = caught(read);
-    CHECK(refused.kind == kInput);
-    CHECK(refused.says("of memory"));
+    const Caught rejected = caught(read);
+    CHECK(rejected.kind == kInput);
+    CHECK(rejected.says("of memory"));
   }
   CHECK(file.doubles("/doubles").size() == doubles.size());
 }
 
-TEST_CASE("a number out of its range is refused by its dataset, its value and the range, whatever the hash") {
+TEST_CASE(
+    "a number out of its range is rejected by its dataset, its value and the range, whatever the hash") {
   const Folder folder;
   const auto said = [](const auto& artifact, auto read) {
     write("a.h5", artifact, kMade);
@@ -1327,7 +1329,7 @@ TEST_CASE("a range holds its ends, an open one not its least, and none a number 
   CHECK(!outside({0, 1}, std::numeric_limits<double>::quiet_NaN()).empty());
 }
 
-TEST_CASE("an artifact without its hash is refused before HDF5 sees it") {
+TEST_CASE("an artifact without its hash is rejected before HDF5 sees it") {
   Folder folder;
   h5::Writer file;
   file.attribute("/", "schema", std::string("whine/static"));
@@ -1365,7 +1367,7 @@ TEST_CASE("an input that was replaced, before or while a stage ran, is named and
   CHECK_FALSE(fs::exists("static.h5"));
 }
 
-TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is refused, never read") {
+TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is rejected, never read") {
   Folder folder;
   CHECK(caught([] { read_static("absent.h5"); }).kind == kIo);
   overwrite("empty.h5", "");
@@ -1384,7 +1386,7 @@ TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is
 }
 
 TEST_CASE(
-    "a missing dataset, a wrong shape, a value that is not finite, an index that leads nowhere: refused by "
+    "a missing dataset, a wrong shape, a value that is not finite, an index that leads nowhere: rejected by "
     "name") {
   Folder folder;
   const auto head = [](h5::Writer& file) {
@@ -1458,15 +1460,15 @@ TEST_CASE(
   CHECK(read_bytes("x.txt") == "whole");
 }
 
-TEST_CASE("what is no regular file is refused and not waited for") {
+TEST_CASE("what is no regular file is rejected and not waited for") {
   Folder folder;
   REQUIRE(mkfifo("pipe", 0600) == 0);
   ::alarm(20);  // a reader of such files does not come back by itself
   for (const std::string name : {"pipe", "/dev/zero", "/dev/null"}) {
-    const Caught refused = caught([&] { read_bytes(name, "look elsewhere"); });
-    CHECK(refused.kind == kIo);
-    CHECK(refused.says(name + ": cannot be read: it is no regular file"));
-    CHECK(refused.says("look elsewhere"));
+    const Caught rejected = caught([&] { read_bytes(name, "look elsewhere"); });
+    CHECK(rejected.kind == kIo);
+    CHECK(rejected.says(name + ": cannot be read: it is no regular file"));
+    CHECK(rejected.says("look elsewhere"));
   }
   CHECK(caught([] { read_bytes("."); }).says("it is a folder"));
   fs::create_symlink("x.txt", "link");

@@ -29,7 +29,7 @@ GearDesign fzg_c(int teeth, double shift, double tip_diameter) {
   return d;
 }
 
-std::string refusal(const GearDesign& d) {
+std::string rejection(const GearDesign& d) {
   try {
     ToothGeometry tooth(d);
   } catch (const Error& e) {
@@ -38,7 +38,7 @@ std::string refusal(const GearDesign& d) {
   return "";
 }
 
-std::string refusal(const GearDesign& a, const GearDesign& b, double centre) {
+std::string rejection(const GearDesign& a, const GearDesign& b, double centre) {
   try {
     GearPair pair(a, b, centre);
   } catch (const Error& e) {
@@ -275,33 +275,33 @@ TEST_CASE("the gap's slope and curvature at the touching point, on the line of a
   CHECK(tip_distances >= 2);
 }
 
-TEST_CASE("gears that cannot exist are refused with the reason") {
+TEST_CASE("gears that cannot exist are rejected with the reason") {
   GearDesign d = paper_gear();
   d.teeth = 10;
   d.bore_radius = 5e-3;
-  CHECK(refusal(d).find("undercut") != std::string::npos);
+  CHECK(rejection(d).find("undercut") != std::string::npos);
   d = paper_gear();
   d.addendum = 4;
-  CHECK(refusal(d).find("tip thickness") != std::string::npos);
+  CHECK(rejection(d).find("tip thickness") != std::string::npos);
   d = paper_gear();
   d.bore_radius = 72e-3;
-  CHECK(refusal(d).find("root radius") != std::string::npos);
+  CHECK(rejection(d).find("root radius") != std::string::npos);
   d = paper_gear();
   d.rack_tip_radius = 0.6;
-  CHECK(refusal(d).find("rack_tip_radius") != std::string::npos);
-  CHECK(refusal(paper_gear()).empty());
+  CHECK(rejection(d).find("rack_tip_radius") != std::string::npos);
+  CHECK(rejection(paper_gear()).empty());
 }
 
-TEST_CASE("pairs that do not reach, jam or run with a contact ratio below 1 are refused with the reason") {
+TEST_CASE("pairs that do not reach, jam or run with a contact ratio below 1 are rejected with the reason") {
   const GearDesign d = paper_gear();
-  CHECK(refusal(d, d, 0.160).find("do not reach") != std::string::npos);
-  CHECK(refusal(d, d, 0.1498).find("jam") != std::string::npos);
-  CHECK(refusal(d, d, 0.140).find("jam") != std::string::npos);
-  CHECK(refusal(d, d, 0.1535).find("contact ratio") != std::string::npos);
+  CHECK(rejection(d, d, 0.160).find("do not reach") != std::string::npos);
+  CHECK(rejection(d, d, 0.1498).find("jam") != std::string::npos);
+  CHECK(rejection(d, d, 0.140).find("jam") != std::string::npos);
+  CHECK(rejection(d, d, 0.1535).find("contact ratio") != std::string::npos);
   GearDesign other = d;
   other.module = 2.9e-3;
-  CHECK(refusal(d, other, 0.150).find("base pitches differ") != std::string::npos);
-  CHECK(refusal(d, d, 0.150).empty());
+  CHECK(rejection(d, other, 0.150).find("base pitches differ") != std::string::npos);
+  CHECK(rejection(d, d, 0.150).empty());
 }
 
 TEST_CASE("ISO 6336-1 method B: tooth stiffness of 25 and 76 teeth, by hand") {

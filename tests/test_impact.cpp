@@ -6,11 +6,11 @@
 #include <string>
 
 #include "base/error.h"
-#include "motion/impact.h"
-#include "motion/statics.h"
+#include "dynamics/impact.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/decay.h"
+#include "system/statics.h"
 
 using namespace whine;
 using Eigen::MatrixXd;
@@ -29,9 +29,9 @@ VectorXd oscillation(double frequency, double ratio, double amplitude, double ph
   return y;
 }
 
-// A mass on one strip: half-plane `local` without damping in series with a flexibility that lags.
-HeldMesh lagged_mass() {
-  HeldMesh mesh;
+// A mass on one strip: half-plane `local` without damping in series with a flexibility that relaxes.
+FixedPhaseMesh relaxed_mass() {
+  FixedPhaseMesh mesh;
   mesh.frequency_squared = mesh.damping = VectorXd::Zero(1);
   mesh.participation = MatrixXd::Constant(1, 1, 1 / std::sqrt(1.4));  // kg
   mesh.torque = VectorXd::Constant(1, 2000 / std::sqrt(1.4));         // N
@@ -49,25 +49,25 @@ const BodyArtifact& coarse_body(int modes = 5) {
 }
 
 StaticArtifact coarse_statics(double torque, int strips = 15) {
-  StaticSlice slice;
-  slice.mesh.driver = "pinion";
-  slice.mesh.driven = "wheel";
-  slice.mesh.centre_distance = 0.150;
-  slice.contact.positions = 64;
-  slice.contact.strips = strips;
-  return static_transmission(coarse_body(), coarse_body(), slice, torque);
+  StaticParameters settings;
+  settings.mesh.driver = "pinion";
+  settings.mesh.driven = "wheel";
+  settings.mesh.centre_distance = 0.150;
+  settings.contact.positions = 64;
+  settings.contact.strips = strips;
+  return static_transmission(coarse_body(), coarse_body(), settings, torque);
 }
 
-ImpactSlice coarse_impact() {
-  ImpactSlice slice;
-  slice.driver_inertia = slice.driven_inertia = 0.0148;
-  slice.damping.rayleigh_stiffness = 7.7e-6;
-  slice.reference_torque = 100;
-  return slice;
+ImpactParameters coarse_impact() {
+  ImpactParameters settings;
+  settings.driver_inertia = settings.driven_inertia = 0.0148;
+  settings.damping.rayleigh_stiffness = 7.7e-6;
+  settings.reference_torque = 100;
+  return settings;
 }
 
-ImpactArtifact ring(const ImpactSlice& slice, double torque_step = ImpactPlan().torque_step) {
-  return impact(coarse_body(), coarse_body(), coarse_statics(150), 463e6, slice, {torque_step, 16},
+ImpactArtifact ring(const ImpactParameters& settings, double torque_step = ImpactPlan().torque_step) {
+  return impact(coarse_body(), coarse_body(), coarse_statics(150), 463e6, settings, {torque_step, 16},
                 no_report);
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("decay: roots of one oscillation, with faster ones, a relaxation, and 
   }
 }
 
-TEST_CASE("decay: a weak slow oscillation is passed over, what does not oscillate is refused") {
+TEST_CASE("decay: a weak slow oscillation is passed over, what does not oscillate is rejected") {
   const double step = 1e-5;
   const VectorXd strong = oscillation(3000, 0.05, 1, 0, step, 200);
   CHECK(fit_decay(strong + oscillation(1200, 0.05, 0.01, 0, step, 200), step).root.frequency ==
@@ -122,8 +122,8 @@ TEST_CASE("decay: a weak slow oscillation is passed over, what does not oscillat
   CHECK_THROWS_WITH_AS(fit_decay(decay, step), doctest::Contains("finite"), Error);
 }
 
-TEST_CASE("mass on an elastic and a lagging spring: roots of its cubic, by eigenvalue and by ring-down") {
-  const HeldMesh mesh = lagged_mass();
+TEST_CASE("mass on an elastic and a relaxing spring: roots of its cubic, by eigenvalue and by ring-down") {
+  const FixedPhaseMesh mesh = relaxed_mass();
   const DampedRoot root = frozen_root(mesh);
   // m s^2 (A + R + eta A s) + 1 + eta s = 0: m eta A s^3 + m (A + R) s^2 + eta s + 1 = 0.
   const double w = 2 * kPi * root.frequency;
@@ -150,34 +150,36 @@ TEST_CASE("mass on an elastic and a lagging spring: roots of its cubic, by eigen
   CHECK(before < 3e-5);
 }
 
-TEST_CASE("held pair: ring-down against the eigenvalues of the system with frozen contact, on every rung") {
-  struct Rung {
+TEST_CASE(
+    "pair at a fixed phase: ring-down against the eigenvalues of the system with frozen contact, on every "
+    "model level") {
+  struct Level {
     BodyModel body;
     Integrator integrator;
   };
-  for (const Rung& rung :
-       {Rung{BodyModel::modal, Integrator::exact}, Rung{BodyModel::modal, Integrator::newmark},
-        Rung{BodyModel::lagged, Integrator::exact}, Rung{BodyModel::quasi_static, Integrator::exact},
-        Rung{BodyModel::rigid, Integrator::exact}}) {
-    INFO(rung.body << " " << rung.integrator);
-    ImpactSlice slice = coarse_impact();
-    slice.fidelity.body = rung.body;
-    slice.fidelity.integrator = rung.integrator;
+  for (const Level& level :
+       {Level{BodyModel::modal, Integrator::exact}, Level{BodyModel::modal, Integrator::newmark},
+        Level{BodyModel::lagged, Integrator::exact}, Level{BodyModel::quasi_static, Integrator::exact},
+        Level{BodyModel::rigid, Integrator::exact}}) {
+    INFO(level.body << " " << level.integrator);
+    ImpactParameters settings = coarse_impact();
+    settings.fidelity.body = level.body;
+    settings.fidelity.integrator = level.integrator;
     // Small enough that hardly a strip comes or goes.
-    const ImpactArtifact a = ring(slice, 1e-4);
+    const ImpactArtifact a = ring(settings, 1e-4);
     CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-4);
     CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 1e-3);
     CHECK(a.fit_residual.maxCoeff() < 1e-4);
     // Without damping the eigenvalues are the undamped frequencies, found another way.
-    slice.damping.rayleigh_stiffness = slice.damping.bearing_ratio = 0;
-    const ImpactArtifact undamped = ring(slice, 1e-4);
+    settings.damping.rayleigh_stiffness = settings.damping.bearing_ratio = 0;
+    const ImpactArtifact undamped = ring(settings, 1e-4);
     CHECK(furthest(undamped.eigen_frequency, undamped.phase_undamped_frequency) < 1e-9);
     CHECK(furthest(undamped.phase_natural_frequency, undamped.phase_undamped_frequency) < 1e-4);
     CHECK(undamped.phase_damping_ratio.cwiseAbs().maxCoeff() < 1e-4);
   }
 }
 
-TEST_CASE("held pair: one and two pairs, their mean, and no dependence on what is let go") {
+TEST_CASE("pair at a fixed phase: one and two pairs, their mean, and no dependence on what is let go") {
   const ImpactArtifact a = ring(coarse_impact());
   REQUIRE(a.contact_state == std::vector<std::string>{"one", "two", "mean"});
   CHECK(a.state_phase == Eigen::Vector2d(0, 0.5));
@@ -206,9 +208,11 @@ TEST_CASE("held pair: one and two pairs, their mean, and no dependence on what i
   CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0.6), doctest::Contains("torque step"), Error);
 }
 
-TEST_CASE("held pair: a phase and its mirror image, equal gears, agree the better the finer the strips" *
-          doctest::skip()) {
-  // The windows stand a quarter strip off the contact point, which a reflection turns to the other side.
+TEST_CASE(
+    "pair at a fixed phase: a phase and its mirror image, equal gears, agree the better the finer the "
+    "strips" *
+    doctest::skip()) {
+  // The candidate zones stand a quarter strip off the contact point, which a reflection turns to the other side.
   double before_frequency = 5e-3, before_damping = 1e-2, before_error = 7e-3;
   const auto at = [](int strips) {
     StaticArtifact statics = coarse_statics(150);
@@ -226,35 +230,36 @@ TEST_CASE("held pair: a phase and its mirror image, equal gears, agree the bette
     CHECK(frequency < before_frequency);
     CHECK(damping < before_damping);
     CHECK(error < before_error);
-    CHECK(frequency > 1e-9);  // the reflected windows are others
+    CHECK(frequency > 1e-9);  // the reflected candidate zones are others
     before_frequency = 0.5 * frequency;
     before_damping = 0.5 * damping;
     before_error = 0.5 * error;
   }
 }
 
-TEST_CASE("held pair: contact beyond what the mesh holds is refused, with the numbers") {
-  HeldMesh mesh = lagged_mass();
+TEST_CASE("pair at a fixed phase: contact beyond what the mesh holds is rejected, with the numbers") {
+  FixedPhaseMesh mesh = relaxed_mass();
   const double step = 1 / (512 * 2700.0), static_error = 2000 * (0.6e-9 + 2.2e-9);
-  const auto refused = [&](double torque_step, const char* with) {
+  const auto rejected = [&](double torque_step, const char* with) {
     CHECK_THROWS_WITH_AS(ring_down(mesh, torque_step, step, 33, 16), doctest::Contains(with), Error);
   };
-  mesh.window_end = {0};
-  refused(0.01, "strip 0 of 1 carries 2020 N");
+  mesh.zone_end = {0};
+  rejected(0.01, "strip 0 of 1 carries 2020 N");
   CHECK_THROWS_WITH_AS(frozen_root(mesh), doctest::Contains("carries 2000 N"), Error);
-  mesh.window_end.clear();
+  mesh.zone_end.clear();
   mesh.next_corner_gap = 1.05 * static_error;
   CHECK_NOTHROW(ring_down(mesh, 0.04, step, 33, 16));
-  refused(0.06, "closes the gap of 5.88 micrometres of a tip edge that was left out");
+  rejected(0.06, "closes the gap of 5.88 micrometres of a tip edge that was left out");
   mesh.lost_corner_gap = 1.02 * static_error;
-  refused(0.04, "closes the gap of 5.712 micrometres of a tip edge that would touch below the involute");
-  mesh = lagged_mass();
+  rejected(0.04, "closes the gap of 5.712 micrometres of a tip edge that would touch below the involute");
+  mesh = relaxed_mass();
   mesh.local(0, 0) = -1e-9;  // the whole is still positive
   CHECK_THROWS_WITH_AS(frozen_root(mesh), doctest::Contains("not positive definite: pivot -1e-09"), Error);
 }
 
 TEST_CASE(
-    "held pair with 61 modes, the scene's own: eigenvalues, ring-down and calibration see the same root") {
+    "pair at a fixed phase with 61 modes, the scene's own: eigenvalues, ring-down and calibration see the "
+    "same root") {
   // Modes near critical damping oscillate more slowly than the mesh, and undamped ones never leave a decay.
   const BodyArtifact& body = coarse_body(61);
   const StaticArtifact statics = coarse_statics(150);
@@ -267,29 +272,29 @@ TEST_CASE(
   CHECK(found.damping.rayleigh_stiffness == relative(7.75e-6, 0.01));
 }
 
-TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is refused") {
+TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is rejected") {
   const StaticArtifact statics = coarse_statics(150);
-  const auto calibrated = [&](const ImpactSlice& slice, double ratio, const std::string& state) {
-    return calibrate(coarse_body(), coarse_body(), statics, 463e6, slice, {1e-6, 16}, ratio, state,
+  const auto calibrated = [&](const ImpactParameters& settings, double ratio, const std::string& state) {
+    return calibrate(coarse_body(), coarse_body(), statics, 463e6, settings, {1e-6, 16}, ratio, state,
                      no_report);
   };
   for (const auto& [state, row] : {std::pair{"one", 0}, std::pair{"two", 1}, std::pair{"mean", 2}}) {
-    ImpactSlice slice = coarse_impact();
-    const ImpactArtifact found = calibrated(slice, 0.05, state);
-    slice.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
-    CHECK(ring(slice).damping_ratio[row] == relative(0.05, 1e-6));
+    ImpactParameters settings = coarse_impact();
+    const ImpactArtifact found = calibrated(settings, 0.05, state);
+    settings.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
+    CHECK(ring(settings).damping_ratio[row] == relative(0.05, 1e-6));
     // It does not depend on the factor that the scene has now.
-    slice.damping.rayleigh_stiffness = 1e-5;
-    CHECK(calibrated(slice, 0.05, state).damping.rayleigh_stiffness == found.damping.rayleigh_stiffness);
+    settings.damping.rayleigh_stiffness = 1e-5;
+    CHECK(calibrated(settings, 0.05, state).damping.rayleigh_stiffness == found.damping.rayleigh_stiffness);
   }
-  ImpactSlice slice = coarse_impact();
-  CHECK_THROWS_WITH_AS(calibrated(slice, 0.05, "three"), doctest::Contains("choose one of: one, two, mean"),
-                       Error);
-  CHECK_THROWS_WITH_AS(calibrated(slice, 0.9, "two"), doctest::Contains("the largest is near"), Error);
-  CHECK_THROWS_WITH_AS(calibrated(slice, 1.5, "two"), doctest::Contains("outside (0, 1)"), Error);
-  slice.damping.bearing_ratio = 0.1;
-  CHECK_THROWS_WITH_AS(calibrated(slice, 0.05, "two"), doctest::Contains("lower bearing_ratio"), Error);
-  slice = coarse_impact();
-  slice.fidelity.body = BodyModel::rigid;
-  CHECK_THROWS_WITH_AS(calibrated(slice, 0.05, "two"), doctest::Contains("the largest is near"), Error);
+  ImpactParameters settings = coarse_impact();
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, "three"),
+                       doctest::Contains("choose one of: one, two, mean"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.9, "two"), doctest::Contains("the largest is near"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 1.5, "two"), doctest::Contains("outside (0, 1)"), Error);
+  settings.damping.bearing_ratio = 0.1;
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, "two"), doctest::Contains("lower bearing_ratio"), Error);
+  settings = coarse_impact();
+  settings.fidelity.body = BodyModel::rigid;
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, "two"), doctest::Contains("the largest is near"), Error);
 }

@@ -8,18 +8,18 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "dynamics/impact.h"
 #include "io/impact_codec.h"
 #include "io/jump_map_codec.h"
 #include "io/scene.h"
 #include "io/scene_keys.h"
 #include "io/static_codec.h"
 #include "io/variant.h"
-#include "motion/impact.h"
-#include "motion/jump_map.h"
 #include "paper_pair.h"
-#include "plot/jump_map_figures.h"
-#include "plot/sensitivity_figure.h"
 #include "relative.h"
+#include "report/jump_map_figures.h"
+#include "report/sensitivity_figure.h"
+#include "studies/jump_map.h"
 
 using namespace whine;
 
@@ -29,18 +29,18 @@ const BodyArtifact& coarse() {
   return paper_body(40e-3, 0.8e-3);
 }
 
-SweepSlice motion() {
-  SweepSlice slice = paper_sweep(0, 0, 0);
-  slice.damping.rayleigh_stiffness = 0;
-  slice.fidelity.contact = ContactModel::line;
-  slice.reference_torque = 150;
-  return slice;
+SweepParameters motion() {
+  SweepParameters settings = paper_sweep(0, 0, 0);
+  settings.damping.rayleigh_stiffness = 0;
+  settings.fidelity.contact = ContactModel::line;
+  settings.reference_torque = 150;
+  return settings;
 }
 
-StaticSlice rest() {
-  StaticSlice slice = paper_statics(128);
-  slice.fidelity.contact = ContactModel::line;
-  return slice;
+StaticParameters rest() {
+  StaticParameters settings = paper_statics(128);
+  settings.fidelity.contact = ContactModel::line;
+  return settings;
 }
 
 JumpMapPlan plan(double from, double to, double step) {
@@ -126,14 +126,14 @@ TEST_CASE(
   CHECK(reports == 4);
   REQUIRE(map.mesh_frequency.size() == 14);
   const StaticArtifact statics = static_transmission(coarse(), coarse(), rest(), 150);
-  SweepSlice slice = motion();
-  slice.frequency_from = 1700;
-  slice.frequency_to = 3000;
-  slice.frequency_step = 100;
-  slice.damping.rayleigh_stiffness = 5.5e-6;
+  SweepParameters settings = motion();
+  settings.frequency_from = 1700;
+  settings.frequency_to = 3000;
+  settings.frequency_step = 100;
+  settings.damping.rayleigh_stiffness = 5.5e-6;
   for (const std::string direction : {"up", "down"}) {
     const SweepArtifact alone =
-        sweep(coarse(), coarse(), statics, statics.mean_stiffness, slice, direction, no_report);
+        sweep(coarse(), coarse(), statics, statics.mean_stiffness, settings, direction, no_report);
     REQUIRE(alone.jump_frequency.size() == 1);
     const int d = direction == "up" ? 0 : 1;
     CHECK((d == 0 ? map.branches_to : map.branches_from)[0] == alone.jump_frequency[0]);
@@ -161,17 +161,17 @@ TEST_CASE(
   CHECK(open.branches_from[0] == 2200);
   CHECK(std::abs(open.branches_to[0] - map.branches_to[0]) < 2);
 
-  StaticSlice on_strips = rest();
+  StaticParameters on_strips = rest();
   on_strips.fidelity.contact = ContactModel::strips;
-  const StaticArtifact held = static_transmission(coarse(), coarse(), on_strips, 150);
+  const StaticArtifact fixed = static_transmission(coarse(), coarse(), on_strips, 150);
   ImpactPlan impact_plan;
   impact_plan.phases = 16;
   for (int c = 0; c < 2; ++c) {
-    ImpactSlice ring = motion();
+    ImpactParameters ring = motion();
     ring.fidelity.contact = ContactModel::strips;
     ring.damping.rayleigh_stiffness = map.rayleigh_stiffness[c];
     const ImpactArtifact decay =
-        impact(coarse(), coarse(), held, map.bearing_stiffness, ring, impact_plan, [](long, long) {});
+        impact(coarse(), coarse(), fixed, map.bearing_stiffness, ring, impact_plan, [](long, long) {});
     for (size_t s = 0; s < decay.contact_state.size(); ++s)
       if (decay.contact_state[s] == "two") {
         CHECK(map.damping_ratio[c] == relative(decay.damping_ratio[static_cast<Eigen::Index>(s)], 5e-3));
@@ -194,8 +194,8 @@ TEST_CASE("a held load leaves out what lasts no longer than 1/64 of a period, in
   CHECK(held_load(load.topRows(64), 64) == 100);  // two samples of 64 are as long
 }
 
-TEST_CASE("maps that cannot be are refused with what, value and limit") {
-  const auto refused = [&](const JumpMapPlan& p, const std::string& words, double torque = 150) {
+TEST_CASE("maps that cannot be are rejected with what, value and limit") {
+  const auto rejected = [&](const JumpMapPlan& p, const std::string& words, double torque = 150) {
     const auto [kind, said] =
         thrown([&] { jump_map(coarse(), coarse(), rest(), torque, motion(), p, no_report); });
     INFO(said);
@@ -203,24 +203,24 @@ TEST_CASE("maps that cannot be are refused with what, value and limit") {
     CHECK(said.find(words) != std::string::npos);
   };
   JumpMapPlan p = plan(2000, 2200, 100);
-  refused(p, "no case");
+  rejected(p, "no case");
   p.damping_ratio = {-0.05};
-  refused(p, "damping ratio of -0.05");
+  rejected(p, "damping ratio of -0.05");
   p.damping_ratio = {0.001};
-  refused(p, "alone give a damping ratio of 0.00");
+  rejected(p, "alone give a damping ratio of 0.00");
   p.damping_ratio = {0.9};
-  refused(p, "no rayleigh_stiffness_s gives a damping ratio of 0.9");
+  rejected(p, "no rayleigh_stiffness_s gives a damping ratio of 0.9");
   p.damping_ratio = {0.05};
   p.load_frequency = 2400;
-  refused(p, "wanted at 2400 Hz, but the speeds run from 2000 to 2200 Hz");
+  rejected(p, "wanted at 2400 Hz, but the speeds run from 2000 to 2200 Hz");
   p.load_frequency = 0;
   p.step = 0;
-  refused(p, "a step of 0 Hz");
+  rejected(p, "a step of 0 Hz");
   p.step = 100;
   p.to = 1900;
-  refused(p, "from 2000 to 1900 Hz");
+  rejected(p, "from 2000 to 1900 Hz");
   p.to = 2200;
-  refused(p, "torque", -5);
+  rejected(p, "torque", -5);
 }
 
 TEST_CASE("a map that was written reads back, and tells what differs from another") {
@@ -369,11 +369,11 @@ TEST_CASE("a variant of a scene has the changed keys and nothing else changed") 
   CHECK(to.operation.torques == from.operation.torques);
   CHECK(to.damping.rayleigh_stiffness == from.damping.rayleigh_stiffness);
   std::ofstream(variant) << scene_variant(path, {"strips=8"});
-  CHECK(static_slice(read_scene(variant)) == static_slice(from));
-  CHECK(sweep_slice(read_scene(variant)) == sweep_slice(from));
+  CHECK(static_parameters(read_scene(variant)) == static_parameters(from));
+  CHECK(sweep_parameters(read_scene(variant)) == sweep_parameters(from));
   std::filesystem::remove(variant);
-  const auto refused = [&](const char* change) { return thrown([&] { scene_variant(path, {change}); }); };
-  CHECK(refused("bore_radius=35").second.find("did you mean 'bore_radius_mm'") != std::string::npos);
-  CHECK(refused("bore_radius_mm").first == static_cast<int>(Failure::usage));
-  CHECK(refused("=3").first == static_cast<int>(Failure::usage));
+  const auto rejected = [&](const char* change) { return thrown([&] { scene_variant(path, {change}); }); };
+  CHECK(rejected("bore_radius=35").second.find("did you mean 'bore_radius_mm'") != std::string::npos);
+  CHECK(rejected("bore_radius_mm").first == static_cast<int>(Failure::usage));
+  CHECK(rejected("=3").first == static_cast<int>(Failure::usage));
 }

@@ -12,11 +12,11 @@
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
 #include "io/static_codec.h"
-#include "motion/loaded_pair.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "solid/half_plane.h"
 #include "solid/loaded_gear.h"
+#include "system/loaded_pair.h"
 
 using namespace whine;
 
@@ -157,7 +157,7 @@ TEST_CASE("loaded: both gears stand in mesh, and strips lie on each other's flan
     for (int end = 0; end < 2; ++end) {
       const int a = at.vtk_line(i, end), b = at.vtk_line(strips + i, end);
       const Vec2 apart = at.vtk_point.row(b) - at.vtk_point.row(a);
-      CHECK(apart.norm() < 3e-6);  // the parabolas of two flanks over half a window
+      CHECK(apart.norm() < 3e-6);  // the parabolas of two flanks over half a candidate zone
       after += 0.5 * (apart + Vec2(moved.row(b) - moved.row(a))).dot(along);
     }
     if (at.strip_force[i] > 0) CHECK(std::abs(after) < 0.02e-6);  // they touch
@@ -200,7 +200,7 @@ TEST_CASE("loaded: what is shown has mid nodes about the loaded teeth alone, and
   for (const auto& field : at.vtk_point_data) CHECK(field.values.rows() == at.vtk_point.rows());
 }
 
-TEST_CASE("loaded: artifacts are read as they were written, and what cannot be shown is refused") {
+TEST_CASE("loaded: artifacts are read as they were written, and what cannot be shown is rejected") {
   const LoadedArtifact& at = loaded_at(0.25);
   const std::string path =
       (std::filesystem::temp_directory_path() / text("whine_loaded_", getpid(), ".h5")).string();

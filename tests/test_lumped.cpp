@@ -15,9 +15,9 @@
 #include "lumped/stiffness.h"
 #include "lumped/sweep.h"
 #include "paper_pair.h"
-#include "plot/motion_figures.h"
-#include "plot/response_figures.h"
 #include "relative.h"
+#include "report/motion_figures.h"
+#include "report/response_figures.h"
 #include "signal/response.h"
 
 using namespace whine;
@@ -52,33 +52,33 @@ std::vector<double> speeds(double from, double to, double step) {
 
 LumpedOrbit steady(LumpedOscillator& o, double mesh_frequency) {
   o.set_speed(mesh_frequency);
-  return settle(o, o.rest(), 1e-6, false);
+  return find_periodic_orbit(o, o.rest(), 1e-6, false);
 }
 
-// Ends of the two branches: where a march down and a march up leave theirs.
+// Ends of the two branches: where a sweep down and a sweep up leave theirs.
 std::array<double, 2> folds(LumpedOscillator& o, double from, double to) {
   std::array<double, 2> found{};
   for (int up = 0; up < 2; ++up) {
     const auto list = up ? speeds(from, to, 20) : speeds(to, from, -20);
-    const LumpedMarch march = march_speeds(o, list, 1e-6, false, no_report);
-    REQUIRE(march.jumps.size() == 1);
-    CHECK(march.jumps[0].width < 1e-3);
-    found[up] = march.jumps[0].mesh_frequency;
+    const LumpedSpeeds integrate = integrate_speeds(o, list, 1e-6, false, no_report);
+    REQUIRE(integrate.jumps.size() == 1);
+    CHECK(integrate.jumps[0].width < 1e-3);
+    found[up] = integrate.jumps[0].mesh_frequency;
   }
   return found;
 }
 
-// Ends of the upper branch, which there is only with contact loss, by bisection with plain marching alone.
-double end_by_marching(LumpedOscillator& o, double with, double without, const LumpedOrbit& branch) {
+// Ends of the upper branch, which there is only with contact loss, by bisection with plain integration alone.
+double end_by_integration(LumpedOscillator& o, double with, double without, const LumpedOrbit& branch) {
   State state = branch.start;
   while (std::abs(with - without) > 1e-3) {
     const double f = 0.5 * (with + without);
     o.set_speed(f);
     State y = state;
-    for (int i = 0; i < 6000; ++i) o.march(y);
-    LumpedLedger ledger;
+    for (int i = 0; i < 6000; ++i) o.integrate(y);
+    LumpedEnergyBalance energy_balance;
     State last = y;
-    const bool upper = o.record(last, ledger).separations > 0;
+    const bool upper = o.record(last, energy_balance).separations > 0;
     (upper ? with : without) = f;
     if (upper) state = y;
   }
@@ -104,7 +104,7 @@ TEST_CASE("lumped: trace of the exact monodromy meets 2 at the bounds of Meissne
     any.set_speed(f);
     State y = any.rest();
     Matrix m = Matrix::Identity();
-    any.march(y, &m);
+    any.integrate(y, &m);
     return m;
   };
   const double edge[5][2] = {{5549.5652, 6016.2142},
@@ -158,21 +158,21 @@ TEST_CASE("lumped: steady states and folds of the rectangular wave at 8 and 7 % 
   for (int up = 0; up < 2; ++up) {
     CHECK(ends[up] == relative(expected[up][0], 1e-6 / expected[up][0]));
     // The orbit at the fold itself, where a multiplier is 1.
-    const LumpedMarch march =
-        march_speeds(o, up ? speeds(2600, 2700, 20) : speeds(2800, 2640, -20), 1e-6, false, no_report);
-    REQUIRE(march.jumps.size() == 1);
-    CHECK(march.jumps[0].fold);
-    const auto fold = find_fold(o, march.jumps[0].start, march.jumps[0].mesh_frequency + 1e-4, 1);
+    const LumpedSpeeds integrate =
+        integrate_speeds(o, up ? speeds(2600, 2700, 20) : speeds(2800, 2640, -20), 1e-6, false, no_report);
+    REQUIRE(integrate.jumps.size() == 1);
+    CHECK(integrate.jumps[0].fold);
+    const auto fold = find_fold(o, integrate.jumps[0].start, integrate.jumps[0].mesh_frequency + 1e-4, 1);
     REQUIRE(fold);
     CHECK(fold->mesh_frequency == relative(expected[up][0], 1e-6 / expected[up][0]));
     State end = fold->start;
     Matrix m = Matrix::Identity();
-    o.march(end, &m);
+    o.integrate(end, &m);
     CHECK(o.size(end - fold->start) < 1e-12);
     CHECK(std::abs((m - Matrix::Identity()).determinant()) < 1e-9);
     end = fold->start;
-    LumpedLedger ledger;
-    const LumpedRecord r = o.record(end, ledger);
+    LumpedEnergyBalance energy_balance;
+    const LumpedRecord r = o.record(end, energy_balance);
     const double off = r.mean - o.reference();
     CHECK(std::sqrt(r.mean_square - off * off) * 1e6 == relative(expected[up][1], 1e-6));
     CHECK(r.mean * 1e6 == relative(expected[up][2], 1e-6));
@@ -195,12 +195,12 @@ TEST_CASE("lumped: folds at level ratios 1.6 and 1.7575, the second beside Newma
   const auto wide = folds(figure, 2000, 2800);
   CHECK(wide[0] == relative(2171.615284, 1e-6 / 2171));
   CHECK(wide[1] == relative(2525.315708, 1e-6 / 2525));
-  // The same by plain marching with Newmark's steps: errors fall with their square.
+  // The same by plain integration with Newmark's steps: errors fall with their square.
   std::vector<double> step, error;
   for (int steps : {128, 256, 512, 1024}) {
     LumpedOscillator newmark = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08, 150, steps);
-    const LumpedMarch march = march_speeds(newmark, speeds(2800, 2200, -20), 1e-9, true, no_report);
-    const double end = end_by_marching(newmark, 2200, 2140, march.orbits.back());
+    const LumpedSpeeds integrate = integrate_speeds(newmark, speeds(2800, 2200, -20), 1e-9, true, no_report);
+    const double end = end_by_integration(newmark, 2200, 2140, integrate.orbits.back());
     step.push_back(1.0 / steps);
     error.push_back(std::abs(end - wide[0]));
     MESSAGE("upper branch ends by Newmark, ", steps, " steps: ", end, " Hz, exact ", wide[0]);
@@ -216,7 +216,7 @@ TEST_CASE("lumped: a slow transient near twice its natural frequency is no subha
   for (double periodicity : {1e-5, 1e-6})
     for (double f : {0.99 * twice, 0.997 * twice, twice, 1.003 * twice}) {
       light.set_speed(f);
-      const LumpedOrbit orbit = settle(light, light.rest(), periodicity, true);
+      const LumpedOrbit orbit = find_periodic_orbit(light, light.rest(), periodicity, true);
       INFO((f / twice) << " of twice, " << orbit.periods << " periods");
       CHECK(orbit.multiple == 1);
     }
@@ -248,17 +248,17 @@ TEST_CASE("lumped: an undamped bounce keeps its energy and its period") {
   o.set_speed(ratio * std::sqrt(kMean / kMass) / (2 * std::numbers::pi));
   const State start(3 * rest, 0);
   State y = start;
-  for (int i = 0; i < 1000; ++i) o.march(y);
+  for (int i = 0; i < 1000; ++i) o.integrate(y);
   CHECK(o.size(y - start) < 1e-9);
 
   o.set_speed(1777);  // now events fall anywhere in the period
   y = start;
-  LumpedLedger ledger;
-  const LumpedRecord r = o.record(y, ledger);
+  LumpedEnergyBalance energy_balance;
+  const LumpedRecord r = o.record(y, energy_balance);
   CHECK(r.separations >= 1);
   double largest = 0;
   for (int i = 0; i < 100000; ++i) {
-    o.march(y);
+    o.integrate(y);
     largest = std::max(largest, std::abs(energy(y) - energy(start)));
   }
   CHECK(largest / (energy(start) + 0.5 * force * rest) < 1e-10);
@@ -266,11 +266,11 @@ TEST_CASE("lumped: an undamped bounce keeps its energy and its period") {
 
 TEST_CASE("lumped: works and stored energies balance, with contact loss and without") {
   LumpedOscillator o = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08);
-  const LumpedMarch march = march_speeds(o, speeds(3400, 2180, -20), 1e-6, false, no_report);
+  const LumpedSpeeds integrate = integrate_speeds(o, speeds(3400, 2180, -20), 1e-6, false, no_report);
   int apart = 0;
-  for (const LumpedOrbit& orbit : march.orbits) {
-    CHECK(std::abs(orbit.ledger.imbalance()) < 1e-12 * orbit.ledger.throughput);
-    CHECK(orbit.ledger.damping > 0);
+  for (const LumpedOrbit& orbit : integrate.orbits) {
+    CHECK(std::abs(orbit.energy_balance.imbalance()) < 1e-12 * orbit.energy_balance.throughput);
+    CHECK(orbit.energy_balance.damping > 0);
     apart += orbit.record[0].separations;
   }
   CHECK(apart > 20);
@@ -293,21 +293,21 @@ TEST_CASE("lumped: the derivative of the period map is that of finite difference
       const State y(6 * o.reference(), -1e-3);  // parts within the period
       State end = y;
       Matrix m = Matrix::Identity(), differences;
-      o.march(end, &m);
+      o.integrate(end, &m);
       const State unit(o.reference(), o.reference() * 2 * std::numbers::pi * o.natural_frequency());
       for (int k = 0; k < 2; ++k) {
         State plus = y, minus = y;
         plus[k] += 1e-6 * unit[k];
         minus[k] -= 1e-6 * unit[k];
-        o.march(plus);
-        o.march(minus);
+        o.integrate(plus);
+        o.integrate(minus);
         differences.col(k) = (plus - minus) / (2e-6 * unit[k]);
       }
       const Matrix scale = unit.cwiseInverse().asDiagonal() * (m - differences) * unit.asDiagonal();
       CHECK(scale.cwiseAbs().maxCoeff() < 1e-6);
-      LumpedLedger ledger;
+      LumpedEnergyBalance energy_balance;
       end = y;
-      CHECK(o.record(end, ledger).separations > 0);
+      CHECK(o.record(end, energy_balance).separations > 0);
     }
 }
 
@@ -319,7 +319,7 @@ TEST_CASE("lumped: a damper in contact only lets a mass bounce with the restitut
     LumpedOscillator o(p, force, 16);
     o.set_speed(natural / (2 * std::numbers::pi) / 0.8);
     State y(0, 1);
-    o.march(y);
+    o.integrate(y);
     CHECK(y[0] < 0);
     return std::sqrt(y[1] * y[1] - 2 * force / kMass * y[0]);
   };
@@ -340,16 +340,16 @@ TEST_CASE("lumped: Newmark's method is of second order against the exact motion"
   for (const double f : at) {
     std::vector<double> step, error;
     LumpedOscillator exact = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08);
-    const LumpedMarch march = march_speeds(exact, speeds(3400, f, -20), 1e-6, false, no_report);
-    const State start = march.orbits.back().start;
+    const LumpedSpeeds integrate = integrate_speeds(exact, speeds(3400, f, -20), 1e-6, false, no_report);
+    const State start = integrate.orbits.back().start;
     for (int steps : {64, 128, 256, 512, 1024, 2048}) {
       LumpedOscillator newmark = oscillator(2.93973e8, 5.16658e8, 0.755, 0.08, 150, steps);
       exact.set_speed(f);
       newmark.set_speed(f);
       State a = start, b = start;
       for (int i = 0; i < 5; ++i) {
-        exact.march(a);
-        newmark.march(b);
+        exact.integrate(a);
+        newmark.integrate(b);
       }
       step.push_back(1.0 / steps);
       error.push_back(exact.size(b - a));
@@ -487,7 +487,7 @@ TEST_CASE(
 
   const double mesh_frequency = 2400, damper = 2 * 0.07 * std::sqrt(kMean * kMass);
   const State start(2.2 * s.transmission_error[0], 0);
-  // x at 64 samples of two periods, marched by the oscillator
+  // x at 64 samples of two periods, integrated by the oscillator
   const auto polygon = [&](int chords) {
     LumpedParameters p = cells_of_pairs(s, cells, spring_numbers, chords);
     p.mass = kMass;
@@ -497,15 +497,15 @@ TEST_CASE(
     CHECK(o.rest()[0] == relative(s.transmission_error[0], 1e-9));
     o.set_speed(mesh_frequency);
     State y = start;
-    LumpedLedger ledger;
+    LumpedEnergyBalance energy_balance;
     Eigen::VectorXd x(64);
     double least = 1;
     for (int period = 0; period < 2; ++period) {
-      const LumpedRecord r = o.record(y, ledger);
+      const LumpedRecord r = o.record(y, energy_balance);
       x.segment(32 * period, 32) = r.x;
       least = std::min(least, r.least);
     }
-    CHECK(std::abs(ledger.imbalance()) < 1e-12 * ledger.throughput);
+    CHECK(std::abs(energy_balance.imbalance()) < 1e-12 * energy_balance.throughput);
     CHECK(least < 0);  // contact is lost on the way
     return x;
   };
@@ -588,8 +588,8 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
             "jump at 2525 Hz' ");
   }
 
-  const Background told{{}, {sweeps[0].lumped, sweeps[1].lumped}, {}};
-  const Figure curves = response_figure(responses, told);
+  const Background captions{{}, {sweeps[0].lumped, sweeps[1].lumped}, {}};
+  const Figure curves = response_figure(responses, captions);
   REQUIRE(curves.blocks.size() == 4);
   CHECK(curves.blocks[0].name == "a 150 N m up");
   CHECK(curves.blocks[0].rows[0][1] == relative(1e6 * responses[1].dte_rms[0], 1e-12));
@@ -605,7 +605,7 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   CHECK_THROWS_AS(mesh_force_figure({SweepArtifact{}}, {2200}), Error);
 }
 
-TEST_CASE("lumped: what is no model is refused by name") {
+TEST_CASE("lumped: what is no model is rejected by name") {
   const auto message = [](const std::function<void()>& f) -> std::string {
     try {
       f();
@@ -613,7 +613,7 @@ TEST_CASE("lumped: what is no model is refused by name") {
       CHECK(e.kind() == Failure::input);
       return e.what();
     }
-    return "not refused";
+    return "not rejected";
   };
   const auto says = [&](const std::function<void(LumpedParameters&)>& change, const char* words,
                         double force = 2000, int newmark = 0) {
@@ -710,7 +710,7 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
   o.damper_acts = "contact";
   CHECK(lumped_jump_map(statics, springs, numbers, o, range, {0.07}, no_report).model ==
         "rectangular-contact");
-  const auto refused = [&](const MapSpeeds& speeds, const std::vector<double>& ratios, const char* words) {
+  const auto rejected = [&](const MapSpeeds& speeds, const std::vector<double>& ratios, const char* words) {
     std::string said;
     try {
       lumped_jump_map(statics, springs, numbers, o, speeds, ratios, no_report);
@@ -721,8 +721,8 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
     INFO(said);
     CHECK(said.find(words) != std::string::npos);
   };
-  refused(range, {}, "no case");
-  refused(range, {0.07, 1.5}, "damping ratio of 1.5");
+  rejected(range, {}, "no case");
+  rejected(range, {0.07, 1.5}, "damping ratio of 1.5");
   range.load_frequency = 3200;
-  refused(range, {0.07}, "wanted at 3200 Hz");
+  rejected(range, {0.07}, "wanted at 3200 Hz");
 }

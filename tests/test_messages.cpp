@@ -12,32 +12,34 @@
 
 using namespace whine;
 
-TEST_CASE("an unknown key is refused with the key that its word means") {
+TEST_CASE("an unknown key is rejected with the key that its word means") {
   SceneFile file;
-  const auto refusal = [&](const std::string& line) {
-    return file.refusal(scene_with("teeth = 50\n", "teeth = 50\n" + line + "\n"));
+  const auto rejection = [&](const std::string& line) {
+    return file.rejection(scene_with("teeth = 50\n", "teeth = 50\n" + line + "\n"));
   };
-  CHECK(contains(refusal("width_mm = 20"),
+  CHECK(contains(rejection("width_mm = 20"),
                  "x.toml:3: unknown key 'width_mm' in [gear.pinion]; did you mean 'face_width_mm'?"));
-  CHECK(contains(refusal("tip_releif = 10"), "did you mean 'tip_relief_um' of [gear.<name>.modification]?"));
   CHECK(
-      contains(refusal("tip_releif_um = 10"), "did you mean 'tip_relief_um' of [gear.<name>.modification]?"));
-  CHECK(contains(refusal("bore_diameter_mm = 20"), "did you mean 'bore_radius_mm' (half of the diameter)?"));
-  CHECK(contains(refusal("outside_diameter = 20"), "did you mean 'tip_diameter_mm'?"));
-  CHECK(contains(refusal("number_of_teeth = 20"), "did you mean 'teeth'?"));
-  CHECK(contains(refusal("Inertia = 20"), "did you mean 'total_inertia_kgm2'?"));
-  CHECK(contains(refusal("normal_module_mm = 3"), "did you mean 'module_mm'?"));
-  CHECK(contains(refusal("x = 3"), "did you mean 'profile_shift' (in modules)?"));
-  CHECK(contains(refusal("torque = 3"), "did you mean 'torque_Nm' of [operation]?"));
+      contains(rejection("tip_releif = 10"), "did you mean 'tip_relief_um' of [gear.<name>.modification]?"));
+  CHECK(contains(rejection("tip_releif_um = 10"),
+                 "did you mean 'tip_relief_um' of [gear.<name>.modification]?"));
+  CHECK(
+      contains(rejection("bore_diameter_mm = 20"), "did you mean 'bore_radius_mm' (half of the diameter)?"));
+  CHECK(contains(rejection("outside_diameter = 20"), "did you mean 'tip_diameter_mm'?"));
+  CHECK(contains(rejection("number_of_teeth = 20"), "did you mean 'teeth'?"));
+  CHECK(contains(rejection("Inertia = 20"), "did you mean 'total_inertia_kgm2'?"));
+  CHECK(contains(rejection("normal_module_mm = 3"), "did you mean 'module_mm'?"));
+  CHECK(contains(rejection("x = 3"), "did you mean 'profile_shift' (in modules)?"));
+  CHECK(contains(rejection("torque = 3"), "did you mean 'torque_Nm' of [operation]?"));
   CHECK(contains(
-      file.refusal(with_section("[gear.wheel.modification]\ntip_releif = 10\n")),
+      file.rejection(with_section("[gear.wheel.modification]\ntip_releif = 10\n")),
       "x.toml:24: unknown key 'tip_releif' in [gear.wheel.modification]; did you mean 'tip_relief_um'?"));
-  CHECK(contains(file.refusal(scene_with("[operation]\n", "[operation]\nspeed_rpm = 3000\n")),
+  CHECK(contains(file.rejection(scene_with("[operation]\n", "[operation]\nspeed_rpm = 3000\n")),
                  "did you mean 'mesh_frequency_Hz' (teeth of the driver times its rpm, over 60)?"));
   // What there is no key for says why.
-  CHECK(contains(refusal("helix_angle_deg = 15"),
+  CHECK(contains(rejection("helix_angle_deg = 15"),
                  "x.toml:3: unknown key 'helix_angle_deg' in [gear.pinion]: gears are spur gears for now"));
-  CHECK(contains(refusal("friction_coefficient = 0.05"), "teeth slide without friction"));
+  CHECK(contains(rejection("friction_coefficient = 0.05"), "teeth slide without friction"));
   // --set and studies take the same words.
   const auto set = [&](const std::string& change) -> std::string {
     try {
@@ -57,21 +59,21 @@ TEST_CASE("a number may be written as a whole float; a decimal comma and a numbe
   SceneFile file;
   CHECK(file.read(scene_with("teeth = 50", "teeth = 50.0")).gears[0].design.teeth == 50);
   CHECK(file.read(scene_with("teeth = 50", "teeth = 5e1")).gears[0].design.teeth == 50);
-  CHECK(body_slice(file.read(scene_with("teeth = 50", "teeth = 50.0")), "pinion") ==
-        body_slice(file.read(kScene), "pinion"));
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50.5")), "= 50.5: must be a whole number"));
-  const std::string comma = file.refusal(scene_with("module_mm = 3", "module_mm = 2,5"));
+  CHECK(body_parameters(file.read(scene_with("teeth = 50", "teeth = 50.0")), "pinion") ==
+        body_parameters(file.read(kScene), "pinion"));
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50.5")), "= 50.5: must be a whole number"));
+  const std::string comma = file.rejection(scene_with("module_mm = 3", "module_mm = 2,5"));
   CHECK(contains(comma, "x.toml:3: is not valid TOML: "));
   CHECK(contains(comma, "; numbers have a decimal point: 2.5, not 2,5"));
-  CHECK(contains(file.refusal(scene_with("from = 600", "from = 600,5")), "600.5, not 600,5"));
-  CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = \"2,5\"")),
+  CHECK(contains(file.rejection(scene_with("from = 600", "from = 600,5")), "600.5, not 600,5"));
+  CHECK(contains(file.rejection(scene_with("module_mm = 3", "module_mm = \"2,5\"")),
                  "must be a number (in mm); write 2.5, with a decimal point and without quotes"));
-  CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = \"2.5\"")),
+  CHECK(contains(file.rejection(scene_with("module_mm = 3", "module_mm = \"2.5\"")),
                  "must be a number (in mm); write 2.5 without quotes"));
   // Between brackets a comma parts numbers, and other mistakes get no such advice.
-  CHECK(file.refusal(scene_with("[100, 150]", "[100,150")).find("decimal") == std::string::npos);
-  CHECK(file.refusal(scene_with("module_mm = 3", "module_mm = ")).find("decimal") == std::string::npos);
-  CHECK(file.refusal(scene_with("plane = \"stress\"", "plane = \"2,5\"")).find("decimal") ==
+  CHECK(file.rejection(scene_with("[100, 150]", "[100,150")).find("decimal") == std::string::npos);
+  CHECK(file.rejection(scene_with("module_mm = 3", "module_mm = ")).find("decimal") == std::string::npos);
+  CHECK(file.rejection(scene_with("plane = \"stress\"", "plane = \"2,5\"")).find("decimal") ==
         std::string::npos);
 }
 
@@ -83,8 +85,8 @@ TEST_CASE("diameters of tip and root stand for addendum and dedendum") {
     return scene.replace(scene.find("teeth = 50\n"), 11, "teeth = 50\n" + lines);
   };
   // r_tip = m (z / 2 + x + addendum), r_root = m (z / 2 + x - dedendum)
-  CHECK(body_slice(file.read(with("tip_diameter_mm = 157.5\nroot_diameter_mm = 144\n")), "pinion") ==
-        body_slice(file.read(with("addendum = 1.0\ndedendum = 1.25\n")), "pinion"));
+  CHECK(body_parameters(file.read(with("tip_diameter_mm = 157.5\nroot_diameter_mm = 144\n")), "pinion") ==
+        body_parameters(file.read(with("addendum = 1.0\ndedendum = 1.25\n")), "pinion"));
   const GearDesign d =
       file.read(with("tip_diameter_mm = 157.1234\nroot_diameter_mm = 143.21\n")).gears[0].design;
   const ToothGeometry tooth(d);
@@ -93,17 +95,18 @@ TEST_CASE("diameters of tip and root stand for addendum and dedendum") {
   // A gear that is like another takes them over as it takes the heights over.
   CHECK(file.read(with("tip_diameter_mm = 157.5\n")).gears[1].design.addendum == 1.0);
 
-  CHECK(contains(file.refusal(with("tip_diameter_mm = 157.5\naddendum = 1.0\n")),
+  CHECK(contains(file.rejection(with("tip_diameter_mm = 157.5\naddendum = 1.0\n")),
                  "gives 'tip_diameter_mm' and 'addendum', which say the same; give one of them"));
-  CHECK(contains(file.refusal(with("root_diameter_mm = 144\ndedendum = 1.0\n")),
+  CHECK(contains(file.rejection(with("root_diameter_mm = 144\ndedendum = 1.0\n")),
                  "gives 'root_diameter_mm' and 'dedendum'"));
-  CHECK(contains(file.refusal(with("tip_diameter_mm = 151.5\n")),
+  CHECK(contains(file.rejection(with("tip_diameter_mm = 151.5\n")),
                  "x.toml:3: 'tip_diameter_mm' in [gear.pinion] = 151.5: with 50 teeth, module_mm = 3 and "
                  "profile_shift = 0.25 it must be between 151.5 and 169.5 mm"));
-  CHECK(contains(file.refusal(with("root_diameter_mm = 133.4\n")), "it must be between 133.5 and 151.5 mm"));
+  CHECK(
+      contains(file.rejection(with("root_diameter_mm = 133.4\n")), "it must be between 133.5 and 151.5 mm"));
   std::string other = with("tip_diameter_mm = 157.5\n");
   other.replace(other.find("like = \"pinion\""), 15, "like = \"pinion\"\nteeth = 51");
-  CHECK(contains(file.refusal(other),
+  CHECK(contains(file.rejection(other),
                  "[gear.wheel] takes 'tip_diameter_mm' = 157.5 over from a gear of other teeth"));
   other.replace(other.find("teeth = 51"), 10, "teeth = 51\naddendum = 0.9");
   CHECK(file.read(other).gears[1].design.addendum == 0.9);

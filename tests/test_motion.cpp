@@ -8,18 +8,18 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "dynamics/dynamics.h"
 #include "gear/body_inertia.h"
 #include "gear/numbers.h"
-#include "motion/dynamics.h"
-#include "motion/error_budget.h"
-#include "motion/rolling_mesh.h"
-#include "motion/statics.h"
-#include "motion/sweep.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/spectrum.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/error_budget.h"
+#include "studies/sweep.h"
+#include "system/rolling_mesh.h"
+#include "system/statics.h"
 
 using namespace whine;
 using Eigen::MatrixXd;
@@ -96,13 +96,13 @@ TEST_CASE("equilibrium: forces times lever arms give the torque, the load alone 
 
 TEST_CASE("tangent stiffness is the slope of load over transmission error at fixed phase") {
   const BodyArtifact& body = paper_body();
-  const StaticSlice slice = paper_statics(16);
-  const StaticArtifact at = static_transmission(body, body, slice, 150),
-                       less = static_transmission(body, body, slice, 149.9),
-                       more = static_transmission(body, body, slice, 150.1);
+  const StaticParameters settings = paper_statics(16);
+  const StaticArtifact at = static_transmission(body, body, settings, 150),
+                       less = static_transmission(body, body, settings, 149.9),
+                       more = static_transmission(body, body, settings, 150.1);
   for (int i = 0; i < 16; ++i) {
     const double slope = 0.2 / 70.4769466e-3 / (more.transmission_error[i] - less.transmission_error[i]);
-    // Strips change with the load's window and count, and enter contact one by one: 2 % of the tangent.
+    // Strips change with the load's candidate zone and count, and enter contact one by one: 2 % of the tangent.
     CHECK(at.stiffness_tangent[i] == relative(slope, 0.02));
     CHECK(at.stiffness_tangent[i] > at.stiffness_secant[i]);
   }
@@ -155,7 +155,7 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(errors.mean_stiffness_change.cwiseAbs().minCoeff() > 0);  // each refinement did change something
   CHECK(errors.peak_to_peak_change.cwiseAbs().maxCoeff() < 2e-3);
   CHECK(errors.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
-  // Choices are what a body and a slice made that way answer.
+  // Choices are what a body and stage parameters made that way answer.
   CHECK(budget.fidelity.contact == ContactModel::strips);
   CHECK(budget.choice.entry == "matching at 1 mm, order 1, contact line");
   CHECK(budget.choice_missing == "");
@@ -166,12 +166,12 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(budget.choice.mean_stiffness_change[0] ==
         relative(static_transmission(matched, matched, paper_statics(128), 150).mean_stiffness / mean - 1,
                  1e-9));
-  StaticSlice by_line = paper_statics(128);
+  StaticParameters by_line = paper_statics(128);
   by_line.fidelity.contact = ContactModel::line;
   CHECK(budget.choice.mean_stiffness_change[2] ==
         relative(static_transmission(body, body, by_line, 150).mean_stiffness / mean - 1, 1e-9));
 
-  StaticSlice line = paper_statics(32);
+  StaticParameters line = paper_statics(32);
   line.fidelity.contact = ContactModel::line;
   BodyArtifact deep = body;
   deep.discretisation.matching_depth = 6e-3;
@@ -188,12 +188,12 @@ TEST_CASE(
     "one line per pair against fine strips: 0.1 % of the transmission error, 0.3 % where a tip edge "
     "touches") {
   const BodyArtifact& body = paper_body();
-  StaticSlice slice = paper_statics(128);
-  slice.contact.strips = 61;
-  slice.fidelity.contact = ContactModel::line;
+  StaticParameters settings = paper_statics(128);
+  settings.contact.strips = 61;
+  settings.fidelity.contact = ContactModel::line;
   for (double torque : {20.0, 100.0, 300.0}) {
-    const StaticArtifact line = static_transmission(body, body, slice, torque);
-    const NextRung change = next_contact_rung(body, body, slice, line);
+    const StaticArtifact line = static_transmission(body, body, settings, torque);
+    const NextLevel change = next_contact_level(body, body, settings, line);
     CHECK(change.corner.positions + change.elsewhere.positions == 128);
     CHECK(change.corner.positions > 5);
     CHECK(change.corner.error_largest < 3e-3);
@@ -203,20 +203,22 @@ TEST_CASE(
     CHECK(change.elsewhere.error_rms < 3e-4);
     CHECK(change.elsewhere.error_rms > 0);
   }
-  slice.fidelity.contact = ContactModel::strips;
-  CHECK_THROWS_AS(next_contact_rung(body, body, slice, static_transmission(body, body, slice, 100)), Error);
+  settings.fidelity.contact = ContactModel::strips;
+  CHECK_THROWS_AS(next_contact_level(body, body, settings, static_transmission(body, body, settings, 100)),
+                  Error);
 }
 
-TEST_CASE("one line per pair: load balance, tangent, Hertz's pressure, and nothing of strips or window") {
+TEST_CASE(
+    "one line per pair: load balance, tangent, Hertz's pressure, and nothing of strips or candidate zone") {
   const BodyArtifact& body = paper_body();
   const GearPair pair(body.design, body.design, 0.150);
   const double rb = pair.gear(0).base_radius(), width = body.design.face_width;
-  StaticSlice slice = paper_statics(64);
-  slice.fidelity.contact = ContactModel::line;
+  StaticParameters settings = paper_statics(64);
+  settings.fidelity.contact = ContactModel::line;
   for (double torque : {1e-6, 150.0, 600.0}) {
-    const StaticArtifact at = static_transmission(body, body, slice, torque),
-                         less = static_transmission(body, body, slice, torque * (1 - 1e-5)),
-                         more = static_transmission(body, body, slice, torque * (1 + 1e-5));
+    const StaticArtifact at = static_transmission(body, body, settings, torque),
+                         less = static_transmission(body, body, settings, torque * (1 - 1e-5)),
+                         more = static_transmission(body, body, settings, torque * (1 + 1e-5));
     CHECK(at.torque_residual < 1e-12);
     for (int i = 0; i < 64; ++i) {
       double moment = 0;
@@ -245,16 +247,16 @@ TEST_CASE("one line per pair: load balance, tangent, Hertz's pressure, and nothi
       CHECK(at.stiffness_tangent[i] == relative(slope, near_edge ? 6e-3 : 1e-5));
     }
   }
-  // The window sets the depth at which laws and tables meet; the strips are none.
-  StaticSlice other = slice;
+  // The candidate zone sets the depth at which laws and tables meet; the strips are none.
+  StaticParameters other = settings;
   other.contact.strips = 40;
-  const StaticArtifact base = static_transmission(body, body, slice, 150),
+  const StaticArtifact base = static_transmission(body, body, settings, 150),
                        wide = static_transmission(body, body, other, 150, 2);
   CHECK((wide.transmission_error - base.transmission_error).norm() < 1e-11 * base.transmission_error.norm());
-  CHECK_THROWS_AS(static_transmission(body, body, slice, 1e6), Error);
-  slice.mesh.corner.enabled = false;
-  CHECK(static_transmission(body, body, slice, 150).mean_stiffness < base.mean_stiffness);
-  CHECK_THROWS_AS(static_transmission(body, body, slice, 1e6), Error);
+  CHECK_THROWS_AS(static_transmission(body, body, settings, 1e6), Error);
+  settings.mesh.corner.enabled = false;
+  CHECK(static_transmission(body, body, settings, 150).mean_stiffness < base.mean_stiffness);
+  CHECK_THROWS_AS(static_transmission(body, body, settings, 1e6), Error);
 }
 
 TEST_CASE(
@@ -265,9 +267,9 @@ TEST_CASE(
   finer.element_size /= 2;
   const BodyArtifact fine = reduce(make_sector_mesh(body.design, finer), body.material, 5, 2 * kFlankPoints);
   const auto error = [](const BodyArtifact& of, int strips) {
-    StaticSlice slice = paper_statics(2000);
-    slice.contact.strips = strips;
-    return static_transmission(of, of, slice, 150).transmission_error;
+    StaticParameters settings = paper_statics(2000);
+    settings.contact.strips = strips;
+    return static_transmission(of, of, settings, 150).transmission_error;
   };
   // Windows hold whole fours of strips: 12 for 8 across at the mean load, then 24, 48 and 96.
   std::vector<VectorXd> by_strips;
@@ -293,9 +295,9 @@ TEST_CASE(
 TEST_CASE(
     "equal gears: a mesh phase and its mirror image with the torque on the other gear are one problem") {
   const BodyArtifact& body = paper_body();
-  const StaticSlice slice = paper_statics(128);
-  const StaticArtifact result = static_transmission(body, body, slice, 150);
-  const GearMeshModel model(body, body, slice.mesh);
+  const StaticParameters settings = paper_statics(128);
+  const StaticArtifact result = static_transmission(body, body, settings, 150);
+  const GearMeshModel model(body, body, settings.mesh);
   const double rb = model.kinematics.gear(0).base_radius(), load = 150 / rb, depth = 1e-3;
   std::array<std::vector<MatrixXd>, 2> tables;
   for (int g = 0; g < 2; ++g)
@@ -303,7 +305,7 @@ TEST_CASE(
       tables[g].push_back(model.gear[g].compliance(offset, depth));
   // m: the gear's rotation over its base circle if 150 N m turn it and the other is held.
   const auto deflection = [&](double phase, int gear, int strips) {
-    const ContactRange range = contact_range(
+    const CandidateZone range = candidate_zone(
         model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), strips,
         load / model.kinematics.contact_ratio(), 1.8 * load, 3 * result.transmission_error.maxCoeff());
     const MeshPosition position = make_position(model, phase, range);
@@ -339,12 +341,12 @@ TEST_CASE(
 
 TEST_CASE("corner rule: without it the pair loses its early contact, an angle between keeps part of it") {
   const BodyArtifact& body = paper_body();
-  StaticSlice slice = paper_statics(128);
-  const double full = static_transmission(body, body, slice, 150).mean_stiffness;
-  slice.mesh.corner.largest_angle = 0.3 * kPi / 180;
-  const double part = static_transmission(body, body, slice, 150).mean_stiffness;
-  slice.mesh.corner.enabled = false;
-  const StaticArtifact none = static_transmission(body, body, slice, 150);
+  StaticParameters settings = paper_statics(128);
+  const double full = static_transmission(body, body, settings, 150).mean_stiffness;
+  settings.mesh.corner.largest_angle = 0.3 * kPi / 180;
+  const double part = static_transmission(body, body, settings, 150).mean_stiffness;
+  settings.mesh.corner.enabled = false;
+  const StaticArtifact none = static_transmission(body, body, settings, 150);
   CHECK(full > part);
   CHECK(part > none.mean_stiffness);
   for (int i = 0; i < 128; ++i) {
@@ -355,7 +357,7 @@ TEST_CASE("corner rule: without it the pair loses its early contact, an angle be
   }
 }
 
-TEST_CASE("statics refuse a torque that is no load, and one that leaves the flanks") {
+TEST_CASE("statics reject a torque that is no load, and one that leaves the flanks") {
   const BodyArtifact& body = paper_body();
   CHECK_THROWS_AS(static_transmission(body, body, paper_statics(16), 0), Error);
   CHECK_THROWS_AS(static_transmission(body, body, paper_statics(16), -5), Error);
@@ -367,7 +369,7 @@ TEST_CASE("statics refuse a torque that is no load, and one that leaves the flan
       message = e.what();
     }
     INFO(message);
-    CHECK(message.find("contact leaves the flanks: window ") != std::string::npos);
+    CHECK(message.find("contact leaves the flanks: candidate zone ") != std::string::npos);
     CHECK(message.find(torque == 5e4 ? "at 50000 N m" : "at 1000000 N m") != std::string::npos);
   }
 }
@@ -381,21 +383,21 @@ TEST_CASE(
   material.plane_stress = false;
   BodyDiscretisation discretisation = strain.discretisation;
   strain = reduce(make_sector_mesh(strain.design, discretisation), material, 1);
-  StaticSlice slice = paper_statics(8);
-  slice.mesh.corner.enabled = false;
-  const StaticArtifact one = static_transmission(strain, strain, slice, 12467.7);
+  StaticParameters settings = paper_statics(8);
+  settings.mesh.corner.enabled = false;
+  const StaticArtifact one = static_transmission(strain, strain, settings, 12467.7);
   CHECK(one.contact_half_width(0, 1) == relative(1e-3, 0.025));
   CHECK(one.contact_pressure(0, 1) == relative(4.434e9, 0.025));
-  slice.contact.strips = 60;
-  const StaticArtifact finer = static_transmission(strain, strain, slice, 12467.7);
+  settings.contact.strips = 60;
+  const StaticArtifact finer = static_transmission(strain, strain, settings, 12467.7);
   CHECK(finer.transmission_error[0] == relative(one.transmission_error[0], 1e-4));
   CHECK(finer.contact_half_width(0, 1) == relative(one.contact_half_width(0, 1), 2e-3));
 
-  slice.mesh.corner.enabled = true;
-  slice.contact.strips = 15;
-  const StaticArtifact shared = static_transmission(strain, strain, slice, 12467.7);
-  slice.contact.strips = 45;
-  const StaticArtifact shared_finer = static_transmission(strain, strain, slice, 12467.7);
+  settings.mesh.corner.enabled = true;
+  settings.contact.strips = 15;
+  const StaticArtifact shared = static_transmission(strain, strain, settings, 12467.7);
+  settings.contact.strips = 45;
+  const StaticArtifact shared_finer = static_transmission(strain, strain, settings, 12467.7);
   for (int i = 0; i < 8; ++i) {
     CHECK(shared.transmission_error[i] < 1.001 * one.transmission_error[i]);
     CHECK((shared.tooth_load.row(i).array() > 0).count() >= 2);
@@ -424,25 +426,25 @@ TEST_CASE("a flank table that no body has stops the contact with its numbers") {
 }
 
 TEST_CASE(
-    "what a sweep cannot do is refused by name: no speeds, contact without a solution, a state of other "
+    "what a sweep cannot do is rejected by name: no speeds, contact without a solution, a state of other "
     "gears") {
   const BodyArtifact& body = paper_body();
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
-  const auto refusal = [&](const SweepSlice& slice) {
+  const auto rejection = [&](const SweepParameters& settings) {
     try {
-      sweep(body, body, statics, statics.mean_stiffness, slice, "up", no_report);
+      sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report);
     } catch (const Error& e) {
       return std::string(e.what());
     }
     return std::string("nothing");
   };
-  CHECK(refusal(paper_sweep(3000, 2000, 20)).find("from 3000 to 2000 Hz in steps of 20 Hz is empty") !=
+  CHECK(rejection(paper_sweep(3000, 2000, 20)).find("from 3000 to 2000 Hz in steps of 20 Hz is empty") !=
         std::string::npos);
   // At 0.135 mm Hertz's law ends at a width that the static load does not need, but the first swings of the motion do.
-  SweepSlice shallow = paper_sweep(2900, 2900, 20);
+  SweepParameters shallow = paper_sweep(2900, 2900, 20);
   shallow.fidelity.contact = ContactModel::line;
   shallow.damping.undamped_depth = 0.135e-3;
-  const std::string words = refusal(shallow);
+  const std::string words = rejection(shallow);
   INFO(words);
   CHECK(words.rfind("at 2900 Hz, at mesh phase 0.", 0) == 0);
   CHECK(words.find("line contact: a pair carries") != std::string::npos);
@@ -452,46 +454,48 @@ TEST_CASE(
   RollingDynamics one(usual, parameters), two(other, parameters);
   const double load = 150 / usual.kinematics.gear(0).base_radius();
   for (RollingDynamics* dynamics : {&one, &two}) {
-    dynamics->set_range(
-        contact_range(usual.kinematics, usual.gear[0].half_plane(), usual.gear[1].half_plane(), 8,
-                      load / usual.kinematics.contact_ratio(), 3 * load, 20e-6),
+    dynamics->set_zone(
+        candidate_zone(usual.kinematics, usual.gear[0].half_plane(), usual.gear[1].half_plane(), 8,
+                       load / usual.kinematics.contact_ratio(), 3 * load, 20e-6),
         128);
     dynamics->set_speed(2000, 128);
   }
   RollingDynamics::State state = one.rest();
   two.rest();
   RollingDynamics::Period period;
-  CHECK(one.march(state, period));
-  CHECK_THROWS_WITH(two.march(state, period), doctest::Contains("is of other gears or modes"));
-  // A wider range has more strips; a ledger would read forces that the state does not have.
-  one.set_range(contact_range(usual.kinematics, usual.gear[0].half_plane(), usual.gear[1].half_plane(), 8,
+  CHECK(one.integrate(state, period));
+  CHECK_THROWS_WITH(two.integrate(state, period), doctest::Contains("is of other gears or modes"));
+  // A wider range has more strips; an energy balance would read forces that the state does not have.
+  one.set_zone(candidate_zone(usual.kinematics, usual.gear[0].half_plane(), usual.gear[1].half_plane(), 8,
                               load / usual.kinematics.contact_ratio(), 6 * load, 20e-6),
-                128);
+               128);
   one.set_speed(2000, 128);
-  Ledger ledger;
-  CHECK_THROWS_WITH(one.march(state, period, &ledger), doctest::Contains("march a period without a ledger"));
-  CHECK(one.march(state, period));
-  CHECK(one.march(state, period, &ledger));
-  CHECK(ledger.imbalance < 1e-9 * ledger.throughput);
+  EnergyBalance energy_balance;
+  CHECK_THROWS_WITH(one.integrate(state, period, &energy_balance),
+                    doctest::Contains("integrate a period without an energy balance"));
+  CHECK(one.integrate(state, period));
+  CHECK(one.integrate(state, period, &energy_balance));
+  CHECK(energy_balance.imbalance < 1e-9 * energy_balance.throughput);
 }
 
 TEST_CASE("a sweep says how many time steps an oscillation of the contact has, and what eta damps") {
   const BodyArtifact& body = paper_body();
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
-  SweepSlice slice = paper_sweep(1000, 1500, 500);
-  slice.time.steps_per_period = 16;
-  slice.time.min_sample_rate = 1;
-  const SweepArtifact result = sweep(body, body, statics, statics.mean_stiffness, slice, "down", no_report);
+  SweepParameters settings = paper_sweep(1000, 1500, 500);
+  settings.time.steps_per_period = 16;
+  settings.time.min_sample_rate = 1;
+  const SweepArtifact result =
+      sweep(body, body, statics, statics.mean_stiffness, settings, "down", no_report);
   CHECK(steps_per_oscillation(result) == relative(16 * 1000 / result.natural_frequency, 1e-12));
   // Between the ring-downs of one pair and two, 5.8 and 7.0 %.
   const double ratio =
-      stiffness_damping_ratio(statics, slice.damping, slice.driver_inertia, slice.driven_inertia);
+      stiffness_damping_ratio(statics, settings.damping, settings.driver_inertia, settings.driven_inertia);
   CHECK(ratio > 0.058);
   CHECK(ratio < 0.070);
 }
 
-TEST_CASE("a body with a number that is none is refused by the name of its array") {
-  const auto refusal = [](const std::function<void(BodyArtifact&)>& spoil) {
+TEST_CASE("a body with a number that is none is rejected by the name of its array") {
+  const auto rejection = [](const std::function<void(BodyArtifact&)>& spoil) {
     BodyArtifact body = paper_body();
     spoil(body);
     std::string message;
@@ -503,10 +507,10 @@ TEST_CASE("a body with a number that is none is refused by the name of its array
     }
     return message;
   };
-  CHECK(refusal([](BodyArtifact&) {}) == "");
+  CHECK(rejection([](BodyArtifact&) {}) == "");
   for (const double bad : {std::nan(""), double(INFINITY)}) {
     const auto says = [&](const std::function<void(BodyArtifact&)>& spoil, const std::string& name) {
-      const std::string message = refusal(spoil);
+      const std::string message = rejection(spoil);
       INFO(message);
       CHECK(message.find("the body's " + name + " holds a number that is not finite") == 0);
     };
@@ -518,7 +522,7 @@ TEST_CASE("a body with a number that is none is refused by the name of its array
   }
 }
 
-TEST_CASE("equilibrium: the load is met to 1e-12, to 1e-10 where no double lies between, or refused") {
+TEST_CASE("equilibrium: the load is met to 1e-12, to 1e-10 where no double lies between, or rejected") {
   // One strip of 1 nm/N whose gap is far larger than its approach: x carries a load of its own round-off.
   const auto at = [](double gap, double load) {
     ComplementaritySolver solver;
@@ -564,22 +568,22 @@ TEST_CASE("plane strain, any bore: a finer table and finer elements change no tr
 
 TEST_CASE("at rest the modal form gives the static transmission error, whatever modes are kept") {
   const BodyArtifact& body = paper_body();
-  StaticSlice slice = paper_statics(128);
-  const GearMeshModel model(body, body, slice.mesh);
+  StaticParameters settings = paper_statics(128);
+  const GearMeshModel model(body, body, settings.mesh);
   const double load = 150 / model.kinematics.gear(0).base_radius();
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    slice.fidelity.contact = contact;
-    // A window twice as wide as the load wants, which the statics need not widen: the strips of both are the same.
-    const StaticArtifact statics = static_transmission(body, body, slice, 150, 2);
-    for (const auto rung : {BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal}) {
-      RollingDynamics dynamics(model, paper_parameters(statics.mean_stiffness, rung, contact));
-      dynamics.set_range(
-          contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
-                        slice.contact.strips, load / model.kinematics.contact_ratio(), 4 * 1.1 * load,
-                        3 * statics.transmission_error.maxCoeff()),
+    settings.fidelity.contact = contact;
+    // A candidate zone twice as wide as the load wants, which the statics need not widen: the strips of both are the same.
+    const StaticArtifact statics = static_transmission(body, body, settings, 150, 2);
+    for (const auto level : {BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal}) {
+      RollingDynamics dynamics(model, paper_parameters(statics.mean_stiffness, level, contact));
+      dynamics.set_zone(
+          candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+                         settings.contact.strips, load / model.kinematics.contact_ratio(), 4 * 1.1 * load,
+                         3 * statics.transmission_error.maxCoeff()),
           1);
       const RollingDynamics::State state = dynamics.rest();
-      // Of what the torques bend within a window modes keep mean and slope: 4e-8 is left out. A line has one node.
+      // Of what the torques bend within a candidate zone modes keep mean and slope: 4e-8 is left out. A line has one node.
       CHECK(dynamics.static_deflection() ==
             relative(statics.transmission_error[0], contact == ContactModel::line ? 1e-12 : 1e-7));
       for (int k = 0; k < state.p.size(); ++k)
@@ -588,22 +592,22 @@ TEST_CASE("at rest the modal form gives the static transmission error, whatever 
   }
 }
 
-TEST_CASE("frozen one-pair and two-pair frequencies: few modes and a lagged residual against many modes") {
+TEST_CASE("frozen one-pair and two-pair frequencies: few modes and a relaxed residual against many modes") {
   // Neglected in truncated modes: their own inertia and gamma theta''. The first torsional mode alone, 5
   // modes and 61 modes per gear (up to some 75 kHz); the paper's 2480 and 3040 Hz at 100 N m are what the
   // inertia was fitted to.
   const BodyArtifact &body = paper_body(), &many = paper_body(40e-3, 0.8e-3, 61);
-  const StaticSlice slice = paper_statics(128);
-  const auto frequency = [&](const BodyArtifact& with, BodyModel rung, int phase,
+  const StaticParameters settings = paper_statics(128);
+  const auto frequency = [&](const BodyArtifact& with, BodyModel level, int phase,
                              ContactModel contact = ContactModel::strips) {
-    const GearMeshModel model(with, with, slice.mesh);
-    DynamicParameters parameters = paper_parameters(463e6, rung, contact);
+    const GearMeshModel model(with, with, settings.mesh);
+    DynamicParameters parameters = paper_parameters(463e6, level, contact);
     parameters.torque = 100;
     RollingDynamics dynamics(model, parameters);
     const double load = 100 / model.kinematics.gear(0).base_radius();
-    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+    dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
                                      15, load / model.kinematics.contact_ratio(), 1.1 * load, 3e-6),
-                       2);
+                      2);
     return dynamics.frozen_frequency(phase);
   };
   for (int phase : {0, 1}) {
@@ -620,61 +624,62 @@ TEST_CASE("frozen one-pair and two-pair frequencies: few modes and a lagged resi
 TEST_CASE(
     "which tooth is called the reference changes nothing: flanks move alike before and after renaming") {
   const BodyArtifact& body = paper_body();
-  const StaticSlice slice = paper_statics(128);
-  const GearMeshModel model(body, body, slice.mesh);
+  const StaticParameters settings = paper_statics(128);
+  const GearMeshModel model(body, body, settings.mesh);
   RollingDynamics dynamics(model, paper_parameters(463e6));
-  const ContactRange range{2e-4, 8, 3e-6};
-  dynamics.set_range(range, 1);
+  const CandidateZone range{2e-4, 8, 3e-6};
+  dynamics.set_zone(range, 1);
   RollingDynamics::State state = dynamics.rest();
   for (int i = 0; i < state.z.size(); ++i)
     state.z[i] = 1e-6 * std::sin(1.0 + 2.3 * i);  // all doublets, all phases
   state.z[0] = -1e-4;                             // apart
   dynamics.set_speed(1e12, 1);                    // a mesh period in which nothing but names change
-  RollingDynamics::Period marched;
+  RollingDynamics::Period integrated;
   for (int period = 0; period < 3; ++period) {
     const MeshPosition before = make_position(model, 1.0, range), after = make_position(model, 0.0, range);
     REQUIRE(before.pairs.size() == after.pairs.size());
     REQUIRE(before.pairs[0].pair + 1 == after.pairs[0].pair);
     const VectorXd moved = dynamics.participation(before) * state.z;
-    REQUIRE(dynamics.march(state, marched));
+    REQUIRE(dynamics.integrate(state, integrated));
     CHECK((dynamics.participation(after) * state.z - moved).norm() < 1e-12 * moved.norm());
   }
 }
 
-TEST_CASE("each step of rolling gears is one of the pair held at the phase where the step ends") {
-  // Without lag, whose fields a held pair has on its own strips only. Let go from 3 times its load, so that contact is lost.
+TEST_CASE("each step of rolling gears is one of the pair at the fixed phase where the step ends") {
+  // Without relaxation, whose fields a pair at a fixed phase has on its own strips only. Let go from 3 times its load, so that
+  // contact is lost.
   constexpr int kSteps = 64;
   const BodyArtifact& body = paper_body();
-  const StaticSlice slice = paper_statics(128);
-  const GearMeshModel model(body, body, slice.mesh);
+  const StaticParameters settings = paper_statics(128);
+  const GearMeshModel model(body, body, settings.mesh);
   const double load = 150 / model.kinematics.gear(0).base_radius();
   for (const auto integrator : {Integrator::exact, Integrator::newmark}) {
     DynamicParameters parameters = paper_parameters(463e6);
     parameters.damping.rayleigh_stiffness = 0;
     parameters.fidelity.integrator = integrator;
     RollingDynamics dynamics(model, parameters);
-    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+    dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
                                      8, load / model.kinematics.contact_ratio(), 8 * load, 4e-5),
-                       kSteps);
+                      kSteps);
     dynamics.set_speed(2500, kSteps);
     RollingDynamics::State state = dynamics.rest();
     state.z[0] *= 3;
     VectorXd z = state.z, v = state.v, force = state.force;
     RollingDynamics::Period period;
-    REQUIRE(dynamics.march(state, period));
+    REQUIRE(dynamics.integrate(state, period));
     double apart = 0, error = 0, mesh_force = 0;
     for (int i = 1; i < kSteps; ++i) {
-      HeldMotion held(dynamics.hold(i), 1 / (2500.0 * kSteps));
-      held.z = z;
-      held.v = v;
-      held.force = force;
-      held.advance();
-      z = held.z;
-      v = held.v;
-      force = held.force;
-      error = std::max(error, std::abs(held.transmission_error() - period.transmission_error[i]));
-      mesh_force = std::max(mesh_force, std::abs(held.p.sum() - period.pair_load.col(i).sum()));
-      apart += held.p.sum() == 0;
+      FixedPhaseMotion fixed(dynamics.hold(i), 1 / (2500.0 * kSteps));
+      fixed.z = z;
+      fixed.v = v;
+      fixed.force = force;
+      fixed.advance();
+      z = fixed.z;
+      v = fixed.v;
+      force = fixed.force;
+      error = std::max(error, std::abs(fixed.transmission_error() - period.transmission_error[i]));
+      mesh_force = std::max(mesh_force, std::abs(fixed.p.sum() - period.pair_load.col(i).sum()));
+      apart += fixed.p.sum() == 0;
     }
     CHECK(error < 1e-12 * period.transmission_error.cwiseAbs().maxCoeff());
     CHECK(mesh_force < 1e-10 * period.pair_load.maxCoeff());
@@ -685,13 +690,13 @@ TEST_CASE("each step of rolling gears is one of the pair held at the phase where
 TEST_CASE("crawling gears follow the static transmission error") {
   const BodyArtifact& body = paper_body();
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    StaticSlice statics_slice = paper_statics(128);
-    statics_slice.fidelity.contact = contact;
-    const StaticArtifact statics = static_transmission(body, body, statics_slice, 150);
-    SweepSlice slice = paper_sweep(10, 10, 1);
-    slice.fidelity.contact = contact;
+    StaticParameters statics_parameters = paper_statics(128);
+    statics_parameters.fidelity.contact = contact;
+    const StaticArtifact statics = static_transmission(body, body, statics_parameters, 150);
+    SweepParameters settings = paper_sweep(10, 10, 1);
+    settings.fidelity.contact = contact;
     const SweepArtifact sweep_result =
-        sweep(body, body, statics, statics.mean_stiffness, slice, "up", no_report);
+        sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report);
     // At 10 Hz the slope of the error excites 4e-3 of its size at f_n.
     const VectorXd difference =
         sweep_result.transmission_error.row(0).transpose() - statics.transmission_error;
@@ -700,38 +705,39 @@ TEST_CASE("crawling gears follow the static transmission error") {
 }
 
 TEST_CASE(
-    "the energy ledger closes to 1e-9 of the work put in, with and without contact loss, both integrators") {
+    "the energy balance closes to 1e-9 of the work put in, with and without contact loss, both integrators") {
   const BodyArtifact& body = paper_body();
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    StaticSlice statics_slice = paper_statics(128);
-    statics_slice.fidelity.contact = contact;
-    const StaticArtifact statics = static_transmission(body, body, statics_slice, 150);
+    StaticParameters statics_parameters = paper_statics(128);
+    statics_parameters.fidelity.contact = contact;
+    const StaticArtifact statics = static_transmission(body, body, statics_parameters, 150);
     for (const auto integrator : {Integrator::exact, Integrator::newmark})
-      for (const auto rung : {BodyModel::modal, BodyModel::quasi_static, BodyModel::rigid}) {
-        SweepSlice slice = paper_sweep(2800, 2900, 100);
-        slice.damping.rayleigh_stiffness = 5.5e-6;
-        if (rung == BodyModel::rigid) slice.damping.bearing_ratio = 0.1;  // the only damper of that rung
-        slice.fidelity = {rung, contact, integrator};
+      for (const auto level : {BodyModel::modal, BodyModel::quasi_static, BodyModel::rigid}) {
+        SweepParameters settings = paper_sweep(2800, 2900, 100);
+        settings.damping.rayleigh_stiffness = 5.5e-6;
+        if (level == BodyModel::rigid)
+          settings.damping.bearing_ratio = 0.1;  // the only damper of that model level
+        settings.fidelity = {level, contact, integrator};
         const SweepArtifact result =
-            sweep(body, body, statics, statics.mean_stiffness, slice, "down", no_report);
+            sweep(body, body, statics, statics.mean_stiffness, settings, "down", no_report);
         CHECK(result.energy_imbalance.maxCoeff() < 1e-9);
         CHECK(result.least_gap > -1e-15);
         CHECK(result.drift_force.maxCoeff() < 0.02 * 2128);  // lever arms at a corner differ by 2 % at most
-        if (rung == BodyModel::modal) CHECK(result.mesh_force.minCoeff() == 0);  // contact is lost here
+        if (level == BodyModel::modal) CHECK(result.mesh_force.minCoeff() == 0);  // contact is lost here
       }
   }
 }
 
-TEST_CASE("the ledger closes where a corner rule cuts pairs off under load") {
+TEST_CASE("the energy balance closes where a corner rule cuts pairs off under load") {
   const BodyArtifact& body = paper_body();
   for (const auto contact : {ContactModel::strips, ContactModel::line})
     for (double angle : {0.0, 0.3 * kPi / 180}) {
-      StaticSlice slice = paper_statics(128);
-      slice.mesh.corner.enabled = angle > 0;
-      slice.mesh.corner.largest_angle = angle;
-      slice.fidelity.contact = contact;
-      const StaticArtifact statics = static_transmission(body, body, slice, 150);
-      SweepSlice speeds = paper_sweep(1400, 2900, 500);
+      StaticParameters settings = paper_statics(128);
+      settings.mesh.corner.enabled = angle > 0;
+      settings.mesh.corner.largest_angle = angle;
+      settings.fidelity.contact = contact;
+      const StaticArtifact statics = static_transmission(body, body, settings, 150);
+      SweepParameters speeds = paper_sweep(1400, 2900, 500);
       speeds.fidelity.contact = contact;
       const SweepArtifact result =
           sweep(body, body, statics, statics.mean_stiffness, speeds, "up", no_report);
@@ -742,19 +748,19 @@ TEST_CASE("the ledger closes where a corner rule cuts pairs off under load") {
 TEST_CASE("orbits: a row holds its orbit, a subharmonic is one only if no shorter period is approached") {
   // Light damping without corner contact: subharmonics of order 2 occur; each stored row repeats after its multiple.
   const BodyArtifact& body = paper_body();
-  StaticSlice statics_slice = paper_statics(128);
-  statics_slice.mesh.corner.enabled = false;
-  const StaticArtifact statics = static_transmission(body, body, statics_slice, 150);
-  SweepSlice slice = paper_sweep(5600, 6000, 100);
-  slice.damping.rayleigh_stiffness = 2e-6;
-  const SweepArtifact result = sweep(body, body, statics, statics.mean_stiffness, slice, "up", no_report);
+  StaticParameters statics_parameters = paper_statics(128);
+  statics_parameters.mesh.corner.enabled = false;
+  const StaticArtifact statics = static_transmission(body, body, statics_parameters, 150);
+  SweepParameters settings = paper_sweep(5600, 6000, 100);
+  settings.damping.rayleigh_stiffness = 2e-6;
+  const SweepArtifact result = sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report);
   CHECK((result.period_multiple.array() == 2).any());
-  const int samples = slice.time.steps_per_period;
+  const int samples = settings.time.steps_per_period;
   for (int i = 0; i < result.mesh_frequency.size(); ++i) {
     const int m = result.period_multiple[i];
     INFO(result.mesh_frequency[i] << " Hz: " << m << " periods");
     if (m == 0) continue;
-    CHECK(result.residual[i] < slice.time.periodicity);
+    CHECK(result.residual[i] < settings.time.periodicity);
     const VectorXd row = result.transmission_error.row(i);
     const double size = row.maxCoeff() - row.minCoeff();
     const int stored = static_cast<int>(row.size()) / samples;
@@ -809,10 +815,10 @@ TEST_CASE("at less damping there are two branches at 150 N m and 2400 Hz, and th
   const BodyArtifact& body = paper_body();
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
   const double reference = static_transmission(body, body, paper_statics(128), 100).mean_stiffness;
-  SweepSlice slice = paper_sweep(2400, 3000, 40);
-  slice.damping.rayleigh_stiffness = 5.5e-6;
-  const SweepArtifact up = sweep(body, body, statics, reference, slice, "up", no_report);
-  const SweepArtifact down = sweep(body, body, statics, reference, slice, "down", no_report);
+  SweepParameters settings = paper_sweep(2400, 3000, 40);
+  settings.damping.rayleigh_stiffness = 5.5e-6;
+  const SweepArtifact up = sweep(body, body, statics, reference, settings, "up", no_report);
+  const SweepArtifact down = sweep(body, body, statics, reference, settings, "down", no_report);
   CHECK(rms(up, 0) == relative(1.15e-6, 0.05));
   CHECK(rms(down, 15) == relative(7.2e-6, 0.05));
   REQUIRE(up.jump_frequency.size() == 1);
@@ -828,11 +834,11 @@ TEST_CASE("time step: second order in the steps per period") {
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
   std::vector<double> values;
   for (int steps : {64, 128, 256, 512}) {
-    SweepSlice slice = paper_sweep(3300, 3300, 100);
-    slice.time.steps_per_period = steps;
-    slice.time.min_sample_rate = 1;
-    slice.time.periodicity = 1e-9;
-    values.push_back(rms(sweep(body, body, statics, statics.mean_stiffness, slice, "up", no_report), 0));
+    SweepParameters settings = paper_sweep(3300, 3300, 100);
+    settings.time.steps_per_period = steps;
+    settings.time.min_sample_rate = 1;
+    settings.time.periodicity = 1e-9;
+    values.push_back(rms(sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report), 0));
   }
   const double coarse = std::abs(values[0] - values[1]), fine = std::abs(values[1] - values[2]),
                finest = std::abs(values[2] - values[3]);
@@ -841,26 +847,26 @@ TEST_CASE("time step: second order in the steps per period") {
   CHECK(fine < coarse);
 }
 
-TEST_CASE("a total inertia below the body's own is refused with both numbers") {
+TEST_CASE("a total inertia below the body's own is rejected with both numbers") {
   const BodyArtifact& body = paper_body();
   // What can be told from the drawing alone comes close to it, from below.
   const double least = least_body_inertia(ToothGeometry(body.design), body.material);
   CHECK(least < body.inertia);
   CHECK(least > 0.98 * body.inertia);
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
-  SweepSlice slice = paper_sweep(2000, 2000, 100);
-  slice.driven_inertia = 0.5 * body.inertia;
-  for (const auto rung : {BodyModel::modal, BodyModel::rigid}) {
-    slice.fidelity.body = rung;
+  SweepParameters settings = paper_sweep(2000, 2000, 100);
+  settings.driven_inertia = 0.5 * body.inertia;
+  for (const auto level : {BodyModel::modal, BodyModel::rigid}) {
+    settings.fidelity.body = level;
     std::string message;
     try {
-      sweep(body, body, statics, statics.mean_stiffness, slice, "up", no_report);
+      sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report);
     } catch (const Error& e) {
       message = e.what();
     }
     INFO(message);
     CHECK(message.find(text("[gear.", statics.mesh.driven, "] of the scene: total_inertia_kgm2 = ",
-                            shown_number(slice.driven_inertia), " ")) != std::string::npos);
+                            shown_number(settings.driven_inertia), " ")) != std::string::npos);
     CHECK(message.find(shown_number(body.inertia)) != std::string::npos);
   }
 }
@@ -871,12 +877,12 @@ TEST_CASE(
   for (double torque : {150.0, 300.0}) {
     std::array<SweepArtifact, 2> result;
     for (int k = 0; k < 2; ++k) {
-      StaticSlice slice = paper_statics(128);
-      slice.contact.strips = 40;
-      slice.fidelity.contact = k ? ContactModel::line : ContactModel::strips;
-      const StaticArtifact statics = static_transmission(body, body, slice, torque);
-      SweepSlice speeds = paper_sweep(1300, 3300, 500);
-      speeds.fidelity.contact = slice.fidelity.contact;
+      StaticParameters settings = paper_statics(128);
+      settings.contact.strips = 40;
+      settings.fidelity.contact = k ? ContactModel::line : ContactModel::strips;
+      const StaticArtifact statics = static_transmission(body, body, settings, torque);
+      SweepParameters speeds = paper_sweep(1300, 3300, 500);
+      speeds.fidelity.contact = settings.fidelity.contact;
       result[k] = sweep(body, body, statics, statics.mean_stiffness, speeds, "up", no_report);
       CHECK(result[k].natural_frequency == relative(result[0].natural_frequency, 1e-3));
     }
@@ -893,11 +899,11 @@ TEST_CASE(
 TEST_CASE("sweeps with one line per pair: over an orbit the flanks carry the torque") {
   // Forces on the rigid rotation have no mean, or it would not repeat. Without corners all levers are base radii.
   const BodyArtifact& body = paper_body();
-  StaticSlice slice = paper_statics(128);
-  slice.mesh.corner.enabled = false;
-  slice.fidelity.contact = ContactModel::line;
-  const StaticArtifact statics = static_transmission(body, body, slice, 150);
-  SweepSlice speeds = paper_sweep(1500, 2900, 700);
+  StaticParameters settings = paper_statics(128);
+  settings.mesh.corner.enabled = false;
+  settings.fidelity.contact = ContactModel::line;
+  const StaticArtifact statics = static_transmission(body, body, settings, 150);
+  SweepParameters speeds = paper_sweep(1500, 2900, 700);
   speeds.fidelity.contact = ContactModel::line;
   speeds.damping.rayleigh_stiffness = 5.5e-6;
   speeds.time.min_sample_rate = 1;  // every step is stored
@@ -919,14 +925,14 @@ TEST_CASE(
     parameters.damping.rayleigh_stiffness = 5.5e-6;
     RollingDynamics dynamics(model, parameters);
     constexpr int kFinest = 8192;
-    ContactRange range;
+    CandidateZone range;
     range.corner_gap = 15e-6;
-    dynamics.set_range(range, kFinest);
+    dynamics.set_zone(range, kFinest);
     const auto after = [&](int steps) {  // three mesh periods from rest
       RollingDynamics::State state = dynamics.rest();
       RollingDynamics::Period period;
       dynamics.set_speed(frequency, steps);
-      for (int i = 0; i < 3; ++i) REQUIRE(dynamics.march(state, period));
+      for (int i = 0; i < 3; ++i) REQUIRE(dynamics.integrate(state, period));
       return state;
     };
     const RollingDynamics::State finest = after(kFinest);
@@ -944,24 +950,24 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("one line per pair: held pairs and forces beyond Hertz's law are refused") {
+TEST_CASE("one line per pair: held pairs and forces beyond Hertz's law are rejected") {
   const BodyArtifact& body = paper_body();
   const GearMeshModel model(body, body, paper_statics(1).mesh);
-  ContactRange range;
+  CandidateZone range;
   range.corner_gap = 15e-6;
-  RollingDynamics held(model, paper_parameters(470e6, BodyModel::modal, ContactModel::line));
-  held.set_range(range, 2);
-  CHECK_THROWS_WITH(held.hold(0), doctest::Contains("set contact = \"strips\""));
+  RollingDynamics fixed(model, paper_parameters(470e6, BodyModel::modal, ContactModel::line));
+  fixed.set_zone(range, 2);
+  CHECK_THROWS_WITH(fixed.hold(0), doctest::Contains("set contact = \"strips\""));
   // At 0.135 mm the law ends at a width that the static load does not need, but the first swings of the motion do.
   DynamicParameters parameters = paper_parameters(470e6, BodyModel::modal, ContactModel::line);
   parameters.damping.undamped_depth = 0.135e-3;
   RollingDynamics shallow(model, parameters);
-  shallow.set_range(range, 128);
+  shallow.set_zone(range, 128);
   shallow.set_speed(2900, 128);
   RollingDynamics::State state = shallow.rest();
   RollingDynamics::Period period;
-  const auto march = [&] {
-    for (int i = 0; i < 20; ++i) shallow.march(state, period);
+  const auto integrate = [&] {
+    for (int i = 0; i < 20; ++i) shallow.integrate(state, period);
   };
-  CHECK_THROWS_WITH(march(), doctest::Contains("Hertz's law relative to its depth holds up to"));
+  CHECK_THROWS_WITH(integrate(), doctest::Contains("Hertz's law relative to its depth holds up to"));
 }

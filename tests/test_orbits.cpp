@@ -1,17 +1,17 @@
-// Periodic motions: found by marching and by extrapolation, on both branches; order in the time step; ends of branches.
+// Periodic motions: found by integration and by extrapolation, on both branches; order in the time step; ends of branches.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <string>
 
+#include "dynamics/steady_state.h"
 #include "failure_of.h"
-#include "motion/steady_state.h"
-#include "motion/sweep.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/branch_end.h"
 #include "signal/response.h"
+#include "studies/sweep.h"
 
 using namespace whine;
 using Eigen::VectorXd;
@@ -29,15 +29,15 @@ struct Rig {
         model(paper_body(), paper_body(), statics.mesh),
         dynamics(model, parameters(statics, eta, integrator)) {
     const double load = 150 / model.kinematics.gear(0).base_radius();
-    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+    dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
                                      8, load / model.kinematics.contact_ratio(), 6 * load,
                                      6 * statics.transmission_error.maxCoeff()),
-                       finest);
+                      finest);
   }
   static StaticArtifact at_rest(bool corner) {
-    StaticSlice slice = paper_statics(128);
-    slice.mesh.corner.enabled = corner;
-    return static_transmission(paper_body(), paper_body(), slice, 150);
+    StaticParameters settings = paper_statics(128);
+    settings.mesh.corner.enabled = corner;
+    return static_transmission(paper_body(), paper_body(), settings, 150);
   }
   static DynamicParameters parameters(const StaticArtifact& statics, double eta, Integrator integrator) {
     DynamicParameters p = paper_parameters(statics.mean_stiffness);
@@ -51,7 +51,7 @@ struct Rig {
     const double step = to > from ? width : -width;
     for (double f = from; step * (to - f) >= 0; f += step) {
       dynamics.set_speed(f, steps);
-      REQUIRE(settle(dynamics, state, 1e-6, SteadyState::march));
+      REQUIRE(find_periodic_orbit(dynamics, state, 1e-6, SteadyState::integrate));
     }
     return state;
   }
@@ -77,35 +77,36 @@ VectorXd envelope(VectorXd error) {
 }  // namespace
 
 TEST_CASE(
-    "marching and extrapolating end on the same orbit, on both branches; the second in a third of the "
+    "integrating and extrapolating end on the same orbit, on both branches; the second in a third of the "
     "periods") {
   Rig rig(128);
   for (const double from : {2000.0, 2900.0}) {  // lower and upper branch at 2400 Hz
     const State start = rig.carried(from, from < 2400 ? 2350 : 2450, 128);
     rig.dynamics.set_speed(2400, 128);
-    State marched = start, extrapolated = start;
-    const auto slow = settle(rig.dynamics, marched, 1e-9, SteadyState::march),
-               fast = settle(rig.dynamics, extrapolated, 1e-9, SteadyState::extrapolate);
+    State integrated = start, extrapolated = start;
+    const auto slow = find_periodic_orbit(rig.dynamics, integrated, 1e-9, SteadyState::integrate),
+               fast = find_periodic_orbit(rig.dynamics, extrapolated, 1e-9, SteadyState::extrapolate);
     REQUIRE(slow);
     REQUIRE(fast);
     INFO("from " << from << " Hz: " << slow->periods << " and " << fast->periods << " periods");
     CHECK(slow->multiple == 1);
     CHECK(fast->multiple == 1);
     CHECK(3 * fast->periods < slow->periods + 3);
-    CHECK(rig.dynamics.distance(marched, extrapolated) < 1e-8);
+    CHECK(rig.dynamics.distance(integrated, extrapolated) < 1e-8);
     CHECK(std::abs(fast->rms - slow->rms) < 1e-8 * slow->rms);
   }
 }
 
-TEST_CASE("the secants of one speed save periods at the next, on the same orbits") {
+TEST_CASE("the columns of one speed save periods at the next, on the same orbits") {
   Rig rig(128);
   int alone = 0, together = 0;
   State state = rig.carried(2000, 2100, 128), shared_state = state;
-  Secants secants;
+  AndersonAcceleration acceleration;
   for (double f = 2120; f <= 2400; f += 20) {
     rig.dynamics.set_speed(f, 128);
-    const auto one = settle(rig.dynamics, state, 1e-7, SteadyState::extrapolate),
-               other = settle(rig.dynamics, shared_state, 1e-7, SteadyState::extrapolate, {}, &secants);
+    const auto one = find_periodic_orbit(rig.dynamics, state, 1e-7, SteadyState::extrapolate),
+               other = find_periodic_orbit(rig.dynamics, shared_state, 1e-7, SteadyState::extrapolate, {},
+                                           &acceleration);
     REQUIRE(one);
     REQUIRE(other);
     INFO(f << " Hz: " << one->periods << " and " << other->periods << " periods");
@@ -114,7 +115,7 @@ TEST_CASE("the secants of one speed save periods at the next, on the same orbits
     alone += one->periods;
     together += other->periods;
   }
-  MESSAGE(alone << " mesh periods, " << together << " with the secants of the speed before");
+  MESSAGE(alone << " mesh periods, " << together << " with the columns of the speed before");
   CHECK(together < 0.95 * alone);
 }
 
@@ -122,29 +123,30 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
   Rig rig(128, 2e-6, false);
   bool subharmonic = false;
   State state = rig.dynamics.rest();
-  Secants secants;  // of the speeds where mesh periods do not alternate
+  AndersonAcceleration acceleration;  // of the speeds where mesh periods do not alternate
   for (double f = 5500; f <= 6200; f += 200) {
     rig.dynamics.set_speed(f, 128);
     const State start = state;
-    const auto slow = settle(rig.dynamics, state, 1e-6, SteadyState::march);
+    const auto slow = find_periodic_orbit(rig.dynamics, state, 1e-6, SteadyState::integrate);
     REQUIRE(slow);
-    for (Secants* known : {static_cast<Secants*>(nullptr), &secants}) {
+    for (AndersonAcceleration* known : {static_cast<AndersonAcceleration*>(nullptr), &acceleration}) {
       State extrapolated = start;
-      const auto fast = settle(rig.dynamics, extrapolated, 1e-6, SteadyState::extrapolate, {}, known);
+      const auto fast =
+          find_periodic_orbit(rig.dynamics, extrapolated, 1e-6, SteadyState::extrapolate, {}, known);
       REQUIRE(fast);
       INFO(f << " Hz: orbits of " << slow->multiple << " and " << fast->multiple << " mesh periods, "
-             << (known ? "with" : "without") << " the secants of other speeds");
+             << (known ? "with" : "without") << " the columns of other speeds");
       CHECK(fast->multiple == slow->multiple);
       if (slow->multiple > 0) CHECK(std::abs(fast->rms - slow->rms) < 1e-4 * slow->rms);
     }
     if (slow->multiple == 2 && !subharmonic) {
       // An orbit that has come to repeat to round-off, or bit by bit, is as periodic as one that nearly does.
       RollingDynamics::Period period;
-      for (int k = 0; k < 3000; ++k) REQUIRE(rig.dynamics.march(state, period));
+      for (int k = 0; k < 3000; ++k) REQUIRE(rig.dynamics.integrate(state, period));
       State later = state;
-      for (int k = 0; k < 2; ++k) REQUIRE(rig.dynamics.march(later, period));
+      for (int k = 0; k < 2; ++k) REQUIRE(rig.dynamics.integrate(later, period));
       CHECK(rig.dynamics.distance(later, state) < 1e-14);
-      const auto again = settle(rig.dynamics, state, 1e-6, SteadyState::march);
+      const auto again = find_periodic_orbit(rig.dynamics, state, 1e-6, SteadyState::integrate);
       REQUIRE(again);
       CHECK(again->multiple == 2);
     }
@@ -154,14 +156,16 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
 }
 
 TEST_CASE(
-    "where mesh periods begin to alternate, an orbit of one period that is found stays one when marched on") {
+    "where mesh periods begin to alternate, an orbit of one period that is found stays one when integrated "
+    "on") {
   Rig rig(128, 2e-6, false);
   State state = rig.carried(5500, 5600, 128);
-  Secants secants;
+  AndersonAcceleration acceleration;
   int single = 0, alternating = 0;
   for (double f = 5610; f <= 5720; f += 10) {
     rig.dynamics.set_speed(f, 128);
-    const auto orbit = settle(rig.dynamics, state, 1e-5, SteadyState::extrapolate, {}, &secants);
+    const auto orbit =
+        find_periodic_orbit(rig.dynamics, state, 1e-5, SteadyState::extrapolate, {}, &acceleration);
     REQUIRE(orbit);
     single += orbit->multiple == 1;
     alternating += orbit->multiple == 2;
@@ -170,7 +174,7 @@ TEST_CASE(
     RollingDynamics::Period period;
     for (int k = 0; k < 300; ++k) {
       before = later;
-      REQUIRE(rig.dynamics.march(later, period));
+      REQUIRE(rig.dynamics.integrate(later, period));
     }
     INFO(f << " Hz: the state changed by " << orbit->residual << " in a period and "
            << rig.dynamics.distance(later, before) << " in one 300 periods later");
@@ -192,12 +196,12 @@ TEST_CASE(
     newmark.dynamics.rest();  // sets the scale of distances
     State reference = state;
     newmark.dynamics.set_speed(2400, kReference);
-    const auto referred = settle(newmark.dynamics, reference, 1e-10, SteadyState::extrapolate);
+    const auto referred = find_periodic_orbit(newmark.dynamics, reference, 1e-10, SteadyState::extrapolate);
     REQUIRE(referred);
     VectorXd error(5), rms_error(5);
     for (int i = 0; i < 5; ++i) {
       exact.dynamics.set_speed(2400, static_cast<int>(steps[i]));
-      const auto orbit = settle(exact.dynamics, state, 1e-10, SteadyState::extrapolate);
+      const auto orbit = find_periodic_orbit(exact.dynamics, state, 1e-10, SteadyState::extrapolate);
       REQUIRE(orbit);
       error[i] = exact.dynamics.distance(state, reference);
       rms_error[i] = std::abs(orbit->rms / referred->rms - 1);
@@ -225,7 +229,7 @@ TEST_CASE("second order in the time step: where the upper branch ends, an envelo
     std::vector<State> reached;
     const auto run = [&](double f) {
       rig.dynamics.set_speed(f, steps);
-      const auto orbit = settle(rig.dynamics, state, 1e-8, SteadyState::extrapolate);
+      const auto orbit = find_periodic_orbit(rig.dynamics, state, 1e-8, SteadyState::extrapolate);
       REQUIRE(orbit);
       return BranchMotion{f, orbit->rms, orbit->multiple};
     };
@@ -262,15 +266,15 @@ TEST_CASE(
     "a motion that never repeats is reported as such: by its sweep, its response and the summary of either") {
   const BodyArtifact& body = paper_body();
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
-  SweepSlice slice = paper_sweep(6000, 6000, 20);
-  slice.damping.rayleigh_stiffness = 2e-7;
-  slice.damping.bearing_ratio = 1e-4;
-  const SweepArtifact swept = sweep(body, body, statics, 463e6, slice, "up", no_report);
+  SweepParameters settings = paper_sweep(6000, 6000, 20);
+  settings.damping.rayleigh_stiffness = 2e-7;
+  settings.damping.bearing_ratio = 1e-4;
+  const SweepArtifact swept = sweep(body, body, statics, 463e6, settings, "up", no_report);
   REQUIRE(swept.period_multiple[0] == 0);
   CHECK(swept.residual[0] > 1e-3);
   CHECK(swept.periods[0] == 3000);
   // Whole periods are stored, each of its own.
-  const int samples = slice.time.steps_per_period;
+  const int samples = settings.time.steps_per_period;
   REQUIRE(swept.transmission_error.cols() == 8 * samples);
   const VectorXd row = swept.transmission_error.row(0);
   const double size = row.maxCoeff() - row.minCoeff();
@@ -278,22 +282,22 @@ TEST_CASE(
     for (int j = 0; j < i; ++j)
       CHECK((row.segment(i * samples, samples) - row.segment(j * samples, samples)).cwiseAbs().maxCoeff() >
             1e-2 * size);
-  const ResponseArtifact answer = response(swept);
-  CHECK(answer.period_multiple[0] == 0);
-  CHECK(answer.dte_rms[0] == relative(rms(swept, 0), 1e-12));  // of all that is stored, not of one period
-  CHECK(answer.jump_frequency.size() == 0);
+  const ResponseArtifact observable = response(swept);
+  CHECK(observable.period_multiple[0] == 0);
+  CHECK(observable.dte_rms[0] == relative(rms(swept, 0), 1e-12));  // of all that is stored, not of one period
+  CHECK(observable.jump_frequency.size() == 0);
 }
 
 TEST_CASE("the end of a branch does not depend on the steps of the sweep that left it early") {
   const BodyArtifact& body = paper_body();
-  StaticSlice coarse = paper_statics(128);
+  StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
   const StaticArtifact statics = static_transmission(body, body, coarse, 150);
   std::vector<double> ends;
   for (const double step : {20.0, 50.0}) {
-    SweepSlice slice = paper_sweep(1700, 2900, step);
-    slice.damping.rayleigh_stiffness = kLightDamping;
-    const SweepArtifact down = sweep(body, body, statics, 463e6, slice, "down", no_report);
+    SweepParameters settings = paper_sweep(1700, 2900, step);
+    settings.damping.rayleigh_stiffness = kLightDamping;
+    const SweepArtifact down = sweep(body, body, statics, 463e6, settings, "down", no_report);
     REQUIRE(down.jump_frequency.size() == 1);
     CHECK(down.jump_width[0] < 1);
     ends.push_back(down.jump_frequency[0]);
@@ -303,40 +307,41 @@ TEST_CASE("the end of a branch does not depend on the steps of the sweep that le
 }
 
 TEST_CASE(
-    "a sweep that foretells the next speed keeps a branch to its end; one that marches on leaves it "
+    "a sweep that predicts the next speed keeps a branch to its end; one that integrates on leaves it "
     "earlier") {
   const BodyArtifact& body = paper_body();
-  StaticSlice coarse = paper_statics(128);
+  StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
   const StaticArtifact statics = static_transmission(body, body, coarse, 150);
   const auto swept = [&](SteadyState method) {
-    SweepSlice slice = paper_sweep(1700, 2900, 20);
-    slice.time.periodicity = 1e-6;
-    slice.damping.rayleigh_stiffness = kLightDamping;
-    slice.time.steady_state = method;
-    return response(sweep(body, body, statics, 463e6, slice, "down", no_report));
+    SweepParameters settings = paper_sweep(1700, 2900, 20);
+    settings.time.periodicity = 1e-6;
+    settings.damping.rayleigh_stiffness = kLightDamping;
+    settings.time.steady_state = method;
+    return response(sweep(body, body, statics, 463e6, settings, "down", no_report));
   };
-  const ResponseArtifact foretold = swept(SteadyState::extrapolate), marched = swept(SteadyState::march);
-  REQUIRE(foretold.jump_frequency.size() == 1);
-  REQUIRE(marched.jump_frequency.size() == 1);
-  CHECK(std::abs(marched.jump_frequency[0] - foretold.jump_frequency[0]) < 1);
+  const ResponseArtifact predicted = swept(SteadyState::extrapolate),
+                         integrated = swept(SteadyState::integrate);
+  REQUIRE(predicted.jump_frequency.size() == 1);
+  REQUIRE(integrated.jump_frequency.size() == 1);
+  CHECK(std::abs(integrated.jump_frequency[0] - predicted.jump_frequency[0]) < 1);
   double apart = 0;
   int early = 0, compared = 0;
-  for (Eigen::Index i = 0; i < foretold.mesh_frequency.size(); ++i) {
-    const double f = foretold.mesh_frequency[i];
-    const bool upper = foretold.dte_rms[i] > 5e-6;
+  for (Eigen::Index i = 0; i < predicted.mesh_frequency.size(); ++i) {
+    const double f = predicted.mesh_frequency[i];
+    const bool upper = predicted.dte_rms[i] > 5e-6;
     if (f > 2700) continue;  // the branches are one
-    CHECK(upper == (f > foretold.jump_frequency[0]));
-    if ((marched.dte_rms[i] > 5e-6) != upper) {
+    CHECK(upper == (f > predicted.jump_frequency[0]));
+    if ((integrated.dte_rms[i] > 5e-6) != upper) {
       CHECK(upper);
       ++early;
       continue;
     }
-    apart = std::max(apart, std::abs(marched.dte_rms[i] / foretold.dte_rms[i] - 1));
+    apart = std::max(apart, std::abs(integrated.dte_rms[i] / predicted.dte_rms[i] - 1));
     ++compared;
   }
-  MESSAGE("marched sweep: " << early << " speeds early, apart by " << apart << " at " << compared
-                            << " others");
+  MESSAGE("integrated sweep: " << early << " speeds early, apart by " << apart << " at " << compared
+                               << " others");
   CHECK(early >= 1);
   CHECK(early <= 3);
   CHECK(compared > 40);
@@ -345,14 +350,14 @@ TEST_CASE(
 
 TEST_CASE("on one branch sweeps up and down agree, though one of them came from motions with wider contact") {
   const BodyArtifact& body = paper_body();
-  StaticSlice coarse = paper_statics(128);
+  StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
   const StaticArtifact statics = static_transmission(body, body, coarse, 150);
-  SweepSlice slice = paper_sweep(1350, 2900, 50);
-  slice.damping.rayleigh_stiffness = 6e-6;
-  slice.time.periodicity = 1e-6;
-  const ResponseArtifact up = response(sweep(body, body, statics, 463e6, slice, "up", no_report)),
-                         down = response(sweep(body, body, statics, 463e6, slice, "down", no_report));
+  SweepParameters settings = paper_sweep(1350, 2900, 50);
+  settings.damping.rayleigh_stiffness = 6e-6;
+  settings.time.periodicity = 1e-6;
+  const ResponseArtifact up = response(sweep(body, body, statics, 463e6, settings, "up", no_report)),
+                         down = response(sweep(body, body, statics, 463e6, settings, "down", no_report));
   REQUIRE(down.jump_frequency.size() == 1);
   REQUIRE(up.jump_frequency.size() == 1);
   double apart = 0;
@@ -371,13 +376,13 @@ TEST_CASE("on one branch sweeps up and down agree, though one of them came from 
 
 TEST_CASE("near the cusp: a jump of less than 20 % is found from wide steps, where fine steps have it") {
   const BodyArtifact& body = paper_body();
-  StaticSlice coarse = paper_statics(128);
+  StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
   const StaticArtifact statics = static_transmission(body, body, coarse, 150);
   const auto swept = [&](double from, double to, double step, const std::string& direction) {
-    SweepSlice slice = paper_sweep(from, to, step);
-    slice.damping.rayleigh_stiffness = 7.25e-6;
-    return response(sweep(body, body, statics, 463e6, slice, direction, no_report));
+    SweepParameters settings = paper_sweep(from, to, step);
+    settings.damping.rayleigh_stiffness = 7.25e-6;
+    return response(sweep(body, body, statics, 463e6, settings, direction, no_report));
   };
   for (const std::string direction : {"up", "down"}) {
     // Of steps of 1 Hz the one with the largest change.
@@ -397,16 +402,16 @@ TEST_CASE("near the cusp: a jump of less than 20 % is found from wide steps, whe
   }
 }
 
-TEST_CASE("contact windows of one sweep share one limit of memory") {
+TEST_CASE("candidate contact zones of one sweep share one limit of memory") {
   Rig rig(128);
-  const ContactRange range = contact_range(rig.model, rig.statics, MotionBounds(rig.model, rig.statics));
-  const auto refused = [&](double beside) {
-    return failure_of([&] { rig.dynamics.set_range(range, 128, {beside, 0}); }) == Failure::input;
+  const CandidateZone range = candidate_zone(rig.model, rig.statics, MotionBounds(rig.model, rig.statics));
+  const auto rejected = [&](double beside) {
+    return failure_of([&] { rig.dynamics.set_zone(range, 128, {beside, 0}); }) == Failure::input;
   };
-  CHECK(!refused(0));
+  CHECK(!rejected(0));
   const double own = rig.dynamics.memory().coordinates;
   // Participation of 11 or more coordinates at 6 nodes of a pair, and packed in 2 rows, of two pairs or more.
   CHECK(own > 128 * 8.0 * 11 * 2 * (6 + 2));
-  CHECK(!refused(12e9 - own));
-  CHECK(refused(12e9 - own + 1));
+  CHECK(!rejected(12e9 - own));
+  CHECK(rejected(12e9 - own + 1));
 }

@@ -1,5 +1,5 @@
-// Period maps: that of two elastic gears is what march does; tangents against central differences; multipliers that do not
-// depend on where the period is cut; Newton's method on both.
+// Period maps: that of two elastic gears is what integrate() does; tangents against central differences; multipliers that do
+// not depend on where the period is cut; Newton's method on both.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/dense.h"
+#include "dynamics/period_map.h"
 #include "failure_of.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
-#include "motion/period_map.h"
 #include "paper_pair.h"
 #include "relative.h"
 
@@ -36,7 +36,7 @@ struct Rig {
       : statics(static_transmission(paper_body(), paper_body(), paper_statics(128), 150)),
         model(paper_body(), paper_body(), statics.mesh),
         dynamics(model, parameters(statics, kind, eta)) {
-    dynamics.set_range(contact_range(model, statics, MotionBounds(model, statics, 2.56)), 128);
+    dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics, 2.56)), 128);
   }
   static DynamicParameters parameters(const StaticArtifact& statics, const Kind& kind, double eta) {
     DynamicParameters p = paper_parameters(statics.mean_stiffness, kind.body, kind.contact);
@@ -47,7 +47,7 @@ struct Rig {
   // After so many periods from rest.
   State after(int periods) {
     State state = dynamics.rest();
-    for (int i = 0; i < periods; ++i) REQUIRE(dynamics.march(state, period));
+    for (int i = 0; i < periods; ++i) REQUIRE(dynamics.integrate(state, period));
     return state;
   }
   StaticArtifact statics;
@@ -94,7 +94,7 @@ const Kind kKinds[] = {{BodyModel::modal, ContactModel::strips, Integrator::exac
 
 }  // namespace
 
-TEST_CASE("period map: of two gears it is march, whatever period it starts with") {
+TEST_CASE("period map: of two gears it is integrate(), whatever period it starts with") {
   for (const Kind& kind : kKinds) {
     Rig rig(kind);
     RollingPeriodMap map(rig.dynamics, 128);
@@ -103,7 +103,7 @@ TEST_CASE("period map: of two gears it is march, whatever period it starts with"
       State state = rig.after(periods);
       VectorXd y = map.flat(state);
       for (int i = 0; i < 3; ++i) {
-        REQUIRE(rig.dynamics.march(state, rig.period));
+        REQUIRE(rig.dynamics.integrate(state, rig.period));
         y = map.apply(y);
       }
       INFO(kind.body << ", " << kind.contact << ", after " << periods << " periods: " << y.size()
@@ -156,7 +156,7 @@ TEST_CASE("period map: the tangent of two gears is that of central differences w
 
 TEST_CASE("period map: Newton's method converges on orbits, of lines quadratically") {
   for (const Kind& kind : kKinds) {
-    // Without a lag hardly anything damps the pair.
+    // Without relaxation hardly anything damps the pair.
     if (kind.body == BodyModel::quasi_static || kind.body == BodyModel::rigid) continue;
     Rig rig(kind, 1e-5);
     RollingPeriodMap map(rig.dynamics, 128);
@@ -198,7 +198,7 @@ TEST_CASE("period map: multipliers of an orbit do not depend on where its period
   }
 }
 
-TEST_CASE("period map: contact that leaves its zone is refused") {
+TEST_CASE("period map: contact that leaves its zone is rejected") {
   Rig rig(kKinds[0]);
   RollingPeriodMap map(rig.dynamics, 128);
   map.set_parameter(2400);
@@ -229,7 +229,7 @@ TEST_CASE("period map: of a lumped oscillator, its tangent and the borders that 
   REQUIRE(events.size() == 2);
   CHECK(events[0].closes != events[1].closes);
   CHECK(events[0].phase < events[1].phase);
-  const VectorXd x = map.answer();
+  const VectorXd x = map.observable();
   // Apart from the sample after it parts to that before it touches again.
   for (const ContactEvent& event : events) {
     const int i = static_cast<int>(event.phase * 64);

@@ -14,13 +14,13 @@
 #include "lumped/stiffness.h"
 #include "paper/table1.h"
 #include "paper_pair.h"
-#include "plot/gear_figures.h"
-#include "plot/gnuplot.h"
-#include "plot/motion_figures.h"
-#include "plot/response_figures.h"
-#include "plot/static_figures.h"
-#include "plot/wireframe.h"
 #include "relative.h"
+#include "report/gear_figures.h"
+#include "report/gnuplot.h"
+#include "report/motion_figures.h"
+#include "report/response_figures.h"
+#include "report/static_figures.h"
+#include "report/wireframe.h"
 #include "signal/spectrum.h"
 
 using namespace whine;
@@ -197,7 +197,7 @@ TEST_CASE("statics figures: torques ascend, the period closes, units are microme
 }
 
 TEST_CASE(
-    "statics figures: no input, a torque twice, different phases, more curves than colours are refused") {
+    "statics figures: no input, a torque twice, different phases, more curves than colours are rejected") {
   CHECK(failure_of([] { transmission_error_figure({}); }) == Failure::input);
   CHECK(failure_of([] { mesh_stiffness_figure({some_static(100), some_static(100)}); }) == Failure::input);
   CHECK(failure_of([] {
@@ -214,7 +214,7 @@ TEST_CASE(
 
 TEST_CASE(
     "response figure: order of the inputs does not matter, the pen lifts at a jump, the arrow follows the "
-    "march") {
+    "sweep") {
   const ResponseArtifact up = some_response("up"), down = some_response("down");
   const Figure figure = response_figure({down, up});
   CHECK(plot_data(figure) == plot_data(response_figure({up, down})));
@@ -232,19 +232,19 @@ TEST_CASE(
 
 TEST_CASE(
     "response figure: two of one direction, other torques, other choices, a jump outside the sweep are "
-    "refused") {
-  const auto refused = [](auto change) {
+    "rejected") {
+  const auto rejected = [](auto change) {
     ResponseArtifact up = some_response("up"), down = some_response("down");
     change(up, down);
     return failure_of([&] { response_figure({up, down}); }) == Failure::input;
   };
   using R = ResponseArtifact;
-  CHECK_FALSE(refused([](R&, R&) {}));
-  CHECK(refused([](R&, R& down) { down.direction = "up"; }));
-  CHECK(refused([](R& up, R&) { up.torque = 200; }));
-  CHECK(refused([](R& up, R&) { up.damping.rayleigh_stiffness = 1e-6; }));
-  CHECK(refused([](R& up, R&) { up.mesh.corner.enabled = false; }));
-  CHECK(refused([](R& up, R&) { up.jump_frequency[0] = 5000; }));
+  CHECK_FALSE(rejected([](R&, R&) {}));
+  CHECK(rejected([](R&, R& down) { down.direction = "up"; }));
+  CHECK(rejected([](R& up, R&) { up.torque = 200; }));
+  CHECK(rejected([](R& up, R&) { up.damping.rayleigh_stiffness = 1e-6; }));
+  CHECK(rejected([](R& up, R&) { up.mesh.corner.enabled = false; }));
+  CHECK(rejected([](R& up, R&) { up.jump_frequency[0] = 5000; }));
 }
 
 TEST_CASE(
@@ -529,7 +529,7 @@ TEST_CASE("table of natural frequencies: both means, deviations from what is pub
 
 TEST_CASE("response figure: scene and measured damping ratio stand at the panel that they belong to") {
   std::vector<ResponseArtifact> sweeps;
-  Background told;
+  Background captions;
   for (double eta : {7.7e-6, 4e-6})
     for (double torque : {100.0, 300.0}) {
       for (const char* direction : {"up", "down"}) {
@@ -538,7 +538,7 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
         sweeps.back().driver = sweeps.back().driven = standard_gear();
         sweeps.back().mesh.centre_distance = 0.15;
         sweeps.back().damping.rayleigh_stiffness = eta;
-        told.scenes.push_back(eta > 5e-6 ? "first: a_b" : "second");
+        captions.scenes.push_back(eta > 5e-6 ? "first: a_b" : "second");
       }
       if (eta < 5e-6 && torque > 200) continue;
       ImpactArtifact impact = some_impact(torque);
@@ -547,9 +547,9 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
       impact.contact_state = {"one", "two", "three", "mean"};
       impact.damping_ratio = Eigen::Vector4d(0.01, 9000 * eta + torque * 1e-5, 0.02, 0.03);
       impact.state_phase = Eigen::Vector3d(0, 0.5, 0.6);
-      told.impacts.push_back(impact);
+      captions.impacts.push_back(impact);
     }
-  const Figure figure = response_figure(sweeps, told);
+  const Figure figure = response_figure(sweeps, captions);
   CHECK(figure.notes[1].find("(a) first: a_b; 100, 300 N m; damping ratio 1.00, 1.00 % with one pair, 7.03, "
                              "7.23 % with two pairs in "
                              "contact, by ring-down; Rayleigh") == 0);
@@ -558,8 +558,8 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
           "(b) second; 100, 300 N m; damping ratio 1.00 % with one pair, 3.70 % at 100 N m with two pairs in "
           "contact, by ring-down; Rayleigh") == 0);
   CHECK(word_of(figure, "heading_a").find("first: a\\_b\n100, 300 N m;") == 0);
-  told.impacts[0].mesh.corner.enabled = !told.impacts[0].mesh.corner.enabled;
-  CHECK(response_figure(sweeps, told).notes[1].find("with one pair, 7.23 % at 300 N m with") !=
+  captions.impacts[0].mesh.corner.enabled = !captions.impacts[0].mesh.corner.enabled;
+  CHECK(response_figure(sweeps, captions).notes[1].find("with one pair, 7.23 % at 300 N m with") !=
         std::string::npos);
 }
 
@@ -571,16 +571,16 @@ TEST_CASE("response figure: a lumped model is not described as elastic gears") {
   lumped.mass = 1.4;
   lumped.damping_ratio = 0.08;
   lumped.damper_acts = "always";
-  Background told;
-  told.lumped = {lumped, lumped};
-  const Figure figure = response_figure({up, down}, told);
+  Background captions;
+  captions.lumped = {lumped, lumped};
+  const Figure figure = response_figure({up, down}, captions);
   CHECK(figure.notes[0] == "f_n: natural frequency of the mass on the mean stiffness");
   CHECK(figure.notes[1].find("(a) 150 N m; mass 1.4 kg, damping ratio 8 %, damper always on; one degree of "
                              "freedom (Eq. 23), mesh stiffness: secant") == 0);
   CHECK(word_of(figure, "loss_a") == "contact lost at 150 N m: 2100 to 2200, 2400 or more Hz");
   CHECK(response_figure({up, down}).notes[1].find("Rayleigh") == std::string::npos);
-  told.lumped[1].damping_ratio = 0.05;
-  CHECK(failure_of([&] { response_figure({up, down}, told); }) == Failure::input);
+  captions.lumped[1].damping_ratio = 0.05;
+  CHECK(failure_of([&] { response_figure({up, down}, captions); }) == Failure::input);
   CHECK(word_of(response_figure({some_response("up"), some_response("down")}), "loss_a") ==
         "contact is never lost");
 }
@@ -636,7 +636,7 @@ TEST_CASE("wireframe: the outline is closed, on the outer radius, and moves with
   }
 }
 
-TEST_CASE("mesh figure: meshes of other gears than the pair's are refused") {
+TEST_CASE("mesh figure: meshes of other gears than the pair's are rejected") {
   const MeshArtifact mesh = ring(2);
   CHECK(failure_of([&] { mesh_figure(mesh, mesh, some_static(100)); }) == Failure::input);
 }

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "gear/flank_kink.h"
-#include "motion/error_budget.h"
-#include "motion/flank_pressure.h"
-#include "motion/loaded_pair.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "studies/error_budget.h"
+#include "system/flank_pressure.h"
+#include "system/loaded_pair.h"
 
 using namespace whine;
 
@@ -21,19 +21,19 @@ const BodyArtifact& body() {
 }
 
 // 10 micrometres of tip relief on both gears; from 20.9 deg on, at the pitch point, one pair carries all.
-StaticSlice relieved(ReliefShape shape, int strips) {
-  StaticSlice slice = paper_statics(64);
-  slice.contact.strips = strips;
-  for (FlankModification& m : slice.mesh.modification) {
+StaticParameters relieved(ReliefShape shape, int strips) {
+  StaticParameters settings = paper_statics(64);
+  settings.contact.strips = strips;
+  for (FlankModification& m : settings.mesh.modification) {
     m.tip.amount = 10e-6;
     m.tip.start_roll = 20.9 * kDegree;
     m.tip.shape = shape;
   }
-  return slice;
+  return settings;
 }
 
-StaticArtifact solved(const StaticSlice& slice) {
-  return static_transmission(body(), body(), slice, 150);
+StaticArtifact solved(const StaticParameters& settings) {
+  return static_transmission(body(), body(), settings, 150);
 }
 
 }  // namespace

@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "dynamics/impact.h"
 #include "gear/involute.h"
 #include "io/claim_sets.h"
 #include "io/impact_codec.h"
 #include "io/readings.h"
 #include "io/static_codec.h"
-#include "motion/impact.h"
 #include "paper/consistency.h"
 #include "paper/reading.h"
 #include "paper_pair.h"
@@ -86,7 +86,7 @@ TEST_CASE("readings: a plan says its pairs in order and draws that depend on see
   CHECK(differ > 8);
 }
 
-TEST_CASE("readings: what a plan cannot mean is refused with line, key and limit") {
+TEST_CASE("readings: what a plan cannot mean is rejected with line, key and limit") {
   const auto with = [](std::string from, const std::string& to) {
     std::string words = kPlan;
     words.replace(words.find(from), from.size(), to);
@@ -121,22 +121,22 @@ TEST_CASE("readings: the largest tip radius of a rack is where its tooth becomes
 TEST_CASE("readings: eigenvalues of the frozen contact stand for ring-downs in a search") {
   const BodyArtifact& body = paper_body(40e-3, 1e-3, 21);
   const StaticArtifact statics = static_transmission(body, body, paper_statics(64), 150);
-  ImpactSlice slice = paper_sweep(0, 0, 0);
-  slice.damping.rayleigh_mass = 300;
+  ImpactParameters settings = paper_sweep(0, 0, 0);
+  settings.damping.rayleigh_mass = 300;
   ImpactPlan plan;
   plan.phases = 16;
-  const ImpactArtifact rung = impact(body, body, statics, statics.mean_stiffness, slice, plan, no_report);
+  const ImpactArtifact level = impact(body, body, statics, statics.mean_stiffness, settings, plan, no_report);
   const ImpactArtifact frozen =
-      frozen_impact(body, body, statics, statics.mean_stiffness, slice, plan.phases);
-  REQUIRE(frozen.contact_state == rung.contact_state);
-  for (Eigen::Index i = 0; i + 1 < rung.natural_frequency.size(); ++i) {
-    CHECK(frozen.natural_frequency[i] == relative(rung.natural_frequency[i], 5e-5));
-    CHECK(frozen.damping_ratio[i] == relative(rung.damping_ratio[i], 1e-3));
+      frozen_impact(body, body, statics, statics.mean_stiffness, settings, plan.phases);
+  REQUIRE(frozen.contact_state == level.contact_state);
+  for (Eigen::Index i = 0; i + 1 < level.natural_frequency.size(); ++i) {
+    CHECK(frozen.natural_frequency[i] == relative(level.natural_frequency[i], 5e-5));
+    CHECK(frozen.damping_ratio[i] == relative(level.damping_ratio[i], 1e-3));
   }
   // The mean takes each phase as its contact state: 0.1 % and 2 % are what states vary in themselves.
-  const Eigen::Index mean = rung.natural_frequency.size() - 1;
-  CHECK(frozen.natural_frequency[mean] == relative(rung.natural_frequency[mean], 1e-3));
-  CHECK(frozen.damping_ratio[mean] == relative(rung.damping_ratio[mean], 0.02));
+  const Eigen::Index mean = level.natural_frequency.size() - 1;
+  CHECK(frozen.natural_frequency[mean] == relative(level.natural_frequency[mean], 1e-3));
+  CHECK(frozen.damping_ratio[mean] == relative(level.damping_ratio[mean], 0.02));
 }
 
 TEST_CASE("readings: an artifact gives back what it was given") {

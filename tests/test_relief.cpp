@@ -7,9 +7,9 @@
 #include "base/error.h"
 #include "contact/load_path.h"
 #include "gear/flank_deviation.h"
-#include "motion/harris_map.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "studies/harris_map.h"
 
 using namespace whine;
 
@@ -173,7 +173,7 @@ TEST_CASE(
   CHECK(error(80) < 1e-5);
 }
 
-TEST_CASE("flank deviations refuse a relief that starts off the flank or is longer, and points beyond it") {
+TEST_CASE("flank deviations reject a relief that starts off the flank or is longer, and points beyond it") {
   const ToothGeometry gear(paper_gear());
   const auto message = [&](const FlankModification& m) -> std::string {
     try {
@@ -238,7 +238,7 @@ TEST_CASE(
 }
 
 TEST_CASE("statics of a relieved pair under a vanishing load have its unloaded transmission error") {
-  StaticSlice slice = paper_statics(24);
+  StaticParameters settings = paper_statics(24);
   struct Case {
     FlankModification driver, driven;
     ContactModel contact;
@@ -247,13 +247,13 @@ TEST_CASE("statics of a relieved pair under a vanishing load have its unloaded t
   for (const Case& c : {Case{tip_relief(10, 20.9), tip_relief(10, 20.9), ContactModel::strips},
                         Case{tip_relief(10, 20.9), tip_relief(10, 20.9), ContactModel::line},
                         Case{tip_relief(20, 16), {}, ContactModel::strips}}) {
-    slice.mesh = paper_mesh(c.driver, c.driven);
-    slice.fidelity.contact = c.contact;
+    settings.mesh = paper_mesh(c.driver, c.driven);
+    settings.fidelity.contact = c.contact;
     const double parabola =
         c.contact == ContactModel::line ? 6e-11 : 0;  // m: error of what lines take for the gap
     double before = 0;
     for (const double torque : {1.0, 1e-2, 1e-3}) {
-      const StaticArtifact s = static_transmission(paper_body(), paper_body(), slice, torque);
+      const StaticArtifact s = static_transmission(paper_body(), paper_body(), settings, torque);
       const Eigen::VectorXd off = s.transmission_error - s.unloaded_error;
       CHECK(off.minCoeff() > -parabola);
       // The deflection goes with the load, but for Hertz's logarithm.
@@ -288,15 +288,15 @@ TEST_CASE("a relief split over both flanks is the same relief on one flank, at t
 }
 
 TEST_CASE("modifications of nothing leave every number as it is") {
-  StaticSlice slice = paper_statics(16);
+  StaticParameters settings = paper_statics(16);
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    slice.fidelity.contact = contact;
-    slice.mesh.modification = {};
-    const StaticArtifact plain = static_transmission(paper_body(), paper_body(), slice, 150);
+    settings.fidelity.contact = contact;
+    settings.mesh.modification = {};
+    const StaticArtifact plain = static_transmission(paper_body(), paper_body(), settings, 150);
     FlankModification nothing = tip_relief(0, 22);
     nothing.points = {{{20 * kDegree, 0}}, {{25 * kDegree, 0}}};
-    slice.mesh.modification = {nothing, nothing};
-    const StaticArtifact same = static_transmission(paper_body(), paper_body(), slice, 150);
+    settings.mesh.modification = {nothing, nothing};
+    const StaticArtifact same = static_transmission(paper_body(), paper_body(), settings, 150);
     CHECK(plain.transmission_error == same.transmission_error);
     CHECK(plain.stiffness_secant == same.stiffness_secant);
     CHECK(plain.stiffness_tangent == same.stiffness_tangent);
@@ -308,15 +308,15 @@ TEST_CASE("modifications of nothing leave every number as it is") {
 TEST_CASE("contact lines of relieved pairs against fine strips: 0.15 % of the mean transmission error") {
   for (const FlankModification& both :
        {tip_relief(10, 20.9), tip_relief(10, 23.6), tip_relief(10, 22.2, ReliefShape::parabolic)}) {
-    StaticSlice slice = paper_statics(64);
-    slice.mesh = paper_mesh(both, both);
+    StaticParameters settings = paper_statics(64);
+    settings.mesh = paper_mesh(both, both);
     for (const double torque : {50.0, 150.0, 300.0}) {
-      slice.fidelity.contact = ContactModel::line;
-      slice.contact.strips = 8;
-      const StaticArtifact line = static_transmission(paper_body(), paper_body(), slice, torque);
-      slice.fidelity.contact = ContactModel::strips;
-      slice.contact.strips = 24;
-      const StaticArtifact strips = static_transmission(paper_body(), paper_body(), slice, torque);
+      settings.fidelity.contact = ContactModel::line;
+      settings.contact.strips = 8;
+      const StaticArtifact line = static_transmission(paper_body(), paper_body(), settings, torque);
+      settings.fidelity.contact = ContactModel::strips;
+      settings.contact.strips = 24;
+      const StaticArtifact strips = static_transmission(paper_body(), paper_body(), settings, torque);
       const Eigen::VectorXd off = line.transmission_error - strips.transmission_error;
       const double range = strips.transmission_error.maxCoeff() - strips.transmission_error.minCoeff();
       MESSAGE(torque, " N m: lines off by ", off.cwiseAbs().maxCoeff() * 1e9, " nm at most, ",
@@ -332,9 +332,9 @@ TEST_CASE("a contact followed through all loads has the forces and approaches of
   const double rb = model.kinematics.gear(0).base_radius();
   const std::array tables{compliance_tables(model.gear[0], 1e-3), compliance_tables(model.gear[1], 1e-3)};
   const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(17, 10, 300) / rb;
-  const ContactRange range =
-      contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), 8, load[0],
-                    1.1 * load[16], 40e-6, model.flanks());
+  const CandidateZone range =
+      candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), 8, load[0],
+                     1.1 * load[16], 40e-6, model.flanks());
   ComplementaritySolver solver;
   LoadPath path;
   Eigen::VectorXd x(load.size());
@@ -359,22 +359,22 @@ TEST_CASE("a contact followed through all loads has the forces and approaches of
 TEST_CASE(
     "Harris map: within 0.5 % of finer strips and positions; relief that makes up for the deflection leaves "
     "a third; the cusp at the design torque") {
-  StaticSlice slice = paper_statics(128);
+  StaticParameters settings = paper_statics(128);
   HarrisPlan plan;
   plan.torque = {20, 60, 90, 150, 225, 300};
   plan.design_torque = 150;
-  plan.length = {single_pair_relief_length(paper_body(), paper_body(), slice.mesh)};
+  plan.length = {single_pair_relief_length(paper_body(), paper_body(), settings.mesh)};
 
   // What a relief has to make up for: when the driver's tooth is at its highest point of single-pair contact and carries all,
   // the next pair is where it comes into contact, unloaded, and overlaps by this.
-  const GearMeshModel model(paper_body(), paper_body(), slice.mesh);
+  const GearMeshModel model(paper_body(), paper_body(), settings.mesh);
   const GearPair& pair = model.kinematics;
   const double rb = pair.gear(0).base_radius(), load = 150 / rb;
   const std::array tables{compliance_tables(model.gear[0], 1e-3), compliance_tables(model.gear[1], 1e-3)};
   const double phase = (pair.path_start() + pair.base_pitch()) / pair.base_pitch();
   MeshPosition position = make_position(
       model, phase,
-      contact_range(pair, model.gear[0].half_plane(), model.gear[1].half_plane(), 8, load, 2 * load, 15e-6));
+      candidate_zone(pair, model.gear[0].half_plane(), model.gear[1].half_plane(), 8, load, 2 * load, 15e-6));
   const Eigen::MatrixXd a = contact_compliance(model, position, tables, 1e-3);
   const Eigen::VectorXd approach = position.strip_lever[0] / rb;
   Eigen::VectorXd alone = position.gap;
@@ -393,7 +393,7 @@ TEST_CASE(
   CHECK(deflection > 2e-6);
 
   plan.relief = {0, 0.5 * deflection, deflection, 1.5 * deflection};
-  HarrisMapArtifact map = harris_map(paper_body(), paper_body(), slice, plan, no_report);
+  HarrisMapArtifact map = harris_map(paper_body(), paper_body(), settings, plan, no_report);
   const auto at = [&](int t, int r) { return map.peak_to_peak[0](t, r); };
   MESSAGE("at 150 N m ", at(3, 0) * 1e6, " um without relief, ", at(3, 2) * 1e6, " with; optimum ",
           map.optimum_relief[0] * 1e6, " um leave ", map.optimum_peak_to_peak[0] * 1e6);
@@ -413,14 +413,14 @@ TEST_CASE(
   CHECK(map.largest_error < 5e-3);
 }
 
-TEST_CASE("Harris map refuses plans out of order, reliefs that do not fit, a design torque outside") {
+TEST_CASE("Harris map rejects plans out of order, reliefs that do not fit, a design torque outside") {
   HarrisPlan good;
   good.torque = {50, 100};
   good.relief = {0, 1e-6};
   good.length = {2e-3};
   good.design_torque = 60;
   good.positions = 8;
-  const auto refused = [&](const auto& change) -> std::string {
+  const auto rejected = [&](const auto& change) -> std::string {
     HarrisPlan plan = good;
     change(plan);
     try {
@@ -431,14 +431,14 @@ TEST_CASE("Harris map refuses plans out of order, reliefs that do not fit, a des
     }
     return "accepted";
   };
-  CHECK(refused([](HarrisPlan&) {}) == "accepted");
-  CHECK(refused([](HarrisPlan& p) {
+  CHECK(rejected([](HarrisPlan&) {}) == "accepted");
+  CHECK(rejected([](HarrisPlan& p) {
           p.torque = {100, 50};
         }).find("torque 50 N m after 100") != std::string::npos);
-  CHECK(refused([](HarrisPlan& p) { p.relief = {-1e-6}; }).find("must be at least 0") != std::string::npos);
-  CHECK(refused([](HarrisPlan& p) { p.length = {}; }).find("no length") != std::string::npos);
-  CHECK(refused([](HarrisPlan& p) { p.length = {50e-3}; }).find("longer than the involute") !=
+  CHECK(rejected([](HarrisPlan& p) { p.relief = {-1e-6}; }).find("must be at least 0") != std::string::npos);
+  CHECK(rejected([](HarrisPlan& p) { p.length = {}; }).find("no length") != std::string::npos);
+  CHECK(rejected([](HarrisPlan& p) { p.length = {50e-3}; }).find("longer than the involute") !=
         std::string::npos);
-  CHECK(refused([](HarrisPlan& p) { p.design_torque = 200; }).find("design torque 200 N m lies outside") !=
+  CHECK(rejected([](HarrisPlan& p) { p.design_torque = 200; }).find("design torque 200 N m lies outside") !=
         std::string::npos);
 }

@@ -13,16 +13,16 @@
 #include "gear/body_inertia.h"
 #include "io/publish.h"
 #include "io/scene_keys.h"
-#include "motion/statics.h"
-#include "motion/sweep.h"
 #include "paper_pair.h"
-#include "plot/motion_figures.h"
-#include "plot/report.h"
-#include "plot/report_figures.h"
-#include "plot/static_figures.h"
 #include "relative.h"
+#include "report/motion_figures.h"
+#include "report/report.h"
+#include "report/report_figures.h"
+#include "report/static_figures.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
 
 using namespace whine;
 
@@ -48,9 +48,9 @@ StaticArtifact statics_of_paper(double torque) {
   return s;
 }
 
-// Speeds of 1000, 1100, ... Hz; the transmission error has 3 um of order 1, 2 um of order 2 and, at the second speed, whose motion
-// repeats after two periods, 1 um of order 1/2. One pair carries the load, 10 N more at each speed, 5 N more in the second of
-// two periods.
+// Speeds of 1000, 1100, ... Hz; the transmission error has 3 um of order 1, 2 um of order 2 and, at the second speed, whose
+// motion repeats after two periods, 1 um of order 1/2. One pair carries the load, 10 N more at each speed, 5 N more in the
+// second of two periods.
 SweepArtifact some_sweep(const std::string& direction, int speeds = 4) {
   constexpr int kSteps = 32;
   SweepArtifact s;
@@ -242,16 +242,16 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   CHECK(table.find("100\tlargest tooth load") == std::string::npos);
   CHECK(table.find("150\tcontact lost at\tnowhere\tHz\t\n") != std::string::npos);
 
-  const auto refused = [&](auto change) {
+  const auto rejected = [&](auto change) {
     ReportContent other = content;
     change(other);
     return failure_of([&] { report_html(other); }) == Failure::input;
   };
-  CHECK_FALSE(refused([](ReportContent&) {}));
-  CHECK(refused([](ReportContent& c) { c.statics.clear(); }));
-  CHECK(refused([](ReportContent& c) { c.pictures[0].name = "fig99"; }));
-  CHECK(refused([](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }));
-  CHECK(refused([](ReportContent& c) { c.statics[1].driven.teeth = 51; }));
+  CHECK_FALSE(rejected([](ReportContent&) {}));
+  CHECK(rejected([](ReportContent& c) { c.statics.clear(); }));
+  CHECK(rejected([](ReportContent& c) { c.pictures[0].name = "fig99"; }));
+  CHECK(rejected([](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }));
+  CHECK(rejected([](ReportContent& c) { c.statics[1].driven.teeth = 51; }));
 }
 
 TEST_CASE("report: the inertia that moves stands beside that of the drawing") {

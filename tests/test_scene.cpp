@@ -1,4 +1,4 @@
-// Scenes: every wrong one is refused with the line, the key and the limit; slices follow values and nothing
+// Scenes: every wrong one is rejected with the line, the key and the limit; stage parameters follow values and nothing
 // else.
 #include <doctest/doctest.h>
 
@@ -39,8 +39,8 @@ TEST_CASE("the standard tooth of P2000 reads as it stands, in SI") {
   CHECK(s.mesh.centre_distance == 0.15);
   CHECK(s.mesh.corner.enabled);
   CHECK(s.mesh.contact_plane ==
-        ContactPlane::body);  // its slices, and so its results, are those of one plane state
-  CHECK(static_slice(s).find("contact_plane") == std::string::npos);
+        ContactPlane::body);  // its stage parameters, and so its results, are those of one plane state
+  CHECK(static_parameters(s).find("contact_plane") == std::string::npos);
   CHECK(std::isinf(s.mesh.corner.largest_angle));
   CHECK(s.damping.rayleigh_stiffness == 7.7e-6);
   CHECK(s.operation.torques == std::vector<double>{100, 150, 200, 300});
@@ -52,7 +52,8 @@ TEST_CASE("the standard tooth of P2000 reads as it stands, in SI") {
   CHECK(s.time.min_sample_rate == 250e3);
 }
 
-TEST_CASE("bearings: of a gear by its name, in SI, in the slice of statics; refused with their line") {
+TEST_CASE(
+    "bearings: of a gear by its name, in SI, in the stage parameters of statics; rejected with their line") {
   const SceneFile file;
   const std::string one =
       "[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 100\ndamping_Ns_m = 900\nmass_kg = 5.5\n";
@@ -62,16 +63,17 @@ TEST_CASE("bearings: of a gear by its name, in SI, in the slice of statics; refu
   CHECK(s.mesh.bearing[1].stiffness == 1e8);
   CHECK(s.mesh.bearing[1].damping == 900);
   CHECK(s.mesh.bearing[1].mass == 5.5);
-  const std::string slice = static_slice(s);
+  const std::string settings = static_parameters(s);
   CHECK(contains(
-      slice, "[driven_bearing]\nstiffness = 1e+08  # N m-1\ndamping = 900.0  # N s m-1\nmass = 5.5  # kg\n"));
-  CHECK(slice.find("driver_bearing") == std::string::npos);
-  CHECK(read_static_slice(file.path(slice, "static.toml")).mesh.bearing[1].stiffness == 1e8);
-  CHECK(!read_static_slice(file.path(slice, "static.toml")).mesh.bearing[0].elastic());
-  CHECK(static_slice(file.read(kScene)).find("bearing") == std::string::npos);
+      settings,
+      "[driven_bearing]\nstiffness = 1e+08  # N m-1\ndamping = 900.0  # N s m-1\nmass = 5.5  # kg\n"));
+  CHECK(settings.find("driver_bearing") == std::string::npos);
+  CHECK(read_static_parameters(file.path(settings, "static.toml")).mesh.bearing[1].stiffness == 1e8);
+  CHECK(!read_static_parameters(file.path(settings, "static.toml")).mesh.bearing[0].elastic());
+  CHECK(static_parameters(file.read(kScene)).find("bearing") == std::string::npos);
 
   const auto said = [&](const std::string& section, const std::string& part) {
-    const std::string message = file.refusal(with_section(section));
+    const std::string message = file.rejection(with_section(section));
     CHECK(contains(message, part));
     CHECK(message.rfind("x.toml:2", 0) == 0);  // the sections begin in line 23
   };
@@ -110,35 +112,36 @@ TEST_CASE("keys left out take the defaults of the structs") {
 
 TEST_CASE("an empty scene is told what a scene needs") {
   const SceneFile file;
-  const std::string said = file.refusal("");
+  const std::string said = file.rejection("");
   for (const char* section : {"[gear.<name>]", "[material.<name>]", "[[mesh]]", "[operation]"}) {
     CHECK(contains(said, section));
   }
   CHECK(contains(said, "data/scenes/first-pair.toml"));
-  CHECK(contains(file.refusal("# only a comment\n"), "lacks"));
+  CHECK(contains(file.rejection("# only a comment\n"), "lacks"));
   CHECK_THROWS_AS(read_scene("/nowhere/x.toml"), Error);
 }
 
-TEST_CASE("an unknown key is refused with its line and the nearest known one") {
+TEST_CASE("an unknown key is rejected with its line and the nearest known one") {
   const SceneFile file;
-  CHECK(file.refusal(scene_with("module_mm", "modul_mm")) ==
+  CHECK(file.rejection(scene_with("module_mm", "modul_mm")) ==
         "x.toml:3: unknown key 'modul_mm' in [gear.pinion]; did you mean 'module_mm'?");
-  CHECK(contains(file.refusal(scene_with("torque_Nm", "torque")),
+  CHECK(contains(file.rejection(scene_with("torque_Nm", "torque")),
                  "x.toml:21: unknown key 'torque' in [operation]; did you mean 'torque_Nm'?"));
-  CHECK(contains(file.refusal(with_section("[dampin]\n")),
+  CHECK(contains(file.rejection(with_section("[dampin]\n")),
                  "x.toml:23: unknown section 'dampin'; did you mean 'damping'?"));
-  CHECK(contains(file.refusal(with_section("[fidelity]\nstrips = 15\n")),
+  CHECK(contains(file.rejection(with_section("[fidelity]\nstrips = 15\n")),
                  "x.toml:24: unknown key 'strips' in [fidelity]; it belongs into [discretisation]"));
-  CHECK(contains(file.refusal(with_section("[damping]\nxyzzy_plugh_foo = 1\n")),
+  CHECK(contains(file.rejection(with_section("[damping]\nxyzzy_plugh_foo = 1\n")),
                  "known are: rayleigh_mass_per_s"));
-  CHECK(contains(file.refusal(scene_with("step = 20", "stepp = 20")), "unknown key 'stepp'"));
+  CHECK(contains(file.rejection(scene_with("step = 20", "stepp = 20")), "unknown key 'stepp'"));
 }
 
-TEST_CASE("a missing key is refused, all of a section in one line") {
+TEST_CASE("a missing key is rejected, all of a section in one line") {
   const SceneFile file;
+  CHECK(contains(file.rejection(scene_with("module_mm = 3\n", "")),
+                 "x.toml:1: [gear.pinion] lacks 'module_mm'"));
   CHECK(
-      contains(file.refusal(scene_with("module_mm = 3\n", "")), "x.toml:1: [gear.pinion] lacks 'module_mm'"));
-  CHECK(contains(file.refusal(scene_with("teeth = 50\nmodule_mm = 3\n", "")), "lacks 'teeth', 'module_mm'"));
+      contains(file.rejection(scene_with("teeth = 50\nmodule_mm = 3\n", "")), "lacks 'teeth', 'module_mm'"));
   CHECK(file.read(scene_with("total_inertia_kgm2 = 0.0148", "")).gears[0].total_inertia == 0);  // as drawn
   for (const char* key :
        {"teeth = 50", "pressure_angle_deg = 20", "face_width_mm = 25.4", "bore_radius_mm = 40",
@@ -147,125 +150,130 @@ TEST_CASE("a missing key is refused, all of a section in one line") {
         "torque_Nm = [100, 150]", "mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }",
         ", step = 20"}) {
     INFO(key);
-    CHECK(contains(file.refusal(scene_with(key, "")), "lacks"));
+    CHECK(contains(file.rejection(scene_with(key, "")), "lacks"));
   }
 }
 
-TEST_CASE("a value outside its range is refused with value and limit") {
+TEST_CASE("a value outside its range is rejected with value and limit") {
   const SceneFile file;
-  CHECK(file.refusal(scene_with("module_mm = 3", "module_mm = -3")) ==
+  CHECK(file.rejection(scene_with("module_mm = 3", "module_mm = -3")) ==
         "x.toml:3: 'module_mm' in [gear.pinion] = -3: must be at least 0.05 mm: drawings have 0.05 to 50 mm; "
         "0.003 would be 3 mm in metres");
-  CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = 0.003")), "at least 0.05 mm"));
-  CHECK(contains(file.refusal(scene_with("face_width_mm = 25.4", "face_width_mm = 0.025")),
+  CHECK(contains(file.rejection(scene_with("module_mm = 3", "module_mm = 0.003")), "at least 0.05 mm"));
+  CHECK(contains(file.rejection(scene_with("face_width_mm = 25.4", "face_width_mm = 0.025")),
                  "0.025 would be 25 mm in metres"));
-  CHECK(contains(file.refusal(scene_with("density_kgm3 = 7600", "density_kgm3 = 7.6")), "g/cm3"));
-  CHECK(contains(file.refusal(scene_with("poisson_ratio = 0.3", "poisson_ratio = 0.5")),
+  CHECK(contains(file.rejection(scene_with("density_kgm3 = 7600", "density_kgm3 = 7.6")), "g/cm3"));
+  CHECK(contains(file.rejection(scene_with("poisson_ratio = 0.3", "poisson_ratio = 0.5")),
                  "must be at most 0.495"));
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 3")), "must be at least 5"));
-  CHECK(contains(file.refusal(scene_with("[100, 150]", "[100, -150]")), "= -150: must be greater than 0 Nm"));
-  CHECK(contains(file.refusal(scene_with("to = 4000", "to = 500")),
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 3")), "must be at least 5"));
+  CHECK(
+      contains(file.rejection(scene_with("[100, 150]", "[100, -150]")), "= -150: must be greater than 0 Nm"));
+  CHECK(contains(file.rejection(scene_with("to = 4000", "to = 500")),
                  "'to' must be at least 'from', which is 600"));
-  CHECK(contains(file.refusal(scene_with("step = 20", "step = 0")), "= 0: 'step' must be greater than 0 Hz"));
-  CHECK(contains(file.refusal(scene_with("from = 600", "from = 0.5")),
+  CHECK(
+      contains(file.rejection(scene_with("step = 20", "step = 0")), "= 0: 'step' must be greater than 0 Hz"));
+  CHECK(contains(file.rejection(scene_with("from = 600", "from = 0.5")),
                  "= 0.5: 'from' must be at least 1 Hz: slower, "));
   CHECK(file.read(scene_with("step = 20", "step = 0.5")).operation.frequency_step == 0.5);
-  CHECK(contains(file.refusal(scene_with("step = 20", "step = 1e-9")), "100000 speeds"));
-  CHECK(contains(file.refusal(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
-  CHECK(contains(file.refusal(with_section("[fidelity]\nbody = \"whole\"\n")),
+  CHECK(contains(file.rejection(scene_with("step = 20", "step = 1e-9")), "100000 speeds"));
+  CHECK(contains(file.rejection(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
+  CHECK(contains(file.rejection(with_section("[fidelity]\nbody = \"whole\"\n")),
                  "must be one of: rigid, quasi-static, lagged, modal, full"));
-  CHECK(contains(file.refusal(with_section("[fidelity]\ncontact = \"point\"\n")),
+  CHECK(contains(file.rejection(with_section("[fidelity]\ncontact = \"point\"\n")),
                  "must be one of: line, strips"));
   CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == ContactModel::line);
   for (const char* near_field : {"", "near_field = \"subtraction\"\n"})
     CHECK(contains(
-        file.refusal(
+        file.rejection(
             with_section("[discretisation]\n" + std::string(near_field) + "matching_depth_mm = 2.0\n")),
         std::string(*near_field ? "x.toml:25:" : "x.toml:24:") +
             " 'matching_depth_mm' in [discretisation] = 2: near_field is \"subtraction\", which has "
             "no depth"));
   CHECK(file.read(with_section("[discretisation]\nmatching_depth_mm = 2.0\nnear_field = \"matching\"\n"))
             .body.matching_depth == 2e-3);
-  CHECK(contains(file.refusal(with_section("[fidelity]\nintegrator = \"euler\"\n")),
+  CHECK(contains(file.rejection(with_section("[fidelity]\nintegrator = \"euler\"\n")),
                  "must be one of: newmark, exact"));
 }
 
-TEST_CASE("nan, inf and values of another type are refused") {
+TEST_CASE("nan, inf and values of another type are rejected") {
   const SceneFile file;
   for (const char* value : {"nan", "inf", "-inf", "+nan"}) {
     INFO(value);
-    CHECK(contains(file.refusal(scene_with("module_mm = 3", std::string("module_mm = ") + value)),
+    CHECK(contains(file.rejection(scene_with("module_mm = 3", std::string("module_mm = ") + value)),
                    "must be a finite number"));
-    CHECK(contains(file.refusal(scene_with("[100, 150]", std::string("[") + value + "]")),
+    CHECK(contains(file.rejection(scene_with("[100, 150]", std::string("[") + value + "]")),
                    "must be a finite number"));
   }
-  CHECK(file.refusal(scene_with("torque_Nm = [100, 150]", "torque_Nm = \"high\"")) ==
+  CHECK(file.rejection(scene_with("torque_Nm = [100, 150]", "torque_Nm = \"high\"")) ==
         "x.toml:21: 'torque_Nm' in [operation] = 'high': must be a number (in Nm)");
-  CHECK(contains(file.refusal(scene_with("[100, 150]", "[100, \"150\"]")), "must be a number"));
-  CHECK(contains(file.refusal(scene_with("[100, 150]", "[]")), "at least one number"));
-  CHECK(contains(file.refusal(scene_with("[100, 150]", "true")), "must be a number"));
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50.5")), "must be a whole number"));
-  CHECK(contains(file.refusal(scene_with("module_mm = 3", "module_mm = [3]")), "must be a number"));
-  CHECK(contains(file.refusal(scene_with("material = \"steel\"", "material = 1")), "must be text"));
-  CHECK(contains(file.refusal(scene_with("{ from = 600, to = 4000, step = 20 }", "600")), "must be a table"));
-  CHECK(contains(file.refusal(with_section("damping = 3\n")),
+  CHECK(contains(file.rejection(scene_with("[100, 150]", "[100, \"150\"]")), "must be a number"));
+  CHECK(contains(file.rejection(scene_with("[100, 150]", "[]")), "at least one number"));
+  CHECK(contains(file.rejection(scene_with("[100, 150]", "true")), "must be a number"));
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50.5")), "must be a whole number"));
+  CHECK(contains(file.rejection(scene_with("module_mm = 3", "module_mm = [3]")), "must be a number"));
+  CHECK(contains(file.rejection(scene_with("material = \"steel\"", "material = 1")), "must be text"));
+  CHECK(
+      contains(file.rejection(scene_with("{ from = 600, to = 4000, step = 20 }", "600")), "must be a table"));
+  CHECK(contains(file.rejection(with_section("damping = 3\n")),
                  "x.toml:23: unknown key 'damping' in [operation]"));
-  CHECK(contains(file.refusal(std::string("damping = 3\n") + kScene), "'damping' must be a section"));
+  CHECK(contains(file.rejection(std::string("damping = 3\n") + kScene), "'damping' must be a section"));
   CHECK(contains(
-      file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = \"some\"")),
+      file.rejection(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = \"some\"")),
       "true, false or a number of degrees"));
 }
 
-TEST_CASE("broken TOML and keys given twice are refused with the line") {
+TEST_CASE("broken TOML and keys given twice are rejected with the line") {
   const SceneFile file;
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = ")), "x.toml:2: is not valid TOML"));
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50\nteeth = 51")),
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = ")), "x.toml:2: is not valid TOML"));
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50\nteeth = 51")),
                  "x.toml:3: is not valid TOML"));
-  CHECK(contains(file.refusal("\xff\xfe"), "is not valid TOML"));
+  CHECK(contains(file.rejection("\xff\xfe"), "is not valid TOML"));
 }
 
-TEST_CASE("letters beyond ASCII stand in texts and comments, elsewhere they are refused with the line") {
+TEST_CASE("letters beyond ASCII stand in texts and comments, elsewhere they are rejected with the line") {
   const SceneFile file;
   const std::string stray = "is not valid TOML: a character beyond ASCII";
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50 µ")), "x.toml:2: " + stray));
-  CHECK(contains(file.refusal(scene_with("[gear.pinion]", "[\ngear.pinion]")), "is not valid TOML"));
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50 µ")), "x.toml:2: " + stray));
+  CHECK(contains(file.rejection(scene_with("[gear.pinion]", "[\ngear.pinion]")), "is not valid TOML"));
   for (const std::string title : {R"("µ" # µ)", R"('\' # "µ)", R"("\"µ" # "µ)", "\"\"\"µ\n\"µ\"\"\"\"\" # µ",
                                   "'''µ\n''' # µ", R"("")"}) {
-    CHECK_FALSE(contains(file.refusal("title = " + title + "\n" + kScene), stray));
-    CHECK(contains(file.refusal("title = " + title + "\nµ\n" + kScene), stray));
+    CHECK_FALSE(contains(file.rejection("title = " + title + "\n" + kScene), stray));
+    CHECK(contains(file.rejection("title = " + title + "\nµ\n" + kScene), stray));
   }
   // Where a text goes on after a backslash at the end of a line.
-  CHECK(contains(file.refusal("title = \"\"\"a\\\n  µ\"\"\"\n" + std::string(kScene)), "x.toml:2: " + stray));
+  CHECK(
+      contains(file.rejection("title = \"\"\"a\\\n  µ\"\"\"\n" + std::string(kScene)), "x.toml:2: " + stray));
 }
 
 TEST_CASE("names must lead somewhere: gears, materials, like") {
   const SceneFile file;
   CHECK(contains(
-      file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinon\"")),
+      file.rejection(scene_with("driver = \"pinion\"", "driver = \"pinon\"")),
       "x.toml:17: 'driver' in [mesh] = 'pinon' names no [gear.<name>] section; did you mean 'pinion'?"));
-  CHECK(contains(file.refusal(scene_with("driven = \"wheel\"", "driven = \"pinion\"")),
+  CHECK(contains(file.rejection(scene_with("driven = \"wheel\"", "driven = \"pinion\"")),
                  "cannot mesh with itself"));
-  CHECK(contains(file.refusal(scene_with("material = \"steel\"", "material = \"stel\"")),
+  CHECK(contains(file.rejection(scene_with("material = \"steel\"", "material = \"stel\"")),
                  "did you mean 'steel'?"));
-  CHECK(contains(file.refusal(scene_with("like = \"pinion\"", "like = \"wheel\"")), "is like itself"));
-  CHECK(
-      contains(file.refusal(scene_with("like = \"pinion\"", "like = \"pinoin\"")), "did you mean 'pinion'?"));
-  CHECK(contains(file.refusal(scene_with("bore_radius_mm", "bore_mm")),
+  CHECK(contains(file.rejection(scene_with("like = \"pinion\"", "like = \"wheel\"")), "is like itself"));
+  CHECK(contains(file.rejection(scene_with("like = \"pinion\"", "like = \"pinoin\"")),
+                 "did you mean 'pinion'?"));
+  CHECK(contains(file.rejection(scene_with("bore_radius_mm", "bore_mm")),
                  "did you mean 'bore_radius_mm' (half of the diameter)?"));
-  CHECK(contains(file.refusal(with_section("[gear.third]\nlike = \"wheel\"\n")), "name the first gear"));
-  CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.T150]")), "cannot be called 'T150'"));
-  CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.params]")), "cannot be called 'params'"));
-  CHECK(contains(file.refusal(scene_with("[gear.wheel]", "[gear.\"the wheel\"]")), "letters, digits"));
-  CHECK(contains(file.refusal(with_section(
+  CHECK(contains(file.rejection(with_section("[gear.third]\nlike = \"wheel\"\n")), "name the first gear"));
+  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.T150]")), "cannot be called 'T150'"));
+  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.params]")), "cannot be called 'params'"));
+  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.\"the wheel\"]")), "letters, digits"));
+  CHECK(contains(file.rejection(with_section(
                      "[[mesh]]\ndriver = \"pinion\"\ndriven = \"wheel\"\ncentre_distance_mm = 150\n")),
                  "there are 2 [[mesh]] sections"));
-  CHECK(contains(file.refusal(scene_with("[[mesh]]", "[mesh]")), "write [[mesh]]"));
+  CHECK(contains(file.rejection(scene_with("[[mesh]]", "[mesh]")), "write [[mesh]]"));
 }
 
 TEST_CASE("a torque must survive the name of its folder") {
   const SceneFile file;
-  CHECK(contains(file.refusal(scene_with("[100, 150]", "[100.0000001]")), "more than 6 significant digits"));
-  CHECK(contains(file.refusal(scene_with("[100, 150]", "[150, 150.0]")), "holds 150 twice"));
+  CHECK(
+      contains(file.rejection(scene_with("[100, 150]", "[100.0000001]")), "more than 6 significant digits"));
+  CHECK(contains(file.rejection(scene_with("[100, 150]", "[150, 150.0]")), "holds 150 twice"));
   CHECK(file.read(scene_with("[100, 150]", "62.5")).operation.torques == std::vector<double>{62.5});
 }
 
@@ -277,9 +285,9 @@ TEST_CASE("like takes over every key and lets own keys override") {
   CHECK(s.gear("wheel").design.profile_shift == 0.25);
   CHECK(s.gear("wheel").design.module == s.gear("pinion").design.module);
   CHECK(s.gear("pinion").design.teeth == 50);
-  CHECK(body_slice(s, "wheel") != body_slice(s, "pinion"));
+  CHECK(body_parameters(s, "wheel") != body_parameters(s, "pinion"));
   const Scene twins = file.read(kScene);
-  CHECK(body_slice(twins, "wheel") == body_slice(twins, "pinion"));
+  CHECK(body_parameters(twins, "wheel") == body_parameters(twins, "pinion"));
   CHECK_THROWS_AS(twins.gear("idler"), Error);
 }
 
@@ -293,11 +301,12 @@ TEST_CASE("the corner rule is on, off, or an angle") {
   CHECK(std::isinf(rule("true").largest_angle));
   CHECK_FALSE(rule("false").enabled);
   CHECK(rule("2.5").largest_angle == relative(2.5 * std::numbers::pi / 180, 1e-15));
-  CHECK(contains(file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = -1")),
-                 "at least 0"));
+  CHECK(
+      contains(file.rejection(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = -1")),
+               "at least 0"));
 }
 
-TEST_CASE("slices depend on values, not on comments, order, spelling or defaults written out") {
+TEST_CASE("stage parameters depend on values, not on comments, order, spelling or defaults written out") {
   const SceneFile file;
   const Scene plain = file.read(kScene);
   const std::string dressed =
@@ -312,13 +321,13 @@ TEST_CASE("slices depend on values, not on comments, order, spelling or defaults
       "bore_radius_mm = 40.0\nface_width_mm = 25.4\npressure_angle_deg = 20.0\nmodule_mm = 3.0\nteeth = 50\n"
       "[damping]\nbearing_ratio = 5e-3\n";
   const Scene other = file.read(dressed);
-  CHECK(body_slice(plain, "pinion") == body_slice(other, "pinion"));
-  CHECK(static_slice(plain) == static_slice(other));
-  CHECK(impact_slice(plain) == impact_slice(other));
-  CHECK(sweep_slice(plain) == sweep_slice(other));
+  CHECK(body_parameters(plain, "pinion") == body_parameters(other, "pinion"));
+  CHECK(static_parameters(plain) == static_parameters(other));
+  CHECK(impact_parameters(plain) == impact_parameters(other));
+  CHECK(sweep_parameters(plain) == sweep_parameters(other));
 }
 
-TEST_CASE("each key moves the slices of the stages that depend on it and no other") {
+TEST_CASE("each key moves the stage parameters of the stages that depend on it and no other") {
   const SceneFile file;
   const Scene base = file.read(kScene);
   struct Change {
@@ -330,7 +339,7 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
   const auto mesh_key = [](const std::string& line) {
     return scene_with("driver = \"pinion\"", "driver = \"pinion\"\n" + line);
   };
-  // A body that changes redoes the statics by their prerequisites and by the hash in their slice.
+  // A body that changes redoes the statics by their prerequisites and by the hash in their stage parameters.
   const std::vector<Change> changes = {
       {scene_with("bore_radius_mm = 40", "bore_radius_mm = 39.999999"), true, true, false, false, false,
        false},
@@ -368,12 +377,12 @@ TEST_CASE("each key moves the slices of the stages that depend on it and no othe
   for (const Change& change : changes) {
     INFO(change.scene);
     const Scene s = file.read(change.scene);
-    CHECK((body_slice(s, "pinion") != body_slice(base, "pinion")) == change.body);
-    CHECK((static_slice(s) != static_slice(base)) == change.statics);
-    CHECK((impact_slice(s) != impact_slice(base)) == change.impact);
-    CHECK((sweep_slice(s) != sweep_slice(base)) == change.sweep);
-    CHECK((lumped_slice(s, true) != lumped_slice(base, true)) == change.lumped);
-    CHECK((lumped_slice(s, false) != lumped_slice(base, false)) == change.lumped_map);
+    CHECK((body_parameters(s, "pinion") != body_parameters(base, "pinion")) == change.body);
+    CHECK((static_parameters(s) != static_parameters(base)) == change.statics);
+    CHECK((impact_parameters(s) != impact_parameters(base)) == change.impact);
+    CHECK((sweep_parameters(s) != sweep_parameters(base)) == change.sweep);
+    CHECK((lumped_parameters(s, true) != lumped_parameters(base, true)) == change.lumped);
+    CHECK((lumped_parameters(s, false) != lumped_parameters(base, false)) == change.lumped_map);
   }
 }
 
@@ -381,9 +390,10 @@ TEST_CASE("body = \"full\" takes every mode, whatever 'modes' says; the ladder e
   const SceneFile file;
   const Scene many = file.read(with_section("[fidelity]\nbody = \"full\"\nmodes = 9\n"));
   CHECK(many.body.modes == kAllModes);
-  CHECK(body_slice(many, "wheel") ==
-        body_slice(file.read(with_section("[fidelity]\nbody = \"full\"\nmodes = 61\n")), "wheel"));
-  CHECK(read_body_slice(file.path(body_slice(many, "wheel"), "body.toml")).discretisation.modes == kAllModes);
+  CHECK(body_parameters(many, "wheel") ==
+        body_parameters(file.read(with_section("[fidelity]\nbody = \"full\"\nmodes = 61\n")), "wheel"));
+  CHECK(read_body_parameters(file.path(body_parameters(many, "wheel"), "body.toml")).discretisation.modes ==
+        kAllModes);
   std::string ladder;
   for (std::optional level = BodyModel::rigid; level; level = next_of(*level))
     ladder += name_of(*level) + " ";
@@ -394,7 +404,7 @@ TEST_CASE("body = \"full\" takes every mode, whatever 'modes' says; the ladder e
   CHECK(!choice_of<ContactModel>("glue"));
 }
 
-TEST_CASE("slices read back bit by bit") {
+TEST_CASE("stage parameters read back bit by bit") {
   const SceneFile file;
   const Scene s = file.read(
       scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = 1.7") +
@@ -402,7 +412,7 @@ TEST_CASE("slices read back bit by bit") {
       "[fidelity]\nbody = \"lagged\"\nintegrator = \"newmark\"\nmodes = 11\n"
       "[discretisation]\nelement_mm = 0.37\nmin_sample_rate_kHz = 333.3\nsteps_per_period = 200\n"
       "near_field = \"matching\"\nmatching_depth_mm = 0.77\n");
-  const BodySlice body = read_body_slice(file.path(body_slice(s, "wheel"), "body.toml"));
+  const BodyParameters body = read_body_parameters(file.path(body_parameters(s, "wheel"), "body.toml"));
   const SceneGear& wheel = s.gear("wheel");
   CHECK(body.design.teeth == wheel.design.teeth);
   CHECK(body.design.module == wheel.design.module);
@@ -419,7 +429,7 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(body.discretisation.near_field == NearField::matching);
   CHECK(body.discretisation.matching_depth == s.body.matching_depth);
 
-  const StaticSlice statics = read_static_slice(file.path(static_slice(s), "static.toml"));
+  const StaticParameters statics = read_static_parameters(file.path(static_parameters(s), "static.toml"));
   CHECK(statics.mesh.driver == "pinion");
   CHECK(statics.mesh.driven == "wheel");
   CHECK(statics.mesh.centre_distance == s.mesh.centre_distance);
@@ -427,17 +437,17 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
   CHECK(statics.mesh.contact_plane == ContactPlane::strain);  // the default
   CHECK(contains(
-      file.refusal(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncontact_plane = \"flat\"")),
+      file.rejection(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncontact_plane = \"flat\"")),
       "must be one of: strain, stress, body"));
   CHECK(statics.fidelity.contact == ContactModel::strips);
   CHECK(statics.contact.strips == 8);
-  CHECK(statics.driver_body == body_hash(body_slice(s, "pinion")));
-  CHECK(statics.driven_body == body_hash(body_slice(s, "wheel")));
-  CHECK(statics.driver_body ==
-        body_hash(body_slice(BodySlice{s.gear("pinion").design, s.gear("pinion").material, s.body})));
+  CHECK(statics.driver_body == body_hash(body_parameters(s, "pinion")));
+  CHECK(statics.driven_body == body_hash(body_parameters(s, "wheel")));
+  CHECK(statics.driver_body == body_hash(body_parameters(BodyParameters{s.gear("pinion").design,
+                                                                        s.gear("pinion").material, s.body})));
   CHECK(statics.contact.positions == 200);  // resolved: as steps_per_period, which is above 128
 
-  const SweepSlice sweep = read_sweep_slice(file.path(sweep_slice(s), "sweep.toml"));
+  const SweepParameters sweep = read_sweep_parameters(file.path(sweep_parameters(s), "sweep.toml"));
   CHECK(sweep.driver_inertia == 0.0148);
   CHECK(sweep.driven_inertia == 0.0148);
   CHECK(sweep.damping.rayleigh_mass == 0.7);
@@ -455,7 +465,7 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(sweep.time.periodicity == s.time.periodicity);
   CHECK(sweep.time.steady_state == s.time.steady_state);
 
-  const ImpactSlice impact = read_impact_slice(file.path(impact_slice(s), "impact.toml"));
+  const ImpactParameters impact = read_impact_parameters(file.path(impact_parameters(s), "impact.toml"));
   CHECK(impact.driver_inertia == 0.0148);
   CHECK(impact.driven_inertia == 0.0148);
   CHECK(impact.damping.rayleigh_mass == 0.7);
@@ -466,37 +476,41 @@ TEST_CASE("slices read back bit by bit") {
   CHECK(impact.fidelity.body == BodyModel::lagged);
   CHECK(impact.fidelity.integrator == Integrator::newmark);
 
-  const SweepSlice lumped = read_lumped_slice(file.path(lumped_slice(s, true), "lumped.toml"), true);
+  const SweepParameters lumped =
+      read_lumped_parameters(file.path(lumped_parameters(s, true), "lumped.toml"), true);
   CHECK(lumped.driver_inertia == 0.0148);
   CHECK(lumped.driven_inertia == 0.0148);
   CHECK(lumped.reference_torque == 100);
   CHECK(lumped.frequency_to == 4000);
   CHECK(lumped.fidelity.contact == ContactModel::strips);
   CHECK(lumped.time.steps_per_period == 200);
-  CHECK(read_lumped_slice(file.path(lumped_slice(s, false), "lumped_map.toml"), false).frequency_to == 0);
-  // a slice of an elastic sweep holds all of it
-  CHECK(read_lumped_slice(file.path(sweep_slice(s), "sweep.toml"), true).frequency_step == 20);
-  CHECK_THROWS_AS(read_lumped_slice(file.path(lumped_slice(s, false), "lumped_map.toml"), true), Error);
+  CHECK(
+      read_lumped_parameters(file.path(lumped_parameters(s, false), "lumped_map.toml"), false).frequency_to ==
+      0);
+  // stage parameters of an elastic sweep holds all of it
+  CHECK(read_lumped_parameters(file.path(sweep_parameters(s), "sweep.toml"), true).frequency_step == 20);
+  CHECK_THROWS_AS(read_lumped_parameters(file.path(lumped_parameters(s, false), "lumped_map.toml"), true),
+                  Error);
   std::string said;
   try {
-    read_static_slice(file.path(kScene, "whole.toml"));
+    read_static_parameters(file.path(kScene, "whole.toml"));
   } catch (const Error& e) {
     said = e.what();
   }
   CHECK(said.find("is a whole scene") != std::string::npos);
   CHECK(said.find("out/whole/params/static.toml (make SCENE=") != std::string::npos);
 
-  CHECK_THROWS_AS(read_sweep_slice(file.path(static_slice(s), "wrong.toml")), Error);
+  CHECK_THROWS_AS(read_sweep_parameters(file.path(static_parameters(s), "wrong.toml")), Error);
   // That of a sweep has all keys of a ring-down's, and that of a map another damping.
-  CHECK_THROWS_WITH_AS(read_impact_slice(file.path(sweep_slice(s), "sweep.toml")),
+  CHECK_THROWS_WITH_AS(read_impact_parameters(file.path(sweep_parameters(s), "sweep.toml")),
                        doctest::Contains("is what a sweep depends on"), Error);
-  CHECK_THROWS_WITH_AS(read_impact_slice(file.path(map_slice(s), "map.toml")),
+  CHECK_THROWS_WITH_AS(read_impact_parameters(file.path(map_parameters(s), "map.toml")),
                        doctest::Contains("give out/<scene>/params/impact.toml"), Error);
-  CHECK_THROWS_AS(read_map_slice(file.path(sweep_slice(s), "sweep.toml")), Error);
-  CHECK_THROWS_AS(read_sweep_slice(file.path(lumped_slice(s, true), "lumped.toml")), Error);
-  CHECK_THROWS_AS(read_impact_slice(file.path(static_slice(s), "wrong.toml")), Error);
-  CHECK(body_hash(body_slice(s, "wheel")).size() == 16);
-  CHECK(body_hash(body_slice(s, "wheel")) == sha256(body_slice(s, "wheel")).substr(0, 16));
+  CHECK_THROWS_AS(read_map_parameters(file.path(sweep_parameters(s), "sweep.toml")), Error);
+  CHECK_THROWS_AS(read_sweep_parameters(file.path(lumped_parameters(s, true), "lumped.toml")), Error);
+  CHECK_THROWS_AS(read_impact_parameters(file.path(static_parameters(s), "wrong.toml")), Error);
+  CHECK(body_hash(body_parameters(s, "wheel")).size() == 16);
+  CHECK(body_hash(body_parameters(s, "wheel")) == sha256(body_parameters(s, "wheel")).substr(0, 16));
 }
 
 TEST_CASE("modifications of flanks: units, taken over by like, own starts take the place of others") {
@@ -523,33 +537,33 @@ TEST_CASE("modifications of flanks: units, taken over by like, own starts take t
   CHECK(s.gear("wheel").modification == wheel);
   CHECK(s.mesh.modification[0] == pinion);
   CHECK(s.mesh.modification[1] == wheel);
-  const StaticSlice slice = read_static_slice(file.path(static_slice(s), "static.toml"));
-  CHECK(slice.mesh.modification == s.mesh.modification);
-  CHECK(body_slice(s, "wheel") == body_slice(file.read(kScene), "wheel"));
-  CHECK(static_slice(file.read(kScene)).find("modification") == std::string::npos);
+  const StaticParameters settings = read_static_parameters(file.path(static_parameters(s), "static.toml"));
+  CHECK(settings.mesh.modification == s.mesh.modification);
+  CHECK(body_parameters(s, "wheel") == body_parameters(file.read(kScene), "wheel"));
+  CHECK(static_parameters(file.read(kScene)).find("modification") == std::string::npos);
 }
 
-TEST_CASE("modifications of flanks are refused with key, value and limit") {
+TEST_CASE("modifications of flanks are rejected with key, value and limit") {
   const SceneFile file;
-  const auto refusal = [&](const std::string& keys) {
-    return file.refusal(kScene + ("[gear.pinion.modification]\n" + keys + "\n"));
+  const auto rejection = [&](const std::string& keys) {
+    return file.rejection(kScene + ("[gear.pinion.modification]\n" + keys + "\n"));
   };
-  CHECK(contains(refusal("tip_relief_um = 10"), "lacks the start of tip_relief_um = 10"));
-  CHECK(contains(refusal("tip_relief_um = -1\ntip_relief_start_deg = 22"),
+  CHECK(contains(rejection("tip_relief_um = 10"), "lacks the start of tip_relief_um = 10"));
+  CHECK(contains(rejection("tip_relief_um = -1\ntip_relief_start_deg = 22"),
                  "'tip_relief_um' in [gear.pinion.modification] = -1: must be at least 0 um"));
-  CHECK(contains(refusal("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_length_mm = 2"),
+  CHECK(contains(rejection("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_length_mm = 2"),
                  "says the start of tip_relief 2 times"));
-  CHECK(contains(refusal("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_shape = \"cubic\""),
+  CHECK(contains(rejection("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_shape = \"cubic\""),
                  "must be one of: linear, parabolic"));
-  CHECK(contains(refusal("points = [[20, 0], [19, 1]]"), "points must ascend in the roll angle"));
-  CHECK(contains(refusal("points = [[20, 0]]"), "two points at least"));
-  CHECK(contains(refusal("points = [[20, 0, 1], [21, 1]]"), "a point is [roll angle in degrees"));
-  CHECK(contains(refusal("points = [[20, 0], [21, 2000]]"), "must be from -1000 to 1000 um"));
-  CHECK(contains(refusal("points = 3"), "must be a list of points"));
-  CHECK(contains(refusal("crowning_mm = 3"), "did you mean 'crowning_um'?"));
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50\ncrowning_um = 3")),
+  CHECK(contains(rejection("points = [[20, 0], [19, 1]]"), "points must ascend in the roll angle"));
+  CHECK(contains(rejection("points = [[20, 0]]"), "two points at least"));
+  CHECK(contains(rejection("points = [[20, 0, 1], [21, 1]]"), "a point is [roll angle in degrees"));
+  CHECK(contains(rejection("points = [[20, 0], [21, 2000]]"), "must be from -1000 to 1000 um"));
+  CHECK(contains(rejection("points = 3"), "must be a list of points"));
+  CHECK(contains(rejection("crowning_mm = 3"), "did you mean 'crowning_um'?"));
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50\ncrowning_um = 3")),
                  "it belongs into [gear.<name>.modification]"));
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50\nmodification = 3")),
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50\nmodification = 3")),
                  "write [gear.pinion.modification]"));
 }
 
@@ -582,7 +596,7 @@ std::string with_errors(const std::string& key, const std::string& first_three,
 
 }  // namespace
 
-TEST_CASE("errors of teeth: lists in SI, a gear's own, in the static slice and in no body") {
+TEST_CASE("errors of teeth: lists in SI, a gear's own, in the static stage parameters and in no body") {
   const SceneFile file;
   const Scene plain = file.read(kScene),
               scene = file.read(with_errors("single_pitch_um", "1, -1.5, 0.5", "iso_class = 5\nseed = 7\n"));
@@ -594,37 +608,38 @@ TEST_CASE("errors of teeth: lists in SI, a gear's own, in the static slice and i
   CHECK(errors.profile_form_waves == 3);
   CHECK(scene.gear("pinion").errors.none());
   CHECK(scene.mesh.errors[1].single_pitch == errors.single_pitch);
-  CHECK(body_slice(scene, "wheel") == body_slice(plain, "wheel"));
-  CHECK(static_slice(scene) != static_slice(plain));
-  const StaticSlice back = read_static_slice(file.path(static_slice(scene), "static.toml"));
+  CHECK(body_parameters(scene, "wheel") == body_parameters(plain, "wheel"));
+  CHECK(static_parameters(scene) != static_parameters(plain));
+  const StaticParameters back = read_static_parameters(file.path(static_parameters(scene), "static.toml"));
   CHECK(back.mesh.errors[1].single_pitch == errors.single_pitch);
   CHECK(back.mesh.errors[1].iso_class == 5);
   CHECK(back.mesh.errors[1].iso_share == 1);
   CHECK(back.mesh.errors[0].none());
   CHECK(back.contact.positions == 128);
-  CHECK(static_slice(file.read(with_errors("single_pitch_um", "0, 0, 0"))) == static_slice(plain));
+  CHECK(static_parameters(file.read(with_errors("single_pitch_um", "0, 0, 0"))) == static_parameters(plain));
   // 29 and 50 teeth: 1450 mesh periods.
   const std::string uneven = scene_with("like = \"pinion\"", "like = \"pinion\"\nteeth = 29") +
                              "[gear.pinion.error]\niso_class = 5\n[gear.wheel.error]\niso_class = 5\n";
-  CHECK(read_static_slice(file.path(static_slice(file.read(uneven)), "static.toml")).contact.positions == 16);
+  CHECK(read_static_parameters(file.path(static_parameters(file.read(uneven)), "static.toml"))
+            .contact.positions == 16);
   // A gear that is like another has errors of its own.
   CHECK(file.read(with_section("[gear.pinion.error]\niso_class = 5\n")).gear("wheel").errors.none());
 }
 
-TEST_CASE("errors of teeth: what is wrong with them is refused by name") {
+TEST_CASE("errors of teeth: what is wrong with them is rejected by name") {
   const SceneFile file;
   CHECK(contains(
-      file.refusal(with_section("[gear.wheel.error]\ncumulative_pitch_um = [1, 2, 3]\n")),
+      file.rejection(with_section("[gear.wheel.error]\ncumulative_pitch_um = [1, 2, 3]\n")),
       "x.toml:24: 'cumulative_pitch_um' in [gear.wheel.error] holds 3 numbers, the gear has 50 teeth"));
-  CHECK(contains(file.refusal(with_section("[gear.wheel.error]\ncumulative_pitch_um = 3\n")),
+  CHECK(contains(file.rejection(with_section("[gear.wheel.error]\ncumulative_pitch_um = 3\n")),
                  "must be a list with a number for each tooth"));
-  CHECK(contains(file.refusal(with_errors("profile_slope_um", "0, 2000, 0")), "must be at most 1000 um"));
-  CHECK(contains(file.refusal(with_section("[gear.wheel.error]\niso_class = 12\n")), "must be at most 11"));
-  CHECK(contains(file.refusal(with_section("[gear.wheel.error]\niso_clas = 5\n")),
+  CHECK(contains(file.rejection(with_errors("profile_slope_um", "0, 2000, 0")), "must be at most 1000 um"));
+  CHECK(contains(file.rejection(with_section("[gear.wheel.error]\niso_class = 12\n")), "must be at most 11"));
+  CHECK(contains(file.rejection(with_section("[gear.wheel.error]\niso_clas = 5\n")),
                  "did you mean 'iso_class'?"));
-  CHECK(contains(file.refusal(scene_with("like = \"pinion\"", "like = \"pinion\"\nerror = 3")),
+  CHECK(contains(file.rejection(scene_with("like = \"pinion\"", "like = \"pinion\"\nerror = 3")),
                  "'error' in [gear.wheel] must be a section"));
-  CHECK(contains(file.refusal(scene_with("teeth = 50", "teeth = 50\niso_class = 5")),
+  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50\niso_class = 5")),
                  "it belongs into [gear.<name>.error]"));
 }
 
@@ -643,28 +658,28 @@ TEST_CASE("errors of teeth from a measured file, as TOML and as CSV, beside the 
     CHECK(errors.profile_slope == std::vector<double>(5, 1e-6));
     CHECK(errors.eccentricity == 4e-6);
   }
-  const auto refused = [&](const std::string& bytes, const std::string& name = "bad.csv") {
+  const auto rejected = [&](const std::string& bytes, const std::string& name = "bad.csv") {
     file.path(bytes, name);
-    return file.refusal(small + names + "\"" + name + "\"\n");
+    return file.rejection(small + names + "\"" + name + "\"\n");
   };
-  CHECK(contains(refused("number, profile_slope_um\n"), "bad.csv:1: the first column must be called tooth"));
-  CHECK(contains(refused("tooth, profile_slope_um\n0, 1\n2, 1\n"),
+  CHECK(contains(rejected("number, profile_slope_um\n"), "bad.csv:1: the first column must be called tooth"));
+  CHECK(contains(rejected("tooth, profile_slope_um\n0, 1\n2, 1\n"),
                  "bad.csv:3: tooth 2 stands where tooth 1 is due"));
-  CHECK(contains(refused("tooth, profile_slope_um\n0, 1, 5\n"),
+  CHECK(contains(rejected("tooth, profile_slope_um\n0, 1, 5\n"),
                  "bad.csv:2: holds 3 numbers, 2 columns are named"));
-  CHECK(contains(refused("tooth, profile_slope_um\n0, x\n"), "bad.csv:2: 'x' is no number"));
-  CHECK(contains(refused("# sheet 7\ntooth, profil_slope_um\n0, 1\n"),
+  CHECK(contains(rejected("tooth, profile_slope_um\n0, x\n"), "bad.csv:2: 'x' is no number"));
+  CHECK(contains(rejected("# sheet 7\ntooth, profil_slope_um\n0, 1\n"),
                  "bad.csv:2: unknown key 'profil_slope_um'"));
-  CHECK(contains(refused("tooth, profile_slope_um\n0, 1\n\n1, 5000\n"), "bad.csv:4: "));
-  CHECK(contains(refused("tooth, profile_slop_um\n0, 1\n"), "did you mean 'profile_slope_um'?"));
-  CHECK(contains(refused("tooth, profile_slope_um\n0, 1\n"), "holds 1 numbers, the gear has 5 teeth"));
-  CHECK(contains(refused("1", "bad.txt"), "is neither a .toml nor a .csv"));
+  CHECK(contains(rejected("tooth, profile_slope_um\n0, 1\n\n1, 5000\n"), "bad.csv:4: "));
+  CHECK(contains(rejected("tooth, profile_slop_um\n0, 1\n"), "did you mean 'profile_slope_um'?"));
+  CHECK(contains(rejected("tooth, profile_slope_um\n0, 1\n"), "holds 1 numbers, the gear has 5 teeth"));
+  CHECK(contains(rejected("1", "bad.txt"), "is neither a .toml nor a .csv"));
   CHECK_THROWS_AS(file.read(small + names + "\"none.csv\"\n"), Error);
 }
 
-TEST_CASE("what only the geometry refuses is named with the line of its key, through like, too") {
+TEST_CASE("what only the geometry rejects is named with the line of its key, through like, too") {
   SceneFile file;
-  const auto refused = [&](const std::string& scene, bool is_file = true) {
+  const auto rejected = [&](const std::string& scene, bool is_file = true) {
     const std::string path = file.path(scene);
     try {
       const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
@@ -682,22 +697,22 @@ TEST_CASE("what only the geometry refuses is named with the line of its key, thr
     INFO(message);
     return message.starts_with(words);
   };
-  CHECK(refused(kScene) == "accepted");
-  CHECK(starts(refused(scene_with("bore_radius_mm = 40", "bore_radius_mm = 74")),
+  CHECK(rejected(kScene) == "accepted");
+  CHECK(starts(rejected(scene_with("bore_radius_mm = 40", "bore_radius_mm = 74")),
                "x.toml:6: [gear.pinion]: bore_radius_mm = 74 is not below the root radius"));
-  CHECK(starts(refused(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149")),
+  CHECK(starts(rejected(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149")),
                "x.toml:19: [[mesh]]: the gears jam"));
   // Of the wheel its own section, not that of the pinion, which it is like.
-  CHECK(starts(refused(scene_with("like = \"pinion\"", "like = \"pinion\"\nmodule_mm = 3.02")),
+  CHECK(starts(rejected(scene_with("like = \"pinion\"", "like = \"pinion\"\nmodule_mm = 3.02")),
                "x.toml:11: [[mesh]]: base pitches differ"));
-  CHECK(starts(refused(scene_with("like = \"pinion\"", "like = \"pinion\"\ntotal_inertia_kgm2 = 0.001")),
+  CHECK(starts(rejected(scene_with("like = \"pinion\"", "like = \"pinion\"\ntotal_inertia_kgm2 = 0.001")),
                "x.toml:11: [gear.wheel]: total_inertia_kgm2 = 0.001 lies below"));
-  CHECK(starts(refused(scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.001")),
+  CHECK(starts(rejected(scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.001")),
                "x.toml:7: [gear.pinion]: total_inertia_kgm2 = 0.001 lies below"));
   // Undercut by keys that are left out: the line of what is there.
   CHECK(
-      starts(refused(scene_with("teeth = 50", "teeth = 8")), "x.toml:2: [gear.pinion]: the rack undercuts"));
-  CHECK(starts(refused(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149"), false),
+      starts(rejected(scene_with("teeth = 50", "teeth = 8")), "x.toml:2: [gear.pinion]: the rack undercuts"));
+  CHECK(starts(rejected(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149"), false),
                "x.toml: [[mesh]]: the gears jam"));
 
   const std::string path = file.path(kScene);

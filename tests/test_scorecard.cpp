@@ -78,8 +78,8 @@ Eigen::Index row_of(const ResponseArtifact& r, double f) {
 }
 
 // One branch at 150 N m.
-SceneAnswers flat_answers() {
-  SceneAnswers s;
+SceneResults flat_results() {
+  SceneResults s;
   s.name = "flat";
   StaticArtifact& statics = s.statics["T150/static.h5"];
   statics.driver = statics.driven = paper_gear();
@@ -210,8 +210,8 @@ TEST_CASE(
 
   c.given = false;
   c.id = "mine";
-  c.find = [](const SceneAnswers&) { return Finding{7.2, ""}; };
-  SceneAnswers one, other;
+  c.find = [](const SceneResults&) { return Finding{7.2, ""}; };
+  SceneResults one, other;
   one.name = "one";
   other.name = "other";
   const Scorecard card =
@@ -230,7 +230,7 @@ TEST_CASE("scorecard: the project's table of fitted numbers names claims that th
 }
 
 TEST_CASE("scorecard: one branch: what the paper says of either of two has no value, with the reason") {
-  const SceneAnswers s = flat_answers();
+  const SceneResults s = flat_results();
   CHECK(claim("branches-2400").find(s).value == 0);
   CHECK(claim("jumps-150").find(s).value == 0);
   CHECK(claim("jumps-150").find(s).note.find("first harmonic of k 10 %") != std::string::npos);
@@ -244,7 +244,7 @@ TEST_CASE("scorecard: one branch: what the paper says of either of two has no va
 }
 
 TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
-  SceneAnswers s = flat_answers();
+  SceneResults s = flat_results();
   ResponseArtifact& down = s.responses["T150/down/response.h5"];
   ResponseArtifact& up = s.responses["T150/up/response.h5"];
   const Eigen::Index primary = row_of(down, 2400), secondary = row_of(down, 1300);
@@ -293,7 +293,7 @@ TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
   // ... and are those of the resonance at f_n / 2 only if the second harmonic is the largest of the upper one; otherwise the
   // speed of the caption counts
   CHECK(claim("lower-keeps-contact-1350").find(s).note.find("1300 Hz") != std::string::npos);
-  SceneAnswers first = s;
+  SceneResults first = s;
   first.responses["T150/down/response.h5"].dte_harmonic(secondary, 1) = 0;
   CHECK(std::isnan(claim("lower-keeps-contact-1350").find(first).value));
   CHECK(claim("lower-keeps-contact-1350").find(first).note.find("that of f_n") != std::string::npos);
@@ -307,7 +307,7 @@ TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
 }
 
 TEST_CASE("scorecard: shares of harmonics and the tolerance of the increase are what decides the verdict") {
-  SceneAnswers s = flat_answers();
+  SceneResults s = flat_results();
   ResponseArtifact& down = s.responses["T150/down/response.h5"];
   const Eigen::Index primary = row_of(down, 2400);
   down.dte_rms[primary] = 2e-6;
@@ -326,7 +326,7 @@ TEST_CASE("scorecard: shares of harmonics and the tolerance of the increase are 
 TEST_CASE(
     "scorecard: the lower branch of the primary resonance is looked at, not that of the resonance at half "
     "its speed") {
-  SceneAnswers s = flat_answers();
+  SceneResults s = flat_results();
   for (int torque : {100, 200, 300})
     for (const char* direction : {"up", "down"})
       s.responses[text("T", torque, "/", direction, "/response.h5")] = flat_response(torque, direction);
@@ -350,7 +350,7 @@ TEST_CASE(
 
 TEST_CASE("scorecard: the bottom line counts what the rows say, in every rendering") {
   const auto always = [](double value) {
-    return [=](const SceneAnswers&) { return Finding{value, "a note"}; };
+    return [=](const SceneResults&) { return Finding{value, "a note"}; };
   };
   const auto claim_of = [](const std::string& id, const std::string& place, const std::string& words,
                            Scale scale, const std::string& unit, double printed, double tolerance,
@@ -367,7 +367,7 @@ TEST_CASE("scorecard: the bottom line counts what the rows say, in every renderi
     c.find = find;
     return c;
   };
-  const auto readings = [](const SceneAnswers& s) {
+  const auto readings = [](const SceneResults& s) {
     s.at_rest(100);
     s.at_rest(300);
     s.branches(150);
@@ -381,7 +381,7 @@ TEST_CASE("scorecard: the bottom line counts what the rows say, in every renderi
                             claim_of("f", "3", "a fit", Scale::number, "%", 7, 0.5, always(7.25)),
                             claim_of("g", "3", "readings", Scale::number, "N", 3000, 1, readings)};
   claims[1].given = true;
-  SceneAnswers scene;
+  SceneResults scene;
   scene.name = "x";
   for (const char* file : {"T100/static.h5", "T300/static.h5"}) scene.statics[file] = {};
   for (const char* file : {"T150/up/response.h5", "T150/down/response.h5"}) scene.responses[file] = {};
@@ -414,13 +414,13 @@ TEST_CASE("scorecard: the bottom line counts what the rows say, in every renderi
   while (std::getline(rows, row)) CHECK(table.find(row) != std::string::npos);
 }
 
-TEST_CASE("scorecard: artifacts that are missing, foreign or given twice are refused by name") {
+TEST_CASE("scorecard: artifacts that are missing, foreign or given twice are rejected by name") {
   const std::vector<std::string> files = scorecard_files();
   CHECK(std::set<std::string>(files.begin(), files.end()).size() == files.size());
   std::vector<std::string> paths;
   for (const std::string& f : files) paths.push_back("out/x/" + f);
   const auto said = [](const std::vector<std::string>& given) {
-    return message_of([&] { read_answers(given); });
+    return message_of([&] { read_results(given); });
   };
   std::vector<std::string> fewer = paths;
   fewer.erase(std::find(fewer.begin(), fewer.end(), "out/x/T200/impact.h5"));
@@ -437,7 +437,7 @@ TEST_CASE("scorecard: artifacts that are missing, foreign or given twice are ref
   more.back() = "elsewhere/x/T200/impact.h5";
   CHECK(said(more).rfind("input: elsewhere/x/T200/impact.h5: T200/impact.h5 of x is given twice", 0) == 0);
   // what a claim asks for and memory does not hold
-  const SceneAnswers nothing{"y", {}, {}, {}, {}};
+  const SceneResults nothing{"y", {}, {}, {}, {}};
   CHECK(message_of([&] { claim("table1-one-300").find(nothing); }).find("T300/impact.h5 of y is missing") !=
         std::string::npos);
 }
@@ -447,7 +447,7 @@ TEST_CASE("scorecard: no claim reads an artifact that is not on the list of file
   const std::vector<std::string> files = scorecard_files();
   for (const Claim& c : paper_claims()) {
     CAPTURE(c.id);
-    const std::string said = message_of([&] { c.find(SceneAnswers{"y", {}, {}, {}, {}}); });
+    const std::string said = message_of([&] { c.find(SceneResults{"y", {}, {}, {}, {}}); });
     if (said == "nothing") continue;  // reads none
     const size_t begin = said.find("scorecard: ") + 11;
     const std::string file = said.substr(begin, said.find(" of y") - begin);

@@ -8,10 +8,10 @@
 
 #include "gear/body_inertia.h"
 #include "io/study.h"
-#include "motion/compliance_split.h"
-#include "motion/study_variant.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "studies/study_variant.h"
+#include "system/compliance_split.h"
 
 using namespace whine;
 
@@ -70,30 +70,30 @@ TEST_CASE(
   CHECK(says(setup_remarks(s, {0.0148, 0.0148}, left_out, {}), "the default, is for the gears of P2000"));
 
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
-  ImpactSlice slice;
-  slice.driven_inertia = 0.0148;
-  as_drawn(slice, {body.inertia, body.inertia});
-  CHECK(slice.driver_inertia == relative(1.001 * body.inertia, 1e-12));
-  CHECK(slice.driven_inertia == 0.0148);
-  ImpactSlice by_outline;
+  ImpactParameters settings;
+  settings.driven_inertia = 0.0148;
+  as_drawn(settings, {body.inertia, body.inertia});
+  CHECK(settings.driver_inertia == relative(1.001 * body.inertia, 1e-12));
+  CHECK(settings.driven_inertia == 0.0148);
+  ImpactParameters by_outline;
   as_outlined(by_outline, at_rest(40e-3));
   CHECK(by_outline.driver_inertia == relative(body.inertia, 0.01));
 }
 
 TEST_CASE("a study answers the peak to peak within a mesh period beside that over the hunting period") {
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
-  const auto answers = [&](double eccentricity) {
-    VariantSlice slice;
-    slice.statics = paper_statics(16);
-    slice.statics.mesh.errors[0].eccentricity = eccentricity;
-    slice.torque = 150;
-    const Eigen::VectorXd all = variant_answers(body, body, slice, no_report).answer;
+  const auto quantities = [&](double eccentricity) {
+    VariantParameters settings;
+    settings.statics = paper_statics(16);
+    settings.statics.mesh.errors[0].eccentricity = eccentricity;
+    settings.torque = 150;
+    const Eigen::VectorXd all = variant_response(body, body, settings, no_report).quantity;
     std::map<std::string, double> out;
-    const auto kinds = answer_kinds({});
+    const auto kinds = response_quantities({});
     for (size_t i = 0; i < kinds.size(); ++i) out[kinds[i].name] = all[static_cast<Eigen::Index>(i)];
     return out;
   };
-  auto exact = answers(0), off = answers(20e-6);
+  auto exact = quantities(0), off = quantities(20e-6);
   CHECK(exact["te_peak_to_peak_mesh"] == exact["te_peak_to_peak"]);
   // The run-out swings by 40 micrometres over a turn, by 40 pi / 50 within one of 50 mesh periods, beside what the mesh does.
   CHECK(off["te_peak_to_peak"] > 35e-6);

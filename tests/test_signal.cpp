@@ -142,7 +142,7 @@ TEST_CASE("harmonics: a record of n + 1/4 periods is wrong by the known amounts,
   CHECK(half.amplitude[0] == relative(2.0 / std::numbers::pi, 1.5 / 41));
 }
 
-TEST_CASE("harmonics: records that cannot be answered are refused") {
+TEST_CASE("harmonics: records that cannot be answered are rejected") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(failure_of([] { harmonics(Eigen::VectorXd(), 1); }) == Failure::input);
   CHECK(failure_of([] { harmonics(Eigen::VectorXd::Ones(1), 0); }) == Failure::input);
@@ -224,7 +224,7 @@ TEST_CASE("response: a motion that is not periodic counts with all that is store
   CHECK(r.separation_fraction[1] == 12.0 / 64);
 }
 
-TEST_CASE("response: fewer harmonics where a period has few samples, refused where none is left") {
+TEST_CASE("response: fewer harmonics where a period has few samples, rejected where none is left") {
   SweepArtifact s = small_sweep();
   s.time.steps_per_period = 8;
   CHECK(response(s).dte_harmonic.cols() == 3);  // below half of 8
@@ -235,23 +235,23 @@ TEST_CASE("response: fewer harmonics where a period has few samples, refused whe
   CHECK(failure_of([&] { response(s); }) == Failure::input);
 }
 
-TEST_CASE("response: sweeps whose arrays disagree or hold impossible values are refused") {
-  const auto refused = [](auto change) {
+TEST_CASE("response: sweeps whose arrays disagree or hold impossible values are rejected") {
+  const auto rejected = [](auto change) {
     SweepArtifact s = small_sweep();
     change(s);
     return failure_of([&] { response(s); }) == Failure::input;
   };
-  CHECK(refused([](SweepArtifact& s) { s.mesh_frequency.resize(0); }));
-  CHECK(refused([](SweepArtifact& s) { s.mesh_force.conservativeResize(1, 64); }));
-  CHECK(refused([](SweepArtifact& s) { s.mesh_force.conservativeResize(2, 63); }));
-  CHECK(refused([](SweepArtifact& s) { s.tooth_load.pop_back(); }));
-  CHECK(refused([](SweepArtifact& s) { s.tooth_load[0](3, 1) = std::numeric_limits<double>::infinity(); }));
-  CHECK(refused([](SweepArtifact& s) { s.period_multiple[0] = -1; }));
-  CHECK(refused([](SweepArtifact& s) { s.mesh_force(0, 5) = -1; }));
-  CHECK(refused(
+  CHECK(rejected([](SweepArtifact& s) { s.mesh_frequency.resize(0); }));
+  CHECK(rejected([](SweepArtifact& s) { s.mesh_force.conservativeResize(1, 64); }));
+  CHECK(rejected([](SweepArtifact& s) { s.mesh_force.conservativeResize(2, 63); }));
+  CHECK(rejected([](SweepArtifact& s) { s.tooth_load.pop_back(); }));
+  CHECK(rejected([](SweepArtifact& s) { s.tooth_load[0](3, 1) = std::numeric_limits<double>::infinity(); }));
+  CHECK(rejected([](SweepArtifact& s) { s.period_multiple[0] = -1; }));
+  CHECK(rejected([](SweepArtifact& s) { s.mesh_force(0, 5) = -1; }));
+  CHECK(rejected(
       [](SweepArtifact& s) { s.transmission_error(1, 5) = std::numeric_limits<double>::quiet_NaN(); }));
-  CHECK(refused([](SweepArtifact& s) { s.jump_width.resize(0); }));
-  CHECK(refused([](SweepArtifact& s) { s.time.steps_per_period = 0; }));
+  CHECK(rejected([](SweepArtifact& s) { s.jump_width.resize(0); }));
+  CHECK(rejected([](SweepArtifact& s) { s.time.steps_per_period = 0; }));
 }
 
 namespace {

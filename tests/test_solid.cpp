@@ -55,7 +55,7 @@ int failure_of(const std::function<void()>& f) {
   return -1;
 }
 
-std::string refusal(const std::function<void()>& f) {
+std::string rejection(const std::function<void()>& f) {
   try {
     f();
   } catch (const Error& error) {
@@ -264,7 +264,7 @@ TEST_CASE("sector mesh: exact boundary, images, orientation and area for many ge
       CHECK(image < 1e-15 * tooth.tip_radius() * 2);  // one unit in the last place of the rotation
       for (int i : mesh.bore_node)
         CHECK(mesh.node_position.row(i).norm() == relative(design.bore_radius, 1e-14));
-      // Chords lose second order, parabolas fourth: make_sector_mesh itself refuses 5e-3 and 2e-4.
+      // Chords lose second order, parabolas fourth: make_sector_mesh itself rejects 5e-3 and 2e-4.
       CHECK(std::abs(mesh_area(mesh.node_position, mesh.element_node) / exact_sector_area(design) - 1) <
             (order == 1 ? 2e-3 : 1e-5));
       // Mirror symmetric: the first moment about the tooth's centre line vanishes.
@@ -299,7 +299,7 @@ TEST_CASE("exact sector area: a fine polygon of the same curves agrees") {
   }
 }
 
-TEST_CASE("meshes that cannot be made or are broken are refused") {
+TEST_CASE("meshes that cannot be made or are broken are rejected") {
   BodyDiscretisation good;
   good.element_size = 1e-3;
   auto with = [&](double size, int order) {
@@ -337,7 +337,7 @@ TEST_CASE("meshes that cannot be made or are broken are refused") {
     CHECK(failure_of([&] { reduce(mesh, material, 1); }) == 3);
   MeshArtifact regionless = mesh;  // no tooth that carries the load: the table is what was subtracted
   regionless.element_region.setZero();
-  CHECK(refusal([&] { reduce(regionless, kSteel, 1); }).find("indefinite: least eigenvalue -") !=
+  CHECK(rejection([&] { reduce(regionless, kSteel, 1); }).find("indefinite: least eigenvalue -") !=
         std::string::npos);
   MeshArtifact mirrored = mesh;  // its driving flank is the other one
   mirrored.node_position.col(0) *= -1;
@@ -345,7 +345,7 @@ TEST_CASE("meshes that cannot be made or are broken are refused") {
     for (auto [a, b] : {std::pair{1, 3}, {4, 7}, {5, 6}})
       std::swap(mirrored.element_node(e, a), mirrored.element_node(e, b));
   mirrored.side_node.col(0).swap(mirrored.side_node.col(1));
-  CHECK(refusal([&] { reduce(mirrored, kSteel, 1); }).find("relative asymmetry 1.") != std::string::npos);
+  CHECK(rejection([&] { reduce(mirrored, kSteel, 1); }).find("relative asymmetry 1.") != std::string::npos);
 }
 
 TEST_CASE("no displacement is read off the flank, none below it where there is no tooth") {
@@ -360,7 +360,7 @@ TEST_CASE("no displacement is read off the flank, none below it where there is n
     MeshArtifact copy = mesh;
     copy.discretisation.matching_depth = depth;
     copy.discretisation.near_field = near_field;
-    return refusal([&] { reduce(copy, kSteel, 1); });
+    return rejection([&] { reduce(copy, kSteel, 1); });
   };
   CHECK(matched(1e-3, NearField::matching).empty());
   CHECK(matched(5e-3, NearField::matching).find("matching_depth_mm = 5 leaves the tooth: ") !=

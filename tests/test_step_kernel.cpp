@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "motion/step_kernel.h"
-#include "motion/step_kernel_reference.h"
+#include "dynamics/step_kernel.h"
+#include "dynamics/step_kernel_reference.h"
 #include "paper_pair.h"
 
 using namespace whine;
@@ -31,15 +31,15 @@ struct Kind {
 // The paper's pair at 150 N m.
 struct Rig {
   explicit Rig(const Kind& kind)
-      : statics(static_transmission(body(), body(), slice(kind), 150)),
+      : statics(static_transmission(body(), body(), settings(kind), 150)),
         model(body(), body(), statics.mesh),
         dynamics(model, parameters(statics, kind)) {
-    dynamics.set_range(contact_range(model, statics, MotionBounds(model, statics, 2.56)), 2 * kSteps);
+    dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics, 2.56)), 2 * kSteps);
     dynamics.set_speed(kind.frequency, kSteps);
   }
   static const BodyArtifact& body() { return paper_body(40e-3, 1.2e-3, 12); }
-  static StaticSlice slice(const Kind& kind) {
-    StaticSlice s = paper_statics(16);
+  static StaticParameters settings(const Kind& kind) {
+    StaticParameters s = paper_statics(16);
     s.fidelity.contact = kind.contact;
     if (kind.bearings) {
       s.mesh.bearing[0] = Bearing{200e6, 3e3, 0};
@@ -72,7 +72,8 @@ double off(const std::vector<MatrixXd>& found, const std::vector<MatrixXd>& expe
 // Of all that a state is, each part relative to its largest number.
 double off(const StepState& found, const StepState& expected) {
   return std::max({off(found.z, expected.z), off(found.v, expected.v), off(found.force, expected.force),
-                   off(found.p, expected.p), off(found.lag, expected.lag), off(found.load, expected.load)});
+                   off(found.p, expected.p), off(found.relaxed, expected.relaxed),
+                   off(found.load, expected.load)});
 }
 
 const Kind kKinds[] = {{BodyModel::modal, ContactModel::strips, Integrator::exact},
@@ -126,11 +127,11 @@ struct RandomSteps {
     for (StepPosition& position : positions) {
       const int nodes = position.mesh.nodes();
       position.at_once = random.definite(nodes, kCompliance);
-      position.lagged = random.definite(nodes, kCompliance);
+      position.relaxed = random.definite(nodes, kCompliance);
       position.participation = random.matrix(nodes, coordinates, 1);
       position.participation.col(0).setConstant(2);
       for (size_t j = 0; !system.lines && j < position.mesh.pairs.size(); ++j) {
-        auto rows = position.participation.middleRows<kWindowNodes>(static_cast<int>(j) * kWindowNodes);
+        auto rows = position.participation.middleRows<kZoneNodes>(static_cast<int>(j) * kZoneNodes);
         rows = (basis * (basis.transpose() * rows)).eval();
       }
       for (MatrixXd& weight : position.field_weight) weight = random.matrix(nodes, kFields, 1);
@@ -140,19 +141,19 @@ struct RandomSteps {
     }
     for (int i = 0; i < coordinates; ++i)
       propagators.push_back(exact_propagator(1e4 * (1.5 + random()), 1e3 * (1 + random()), 1e-5));
-    lag = lag_step(2e-5, 1e-5);
+    relaxed = relaxation_step(2e-5, 1e-5);
     state.z = random.vector(coordinates, 1e-6);
     state.v = random.vector(coordinates, 1e-2);
     state.force = system.torque_force + random.vector(coordinates, 1000);
     for (int side = 0; side < StepKernel::kSides; ++side) {
-      state.lag.push_back(random.matrix(kFields, system.teeth(), 100));
+      state.relaxed.push_back(random.matrix(kFields, system.teeth(), 100));
       state.load.push_back(random.matrix(kFields, system.teeth(), 100));
     }
   }
   StepSystem system;
   std::vector<StepPosition> positions;
   std::vector<Propagator> propagators;
-  Lag lag;
+  Relaxation relaxed;
   StepState state;
 };
 
@@ -165,20 +166,20 @@ TEST_CASE("step kernel: a mesh period of the paper's pair is that of the equatio
     RollingDynamics& dynamics = rig.dynamics;
     RollingDynamics::State state = dynamics.rest(), balanced;
     RollingDynamics::Period period;
-    for (int i = 0; i < 4; ++i) REQUIRE(dynamics.march(state, period));
+    for (int i = 0; i < 4; ++i) REQUIRE(dynamics.integrate(state, period));
     StepState plain = state;
     balanced = state;
     const StepReference reference(dynamics.kernel().system(), dynamics.kernel().propagators(),
-                                  dynamics.kernel().lag());
+                                  dynamics.kernel().relaxed());
     VectorXd error(kSteps);
     for (int i = 1; i <= kSteps; ++i) {
       if (i == kSteps) reference.rename(plain);
       error[i % kSteps] = reference.step(plain, dynamics.positions()[static_cast<size_t>(i % kSteps * 2)]);
     }
     // Pipelined, and with each instant looked at.
-    Ledger ledger;
-    REQUIRE(dynamics.march(balanced, period, &ledger));
-    REQUIRE(dynamics.march(state, period));
+    EnergyBalance energy_balance;
+    REQUIRE(dynamics.integrate(balanced, period, &energy_balance));
+    REQUIRE(dynamics.integrate(state, period));
     CHECK(off(period.transmission_error, error) < 1e-12);
     CHECK(off(state, plain) < 1e-11);
     CHECK(off(balanced, plain) < 1e-11);
@@ -195,9 +196,9 @@ TEST_CASE(
       INFO(contact << " " << coordinates);
       const RandomSteps data(rig.dynamics, coordinates, random);
       StepKernel kernel;
-      kernel.set_range(data.system, data.positions);
-      kernel.set_speed(data.propagators, data.lag, kSteps, data.positions);
-      const StepReference reference(kernel.system(), data.propagators, data.lag);
+      kernel.set_zone(data.system, data.positions);
+      kernel.set_speed(data.propagators, data.relaxed, kSteps, data.positions);
+      const StepReference reference(kernel.system(), data.propagators, data.relaxed);
       StepState found = data.state, expected = data.state;
       kernel.take(found);
       int touched = 0, parted = 0;
@@ -211,7 +212,7 @@ TEST_CASE(
         }
         kernel.begin(i);
         const StepKernel::End end = kernel.finish(i, -1);
-        REQUIRE(end.contact != StepKernel::Contact::window_end);
+        REQUIRE(end.contact != StepKernel::Contact::zone_end);
         kernel.give(found, position.mesh.strips());
         const double error = reference.step(expected, position);
         const double terms = data.system.error_weight.cwiseAbs().dot(expected.z.cwiseAbs());

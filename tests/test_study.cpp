@@ -1,5 +1,5 @@
-// Studies: what their reader refuses and by which words, what a grid and a sample hold, slices, plans and artifacts. Answers beside
-// those of the stages one by one: tests/study.sh.
+// Studies: what their reader rejects and by which words, what a grid and a sample hold, stage parameters, plans and artifacts.
+// Answers beside those of the stages one by one: tests/study.sh.
 #include "io/scene.h"
 #include "io/study.h"
 
@@ -15,9 +15,9 @@
 
 #include "base/error.h"
 #include "failure_of.h"
-#include "plot/gnuplot.h"
-#include "plot/study_figure.h"
 #include "relative.h"
+#include "report/gnuplot.h"
+#include "report/study_figure.h"
 
 using namespace whine;
 
@@ -40,8 +40,8 @@ Study study_of(const std::string& content) {
   return read_study(Written("scene = '" + kScene + "'\n" + content).path);
 }
 
-// What read_study, or the first variants, refuse; the scene stands in line 1.
-std::string refusal_of(const std::string& content) {
+// What read_study, or the first variants, reject; the scene stands in line 1.
+std::string rejection_of(const std::string& content) {
   try {
     const Written file("scene = '" + kScene + "'\n" + content);
     const Study study = read_study(file.path);
@@ -53,8 +53,8 @@ std::string refusal_of(const std::string& content) {
   return "";
 }
 
-bool refuses(const std::string& content, const std::string& words) {
-  const std::string said = refusal_of(content);
+bool rejects(const std::string& content, const std::string& words) {
+  const std::string said = rejection_of(content);
   INFO(said);
   const bool found = said.find(words) != std::string::npos && said.find('\n') == std::string::npos;
   CHECK_MESSAGE(found, "'" << words << "' is not in '" << said << "'");
@@ -65,76 +65,77 @@ const std::string kDamping = "[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nva
 
 }  // namespace
 
-TEST_CASE("a study that says nothing sensible is refused by line, value and limit") {
-  refuses("", ": the study varies nothing");
-  refuses(
+TEST_CASE("a study that says nothing sensible is rejected by line, value and limit") {
+  rejects("", ": the study varies nothing");
+  rejects(
       "[[vary]]\nkey = 'damping.rayleigh_stifness_s'\nvalues = [1e-6, 2e-6]\n",
       ":3: no scene has the key 'damping.rayleigh_stifness_s'; did you mean 'damping.rayleigh_stiffness_s'?");
-  refuses("[[vary]]\nkey = 'gear.pinion.rayleigh_stiffness_s'\nvalues = [1e-6, 2e-6]\n",
+  rejects("[[vary]]\nkey = 'gear.pinion.rayleigh_stiffness_s'\nvalues = [1e-6, 2e-6]\n",
           "did you mean 'damping.rayleigh_stiffness_s'?");
-  refuses("[[vary]]\nkey = 'gear.pinon.bore_radius_mm'\nvalues = [38, 40]\n",
+  rejects("[[vary]]\nkey = 'gear.pinon.bore_radius_mm'\nvalues = [38, 40]\n",
           "variant 0 (gear.pinon.bore_radius_mm = 38)");
-  refuses("[[vary]]\nkey = 'gear.pinon.bore_radius_mm'\nvalues = [38, 40]\n",
+  rejects("[[vary]]\nkey = 'gear.pinon.bore_radius_mm'\nvalues = [38, 40]\n",
           "has no [gear.pinon]; did you mean 'pinion'?");
-  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = []\n", ":4: 'values' must be a list");
-  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6]\n",
+  rejects("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = []\n", ":4: 'values' must be a list");
+  rejects("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6]\n",
           ":2: the study varies nothing: every key has one value only");
-  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 1.0e-6]\n", "holds 1e-06 twice");
-  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 'much']\n",
+  rejects("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 1.0e-6]\n", "holds 1e-06 twice");
+  rejects("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 'much']\n",
           ":4: 'values' of damping.rayleigh_stiffness_s holds 'much': must be a number");
-  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 2]\n",
+  rejects("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 2]\n",
           ":3: variant 1 (damping.rayleigh_stiffness_s = 2): ");
-  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 2]\n", "must be at most 1 s");
-  refuses(kDamping + kDamping, "varies twice, as 'damping.rayleigh_stiffness_s' in line 3");
-  refuses(
+  rejects("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 2]\n", "must be at most 1 s");
+  rejects(kDamping + kDamping, "varies twice, as 'damping.rayleigh_stiffness_s' in line 3");
+  rejects(
       "[[vary]]\nkey = 'bore_radius_mm'\nvalues = [38, 40]\n[[vary]]\nkey = "
       "'gear.wheel.bore_radius_mm'\nvalues = [38, 40]\n",
       "varies twice");
-  refuses("[set]\n'damping.rayleigh_stiffness_s' = 1e-6\n" + kDamping, "varies and is in [set]");
-  refuses("[set]\n'damping.rayleigh' = 1e-6\n" + kDamping,
+  rejects("[set]\n'damping.rayleigh_stiffness_s' = 1e-6\n" + kDamping, "varies and is in [set]");
+  rejects("[set]\n'damping.rayleigh' = 1e-6\n" + kDamping,
           ":3: [set]: no scene has the key 'damping.rayleigh'");
-  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 200\nto = 100\nstep = 10\n",
+  rejects("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 200\nto = 100\nstep = 10\n",
           ":5: the range of operation.torque_Nm is empty");
-  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\n", "lacks 'step' or 'count'");
-  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\nstep = -1\n",
+  rejects("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\n", "lacks 'step' or 'count'");
+  rejects("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\nstep = -1\n",
           "must be greater than 0");
-  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\nstep = 10\ncount = 3\n",
+  rejects("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 100\nto = 200\nstep = 10\ncount = 3\n",
           "'step' and 'count'");
-  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 0\nto = 200\nstep = 100\n",
+  rejects("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 0\nto = 200\nstep = 100\n",
           "the torque must be greater than 0");
-  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 1\nto = 2\nstep = 1e-9\n",
+  rejects("[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 1\nto = 2\nstep = 1e-9\n",
           "more than 200000 values");
-  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 10\n",
+  rejects("[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 10\n",
           "drawn at random, which a grid is not");
-  refuses("[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [1, 2]\nmean = 100\ndeviation = 10\n",
+  rejects("[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [1, 2]\nmean = 100\ndeviation = 10\n",
           "in two ways");
-  refuses("[[vary]]\nkey = 'fidelity.modes'\nvalues = [5, 5.5]\n", "must be a whole number");
-  refuses("[[vary]]\nkey = 'gear.pinion.error.seed'\nfrom = 1\nto = 1e300\ncount = 2\n",
+  rejects("[[vary]]\nkey = 'fidelity.modes'\nvalues = [5, 5.5]\n", "must be a whole number");
+  rejects("[[vary]]\nkey = 'gear.pinion.error.seed'\nfrom = 1\nto = 1e300\ncount = 2\n",
           "cannot be beyond 2147483647");
-  refuses("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalue = [5, 5.5]\n",
+  rejects("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalue = [5, 5.5]\n",
           ":4: unknown key 'value' in [[vary]]; did you mean 'values'?");
-  refuses("stage = 'sweeps'\n" + kDamping, ":2: 'stage' = sweeps: must be one of: static, sweep");
-  refuses("directions = ['up']\n" + kDamping, "say stage = \"sweep\"");
-  refuses("plan = 'sample'\n" + kDamping, "lacks samples");
-  refuses("plan = 'sample'\nsamples = 0\n" + kDamping, "must be a whole number from 1 to 200000");
-  refuses("samples = 5\n" + kDamping, "is of a sample");
-  refuses("answers = ['te_peak_to_peek']\n" + kDamping, "did you mean 'te_peak_to_peak'?");
-  refuses("answers = ['rms_max_up']\n" + kDamping, "there is no answer of this stage 'rms_max_up'");
-  refuses("[figure]\nkeys = ['damping']\n" + kDamping, "there is no varied key");
-  refuses("[figure]\nkeys = ['gear.pinion.error.seed']\n" + kDamping +
+  rejects("stage = 'sweeps'\n" + kDamping, ":2: 'stage' = sweeps: must be one of: static, sweep");
+  rejects("directions = ['up']\n" + kDamping, "say stage = \"sweep\"");
+  rejects("plan = 'sample'\n" + kDamping, "lacks samples");
+  rejects("plan = 'sample'\nsamples = 0\n" + kDamping, "must be a whole number from 1 to 200000");
+  rejects("samples = 5\n" + kDamping, "is of a sample");
+  rejects("answers = ['te_peak_to_peek']\n" + kDamping, "did you mean 'te_peak_to_peak'?");
+  rejects("answers = ['rms_max_up']\n" + kDamping,
+          "there is no response quantity of this stage 'rms_max_up'");
+  rejects("[figure]\nkeys = ['damping']\n" + kDamping, "there is no varied key");
+  rejects("[figure]\nkeys = ['gear.pinion.error.seed']\n" + kDamping +
               "[[vary]]\nkey = 'gear.pinion.error.seed'\nvalues = [1, 2]\n",
           "there is no varied key");
-  refuses("tilte = 'x'\n" + kDamping, ":2: unknown key 'tilte'; did you mean 'title'?");
-  refuses(
+  rejects("tilte = 'x'\n" + kDamping, ":2: unknown key 'tilte'; did you mean 'title'?");
+  rejects(
       "plan = 'sample'\nsamples = 5\n[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 1\nleast "
       "= 150\n",
       "leave hardly a draw");
-  refuses("title\n", ":2: is not valid TOML");
+  rejects("title\n", ":2: is not valid TOML");
   std::string wide = "[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 1\nto = 1000\nstep = 1\n";
   wide += "[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nfrom = 1e-6\nto = 1e-5\ncount = 1000\n";
   wide += "[[vary]]\nkey = 'damping.bearing_ratio'\nfrom = 0.001\nto = 0.1\ncount = 1000\n";
-  refuses(wide, ": the grid has 1000000000 variants; 200000 is the most");
-  CHECK(refusal_of(kDamping) == "");
+  rejects(wide, ": the grid has 1000000000 variants; 200000 is the most");
+  CHECK(rejection_of(kDamping) == "");
 }
 
 TEST_CASE("a grid holds all combinations, the last key fastest") {
@@ -168,9 +169,9 @@ TEST_CASE("variants are the scene as if their keys were edited in it") {
   CHECK(first.mesh.corner.largest_angle == relative(5 * std::numbers::pi / 180, 1e-15));
   CHECK(first.fidelity.contact == ContactModel::line);
   CHECK(!study.keys[1].number);
-  // A variant with the scene's own values is the scene, slices and all.
-  CHECK(body_slice(last, "wheel") == body_slice(base, "wheel"));
-  CHECK(body_slice(last, "wheel") == body_slice(base, "pinion"));
+  // A variant with the scene's own values is the scene, stage parameters and all.
+  CHECK(body_parameters(last, "wheel") == body_parameters(base, "wheel"));
+  CHECK(body_parameters(last, "wheel") == body_parameters(base, "pinion"));
 }
 
 TEST_CASE(
@@ -218,24 +219,24 @@ TEST_CASE(
   CHECK(line / n == relative(0.5, 0.065));
 }
 
-TEST_CASE("slices of variants depend on what their stage computes, on nothing else") {
+TEST_CASE("stage parameters of variants depend on what their stage computes, on nothing else") {
   const Scene scene = read_scene(kScene);
   Scene damped = scene;
   damped.damping.rayleigh_stiffness *= 2;
-  CHECK(variant_slice(scene, 150, {}) == variant_slice(damped, 150, {}));
-  CHECK(variant_slice(scene, 150, {"up"}) != variant_slice(damped, 150, {"up"}));
-  CHECK(variant_slice(scene, 150, {}) != variant_slice(scene, 151, {}));
+  CHECK(variant_stage_parameters(scene, 150, {}) == variant_stage_parameters(damped, 150, {}));
+  CHECK(variant_stage_parameters(scene, 150, {"up"}) != variant_stage_parameters(damped, 150, {"up"}));
+  CHECK(variant_stage_parameters(scene, 150, {}) != variant_stage_parameters(scene, 151, {}));
   Scene relieved = scene;
   relieved.mesh.modification[0].tip.amount = 1e-6;
-  CHECK(variant_slice(scene, 150, {}) != variant_slice(relieved, 150, {}));
-  const Written file(variant_slice(relieved, 150, {"up", "down"}), "slice.toml");
-  const VariantSlice slice = read_variant_slice(file.path);
-  CHECK(slice.torque == 150);
-  CHECK(slice.directions == std::vector<std::string>{"up", "down"});
-  CHECK(slice.motion.reference_torque == 100);
-  CHECK(slice.statics.mesh.modification[0].tip.amount == 1e-6);
-  CHECK(slice.motion.damping.rayleigh_stiffness == scene.damping.rayleigh_stiffness);
-  CHECK(slice.motion.frequency_to == 4000);
+  CHECK(variant_stage_parameters(scene, 150, {}) != variant_stage_parameters(relieved, 150, {}));
+  const Written file(variant_stage_parameters(relieved, 150, {"up", "down"}), "slice.toml");
+  const VariantParameters settings = read_variant_parameters(file.path);
+  CHECK(settings.torque == 150);
+  CHECK(settings.directions == std::vector<std::string>{"up", "down"});
+  CHECK(settings.motion.reference_torque == 100);
+  CHECK(settings.statics.mesh.modification[0].tip.amount == 1e-6);
+  CHECK(settings.motion.damping.rayleigh_stiffness == scene.damping.rayleigh_stiffness);
+  CHECK(settings.motion.frequency_to == 4000);
 }
 
 TEST_CASE("plans come back as they were written") {
@@ -248,20 +249,20 @@ TEST_CASE("plans come back as they were written") {
   const auto [plan, back] = read_plan(file.path);
   CHECK(plan_text(plan, back) == plan_text(study, variants));
   CHECK(plan.keys[0].units == "s");
-  CHECK(!plan.marks_refusals);
+  CHECK(!plan.marks_outside);
   const Study marking = study_of("refusals = 'mark'\n" + kDamping);
   const Written marked(plan_text(marking, {{"abcd0", variant_values(marking, 0)}}), "plan.toml");
-  CHECK(read_plan(marked.path).first.marks_refusals);
+  CHECK(read_plan(marked.path).first.marks_outside);
   const Written other("title = 'x'\n", "plan.toml");
   CHECK_THROWS_AS(read_plan(other.path), Error);
 }
 
-TEST_CASE("a plan with an answer, direction or key that the study does not have is refused") {
+TEST_CASE("a plan with a response quantity, direction or key that the study does not have is rejected") {
   const Study study = study_of("stage = 'sweep'\nanswers = ['rms_max_up', 'jumps_up']\n" + kDamping);
   std::vector<GatheredVariant> variants;
   for (long i = 0; i < study.variants; ++i)
     variants.push_back({"abcd" + std::to_string(i), variant_values(study, i)});
-  const auto refused = [&](const std::function<void(StudyPlan&)>& change) {
+  const auto rejected = [&](const std::function<void(StudyPlan&)>& change) {
     StudyPlan plan = study;
     change(plan);
     const Written file(plan_text(plan, variants), "plan.toml");
@@ -272,13 +273,13 @@ TEST_CASE("a plan with an answer, direction or key that the study does not have 
     }
     return false;
   };
-  CHECK_FALSE(refused([](StudyPlan&) {}));
-  CHECK(refused([](StudyPlan& plan) { plan.answers.push_back("rms_max_sideways"); }));
-  CHECK(refused([](StudyPlan& plan) { plan.directions.push_back("sideways"); }));
-  CHECK(refused([](StudyPlan& plan) { plan.directions = {"down"}; }));
-  CHECK(refused([](StudyPlan& plan) { plan.figure_answers = {"te_mean"}; }));
-  CHECK(refused([](StudyPlan& plan) { plan.figure_keys = {"fidelity.contact"}; }));
-  CHECK(refused([](StudyPlan& plan) { plan.figure_colour = "fidelity.contact"; }));
+  CHECK_FALSE(rejected([](StudyPlan&) {}));
+  CHECK(rejected([](StudyPlan& plan) { plan.quantities.push_back("rms_max_sideways"); }));
+  CHECK(rejected([](StudyPlan& plan) { plan.directions.push_back("sideways"); }));
+  CHECK(rejected([](StudyPlan& plan) { plan.directions = {"down"}; }));
+  CHECK(rejected([](StudyPlan& plan) { plan.figure_quantities = {"te_mean"}; }));
+  CHECK(rejected([](StudyPlan& plan) { plan.figure_keys = {"fidelity.contact"}; }));
+  CHECK(rejected([](StudyPlan& plan) { plan.figure_colour = "fidelity.contact"; }));
 }
 
 TEST_CASE("no figure of a study stands against a seed, as long as anything else varies") {
@@ -295,20 +296,20 @@ TEST_CASE("what is gathered of a study comes back from its artifact") {
   StudyArtifact a;
   a.plan = study_of("stage = 'sweep'\n" + kDamping +
                     "[[vary]]\nkey = 'mesh.corner_contact'\nvalues = [true, 5.0]\n");
-  a.plan.answers = {"rms_max_up", "jumps_up"};
-  a.plan.figure_answers = a.plan.answers;
+  a.plan.quantities = {"rms_max_up", "jumps_up"};
+  a.plan.figure_quantities = a.plan.quantities;
   for (const char* eta : {"4e-06", "5.5e-06"})
     for (const char* corner : {"true", "5"})
       a.variants.push_back({std::string("ab") + eta + corner, {eta, corner}});
-  a.answer = MatrixRM::Random(4, 2);
-  a.answer.row(2).setZero();
-  a.refusal = {"", "", "it jams", ""};
+  a.quantity = MatrixRM::Random(4, 2);
+  a.quantity.row(2).setZero();
+  a.rejection = {"", "", "it jams", ""};
   a.unsteady = Eigen::Vector4i(0, 3, 0, 0);
   const Written file("", "study.h5");
   write(file.path, a, {"test", "test", {}, {}});
   const StudyArtifact b = read_study_artifact(file.path);
-  CHECK(b.answer == a.answer);
-  CHECK(b.refusal == a.refusal);
+  CHECK(b.quantity == a.quantity);
+  CHECK(b.rejection == a.rejection);
   CHECK(b.unsteady == a.unsteady);
   REQUIRE(b.variants.size() == 4);
   for (size_t v = 0; v < 4; ++v) {
@@ -331,7 +332,7 @@ TEST_CASE("what is gathered of a study comes back from its artifact") {
   steady.unsteady.setZero();
   CHECK(study_figure(steady).notes[0].find("settle") == std::string::npos);
   StudyArtifact none = b;
-  none.refusal = {"a", "b", "c", "d"};
+  none.rejection = {"a", "b", "c", "d"};
   CHECK_THROWS_AS(study_figure(none), Error);
 }
 
@@ -351,28 +352,28 @@ TEST_CASE("keys without effect: those of variants that differ in them alone and 
 TEST_CASE("a study's figure has no panel for what never varies and no column for a key that does nothing") {
   StudyArtifact a;
   a.plan = study_of(kDamping + "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 200]\n");
-  REQUIRE(a.plan.answers[0] == "contact_ratio");
+  REQUIRE(a.plan.quantities[0] == "contact_ratio");
   for (const char* eta : {"4e-06", "5e-06"})
     for (const char* torque : {"100", "200"})
       a.variants.push_back({std::string("ab") + torque, {eta, torque}});
-  a.refusal.resize(4);
+  a.rejection.resize(4);
   a.unsteady = Eigen::VectorXi::Zero(4);
-  a.answer = MatrixRM::Constant(4, static_cast<Eigen::Index>(a.plan.answers.size()), 1.7);
-  a.answer.rightCols(a.answer.cols() - 1) = MatrixRM::Random(4, a.answer.cols() - 1);
+  a.quantity = MatrixRM::Constant(4, static_cast<Eigen::Index>(a.plan.quantities.size()), 1.7);
+  a.quantity.rightCols(a.quantity.cols() - 1) = MatrixRM::Random(4, a.quantity.cols() - 1);
   const Figure figure = study_figure(a);
   const auto number = [&](const std::string& name) {
     for (const auto& [key, value] : figure.numbers)
       if (key == name) return value;
     return -1.0;
   };
-  CHECK(number("rows") == a.plan.figure_answers.size());  // another answer has taken the place
+  CHECK(number("rows") == a.plan.figure_quantities.size());  // another answer has taken the place
   CHECK(number("columns") == 1);
   REQUIRE(figure.notes.size() >= 2);
   CHECK(figure.notes[1].find("contact ratio 1.7") != std::string::npos);
   CHECK(figure.notes[1].find(a.plan.keys[0].name + " changes nothing") != std::string::npos);
   for (const FigureBlock& block : figure.blocks)
     if (block.name.starts_with("panel")) CHECK(block.columns[1] != "contact_ratio");
-  a.answer.setConstant(1.7);
+  a.quantity.setConstant(1.7);
   const Figure level = study_figure(a);
   CHECK(std::count_if(level.blocks.begin(), level.blocks.end(),
                       [](const FigureBlock& block) { return block.name.starts_with("panel"); }) == 1);
@@ -388,9 +389,9 @@ TEST_CASE("a study's figure shows words of the study and runs none of them") {
   const std::vector<std::string> levels{"5 % of _it_", "`" + command + "`",
                                         "\" 1); system(\"" + command + "\"); set xtics (\""};
   for (const std::string& level : levels) a.variants.push_back({"ab" + level, {level}});
-  a.refusal.resize(3);
+  a.rejection.resize(3);
   a.unsteady = Eigen::VectorXi::Zero(3);
-  a.answer = MatrixRM::Random(3, static_cast<Eigen::Index>(a.plan.answers.size()));
+  a.quantity = MatrixRM::Random(3, static_cast<Eigen::Index>(a.plan.quantities.size()));
   const Figure figure = study_figure(a);
   const Written table(plot_data(figure), "study.tsv");
   const std::string svg = draw(figure, table.path, "pipelines/plots/study.gp", Picture::svg);

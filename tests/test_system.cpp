@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "gear/train.h"
-#include "motion/statics.h"
-#include "motion/system_statics.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "system/statics.h"
+#include "system/system_statics.h"
 
 using namespace whine;
 
@@ -92,13 +92,13 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-std::vector<ContactRange> ranges(const SystemModel& system) {
+std::vector<CandidateZone> ranges(const SystemModel& system) {
   return static_ranges(system, 8, 1, 1);
 }
 
 SystemPosition position_at(const SystemModel& system, double phase, int period = 0) {
   std::vector<MeshPosition> meshes;
-  const std::vector<ContactRange> range = ranges(system);
+  const std::vector<CandidateZone> range = ranges(system);
   for (size_t m = 0; m < system.mesh.size(); ++m)
     meshes.push_back(make_position(system.mesh[m],
                                    mesh_instant(system, static_cast<int>(m), phase, period).phase, range[m]));
@@ -174,10 +174,10 @@ TEST_CASE(
 
 TEST_CASE("a pair is a system of two bodies: the same numbers in any direction") {
   const StaticArtifact statics = [] {
-    StaticSlice slice;
-    slice.mesh = train_mesh(0);
-    slice.contact.positions = 8;
-    return static_transmission(train_bodies()[0], train_bodies()[1], slice, kTorque);
+    StaticParameters settings;
+    settings.mesh = train_mesh(0);
+    settings.contact.positions = 8;
+    return static_transmission(train_bodies()[0], train_bodies()[1], settings, kTorque);
   }();
   for (const double direction : {0.5 * kPi, 2.2}) {
     System layout;

@@ -12,12 +12,12 @@
 #include "base/error.h"
 #include "failure_of.h"
 #include "io/publish.h"
-#include "plot/figures.h"
-#include "plot/gnuplot.h"
-#include "plot/harris_figure.h"
-#include "plot/plot_file.h"
-#include "plot/wireframe.h"
 #include "relative.h"
+#include "report/figures.h"
+#include "report/gnuplot.h"
+#include "report/harris_figure.h"
+#include "report/plot_file.h"
+#include "report/wireframe.h"
 
 using namespace whine;
 
@@ -38,7 +38,7 @@ Figure some_figure() {
 
 }  // namespace
 
-TEST_CASE("plot data: blocks stand two empty lines apart under their names; what is not finite is refused") {
+TEST_CASE("plot data: blocks stand two empty lines apart under their names; what is not finite is rejected") {
   Figure figure;
   figure.title = "Title";
   figure.blocks = {{"a", {"x [m]", "y [N]"}, {{1, 2}, {}, {3, 0.1}}}, {"b", {"x [m]"}, {{5}}}};

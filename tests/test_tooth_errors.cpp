@@ -11,8 +11,8 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "dynamics/steady_state.h"
 #include "gear/tooth_errors.h"
-#include "motion/steady_state.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/response.h"
@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi, kMicro = 1e-6;
 
-std::string refusal(const auto& f) {
+std::string rejection(const auto& f) {
   try {
     f();
   } catch (const Error& error) {
@@ -44,12 +44,12 @@ double range(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end()) - *std::min_element(values.begin(), values.end());
 }
 
-StaticSlice with_errors(const ToothErrors& driver, const ToothErrors& driven, int positions,
-                        ContactModel contact = ContactModel::strips) {
-  StaticSlice slice = paper_statics(positions);
-  slice.mesh.errors = {driver, driven};
-  slice.fidelity.contact = contact;
-  return slice;
+StaticParameters with_errors(const ToothErrors& driver, const ToothErrors& driven, int positions,
+                             ContactModel contact = ContactModel::strips) {
+  StaticParameters settings = paper_statics(positions);
+  settings.mesh.errors = {driver, driven};
+  settings.fidelity.contact = contact;
+  return settings;
 }
 
 // Rises of nothing: teeth that differ by less than round-off, so that a hunting period is run.
@@ -61,8 +61,8 @@ ToothErrors round_off(int teeth) {
 }
 
 // Transmission error of two exact involute gears whose axes are displaced by (along, across) the line of action, at held
-// rotations of the driven gear: with the base circles' distance D the common tangent has the length L = sqrt(D^2 - (r1 + r2)^2),
-// and turns by beta. Contact is where both strings make up L: r1 theta1 + r2 theta2 = L - L0 - (r1 + r2) beta.
+// rotations of the driven gear: with the base circles' distance D the common tangent has the length L = sqrt(D^2 - (r1 +
+// r2)^2), and turns by beta. Contact is where both strings make up L: r1 theta1 + r2 theta2 = L - L0 - (r1 + r2) beta.
 double displaced(const GearPair& gears, double along, double across) {
   const double sum = gears.gear(0).base_radius() + gears.gear(1).base_radius();
   const double length = sum * std::tan(gears.working_pressure_angle());
@@ -77,7 +77,7 @@ double displaced(const GearPair& gears, double along, double across) {
 }  // namespace
 
 TEST_CASE(
-    "tolerances of ISO 1328-1: class 5 of 50 teeth of 3 mm, twice as much two classes on, refusals by name") {
+    "tolerances of ISO 1328-1: class 5 of 50 teeth of 3 mm, twice as much two classes on, errors by name") {
   const FlankTolerances five = iso_1328_tolerances(paper_gear(), 5),
                         seven = iso_1328_tolerances(paper_gear(), 7);
   CHECK(five.single_pitch == relative(6.35e-6, 1e-12));
@@ -88,20 +88,21 @@ TEST_CASE(
   CHECK(five.run_out == relative(0.9 * five.cumulative_pitch, 1e-12));
   CHECK(seven.profile_slope == relative(2 * five.profile_slope, 1e-12));
 
-  const auto refused = [](auto change, int iso_class) {
+  const auto rejected = [](auto change, int iso_class) {
     GearDesign design = paper_gear();
     change(design);
-    return refusal([&] { iso_1328_tolerances(design, iso_class); });
+    return rejection([&] { iso_1328_tolerances(design, iso_class); });
   };
   const auto nothing = [](GearDesign&) {};
-  CHECK(refused(nothing, 12).find("iso_class = 12 is no class of ISO 1328-1, which has 1 to 11") !=
+  CHECK(rejected(nothing, 12).find("iso_class = 12 is no class of ISO 1328-1, which has 1 to 11") !=
         std::string::npos);
-  CHECK(refused([](GearDesign& d) { d.module = 0.4e-3; }, 5).find("a module of 0.4 mm") != std::string::npos);
-  CHECK(refused([](GearDesign& d) { d.teeth = 1001; }, 5).find("a number of teeth of 1001") !=
+  CHECK(rejected([](GearDesign& d) { d.module = 0.4e-3; }, 5).find("a module of 0.4 mm") !=
         std::string::npos);
-  CHECK(refused([](GearDesign& d) { d.face_width = 3e-3; }, 5).find("a face width of 3 mm") !=
+  CHECK(rejected([](GearDesign& d) { d.teeth = 1001; }, 5).find("a number of teeth of 1001") !=
         std::string::npos);
-  CHECK(refused(
+  CHECK(rejected([](GearDesign& d) { d.face_width = 3e-3; }, 5).find("a face width of 3 mm") !=
+        std::string::npos);
+  CHECK(rejected(
             [](GearDesign& d) {
               d.module = 0.5e-3;
               d.teeth = 9;
@@ -159,7 +160,7 @@ TEST_CASE(
   CHECK(d.profile_slope[0] == relative(-0.049e-6, 1e-9));
 }
 
-TEST_CASE("given lists: pitches close to round-off and become places, refusals by name") {
+TEST_CASE("given lists: pitches close to round-off and become places, errors by name") {
   const GearDesign design = paper_gear(7);
   ToothErrors errors;
   errors.single_pitch = {1e-6, -2e-6, 0.5e-6, 3e-6, -1.5e-6, -2e-6, 1.03e-6};  // 0.03 left of printed digits
@@ -170,11 +171,11 @@ TEST_CASE("given lists: pitches close to round-off and become places, refusals b
   CHECK(pitch[3] == relative(3e-6 - 0.03e-6 / 7, 1e-9));
   CHECK(pitch[0] == relative(1e-6 - 0.03e-6 / 7, 1e-9));
   errors.single_pitch[6] = 1.2e-6;
-  CHECK(refusal([&] {
+  CHECK(rejection([&] {
           tooth_deviations(design, errors);
         }).find("single_pitch_um sums up to 0.2 over a turn") != std::string::npos);
   errors.single_pitch.pop_back();
-  CHECK(refusal([&] {
+  CHECK(rejection([&] {
           tooth_deviations(design, errors);
         }).find("single_pitch_um holds 6 numbers, the gear has 7 teeth") != std::string::npos);
 }
@@ -287,9 +288,9 @@ TEST_CASE("errors that are none give the numbers of a scene without, to the last
 TEST_CASE("a hunting period of teeth that do not differ repeats the mesh period, at rest and in motion") {
   const BodyArtifact& body = paper_body();
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    const StaticSlice slice = with_errors(round_off(50), {}, 16, contact);
+    const StaticParameters settings = with_errors(round_off(50), {}, 16, contact);
     const StaticArtifact plain = static_transmission(body, body, with_errors({}, {}, 16, contact), 150),
-                         hunting = static_transmission(body, body, slice, 150);
+                         hunting = static_transmission(body, body, settings, 150);
     CHECK(hunting.hunting_periods == 50);
     REQUIRE(hunting.transmission_error.size() == 50 * 16);
     for (int i = 0; i < 50 * 16; ++i) {
@@ -297,7 +298,7 @@ TEST_CASE("a hunting period of teeth that do not differ repeats the mesh period,
       CHECK(hunting.transmission_error[i] == relative(plain.transmission_error[i % 16], 1e-11));
     }
 
-    SweepSlice speeds = paper_sweep(2000, 2000, 100);
+    SweepParameters speeds = paper_sweep(2000, 2000, 100);
     speeds.fidelity.contact = contact;
     speeds.time.min_sample_rate = 1;
     speeds.time.steps_per_period = 64;
@@ -326,9 +327,9 @@ TEST_CASE("one tooth that stands ahead takes load from its neighbour as two spri
   ToothErrors errors;
   errors.cumulative_pitch.assign(50, 0.0);
   errors.cumulative_pitch[3] = ahead;
-  const StaticSlice slice = with_errors(errors, {}, 16, ContactModel::line);
-  const StaticArtifact result = static_transmission(body, body, slice, torque);
-  const GearMeshModel model(body, body, slice.mesh);
+  const StaticParameters settings = with_errors(errors, {}, 16, ContactModel::line);
+  const StaticArtifact result = static_transmission(body, body, settings, torque);
+  const GearMeshModel model(body, body, settings.mesh);
   const double load = torque / model.kinematics.gear(0).base_radius();
   constexpr double kDepth = 1e-3;
   const MeshPosition position = make_line_position(model, 0.5, 1e-6, kDepth, shared_force(load), 1);
@@ -403,7 +404,7 @@ TEST_CASE("slow motion of teeth that differ is the static transmission error, to
   drawn.iso_class = 5;
   for (const auto contact : {ContactModel::line, ContactModel::strips}) {
     const StaticArtifact statics = static_transmission(body, body, with_errors({}, drawn, 32, contact), 150);
-    SweepSlice slow = paper_sweep(10, 10, 1);
+    SweepParameters slow = paper_sweep(10, 10, 1);
     slow.fidelity.contact = contact;
     slow.damping.bearing_ratio = 0;
     slow.time.steps_per_period = 512;

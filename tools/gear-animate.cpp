@@ -16,9 +16,9 @@
 #include "io/publish.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
-#include "plot/animation.h"
-#include "plot/gnuplot.h"
-#include "plot/plot_file.h"
+#include "report/animation.h"
+#include "report/gnuplot.h"
+#include "report/plot_file.h"
 
 namespace {
 

@@ -1,7 +1,8 @@
 // gear-harris: peak-to-peak transmission error and its first harmonics against torque and tip relief (Harris map).
 //
-// Reads   static-params (slice of a scene: mesh with modifications, contact), body.h5 of driver and driven gear; with
-//         --dynamic params (slice: damping, inertia, speeds, time), too
+// Reads   static-params (stage parameters of a scene: mesh with modifications, contact), body.h5 of driver and driven gear;
+// with
+//         --dynamic params (stage parameters: damping, inertia, speeds, time), too
 // Writes  harris_map.h5   the map at rest, the optimum for the design torque, its curve over torque (the Harris cusp), and
 //                         what a finer solution of some points differs by; with --dynamic the RMS at the worst speed
 // Equations: as gear-static; with --dynamic as gear-sweep
@@ -23,27 +24,28 @@
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "io/static_codec.h"
-#include "motion/harris_plan.h"
+#include "studies/harris_plan.h"
 
 namespace {
 
 using namespace whine;
-// The map at rest, checked at so many points; with params (a slice for sweeps) in motion, too. took: s of this processor.
-HarrisMapArtifact computed(const BodyArtifact& first, const BodyArtifact& second, const StaticSlice& slice,
-                           const HarrisPlan& plan, int checks, const std::string& params,
-                           const std::string& reference, double& took) {
+// The map at rest, checked at so many points; with params (stage parameters for sweeps) in motion, too. took: s of this
+// processor.
+HarrisMapArtifact computed(const BodyArtifact& first, const BodyArtifact& second,
+                           const StaticParameters& settings, const HarrisPlan& plan, int checks,
+                           const std::string& params, const std::string& reference, double& took) {
   std::optional<Progress> progress;
   const auto report = [&](long done, long total, const std::string& note) {
     if (!progress) progress.emplace("gear-harris", total);
     progress->update(done, note);
   };
   const std::clock_t begin = std::clock();
-  HarrisMapArtifact map = harris_map(first, second, slice, plan, report);
+  HarrisMapArtifact map = harris_map(first, second, settings, plan, report);
   took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   progress.reset();
   if (checks > 0) check(map, first, second, plan.positions, checks);
   if (!params.empty()) {
-    SweepSlice moving = read_sweep_slice(params);
+    SweepParameters moving = read_sweep_parameters(params);
     as_drawn(moving, {first.inertia, second.inertia});
     add_dynamics(map, first, second, moving, read_static(reference).mean_stiffness, report);
     progress.reset();
@@ -127,18 +129,18 @@ void body(int argc, char** argv) {
   std::vector<std::string> inputs = files.and_inputs({"static_params=" + static_params});
   if (dynamic) inputs.insert(inputs.end(), {"params=" + params, "reference_static=" + reference});
   const Provenance provenance = made_by(argc, argv, std::move(inputs));
-  const StaticSlice slice = read_static_slice(static_params);
-  const std::vector<std::string> paths = files.of(slice.mesh);
+  const StaticParameters settings = read_static_parameters(static_params);
+  const std::vector<std::string> paths = files.of(settings.mesh);
   const BodyArtifact first = read_body(paths[0]), second = read_body(paths[1]);
-  require_body(first, slice.driver_body, slice.mesh.driver, paths[0]);
-  require_body(second, slice.driven_body, slice.mesh.driven, paths[1]);
+  require_body(first, settings.driver_body, settings.mesh.driver, paths[0]);
+  require_body(second, settings.driven_body, settings.mesh.driven, paths[1]);
   plan.length = relief_lengths(number_list("--start-deg", start), number_list("--length-mm", length), first,
-                               second, slice.mesh, plan.relieved);
+                               second, settings.mesh, plan.relieved);
   for (const double um : number_list("--relief-um", relief)) plan.relief.push_back(um * 1e-6);
-  if (relief.empty()) plan.relief = default_reliefs(first, second, slice, plan.torque.back());
+  if (relief.empty()) plan.relief = default_reliefs(first, second, settings, plan.torque.back());
   double took = 0;
-  const HarrisMapArtifact map =
-      computed(first, second, slice, plan, static_cast<int>(checks), dynamic ? params : "", reference, took);
+  const HarrisMapArtifact map = computed(first, second, settings, plan, static_cast<int>(checks),
+                                         dynamic ? params : "", reference, took);
   write(output, map, provenance);
   tell_results(plan, map, took, output);
 }

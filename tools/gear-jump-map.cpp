@@ -1,6 +1,7 @@
 // gear-jump-map: where the primary resonance has two branches, and what the teeth then carry, for a series of dampings.
 //
-// Reads   params (slice of a scene: damping, inertia, fidelity, time), static-params (slice: mesh, contact), body.h5 of both
+// Reads   params (stage parameters of a scene: damping, inertia, fidelity, time), static-params (stage parameters: mesh,
+// contact), body.h5 of both
 //         gears
 // Writes  jump_map.h5    per damping: ends of the branches, speeds that lose contact, tooth loads, jumps; the responses
 // Equations: as gear-static and gear-sweep; damping ratios are those of the slowest eigenvalue with two pairs in contact
@@ -21,7 +22,7 @@
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "motion/jump_map.h"
+#include "studies/jump_map.h"
 
 namespace {
 
@@ -89,20 +90,20 @@ void body(int argc, char** argv) {
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance =
       whine::made_by(argc, argv, files.and_inputs({"params=" + params, "static_params=" + static_params}));
-  whine::SweepSlice slice = whine::read_map_slice(params);
-  whine::StaticSlice statics = whine::read_static_slice(static_params);
+  whine::SweepParameters settings = whine::read_map_parameters(params);
+  whine::StaticParameters statics = whine::read_static_parameters(static_params);
   if (!corner.empty()) statics.mesh.corner = corner_rule(corner);
   if (!contact.empty())
-    statics.fidelity.contact = slice.fidelity.contact =
+    statics.fidelity.contact = settings.fidelity.contact =
         whine::choice_of<whine::ContactModel>(contact).value();
   const std::vector<std::string> paths = files.of(statics.mesh);
   const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
-  whine::as_drawn(slice, {first.inertia, second.inertia});
+  whine::as_drawn(settings, {first.inertia, second.inertia});
   whine::require_body(first, statics.driver_body, statics.mesh.driver, paths[0]);
   whine::require_body(second, statics.driven_body, statics.mesh.driven, paths[1]);
 
   std::optional<whine::Progress> progress;
-  const whine::JumpMapArtifact result = whine::jump_map(first, second, statics, torque, slice, plan,
+  const whine::JumpMapArtifact result = whine::jump_map(first, second, statics, torque, settings, plan,
                                                         [&](long done, long total, const std::string& note) {
                                                           if (!progress)
                                                             progress.emplace("gear-jump-map", total);

@@ -20,8 +20,8 @@
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/static_codec.h"
-#include "motion/flank_pressure.h"
-#include "motion/loaded_pair.h"
+#include "system/flank_pressure.h"
+#include "system/loaded_pair.h"
 
 namespace {
 

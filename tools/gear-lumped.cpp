@@ -2,7 +2,7 @@
 // before.
 //
 // Reads   static.h5 of the torque (gears, mesh stiffness), static.h5 of the reference torque if the rectangular wave is not
-//         to depend on the torque, params (slice of a scene: speeds, samples)
+//         to depend on the torque, params (stage parameters of a scene: speeds, samples)
 // Writes  sweep.h5, of the schema of gear-sweep: transmission error, mesh force, energy, jumps; with --map jump_map.h5, of
 //         that of gear-jump-map: branches, contact loss and loads for a series of damping ratios
 // Equation: m x'' + c x' + F(t) = T / r, F(t) = k(t) x for x >= 0 and 0 for x < 0 (Eq. 23), integrated exactly from event to

@@ -1,6 +1,6 @@
 // gear-mesh: one tooth sector of a spur gear as a structured mesh of quadrilaterals, exact on every boundary.
 //
-// Reads      params     slice of a scene: the gear's own keys and its discretisation
+// Reads      params     stage parameters of a scene: the gear's own keys and its discretisation
 // Writes     mesh.h5    nodes, elements, regions and node sets of the sector; the whole gear for ParaView
 //                       under /VTKHDF; the sector of the cracked tooth beside it if the gear has one
 // Equations  involute of the base circle, root cut by a rounded rack; the tooth is mirror symmetric
@@ -26,15 +26,15 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params});
-  const whine::BodySlice slice = whine::read_body_slice(params);
-  const whine::MeshArtifact mesh = whine::make_sector_mesh(slice.design, slice.discretisation);
+  const whine::BodyParameters settings = whine::read_body_parameters(params);
+  const whine::MeshArtifact mesh = whine::make_sector_mesh(settings.design, settings.discretisation);
 
   whine::write(output, mesh, provenance);
   const double area = whine::mesh_area(mesh.node_position, mesh.element_node);
-  whine::tell("gear-mesh: ", slice.design.teeth, " teeth, ", mesh.element_node.rows(), " elements and ",
+  whine::tell("gear-mesh: ", settings.design.teeth, " teeth, ", mesh.element_node.rows(), " elements and ",
               mesh.node_position.rows(), " nodes a sector, least Jacobian ",
               whine::least_jacobian(mesh.node_position, mesh.element_node), " of the mean, area ", area * 1e6,
-              " mm2 (relative error ", area / whine::exact_sector_area(slice.design) - 1, ") -> ", output);
+              " mm2 (relative error ", area / whine::exact_sector_area(settings.design) - 1, ") -> ", output);
 }
 
 }  // namespace

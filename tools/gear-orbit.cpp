@@ -21,7 +21,7 @@
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "io/static_codec.h"
-#include "motion/pair_branch.h"
+#include "studies/pair_branch.h"
 
 namespace {
 
@@ -47,26 +47,26 @@ void body(int argc, char** argv) {
   const whine::Provenance provenance = whine::made_by(
       argc, argv,
       files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
-  whine::SweepSlice slice = whine::read_sweep_slice(params);
+  whine::SweepParameters settings = whine::read_sweep_parameters(params);
   const whine::StaticArtifact at_torque = whine::read_static(statics),
                               at_reference = whine::read_static(reference);
   const std::vector<std::string> paths = files.of(at_torque.mesh);
   for (int g = 0; g < whine::kSides; ++g)
     for (const std::string& file : {statics, reference})
       whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
-  whine::require_contact(at_torque, slice.fidelity, statics);
-  whine::require_contact(at_reference, slice.fidelity, reference);
-  if (at_reference.torque != slice.reference_torque)
+  whine::require_contact(at_torque, settings.fidelity, statics);
+  whine::require_contact(at_reference, settings.fidelity, reference);
+  if (at_reference.torque != settings.reference_torque)
     whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
                 " N m, but the scene's first torque, which sets the bearing dampers, is ",
-                slice.reference_torque, " N m; give the static.h5 of that torque");
+                settings.reference_torque, " N m; give the static.h5 of that torque");
   const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
                             driven_body = whine::read_body(paths[1]);
-  whine::as_drawn(slice, {driver_body.inertia, driven_body.inertia});
+  whine::as_drawn(settings, {driver_body.inertia, driven_body.inertia});
 
   std::optional<whine::Progress> progress;
   const whine::BranchArtifact result =
-      whine::pair_branch(driver_body, driven_body, at_torque, at_reference.mean_stiffness, slice,
+      whine::pair_branch(driver_body, driven_body, at_torque, at_reference.mean_stiffness, settings,
                          [&](long done, long total, const std::string& note) {
                            if (!progress) progress.emplace("gear-orbit", total);
                            progress->update(done, note);
@@ -77,7 +77,7 @@ void body(int argc, char** argv) {
   whine::tell("gear-orbit: ", result.torque, " N m, ", result.mesh_frequency.size(), " orbits, ",
               result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
               folds.empty() ? ", no fold" : folds, " -> ", output);
-  if (result.mesh_frequency.minCoeff() > slice.frequency_from)
+  if (result.mesh_frequency.minCoeff() > settings.frequency_from)
     whine::tell("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);
 }
 

@@ -2,7 +2,8 @@
 //
 // Reads      artifacts, which ones `gear-plot --help` says for each figure; params/title.txt in the folder of their scene, if
 //            there is one; table1 besides --published FILE, what P2000 prints; <plots>/<figure>.gp, the template
-// Writes     <output>.tsv (further tables of the figure: <output>-<table>.tsv), <output>.svg, <output>.png, each whole or not at
+// Writes     <output>.tsv (further tables of the figure: <output>-<table>.tsv), <output>.svg, <output>.png, each whole or not
+// at
 //            all; for table1 <output>.tsv and, to read,
 //            <output>.txt
 // Equations  k = (T / r_b) / STE
@@ -14,9 +15,9 @@
 #include "io/readings_codec.h"
 #include "paper/reading_figure.h"
 #include "paper/table1.h"
-#include "plot/drawings.h"
-#include "plot/gnuplot.h"
-#include "plot/plot_file.h"
+#include "report/drawings.h"
+#include "report/gnuplot.h"
+#include "report/plot_file.h"
 
 namespace {
 

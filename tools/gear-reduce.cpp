@@ -1,7 +1,7 @@
 // gear-reduce: modes and flank flexibility of a gear from the mesh of one tooth sector.
 //
-// Reads      params     slice of a scene: gear, material, number of modes
-//            mesh.h5    geometry; refused unless it is of the gear of the slice
+// Reads      params     stage parameters of a scene: gear, material, number of modes
+//            mesh.h5    geometry; rejected unless it is of the gear of the stage parameters
 // Writes     body.h5    eigenfrequencies with the hub fixed, mode shapes and compliance on the flank, inertia
 //                       coupling
 //                       and what the crack of a tooth adds to the compliance, if the gear has one
@@ -36,12 +36,12 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params, "mesh=" + mesh});
-  const whine::BodySlice slice = whine::read_body_slice(params);
+  const whine::BodyParameters settings = whine::read_body_parameters(params);
   whine::MeshArtifact sector = whine::read_mesh(mesh);
-  whine::require_mesh(sector, slice, mesh);
-  sector.discretisation = slice.discretisation;  // a mesh does not say how its near field is reduced
+  whine::require_mesh(sector, settings, mesh);
+  sector.discretisation = settings.discretisation;  // a mesh does not say how its near field is reduced
   std::optional<whine::StepsShown> steps(std::in_place, "gear-reduce");
-  const whine::BodyArtifact result = whine::reduce(sector, slice.material, slice.discretisation.modes);
+  const whine::BodyArtifact result = whine::reduce(sector, settings.material, settings.discretisation.modes);
   steps.reset();
 
   whine::write(output, result, provenance);
@@ -49,13 +49,13 @@ void body(int argc, char** argv) {
   result.inertia_coupling.cwiseAbs().maxCoeff(&torsional);
   whine::tell("gear-reduce: ", result.eigenfrequency.size(), " modes from ", result.eigenfrequency.minCoeff(),
               " Hz, first torsional ", result.eigenfrequency[torsional], " Hz, body inertia ", result.inertia,
-              " kg m2, near field by ", slice.discretisation.near_field,
-              slice.discretisation.near_field == whine::NearField::matching
-                  ? whine::text(" at ", slice.discretisation.matching_depth * 1e3, " mm")
+              " kg m2, near field by ", settings.discretisation.near_field,
+              settings.discretisation.near_field == whine::NearField::matching
+                  ? whine::text(" at ", settings.discretisation.matching_depth * 1e3, " mm")
                   : "",
               ", asymmetry of the flexibility ", result.asymmetry, " -> ", output);
-  if (slice.design.crack.depth > 0)
-    whine::tell("gear-reduce: the crack in tooth ", slice.design.crack.tooth, " adds up to ",
+  if (settings.design.crack.depth > 0)
+    whine::tell("gear-reduce: the crack in tooth ", settings.design.crack.tooth, " adds up to ",
                 result.crack_compliance.maxCoeff() * 1e9, " um/kN to ",
                 result.compliance[0].maxCoeff() * 1e9);
 }

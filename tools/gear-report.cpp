@@ -19,9 +19,9 @@
 #include "io/static_codec.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
-#include "motion/sweep.h"
-#include "plot/report.h"
+#include "report/report.h"
 #include "signal/response.h"
+#include "studies/sweep.h"
 
 namespace {
 

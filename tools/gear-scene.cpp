@@ -1,7 +1,8 @@
 // gear-scene: checks a scene and cuts it into the parts that the stages depend on.
 //
 // Reads      a scene (TOML)
-// Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml    slices in SI, replaced only if they change
+// Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml    stage parameters in SI, replaced only if
+// they change
 //            <out>/<scene>/params/title.txt              what figures call it
 //            <out>/<scene>/params/scene.txt              path of the scene, from the working folder
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
@@ -90,24 +91,27 @@ void body(int argc, char** argv) {
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
 
-  // Together: program ids, results and slices keep their order.
+  // Together: program ids, results and stage parameters keep their order.
   if (const int moved = bring_to_present({home, folder + "/bodies", ids}); moved > 0)
     tell("gear-scene: ", home, ": ", moved, " files had times in the future and have those of now instead");
 
-  // 2. Slices and links; unchanged ones are left alone, so that make sees what did change.
+  // 2. Stage parameters and links; unchanged ones are left alone, so that make sees what did change.
   BodyHashes bodies;
   for (const SceneGear& gear : scene.gears) {
-    const std::string slice = body_slice(scene, gear.name), hash = body_hash(slice);
-    publish_if_changed(folder + "/bodies/" + hash + "/body.toml", slice);
+    const std::string settings = body_parameters(scene, gear.name), hash = body_hash(settings);
+    publish_if_changed(folder + "/bodies/" + hash + "/body.toml", settings);
     publish_link(home + "/" + gear.name, "../bodies/" + hash);
     bodies.emplace_back(gear.name, hash);
   }
-  const std::pair<const char*, std::string> slices[] = {
-      {"static.toml", static_slice(scene)},       {"impact.toml", impact_slice(scene)},
-      {"sweep.toml", sweep_slice(scene)},         {"map.toml", map_slice(scene)},
-      {"lumped.toml", lumped_slice(scene, true)}, {"lumped_map.toml", lumped_slice(scene, false)},
+  const std::pair<const char*, std::string> parameters[] = {
+      {"static.toml", static_parameters(scene)},
+      {"impact.toml", impact_parameters(scene)},
+      {"sweep.toml", sweep_parameters(scene)},
+      {"map.toml", map_parameters(scene)},
+      {"lumped.toml", lumped_parameters(scene, true)},
+      {"lumped_map.toml", lumped_parameters(scene, false)},
       {"title.txt", scene.title + "\n"}};
-  for (const auto& [file, content] : slices) publish_if_changed(home + "/params/" + file, content);
+  for (const auto& [file, content] : parameters) publish_if_changed(home + "/params/" + file, content);
 
   // 3. The fragment, always written.
   publish(output, scene_fragment(scene, path, stem, bodies));

@@ -1,4 +1,4 @@
-// gear-scorecard: what P2000 prints, claim by claim, beside what scenes answer.
+// gear-scorecard: what P2000 prints, claim by claim, beside the results of scenes.
 //
 // Reads      the artifacts that `gear-scorecard --files` lists, of each scene; what P2000 prints (data/published/claims.toml)
 // Writes     <output>.tsv, <output>.md, <output>.txt: every claim with its value in each scene, its deviation and its verdict,
@@ -43,7 +43,7 @@ void body(int argc, char** argv) {
     whine::fail(whine::Failure::usage, "artifacts of a scene are needed; --files lists them");
 
   const whine::Scorecard card =
-      whine::score(all, whine::read_answers(inputs),
+      whine::score(all, whine::read_results(inputs),
                    fitted.empty() ? std::vector<whine::FittedNumber>{} : whine::read_fitted_numbers(fitted));
   for (const std::string& path : inputs) whine::require_fresh(path);
   std::vector<std::string> sources;

@@ -1,6 +1,6 @@
 // gear-static: transmission error, mesh stiffness and tooth loads of two gears at rest, over one mesh period.
 //
-// Reads   params (slice of a scene: mesh, contact discretisation), body.h5 of driver and driven gear
+// Reads   params (stage parameters of a scene: mesh, contact discretisation), body.h5 of driver and driven gear
 // Writes  static.h5   transmission error, secant and tangent stiffness, load of each pair, harmonics, certificate
 // Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20); k = (T / r_b) / STE.
 // With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
@@ -20,9 +20,9 @@
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "io/static_codec.h"
-#include "motion/error_budget.h"
-#include "motion/statics.h"
 #include "signal/spectrum.h"
+#include "studies/error_budget.h"
+#include "system/statics.h"
 
 namespace {
 
@@ -49,14 +49,14 @@ void body(int argc, char** argv) {
   std::string params, output;
   std::vector<std::string> bodies;
   std::string torque_word;
-  bool budget = false, next_rung = false;
+  bool budget = false, next_level = false;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/static.toml").required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--torque", torque_word, "torque on the driver in N m, above 0").required();
   options.add("--output", output, "static.h5 to write").required();
   whine::Option of_budget = options.flag(
       "--error-budget", budget, "refine one discretisation at a time and write error_budget.h5 instead");
-  options.flag("--next-level", next_rung, "for contact = \"line\": say what \"strips\" would change")
+  options.flag("--next-level", next_level, "for contact = \"line\": say what \"strips\" would change")
       .excludes(of_budget);
   options.footer(
       "Example:\n"
@@ -68,15 +68,15 @@ void body(int argc, char** argv) {
   const double torque = whine::number_option("--torque", torque_word);
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
-  const whine::StaticSlice slice = whine::read_static_slice(params);
-  const std::vector<std::string> paths = files.of(slice.mesh);
+  const whine::StaticParameters settings = whine::read_static_parameters(params);
+  const std::vector<std::string> paths = files.of(settings.mesh);
   const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
                             driven_body = whine::read_body(paths[1]);
-  whine::require_body(driver_body, slice.driver_body, slice.mesh.driver, paths[0]);
-  whine::require_body(driven_body, slice.driven_body, slice.mesh.driven, paths[1]);
+  whine::require_body(driver_body, settings.driver_body, settings.mesh.driver, paths[0]);
+  whine::require_body(driven_body, settings.driven_body, settings.mesh.driven, paths[1]);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-static");
   if (budget) {
-    const whine::ErrorBudgetArtifact errors = whine::error_budget(driver_body, driven_body, slice, torque);
+    const whine::ErrorBudgetArtifact errors = whine::error_budget(driver_body, driven_body, settings, torque);
     steps.reset();
     whine::write(output, errors, provenance);
     whine::tell("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
@@ -86,9 +86,9 @@ void body(int argc, char** argv) {
       whine::tell("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
     return;
   }
-  whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, slice, torque);
-  std::optional<whine::NextRung> change;
-  if (next_rung) change = whine::next_contact_rung(driver_body, driven_body, slice, result);
+  whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, settings, torque);
+  std::optional<whine::NextLevel> change;
+  if (next_level) change = whine::next_contact_level(driver_body, driven_body, settings, result);
   const int periods = result.hunting_periods;
   result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error, periods, periods);
   result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant, periods, periods);
@@ -102,8 +102,8 @@ void body(int argc, char** argv) {
               result.mean_stiffness * 1e-6, "e6 N/m, transmission error ", te.minCoeff() * 1e6, " to ",
               te.maxCoeff() * 1e6, " um -> ", output);
   if (change) {
-    tell_change("where a pair carries load off the line of action", change->corner, slice.contact.strips);
-    tell_change("elsewhere", change->elsewhere, slice.contact.strips);
+    tell_change("where a pair carries load off the line of action", change->corner, settings.contact.strips);
+    tell_change("elsewhere", change->elsewhere, settings.contact.strips);
   }
   for (const whine::Remark& remark : whine::remarks(result))
     whine::tell("gear-static: ", remark.warning ? "warning: " : "", remark.words);

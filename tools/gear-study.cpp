@@ -1,14 +1,16 @@
 // gear-study: what variants a study has and where they come from; afterwards, what they answered, in one file.
 //
 // Reads      a study (TOML) and the scene that it names; with --gather its plan and the artifact of each variant
-// Writes     <out>/studies/<study>/variants/ab/ab12....toml    a slice for each variant, replaced only if it changes
+// Writes     <out>/studies/<study>/variants/ab/ab12....toml    stage parameters of each variant, replaced only if they change
 //            <out>/studies/<study>/plan.toml                   the variants, their values, what is gathered
 //            <out>/bodies/<hash>/body.toml                     one per distinct gear
 //            --output                                          make fragment: variants by their pair of bodies
 //            --gather: study.h5 instead, a row for each variant
 // Equations  none; variants are scenes as gear-scene --set makes them, draws as io/study.h says
-// Example    gear-study --study data/studies/damping-torque-relief.toml --output build/studies/damping-torque-relief.mk --out out
-//            gear-study --gather out/studies/damping-torque-relief/plan.toml --output out/studies/damping-torque-relief/study.h5
+// Example    gear-study --study data/studies/damping-torque-relief.toml --output build/studies/damping-torque-relief.mk --out
+// out
+//            gear-study --gather out/studies/damping-torque-relief/plan.toml --output
+// out/studies/damping-torque-relief/study.h5
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -27,7 +29,7 @@ namespace {
 
 using namespace whine;
 
-constexpr size_t kShownRefusals = 5;
+constexpr size_t kShownOutside = 5;
 
 void plan(const std::string& path, const std::string& output, const std::string& folder,
           const std::string& ids) {
@@ -40,12 +42,13 @@ void plan(const std::string& path, const std::string& output, const std::string&
   const std::string home = folder + "/studies/" + stem + "/";
   const ExpandedStudy plan = expand_study(path, home);
 
-  // 2. Together: program ids, results and slices keep their order.
+  // 2. Together: program ids, results and stage parameters keep their order.
   if (const int moved = bring_to_present({home, folder + "/bodies", ids}); moved > 0)
     tell("gear-study: ", home, ": ", moved, " files had times in the future and have those of now instead");
   for (const auto& [hash, text] : plan.bodies)
     publish_if_changed(folder + "/bodies/" + hash + "/body.toml", text);
-  for (const auto& [hash, text] : plan.slices) publish_if_changed(home + variant_file(hash) + ".toml", text);
+  for (const auto& [hash, text] : plan.parameters)
+    publish_if_changed(home + variant_file(hash) + ".toml", text);
   publish_if_changed(home + "plan.toml", plan_text(plan.study, plan.variants));
   publish(output, study_fragment(plan, path, stem));
 
@@ -53,9 +56,9 @@ void plan(const std::string& path, const std::string& output, const std::string&
     tell("gear-study: warning: ", path, ": ", key, " changes nothing that this study computes",
          plan.study.directions.empty() ? ", the pair at rest; if it acts in motion, say stage = \"sweep\""
                                        : "");
-  const size_t slices = plan.slices.size(), bodies = plan.bodies.size();
+  const size_t parameters = plan.parameters.size(), bodies = plan.bodies.size();
   tell("gear-study: ", path, ": ", plan.study.variants, " variants, ",
-       slices < plan.variants.size() ? text(slices, " of them different, ") : "", bodies,
+       parameters < plan.variants.size() ? text(parameters, " of them different, ") : "", bodies,
        bodies == 1 ? " body" : " bodies");
 }
 
@@ -71,12 +74,13 @@ void gather(int argc, char** argv, const std::string& path, const std::string& o
 
   // 2. What they answered.
   const GatheredStudy gathered = gather_study(path);
-  const size_t refused = gathered.refused.size();
-  for (size_t i = 0; i < std::min(refused, kShownRefusals); ++i)
-    tell("gear-study: warning: ", gathered.refused[i]);
+  const size_t rejected = gathered.rejected.size();
+  for (size_t i = 0; i < std::min(rejected, kShownOutside); ++i)
+    tell("gear-study: warning: ", gathered.rejected[i]);
   write(output, gathered.study, provenance);
   tell("gear-study: ", gathered.study.plan.title, ": ", gathered.study.variants.size(), " variants",
-       refused > 0 ? text(", ", refused, " of them refused and marked so") : "", " -> ", output);
+       rejected > 0 ? text(", ", rejected, " of them outside the model's range and marked so") : "", " -> ",
+       output);
   if (gathered.unsteady > 0)
     tell("gear-study: warning: ", gathered.unsteady,
          " variants have speeds at which no periodic motion was found; ", "they are marked so");

@@ -1,10 +1,11 @@
 // gear-sweep: the dynamic response of the pair at a series of speeds, each started from the state of the one before.
 //
-// Reads   params (slice of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears, static.h5 of the
+// Reads   params (stage parameters of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears, static.h5 of
+// the
 //         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
 // Writes  sweep.h5    transmission error and tooth loads over one orbit at every speed, energy, certificate, jumps
-// With --next-level: beside sweep.h5, in words, what the same sweep answers on the next rung of contact and on that of body.
-// Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
+// With --next-level: beside sweep.h5, in words, what the same sweep answers on the next model level of contact and on that of
+// body. Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
 #include <optional>
 #include <sstream>
 #include <string>
@@ -21,8 +22,8 @@
 #include "io/scene.h"
 #include "io/static_codec.h"
 #include "io/sweep_codec.h"
-#include "motion/next_rung.h"
-#include "motion/sweep.h"
+#include "studies/next_level.h"
+#include "studies/sweep.h"
 
 namespace {
 
@@ -41,12 +42,12 @@ std::string in_words(const Eigen::VectorXd& jumps) {
 void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
                  const whine::SweepArtifact& there) {
   const whine::SweepChange change = whine::sweep_change(here, there);
-  const std::string rung =
+  const std::string level =
       whine::text("gear-sweep: ", next.key, " = \"", next.from, "\" against \"", next.to, "\"");
-  whine::tell(rung, " at ", change.compared, " speeds: RMS of the transmission error off by ",
+  whine::tell(level, " at ", change.compared, " speeds: RMS of the transmission error off by ",
               in_words(change.dte_rms), "; its mean by ", in_words(change.dte_mean), "; peak tooth load by ",
               in_words(change.tooth_load));
-  whine::tell(rung, ": jumps ", in_words(here.jump_frequency), " against ", in_words(there.jump_frequency),
+  whine::tell(level, ": jumps ", in_words(here.jump_frequency), " against ", in_words(there.jump_frequency),
               "; on different branches at ", change.apart, " speeds, with other periods or none at ",
               change.uneven);
 }
@@ -56,7 +57,7 @@ void body(int argc, char** argv) {
                          "gear-sweep"};
   std::string params, statics, reference, direction, output;
   std::vector<std::string> bodies;
-  bool next_rung = false;
+  bool next_level = false;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--static", statics, "static.h5 of the torque to run").required();
@@ -64,7 +65,7 @@ void body(int argc, char** argv) {
       .required();
   options.add("--direction", direction, "up or down").required().one_of({"up", "down"});
   options.add("--output", output, "sweep.h5 to write").required();
-  options.flag("--next-level", next_rung,
+  options.flag("--next-level", next_level,
                "sweep with the next level of [fidelity] contact and with that of body as well, and say what "
                "they change");
   options.footer(
@@ -79,28 +80,28 @@ void body(int argc, char** argv) {
   const whine::Provenance provenance = whine::made_by(
       argc, argv,
       files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
-  whine::SweepSlice slice = whine::read_sweep_slice(params);
+  whine::SweepParameters settings = whine::read_sweep_parameters(params);
   const whine::StaticArtifact at_torque = whine::read_static(statics),
                               at_reference = whine::read_static(reference);
   const std::vector<std::string> paths = files.of(at_torque.mesh);
   for (int g = 0; g < whine::kSides; ++g)
     for (const std::string& file : {statics, reference})
       whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
-  whine::require_contact(at_torque, slice.fidelity, statics);
-  whine::require_contact(at_reference, slice.fidelity, reference);
-  if (at_reference.torque != slice.reference_torque)
+  whine::require_contact(at_torque, settings.fidelity, statics);
+  whine::require_contact(at_reference, settings.fidelity, reference);
+  if (at_reference.torque != settings.reference_torque)
     whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
                 " N m, but the scene's first torque, which sets the bearing dampers, is ",
-                slice.reference_torque, " N m; give the static.h5 of that torque");
+                settings.reference_torque, " N m; give the static.h5 of that torque");
 
   const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
                             driven_body = whine::read_body(paths[1]);
-  whine::as_drawn(slice, {driver_body.inertia, driven_body.inertia});
+  whine::as_drawn(settings, {driver_body.inertia, driven_body.inertia});
   std::vector<whine::NextSweep> next;
-  if (next_rung) next = whine::next_sweeps(driver_body, driven_body, at_torque, at_reference, slice);
+  if (next_level) next = whine::next_sweeps(driver_body, driven_body, at_torque, at_reference, settings);
   const auto run = [&](const whine::BodyArtifact& a, const whine::BodyArtifact& b,
-                       const whine::StaticArtifact& at, double mean_stiffness, const whine::SweepSlice& s,
-                       const std::string& name) {
+                       const whine::StaticArtifact& at, double mean_stiffness,
+                       const whine::SweepParameters& s, const std::string& name) {
     std::optional<whine::Progress> progress;
     return whine::sweep(a, b, at, mean_stiffness, s, direction,
                         [&](long done, long total, const std::string& note) {
@@ -109,7 +110,7 @@ void body(int argc, char** argv) {
                         });
   };
   const whine::SweepArtifact result =
-      run(driver_body, driven_body, at_torque, at_reference.mean_stiffness, slice, "");
+      run(driver_body, driven_body, at_torque, at_reference.mean_stiffness, settings, "");
 
   whine::write(output, result, provenance);
   std::string jumps;
@@ -121,7 +122,7 @@ void body(int argc, char** argv) {
     whine::tell("gear-sweep: ", remark.warning ? "warning: " : "", remark.words);
   for (const whine::NextSweep& s : next)
     if (s.missing.empty())
-      tell_change(s, result, run(s.driver, s.driven, s.statics, s.mean_stiffness, s.slice, " " + s.to));
+      tell_change(s, result, run(s.driver, s.driven, s.statics, s.mean_stiffness, s.settings, " " + s.to));
     else
       whine::tell("gear-sweep: ", s.key, " = \"", s.from, "\" against \"", s.to,
                   "\" is not compared: ", s.missing);

@@ -1,6 +1,7 @@
 // gear-variant: one variant of a study, from the bodies to its answers, in one go.
 //
-// Reads   params (slice of the variant: mesh, contact, torque, and of motions damping, inertia, speeds, fidelity, time), body.h5
+// Reads   params (stage parameters of the variant: mesh, contact, torque, and of motions damping, inertia, speeds, fidelity,
+// time), body.h5
 //         of both gears
 // Writes  variant.h5    transmission error and stiffness at rest, and of each sweep RMS, loads, contact loss, jumps, as numbers
 // With --mark-refusals a variant of what no pair can do is an artifact, too, which says why; whatever else fails is an error.
@@ -12,8 +13,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/model_range.h"
 #include "base/progress.h"
-#include "base/refusal.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
 #include "io/body_codec.h"
@@ -22,11 +23,11 @@
 #include "io/provenance.h"
 #include "io/study.h"
 #include "io/variant_codec.h"
-#include "motion/study_variant.h"
+#include "studies/study_variant.h"
 
 namespace {
 
-// "variant 17 (damping.rayleigh_stiffness_s = 5.5e-06): " of a slice; "" if no plan lists it.
+// "variant 17 (damping.rayleigh_stiffness_s = 5.5e-06): " of stage parameters; "" if no plan lists it.
 std::string name_in(const std::string& plan, const std::string& params) {
   if (plan.empty()) return "";
   const auto [study, variants] = whine::read_plan(plan);
@@ -57,37 +58,37 @@ void body(int argc, char** argv) {
 
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
-  whine::VariantSlice slice = whine::read_variant_slice(params);
-  const std::vector<std::string> paths = files.of(slice.statics.mesh);
+  whine::VariantParameters settings = whine::read_variant_parameters(params);
+  const std::vector<std::string> paths = files.of(settings.statics.mesh);
   const whine::BodyArtifact first = whine::read_body(paths[0]);
   std::optional<whine::BodyArtifact> other;  // gears that are alike share a body
   if (paths[1] != paths[0]) other = whine::read_body(paths[1]);
   const whine::BodyArtifact& second = other ? *other : first;
-  whine::require_body(first, slice.statics.driver_body, slice.statics.mesh.driver, paths[0]);
-  whine::require_body(second, slice.statics.driven_body, slice.statics.mesh.driven, paths[1]);
-  if (!slice.directions.empty()) whine::as_drawn(slice.motion, {first.inertia, second.inertia});
-  whine::VariantArtifact result = whine::variant_parameters(first, second, slice);
+  whine::require_body(first, settings.statics.driver_body, settings.statics.mesh.driver, paths[0]);
+  whine::require_body(second, settings.statics.driven_body, settings.statics.mesh.driven, paths[1]);
+  if (!settings.directions.empty()) whine::as_drawn(settings.motion, {first.inertia, second.inertia});
+  whine::VariantArtifact result = whine::variant_parameters(first, second, settings);
   std::vector<whine::Remark> remarks;
   try {
     std::optional<whine::Progress> progress;
-    const whine::VariantAnswers answers =
-        whine::variant_answers(first, second, slice, [&](long done, long total, const std::string& note) {
+    const whine::VariantResponse quantities =
+        whine::variant_response(first, second, settings, [&](long done, long total, const std::string& note) {
           if (!progress) progress.emplace("gear-variant", total);
           progress->update(done, note);
         });
-    result.answer = answers.answer;
-    remarks = answers.remarks;
+    result.quantity = quantities.quantity;
+    remarks = quantities.remarks;
   } catch (const whine::Error& error) {
     // A solver's failure or too little memory says nothing of the pair, and a mark would keep it from being computed again.
-    if (!marks || !dynamic_cast<const whine::Refusal*>(&error))
+    if (!marks || !dynamic_cast<const whine::ModelRangeError*>(&error))
       whine::fail(error.kind(), params, ": ", name_in(plan, params), error.what());
-    result.refusal = error.what();
+    result.rejection = error.what();
   }
   whine::write(output, result, provenance);
-  if (!result.refusal.empty())
-    whine::tell("gear-variant: warning: refused: ", result.refusal, " -> ", output);
+  if (!result.rejection.empty())
+    whine::tell("gear-variant: warning: outside the model's range: ", result.rejection, " -> ", output);
   else
-    whine::tell("gear-variant: ", result.torque, " N m, ", result.answer.size(), " answers -> ", output);
+    whine::tell("gear-variant: ", result.torque, " N m, ", result.quantity.size(), " answers -> ", output);
   const std::string name = remarks.empty() ? "" : name_in(plan, params);
   for (const whine::Remark& remark : remarks)
     whine::tell("gear-variant: ", remark.warning ? "warning: " : "", name.empty() ? params + ": " : name,

@@ -45,9 +45,9 @@ void Progress::update(long done, const std::string& note) {
   if (!terminal) {
     const double spent = now - began_,
                  left = done > 0 ? spent * static_cast<double>(total_ - done) / static_cast<double>(done) : 0;
-    const bool foretells = !foretold_ && spent > kForetellAfter && left > line_seconds();
+    const bool foretells = !predicted_ && spent > kForetellAfter && left > line_seconds();
     if (!foretells && now - last_draw_ < line_seconds()) return;
-    foretold_ = true;
+    predicted_ = true;
     last_draw_ = now;
     char times[96];
     std::snprintf(times, sizeof times, "%.1f min, about %.*f min left", spent / 60, left < 600 ? 1 : 0,

@@ -13,14 +13,15 @@ class Progress {
   ~Progress();  // wipes the line, so that the summary stands alone
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  // done: steps finished so far; note: a short text shown after the bar. Redraws at most ten times a second. The time that is left
-  // is told as if all steps took as long as those so far; off a terminal first after five seconds, if it is more than a minute.
+  // done: steps finished so far; note: a short text shown after the bar. Redraws at most ten times a second. The time that is
+  // left is told as if all steps took as long as those so far; off a terminal first after five seconds, if it is more than a
+  // minute.
   void update(long done, const std::string& note = "");
 
  private:
   std::string label_;
   long total_;
-  bool shown_ = false, foretold_ = false;
+  bool shown_ = false, predicted_ = false;
   double began_, last_draw_;  // s, monotonic clock
 };
 

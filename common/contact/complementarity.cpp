@@ -131,7 +131,7 @@ Certificate ComplementaritySolver::certified(const Certificate& certificate, con
                                              ActiveSet& active) const {
   note_diagonal(a, active);
   require_residual(certificate);
-  if (certificate.shifted && singular_ == Singular::refuse)
+  if (certificate.shifted && singular_ == Singular::reject)
     fail(Failure::numerical, "the compliance of the ", active.strips.size(),
          " strips that touch is singular to round-off (largest diagonal ", active.largest_diagonal,
          " m/N) and does not say how they share the load: strips coincide, or the body's table is wrong");

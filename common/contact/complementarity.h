@@ -88,11 +88,11 @@ void require_residual(const Certificate& certificate);
 // What becomes of a problem whose A is singular to round-off on the strips that touch. The gaps are closed by many
 // distributions of the force then, and a shift picks one that means nothing: loads of pairs and stiffnesses would
 // depend on round-off.
-enum class Singular { refuse, shift };
+enum class Singular { reject, shift };
 
 class ComplementaritySolver {
  public:
-  explicit ComplementaritySolver(Singular singular = Singular::refuse) : singular_(singular) {}
+  explicit ComplementaritySolver(Singular singular = Singular::reject) : singular_(singular) {}
 
   // A: (n, n); e: (n); p, d: (n), results. active: start and result. Gap tolerance: 1e-12 of the largest |e|
   // and the round-off of A p; force tolerance: that over A_ii. A block of A that is singular to round-off is
@@ -100,7 +100,7 @@ class ComplementaritySolver {
   // sets are tried, then 30 n + 30 steps of n factorisations at most. Throws Error(numerical) if A is not positive
   // definite beyond that on a set that is tried or, where the set grows from nothing, on that set and any one strip; if a
   // number that the solution depends on is not finite; if no set passes; by require_residual; or if the solution's own
-  // block had to be shifted (Singular::refuse).
+  // block had to be shifted (Singular::reject).
   Certificate solve(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::VectorXd>& e,
                     ActiveSet& active, Eigen::Ref<Eigen::VectorXd> p, Eigen::Ref<Eigen::VectorXd> d);
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/refusal.h"
+#include "base/model_range.h"
 
 namespace whine {
 
@@ -310,10 +310,10 @@ double line_contact_stiffness(const Eigen::Ref<const MatrixXd>& c, std::span<con
 void require_hertz_range(std::span<const HertzLine> law, const Eigen::Ref<const VectorXd>& force) {
   for (int i = 0; i < force.size(); ++i)
     if (!(force[i] <= law[i].largest_force()))
-      refuse(Failure::numerical, "line contact: a pair carries ", force[i], " N on a width of ",
-             law[i].width(force[i]) * 1e3, " mm; Hertz's law relative to its depth holds up to ",
-             law[i].largest_force(), " N, width ", law[i].width(law[i].largest_force()) * 1e3,
-             " mm; lower the load, take a larger depth or contact = \"strips\"");
+      fail_outside_range(Failure::numerical, "line contact: a pair carries ", force[i], " N on a width of ",
+                         law[i].width(force[i]) * 1e3, " mm; Hertz's law relative to its depth holds up to ",
+                         law[i].largest_force(), " N, width ", law[i].width(law[i].largest_force()) * 1e3,
+                         " mm; lower the load, take a larger depth or contact = \"strips\"");
 }
 
 }  // namespace whine

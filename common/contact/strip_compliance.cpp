@@ -6,7 +6,7 @@ namespace whine {
 
 namespace {
 
-static_assert(kWindowNodes == 6);  // as add_six_columns has it
+static_assert(kZoneNodes == 6);  // as add_six_columns has it
 
 bool any(const double* x) {
   return x[0] != 0 || x[1] != 0 || x[2] != 0 || x[3] != 0;
@@ -31,7 +31,7 @@ void StripCompliance::add_product(const double* p, double* nodes, double* gap) c
       add_columns(gap + j * strips, half_plane[j] + first * strips, strips, own + first, last - first, 0,
                   strips);
       dot_columns(moment, interpolation[j], strips, kPairNodes, own, strips);
-      add_columns(at_node, at_nodes + j * kWindowNodes * rows, rows, moment, kWindowNodes, 0, rows);
+      add_columns(at_node, at_nodes + j * kZoneNodes * rows, rows, moment, kZoneNodes, 0, rows);
     } else {
       std::fill(moment, moment + kPairNodes, 0.0);
     }
@@ -47,7 +47,7 @@ void StripCompliance::put_column(int strip, const int* first, const int* last, d
   alignas(Lanes) double at_node[kPairNodes * kMostPairs];
   constexpr double kNothing[kPairNodes] = {};
   for (int j = 0; j < pairs; ++j)
-    add_six_columns(at_node + j * kPairNodes, kNothing, at_nodes + own * kWindowNodes * rows + j * kPairNodes,
+    add_six_columns(at_node + j * kPairNodes, kNothing, at_nodes + own * kZoneNodes * rows + j * kPairNodes,
                     rows, interpolation[own] + s, strips, kPairNodes);
   for (int j = 0; j < pairs; ++j) {
     double* to = column + j * strips;

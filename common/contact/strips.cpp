@@ -23,7 +23,7 @@ VectorXd strip_borders(double low, double high, double low_grade, double high_gr
     if (!(grade >= -kRoundOff && grade <= 1 + kRoundOff) || !(high > low))
       fail(Failure::numerical, "the flanks of a pair face each other from ", low * 1e3, " to ", high * 1e3,
            " mm of the contact point, grades ", low_grade, " and ", high_grade,
-           " (0 to 1): no window of strips fits between");
+           " (0 to 1): no candidate zone of strips fits between");
   const double a = 1 - low_grade, b = 2 * low_grade, c = 1 + high_grade, d = 2 * high_grade;
   const auto primitive = [&](double t) { return t * (a * c + t * (0.5 * (b * c - a * d) - t * b * d / 3)); };
   VectorXd border(n + 1);
@@ -35,17 +35,17 @@ VectorXd strip_borders(double low, double high, double low_grade, double high_gr
 
 }  // namespace
 
-PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact, const ContactRange& range,
-                       const PairDeviation& deviation) {
+PairStrips make_strips(const GearPair& gears, int pair, const PairContact& contact,
+                       const CandidateZone& range, const PairDeviation& deviation) {
   PairStrips s;
   s.pair = pair;
   s.contact = contact;
   // Which end of the flanks is a tip edge: the driver's at x_max or the driven gear's at x_min. The other
   // limits are the roots, where strips must not carry force.
   const int n = range.strips;
-  const double offset = 0.5 * range.half_window / n;  // a quarter strip
+  const double offset = 0.5 * range.half_zone / n;  // a quarter strip
   const double centre = range.follows ? gears.nearest(contact, deviation) : 0;
-  double low = centre + offset - range.half_window, high = centre + offset + range.half_window;
+  double low = centre + offset - range.half_zone, high = centre + offset + range.half_zone;
   if (low <= contact.x_min) {
     low = contact.x_min;
     s.low_is_edge = std::isfinite(gears.tip_distance(contact, 1));
@@ -54,8 +54,8 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
     high = contact.x_max;
     s.high_is_edge = std::isfinite(gears.tip_distance(contact, 0));
   }
-  s.border = strip_borders(low, high, s.low_is_edge ? 1 - (centre - low) / (range.half_window - offset) : 0,
-                           s.high_is_edge ? 1 - (high - centre) / (range.half_window + offset) : 0, n);
+  s.border = strip_borders(low, high, s.low_is_edge ? 1 - (centre - low) / (range.half_zone - offset) : 0,
+                           s.high_is_edge ? 1 - (high - centre) / (range.half_zone + offset) : 0, n);
   s.gap.resize(n);
   const bool differs = deviation.differs();
   for (int g = 0; differs && g < kSides; ++g) s.gap_roll[g].resize(2 * n);
@@ -72,27 +72,27 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   if (!deviation.none()) s.gap += mean_deviation(gears, s, deviation);
 
   // Chebyshev points of the first kind and their barycentric weights.
-  VectorXd node(kWindowNodes), weight(kWindowNodes);
-  for (auto& roll : s.node_roll) roll.resize(kWindowNodes);
-  for (int k = 0; k < kWindowNodes; ++k) {
-    const double angle = (2 * k + 1) * std::numbers::pi / (2 * kWindowNodes);
+  VectorXd node(kZoneNodes), weight(kZoneNodes);
+  for (auto& roll : s.node_roll) roll.resize(kZoneNodes);
+  for (int k = 0; k < kZoneNodes; ++k) {
+    const double angle = (2 * k + 1) * std::numbers::pi / (2 * kZoneNodes);
     node[k] = 0.5 * (low + high) - 0.5 * (high - low) * std::cos(angle);
     weight[k] = (k % 2 ? -1 : 1) * std::sin(angle);
     const FlankGap at = gears.gap_at(contact, node[k]);
     for (int g = 0; g < kSides; ++g) s.node_roll[g][k] = at.roll[g];
   }
-  s.interpolation.resize(n, kWindowNodes);
+  s.interpolation.resize(n, kZoneNodes);
   for (int i = 0; i < n; ++i) {
     const double x = s.middle(i);
     double sum = 0;
     int hit = -1;
-    for (int k = 0; k < kWindowNodes; ++k) {
+    for (int k = 0; k < kZoneNodes; ++k) {
       if (x == node[k]) hit = k;
       s.interpolation(i, k) = weight[k] / (x - node[k]);
       sum += s.interpolation(i, k);
     }
     if (hit >= 0)
-      s.interpolation.row(i) = Eigen::RowVectorXd::Unit(kWindowNodes, hit);
+      s.interpolation.row(i) = Eigen::RowVectorXd::Unit(kZoneNodes, hit);
     else
       s.interpolation.row(i) /= sum;
   }
@@ -136,9 +136,9 @@ MatrixXd half_plane_compliance(const PairStrips& strips, const HalfPlaneSurface&
   return a;
 }
 
-ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver,
-                           const HalfPlaneSurface& driven, int across, double mean_force,
-                           double largest_force, double corner_gap, const PairDeviation& deviation) {
+CandidateZone candidate_zone(const GearPair& gears, const HalfPlaneSurface& driver,
+                             const HalfPlaneSurface& driven, int across, double mean_force,
+                             double largest_force, double corner_gap, const PairDeviation& deviation) {
   // Hertz, line contact: a^2 = 4 W R / (pi E*), in terms of the half-planes' log coefficient C = 2 W / (pi E*
   // F).
   // rho1 rho2 / (rho1 + rho2) is a parabola along the path, highest midway between the tangent points.
@@ -149,7 +149,7 @@ ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver
   const auto half_width = [&](double force) {
     return std::sqrt(2 * radius * force * (driver.coefficient() + driven.coefficient()));
   };
-  ContactRange range;
+  CandidateZone range;
   // Flanks of slope s touch R s beside the nominal point, and not where the gap is larger than what they deviate by.
   double slope = 0, spread = 0;
   for (const FlankDeviation* flank : deviation.gear)
@@ -159,11 +159,11 @@ ContactRange contact_range(const GearPair& gears, const HalfPlaneSurface& driver
     }
   const double width = half_width(largest_force),
                move = std::min(radius * slope, std::sqrt(2 * radius * spread));
-  // One window holds all teeth.
+  // One candidate zone holds all teeth.
   range.follows = move > width && !deviation.differs();
-  range.half_window = width + (range.follows ? width : move);
+  range.half_zone = width + (range.follows ? width : move);
   range.strips =
-      padded(std::max(4, static_cast<int>(std::ceil(across * range.half_window / half_width(mean_force)))));
+      padded(std::max(4, static_cast<int>(std::ceil(across * range.half_zone / half_width(mean_force)))));
   range.corner_gap = corner_gap;
   return range;
 }

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/refusal.h"
+#include "base/model_range.h"
 #include "gear/involute.h"
 #include "gear/numbers.h"
 
@@ -38,27 +38,27 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material) 
          (0.5 * std::numbers::pi * (std::pow(root, 4) - std::pow(bore, 4)) + teeth);
 }
 
-void as_drawn(ImpactSlice& slice, const std::array<double, 2>& body_inertia) {
+void as_drawn(ImpactParameters& settings, const std::array<double, 2>& body_inertia) {
   constexpr double kMore = 1.001;
-  if (slice.driver_inertia == 0) slice.driver_inertia = kMore * body_inertia[0];
-  if (slice.driven_inertia == 0) slice.driven_inertia = kMore * body_inertia[1];
+  if (settings.driver_inertia == 0) settings.driver_inertia = kMore * body_inertia[0];
+  if (settings.driven_inertia == 0) settings.driven_inertia = kMore * body_inertia[1];
 }
 
-void as_outlined(ImpactSlice& slice, const PairParameters& pair) {
+void as_outlined(ImpactParameters& settings, const PairParameters& pair) {
   constexpr double kFillets = 1.015;
   const auto drawn = [&](const GearDesign& design, const Material& material) {
     return kFillets * least_body_inertia(ToothGeometry(design), material);
   };
-  if (slice.driver_inertia == 0) slice.driver_inertia = drawn(pair.driver, pair.driver_material);
-  if (slice.driven_inertia == 0) slice.driven_inertia = drawn(pair.driven, pair.driven_material);
+  if (settings.driver_inertia == 0) settings.driver_inertia = drawn(pair.driver, pair.driver_material);
+  if (settings.driven_inertia == 0) settings.driven_inertia = drawn(pair.driven, pair.driven_material);
 }
 
 void require_inertia(const GearMeshSpec& mesh, const std::array<double, 2>& body_inertia,
                      const std::array<double, 2>& inertia) {
   for (size_t g = 0; g < 2; ++g)
     if (!(inertia[g] > body_inertia[g]))
-      refuse(Failure::input, "[gear.", g ? mesh.driven : mesh.driver,
-             "] of the scene: ", too_light(inertia[g], shown_number(body_inertia[g])));
+      fail_outside_range(Failure::input, "[gear.", g ? mesh.driven : mesh.driver,
+                         "] of the scene: ", too_light(inertia[g], shown_number(body_inertia[g])));
 }
 
 }  // namespace whine

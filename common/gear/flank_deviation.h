@@ -4,7 +4,7 @@
 // A deviation is measured along the flank's normal, positive where material is missing, so that it adds to the gap of two
 // flanks. It stays on its flank: neither the mesh nor the body of a gear knows of it. Neglected against the exact offset
 // curve: 1 - cos of the angle between the flank's normal and that of the contact (2e-4 of the deviation at the end of a
-// window of strips), and the turn of the normal by the deviation's own slope (3 mrad for 10 micrometres over 3 mm).
+// candidate zone of strips), and the turn of the normal by the deviation's own slope (3 mrad for 10 micrometres over 3 mm).
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -36,7 +36,7 @@ class FlankDeviation {
  public:
   FlankDeviation() = default;  // none
   // Throws Error(input), by the keys of a scene, for a relief that does not start on the flank, points beyond it, more
-  // taken off than half the tooth's thickness, and errors that tooth_deviations refuses. An eccentric toothing moves flanks by
+  // taken off than half the tooth's thickness, and errors that tooth_deviations rejects. An eccentric toothing moves flanks by
   // its displacement e along their normals, to second order: what is left out is e^3 / rho^2, rho the radius of curvature.
   FlankDeviation(const ToothGeometry& gear, const FlankModification& modification,
                  const ToothErrors& errors = {});

@@ -6,9 +6,10 @@
 
 namespace whine {
 
-// Points A to E of ISO 21771 in the direction of the motion: A a pair comes into contact (start of the driver's active profile, SAP,
-// and the driven gear's tip), B one base pitch before E, C the pitch point, D one base pitch after A, E the pair leaves (driver's tip,
-// SAP of the driven gear). With a contact ratio of 1 to 2 one pair alone carries load from B to D, without load and errors.
+// Points A to E of ISO 21771 in the direction of the motion: A a pair comes into contact (start of the driver's active
+// profile, SAP, and the driven gear's tip), B one base pitch before E, C the pitch point, D one base pitch after A, E the pair
+// leaves (driver's tip, SAP of the driven gear). With a contact ratio of 1 to 2 one pair alone carries load from B to D,
+// without load and errors.
 struct PathPoint {
   char name;
   double path;                     // m from the pitch point, growing to the driver's tip

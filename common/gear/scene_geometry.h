@@ -8,8 +8,8 @@
 
 namespace whine {
 
-// Where a scene says what a message is about: "pair.toml:14" from the sections ("gear.pinion", "mesh") in which the key may stand
-// and the words of the message, which name it.
+// Where a scene says what a message is about: "pair.toml:14" from the sections ("gear.pinion", "mesh") in which the key may
+// stand and the words of the message, which name it.
 using ScenePlace =
     std::function<std::string(const std::vector<std::string>& sections, const std::string& words)>;
 

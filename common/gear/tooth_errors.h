@@ -36,7 +36,7 @@ struct ToothDeviations {
 };
 
 // Throws Error(input), by the keys of a scene, for lists whose length is not the number of teeth, single pitch deviations
-// that do not close over a turn, and what iso_1328_tolerances refuses. Single deviations whose sum is round-off of printed
+// that do not close over a turn, and what iso_1328_tolerances rejects. Single deviations whose sum is round-off of printed
 // numbers (kClosure per tooth) are closed evenly: their sum is then 0. What is drawn depends on design, class, share and seed
 // alone, to 1 nm, so that it is the same on every machine.
 ToothDeviations tooth_deviations(const GearDesign& design, const ToothErrors& errors);

@@ -1,8 +1,8 @@
 // How the gears of a system stand and turn: senses of rotation, places, phases of the meshes.
 //
-// A gear of z teeth and sense s (1: counter-clockwise) has its tooth 0 at the angle A + s f 2 pi / z, f the phase of the system in
-// mesh periods. A flank that stands at the angle phi from tooth 0 passes the pitch point of a mesh in the direction beta in
-// each mesh period, first at
+// A gear of z teeth and sense s (1: counter-clockwise) has its tooth 0 at the angle A + s f 2 pi / z, f the phase of the
+// system in mesh periods. A flank that stands at the angle phi from tooth 0 passes the pitch point of a mesh in the direction
+// beta in each mesh period, first at
 //   f = -s (A + phi - beta) z / (2 pi)   modulo 1,
 // so that the mesh is ahead of the system by the negative of that. Its first side turns towards the second one's flank: both
 // work with their leading flanks where the first side turns counter-clockwise, else with their trailing ones.
@@ -18,8 +18,8 @@ namespace whine {
 int add_input_gear(System& system, const std::string& name, const GearDesign& gear,
                    const Bearing& bearing = {});
 
-// A gear that body `on` drives, `centre_distance` (m) away from it in the direction `direction` (rad, counter-clockwise from +x).
-// Adds the body and the mesh; returns the number of the body. Throws what GearPair throws.
+// A gear that body `on` drives, `centre_distance` (m) away from it in the direction `direction` (rad, counter-clockwise from
+// +x). Adds the body and the mesh; returns the number of the body. Throws what GearPair throws.
 int add_driven_gear(System& system, int on, const GearDesign& driver, const std::string& name,
                     const GearDesign& gear, double centre_distance, double direction,
                     const Bearing& bearing = {});

@@ -34,16 +34,16 @@ const std::string kUnsealed(64, '0');
 std::string artifact_bytes(const std::string& path) {
   std::string bytes = read_bytes(path, rebuild_advice(path));
   if (!is_hdf5(bytes)) return bytes;
-  const auto refuse = [&](const char* what) {
+  const auto reject = [&](const char* what) {
     fail(Failure::io, path, ": ", what, " (", bytes.size(), " bytes); ", rebuild_advice(path));
   };
   const auto at = bytes.find(kSeal);
   if (at == std::string::npos || bytes.size() - at < kSeal.size() + kUnsealed.size())
-    refuse("carries no content hash: it is truncated, damaged or of an earlier version of this program");
+    reject("carries no content hash: it is truncated, damaged or of an earlier version of this program");
   const auto digits = bytes.begin() + static_cast<std::ptrdiff_t>(at + kSeal.size());
   std::string found(kUnsealed);
   std::swap_ranges(found.begin(), found.end(), digits);
-  if (sha256(bytes) != found) refuse("is not what was written: truncated, damaged or edited");
+  if (sha256(bytes) != found) reject("is not what was written: truncated, damaged or edited");
   std::copy(found.begin(), found.end(), digits);
   return bytes;
 }
@@ -52,7 +52,7 @@ Origin origin_of(const h5::Reader& file) {
   Origin out;
   out.schema = file.string_attribute("/", "schema");
   if (out.schema.compare(0, kFamily.size(), kFamily) != 0) {
-    file.refuse("is a file of '" + out.schema + "', not of this program");
+    file.reject("is a file of '" + out.schema + "', not of this program");
   }
   out.schema_version = file.int_attribute("/", "schema_version");
   out.title = file.string_attribute("/", "title");
@@ -67,7 +67,7 @@ Origin origin_of(const h5::Reader& file) {
   const auto paths = file.strings("/provenance/input_path");
   const auto hashes = file.strings("/provenance/input_sha256");
   if (paths.size() != roles.size() || hashes.size() != roles.size()) {
-    file.refuse("/provenance names inputs of different number");
+    file.reject("/provenance names inputs of different number");
   }
   for (std::size_t i = 0; i < roles.size(); ++i) out.inputs.push_back({roles[i], paths[i], hashes[i]});
   out.history = file.strings("/provenance/history");
@@ -92,8 +92,8 @@ class SectionSource : public ParameterSource {
   double number(const std::string& name) const override { return reader_.number(prefix_ + name); }
   int whole(const std::string& name) const override { return reader_.whole(prefix_ + name); }
   std::string word(const std::string& name) const override { return reader_.word(prefix_ + name); }
-  [[noreturn]] void refuse(const std::string& name, const std::string& what) const override {
-    reader_.file().refuse("dataset " + prefix_ + name + " " + what);
+  [[noreturn]] void reject(const std::string& name, const std::string& what) const override {
+    reader_.file().reject("dataset " + prefix_ + name + " " + what);
   }
 
  private:
@@ -154,7 +154,7 @@ Provenance made_by(int argc, char** argv, std::vector<std::string> inputs) {
     const std::string path = input.substr(input.find('=') + 1);
     const auto [hash, first] = known.try_emplace(path);
     if (first) {
-      // No target makes a slice of a scene.
+      // No target makes stage parameters of a scene.
       const bool artifact = path.ends_with(".h5");
       // One that is missing has no hash: its reader knows what to advise.
       if (artifact || std::filesystem::exists(path)) {
@@ -192,7 +192,7 @@ ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int ve
 
   std::vector<std::string> roles, paths, hashes, history;
   std::map<std::string, std::string> known;  // hashes by path
-  std::set<std::string> told;                // lines of the history
+  std::set<std::string> named;               // lines of the history
   for (const std::string& input : provenance.inputs) {
     const auto equals = input.find('=');
     if (equals == std::string::npos) fail(Failure::numerical, "input '", input, "' is not role=path");
@@ -208,7 +208,7 @@ ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int ve
     std::vector<std::string> lines = origin.history;
     lines.push_back(origin.tool + " " + origin.version + ": " + origin.command);
     for (const std::string& line : lines)
-      if (told.insert(line).second) history.push_back(line);
+      if (named.insert(line).second) history.push_back(line);
   }
   const std::string folder = "/provenance/";
   file_.put(folder + "tool", provenance.tool, record("program that made this file"));
@@ -302,11 +302,11 @@ ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind,
     : file_(artifact_bytes(path), path, rebuild_advice(path)) {
   const std::string schema = file_.string_attribute("/", "schema");
   if (schema != kFamily + kind) {
-    file_.refuse(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));
+    file_.reject(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));
   }
   const int found = file_.int_attribute("/", "schema_version");
   if (found != version) {
-    file_.refuse(text("is schema version ", found, ", this program reads ", version));
+    file_.reject(text("is schema version ", found, ", this program reads ", version));
   }
 }
 
@@ -317,7 +317,7 @@ void require_range(const h5::Reader& file, const std::string& name, const Range&
                    const Values& values) {
   for (const auto value : values)
     if (const std::string why = outside(range, value); !why.empty())
-      file.refuse("dataset " + name + " " + why);
+      file.reject("dataset " + name + " " + why);
 }
 
 }  // namespace
@@ -336,7 +336,7 @@ void ArtifactReader::require_shape(const std::string& name, const std::vector<Ei
     }
     return out.empty() ? std::string("scalar") : out;
   };
-  file_.refuse("dataset " + name + " has shape " + shown(shape) + ", expected " + shown(wanted));
+  file_.reject("dataset " + name + " has shape " + shown(shape) + ", expected " + shown(wanted));
 }
 
 std::vector<double> ArtifactReader::doubles(const std::string& name, const Range& range,

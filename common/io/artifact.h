@@ -52,7 +52,7 @@ class ArtifactWriter {
 
 class ArtifactReader {
  public:
-  // Refuses everything that is not the given schema in the given version.
+  // Rejects everything that is not the given schema in the given version.
   ArtifactReader(const std::string& path, const std::string& kind, int version);
 
   const h5::Reader& file() const { return file_; }

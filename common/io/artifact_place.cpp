@@ -97,13 +97,14 @@ std::string misplaced(const std::string& path, const Origin& origin) {
     return text("is '", origin.schema, "', but its name is that of '", schema, "'");
   if (const std::string wrong = wrong_operation(parts, origin); !wrong.empty()) return wrong;
 
-  // Bodies and variants are called by their slices.
+  // Bodies and variants are called by their stage parameters.
   const bool body = parts[1] == "bodies";
   const std::string stem = parts.back().substr(0, parts.back().rfind('.'));
   const std::string hash = body ? parts[2] : origin.schema == "whine/variant" ? stem : "";
   for (const InputRecord& input : origin.inputs) {
     if (!hash.empty() && input.role == "params" && input.sha256.compare(0, hash.size(), hash) != 0)
-      return text("is of the slice ", input.sha256.substr(0, hash.size()), ", but lies at ", place);
+      return text("is of the stage parameters ", input.sha256.substr(0, hash.size()), ", but lies at ",
+                  place);
     const Parts from = parts_of(fs::path(input.path).lexically_normal().generic_string());
     if (below_out(from) && !body && from[1] != "bodies" && parts[1] != "studies" && from[1] != parts[1])
       return text("was made from ", input.path, ", but lies in out/", parts[1]);

@@ -1,6 +1,7 @@
 // Where an artifact of the pipeline has to lie: out/<scene>/T<torque>/[<model>/][up|down/]<kind>.h5, bodies in
-// out/bodies/<hash of their slice>, variants of studies under the hash of theirs. Freshness is judged at the paths of the
-// inputs that an artifact records, so a file that was copied from elsewhere is fresh, and of another scene, torque or direction.
+// out/bodies/<hash of their stage parameters>, variants of studies under the hash of theirs. Freshness is judged at the paths
+// of the inputs that an artifact records, so a file that was copied from elsewhere is fresh, and of another scene, torque or
+// direction.
 #pragma once
 #include <string>
 

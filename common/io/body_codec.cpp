@@ -33,7 +33,7 @@ void describe_compliance(Codec& c, BodyArtifact& a) {
   }
   const int teeth = a.design.teeth, half = teeth / 2;
   if (c.in() && 2 * a.offsets > teeth)
-    c.in()->file().refuse(
+    c.in()->file().reject(
         text("holds tables of ", a.offsets, " tooth offsets of a gear of ", teeth, " teeth"));
   c.axis("far_position", (half - a.offsets) * points);
   if (c.lists() || half > a.offsets)

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "motion/branch_result.h"
+#include "studies/branch_result.h"
 
 namespace whine {
 

@@ -42,11 +42,11 @@ std::vector<ClaimSet> read_claim_sets(const std::string& path) {
   if (!rows) fail(Failure::input, path, ":1: lacks [[set]]");
   std::vector<ClaimSet> out;
   for (const toml::node& node : *rows) {
-    const auto refuse = [&](const std::string& what) {
+    const auto reject = [&](const std::string& what) {
       fail(Failure::input, path, ":", node.source().begin.line, ": ", what);
     };
     const toml::table* row = node.as_table();
-    if (!row) refuse("[[set]] must be tables");
+    if (!row) reject("[[set]] must be tables");
     ClaimSet set;
     set.alternatives = {{}};
     for (const auto& [label, value] : *row) {
@@ -66,15 +66,15 @@ std::vector<ClaimSet> read_claim_sets(const std::string& path) {
         for (const std::string& name : words_of(value)) {
           const auto earlier =
               std::find_if(out.begin(), out.end(), [&](const ClaimSet& s) { return s.name == name; });
-          if (earlier == out.end()) refuse(text("'with' names '", name, "', which no earlier set is called"));
+          if (earlier == out.end()) reject(text("'with' names '", name, "', which no earlier set is called"));
           set.alternatives = both(set.alternatives, earlier->alternatives);
         }
       } else {
-        refuse(text("unknown key '", key, "'; known are name, says, claims, any, with"));
+        reject(text("unknown key '", key, "'; known are name, says, claims, any, with"));
       }
     }
     if (set.name.empty() || set.alternatives.empty() || set.alternatives.front().empty())
-      refuse("a set needs a name and claims");
+      reject("a set needs a name and claims");
     out.push_back(set);
   }
   return out;

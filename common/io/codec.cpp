@@ -259,7 +259,7 @@ void describe_pair(Codec& c, PairParameters& a, bool fidelity) {
   values.fidelity = a.fidelity;
   values.contact = a.contact;
   c.parameters("mesh", values, Part::mesh);
-  if (fidelity) c.parameters("fidelity", values, Part::contact_rung);
+  if (fidelity) c.parameters("fidelity", values, Part::contact_level);
   c.parameters("discretisation", values, Part::contact);
   if (!c.in()) return;
   a.mesh = values.mesh;
@@ -275,7 +275,7 @@ void describe_motion(Codec& c, MotionParameters& a, bool time) {
   values.fidelity = a.fidelity;
   values.time = a.time;
   c.parameters("damping", values, Part::damping);
-  c.parameters("fidelity", values, Part::rung);
+  c.parameters("fidelity", values, Part::level);
   if (time) c.parameters("discretisation", values, Part::time);
   if (!c.in()) return;
   a.damping = values.damping;
@@ -346,7 +346,7 @@ void require_indices(const Codec& c, const std::string& name, const Eigen::Ref<c
                      Eigen::Index count) {
   if (!c.in() || index.size() == 0) return;
   if (index.minCoeff() < 0 || index.maxCoeff() >= count)
-    c.in()->file().refuse(text("dataset ", name, " holds the number ",
+    c.in()->file().reject(text("dataset ", name, " holds the number ",
                                index.minCoeff() < 0 ? index.minCoeff() : index.maxCoeff(),
                                ", allowed are 0 to ", count - 1));
 }

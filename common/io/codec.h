@@ -1,5 +1,5 @@
-// How an artifact is stored: one function describes its datasets, each once, with name, unit, meaning, axes, range and the member that
-// holds it. Writing, reading, the checks of shapes and the page of datasets all walk that function:
+// How an artifact is stored: one function describes its datasets, each once, with name, unit, meaning, axes, range and the
+// member that holds it. Writing, reading, the checks of shapes and the page of datasets all walk that function:
 //
 //   void describe(Codec& c, StaticArtifact& a) {
 //     c.dataset({"/mesh_phase", "1", "mesh phase", "mesh_phase", kPhase}, &a.mesh_phase);
@@ -56,7 +56,7 @@ class Codec {
     if (!in_) return;
     const auto found = choice_of<Choice>(word);
     if (!found)
-      in_->file().refuse(
+      in_->file().reject(
           text("dataset ", dataset.name, " is '", word, "', which is none of: ", kWordsOf<Choice>));
     choice = *found;
   }
@@ -64,10 +64,12 @@ class Codec {
   // One column of a matrix of `columns` columns, each of which is a dataset of its own.
   void column(const Dataset& dataset, MatrixRM& values, Eigen::Index column, Eigen::Index columns);
 
-  // Whether the file has an optional part: what `there` says to a writer, whether dataset `name` stands in the file to a reader.
+  // Whether the file has an optional part: what `there` says to a writer, whether dataset `name` stands in the file to a
+  // reader.
   bool optional(const std::string& name, bool there) const;
 
-  // Writes the dataset /<axis> with first, first + 1, ...: the numbers of harmonics, by which xarray knows them. No reader wants it.
+  // Writes the dataset /<axis> with first, first + 1, ...: the numbers of harmonics, by which xarray knows them. No reader
+  // wants it.
   void numbers(const std::string& axis, int first, const std::string& meaning);
 
   // Sets the length of an axis before a dataset does.

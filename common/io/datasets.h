@@ -4,7 +4,8 @@
 
 namespace whine {
 
-// A Markdown table with a line for each kind of artifact: its datasets outside of /parameters and /provenance with axes and unit.
+// A Markdown table with a line for each kind of artifact: its datasets outside of /parameters and /provenance with axes and
+// unit.
 std::string dataset_table();
 
 }  // namespace whine

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "motion/error_budget_result.h"
+#include "studies/error_budget_result.h"
 
 namespace whine {
 

@@ -14,12 +14,12 @@ const std::string kRecord = "/params/scene.txt";
 
 }  // namespace
 
-void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::string& path) {
+void require_mesh(const MeshArtifact& mesh, const BodyParameters& settings, const std::string& path) {
   KeyValues found, wanted;
   found.design = mesh.design;
   found.body = mesh.discretisation;
-  wanted.design = slice.design;
-  wanted.body = slice.discretisation;
+  wanted.design = settings.design;
+  wanted.body = settings.discretisation;
   found.body.modes = wanted.body.modes;
   for (const Part part : {Part::design, Part::crack, Part::body}) {
     const auto have = parameters_of(found, part), want = parameters_of(wanted, part);
@@ -29,15 +29,15 @@ void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::s
         return std::visit([](const auto& value) { return text(value); }, parameter.value);
       };
       fail(Failure::input, path, ": is the mesh of another gear: its ", want[i].name, " is ", shown(have[i]),
-           ", the slice of the scene says ", shown(want[i]), want[i].units == "1" ? "" : " " + want[i].units,
-           "; ", rebuild_advice(path));
+           ", the stage parameters of the scene say ", shown(want[i]),
+           want[i].units == "1" ? "" : " " + want[i].units, "; ", rebuild_advice(path));
     }
   }
 }
 
 void require_body(const BodyArtifact& body, const std::string& hash, const std::string& role,
                   const std::string& path) {
-  const std::string found = body_hash(body_slice({body.design, body.material, body.discretisation}));
+  const std::string found = body_hash(body_parameters({body.design, body.material, body.discretisation}));
   if (hash.empty() || found == hash) return;
   fail(Failure::input, path, ": is the body ", found, ", but the ", role, " of this scene is ", hash,
        ": it is of other gear values, or driver and driven are swapped; give out/bodies/", hash,
@@ -47,20 +47,22 @@ void require_body(const BodyArtifact& body, const std::string& hash, const std::
 void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path) {
   if (statics.fidelity.contact == wanted.contact) return;
   fail(Failure::input, path, ": was made with contact = \"", statics.fidelity.contact,
-       "\", the slice of this stage says \"", wanted.contact, "\"; ", rebuild_advice(path));
+       "\", the parameters of this stage say \"", wanted.contact, "\"; ", rebuild_advice(path));
 }
 
-std::string slice_for(const Scene& scene, const std::string& path) {
+std::string parameters_for(const Scene& scene, const std::string& path) {
   const std::filesystem::path place(path);
   const std::string name = place.filename().string();
-  if (name == "static.toml") return static_slice(scene);
-  if (name == "impact.toml") return impact_slice(scene);
-  if (name == "sweep.toml") return sweep_slice(scene);
-  if (name == "map.toml") return map_slice(scene);
-  if (name == "lumped.toml" || name == "lumped_map.toml") return lumped_slice(scene, name == "lumped.toml");
+  if (name == "static.toml") return static_parameters(scene);
+  if (name == "impact.toml") return impact_parameters(scene);
+  if (name == "sweep.toml") return sweep_parameters(scene);
+  if (name == "map.toml") return map_parameters(scene);
+  if (name == "lumped.toml" || name == "lumped_map.toml")
+    return lumped_parameters(scene, name == "lumped.toml");
   for (const SceneGear& gear : scene.gears) {
-    const std::string slice = body_slice(scene, gear.name), folder = place.parent_path().filename().string();
-    if (name == "body.toml" && (folder == body_hash(slice) || folder == gear.name)) return slice;
+    const std::string settings = body_parameters(scene, gear.name),
+                      folder = place.parent_path().filename().string();
+    if (name == "body.toml" && (folder == body_hash(settings) || folder == gear.name)) return settings;
   }
   return "";
 }

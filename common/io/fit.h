@@ -1,4 +1,4 @@
-// Whether artifacts belong to the slice of a scene that a stage is given: mixed files are refused by name.
+// Whether artifacts belong to the stage parameters of a scene that a stage is given: mixed files are rejected by name.
 #pragma once
 #include <string>
 
@@ -10,22 +10,22 @@
 namespace whine {
 
 // Error(input), with both values and the make target, unless `mesh` (read from `path`) is of the gear, the
-// element size and the order of the slice. The number of modes does not change a mesh.
-void require_mesh(const MeshArtifact& mesh, const BodySlice& slice, const std::string& path);
+// element size and the order of the stage parameters. The number of modes does not change a mesh.
+void require_mesh(const MeshArtifact& mesh, const BodyParameters& settings, const std::string& path);
 
-// Error(input), with both hashes and the make target, unless `body` (read from `path`) is the one whose slice
+// Error(input), with both hashes and the make target, unless `body` (read from `path`) is the one whose stage parameters
 // has this hash: keeps bodies of other scenes, or of the other role ("driver", "driven"), out of a pair. An
-// empty hash is of a slice that names no bodies: any body will do.
+// empty hash is of stage parameters that name no bodies: any body will do.
 void require_body(const BodyArtifact& body, const std::string& hash, const std::string& role,
                   const std::string& path);
 
-// Error(input), with both rungs and the make target, unless `statics` (read from `path`) has the contact that the
-// slice of a later stage says.
+// Error(input), with both model levels and the make target, unless `statics` (read from `path`) has the contact that the
+// stage parameters of a later stage say.
 void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path);
 
-// The slice that a scene gives now for the path of an earlier one, .../params/<stage>.toml or .../<gear's hash>/body.toml;
-// empty if none of the scene's slices stands there.
-std::string slice_for(const Scene& scene, const std::string& path);
+// The stage parameters that a scene gives now for the path of an earlier one, .../params/<stage>.toml or .../<gear's
+// hash>/body.toml; empty if none of the scene's stage parameters stand there.
+std::string parameters_for(const Scene& scene, const std::string& path);
 
 // The file that gear-scene last cut into the folder `home` (out/<scene>), from the working folder; empty if not known.
 std::string recorded_scene(const std::string& home);

@@ -17,11 +17,11 @@ std::vector<FittedNumber> read_fitted_numbers(const std::string& path) {
   if (!rows) fail(Failure::input, path, ":1: lacks [[fitted]]");
   std::vector<FittedNumber> out;
   for (const toml::node& node : *rows) {
-    const auto refuse = [&](const std::string& what) {
+    const auto reject = [&](const std::string& what) {
       fail(Failure::input, path, ":", node.source().begin.line, ": ", what);
     };
     const toml::table* row = node.as_table();
-    if (!row) refuse("[[fitted]] must be tables");
+    if (!row) reject("[[fitted]] must be tables");
     FittedNumber number;
     for (const auto& [label, value] : *row) {
       const std::string key(label.str());
@@ -31,11 +31,11 @@ std::vector<FittedNumber> read_fitted_numbers(const std::string& path) {
         for (const toml::node& claim : *value.as_array())
           number.claims.push_back(claim.value<std::string>().value_or(""));
       } else {
-        refuse(text("unknown key '", key, "'; known are scene, number and the list 'to'"));
+        reject(text("unknown key '", key, "'; known are scene, number and the list 'to'"));
       }
     }
     if (number.scene.empty() || number.number.empty())
-      refuse("[[fitted]] needs 'scene' and 'number' as text");
+      reject("[[fitted]] needs 'scene' and 'number' as text");
     out.push_back(number);
   }
   return out;

@@ -11,9 +11,10 @@
 namespace whine {
 namespace {
 
-// The scene that a slice out/<scene>/params/... was cut from; empty if it is not known, or not there any more.
-std::string scene_of(const std::string& slice) {
-  const std::filesystem::path folder = std::filesystem::path(slice).parent_path();
+// The scene that the stage parameters out/<scene>/params/... were written from; empty if it is not known, or not there any
+// more.
+std::string scene_of(const std::string& settings) {
+  const std::filesystem::path folder = std::filesystem::path(settings).parent_path();
   if (folder.filename() != "params") return "";
   const std::filesystem::path home = folder.parent_path();
   for (const std::string& scene :
@@ -22,15 +23,15 @@ std::string scene_of(const std::string& slice) {
   return "";
 }
 
-// Whether a slice, which is the file it was, is what its scene says today, in words; clears fresh if not.
+// Whether stage parameters, whose file is what it was, are what its scene says today, in words; clears fresh if not.
 std::string against_scene(const std::string& artifact, const InputRecord& input, std::string scene,
                           bool& fresh) {
   if (scene.empty()) scene = scene_of(input.path);
-  const std::string now = scene.empty() ? "" : slice_for(read_scene(scene), input.path);
+  const std::string now = scene.empty() ? "" : parameters_for(read_scene(scene), input.path);
   if (now.empty())
-    return text("fresh: the slice is what it was; not compared with a scene",
+    return text("fresh: the stage parameters are what they were; not compared with a scene",
                 scene.empty() ? ", give --scene" : "");
-  if (sha256(now) == input.sha256) return text("fresh: as the slice and as ", scene);
+  if (sha256(now) == input.sha256) return text("fresh: as the stage parameters and as ", scene);
   fresh = false;
   return text("STALE: ", scene, " says otherwise now; ", rebuild_advice(artifact));
 }

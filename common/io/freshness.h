@@ -7,8 +7,8 @@
 
 namespace whine {
 
-// What has become of an input since, in words; clears fresh if it is not what it was, or not there to tell. A slice of a scene is
-// compared with the scene as well: the one given, else the one that it was cut from, if it is known and there.
+// What has become of an input since, in words; clears fresh if it is not what it was, or not there to tell. Stage parameters
+// of a scene is compared with the scene as well: the one given, else the one that it was cut from, if it is known and there.
 std::string state_of(const std::string& path, const InputRecord& input, const std::string& scene,
                      bool& fresh);
 

@@ -236,8 +236,8 @@ struct Writer::Impl {
     with_axes.push_back(std::move(made));
   }
 
-  // Dimension scales (HDF5's H5DS), by which netCDF and xarray know the axes. A dataset of one axis that is called like it is its
-  // scale; other axes have a scale without values, as netCDF has dimensions without a variable.
+  // Dimension scales (HDF5's H5DS), by which netCDF and xarray know the axes. A dataset of one axis that is called like it is
+  // its scale; other axes have a scale without values, as netCDF has dimensions without a variable.
   void scale_axes() {
     for (const WithAxes& set : with_axes)
       if (set.axes.size() == 1 && name_in(set.path) == name_in(set.axes[0])) {
@@ -390,13 +390,13 @@ struct Reader::Impl {
   std::size_t size = 0;  // of the file, in bytes
   hid_t file = -1;
 
-  [[noreturn]] void refuse(const std::string& what) const {
+  [[noreturn]] void reject(const std::string& what) const {
     fail(Failure::input, path, ": ", what, hint.empty() ? "" : "; ", hint);
   }
 
   Handle dataset(const std::string& name) const {
     const hid_t id = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
-    if (id < 0) refuse("dataset " + name + " is missing or damaged");
+    if (id < 0) reject("dataset " + name + " is missing or damaged");
     return Handle(id, H5Dclose, "open " + name);
   }
 
@@ -410,14 +410,14 @@ struct Reader::Impl {
 
   std::vector<std::string> take_strings(hid_t type, std::size_t count, const std::string& name,
                                         herr_t (*read)(hid_t, hid_t, void*), hid_t object) const {
-    if (H5Tget_class(type) != H5T_STRING) refuse(name + " is not text");
+    if (H5Tget_class(type) != H5T_STRING) reject(name + " is not text");
     std::vector<std::string> out;
     if (H5Tis_variable_str(type) > 0) {
       // What refers to a heap has a checksum in an attribute only.
-      if (H5Iget_type(object) != H5I_ATTR) refuse(name + " is text of no fixed length");
+      if (H5Iget_type(object) != H5I_ATTR) reject(name + " is text of no fixed length");
       const Handle memory = string_type();
       std::vector<char*> pointers(count, nullptr);
-      if (count > 0 && read(object, memory, pointers.data()) < 0) refuse(name + " cannot be read");
+      if (count > 0 && read(object, memory, pointers.data()) < 0) reject(name + " cannot be read");
       for (char* pointer : pointers) {
         out.emplace_back(pointer ? pointer : "");
         if (pointer) H5free_memory(pointer);
@@ -425,7 +425,7 @@ struct Reader::Impl {
     } else {
       const std::size_t size = H5Tget_size(type);
       std::string block(size * count, '\0');
-      if (count > 0 && read(object, type, block.data()) < 0) refuse(name + " cannot be read");
+      if (count > 0 && read(object, type, block.data()) < 0) reject(name + " cannot be read");
       out.reserve(count);
       for (std::size_t i = 0; i < count; ++i) {
         const std::string item = block.substr(i * size, size);
@@ -437,8 +437,8 @@ struct Reader::Impl {
 
   // The number of values, before memory is taken for them. Deflate makes at most 1032 bytes of one, of the chunks that are
   // written here at most 1010: what a dataset holds is bounded by what is stored of it. In memory a value may be wider, a byte
-  // become a double or a text; all that is taken at a time is bounded by the whole file, because a table of empty texts is hardly
-  // stored at all: a file of 1 MiB never asks for 1 GiB.
+  // become a double or a text; all that is taken at a time is bounded by the whole file, because a table of empty texts is
+  // hardly stored at all: a file of 1 MiB never asks for 1 GiB.
   std::size_t stored_count(hid_t set, std::size_t item_bytes, std::size_t memory_bytes,
                            const std::string& name) const {
     constexpr double kMost = 1020;
@@ -449,9 +449,9 @@ struct Reader::Impl {
     const double bytes = count * static_cast<double>(item_bytes),
                  memory = count * static_cast<double>(memory_bytes);
     if (bytes > kMost * stored)
-      refuse(text("dataset ", name, " says that it holds ", bytes, " bytes, but ", stored, " are stored"));
+      reject(text("dataset ", name, " says that it holds ", bytes, " bytes, but ", stored, " are stored"));
     if (memory > kMost * static_cast<double>(size))
-      refuse(text("dataset ", name, " would take ", memory, " bytes of memory, but the file has ", size));
+      reject(text("dataset ", name, " would take ", memory, " bytes of memory, but the file has ", size));
     return count_of(shape);
   }
 
@@ -461,16 +461,16 @@ struct Reader::Impl {
     const Handle type(H5Dget_type(set), H5Tclose, "get a type");
     const H5T_class_t kind = H5Tget_class(type);
     if (kind != H5T_INTEGER && (whole || kind != H5T_FLOAT)) {
-      refuse("dataset " + name + (whole ? " does not hold whole numbers" : " does not hold numbers"));
+      reject("dataset " + name + (whole ? " does not hold whole numbers" : " does not hold numbers"));
     }
     const std::size_t item = H5Tget_size(type);
     std::vector<T> out(stored_count(set, item, std::max(item, sizeof(T)), name));
     if (!out.empty() && H5Dread(set, Types<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) {
-      refuse("dataset " + name + " cannot be read (damaged file)");
+      reject("dataset " + name + " cannot be read (damaged file)");
     }
     if constexpr (std::is_floating_point_v<T>) {
       for (T value : out) {
-        if (!std::isfinite(value)) refuse("dataset " + name + " holds a value that is not finite");
+        if (!std::isfinite(value)) reject("dataset " + name + " holds a value that is not finite");
       }
     }
     return out;
@@ -507,8 +507,8 @@ Reader::~Reader() {
   if (impl_->file >= 0) H5Fclose(impl_->file);
 }
 
-void Reader::refuse(const std::string& what) const {
-  impl_->refuse(what);
+void Reader::reject(const std::string& what) const {
+  impl_->reject(what);
 }
 
 bool Reader::has(const std::string& path) const {
@@ -520,7 +520,7 @@ bool Reader::has(const std::string& path) const {
 
 std::vector<std::string> Reader::children(const std::string& group) const {
   std::vector<std::string> names;
-  if (group != "/" && !has(group)) impl_->refuse("group " + group + " is missing");
+  if (group != "/" && !has(group)) impl_->reject("group " + group + " is missing");
   const Handle id(H5Gopen2(impl_->file, group.c_str(), H5P_DEFAULT), H5Gclose, "open " + group);
   const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
     static_cast<std::vector<std::string>*>(out)->push_back(name);
@@ -557,26 +557,26 @@ std::vector<std::string> Reader::strings(const std::string& path) const {
 std::string Reader::string_attribute(const std::string& path, const std::string& name) const {
   const std::string what = "attribute " + name + " of " + path;
   const hid_t opened = H5Aopen_by_name(impl_->file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (opened < 0) impl_->refuse(what + " is missing or damaged");
+  if (opened < 0) impl_->reject(what + " is missing or damaged");
   const Handle id(opened, H5Aclose, "open " + what);
   const Handle type(H5Aget_type(id), H5Tclose, "get a type");
   const Handle space(H5Aget_space(id), H5Sclose, "get a space");
   const auto read = [](hid_t object, hid_t memory, void* out) { return H5Aread(object, memory, out); };
-  if (H5Sget_simple_extent_npoints(space) != 1) impl_->refuse(what + " is not one text");
+  if (H5Sget_simple_extent_npoints(space) != 1) impl_->reject(what + " is not one text");
   return impl_->take_strings(type, 1, what, read, id).at(0);
 }
 
 int Reader::int_attribute(const std::string& path, const std::string& name) const {
   const std::string what = "attribute " + name + " of " + path;
   const hid_t opened = H5Aopen_by_name(impl_->file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (opened < 0) impl_->refuse(what + " is missing or damaged");
+  if (opened < 0) impl_->reject(what + " is missing or damaged");
   const Handle id(opened, H5Aclose, "open " + what);
   const Handle type(H5Aget_type(id), H5Tclose, "get a type");
   const Handle space(H5Aget_space(id), H5Sclose, "get a space");
   int value = 0;
   if (H5Tget_class(type) != H5T_INTEGER || H5Sget_simple_extent_npoints(space) != 1 ||
       H5Aread(id, H5T_NATIVE_INT, &value) < 0) {
-    impl_->refuse(what + " is not one whole number");
+    impl_->reject(what + " is not one whole number");
   }
   return value;
 }

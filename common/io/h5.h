@@ -29,7 +29,7 @@ class Writer {
   Writer& operator=(const Writer&) = delete;
 
   // Every group on the way to `path` is made where it is missing. Values that are not finite, and shapes that
-  // do not fit the data, are refused with Error(numerical) naming the dataset.
+  // do not fit the data, are rejected with Error(numerical) naming the dataset.
   void group(const std::string& path);
   void put(const std::string& path, const double* data, const Shape& shape, const Label& label);
   void put(const std::string& path, const float* data, const Shape& shape, const Label& label);
@@ -45,8 +45,8 @@ class Writer {
   // Fixed-length ASCII, which VTK's reader asks for.
   void ascii_attribute(const std::string& path, const std::string& name, const std::string& value);
 
-  // The bytes of the file, with a dimension scale (H5DS) attached to each axis of each dataset outside of /VTKHDF; the writer is
-  // spent afterwards. Error(numerical) if datasets differ in the length of an axis.
+  // The bytes of the file, with a dimension scale (H5DS) attached to each axis of each dataset outside of /VTKHDF; the writer
+  // is spent afterwards. Error(numerical) if datasets differ in the length of an axis.
   std::string finish();
 
  private:
@@ -76,7 +76,7 @@ class Reader {
   int int_attribute(const std::string& path, const std::string& name) const;
 
   // Throws Error(input): "<path>: <what>; <hint>".
-  [[noreturn]] void refuse(const std::string& what) const;
+  [[noreturn]] void reject(const std::string& what) const;
 
  private:
   struct Impl;

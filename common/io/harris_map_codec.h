@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "motion/harris_result.h"
+#include "studies/harris_result.h"
 
 namespace whine {
 

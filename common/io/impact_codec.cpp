@@ -21,7 +21,7 @@ void describe_states(Codec& c, ImpactArtifact& a) {
        "whole period",
        "contact_state"},
       &a.contact_state);
-  if (c.in() && a.contact_state.size() < 2) c.in()->file().refuse("/contact_state names no state");
+  if (c.in() && a.contact_state.size() < 2) c.in()->file().reject("/contact_state names no state");
   c.dataset({"/natural_frequency", "Hz", kDecayFrequency, "contact_state", kFrequency}, &a.natural_frequency);
   c.dataset({"/damping_ratio", "1", kDecayRatio, "contact_state", kSigned}, &a.damping_ratio);
   c.dataset({"/undamped_frequency", "Hz", "natural frequency with the contact frozen and no damping",
@@ -40,8 +40,7 @@ void describe_states(Codec& c, ImpactArtifact& a) {
 
 void describe_phases(Codec& c, ImpactArtifact& a) {
   const std::string at = "/by_phase/";
-  c.dataset({"/mesh_phase", "1", "mesh phase at which the gears are held", "mesh_phase", kPhase},
-            &a.mesh_phase);
+  c.dataset({"/mesh_phase", "1", "fixed mesh phase of the gears", "mesh_phase", kPhase}, &a.mesh_phase);
   c.dataset({at + "loaded_pairs",
              "1",
              "tooth pairs that carry load in static equilibrium",

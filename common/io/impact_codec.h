@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
+#include "dynamics/impact_result.h"
 #include "io/provenance.h"
-#include "motion/impact_result.h"
 
 namespace whine {
 

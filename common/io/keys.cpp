@@ -245,13 +245,13 @@ std::vector<Key> make_keys() {
      },
      "slower, a mesh period takes more than 250000 time steps at the default rate; the static stage is the limit of zero speed"},
 
-    {Part::rung, "fidelity", "body", kNone, "modal", 0, 0, false, kWordsOf<BodyModel>,
+    {Part::level, "fidelity", "body", kNone, "modal", 0, 0, false, kWordsOf<BodyModel>,
      "what of the elastic body moves by itself",
      [](V& v) -> Slot { return choice_slot(v.fidelity.body); }},
-    {Part::contact_rung, "fidelity", "contact", kNone, "strips", 0, 0, false, kWordsOf<ContactModel>,
+    {Part::contact_level, "fidelity", "contact", kNone, "strips", 0, 0, false, kWordsOf<ContactModel>,
      "contact of a tooth pair: one force and Hertz's closed law, or pressure on strips",
      [](V& v) -> Slot { return choice_slot(v.fidelity.contact); }},
-    {Part::rung, "fidelity", "integrator", kNone, "exact", 0, 0, false, kWordsOf<Integrator>,
+    {Part::level, "fidelity", "integrator", kNone, "exact", 0, 0, false, kWordsOf<Integrator>,
      "time integration: Newmark (Eq. 8), or modal propagators",
      [](V& v) -> Slot { return choice_slot(v.fidelity.integrator); }},
     {Part::body, "fidelity", "modes", kNone, "61", 1, 100000, false, "",
@@ -271,7 +271,7 @@ std::vector<Key> make_keys() {
      "depth below the flank at which the two are matched; must stay inside the tooth; only with near_field = \"matching\"",
      [](V& v) -> Slot { return &v.body.matching_depth; }},
     {Part::contact, "discretisation", "strips", kNone, "8", 3, 1001, false, "",
-     "pressure strips across the contact width at the mean load; a window holds whole fours of them",
+     "pressure strips across the contact width at the mean load; a candidate zone holds whole fours of them",
      [](V& v) -> Slot { return &v.contact.strips; }},
     {Part::contact, "discretisation", "positions", kNone, "0", 0, 65536, false, "",
      "positions of the static stage per mesh period; 0: as steps_per_period, 128 at least, for teeth that differ fewer (16 at least), so that there are 16384 in all",
@@ -443,7 +443,7 @@ double in_range(const Key& key, const ParameterSource& source, const std::string
   // body = "full" takes every mode; a body that only statics use may have none.
   if (std::string(key.name) == "modes" && (value == kAllModes || value == 0)) return value;
   if (key.most > key.least)
-    if (const std::string why = outside(si_range(key), value); !why.empty()) source.refuse(name, why);
+    if (const std::string why = outside(si_range(key), value); !why.empty()) source.reject(name, why);
   return value;
 }
 
@@ -452,7 +452,7 @@ std::string one_of(const std::string& choices, const ParameterSource& source, co
   std::istringstream all(choices);
   for (std::string choice; all >> choice;)
     if (choice == word) return word;
-  if (!choices.empty()) source.refuse(name, "is '" + word + "', which is none of: " + choices);
+  if (!choices.empty()) source.reject(name, "is '" + word + "', which is none of: " + choices);
   return word;
 }
 

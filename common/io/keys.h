@@ -1,4 +1,4 @@
-// The one table of all scene keys. The scene reader, the slices, /parameters in the artifacts and the printed
+// The one table of all scene keys. The scene reader, the stage parameters, /parameters in the artifacts and the printed
 // key table all walk it, so that a key's name, unit, range, default and meaning stand in one place.
 //
 // Private to the layer io/.
@@ -34,13 +34,13 @@ struct KeyValues {
   TimeDiscretisation time;
 };
 
-// Keys that travel together: a slice or an artifact holds whole parts.
+// Keys that travel together: stage parameters or an artifact hold whole parts.
 enum class Part {
   title,
   reference,  // like, material: names of other sections
   design,
   diameter,  // other words for parts of a design, in a scene alone
-  crack,     // of a design; a slice or an artifact holds it only where there is one
+  crack,     // of a design; stage parameters or an artifact hold it only where there is one
   inertia,
   modification,
   error,
@@ -49,14 +49,14 @@ enum class Part {
   bearing_gear,  // whose it is, in a scene alone
   material,
   mesh,
-  contact_plane,  // of a mesh; a slice or an artifact holds it only where it is not that of the bodies
+  contact_plane,  // of a mesh; stage parameters or an artifact hold it only where it is not that of the bodies
   damping,
-  load,          // torque
-  operation,     // speeds
-  rung,          // body and integrator
-  contact_rung,  // contact
+  load,           // torque
+  operation,      // speeds
+  level,          // body and integrator
+  contact_level,  // contact
   body,
-  near_field,  // of a body; a slice holds it only where it is not the default
+  near_field,  // of a body; stage parameters hold it only where it is not the default
   contact,
   time
 };
@@ -131,7 +131,7 @@ std::string exact_text(double value);
 std::string exact_text(const Points& points);
 std::string exact_text(const std::vector<double>& values);  // [1.0, 2.0]
 
-// Sections of /parameters and of slices that hold what is taken off the driver's and the driven gear's flanks.
+// Sections of /parameters and of stage parameters that hold what is taken off the driver's and the driven gear's flanks.
 inline constexpr const char* kModificationOf[2] = {"driver_modification", "driven_modification"};
 inline constexpr const char* kErrorOf[2] = {"driver_error", "driven_error"};
 inline constexpr const char* kBearingOf[2] = {"driver_bearing", "driven_bearing"};
@@ -156,9 +156,9 @@ class ParameterSource {
   virtual int whole(const std::string& name) const = 0;
   virtual std::string word(const std::string& name) const = 0;
   // Throws Error(input) that names the source, the parameter and what is wrong with it.
-  [[noreturn]] virtual void refuse(const std::string& name, const std::string& what) const = 0;
+  [[noreturn]] virtual void reject(const std::string& name, const std::string& what) const = 0;
 };
-// Values outside of the range of their key are refused.
+// Values outside of the range of their key are rejected.
 void set_parameters(KeyValues& values, Part part, const ParameterSource& source);
 
 }  // namespace whine

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "motion/loaded_result.h"
+#include "system/loaded_result.h"
 
 namespace whine {
 

@@ -36,17 +36,17 @@ LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& r
     if (!reference.empty()) require_same_pair(statics, reference);
     return inputs;
   }
-  SweepSlice slice = read_lumped_slice(params, with_speeds);
-  as_outlined(slice, at_torque);
-  require_contact(at_torque, slice.fidelity, statics);
-  options.time = slice.time;
-  options.mass = reduced_mass(at_torque, slice.driver_inertia, slice.driven_inertia);
-  options.frequency_from = slice.frequency_from;
-  options.frequency_to = slice.frequency_to;
-  options.frequency_step = slice.frequency_step;
-  if (!reference.empty() && inputs.at_reference.torque != slice.reference_torque)
+  SweepParameters settings = read_lumped_parameters(params, with_speeds);
+  as_outlined(settings, at_torque);
+  require_contact(at_torque, settings.fidelity, statics);
+  options.time = settings.time;
+  options.mass = reduced_mass(at_torque, settings.driver_inertia, settings.driven_inertia);
+  options.frequency_from = settings.frequency_from;
+  options.frequency_to = settings.frequency_to;
+  options.frequency_step = settings.frequency_step;
+  if (!reference.empty() && inputs.at_reference.torque != settings.reference_torque)
     fail(Failure::input, reference, " is at ", inputs.at_reference.torque,
-         " N m, but the scene's first torque is ", slice.reference_torque,
+         " N m, but the scene's first torque is ", settings.reference_torque,
          " N m; give the static.h5 of that torque");
   if (!reference.empty()) require_same_pair(statics, reference);
   return inputs;

@@ -21,12 +21,12 @@ const std::map<std::string, Scale> kKinds{{"number", Scale::number},
 class Row {
  public:
   Row(const std::string& path, const toml::node& node) : path_(path), node_(node), table_(node.as_table()) {
-    if (!table_) refuse("[[claim]] must be tables");
+    if (!table_) reject("[[claim]] must be tables");
   }
   PrintedClaim claim() const;
 
  private:
-  [[noreturn]] void refuse(const std::string& what) const { fail(Failure::input, where(node_), ": ", what); }
+  [[noreturn]] void reject(const std::string& what) const { fail(Failure::input, where(node_), ": ", what); }
   std::string where(const toml::node& node) const { return text(path_, ":", node.source().begin.line); }
   void require_known_keys() const;
   bool has(const char* key) const { return table_->contains(key); }
@@ -75,29 +75,29 @@ PrintedClaim Row::claim() const {
   PrintedClaim c;
   c.where = where(node_);
   for (const char* key : {"id", "place", "says", "kind", "basis"})
-    if (words(key).empty()) refuse(text("[[claim]] needs '", key, "'"));
+    if (words(key).empty()) reject(text("[[claim]] needs '", key, "'"));
   c.id = words("id");
   c.place = words("place");
   c.text = words("says");
   c.basis = words("basis");
   const auto kind = kKinds.find(words("kind"));
   if (kind == kKinds.end())
-    refuse("kind = '" + words("kind") + "': known are number, statement, choice, misprint and incomparable");
+    reject("kind = '" + words("kind") + "': known are number, statement, choice, misprint and incomparable");
   c.scale = kind->second;
   const bool statement = c.scale == Scale::statement, compared = !statement && c.scale != Scale::incomparable;
   for (const char* key : {"unit", "printed", "tolerance"}) {
     const bool tolerance = key == std::string("tolerance");
-    if (statement && has(key)) refuse(text("claim '", c.id, "': a statement has no '", key, "'"));
-    if (compared && !has(key)) refuse(text("claim '", c.id, "': a ", kind->first, " needs '", key, "'"));
+    if (statement && has(key)) reject(text("claim '", c.id, "': a statement has no '", key, "'"));
+    if (compared && !has(key)) reject(text("claim '", c.id, "': a ", kind->first, " needs '", key, "'"));
     if (c.scale == Scale::incomparable && tolerance && has(key))
-      refuse(text("claim '", c.id, "': what cannot be compared has no 'tolerance'"));
+      reject(text("claim '", c.id, "': what cannot be compared has no 'tolerance'"));
   }
   c.unit = statement ? "yes/no" : words("unit");
-  if (c.unit.empty()) refuse(text("claim '", c.id, "' needs 'unit'"));
+  if (c.unit.empty()) reject(text("claim '", c.id, "' needs 'unit'"));
   c.printed = statement ? 1 : number("printed", c.printed);
   c.tolerance = number("tolerance", 0);
   if (c.tolerance < 0)
-    refuse(text("claim '", c.id, "': tolerance = ", c.tolerance, ", at least 0 is needed"));
+    reject(text("claim '", c.id, "': tolerance = ", c.tolerance, ", at least 0 is needed"));
   c.given = get<bool>("given", "true or false", false);
   c.value = has("value") ? words("value") : c.id;
   c.torque = get<int>("torque_Nm", "a whole number", 0);

@@ -34,8 +34,8 @@ struct PrintedClaim {
   std::string where;  // file:line
 };
 
-// In the order of the file. Error(input) names file:line: unknown keys, a value of another type, a key that the kind of the claim
-// needs and that is missing, or that it cannot have; two claims of one id.
+// In the order of the file. Error(input) names file:line: unknown keys, a value of another type, a key that the kind of the
+// claim needs and that is missing, or that it cannot have; two claims of one id.
 std::vector<PrintedClaim> read_printed_claims(const std::string& path);
 
 }  // namespace whine

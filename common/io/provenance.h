@@ -12,7 +12,7 @@ struct Provenance {
   std::string command;  // as typed, paths relative to the working folder
   // "role=path"; each is hashed (SHA-256 of the file) and its history copied
   std::vector<std::string> inputs;
-  // of the inputs before they were read; a writer refuses to publish what was made while one of them changed.
+  // of the inputs before they were read; a writer does not publish what was made while one of them changed.
   // Empty: not known
   std::vector<std::string> sha256 = {};
 };
@@ -45,7 +45,7 @@ std::string recorded_input(const std::string& artifact, const std::string& role)
 void require_made_from(const std::string& artifact, const std::string& role, const std::string& input);
 
 // Of a tool, before it reads its inputs ("role=path"): their hashes are taken here, and each that is an artifact is
-// refused by require_fresh, so that nothing is computed from files that do not belong together.
+// rejected by require_fresh, so that nothing is computed from files that do not belong together.
 Provenance made_by(int argc, char** argv, std::vector<std::string> inputs);
 
 // Error(input), with the make target, if a file from which `artifact` was made lies where it was recorded (relative
@@ -53,7 +53,8 @@ Provenance made_by(int argc, char** argv, std::vector<std::string> inputs);
 // file that is not there any more leaves the artifact what it is.
 void require_fresh(const std::string& artifact);
 
-// "rebuild it with: make <path>", after "delete it" where something stands there, which make would take for made; for a path outside the working folder, or not below out/, that there is no such target.
+// "rebuild it with: make <path>", after "delete it" where something stands there, which make would take for made; for a path
+// outside the working folder, or not below out/, that there is no such target.
 std::string rebuild_advice(const std::string& path);
 
 }  // namespace whine

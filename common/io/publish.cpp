@@ -113,7 +113,7 @@ void sync_folder(const std::string& path) {
 
 void publish(const std::string& path, const std::string& bytes) {
   make_folder_of(path);
-  const auto refuse = [&](const char* deed, int code) {
+  const auto reject = [&](const char* deed, int code) {
     fail(Failure::io, path, ": cannot ", deed, " (", bytes.size(), " bytes): ", system_says(code),
          "; nothing was changed, an earlier file is whole");
   };
@@ -126,20 +126,20 @@ void publish(const std::string& path, const std::string& bytes) {
   // One that an earlier process of this number has left, or a link that somebody has put there, which is not followed.
   ::unlink(temporary.c_str());
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-  if (file.number() < 0) refuse("create a file beside it", errno);
+  if (file.number() < 0) reject("create a file beside it", errno);
   Temporary guard(temporary);
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t count = ::write(file.number(), bytes.data() + done, bytes.size() - done);
     if (count < 0) {
       if (errno == EINTR) continue;
-      refuse("write", errno);
+      reject("write", errno);
     }
     done += static_cast<std::size_t>(count);
   }
-  if (::fsync(file.number()) != 0) refuse("sync", errno);
-  if (file.close() != 0) refuse("close", errno);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) refuse("put the new file in place", errno);
+  if (::fsync(file.number()) != 0) reject("sync", errno);
+  if (file.close() != 0) reject("close", errno);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) reject("put the new file in place", errno);
   guard.keep();
   sync_folder(path);
 }
@@ -195,24 +195,24 @@ int bring_to_present(const std::vector<std::string>& folders) {
 }
 
 std::string read_bytes(const std::string& path, const std::string& hint) {
-  const auto refuse = [&](const std::string& reason) {
+  const auto reject = [&](const std::string& reason) {
     fail(Failure::io, path, ": cannot be read: ", reason, hint.empty() ? "" : "; ", hint);
   };
   // A pipe without a writer would hold up the opening itself.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.number() < 0) refuse(system_says(errno));
+  if (file.number() < 0) reject(system_says(errno));
   struct stat status {};
-  if (::fstat(file.number(), &status) != 0) refuse(system_says(errno));
-  if (S_ISDIR(status.st_mode)) refuse("it is a folder");
+  if (::fstat(file.number(), &status) != 0) reject(system_says(errno));
+  if (S_ISDIR(status.st_mode)) reject("it is a folder");
   // Others, such as a pipe or /dev/zero, need not end.
-  if (!S_ISREG(status.st_mode)) refuse("it is no regular file");
+  if (!S_ISREG(status.st_mode)) reject("it is no regular file");
   std::string bytes;
   if (status.st_size > 0) bytes.reserve(static_cast<std::size_t>(status.st_size));
   std::string block(1 << 16, '\0');
   for (;;) {
     const ssize_t count = ::read(file.number(), block.data(), block.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) refuse(system_says(errno));
+    if (count < 0) reject(system_says(errno));
     if (count == 0) return bytes;
     bytes.append(block.data(), static_cast<std::size_t>(count));
   }

@@ -1,6 +1,6 @@
-// Ranges of numbers in artifacts, in SI: what a reader accepts. Each dataset names its own in its codec (io/codec.h); parameters that
-// are keys of a scene have theirs in the table of the keys (io/keys.h). Ranges are wide: they keep out what no computation of this
-// program writes, and what would index beyond an array, overflow or never end.
+// Ranges of numbers in artifacts, in SI: what a reader accepts. Each dataset names its own in its codec (io/codec.h);
+// parameters that are keys of a scene have theirs in the table of the keys (io/keys.h). Ranges are wide: they keep out what no
+// computation of this program writes, and what would index beyond an array, overflow or never end.
 //
 // Private to the layer io/.
 #pragma once
@@ -14,7 +14,8 @@ struct Range {
   bool open = false;  // least itself is not allowed
 };
 
-// "" or why a value is not within the range, in words that follow the name of the dataset. A value that is not a number is outside.
+// "" or why a value is not within the range, in words that follow the name of the dataset. A value that is not a number is
+// outside.
 std::string outside(const Range& range, double value);
 
 namespace ranges {

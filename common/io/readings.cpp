@@ -37,19 +37,19 @@ class PlanFile {
     try {
       root_ = parse_toml(read_bytes(path, "check the path of the plan of readings"));
     } catch (const toml::parse_error& error) {
-      refuse(error.source().begin.line, text("is not valid TOML: ", error.description()));
+      reject(error.source().begin.line, text("is not valid TOML: ", error.description()));
     }
   }
 
   const toml::table& root() const { return root_; }
 
-  [[noreturn]] void refuse(toml::source_index line, const std::string& what) const {
+  [[noreturn]] void reject(toml::source_index line, const std::string& what) const {
     fail(Failure::input, path_, ":", line, ": ", what);
   }
 
   const toml::table& section(const char* name) const {
     const toml::table* table = root_.get_as<toml::table>(name);
-    if (!table) refuse(1, text("lacks the section [", name, "]"));
+    if (!table) reject(1, text("lacks the section [", name, "]"));
     return *table;
   }
 
@@ -58,7 +58,7 @@ class PlanFile {
       const std::string word(name.str());
       if (std::find(known.begin(), known.end(), word) != known.end()) continue;
       const std::string near = nearest(word, known);
-      refuse(name.source().begin.line,
+      reject(name.source().begin.line,
              text("unknown key '", word, "'", near.empty() ? "" : "; did you mean '" + near + "'?"));
     }
   }
@@ -66,7 +66,7 @@ class PlanFile {
   std::string word(const char* key) const {
     const toml::node* node = root_.get(key);
     if (!node || !node->is_string() || node->as_string()->get().empty())
-      refuse(node ? node->source().begin.line : 1, text("'", key, "' must be text in quotes"));
+      reject(node ? node->source().begin.line : 1, text("'", key, "' must be text in quotes"));
     return node->as_string()->get();
   }
 
@@ -74,7 +74,7 @@ class PlanFile {
     const toml::node* node = root_.get(key);
     const auto value = node ? node->value_exact<int64_t>() : std::nullopt;
     if (!value || *value < least || *value > most)
-      refuse(node ? node->source().begin.line : 1,
+      reject(node ? node->source().begin.line : 1,
              text("'", key, "' must be a whole number from ", least, " to ", most));
     return static_cast<int>(*value);
   }
@@ -85,7 +85,7 @@ class PlanFile {
     const toml::node* node = table.get(key);
     const toml::array* items = node ? node->as_array() : nullptr;
     if (!items || items->empty())
-      refuse(node ? node->source().begin.line : table.source().begin.line,
+      reject(node ? node->source().begin.line : table.source().begin.line,
              text("'", key, "' must be a list of one value at least"));
     std::vector<Value> out;
     for (const toml::node& item : *items) out.push_back(read(item));
@@ -97,7 +97,7 @@ class PlanFile {
     return list<double>(table, key, [&](const toml::node& item) {
       const double value = item.is_number() ? item.value<double>().value_or(NAN) : NAN;
       if (!(value >= least && value <= most))
-        refuse(item.source().begin.line,
+        reject(item.source().begin.line,
                text("'", key, "' holds ", value, "; each must be from ", least, " to ", most));
       return value * scale;
     });
@@ -109,7 +109,7 @@ class PlanFile {
       if (std::find(known.begin(), known.end(), value) == known.end()) {
         std::string all;
         for (const std::string& w : known) all += (all.empty() ? "" : ", ") + w;
-        refuse(item.source().begin.line, text("'", key, "' holds something else than ", all));
+        reject(item.source().begin.line, text("'", key, "' holds something else than ", all));
       }
       return value;
     });
@@ -143,7 +143,7 @@ ReadingPlan read_reading_plan(const std::string& path) {
     if (const auto* flag = item.as_boolean()) return corner_of(flag->get() ? std::numbers::pi : 0);
     const double degrees = item.is_number() ? item.value<double>().value_or(NAN) : NAN;
     if (!(degrees > 0 && degrees <= 90))
-      file.refuse(item.source().begin.line,
+      file.reject(item.source().begin.line,
                   "'corner_contact' holds something else than true, false or an "
                   "angle above 0 and up to 90 degrees");
     return corner_of(degrees * kDegree);

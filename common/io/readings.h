@@ -13,7 +13,8 @@
 //   plane = ["stress", "strain"]
 //   corner_contact = [false, 0.5, true]
 //   [draw]                                 # one of each list for each reading
-//   inertia_from = ["two", "mass"]         # what the inertia is fitted to: Table 1 at 100 N m (one, two, mean), all of it (table), or m = 1.4 kg (mass)
+//   inertia_from = ["two", "mass"]         # what the inertia is fitted to: Table 1 at 100 N m (one, two, mean), all of it
+// (table), or m = 1.4 kg (mass)
 //   frequency_offset_percent = [0.0]       # of that frequency; Table 1 has steps of 20 Hz
 //   damped_state = ["two"]                 # contact state with the printed damping ratio of 7 %: one, two, mean
 //   mass_share = [0.0, 0.5]                # share of that ratio from mu of Eq. 21

@@ -28,13 +28,14 @@ void describe(Codec& c, ResponseArtifact& a) {
   describe_pair(c, a);
   describe_motion(c, a);
   describe_torque(c, a.torque);
-  c.dataset({"/parameters/operation/direction", "1", "direction of marching through the speeds", ""},
+  c.dataset({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
             &a.direction);
   c.dataset({"/parameters/fidelity/model", "1", "finite elements, or the name of a lumped model", ""},
             &a.model);
   describe_natural_frequency(c, a.natural_frequency);
-  c.dataset({"/mesh_frequency", "Hz", "mesh frequency, in order of marching", axis, kSpeed},
-            &a.mesh_frequency);
+  c.dataset(
+      {"/mesh_frequency", "Hz", "mesh frequency, in the order in which they were computed", axis, kSpeed},
+      &a.mesh_frequency);
   c.dataset({"/dte_rms", "m", "RMS of the oscillating part of the dynamic transmission error", axis, kSize},
             &a.dte_rms);
   c.dataset({"/dte_mean", "m", "mean of the dynamic transmission error", axis, kLength}, &a.dte_mean);

@@ -29,11 +29,11 @@ std::vector<std::pair<std::string, const toml::table*>> named_sections(const Sou
     const std::string name(key.str());
     const auto* section = node.as_table();
     if (!section) {
-      source.refuse_line(key.source().begin.line, text("'", name, "' stands in [", group,
+      source.reject_line(key.source().begin.line, text("'", name, "' stands in [", group,
                                                        "] itself; keys belong into [", group, ".<name>]"));
     }
     if (!plain_name(name)) {
-      source.refuse_line(key.source().begin.line,
+      source.reject_line(key.source().begin.line,
                          text("[", group, ".", name, "]: a name holds letters, digits, '_' and '-' only"));
     }
     out.emplace_back(name, section);
@@ -64,18 +64,18 @@ void read_modification(const Source& source, const toml::table& gear, const std:
   if (!node) return;
   const toml::table* table = node->as_table();
   if (!table)
-    source.refuse(
+    source.reject(
         *node, text("'modification' in [", label, "] must be a section: write [", label, ".modification]"));
   const std::string own = label + ".modification";
   const SectionReader reader(source, Dialect::scene, *table, "modification", own);
-  reader.refuse_unknown();
+  reader.reject_unknown();
   // A start given here takes the place of one taken over from another gear, in whatever form.
   const auto starts = [&](const char* end) {
     std::vector<const toml::node*> given;
     for (const char* form : {"_start_deg", "_start_radius_mm", "_length_mm"})
       if (const toml::node* start = table->get(text(end, "_relief", form))) given.push_back(start);
     if (given.size() > 1)
-      source.refuse(*given[1], text("[", own, "] says the start of ", end, "_relief ", given.size(),
+      source.reject(*given[1], text("[", own, "] says the start of ", end, "_relief ", given.size(),
                                     " times; give one of ", end, "_relief_start_deg, ", end,
                                     "_relief_start_radius_mm, ", end, "_relief_length_mm"));
     return !given.empty();
@@ -87,7 +87,7 @@ void read_modification(const Source& source, const toml::table& gear, const std:
   for (const auto& [end, relief] :
        {std::pair{"tip", values.modification.tip}, std::pair{"root", values.modification.root}})
     if (relief.amount > 0 && !(relief.start_roll > 0 || relief.start_radius > 0 || relief.length > 0))
-      source.refuse(*table, text("[", own, "] lacks the start of ", end, "_relief_um = ", relief.amount * 1e6,
+      source.reject(*table, text("[", own, "] lacks the start of ", end, "_relief_um = ", relief.amount * 1e6,
                                  "; give one of ", end, "_relief_start_deg, ", end,
                                  "_relief_start_radius_mm, ", end, "_relief_length_mm"));
 }
@@ -100,21 +100,21 @@ void read_errors(const Source& source, const toml::table& gear, const std::strin
   if (!node) return;
   const toml::table* table = node->as_table();
   if (!table)
-    source.refuse(*node, text("'error' in [", label, "] must be a section: write [", label, ".error]"));
+    source.reject(*node, text("'error' in [", label, "] must be a section: write [", label, ".error]"));
   const SectionReader reader(source, Dialect::scene, *table, "error", label + ".error");
-  reader.refuse_unknown();
+  reader.reject_unknown();
   reader.read(values, {Part::error_file}, false);
   if (!values.error_file.empty()) {
     const std::filesystem::path name = std::filesystem::path(source.path()).parent_path() / values.error_file;
     if (name.extension() != ".toml" && name.extension() != ".csv")
-      source.refuse(*table->get("file"), text("'file' in [", label, ".error] = '", values.error_file,
+      source.reject(*table->get("file"), text("'file' in [", label, ".error] = '", values.error_file,
                                               "' is neither a .toml nor a .csv"));
     const Source measured =
         name.extension() == ".csv" ? Source::table_of_teeth(name.string()) : Source(name.string());
     if (const toml::node* another = measured.root().get("file"))
-      measured.refuse(*another, "a file of measured errors cannot name another");
+      measured.reject(*another, "a file of measured errors cannot name another");
     const SectionReader lists(measured, Dialect::scene, measured.root(), "error", "");
-    lists.refuse_unknown();
+    lists.reject_unknown();
     lists.read(values, {Part::error}, false);
   }
   reader.read(values, {Part::error}, !values.error_file.empty());
@@ -124,7 +124,7 @@ void read_errors(const Source& source, const toml::table& gear, const std::strin
                                   std::pair{"profile_form_um", &values.errors.profile_form}})
     if (!list->empty() && static_cast<int>(list->size()) != values.design.teeth) {
       const toml::node* at = table->get(key);
-      source.refuse(at ? *at : *table,
+      source.reject(at ? *at : *table,
                     text("'", key, "' in [", label, ".error] holds ", list->size(), " numbers, the gear has ",
                          values.design.teeth, " teeth; give one for each"));
     }
@@ -137,20 +137,21 @@ void read_crack(const Source& source, const toml::table& gear, const std::string
   if (!node) return;
   const toml::table* table = node->as_table();
   if (!table)
-    source.refuse(*node, text("'crack' in [", label, "] must be a section: write [", label, ".crack]"));
+    source.reject(*node, text("'crack' in [", label, "] must be a section: write [", label, ".crack]"));
   const SectionReader reader(source, Dialect::scene, *table, "crack", label + ".crack");
-  reader.refuse_unknown();
+  reader.reject_unknown();
   KeyValues values;
   reader.read(values, {Part::crack}, false);
   if (values.design.crack.tooth >= design.teeth)
-    source.refuse(*table->get("tooth"), text("'tooth' in [", label, ".crack] = ", values.design.crack.tooth,
+    source.reject(*table->get("tooth"), text("'tooth' in [", label, ".crack] = ", values.design.crack.tooth,
                                              ": the gear has the teeth 0 to ", design.teeth - 1));
   if (values.design.crack.depth > 0) design.crack = values.design.crack;
 }
 
 const std::set<Part> kGearParts = {Part::reference, Part::design, Part::diameter, Part::inertia};
 
-// Turns the diameters of tip and root into addendum and dedendum. `like`: the gear whose keys `values` began with, nullptr: none.
+// Turns the diameters of tip and root into addendum and dedendum. `like`: the gear whose keys `values` began with, nullptr:
+// none.
 void take_diameters(const Source& source, const toml::table& table, const std::string& label,
                     const GearDesign* like, KeyValues& values) {
   GearDesign& d = values.design;
@@ -159,14 +160,14 @@ void take_diameters(const Source& source, const toml::table& table, const std::s
                         int outwards) {
     const toml::node *own = table.get(diameter_key), *own_height = table.get(height_key);
     if (own && own_height)
-      source.refuse(*own, text("[", label, "] gives '", diameter_key, "' and '", height_key,
+      source.reject(*own, text("[", label, "] gives '", diameter_key, "' and '", height_key,
                                "', which say the same; give one of them"));
     if (own_height) diameter = 0;
     if (diameter == 0) return;
     const toml::node& at = own ? *own : static_cast<const toml::node&>(table);
     if (!own && like &&
         (like->teeth != d.teeth || like->module != d.module || like->profile_shift != d.profile_shift))
-      source.refuse(at, text("[", label, "] takes '", diameter_key, "' = ", diameter * 1e3,
+      source.reject(at, text("[", label, "] takes '", diameter_key, "' = ", diameter * 1e3,
                              " over from a gear of other teeth, module or profile_shift; give '",
                              diameter_key, "' or '", height_key, "' here"));
     const double exact = outwards * (diameter / (2 * d.module) - d.teeth / 2.0 - d.profile_shift);
@@ -177,7 +178,7 @@ void take_diameters(const Source& source, const toml::table& table, const std::s
     if (height > 0 && height <= kMost) return;
     const double pitch = d.module * (d.teeth + 2 * d.profile_shift),
                  limit = pitch + outwards * 2 * kMost * d.module;
-    source.refuse(at, text("'", diameter_key, "' in [", label, "] = ", diameter * 1e3, ": with ", d.teeth,
+    source.reject(at, text("'", diameter_key, "' in [", label, "] = ", diameter * 1e3, ": with ", d.teeth,
                            " teeth, module_mm = ", d.module * 1e3, " and profile_shift = ", d.profile_shift,
                            " it must be between ", std::min(pitch, limit) * 1e3, " and ",
                            std::max(pitch, limit) * 1e3, " mm (", height_key, " above 0, at most 3)"));
@@ -192,7 +193,7 @@ void read_gears(const Source& source, Scene& scene) {
   for (const auto& [name, table] : materials) {
     KeyValues values;
     const SectionReader reader(source, Dialect::scene, *table, "material", "material." + name);
-    reader.refuse_unknown();
+    reader.reject_unknown();
     reader.read(values, {Part::material}, false);
     material[name] = values.material;
   }
@@ -210,23 +211,23 @@ void read_gears(const Source& source, Scene& scene) {
     const bool torque_like =
         name.size() > 1 && name[0] == 'T' && std::isdigit(static_cast<unsigned char>(name[1]));
     if (name == "params" || name == "report" || name == "variants" || torque_like) {
-      source.refuse(*table, text("[gear.", name, "]: a gear cannot be called '", name,
+      source.reject(*table, text("[gear.", name, "]: a gear cannot be called '", name,
                                  "', a folder of results is; choose another name"));
     }
     const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
-    reader.refuse_unknown({"crack", "modification", "error"});
+    reader.reject_unknown({"crack", "modification", "error"});
     KeyValues values;
     GearDesign base_design;
     const toml::node* like = table->get("like");
     if (like && like->is_string()) {
       const std::string base = like->value<std::string>().value_or("");
       const toml::table* model = table_of(base);
-      if (base == name) source.refuse(*like, text("[gear.", name, "] is like itself"));
+      if (base == name) source.reject(*like, text("[gear.", name, "] is like itself"));
       if (!model)
-        source.refuse(
+        source.reject(
             *like, text("'like' in [gear.", name, "] names no gear: '", base, "'", advice_for(base, names)));
       if (const toml::node* chain = model->get("like")) {
-        source.refuse(*like, text("[gear.", name, "] is like [gear.", base, "], which is like ",
+        source.reject(*like, text("[gear.", name, "] is like [gear.", base, "], which is like ",
                                   as_written(*chain), " itself; name the first gear"));
       }
       SectionReader(source, Dialect::scene, *model, "gear", "gear." + base).read(values, kGearParts, false);
@@ -241,7 +242,7 @@ void read_gears(const Source& source, Scene& scene) {
     read_crack(source, *table, "gear." + name, values.design);
     if (!material.count(values.material_name)) {
       const toml::node* key = table->get("material");
-      source.refuse(key ? *key : static_cast<const toml::node&>(*table),
+      source.reject(key ? *key : static_cast<const toml::node&>(*table),
                     text("'material' in [gear.", name, "] = '", values.material_name,
                          "' names no [material.<name>] section",
                          advice_for(values.material_name, names_of(materials))));
@@ -256,23 +257,23 @@ void read_bearings(const Source& source, Scene& scene) {
   if (!node) return;
   const toml::array* list = node->as_array();
   if (!list || !list->is_array_of_tables())
-    source.refuse(*node, "'bearing' must be a list of sections: write [[bearing]]");
+    source.reject(*node, "'bearing' must be a list of sections: write [[bearing]]");
   std::vector<std::string> names;
   for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
   for (const toml::node& item : *list) {
     const toml::table& table = *item.as_table();
     KeyValues values;
     const SectionReader reader(source, Dialect::scene, table, "bearing", "bearing");
-    reader.refuse_unknown();
+    reader.reject_unknown();
     reader.read(values, {Part::bearing, Part::bearing_gear}, false);
     const auto gear = std::find(names.begin(), names.end(), values.bearing_gear);
     if (gear == names.end())
-      source.refuse(*table.get("gear"),
+      source.reject(*table.get("gear"),
                     text("'gear' in [bearing] = '", values.bearing_gear, "' names no [gear.<name>] section",
                          advice_for(values.bearing_gear, names)));
     Bearing& own = scene.gears[static_cast<std::size_t>(gear - names.begin())].bearing;
     if (own.elastic())
-      source.refuse(*table.get("gear"),
+      source.reject(*table.get("gear"),
                     text("'gear' in [bearing] = '", values.bearing_gear,
                          "' has a bearing already; give one section with what carries it in all"));
     own = values.bearing;
@@ -283,27 +284,27 @@ void read_mesh_section(const Source& source, Scene& scene) {
   const toml::node* node = source.root().get("mesh");
   const toml::array* list = node->as_array();
   if (!list || !list->is_array_of_tables())
-    source.refuse(*node, "'mesh' must be a list of sections: write [[mesh]]");
+    source.reject(*node, "'mesh' must be a list of sections: write [[mesh]]");
   if (list->size() != 1) {
-    source.refuse(*list->get(1),
+    source.reject(*list->get(1),
                   text("there are ", list->size(), " [[mesh]] sections; this version solves exactly one"));
   }
   const toml::table& table = *list->get(0)->as_table();
   KeyValues values;
   const SectionReader reader(source, Dialect::scene, table, "mesh", "mesh");
-  reader.refuse_unknown();
+  reader.reject_unknown();
   reader.read(values, {Part::mesh, Part::contact_plane}, false);
   std::vector<std::string> names;
   for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
   for (const char* role : {"driver", "driven"}) {
     const std::string name = role == std::string("driver") ? values.mesh.driver : values.mesh.driven;
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      source.refuse(*table.get(role), text("'", role, "' in [mesh] = '", name,
+      source.reject(*table.get(role), text("'", role, "' in [mesh] = '", name,
                                            "' names no [gear.<name>] section", advice_for(name, names)));
     }
   }
   if (values.mesh.driver == values.mesh.driven) {
-    source.refuse(*table.get("driven"), text("'driven' in [mesh] = '", values.mesh.driven,
+    source.reject(*table.get("driven"), text("'driven' in [mesh] = '", values.mesh.driven,
                                              "' is the driver, too; a gear cannot mesh with itself"));
   }
   scene.mesh = values.mesh;
@@ -324,10 +325,11 @@ bool plain_name(const std::string& name) {
 namespace {
 
 Scene scene_of(const Source& source) {
-  if (source.is_slice())
-    source.refuse("is a slice, which gear-scene cut from a scene for one stage; give the scene itself");
+  if (source.is_stage_parameters())
+    source.reject(
+        "holds stage parameters, which gear-scene wrote from a scene for one stage; give the scene itself");
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
-  top.refuse_unknown(
+  top.reject_unknown(
       {"gear", "material", "bearing", "mesh", "damping", "operation", "fidelity", "discretisation"});
   std::vector<std::string> missing;
   for (const char* name : {"gear", "material", "mesh", "operation"}) {
@@ -337,7 +339,7 @@ Scene scene_of(const Source& source) {
                       : word == "operation" ? "[operation]"
                                             : "[" + word + ".<name>]");
   }
-  if (!missing.empty()) source.refuse(text("the scene lacks ", joined(missing), "; ", kExample));
+  if (!missing.empty()) source.reject(text("the scene lacks ", joined(missing), "; ", kExample));
 
   Scene scene;
   KeyValues values;
@@ -346,18 +348,18 @@ Scene scene_of(const Source& source) {
   read_gears(source, scene);
   read_bearings(source, scene);
   read_mesh_section(source, scene);
-  const std::set<Part> rest = {Part::damping,    Part::load,         Part::operation,
-                               Part::rung,       Part::contact_rung, Part::body,
-                               Part::near_field, Part::contact,      Part::time};
+  const std::set<Part> rest = {Part::damping,    Part::load,          Part::operation,
+                               Part::level,      Part::contact_level, Part::body,
+                               Part::near_field, Part::contact,       Part::time};
   static const toml::table kNothing;
   for (const char* name : {"damping", "operation", "fidelity", "discretisation"}) {
     const toml::table* table = source.section(name);
     const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
-    reader.refuse_unknown();
+    reader.reject_unknown();
     reader.read(values, rest, false);
     const toml::node* depth = table ? table->get("matching_depth_mm") : nullptr;
     if (depth && values.body.near_field != NearField::matching)
-      source.refuse(*depth, text("'matching_depth_mm' in [", name, "] = ", as_written(*depth),
+      source.reject(*depth, text("'matching_depth_mm' in [", name, "] = ", as_written(*depth),
                                  ": near_field is \"", values.body.near_field,
                                  "\", which has no depth; set near_field = \"matching\" or take it out"));
   }

@@ -8,8 +8,8 @@
 
 namespace whine {
 
-using BodyHashes =
-    std::vector<std::pair<std::string, std::string>>;  // gear, hash of its slice; in the order of the scene
+using BodyHashes = std::vector<
+    std::pair<std::string, std::string>>;  // gear, hash of its stage parameters; in the order of the scene
 
 // The hashes, each once.
 std::vector<std::string> different(const BodyHashes& bodies);

@@ -75,7 +75,7 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
     switch (part) {
       case Part::inertia:
       case Part::damping:
-      case Part::rung:
+      case Part::level:
       case Part::time:
         return moves;
       case Part::crack:

@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-#include "io/slice_text.h"
+#include "io/stage_parameters_text.h"
 #include "io/suggestion.h"
 
 namespace whine {
@@ -52,14 +52,14 @@ std::string as_written(const toml::node& node) {
 
 Source::Source(std::string path, const std::string& bytes, bool lines)
     : path_(std::move(path)), lines_(lines) {
-  const std::string first = bytes.substr(0, bytes.find('\n')), start = kSliceStart;
-  const auto end = first.find(kSliceEnd);
-  is_slice_ = first.starts_with(start) && end != std::string::npos;
-  if (is_slice_) slice_of_ = first.substr(start.size(), end - start.size());
+  const std::string first = bytes.substr(0, bytes.find('\n')), start = kStageParametersStart;
+  const auto end = first.find(kStageParametersEnd);
+  is_stage_parameters_ = first.starts_with(start) && end != std::string::npos;
+  if (is_stage_parameters_) stage_of_ = first.substr(start.size(), end - start.size());
   try {
     root_ = parse_toml(bytes);
   } catch (const toml::parse_error& error) {
-    refuse_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
+    reject_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
   }
 }
 
@@ -85,44 +85,44 @@ Source Source::table_of_teeth(const std::string& path) {
       source.names_line_ = number;
       columns.resize(names.size());
       if (names.empty() || names[0] != "tooth")
-        source.refuse_line(number, "the first column must be called tooth");
+        source.reject_line(number, "the first column must be called tooth");
       continue;
     }
     if (fields.size() != names.size())
-      source.refuse_line(number,
+      source.reject_line(number,
                          text("holds ", fields.size(), " numbers, ", names.size(), " columns are named"));
     for (size_t i = 0; i < fields.size(); ++i) {
       char* end = nullptr;
       const double value = std::strtod(fields[i].c_str(), &end);
       if (end == fields[i].c_str() || *end)
-        source.refuse_line(number, text("'", fields[i], "' is no number"));
+        source.reject_line(number, text("'", fields[i], "' is no number"));
       if (i == 0 && value != tooth)
-        source.refuse_line(number, text("tooth ", fields[i], " stands where tooth ", tooth,
+        source.reject_line(number, text("tooth ", fields[i], " stands where tooth ", tooth,
                                         " is due; teeth are in order from 0"));
       if (i > 0) columns[i].push_back(value);
     }
     source.row_line_.push_back(number);
     ++tooth;
   }
-  if (names.empty()) source.refuse("is empty; name the columns in the first line, tooth first");
+  if (names.empty()) source.reject("is empty; name the columns in the first line, tooth first");
   for (size_t i = 1; i < names.size(); ++i) source.root_.insert_or_assign(names[i], columns[i]);
   return source;
 }
 
-void Source::refuse_line(toml::source_index line, const std::string& what) const {
-  if (!lines_) refuse(what);
+void Source::reject_line(toml::source_index line, const std::string& what) const {
+  if (!lines_) reject(what);
   fail(Failure::input, path_, ":", line ? line : names_line_, ": ", what);
 }
 
-void Source::refuse(const toml::node& at, const std::string& what) const {
-  refuse_line(at.source().begin ? at.source().begin.line : line_in_column(at), what);
+void Source::reject(const toml::node& at, const std::string& what) const {
+  reject_line(at.source().begin ? at.source().begin.line : line_in_column(at), what);
 }
 
 const toml::table* Source::section(const std::string& name) const {
   const toml::node* node = root_.get(name);
   if (!node) return nullptr;
   if (const auto* table = node->as_table()) return table;
-  refuse(*node, text("'", name, "' must be a section: write [", name, "]"));
+  reject(*node, text("'", name, "' must be a section: write [", name, "]"));
 }
 
 toml::source_index Source::line_in_column(const toml::node& at) const {
@@ -133,7 +133,7 @@ toml::source_index Source::line_in_column(const toml::node& at) const {
   return 0;
 }
 
-void SectionReader::refuse_unknown(const std::vector<std::string>& others) const {
+void SectionReader::reject_unknown(const std::vector<std::string>& others) const {
   std::vector<std::string> known = others;
   for (const Key& key : scene_keys()) {
     if (key.section == section_) known.push_back(name_in(key, dialect_));
@@ -145,7 +145,7 @@ void SectionReader::refuse_unknown(const std::vector<std::string>& others) const
     if (advice.empty()) advice = text("; known are: ", joined(known));
     const bool is_section = node.is_table() || node.is_array_of_tables();
     const bool top = label_.empty();
-    source_.refuse_line(name.source().begin.line,
+    source_.reject_line(name.source().begin.line,
                         text("unknown ", top && is_section ? "section" : "key", " '", word, "'",
                              top ? "" : text(" in [", label_, "]"), advice));
   }
@@ -169,54 +169,54 @@ void SectionReader::read(KeyValues& values, const std::set<Part>& parts, bool in
   }
   if (!missing.empty()) {
     const std::string what = text("[", label_, "] lacks ", joined(missing), " (no default)");
-    if (table_.source().begin) source_.refuse(table_, what);
-    source_.refuse(what);
+    if (table_.source().begin) source_.reject(table_, what);
+    source_.reject(what);
   }
 }
 
-void SectionReader::refuse(const Key& key, const toml::node& node, const std::string& what) const {
-  source_.refuse(
+void SectionReader::reject(const Key& key, const toml::node& node, const std::string& what) const {
+  source_.reject(
       node, text("'", name_in(key, dialect_), "'", label_.empty() ? "" : text(" in [", label_, "]"), " = ",
                  as_written(node), ": ", what));
 }
 
 double SectionReader::finite_number(const Key& key, const toml::node& node, const std::string& item) const {
   if (!node.is_number())
-    refuse(key, node,
+    reject(key, node,
            item + "must be a number" + (unit_of(key).empty() ? "" : " (in" + unit_of(key) + ")") +
                number_advice(node.value<std::string>().value_or("")));
   const double value = node.value<double>().value_or(0.0);
-  if (!std::isfinite(value)) refuse(key, node, item + "must be a finite number");
+  if (!std::isfinite(value)) reject(key, node, item + "must be a finite number");
   return value;
 }
 
 double SectionReader::checked_number(const Key& key, const toml::node& node, const std::string& item) const {
   const double value = finite_number(key, node, item);
-  if (dialect_ == Dialect::slice) return value;
+  if (dialect_ == Dialect::settings) return value;
   const std::string why = *key.reason ? text(": ", key.reason) : "";
   if (value < key.least || (key.open && value == key.least)) {
-    refuse(key, node,
+    reject(key, node,
            text(item, "must be ", key.open ? "greater than " : "at least ", key.least, unit_of(key), why));
   }
-  if (value > key.most) refuse(key, node, text(item, "must be at most ", key.most, unit_of(key)));
+  if (value > key.most) reject(key, node, text(item, "must be at most ", key.most, unit_of(key)));
   return key.to_si(value);
 }
 
 std::string SectionReader::checked_word(const Key& key, const toml::node& node) const {
-  if (!node.is_string()) refuse(key, node, "must be text in quotes");
+  if (!node.is_string()) reject(key, node, "must be text in quotes");
   std::string word = node.value<std::string>().value_or("");
   if (*key.choices) {
     std::istringstream list(key.choices);
     std::vector<std::string> choices;
     for (std::string choice; list >> choice;) choices.push_back(choice);
     if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
-      refuse(key, node, "must be one of: " + joined(choices));
+      reject(key, node, "must be one of: " + joined(choices));
     }
   } else if (std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 32 || c == 127; })) {
-    refuse(key, node, "must be one line of text");
+    reject(key, node, "must be one line of text");
   }
   if (word.size() > kLongestWord)
-    refuse(key, node, text("has ", word.size(), " bytes; must be at most ", kLongestWord));
+    reject(key, node, text("has ", word.size(), " bytes; must be at most ", kLongestWord));
   return word;
 }
 
@@ -226,7 +226,7 @@ void SectionReader::assign(const Key& key, const toml::node& node, const Slot& s
   } else if (const auto* whole = std::get_if<int*>(&slot)) {
     const double value = checked_number(key, node);
     if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
-      refuse(key, node, "must be a whole number");
+      reject(key, node, "must be a whole number");
     **whole = static_cast<int>(value);
   } else if (const auto* word = std::get_if<std::string*>(&slot)) {
     **word = checked_word(key, node);
@@ -241,7 +241,7 @@ void SectionReader::assign(const Key& key, const toml::node& node, const Slot& s
     } else if (node.is_number()) {
       (*corner)->largest_angle = checked_number(key, node);
     } else {
-      refuse(key, node, "must be true, false or a number of degrees");
+      reject(key, node, "must be true, false or a number of degrees");
     }
   } else if (const auto* list = std::get_if<std::vector<double>*>(&slot)) {
     assign_list(key, node, **list);
@@ -249,7 +249,7 @@ void SectionReader::assign(const Key& key, const toml::node& node, const Slot& s
     assign_points(key, node, **points);
   } else if (const auto* teeth = std::get_if<ToothList>(&slot)) {
     const toml::array* array = node.as_array();
-    if (!array) refuse(key, node, "must be a list with a number for each tooth");
+    if (!array) reject(key, node, "must be a list with a number for each tooth");
     teeth->values->clear();
     for (const toml::node& item : *array) teeth->values->push_back(checked_number(key, item));
   } else {
@@ -263,10 +263,10 @@ void SectionReader::assign_list(const Key& key, const toml::node& node, std::vec
   if (!array) {
     list.push_back(checked_number(key, node));
   } else {
-    if (array->empty()) refuse(key, node, "must hold at least one number");
+    if (array->empty()) reject(key, node, "must hold at least one number");
     for (const toml::node& item : *array) list.push_back(checked_number(key, item));
   }
-  if (dialect_ == Dialect::slice) return;
+  if (dialect_ == Dialect::settings) return;
   // Folders are called by the value with six digits; two values must not meet there, nor a name mean
   // another value.
   std::set<double> seen;
@@ -274,64 +274,64 @@ void SectionReader::assign_list(const Key& key, const toml::node& node, std::vec
     char name[32];
     std::snprintf(name, sizeof name, "%g", value);
     if (std::strtod(name, nullptr) != value) {
-      refuse(key, node, text("has more than 6 significant digits; its folder would be called T", name));
+      reject(key, node, text("has more than 6 significant digits; its folder would be called T", name));
     }
-    if (!seen.insert(value).second) refuse(key, node, text("holds ", value, " twice"));
+    if (!seen.insert(value).second) reject(key, node, text("holds ", value, " twice"));
   }
 }
 
 void SectionReader::assign_points(const Key& key, const toml::node& node, Points& points) const {
   points.clear();
   const toml::array* array = node.as_array();
-  if (!array) refuse(key, node, "must be a list of points: [[22.0, 0.0], [27.0, 10.0]]");
+  if (!array) reject(key, node, "must be a list of points: [[22.0, 0.0], [27.0, 10.0]]");
   const char* const kCoordinate[2] = {"roll angle ", "deviation "};
   for (const toml::node& item : *array) {
     const toml::array* pair = item.as_array();
     if (!pair || pair->size() != 2)
-      refuse(key, item, "a point is [roll angle in degrees, micrometres taken off]");
+      reject(key, item, "a point is [roll angle in degrees, micrometres taken off]");
     std::array<double, 2> point;
     for (int i = 0; i < 2; ++i) {
       const double value = finite_number(key, *pair->get(i), kCoordinate[i]);
       point[i] = value;
-      if (dialect_ == Dialect::slice) continue;
+      if (dialect_ == Dialect::settings) continue;
       const double least = i == 0 ? 0 : key.least, most = i == 0 ? 90 : key.most;
       if (value < least || value > most)
-        refuse(key, item,
+        reject(key, item,
                text(kCoordinate[i], "must be from ", least, " to ", most, i == 0 ? " deg" : " um"));
       point[i] = value * kPointUnits[i].multiply / kPointUnits[i].divide;
     }
     if (!points.empty() && !(point[0] > points.back()[0]))
-      refuse(key, item, "points must ascend in the roll angle; sort them and give each angle once");
+      reject(key, item, "points must ascend in the roll angle; sort them and give each angle once");
     points.push_back(point);
   }
-  if (points.size() == 1) refuse(key, node, "must hold two points at least, or none");
+  if (points.size() == 1) reject(key, node, "must hold two points at least, or none");
 }
 
 void SectionReader::assign_range(const Key& key, const toml::node& node, const RangeSlot& slot) const {
   const toml::table* table = node.as_table();
-  if (!table) refuse(key, node, "must be a table: { from = 600, to = 4000, step = 20 }");
+  if (!table) reject(key, node, "must be a table: { from = 600, to = 4000, step = 20 }");
   const std::vector<std::pair<std::string, double*>> names = {
       {"from", slot.from}, {"to", slot.to}, {"step", slot.step}};
   for (const auto& [name, value] : *table) {
     const std::string word(name.str());
     if (std::none_of(names.begin(), names.end(), [&](const auto& known) { return known.first == word; })) {
-      refuse(key, value, text("unknown key '", word, "'; known are: from, to, step"));
+      reject(key, value, text("unknown key '", word, "'; known are: from, to, step"));
     }
   }
   for (const auto& [name, target] : names) {
     const toml::node* item = table->get(name);
-    if (!item) refuse(key, node, text("lacks '", name, "'"));
+    if (!item) reject(key, node, text("lacks '", name, "'"));
     // The range of the key is that of the speeds; a step may be smaller.
     const std::string label = "'" + name + "' ";
     *target =
         target == slot.step ? key.to_si(finite_number(key, *item, label)) : checked_number(key, *item, label);
     if (target == slot.step && !(*slot.step > 0)) {
-      refuse(key, *item, text(label, "must be greater than 0", unit_of(key)));
+      reject(key, *item, text(label, "must be greater than 0", unit_of(key)));
     }
   }
-  if (*slot.to < *slot.from) refuse(key, node, text("'to' must be at least 'from', which is ", *slot.from));
+  if (*slot.to < *slot.from) reject(key, node, text("'to' must be at least 'from', which is ", *slot.from));
   if ((*slot.to - *slot.from) / *slot.step > 1e5)
-    refuse(key, node, "is more than 100000 speeds; a larger 'step' makes fewer");
+    reject(key, node, "is more than 100000 speeds; a larger 'step' makes fewer");
 }
 
 void SectionReader::assign_fallback(const Key& key, const Slot& slot) const {

@@ -1,5 +1,5 @@
-// What stands in a file of TOML as keys of the table of keys: whole scenes and the stage parameters that are cut from them. Faults
-// are errors with file:line.
+// What stands in a file of TOML as keys of the table of keys: whole scenes and the stage parameters that are cut from them.
+// Faults are errors with file:line.
 //
 // Private to the layer io/.
 #pragma once
@@ -34,13 +34,13 @@ class Source {
 
   const std::string& path() const { return path_; }
   const toml::table& root() const { return root_; }
-  bool is_slice() const { return is_slice_; }
-  const std::string& slice_of() const { return slice_of_; }  // the stage that its first line names
+  bool is_stage_parameters() const { return is_stage_parameters_; }
+  const std::string& stage_of() const { return stage_of_; }  // the stage that its first line names
 
-  [[noreturn]] void refuse(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
+  [[noreturn]] void reject(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
   // Line 0 is of what has no place of its own: the name of a column.
-  [[noreturn]] void refuse_line(toml::source_index line, const std::string& what) const;
-  [[noreturn]] void refuse(const toml::node& at, const std::string& what) const;
+  [[noreturn]] void reject_line(toml::source_index line, const std::string& what) const;
+  [[noreturn]] void reject(const toml::node& at, const std::string& what) const;
 
   // A section [name] as a table, nullptr if it is not there.
   const toml::table* section(const std::string& name) const;
@@ -51,15 +51,15 @@ class Source {
   // Of a number in a table of teeth; 0 if it is none.
   toml::source_index line_in_column(const toml::node& at) const;
 
-  std::string path_, slice_of_;
+  std::string path_, stage_of_;
   toml::table root_;
   toml::source_index names_line_ = 0;         // of a table of teeth
   std::vector<toml::source_index> row_line_;  // of its rows
-  bool is_slice_ = false, lines_ = true;
+  bool is_stage_parameters_ = false, lines_ = true;
 };
 
-// In a scene keys carry unit suffixes and ranges hold; slices are in SI, written by this program.
-enum class Dialect { scene, slice };
+// In a scene keys carry unit suffixes and ranges hold; stage parameters are in SI, written by this program.
+enum class Dialect { scene, settings };
 
 // Reads the keys of one section, e.g. label "gear.pinion" for the keys of section "gear".
 class SectionReader {
@@ -72,15 +72,15 @@ class SectionReader {
         section_(std::move(section)),
         label_(std::move(label)) {}
 
-  // Refuses keys that no key of this section is called; `others` are section names allowed besides.
-  void refuse_unknown(const std::vector<std::string>& others = {}) const;
+  // Rejects keys that no key of this section is called; `others` are section names allowed besides.
+  void reject_unknown(const std::vector<std::string>& others = {}) const;
 
   // Fills the keys of this section that belong to one of `parts`. Keys left out keep what stands in `values`
-  // if `inherit`, else take their default; required ones are refused together.
+  // if `inherit`, else take their default; required ones are rejected together.
   void read(KeyValues& values, const std::set<Part>& parts, bool inherit) const;
 
  private:
-  [[noreturn]] void refuse(const Key& key, const toml::node& node, const std::string& what) const;
+  [[noreturn]] void reject(const Key& key, const toml::node& node, const std::string& what) const;
 
   double finite_number(const Key& key, const toml::node& node, const std::string& item = "") const;
 

@@ -87,17 +87,17 @@ class StudyFile {
     try {
       root_ = parse_toml(bytes);
     } catch (const toml::parse_error& error) {
-      refuse_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
+      reject_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
     }
   }
 
   const toml::table& root() const { return root_; }
-  [[noreturn]] void refuse(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
-  [[noreturn]] void refuse_line(toml::source_index line, const std::string& what) const {
+  [[noreturn]] void reject(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
+  [[noreturn]] void reject_line(toml::source_index line, const std::string& what) const {
     fail(Failure::input, path_, ":", line, ": ", what);
   }
-  [[noreturn]] void refuse(const toml::node& at, const std::string& what) const {
-    refuse_line(at.source().begin.line, what);
+  [[noreturn]] void reject(const toml::node& at, const std::string& what) const {
+    reject_line(at.source().begin.line, what);
   }
 
   void require_known(const toml::table& table, const std::string& section, const Words& known) const {
@@ -105,7 +105,7 @@ class StudyFile {
       const std::string word(name.str());
       if (among(word, known)) continue;
       const std::string near = nearest(word, known);
-      refuse_line(
+      reject_line(
           name.source().begin.line,
           text("unknown key '", word, "'", section.empty() ? "" : " in " + section,
                near.empty() ? text("; known are: ", joined(known)) : text("; did you mean '", near, "'?")));
@@ -118,9 +118,9 @@ class StudyFile {
     if (!node) return fallback;
     const auto* value = node->as_string();
     if (!value || value->get().empty())
-      refuse(*node, text("'", key, "' = ", toml_text(*node), ": must be text in quotes"));
+      reject(*node, text("'", key, "' = ", toml_text(*node), ": must be text in quotes"));
     for (const unsigned char c : value->get())
-      if (c < 32 || c == 127) refuse(*node, text("'", key, "' must be one line of text"));
+      if (c < 32 || c == 127) reject(*node, text("'", key, "' must be one line of text"));
     return value->get();
   }
 
@@ -128,7 +128,7 @@ class StudyFile {
                      const Words& choices) const {
     const std::string chosen = word(table, key, fallback);
     if (!among(chosen, choices))
-      refuse(*table.get(key), text("'", key, "' = ", chosen, ": must be one of: ", joined(choices)));
+      reject(*table.get(key), text("'", key, "' = ", chosen, ": must be one of: ", joined(choices)));
     return chosen;
   }
 
@@ -139,18 +139,18 @@ class StudyFile {
     if (!node) return fallback;
     const toml::array* list = node->as_array();
     if (!list || list->empty())
-      refuse(*node,
+      reject(*node,
              text("'", key, "' must be a list of ", what, "s, one at least: [\"", known.front(), "\"]"));
     Words out;
     for (const toml::node& item : *list) {
       const std::string word = item.value<std::string>().value_or("");
       if (!among(word, known)) {
         const std::string near = nearest(word, known);
-        refuse(item, text("'", key, "': there is no ", what, " ", toml_text(item),
+        reject(item, text("'", key, "': there is no ", what, " ", toml_text(item),
                           near.empty() ? text("; there are: ", joined(known))
                                        : text("; did you mean '", near, "'?")));
       }
-      if (among(word, out)) refuse(item, text("'", key, "' names '", word, "' twice"));
+      if (among(word, out)) reject(item, text("'", key, "' names '", word, "' twice"));
       out.push_back(word);
     }
     return out;
@@ -160,7 +160,7 @@ class StudyFile {
     const toml::node& node = *table.get(key);
     const double value = node.is_number() ? node.value<double>().value_or(NAN) : NAN;
     if (!std::isfinite(value))
-      refuse(node, text("'", key, "' = ", toml_text(node), ": must be a finite number"));
+      reject(node, text("'", key, "' = ", toml_text(node), ": must be a finite number"));
     return value;
   }
 
@@ -168,7 +168,7 @@ class StudyFile {
     const toml::node& node = *table.get(key);
     const auto* value = node.as_integer();
     if (!value || value->get() < least || value->get() > most)
-      refuse(node,
+      reject(node,
              text("'", key, "' = ", toml_text(node), ": must be a whole number from ", least, " to ", most));
     return static_cast<long>(value->get());
   }
@@ -181,46 +181,46 @@ class StudyFile {
 void read_values(const StudyFile& file, const toml::table& table, VariedKey& varied) {
   const toml::node& node = *table.get("values");
   const toml::array* list = node.as_array();
-  if (!list || list->empty()) file.refuse(node, "'values' must be a list of one value at least");
+  if (!list || list->empty()) file.reject(node, "'values' must be a list of one value at least");
   std::set<std::string> seen;
   for (const toml::node& item : *list) {
     if (varied.number && (!item.is_number() || (varied.whole && !item.is_integer())))
-      file.refuse(item, text("'values' of ", varied.name, " holds ", toml_text(item), ": must be a ",
+      file.reject(item, text("'values' of ", varied.name, " holds ", toml_text(item), ": must be a ",
                              varied.whole ? "whole number" : "number"));
     // 150 and 150.0 are one torque.
     const std::string value =
         varied.number && !varied.whole ? number_text(item.value<double>().value_or(0)) : toml_text(item);
     if (!seen.insert(value).second)
-      file.refuse(item, text("'values' of ", varied.name, " holds ", toml_text(item), " twice"));
+      file.reject(item, text("'values' of ", varied.name, " holds ", toml_text(item), " twice"));
     varied.values.push_back(value);
   }
 }
 
 void require_size(const StudyFile& file, const toml::table& table, const VariedKey& varied) {
   if (varied.whole && !(std::abs(varied.first) <= kMostWhole && std::abs(varied.second) <= kMostWhole))
-    file.refuse(table, text(varied.name, " is a whole number: it cannot be beyond ", kMostWhole));
+    file.reject(table, text(varied.name, " is a whole number: it cannot be beyond ", kMostWhole));
 }
 
 void read_range(const StudyFile& file, const toml::table& table, bool random, VariedKey& varied) {
   const char* const known = "values = [..], from and to with step or count";
-  if (!varied.number) file.refuse(table, text(varied.name, " is no number: give values = [..]"));
+  if (!varied.number) file.reject(table, text(varied.name, " is no number: give values = [..]"));
   for (const char* end : {"from", "to"})
-    if (!table.get(end)) file.refuse(table, text(varied.name, " lacks '", end, "'; give ", known));
+    if (!table.get(end)) file.reject(table, text(varied.name, " lacks '", end, "'; give ", known));
   varied.first = file.number(table, "from");
   varied.second = file.number(table, "to");
   require_size(file, table, varied);
   if (varied.second < varied.first)
-    file.refuse(*table.get("to"), text("the range of ", varied.name, " is empty: 'to' = ", varied.second,
+    file.reject(*table.get("to"), text("the range of ", varied.name, " is empty: 'to' = ", varied.second,
                                        " is below 'from' = ", varied.first));
   const bool step = table.contains("step"), count = table.contains("count");
   if (step && count)
-    file.refuse(*table.get("count"), text(varied.name, " has 'step' and 'count'; give one of them"));
+    file.reject(*table.get("count"), text(varied.name, " has 'step' and 'count'; give one of them"));
   if (!step && !count) {
     if (!random)
-      file.refuse(table, text(varied.name, " lacks 'step' or 'count': in a grid a range needs one of them"));
+      file.reject(table, text(varied.name, " lacks 'step' or 'count': in a grid a range needs one of them"));
     if (varied.whole &&
         (varied.first != std::floor(varied.first) || varied.second != std::floor(varied.second)))
-      file.refuse(table, text(varied.name, " is a whole number: so must be 'from' and 'to'"));
+      file.reject(table, text(varied.name, " is a whole number: so must be 'from' and 'to'"));
     varied.least = varied.first;
     varied.most = varied.second;
     return;
@@ -230,44 +230,44 @@ void read_range(const StudyFile& file, const toml::table& table, bool random, Va
   if (count) {
     steps = static_cast<double>(file.whole(table, "count", 1, kMostVariants)) - 1;
     if (steps == 0 && span > 0)
-      file.refuse(*table.get("count"), text("'count' of ", varied.name, " = 1, but the range has two ends"));
+      file.reject(*table.get("count"), text("'count' of ", varied.name, " = 1, but the range has two ends"));
     if (steps > 0 && span == 0)
-      file.refuse(*table.get("count"),
+      file.reject(*table.get("count"),
                   text("the range of ", varied.name, " holds one value only, ", varied.first));
     each = steps > 0 ? span / steps : 0;
   } else {
     each = file.number(table, "step");
     if (!(each > 0))
-      file.refuse(*table.get("step"),
+      file.reject(*table.get("step"),
                   text("'step' of ", varied.name, " = ", each, ": must be greater than 0"));
     steps = std::floor(span / each * (1 + 1e-12) + 1e-9);
     if (!(steps < static_cast<double>(kMostVariants)))
-      file.refuse(*table.get("step"), text("'step' of ", varied.name, " = ", each, " makes more than ",
+      file.reject(*table.get("step"), text("'step' of ", varied.name, " = ", each, " makes more than ",
                                            kMostVariants, " values; a larger one makes fewer"));
   }
   constexpr int kDigits = 12;
   for (double i = 0; i <= steps; ++i) {
     const double value = varied.first + i * each;
     if (varied.whole && std::abs(value - std::round(value)) > 1e-9)
-      file.refuse(table, text(varied.name, " is a whole number, the range holds ", value));
+      file.reject(table, text(varied.name, " is a whole number, the range holds ", value));
     varied.values.push_back(rounded_text(value, kDigits, varied.whole));
   }
 }
 
 void read_normal(const StudyFile& file, const toml::table& table, bool random, VariedKey& varied) {
   if (!random)
-    file.refuse(*table.get("mean"),
+    file.reject(*table.get("mean"),
                 text(varied.name, " is drawn at random, which a grid is not; say plan = \"sample\""));
-  if (!varied.number) file.refuse(table, text(varied.name, " is no number: give values = [..]"));
+  if (!varied.number) file.reject(table, text(varied.name, " is no number: give values = [..]"));
   if (!table.get("deviation"))
-    file.refuse(table,
+    file.reject(table,
                 text(varied.name, " lacks 'deviation'; give mean and deviation, least and most if need be"));
   varied.normal = true;
   varied.first = file.number(table, "mean");
   varied.second = file.number(table, "deviation");
   require_size(file, table, varied);
   if (!(varied.second > 0))
-    file.refuse(*table.get("deviation"),
+    file.reject(*table.get("deviation"),
                 text("'deviation' of ", varied.name, " = ", varied.second, ": must be greater than 0"));
   varied.least = table.contains("least") ? file.number(table, "least") : -HUGE_VAL;
   varied.most = table.contains("most") ? file.number(table, "most") : HUGE_VAL;
@@ -276,7 +276,7 @@ void read_normal(const StudyFile& file, const toml::table& table, bool random, V
   if (!(varied.least < varied.most) || varied.least > varied.first + kWidest * varied.second ||
       varied.most < varied.first - kWidest * varied.second ||
       varied.most - varied.least < 0.1 * varied.second)
-    file.refuse(table, text("'least' and 'most' of ", varied.name,
+    file.reject(table, text("'least' and 'most' of ", varied.name,
                             " leave hardly a draw: they must be a tenth of the deviation apart and reach to "
                             "within 3 deviations of the mean"));
 }
@@ -288,11 +288,11 @@ VariedKey read_varied(const StudyFile& file, const toml::table& table, bool rand
   file.require_known(table, "[[vary]]", known);
   VariedKey varied;
   const std::string name = file.word(table, "key");
-  if (name.empty()) file.refuse(table, "[[vary]] lacks 'key'");
+  if (name.empty()) file.reject(table, "[[vary]] lacks 'key'");
   try {
     varied = varied_key(name);
   } catch (const Error& error) {
-    file.refuse(*table.get("key"), error.what());
+    file.reject(*table.get("key"), error.what());
   }
   varied.line = table.get("key")->source().begin.line;
   const auto given = [&](const Words& names) {
@@ -301,7 +301,7 @@ VariedKey read_varied(const StudyFile& file, const toml::table& table, bool rand
   };
   const int ways = int(table.contains("values")) + int(given(range)) + int(given(normal));
   if (ways != 1)
-    file.refuse(table,
+    file.reject(table,
                 text(varied.name, ways == 0 ? " lacks its values" : " says its values in two ways",
                      ": give one of values = [..], from and to (with step or count), mean and deviation"));
   if (table.contains("values"))
@@ -311,7 +311,7 @@ VariedKey read_varied(const StudyFile& file, const toml::table& table, bool rand
   else if (table.contains("mean"))
     read_normal(file, table, random, varied);
   else
-    file.refuse(table, text(varied.name, " lacks 'mean'"));
+    file.reject(table, text(varied.name, " lacks 'mean'"));
   return varied;
 }
 
@@ -329,7 +329,7 @@ void read_fixed(const StudyFile& file, const toml::table& table, const std::stri
       read_fixed(file, *node.as_table(), name + ".", study);
       continue;
     }
-    if (!why.empty()) file.refuse_line(label.source().begin.line, "[set]: " + why);
+    if (!why.empty()) file.reject_line(label.source().begin.line, "[set]: " + why);
     study.fixed.emplace_back(name, toml_text(node));
   }
 }
@@ -354,19 +354,19 @@ void read_figure(const StudyFile& file, Study& study) {
   };
   static const toml::table kNothing;
   const toml::table* table = node ? node->as_table() : &kNothing;
-  if (!table) file.refuse(*node, "'figure' must be a section: write [figure]");
+  if (!table) file.reject(*node, "'figure' must be a section: write [figure]");
   file.require_known(*table, "[figure]", {"answers", "keys", "colour"});
-  study.figure_answers =
-      file.words(*table, "answers", first(study.answers), study.answers, "gathered answer");
+  study.figure_quantities =
+      file.words(*table, "answers", first(study.quantities), study.quantities, "gathered response quantity");
   study.figure_keys = file.words(*table, "keys", first(names), names, "varied key");
   for (const auto& [what, list] :
-       {std::pair{"answers", &study.figure_answers}, std::pair{"keys", &study.figure_keys}})
+       {std::pair{"answers", &study.figure_quantities}, std::pair{"keys", &study.figure_keys}})
     if (list->size() > kMostPanels)
-      file.refuse(*table->get(what), text("'", what, "' in [figure] names ", list->size(),
+      file.reject(*table->get(what), text("'", what, "' in [figure] names ", list->size(),
                                           "; a figure has room for ", kMostPanels));
   study.figure_colour = file.word(*table, "colour", names.size() > 1 && !study.random ? names[1] : "");
   if (!study.figure_colour.empty() && !among(study.figure_colour, names))
-    file.refuse(*table->get("colour"), text("'colour' = ", study.figure_colour,
+    file.reject(*table->get("colour"), text("'colour' = ", study.figure_colour,
                                             ": no [[vary]] has this key; there are: ", joined(names)));
 }
 
@@ -444,32 +444,32 @@ Study read_study(const std::string& path) {
   study.title = file.word(root, "title", std::filesystem::path(path).stem().string());
   const std::string scene = file.word(root, "scene");
   if (scene.empty())
-    file.refuse("the study lacks scene = \"../scenes/<name>.toml\", a path from its own folder");
+    file.reject("the study lacks scene = \"../scenes/<name>.toml\", a path from its own folder");
   study.scene = (std::filesystem::path(path).parent_path() / scene).lexically_normal().string();
   const std::string stage = file.choice(root, "stage", "static", {"static", "sweep"});
   if (stage == "static" && root.contains("directions"))
-    file.refuse(*root.get("directions"),
+    file.reject(*root.get("directions"),
                 "'directions' are those of sweeps: say stage = \"sweep\" or leave them out");
   if (stage == "sweep")
     study.directions = file.words(root, "directions", {"up", "down"}, {"up", "down"}, "direction");
   study.random = file.choice(root, "plan", "grid", {"grid", "sample"}) == "sample";
   for (const char* key : {"samples", "seed"})
     if (!study.random && root.contains(key))
-      file.refuse(*root.get(key), text("'", key, "' is of a sample: say plan = \"sample\" or leave it out"));
+      file.reject(*root.get(key), text("'", key, "' is of a sample: say plan = \"sample\" or leave it out"));
   if (root.contains("seed")) study.seed = static_cast<int>(file.whole(root, "seed", 0, 2147483647));
-  study.marks_refusals = file.choice(root, "refusals", "stop", {"stop", "mark"}) == "mark";
+  study.marks_outside = file.choice(root, "refusals", "stop", {"stop", "mark"}) == "mark";
 
   if (const toml::node* fixed = root.get("set")) {
-    if (!fixed->is_table()) file.refuse(*fixed, "'set' must be a section: write [set]");
+    if (!fixed->is_table()) file.reject(*fixed, "'set' must be a section: write [set]");
     read_fixed(file, *fixed->as_table(), "", study);
   }
   const toml::node* vary = root.get("vary");
-  if (!vary) file.refuse("the study varies nothing: it lacks [[vary]] with a key and its values");
+  if (!vary) file.reject("the study varies nothing: it lacks [[vary]] with a key and its values");
   const toml::array* list = vary->as_array();
   if (!list || !list->is_array_of_tables() || list->empty())
-    file.refuse(*vary, "'vary' must be a list of sections: write [[vary]] before each key");
+    file.reject(*vary, "'vary' must be a list of sections: write [[vary]] before each key");
   if (list->size() > kMostKeys)
-    file.refuse(*vary, text(list->size(), " keys vary; ", kMostKeys, " is the most"));
+    file.reject(*vary, text(list->size(), " keys vary; ", kMostKeys, " is the most"));
   std::vector<KeyPlace> varied, fixed;
   for (const auto& [name, value] : study.fixed) fixed.push_back(find_key(name));
   for (const toml::node& item : *list) {
@@ -477,33 +477,33 @@ Study read_study(const std::string& path) {
     const KeyPlace place = find_key(key.name);
     for (size_t k = 0; k < varied.size(); ++k)
       if (overlap(place, varied[k]))
-        file.refuse_line(key.line, text("'", key.name, "' varies twice, as '", study.keys[k].name,
+        file.reject_line(key.line, text("'", key.name, "' varies twice, as '", study.keys[k].name,
                                         "' in line ", study.keys[k].line));
     // A torque of [set] is the one that sets the bearing dampers.
     for (const KeyPlace& other : fixed)
       if (overlap(place, other) && place.key->name != std::string(kTorque))
-        file.refuse_line(key.line, text("'", key.name, "' varies and is in [set]; leave one of them out"));
+        file.reject_line(key.line, text("'", key.name, "' varies and is in [set]; leave one of them out"));
     varied.push_back(place);
     study.keys.push_back(key);
   }
 
   if (study.random) {
-    if (!root.contains("samples")) file.refuse("a sample lacks samples = <number of variants>");
+    if (!root.contains("samples")) file.reject("a sample lacks samples = <number of variants>");
     study.variants = file.whole(root, "samples", 1, kMostVariants);
   } else {
     double variants = 1;
     for (const VariedKey& key : study.keys) variants *= static_cast<double>(key.values.size());
     if (variants > static_cast<double>(kMostVariants))
-      file.refuse(*vary, text("the grid has ", variants, " variants; ", kMostVariants,
+      file.reject(*vary, text("the grid has ", variants, " variants; ", kMostVariants,
                               " is the most: give fewer values, or draw from them with plan = \"sample\""));
     study.variants = std::lround(variants);
   }
   if (study.variants == 1 && !study.random)
-    file.refuse(*vary, "the study varies nothing: every key has one value only");
+    file.reject(*vary, "the study varies nothing: every key has one value only");
 
   Words known;
-  for (const AnswerKind& kind : answer_kinds(study.directions)) known.push_back(kind.name);
-  study.answers = file.words(root, "answers", known, known, "answer of this stage");
+  for (const ResponseQuantity& kind : response_quantities(study.directions)) known.push_back(kind.name);
+  study.quantities = file.words(root, "answers", known, known, "response quantity of this stage");
   read_figure(file, study);
   return study;
 }

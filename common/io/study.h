@@ -5,15 +5,16 @@
 //   stage = "static"                          # the pair at rest; "sweep": and in motion
 //   directions = ["up", "down"]               # of the sweeps; default: both
 //   plan = "grid"                             # all combinations; "sample": random ones, with samples = 1000, seed = 1
-//   answers = ["rms_max_up"]                  # what the table holds; default: all that the stage answers
-//   refusals = "stop"                         # a variant that a stage refuses is an error; "mark": a marked line of the table
+//   answers = ["rms_max_up"]                  # what the table holds; default: all of the stage
+//   refusals = "stop"                         # a variant outside the model's range is an error; "mark": a marked line of the
+// table
 //   [set]                                     # values that all variants have instead of the scene's
 //   "fidelity.contact" = "line"
 //   [[vary]]                                  # one for each key that varies
 //   key = "damping.rayleigh_stiffness_s"      # alone in all gears, or by its place, as in variant.h
 //   values = [4.0e-6, 5.5e-6]                 # or from, to with step or count; in a sample also from, to alone (uniform), or
 //                                             # mean, deviation (normal), redrawn outside `least` and `most`
-//   [figure]                                  # default: the first answers against the first keys
+//   [figure]                                  # default: the first response quantities against the first keys
 //   answers = ["rms_max_up"]                  # one row of panels each, 4 at most
 //   keys = ["damping.rayleigh_stiffness_s"]   # one column of panels each, 4 at most
 //   colour = "operation.torque_Nm"
@@ -22,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/answers.h"
+#include "model/response_quantities.h"
 #include "model/stages.h"
 
 namespace whine {
@@ -54,10 +55,10 @@ struct StudyPlan {
   std::vector<std::string> directions;  // of sweeps; none: the pair at rest
   bool random = false;                  // a sample, else a grid
   int seed = 1;
-  bool marks_refusals = false;  // else a variant that is refused is an error
+  bool marks_outside = false;  // else a variant outside the model's range is an error
   std::vector<VariedKey> keys;
-  std::vector<std::string> answers;  // gathered
-  std::vector<std::string> figure_answers, figure_keys;
+  std::vector<std::string> quantities;  // gathered
+  std::vector<std::string> figure_quantities, figure_keys;
   std::string figure_colour;  // one of the keys, or ""
 };
 
@@ -67,9 +68,9 @@ struct Study : StudyPlan {
   std::vector<std::pair<std::string, std::string>> fixed;  // of [set]: key and value as a scene has them
 };
 
-// Reads and checks a study; opens no other file. Error(input) names file:line, key, value and limit, for an unknown key, section
-// or answer the nearest known one; so for a study that varies nothing, an empty range, a key or a value given twice, a torque
-// that no path can hold, more than kMostVariants variants.
+// Reads and checks a study; opens no other file. Error(input) names file:line, key, value and limit, for an unknown key,
+// section or answer the nearest known one; so for a study that varies nothing, an empty range, a key or a value given twice, a
+// torque that no path can hold, more than kMostVariants variants.
 Study read_study(const std::string& path);
 
 // Values of the keys in variant `index`, as a scene has them. Drawn ones depend on seed, index and key alone, so that a longer
@@ -83,7 +84,7 @@ struct StudyVariant {
 };
 
 // The scene of variant `index`, whose values these are. Error(input) names study, variant and values, for whatever
-// read_scene refuses.
+// read_scene rejects.
 StudyVariant study_variant(const Study& study, long index, const std::vector<std::string>& values);
 
 // "variant 17 (damping.rayleigh_stiffness_s = 5.5e-06, operation.torque_Nm = 150)"
@@ -91,12 +92,13 @@ std::string variant_name(const StudyPlan& study, long index, const std::vector<s
 
 // A study without what its variants do not depend on, and the variants by name: what is gathered from where.
 struct GatheredVariant {
-  std::string name;  // of its slice and its artifact: the first 16 digits of the slice's SHA-256
+  std::string
+      name;  // of its stage parameters and its artifact: the first 16 digits of the stage parameters' SHA-256
   std::vector<std::string> values;  // of the keys
 };
 
-// Keys of which the variants show that they change nothing: those that differ in one of them alone have the same slice, and
-// there are such. In a sample hardly any two differ in one key alone; the caller adds some that do.
+// Keys of which the variants show that they change nothing: those that differ in one of them alone have the same stage
+// parameters, and there are such. In a sample hardly any two differ in one key alone; the caller adds some that do.
 std::vector<std::string> keys_without_effect(const StudyPlan& study,
                                              const std::vector<GatheredVariant>& variants);
 
@@ -105,12 +107,13 @@ std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>
 // Reads what plan_text wrote. Error(input) for anything else.
 std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& path);
 
-// "variants/ab/ab12....": slice and artifact of a variant below the study's folder, without extension. In 256 folders, because a
-// folder with all of them would be slow.
+// "variants/ab/ab12....": stage parameters and artifact of a variant below the study's folder, without extension. In 256
+// folders, because a folder with all of them would be slow.
 std::string variant_file(const std::string& name);
 
 // As the stage parameters of scene.h.
-std::string variant_slice(const Scene& scene, double torque, const std::vector<std::string>& directions);
-VariantSlice read_variant_slice(const std::string& path);
+std::string variant_stage_parameters(const Scene& scene, double torque,
+                                     const std::vector<std::string>& directions);
+VariantParameters read_variant_parameters(const std::string& path);
 
 }  // namespace whine

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "io/codec.h"
-#include "model/answers.h"
+#include "model/response_quantities.h"
 
 namespace whine {
 namespace {
@@ -39,9 +39,9 @@ void describe_plan(Codec& c, StudyPlan& plan) {
   std::vector<std::string> keys;
   for (const VariedKey& key : plan.keys) keys.push_back(key.name);
   c.dataset({at + "key", "1", "keys that vary, as the study names them", "key"}, &keys);
-  c.dataset({at + "answer", "1", "answers that are gathered", "answer"}, &plan.answers);
-  c.dataset({at + "figure_answer", "1", "answers that the figure shows", "figure_answer"},
-            &plan.figure_answers);
+  c.dataset({at + "answer", "1", "response quantities that are gathered", "answer"}, &plan.quantities);
+  c.dataset({at + "figure_answer", "1", "response quantities that the figure shows", "figure_answer"},
+            &plan.figure_quantities);
   c.dataset({at + "figure_key", "1", "keys against which it shows them", "figure_key"}, &plan.figure_keys);
   c.dataset({at + "figure_colour", "1", "key by which it colours them", ""}, &plan.figure_colour);
   if (!c.in()) return;
@@ -82,36 +82,37 @@ void describe(Codec& c, StudyArtifact& a) {
   describe_plan(c, a.plan);
   std::vector<std::string> names;
   for (const GatheredVariant& variant : a.variants) names.push_back(variant.name);
-  c.dataset({"/variant", "1", "name of the variant's slice and artifact", "variant"}, &names);
+  c.dataset({"/variant", "1", "name of the variant's stage parameters and artifact", "variant"}, &names);
   if (c.in())
     for (const std::string& name : names) a.variants.push_back({name, {}});
   for (std::size_t k = 0; k < a.plan.keys.size(); ++k) describe_values(c, a, k);
-  const std::vector<AnswerKind> kinds = answer_kinds(a.plan.directions);
-  const auto answers = static_cast<Eigen::Index>(a.plan.answers.size());
-  for (const AnswerKind& kind : kinds) {
-    const auto found = std::find(a.plan.answers.begin(), a.plan.answers.end(), kind.name);
-    if (found != a.plan.answers.end())
+  const std::vector<ResponseQuantity> kinds = response_quantities(a.plan.directions);
+  const auto quantities = static_cast<Eigen::Index>(a.plan.quantities.size());
+  for (const ResponseQuantity& kind : kinds) {
+    const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), kind.name);
+    if (found != a.plan.quantities.end())
       c.column(
           {"/answer/" + kind.name, kind.units, kind.meaning + "; 0 where refused is 1", "variant", kQuantity},
-          a.answer, found - a.plan.answers.begin(), answers);
+          a.quantity, found - a.plan.quantities.begin(), quantities);
   }
   if (c.in())
-    for (const std::string& name : a.plan.answers)
-      if (std::none_of(kinds.begin(), kinds.end(), [&](const AnswerKind& k) { return k.name == name; }))
-        c.in()->file().refuse("names the answer '" + name + "', which no variant gives");
-  Eigen::VectorXi refused(static_cast<Eigen::Index>(a.refusal.size()));
-  for (Eigen::Index v = 0; v < refused.size(); ++v) refused[v] = a.refusal[v].empty() ? 0 : 1;
-  c.dataset({"/refused", "1", "1: a stage refused the variant, it has no answers", "variant", kFlag},
-            &refused);
-  c.dataset({"/refusal", "1", "why; empty where it was not refused", "variant"}, &a.refusal);
+    for (const std::string& name : a.plan.quantities)
+      if (std::none_of(kinds.begin(), kinds.end(), [&](const ResponseQuantity& k) { return k.name == name; }))
+        c.in()->file().reject("names the answer '" + name + "', which no variant gives");
+  Eigen::VectorXi rejected(static_cast<Eigen::Index>(a.rejection.size()));
+  for (Eigen::Index v = 0; v < rejected.size(); ++v) rejected[v] = a.rejection[v].empty() ? 0 : 1;
+  c.dataset({"/refused", "1", "1: the variant lies outside the model's range and has no response quantities",
+             "variant", kFlag},
+            &rejected);
+  c.dataset({"/refusal", "1", "why; empty where it was not rejected", "variant"}, &a.rejection);
   c.dataset(
       {"/unsteady", "1", "speeds, of all sweeps, at which no periodic motion was found", "variant", kNumber},
       &a.unsteady);
 }
 
 void write(const std::string& path, const StudyArtifact& a, const Provenance& provenance) {
-  if (a.answer.rows() != static_cast<Eigen::Index>(a.variants.size()))
-    fail(Failure::numerical, "result answer has ", a.answer.rows(), " rows, expected ", a.variants.size());
+  if (a.quantity.rows() != static_cast<Eigen::Index>(a.variants.size()))
+    fail(Failure::numerical, "result answer has ", a.quantity.rows(), " rows, expected ", a.variants.size());
   write_artifact(path, kSchema, "Study: " + a.plan.title, a, provenance);
 }
 

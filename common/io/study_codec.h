@@ -1,4 +1,4 @@
-// study.h5: what the variants of a study answer.
+// study.h5: the response quantities of its variants.
 #pragma once
 #include <Eigen/Core>
 #include <string>
@@ -15,8 +15,9 @@ class Codec;
 struct StudyArtifact {
   StudyPlan plan;
   std::vector<GatheredVariant> variants;
-  MatrixRM answer;                   // (variant, answer of the plan) SI; 0 where the variant was refused
-  std::vector<std::string> refusal;  // (variant) why, "" if it was not
+  MatrixRM
+      quantity;  // (variant, response quantity of the plan) SI; 0 where the variant lies outside the model's range
+  std::vector<std::string> rejection;  // (variant) why, "" if it was not
   Eigen::VectorXi unsteady;  // (variant) speeds, of all its sweeps, at which no periodic motion was found
 };
 

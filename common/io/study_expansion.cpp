@@ -34,7 +34,8 @@ void add_probes(const Study& study, std::vector<GatheredVariant>& variants) {
         values[k] = variants[(i + j) % count].values[k];
       try {
         const StudyVariant probe = study_variant(study, static_cast<long>(i), values);
-        variants.push_back({body_hash(variant_slice(probe.scene, probe.torque, study.directions)), values});
+        variants.push_back(
+            {body_hash(variant_stage_parameters(probe.scene, probe.torque, study.directions)), values});
       } catch (const Error&) {
         // The values do not go together; so the key matters.
         variants.push_back({"", values});
@@ -57,24 +58,24 @@ ExpandedStudy expand_study(const std::string& path, const std::string& home) {
     plan.gears = own;
     std::string pair;
     for (const std::string& gear : {variant.scene.mesh.driver, variant.scene.mesh.driven}) {
-      const std::string body = body_slice(variant.scene, gear);
+      const std::string body = body_parameters(variant.scene, gear);
       pair += (pair.empty() ? "" : "_") + plan.bodies.emplace(body_hash(body), body).first->first;
     }
-    const std::string slice = variant_slice(variant.scene, variant.torque, study.directions);
-    // One whose slice is there has been checked before.
-    if (!holds(home + variant_file(body_hash(slice)) + ".toml", slice)) {
+    const std::string settings = variant_stage_parameters(variant.scene, variant.torque, study.directions);
+    // One whose stage parameters are there has been checked before.
+    if (!holds(home + variant_file(body_hash(settings)) + ".toml", settings)) {
       const auto where = [&](const std::vector<std::string>&, const std::string&) {
         return path + ": " + variant_name(study, i, values);
       };
       check_geometry(variant.scene, where);
-      // Where refusals are marked its stage does so.
-      if (!study.directions.empty() && !study.marks_refusals) check_inertia(variant.scene, where);
+      // Where variants outside the model's range are marked its stage does so.
+      if (!study.directions.empty() && !study.marks_outside) check_inertia(variant.scene, where);
     }
-    plan.variants.push_back({body_hash(slice), values});
-    if (plan.slices.emplace(plan.variants.back().name, slice).second)
+    plan.variants.push_back({body_hash(settings), values});
+    if (plan.parameters.emplace(plan.variants.back().name, settings).second)
       plan.of_pair[pair].push_back(plan.variants.back().name);
   }
-  if (plan.slices.size() == 1 && study.variants > 1)
+  if (plan.parameters.size() == 1 && study.variants > 1)
     fail(Failure::input, path, ": the study varies nothing: all ", study.variants,
          " variants are alike, because what its stage computes depends on none of the keys");
   return plan;
@@ -91,7 +92,7 @@ std::string study_fragment(const ExpandedStudy& plan, const std::string& path, c
   }
   out << "\n" << prefix << "GEARS := " << plan.gears;
   out << "\n"
-      << prefix << "OPTIONS :=" << (plan.study.marks_refusals ? "--mark-refusals" : "") << "\nBODIES +=";
+      << prefix << "OPTIONS :=" << (plan.study.marks_outside ? "--mark-refusals" : "") << "\nBODIES +=";
   for (const auto& [hash, text] : plan.bodies) out << " " << hash;
   out << "\n";
   return out.str();
@@ -108,39 +109,42 @@ GatheredStudy gather_study(const std::string& path) {
   StudyArtifact& study = gathered.study;
   std::tie(study.plan, study.variants) = read_plan(path);
   const std::string home = std::filesystem::path(path).parent_path().string() + "/";
-  const std::vector<AnswerKind> kinds = answer_kinds(study.plan.directions);
+  const std::vector<ResponseQuantity> kinds = response_quantities(study.plan.directions);
   std::vector<Eigen::Index> column;
-  for (const std::string& answer : study.plan.answers)
-    column.push_back(
-        std::find_if(kinds.begin(), kinds.end(), [&](const AnswerKind& k) { return k.name == answer; }) -
-        kinds.begin());
-  study.answer.setZero(static_cast<Eigen::Index>(study.variants.size()),
-                       static_cast<Eigen::Index>(column.size()));
+  for (const std::string& quantity : study.plan.quantities)
+    column.push_back(std::find_if(kinds.begin(), kinds.end(),
+                                  [&](const ResponseQuantity& k) { return k.name == quantity; }) -
+                     kinds.begin());
+  study.quantity.setZero(static_cast<Eigen::Index>(study.variants.size()),
+                         static_cast<Eigen::Index>(column.size()));
   study.unsteady.setZero(static_cast<Eigen::Index>(study.variants.size()));
   for (size_t v = 0; v < study.variants.size(); ++v) {
     const std::string file = home + variant_file(study.variants[v].name) + ".h5";
     const VariantArtifact variant = read_variant(file);
     if (variant.directions != study.plan.directions)
       fail(Failure::input, file, ": is of another stage than the study; ", rebuild_advice(file));
-    study.refusal.push_back(variant.refusal);
+    study.rejection.push_back(variant.rejection);
     // Marked when the study said so; its file is up to date, so nobody but this asks again.
-    if (!variant.refusal.empty() && !study.plan.marks_refusals)
+    if (!variant.rejection.empty() && !study.plan.marks_outside)
       fail(Failure::input, path, ": ",
            variant_name(study.plan, static_cast<long>(v), study.variants[v].values),
-           " was refused: ", variant.refusal, "; take it out, or say refusals = \"mark\"");
-    if (!variant.refusal.empty()) {
-      gathered.refused.push_back(
+           " lies outside the model's range: ", variant.rejection,
+           "; take it out, or say refusals = \"mark\"");
+    if (!variant.rejection.empty()) {
+      gathered.rejected.push_back(
           text(variant_name(study.plan, static_cast<long>(v), study.variants[v].values),
-               " was refused: ", variant.refusal));
+               " lies outside the model's range: ", variant.rejection));
       continue;
     }
     for (size_t i = 0; i < column.size(); ++i)
-      study.answer(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(i)) = variant.answer[column[i]];
-    // Counted whether or not the study asks for it: the other answers of such a speed are those of a motion that goes on changing.
+      study.quantity(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(i)) =
+          variant.quantity[column[i]];
+    // Counted whether or not the study asks for it: the other answers of such a speed are those of a motion that goes on
+    // changing.
     for (size_t i = 0; i < kinds.size(); ++i)
       if (kinds[i].name.starts_with(kUnsteady))
         study.unsteady[static_cast<Eigen::Index>(v)] +=
-            static_cast<int>(variant.answer[static_cast<Eigen::Index>(i)]);
+            static_cast<int>(variant.quantity[static_cast<Eigen::Index>(i)]);
     gathered.unsteady += study.unsteady[static_cast<Eigen::Index>(v)] > 0;
   }
   return gathered;

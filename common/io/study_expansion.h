@@ -1,4 +1,4 @@
-// What a study computes: its variants, the bodies and slices that they need, and afterwards what they answered.
+// What a study computes: its variants, the bodies and stage parameters that they need, and afterwards what they answered.
 #pragma once
 #include <map>
 #include <string>
@@ -11,13 +11,14 @@ namespace whine {
 struct ExpandedStudy {
   Study study;
   std::vector<GatheredVariant> variants;
-  std::map<std::string, std::string> bodies, slices;        // by hash
+  std::map<std::string, std::string> bodies, parameters;    // by hash
   std::map<std::string, std::vector<std::string>> of_pair;  // "driver_driven" -> variants, each once
   std::string gears;  // driver and driven gear, the order of a pair's bodies
 };
 
-// Reads a study and checks it whole. home: folder of the study's slices, where one that is there has been checked before. Throws
-// Error(input) as read_study, for a variant whose gears cannot mesh, and for a study that varies nothing or which gear drives.
+// Reads a study and checks it whole. home: folder of the study's stage parameters, where one that is there has been checked
+// before. Throws Error(input) as read_study, for a variant whose gears cannot mesh, and for a study that varies nothing or
+// which gear drives.
 ExpandedStudy expand_study(const std::string& path, const std::string& home);
 
 // The make fragment of a study: variants by their pair of bodies. stem: name of the study's file without folder and extension.
@@ -28,12 +29,12 @@ std::vector<std::string> idle_keys(const ExpandedStudy& plan);
 
 struct GatheredStudy {
   StudyArtifact study;
-  std::vector<std::string> refused;  // "variant 3 (...) was refused: ..."
-  long unsteady = 0;                 // variants with speeds at which no periodic motion was found
+  std::vector<std::string> rejected;  // "variant 3 (...) lies outside the model's range: ..."
+  long unsteady = 0;                  // variants with speeds at which no periodic motion was found
 };
 
-// The answers of the variants of a plan, which lie beside it. path: plan.toml. Throws Error(input) for a variant of another stage,
-// and for one that was refused unless the study marks refusals.
+// The answers of the variants of a plan, which lie beside it. path: plan.toml. Throws Error(input) for a variant of another
+// stage, and for one that was rejected unless the study marks errors.
 GatheredStudy gather_study(const std::string& path);
 
 }  // namespace whine

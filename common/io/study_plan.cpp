@@ -8,7 +8,7 @@
 #include "io/publish.h"
 #include "io/section_reader.h"
 #include "io/toml.h"
-#include "model/answers.h"
+#include "model/response_quantities.h"
 
 namespace whine {
 namespace {
@@ -56,9 +56,9 @@ std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>
   for (const VariedKey& key : study.keys) names.push_back(key.name);
   out << kPlanStart << "\ntitle = " << quoted(study.title) << "\nscene = " << quoted(study.scene)
       << "\ndirections = " << quoted(study.directions) << "\nrandom = " << (study.random ? "true" : "false")
-      << "\nseed = " << study.seed << "\nmarks_refusals = " << (study.marks_refusals ? "true" : "false")
-      << "\nanswers = " << quoted(study.answers) << "\nkeys = " << quoted(names)
-      << "\nfigure_answers = " << quoted(study.figure_answers)
+      << "\nseed = " << study.seed << "\nmarks_refusals = " << (study.marks_outside ? "true" : "false")
+      << "\nanswers = " << quoted(study.quantities) << "\nkeys = " << quoted(names)
+      << "\nfigure_answers = " << quoted(study.figure_quantities)
       << "\nfigure_keys = " << quoted(study.figure_keys)
       << "\nfigure_colour = " << quoted(study.figure_colour) << "\nvariants = [\n";
   for (const GatheredVariant& variant : variants) {
@@ -78,15 +78,15 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   } catch (const toml::parse_error& error) {
     fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
   }
-  const auto refuse = [&]() {
+  const auto reject = [&]() {
     fail(Failure::input, path,
          ": is no plan of a study that gear-study has written; make it again: make study STUDY=<name>");
   };
   const auto words = [&](const toml::node* node) {
     Words out;
-    if (!node || !node->is_array()) refuse();
+    if (!node || !node->is_array()) reject();
     for (const toml::node& item : *node->as_array()) {
-      if (!item.is_string()) refuse();
+      if (!item.is_string()) reject();
       out.push_back(item.as_string()->get());
     }
     return out;
@@ -97,31 +97,31 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   plan.directions = words(root.get("directions"));
   plan.random = root["random"].value_or(false);
   plan.seed = root["seed"].value_or(0);
-  plan.marks_refusals = root["marks_refusals"].value_or(false);
-  plan.answers = words(root.get("answers"));
+  plan.marks_outside = root["marks_refusals"].value_or(false);
+  plan.quantities = words(root.get("answers"));
   for (const std::string& name : words(root.get("keys"))) plan.keys.push_back(varied_key(name));
-  plan.figure_answers = words(root.get("figure_answers"));
+  plan.figure_quantities = words(root.get("figure_answers"));
   plan.figure_keys = words(root.get("figure_keys"));
   plan.figure_colour = root["figure_colour"].value_or(std::string());
-  // gear-study finds answers and keys by their names.
-  Words answers, keys;
+  // gear-study finds response quantities and keys by their names.
+  Words quantities, keys;
   const auto within = [](const Words& some, const Words& all) {
     return std::all_of(some.begin(), some.end(), [&](const std::string& word) {
       return std::find(all.begin(), all.end(), word) != all.end();
     });
   };
-  if (!within(plan.directions, {"up", "down"})) refuse();
-  for (const AnswerKind& kind : answer_kinds(plan.directions)) answers.push_back(kind.name);
+  if (!within(plan.directions, {"up", "down"})) reject();
+  for (const ResponseQuantity& kind : response_quantities(plan.directions)) quantities.push_back(kind.name);
   for (const VariedKey& key : plan.keys) keys.push_back(key.name);
-  if (!within(plan.answers, answers) || !within(plan.figure_answers, plan.answers) ||
+  if (!within(plan.quantities, quantities) || !within(plan.figure_quantities, plan.quantities) ||
       !within(plan.figure_keys, keys) || (!plan.figure_colour.empty() && !within({plan.figure_colour}, keys)))
-    refuse();
+    reject();
   std::vector<GatheredVariant> variants;
   const toml::array* rows = root["variants"].as_array();
-  if (!rows || rows->empty()) refuse();
+  if (!rows || rows->empty()) reject();
   for (const toml::node& row : *rows) {
     Words all = words(&row);
-    if (all.size() != plan.keys.size() + 1 || all[0].size() < 2) refuse();
+    if (all.size() != plan.keys.size() + 1 || all[0].size() < 2) reject();
     variants.push_back({all[0], Words(all.begin() + 1, all.end())});
   }
   return {plan, variants};

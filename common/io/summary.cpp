@@ -395,28 +395,28 @@ void show(Lines& lines, const VariantArtifact& a) {
   if (!a.directions.empty())
     add(lines, "speeds", a.frequency_from, " to ", a.frequency_to, " Hz, ", a.directions.size(),
         a.directions.size() == 1 ? " direction" : " directions");
-  if (!a.refusal.empty()) add(lines, "refused", a.refusal);
-  const std::vector<AnswerKind> kinds = answer_kinds(a.directions);
-  for (Eigen::Index i = 0; i < a.answer.size(); ++i)
-    add(lines, kinds[i].name, a.answer[i], " ", kinds[i].units == "1" ? "" : kinds[i].units);
+  if (!a.rejection.empty()) add(lines, "refused", a.rejection);
+  const std::vector<ResponseQuantity> kinds = response_quantities(a.directions);
+  for (Eigen::Index i = 0; i < a.quantity.size(); ++i)
+    add(lines, kinds[i].name, a.quantity[i], " ", kinds[i].units == "1" ? "" : kinds[i].units);
 }
 
 void show(Lines& lines, const StudyArtifact& a) {
   std::string keys;
   for (const VariedKey& key : a.plan.keys) keys += (keys.empty() ? "" : ", ") + key.name;
-  const auto refused =
-      a.refusal.size() - static_cast<size_t>(std::count(a.refusal.begin(), a.refusal.end(), ""));
+  const auto rejected =
+      a.rejection.size() - static_cast<size_t>(std::count(a.rejection.begin(), a.rejection.end(), ""));
   add(lines, "study", a.variants.size(), " variants of ", a.plan.scene,
-      a.plan.random ? ", drawn at random" : ", all combinations", ", ", refused, " refused, ",
+      a.plan.random ? ", drawn at random" : ", all combinations", ", ", rejected, " rejected, ",
       (a.unsteady.array() > 0).count(), " with speeds that did not settle");
   add(lines, "keys", keys);
-  for (const AnswerKind& kind : answer_kinds(a.plan.directions)) {
-    const auto found = std::find(a.plan.answers.begin(), a.plan.answers.end(), kind.name);
-    if (found == a.plan.answers.end()) continue;
+  for (const ResponseQuantity& kind : response_quantities(a.plan.directions)) {
+    const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), kind.name);
+    if (found == a.plan.quantities.end()) continue;
     double least = HUGE_VAL, most = -HUGE_VAL;
-    for (size_t v = 0; v < a.refusal.size(); ++v)
-      if (a.refusal[v].empty()) {
-        const double value = a.answer(static_cast<Eigen::Index>(v), found - a.plan.answers.begin());
+    for (size_t v = 0; v < a.rejection.size(); ++v)
+      if (a.rejection[v].empty()) {
+        const double value = a.quantity(static_cast<Eigen::Index>(v), found - a.plan.quantities.begin());
         least = std::min(least, value);
         most = std::max(most, value);
       }

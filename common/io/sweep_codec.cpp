@@ -30,7 +30,8 @@ void describe_lumped(Codec& c, std::string& model, LumpedParameters& a) {
 }
 
 void describe_motions(Codec& c, SweepArtifact& a, bool lumped) {
-  c.dataset({"/mesh_frequency", "Hz", "mesh frequency, in order of marching", "mesh_frequency", kSpeed},
+  c.dataset({"/mesh_frequency", "Hz", "mesh frequency, in the order in which they were computed",
+             "mesh_frequency", kSpeed},
             &a.mesh_frequency);
   c.dataset({"/transmission_error", "m",
              "dynamic transmission error from phase 0; the first period_multiple mesh periods are one orbit; "
@@ -71,7 +72,7 @@ void describe_speed_by_speed(Codec& c, SweepArtifact& a) {
             &a.energy_imbalance);
   constexpr auto kLines = static_cast<Eigen::Index>(kEnergyLines.size());
   if (c.out() && a.energy.cols() != kLines)
-    fail(Failure::numerical, "the energy ledger has ", a.energy.cols(), " lines instead of ", kLines);
+    fail(Failure::numerical, "the energy balance has ", a.energy.cols(), " lines instead of ", kLines);
   for (Eigen::Index i = 0; i < kLines; ++i)
     c.column({text("/energy/", kEnergyLines[i].name), "J",
               text(kEnergyLines[i].meaning, ", over the stored periods"), axis, kEnergy},
@@ -90,7 +91,7 @@ void describe(Codec& c, SweepArtifact& a) {
   const bool lumped = c.optional("/parameters/fidelity/model", a.lumped.cell_end.size() > 0);
   if (lumped) describe_lumped(c, a.model, a.lumped);
   describe_torque(c, a.torque);
-  c.dataset({"/parameters/operation/direction", "1", "direction of marching through the speeds", ""},
+  c.dataset({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
             &a.direction);
   describe_motions(c, a, lumped);
   describe_speed_by_speed(c, a);

@@ -11,7 +11,8 @@ bool beyond_ascii(char c) {
   return (c & 0x80) != 0;
 }
 
-constexpr const char* kTooLong = "the file is larger than a megabyte, and no scene, study or slice is";
+constexpr const char* kTooLong =
+    "the file is larger than a megabyte, and no scene, study or file of stage parameters is";
 
 struct Stray {
   unsigned line = 0;  // 0: there is none

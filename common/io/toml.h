@@ -10,8 +10,8 @@
 
 namespace whine {
 
-// As toml::parse. Throws toml::parse_error, also for a file of more than `most` bytes and for a key of more than 32 parts: of such
-// toml++ would take memory without limit, or all of the stack.
+// As toml::parse. Throws toml::parse_error, also for a file of more than `most` bytes and for a key of more than 32 parts: of
+// such toml++ would take memory without limit, or all of the stack.
 toml::table parse_toml(const std::string& bytes, std::size_t most = 1 << 20);
 
 }  // namespace whine

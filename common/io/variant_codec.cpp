@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "io/codec.h"
-#include "model/answers.h"
+#include "model/response_quantities.h"
 
 namespace whine {
 namespace {
@@ -22,7 +22,7 @@ void describe_directions(Codec& c, std::vector<std::string>& directions) {
   std::istringstream words(line);
   for (std::string word; words >> word;) {
     if (word != "up" && word != "down")
-      c.in()->file().refuse("names the direction '" + word + "'; there are up and down");
+      c.in()->file().reject("names the direction '" + word + "'; there are up and down");
     directions.push_back(word);
   }
 }
@@ -40,15 +40,16 @@ void describe(Codec& c, VariantArtifact& a) {
               &a.reference_torque);
     describe_speeds(c, a.frequency_from, a.frequency_to, a.frequency_step);
   }
-  c.dataset({"/refusal", "1", "why a stage refused the variant; empty: none did", ""}, &a.refusal);
-  if (!a.refusal.empty()) return;
-  const std::vector<AnswerKind> kinds = answer_kinds(a.directions);
+  c.dataset({"/refusal", "1", "why the variant lies outside the model's range; empty: it does not", ""},
+            &a.rejection);
+  if (!a.rejection.empty()) return;
+  const std::vector<ResponseQuantity> kinds = response_quantities(a.directions);
   const auto count = static_cast<Eigen::Index>(kinds.size());
-  if (c.out() && a.answer.size() != count)
-    fail(Failure::numerical, "result answer has ", a.answer.size(), " rows, expected ", count);
-  if (!c.out()) a.answer.resize(count);
+  if (c.out() && a.quantity.size() != count)
+    fail(Failure::numerical, "result answer has ", a.quantity.size(), " rows, expected ", count);
+  if (!c.out()) a.quantity.resize(count);
   for (Eigen::Index i = 0; i < count; ++i)
-    c.dataset({"/answer/" + kinds[i].name, kinds[i].units, kinds[i].meaning, "", kQuantity}, &a.answer[i]);
+    c.dataset({"/answer/" + kinds[i].name, kinds[i].units, kinds[i].meaning, "", kQuantity}, &a.quantity[i]);
 }
 
 void write(const std::string& path, const VariantArtifact& a, const Provenance& provenance) {

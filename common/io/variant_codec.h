@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "motion/variant_result.h"
+#include "studies/variant_result.h"
 
 namespace whine {
 

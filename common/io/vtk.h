@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "io/h5.h"
-#include "motion/loaded_result.h"
 #include "solid/sector_mesh.h"
+#include "system/loaded_result.h"
 
 namespace whine {
 

@@ -130,7 +130,7 @@ LumpedOscillator::LumpedOscillator(const LumpedParameters& p, double force, int 
     }
     cells_.push_back(cell);
   }
-  marching_ = pieces(newmark_steps > 0);
+  integrating_ = pieces(newmark_steps > 0);
   recording_ = pieces(true);
 }
 
@@ -156,7 +156,7 @@ void LumpedOscillator::set_speed(double mesh_frequency) {
   if (!(mesh_frequency > 0) || !std::isfinite(mesh_frequency))
     fail(Failure::input, "lumped model: the mesh frequency is ", mesh_frequency, " Hz; it must be above 0");
   period_ = rate_ / mesh_frequency;
-  for (auto* list : {&marching_, &recording_})
+  for (auto* list : {&integrating_, &recording_})
     for (Piece& piece : *list)
       for (Cached& cached : piece.cache) cached.has_whole = cached.has_part = false;
 }
@@ -365,12 +365,12 @@ void LumpedOscillator::run_newmark(const Piece& piece, double& x, double& v, Mat
   }
 }
 
-void LumpedOscillator::march(State& state, Matrix* derivative) {
+void LumpedOscillator::integrate(State& state, Matrix* derivative) {
   double x = state[0] / length_, v = state[1] / (length_ * rate_);
   const auto nothing = [](const Region&, double, double, double, double, double) {};
   Matrix own = Matrix::Identity();
   Matrix* const wanted = derivative ? &own : nullptr;
-  for (Piece& piece : marching_)
+  for (Piece& piece : integrating_)
     if (newmark_steps_ > 0)
       run_newmark(piece, x, v, wanted, nothing);
     else
@@ -382,7 +382,7 @@ void LumpedOscillator::march(State& state, Matrix* derivative) {
   *derivative = own * *derivative;
 }
 
-LumpedRecord LumpedOscillator::record(State& state, LumpedLedger& ledger) {
+LumpedRecord LumpedOscillator::record(State& state, LumpedEnergyBalance& energy_balance) {
   const Eigen::Index springs = parameters_.stiffness.cols();
   LumpedRecord out;
   out.x.resize(samples_);
@@ -449,12 +449,12 @@ LumpedRecord LumpedOscillator::record(State& state, LumpedLedger& ledger) {
   state = State(x * length_, v * length_ * rate_);
 
   const double energy = force_ * length_;
-  ledger.kinetic += energy * (0.5 * v * v - kinetic);
-  ledger.spring += energy * (potential(first, x) - spring);
-  ledger.force += energy * work;
-  ledger.switching += energy * switching;
-  ledger.damping += energy * damping;
-  ledger.throughput += energy * throughput;
+  energy_balance.kinetic += energy * (0.5 * v * v - kinetic);
+  energy_balance.spring += energy * (potential(first, x) - spring);
+  energy_balance.force += energy * work;
+  energy_balance.switching += energy * switching;
+  energy_balance.damping += energy * damping;
+  energy_balance.throughput += energy * throughput;
   out.mean = length_ * (1 + integral / period_);
   out.mean_square = length_ * length_ * square / period_;
   out.least *= length_;
@@ -466,7 +466,7 @@ std::vector<LumpedCrossing> LumpedOscillator::crossings(State state) {
   std::vector<LumpedCrossing> all;
   double x = state[0] / length_, v = state[1] / (length_ * rate_), time = 0;
   int border = -1;  // that x is above; -1: not known
-  for (Piece& piece : marching_) {
+  for (Piece& piece : integrating_) {
     const std::vector<Region>& regions = cells_[piece.cell].regions;
     const auto visit = [&](const Region& r, double, double, double duration, double, double) {
       const int now = static_cast<int>(&r - regions.data());

@@ -21,7 +21,7 @@
 namespace whine {
 
 // Energy over the recorded periods, J: kinetic + spring = force + switching - damping, but for the imbalance.
-struct LumpedLedger {
+struct LumpedEnergyBalance {
   double kinetic = 0, spring = 0;  // changes of what is stored
   double force = 0;                // work of F
   double switching = 0;            // work of the springs' change from cell to cell, at fixed x
@@ -64,9 +64,9 @@ class LumpedOscillator {
 
   // Takes the state through one mesh period from phase 0. If derivative is given it is multiplied from the left by that of
   // the period map.
-  void march(State& state, Matrix* derivative = nullptr);
-  // The same, and what happens in between; ledger is added to.
-  LumpedRecord record(State& state, LumpedLedger& ledger);
+  void integrate(State& state, Matrix* derivative = nullptr);
+  // The same, and what happens in between; energy balance is added to.
+  LumpedRecord record(State& state, LumpedEnergyBalance& energy_balance);
 
   // Borders that the motion of one mesh period from this state crosses, in their order; where cells change also those that
   // move across x.
@@ -131,7 +131,7 @@ class LumpedOscillator {
   std::vector<double> cell_frequency_;  // Hz, springs as at rest
   double period_ = 0;                   // of the mesh, in units of 1 / rate_
   std::vector<Cell> cells_;
-  std::vector<Piece> marching_, recording_;
+  std::vector<Piece> integrating_, recording_;
 };
 
 }  // namespace whine

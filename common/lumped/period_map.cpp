@@ -23,7 +23,7 @@ VectorXd LumpedPeriodMap::apply(const VectorXd& y) {
   start_ = state(y);
   State end = start_;
   LumpedOscillator::Matrix derivative = LumpedOscillator::Matrix::Identity();
-  oscillator_.march(end, &derivative);
+  oscillator_.integrate(end, &derivative);
   const State unit = oscillator_.unit();
   tangent_ = unit.cwiseInverse().asDiagonal() * derivative * unit.asDiagonal();
   return flat(end);
@@ -36,10 +36,10 @@ std::vector<ContactEvent> LumpedPeriodMap::events() const {
   return events;
 }
 
-VectorXd LumpedPeriodMap::answer() const {
+VectorXd LumpedPeriodMap::observable() const {
   State state = start_;
-  LumpedLedger ledger;
-  return oscillator_.record(state, ledger).x;
+  LumpedEnergyBalance energy_balance;
+  return oscillator_.record(state, energy_balance).x;
 }
 
 }  // namespace whine

@@ -20,7 +20,7 @@ class LumpedPeriodMap : public PeriodMap {
   Eigen::MatrixXd tangent() override { return tangent_; }
   // Contact i: the i-th border of the springs' gaps, from the lowest, at which a spring begins to touch.
   std::vector<ContactEvent> events() const override;
-  Eigen::VectorXd answer() const override;  // (sample) m: x
+  Eigen::VectorXd observable() const override;  // (sample) m: x
 
   Eigen::VectorXd flat(const LumpedOscillator::State& state) const;
   LumpedOscillator::State state(const Eigen::VectorXd& y) const;

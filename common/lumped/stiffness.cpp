@@ -224,8 +224,8 @@ PairPoint point_at(const std::vector<PairPoint>& points, double phase) {
                    (1 - share) * before->stiffness + share * after->stiffness};
 }
 
-// What a pair's force is made of: springs of its own that come in one after the other, in place `first` of a row. One spring for 0
-// chords, else a polygon of Hertz's law through the point.
+// What a pair's force is made of: springs of its own that come in one after the other, in place `first` of a row. One spring
+// for 0 chords, else a polygon of Hertz's law through the point.
 void add_pair(const PairPoint& p, double gap, int chords, double coefficient, double force, Eigen::Index row,
               Eigen::Index first, LumpedParameters& to) {
   const int up_to_static = chords / 2, beyond = chords - up_to_static;

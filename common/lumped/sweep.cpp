@@ -24,7 +24,7 @@ namespace {
 constexpr double kClose = 1e-2;      // change per period from which Newton's method is tried
 constexpr double kFarthest = 0.1;    // that it may lead away
 constexpr double kRoundOff = 1e-13;  // of the state
-constexpr int kLongestPause = 64;    // periods of plain marching after a Newton's method that led nowhere
+constexpr int kLongestPause = 64;    // periods of plain integration after a Newton's method that led nowhere
 constexpr int kFollowPeriods = 500;  // where a branch is followed, before it counts as ended
 constexpr double kFinest = 1e-7;     // Hz: steps of that are halved down to this
 
@@ -35,7 +35,7 @@ double modulus(const Matrix& m) {
 
 State image(LumpedOscillator& oscillator, State y, int multiple, Matrix* derivative) {
   if (derivative) derivative->setIdentity();
-  for (int i = 0; i < multiple; ++i) oscillator.march(y, derivative);
+  for (int i = 0; i < multiple; ++i) oscillator.integrate(y, derivative);
   return y;
 }
 
@@ -58,11 +58,11 @@ bool solve_orbit(LumpedOscillator& oscillator, LumpedOrbit& orbit, int multiple)
 void record(LumpedOscillator& oscillator, LumpedOrbit& orbit) {
   State y = orbit.start;
   orbit.record.clear();
-  orbit.ledger = {};
+  orbit.energy_balance = {};
   double mean = 0, square = 0;
   const int periods = orbit.multiple > 0 ? orbit.multiple : Recurrence<State>::kMostMultiple;
   for (int i = 0; i < periods; ++i) {
-    orbit.record.push_back(oscillator.record(y, orbit.ledger));
+    orbit.record.push_back(oscillator.record(y, orbit.energy_balance));
     mean += orbit.record.back().mean / periods;
     square += orbit.record.back().mean_square / periods;
   }
@@ -87,16 +87,16 @@ BranchMotion branch_motion(double mesh_frequency, const LumpedOrbit& orbit) {
 
 // Between the speeds i - 1 and i of a sweep; kept: the orbit at speed i - 1.
 std::optional<LumpedJump> jump_from(LumpedOscillator& oscillator, const std::vector<BranchMotion>& motions,
-                                    size_t i, const LumpedOrbit& kept, double periodicity, bool march_only,
-                                    std::vector<BranchPoint>& left_early) {
+                                    size_t i, const LumpedOrbit& kept, double periodicity,
+                                    bool integrate_only, std::vector<BranchPoint>& left_early) {
   LumpedOrbit branch = kept;
   std::vector<std::pair<double, LumpedOrbit>> runs;  // by speed, Hz
   BranchFollower follower;
   follower.finest = kFinest;
   follower.run = [&](double mesh_frequency, double) {
     oscillator.set_speed(mesh_frequency);
-    runs.emplace_back(mesh_frequency,
-                      settle(oscillator, branch.start, periodicity, march_only, kFollowPeriods));
+    runs.emplace_back(mesh_frequency, find_periodic_orbit(oscillator, branch.start, periodicity,
+                                                          integrate_only, kFollowPeriods));
     return branch_motion(mesh_frequency, runs.back().second);
   };
   follower.keep = [&](int n) {
@@ -119,8 +119,8 @@ double LumpedOrbit::largest_multiplier() const {
   return modulus(monodromy);
 }
 
-LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double periodicity, bool march_only,
-                   int most_periods) {
+LumpedOrbit find_periodic_orbit(LumpedOscillator& oscillator, const State& start, double periodicity,
+                                bool integrate_only, int most_periods) {
   LumpedOrbit orbit;
   State y = start;
   Recurrence<State> recurrence(periodicity, y);
@@ -144,20 +144,20 @@ LumpedOrbit settle(LumpedOscillator& oscillator, const State& start, double peri
     return tried;
   };
   for (int n = 1; n <= most_periods; ++n) {
-    oscillator.march(y);
+    oscillator.integrate(y);
     ++orbit.periods;
     recurrence.compare(y, n, away);
     for (int m = 1; m <= recurrence.known(); ++m) {
-      if (!recurrence.primitive(m, march_only)) continue;
+      if (!recurrence.primitive(m, integrate_only)) continue;
       const double change = recurrence.change(m);
-      if (!march_only && change < kClose && pause == 0) {
+      if (!integrate_only && change < kClose && pause == 0) {
         if (auto found = newton(m)) {
           record(oscillator, *found);
           return *found;
         }
         pause = patience = std::min(2 * patience, kLongestPause);
       }
-      if (change < (march_only ? periodicity : std::min(periodicity, 10 * kRoundOff))) {
+      if (change < (integrate_only ? periodicity : std::min(periodicity, 10 * kRoundOff))) {
         orbit.start = y;
         orbit.multiple = m;
         orbit.residual = change;
@@ -184,15 +184,16 @@ std::optional<LumpedFold> find_fold(LumpedOscillator& oscillator, const State& s
   return LumpedFold{fold.parameter, map.state(fold.start)};
 }
 
-LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>& speeds, double periodicity,
-                         bool march_only, const std::function<void(long, long, const std::string&)>& report) {
-  LumpedMarch out;
+LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<double>& speeds,
+                              double periodicity, bool integrate_only,
+                              const std::function<void(long, long, const std::string&)>& report) {
+  LumpedSpeeds out;
   State state = oscillator.rest();
   std::vector<BranchMotion> motions;
   const long total = static_cast<long>(speeds.size());
   for (long i = 0; i < total; ++i) {
     oscillator.set_speed(speeds[i]);
-    out.orbits.push_back(settle(oscillator, state, periodicity, march_only));
+    out.orbits.push_back(find_periodic_orbit(oscillator, state, periodicity, integrate_only));
     const LumpedOrbit& orbit = out.orbits.back();
     state = orbit.start;
     motions.push_back(branch_motion(speeds[i], orbit));
@@ -200,8 +201,8 @@ LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>
   }
   for (size_t i = 1; i < motions.size(); ++i)
     if (may_break(motions, i))
-      if (const auto jump =
-              jump_from(oscillator, motions, i, out.orbits[i - 1], periodicity, march_only, out.left_early))
+      if (const auto jump = jump_from(oscillator, motions, i, out.orbits[i - 1], periodicity, integrate_only,
+                                      out.left_early))
         out.jumps.push_back(*jump);
   return out;
 }
@@ -263,8 +264,8 @@ SweepArtifact described(const StaticArtifact& statics, const LumpedParameters& s
 }
 
 // The motions of all speeds. m: the least transmission error.
-double store_motions(const LumpedMarch& march, const Eigen::VectorXi& numbers, SweepArtifact& a) {
-  const int count = static_cast<int>(march.orbits.size()), samples = a.time.steps_per_period;
+double store_motions(const LumpedSpeeds& integrate, const Eigen::VectorXi& numbers, SweepArtifact& a) {
+  const int count = static_cast<int>(integrate.orbits.size()), samples = a.time.steps_per_period;
   // Several springs may stand for one pair.
   std::vector<int> pairs(numbers.data(), numbers.data() + numbers.size());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -276,22 +277,22 @@ double store_motions(const LumpedMarch& march, const Eigen::VectorXi& numbers, S
   a.energy = MatrixRM::Zero(count, static_cast<Eigen::Index>(kEnergyLines.size()));
   a.drift_force = Eigen::VectorXd::Zero(count);
   std::size_t longest = 1;
-  for (const LumpedOrbit& orbit : march.orbits) longest = std::max(longest, orbit.record.size());
+  for (const LumpedOrbit& orbit : integrate.orbits) longest = std::max(longest, orbit.record.size());
   const auto width = static_cast<Eigen::Index>(longest) * samples;
   a.transmission_error.resize(count, width);
   a.mesh_force.resize(count, width);
   const auto line = [](const std::string& name) {
     for (std::size_t i = 0; i < kEnergyLines.size(); ++i)
       if (name == kEnergyLines[i].name) return static_cast<Eigen::Index>(i);
-    fail(Failure::numerical, "the energy ledger has no line ", name);
+    fail(Failure::numerical, "the energy balance has no line ", name);
   };
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < count; ++i) {
-    const LumpedOrbit& orbit = march.orbits[i];
+    const LumpedOrbit& orbit = integrate.orbits[i];
     a.periods[i] = orbit.periods;
     a.residual[i] = orbit.residual;
     a.period_multiple[i] = orbit.multiple;
-    const LumpedLedger& l = orbit.ledger;
+    const LumpedEnergyBalance& l = orbit.energy_balance;
     a.energy_imbalance[i] = l.imbalance() / l.throughput;
     a.energy(i, line("kinetic")) = l.kinetic;
     a.energy(i, line("local")) = l.spring;
@@ -333,25 +334,25 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
   springs.damper = 2 * o.damping_ratio * std::sqrt(stiffness * o.mass);
   LumpedOscillator oscillator(springs, force, samples, steps);
 
-  const LumpedMarch march =
-      march_speeds(oscillator, speeds, o.time.periodicity, o.time.steady_state == SteadyState::march, report);
+  const LumpedSpeeds integrate = integrate_speeds(oscillator, speeds, o.time.periodicity,
+                                                  o.time.steady_state == SteadyState::integrate, report);
 
-  if (left_early) *left_early = march.left_early;
+  if (left_early) *left_early = integrate.left_early;
 
   SweepArtifact a = described(statics, springs, pair, o);
   a.mean_stiffness = stiffness;
   a.natural_frequency = oscillator.mean_frequency();
   a.mesh_frequency =
       Eigen::Map<const Eigen::VectorXd>(speeds.data(), static_cast<Eigen::Index>(speeds.size()));
-  const double least = store_motions(march, numbers, a);
+  const double least = store_motions(integrate, numbers, a);
   a.backlash_margin = statics.driver.tooth_thinning + statics.driven.tooth_thinning > 0
                           ? pair.backlash() + least
                           : std::numeric_limits<double>::infinity();
-  a.jump_frequency.resize(static_cast<Eigen::Index>(march.jumps.size()));
+  a.jump_frequency.resize(static_cast<Eigen::Index>(integrate.jumps.size()));
   a.jump_width.resize(a.jump_frequency.size());
-  for (std::size_t j = 0; j < march.jumps.size(); ++j) {
-    a.jump_frequency[static_cast<Eigen::Index>(j)] = march.jumps[j].mesh_frequency;
-    a.jump_width[static_cast<Eigen::Index>(j)] = march.jumps[j].width;
+  for (std::size_t j = 0; j < integrate.jumps.size(); ++j) {
+    a.jump_frequency[static_cast<Eigen::Index>(j)] = integrate.jumps[j].mesh_frequency;
+    a.jump_width[static_cast<Eigen::Index>(j)] = integrate.jumps[j].width;
   }
   return a;
 }

@@ -1,5 +1,5 @@
 // Steady motions of a lumped model, and its speed sweeps in the protocol of the elastic gears: the state is carried from
-// speed to speed and marched, as on a test rig. Once close to an orbit, Newton's method on the period map, whose derivative
+// speed to speed and integrated, as on a test rig. Once close to an orbit, Newton's method on the period map, whose derivative
 // is exact, takes the rest of the transient, unless the orbit is unstable or far.
 #pragma once
 #include <functional>
@@ -21,15 +21,15 @@ struct LumpedOrbit {
   int periods = 0;                // run on the way
   double residual = 0;            // size of the change of the state over the orbit, over that of the state
   LumpedOscillator::Matrix monodromy = LumpedOscillator::Matrix::Identity();  // over `multiple` periods
-  double mean = 0, rms = 0;           // m: of x, of its oscillating part, from integrals over the pieces
-  std::vector<LumpedRecord> record;   // (period) of the orbit; the last ones marched if not periodic
-  LumpedLedger ledger;                // of these periods
-  double largest_multiplier() const;  // modulus
+  double mean = 0, rms = 0;            // m: of x, of its oscillating part, from integrals over the pieces
+  std::vector<LumpedRecord> record;    // (period) of the orbit; the last ones integrated if not periodic
+  LumpedEnergyBalance energy_balance;  // of these periods
+  double largest_multiplier() const;   // modulus
 };
 
-// Marches from start until the state repeats: to `periodicity`, and far below it by Newton's method unless march_only.
-LumpedOrbit settle(LumpedOscillator& oscillator, const LumpedOscillator::State& start, double periodicity,
-                   bool march_only, int most_periods = 3000);
+// Integrates from start until the state repeats: to `periodicity`, and far below it by Newton's method unless integrate_only.
+LumpedOrbit find_periodic_orbit(LumpedOscillator& oscillator, const LumpedOscillator::State& start,
+                                double periodicity, bool integrate_only, int most_periods = 3000);
 
 // Where an orbit of `multiple` periods near start meets its unstable partner and both end: P(y) = y and a multiplier +1,
 // as locate_fold() does. Leaves the oscillator at that speed. Nothing if it does not converge.
@@ -45,15 +45,16 @@ struct LumpedJump {
   bool fold;  // located by find_fold; otherwise the middle of the interval in which the branch ends
   LumpedOscillator::State start;  // of the orbit at the fold, or of the last one found on the branch
 };
-struct LumpedMarch {
+struct LumpedSpeeds {
   std::vector<LumpedOrbit> orbits;  // (speed)
   std::vector<LumpedJump> jumps;
   std::vector<BranchPoint> left_early;  // motions on the way to the ends of branches
 };
 // Through the speeds (Hz) in their order, from rest. A jump is where the branch that was left ends, beyond the speed at
-// which the march left it, too, up to `limit`. report(done, total, note) is called after each speed.
-LumpedMarch march_speeds(LumpedOscillator& oscillator, const std::vector<double>& speeds, double periodicity,
-                         bool march_only, const std::function<void(long, long, const std::string&)>& report);
+// which the sweep left it, too, up to `limit`. report(done, total, note) is called after each speed.
+LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<double>& speeds,
+                              double periodicity, bool integrate_only,
+                              const std::function<void(long, long, const std::string&)>& report);
 
 // kg, of the relative rotation of two gears on their line of action: I1 I2 / (I1 r2^2 + I2 r1^2), r base radii, inertias in
 // kg m2.

@@ -1,4 +1,5 @@
-// One gear as a drawing has it: tooth, blank, material, what is taken off its flanks, what a machine leaves on them, its bearing.
+// One gear as a drawing has it: tooth, blank, material, what is taken off its flanks, what a machine leaves on them, its
+// bearing.
 #pragma once
 #include <array>
 #include <numbers>

@@ -93,7 +93,7 @@ struct ContactDiscretisation {
 };
 
 // How a steady motion is found: transients are skipped where they can be, or run through period by period, as a rig would.
-enum class SteadyState { extrapolate, march };
+enum class SteadyState { extrapolate, integrate };
 template <>
 inline constexpr const char* kWordsOf<SteadyState> = "extrapolate march";
 

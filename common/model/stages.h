@@ -11,22 +11,23 @@ namespace whine {
 // its own numbers changed. SI units throughout.
 
 // For gear-mesh and gear-reduce: the gear without name, inertia, torque or motion.
-struct BodySlice {
+struct BodyParameters {
   GearDesign design;
   Material material;
   BodyDiscretisation discretisation;
 };
 
-// For gear-static; `contact.positions` is resolved (never 0), `fidelity` holds the contact rung only.
-struct StaticSlice {
+// For gear-static; `contact.positions` is resolved (never 0), `fidelity` holds the contact level only.
+struct StaticParameters {
   GearMeshSpec mesh;
   Fidelity fidelity;
   ContactDiscretisation contact;
-  std::string driver_body, driven_body;  // hashes of the bodies' slices; empty: the slice names none
+  std::string driver_body,
+      driven_body;  // hashes of the bodies' stage parameters; empty: the stage parameters name none
 };
 
 // For gear-impact.
-struct ImpactSlice {
+struct ImpactParameters {
   double driver_inertia = 0, driven_inertia = 0;  // kg m2, total
   Damping damping;
   double reference_torque = 0;  // N m: first torque listed, whose mean stiffness sets the bearing dampers
@@ -34,17 +35,17 @@ struct ImpactSlice {
 };
 
 // For gear-sweep.
-struct SweepSlice : ImpactSlice {
+struct SweepParameters : ImpactParameters {
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
   TimeDiscretisation time;
 };
 
-// What gear-variant reads: the slice of one variant.
-struct VariantSlice {
-  StaticSlice statics;
+// What gear-variant reads: the stage parameters of one variant.
+struct VariantParameters {
+  StaticParameters statics;
   double torque = 0;                    // N m on the driver
   std::vector<std::string> directions;  // of sweeps: "up", "down"; none: the pair at rest, `motion` is empty
-  SweepSlice motion;                    // its reference torque may be another than `torque`
+  SweepParameters motion;               // its reference torque may be another than `torque`
 };
 
 // What a result of a pair says of what it was computed from.

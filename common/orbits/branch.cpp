@@ -137,11 +137,11 @@ class Follower {
   Follower(PeriodMap& map, const BranchSettings& settings)
       : map_(map), settings_(settings), curve_(map, settings.multiple, settings.scale) {}
 
-  // On the curve, in the plane across `direction` through `foretold`. failure() says why there is none.
-  std::optional<Point> correct(const VectorXd& foretold, const VectorXd& direction) {
+  // On the curve, in the plane across `direction` through `predicted`. failure() says why there is none.
+  std::optional<Point> correct(const VectorXd& predicted, const VectorXd& direction) {
     constexpr int kMost = 12;
     Point p;
-    p.u = foretold;
+    p.u = predicted;
     const double tolerance = settings_.orbit.tolerance;
     double last = std::numeric_limits<double>::infinity();
     try {
@@ -217,7 +217,7 @@ class Follower {
     b.turn = p.tangent[map_.size()];
     b.multipliers = sorted_multipliers(p.monodromy);
     b.events = p.passed.events;
-    b.answer = p.passed.answer;
+    b.observable = p.passed.observable;
     return b;
   }
   // Of a period from a point that need not be an orbit. False where the model does not hold.

@@ -1,9 +1,9 @@
 // Branches of periodic orbits over a parameter: pseudo-arclength continuation, and what happens on the way.
 //
-// Unknowns u = (y, parameter / scale) with P^m(y) = y; the parameter is positive. From a point the branch is foretold along its unit tangent t and
-// corrected by Newton's method in the plane across t, so that it turns at folds without being told (Keller 1977; Allgower and
-// Georg, Introduction to Numerical Continuation Methods, 2003, chapters 6 and 10). The step follows the number of corrections
-// and the angle between tangents.
+// Unknowns u = (y, parameter / scale) with P^m(y) = y; the parameter is positive. From a point the branch is predicted along
+// its unit tangent t and corrected by Newton's method in the plane across t, so that it turns at folds without being told
+// (Keller 1977; Allgower and Georg, Introduction to Numerical Continuation Methods, 2003, chapters 6 and 10). The step follows
+// the number of corrections and the angle between tangents.
 //
 // The map is piecewise smooth, so a branch has kinks. There it keeps the sign of det [dF; t^T], F = P^m(y) - y, as piecewise
 // linear paths do (Eaves and Scarf 1976): it may turn sharply, and where it turns in the parameter it ends as at a fold,
@@ -35,7 +35,7 @@ struct BranchPosition {
   double turn = 0;  // parameter component of the unit tangent, in u; changes its sign at a fold
   Eigen::VectorXcd multipliers;
   std::vector<ContactEvent> events;
-  Eigen::VectorXd answer;
+  Eigen::VectorXd observable;
   bool stable() const { return multipliers.size() == 0 || std::abs(multipliers[0]) < 1; }
 };
 

@@ -2,8 +2,8 @@
 // period later.
 //
 // A state is one row of numbers, of everything that the next period depends on, in units of its own: the Euclidean norm of
-// a difference is the distance of two states, and that of a state is of the order of 1. Steps per period and the contacts that are
-// looked at do not change as long as a map lives, so that P is one function of y and of the parameter, which is the mesh
+// a difference is the distance of two states, and that of a state is of the order of 1. Steps per period and the contacts that
+// are looked at do not change as long as a map lives, so that P is one function of y and of the parameter, which is the mesh
 // frequency in Hz of the gear models.
 //
 // Where contacts open and close P is continuous and piecewise smooth; its tangent steps at most. Between two such borders it is
@@ -34,8 +34,8 @@ class PeriodMap {
   virtual Eigen::MatrixXd tangent() = 0;
   // Of the period applied last, in the order of their phases.
   virtual std::vector<ContactEvent> events() const = 0;
-  // Of the period applied last: (sample) what the model answers, m of transmission error. Samples are evenly spaced.
-  virtual Eigen::VectorXd answer() const = 0;
+  // Of the period applied last: (sample) the observable of the model, m of transmission error. Samples are evenly spaced.
+  virtual Eigen::VectorXd observable() const = 0;
 };
 
 }  // namespace whine

@@ -74,9 +74,9 @@ VectorXd image(PeriodMap& map, const VectorXd& y, int multiple, MatrixXd* tangen
       event.phase += k;
       passed->events.push_back(event);
     }
-    const VectorXd answer = map.answer();
-    passed->answer.conservativeResize(multiple * answer.size());
-    passed->answer.segment(k * answer.size(), answer.size()) = answer;
+    const VectorXd observable = map.observable();
+    passed->observable.conservativeResize(multiple * observable.size());
+    passed->observable.segment(k * observable.size(), observable.size()) = observable;
   }
   return at;
 }

@@ -21,7 +21,7 @@ struct PeriodicOrbit {
   int iterations = 0;   // tangents that were needed
   Eigen::MatrixXd monodromy;
   std::vector<ContactEvent> events;  // of its periods in turn, phases from 0 to `multiple`
-  Eigen::VectorXd answer;            // of its periods in turn
+  Eigen::VectorXd observable;        // of its periods in turn
 
   // Descending modulus. Throws Error(numerical) if they cannot be found.
   Eigen::VectorXcd multipliers() const;

@@ -1,5 +1,5 @@
-// Whether a motion that is marched period by period has become periodic: its states at the ends of periods against those of the
-// last periods.
+// Whether a motion that is integrated period by period has become periodic: its states at the ends of periods against those of
+// the last periods.
 //
 // A subharmonic of order m is a motion whose state repeats after m periods but, long since and without getting any nearer, not
 // after a divisor of m: a slow transient may look like one for a while.
@@ -26,7 +26,7 @@ class Recurrence {
     past_.assign(1, std::move(from));
     history_.clear();
   }
-  // The end of period n (from 1), of all that were marched. distance(a, b): relative change of a state from b to a.
+  // The end of period n (from 1), of all that were integrated. distance(a, b): relative change of a state from b to a.
   template <class Distance>
   void compare(const State& now, int n, const Distance& distance) {
     change_.fill(std::numeric_limits<double>::infinity());

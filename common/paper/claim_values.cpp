@@ -21,47 +21,47 @@ Finding yes_or_no(bool yes, std::string note) {
 
 // ---- what a value needs
 
-ClaimValue plain(const std::function<Finding(const SceneAnswers&)>& find) {
-  return {{}, [=](const SceneAnswers& s, const PrintedClaim&) { return find(s); }};
+ClaimValue plain(const std::function<Finding(const SceneResults&)>& find) {
+  return {{}, [=](const SceneResults& s, const PrintedClaim&) { return find(s); }};
 }
 
-ClaimValue at_torque(const std::function<Finding(const SceneAnswers&, int)>& find) {
-  return {{.torque = true}, [=](const SceneAnswers& s, const PrintedClaim& c) { return find(s, c.torque); }};
+ClaimValue at_torque(const std::function<Finding(const SceneResults&, int)>& find) {
+  return {{.torque = true}, [=](const SceneResults& s, const PrintedClaim& c) { return find(s, c.torque); }};
 }
 
-ClaimValue at_speed(const std::function<Finding(const SceneAnswers&, double)>& find) {
+ClaimValue at_speed(const std::function<Finding(const SceneResults&, double)>& find) {
   return {{.mesh_frequency = true},
-          [=](const SceneAnswers& s, const PrintedClaim& c) { return find(s, c.mesh_frequency); }};
+          [=](const SceneResults& s, const PrintedClaim& c) { return find(s, c.mesh_frequency); }};
 }
 
-ClaimValue of_order(const std::function<Finding(const SceneAnswers&, int)>& find) {
-  return {{.order = true}, [=](const SceneAnswers& s, const PrintedClaim& c) { return find(s, c.order); }};
+ClaimValue of_order(const std::function<Finding(const SceneResults&, int)>& find) {
+  return {{.order = true}, [=](const SceneResults& s, const PrintedClaim& c) { return find(s, c.order); }};
 }
 
-ClaimValue of_order_at_speed(const std::function<Finding(const SceneAnswers&, double, int)>& find) {
+ClaimValue of_order_at_speed(const std::function<Finding(const SceneResults&, double, int)>& find) {
   return {{.mesh_frequency = true, .order = true},
-          [=](const SceneAnswers& s, const PrintedClaim& c) { return find(s, c.mesh_frequency, c.order); }};
+          [=](const SceneResults& s, const PrintedClaim& c) { return find(s, c.mesh_frequency, c.order); }};
 }
 
 // Of the statics at 100 N m.
 ClaimValue at_rest(const std::function<double(const StaticArtifact&)>& number) {
-  return plain([=](const SceneAnswers& s) { return Finding{number(s.at_rest(100)), ""}; });
+  return plain([=](const SceneResults& s) { return Finding{number(s.at_rest(100)), ""}; });
 }
 
 ClaimValue nothing() {
-  return plain([](const SceneAnswers&) { return Finding{kNone, ""}; });
+  return plain([](const SceneResults&) { return Finding{kNone, ""}; });
 }
 
 // Of the model with the rectangular wave, whose parameters gear-lumped takes from P2000.
 ClaimValue of_lumped(const std::function<double(const SweepArtifact&)>& number) {
-  return plain([=](const SceneAnswers& s) {
+  return plain([=](const SceneResults& s) {
     return Finding{number(s.sweep(kFigureTorque, "up", "rectangular")), ""};
   });
 }
 
 // ---- gears, integrator, damping
 
-Finding other_periods(const SceneAnswers& s) {
+Finding other_periods(const SceneResults& s) {
   Index other = 0;
   for (int torque : kSweptTorques)
     for (const ResponseArtifact* r : {&s.branches(torque).up, &s.branches(torque).down})
@@ -70,13 +70,13 @@ Finding other_periods(const SceneAnswers& s) {
 }
 
 // A constant of Newmark's scheme: the printed one where the scene uses that scheme.
-Finding newmark(const SceneAnswers& s, const PrintedClaim& claim) {
+Finding newmark(const SceneResults& s, const PrintedClaim& claim) {
   const Integrator integrator = s.branches(kFigureTorque).up.fidelity.integrator;
   if (integrator == Integrator::newmark) return {claim.printed, ""};
   return {kNone, text("integrator = \"", integrator, "\" has no such number")};
 }
 
-Finding base_radius(const SceneAnswers& s) {
+Finding base_radius(const SceneResults& s) {
   const StaticArtifact& a = s.at_rest(100);
   const double r = a.driver.module * a.driver.teeth * std::cos(a.driver.pressure_angle) / 2;
   return {1e3 * r, text(a.driver.teeth, " teeth of module ", digits(1e3 * a.driver.module), " mm have ",
@@ -84,7 +84,7 @@ Finding base_radius(const SceneAnswers& s) {
                         " mm, and only with it k = (T / r) / STE gives the printed mean stiffness")};
 }
 
-Finding bearing_damping(const SceneAnswers& s) {
+Finding bearing_damping(const SceneResults& s) {
   const double ratio = s.branches(kFigureTorque).up.damping.bearing_ratio;
   return yes_or_no(ratio < 0.01, text(digits(100 * ratio, 2), " %"));
 }
@@ -109,20 +109,20 @@ Named of_the_gears() {
 
 // ---- impact tests
 
-Finding impact_torque(const SceneAnswers& s) {
+Finding impact_torque(const SceneResults& s) {
   const double step = s.ring_down(100).torque_step;
   return {1 + step,
           text("here a step of ", digits(step, 2), " is let go: so small that the decay is linear")};
 }
 
 // The natural frequency of the rig, whose gears are 20 mm wide, taken to the width of the model.
-Finding within_5_percent(const SceneAnswers& s, int torque) {
+Finding within_5_percent(const SceneResults& s, int torque) {
   const double scaled_rig = 2700 * std::sqrt(25.4 / 20);
   const double off = table_frequency(s, torque, "mean").value / scaled_rig - 1;
   return yes_or_no(std::abs(off) <= 0.05, text(digits(100 * off, 2), " %"));
 }
 
-Finding weak_function_of_load(const SceneAnswers& s) {
+Finding weak_function_of_load(const SceneResults& s) {
   bool weak = true;
   std::string note;
   for (const char* state : {"one", "two", "mean"}) {
@@ -139,14 +139,14 @@ Finding weak_function_of_load(const SceneAnswers& s) {
 }
 
 Named of_impact_tests() {
-  return {{"mean-natural-frequency", plain([](const SceneAnswers& s) {
+  return {{"mean-natural-frequency", plain([](const SceneResults& s) {
              return Finding{table_frequency(s, 100, "mean").value, "25.4 mm wide, 100 N m"};
            })},
           {"impact-torque", plain(impact_torque)},
           {"within-5-percent", at_torque(within_5_percent)},
           {kNaturalFrequency,
            {{.torque = true, .contact = true},
-            [](const SceneAnswers& s, const PrintedClaim& c) {
+            [](const SceneResults& s, const PrintedClaim& c) {
               return table_frequency(s, c.torque, c.contact);
             }}},
           {"weak-function-of-load", plain(weak_function_of_load)}};
@@ -156,7 +156,7 @@ Named of_impact_tests() {
 
 // Largest RMS of all speeds at each torque of a model.
 ClaimValue amplitudes(const std::string& model) {
-  return plain([=](const SceneAnswers& s) {
+  return plain([=](const SceneResults& s) {
     std::string note;
     for (int torque : kTorques)
       note += text(note.empty() ? "" : ", ", digits(largest_rms(s.branches(torque, model)) * kMicro, 3));
@@ -164,33 +164,33 @@ ClaimValue amplitudes(const std::string& model) {
   });
 }
 
-Finding level_difference(const SceneAnswers& s, double f) {
+Finding level_difference(const SceneResults& s, double f) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   return {kNone, text("RMS of the DTE ", digits(20 * std::log10(at.upper.rms() / at.lower.rms()), 3),
                       " dB apart at ", digits(at.upper.speed()), " Hz")};
 }
 
-Finding upper_loses_contact(const SceneAnswers& s, double f) {
+Finding upper_loses_contact(const SceneResults& s, double f) {
   Finding losses = upper_losses(s, f);
   if (!std::isnan(losses.value)) losses.value = losses.value >= 1;
   return losses;
 }
 
-Finding upper_larger(const SceneAnswers& s, double f) {
+Finding upper_larger(const SceneResults& s, double f) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   const double ratio = at.upper.rms() / at.lower.rms();
   return yes_or_no(ratio >= 1.5, text(digits(ratio, 3), " times"));
 }
 
-Finding smooth_transition(const SceneAnswers& s, double f) {
+Finding smooth_transition(const SceneResults& s, double f) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   return force_step(s.sweep(kFigureTorque, at.lower.sweep->direction), at.lower.speed(), true, true);
 }
 
-Finding upper_load_larger(const SceneAnswers& s, double f) {
+Finding upper_load_larger(const SceneResults& s, double f) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   const double upper = largest_load(s, at.upper, LoadOf::tooth),
@@ -198,19 +198,19 @@ Finding upper_load_larger(const SceneAnswers& s, double f) {
   return yes_or_no(upper >= 1.2 * lower, text(digits(upper), " and ", digits(lower), " N"));
 }
 
-Finding amplitude_600(const SceneAnswers& s) {
+Finding amplitude_600(const SceneResults& s) {
   const double ratio = largest_rms(s.branches(600)) / largest_rms(s.branches(300));
   return yes_or_no(ratio >= 1.5, text(digits(ratio, 3), " times; at 600 N m ", loss_text(s.branches(600)),
                                       ", ", excitation(s, 600)));
 }
 
 Named of_sweeps() {
-  return {{"resonance", of_order([](const SceneAnswers& s, int order) { return resonance(s, order); })},
+  return {{"resonance", of_order([](const SceneResults& s, int order) { return resonance(s, order); })},
           {"driven-by-harmonic", of_order(driven_by_harmonic)},
           {"softening", plain(softening)},
           {"superharmonic-weaker", plain(superharmonic_weaker)},
           {"two-states", at_torque(width_at)},
-          {"jump-frequencies", at_torque([](const SceneAnswers& s, int torque) {
+          {"jump-frequencies", at_torque([](const SceneResults& s, int torque) {
              return Finding{kNone, jumps_text(s.branches(torque))};
            })},
           {"amplitudes", amplitudes("")},
@@ -234,48 +234,48 @@ Named of_branches_at_a_speed() {
           {"lower-more-distorted", of_order_at_speed(lower_more_distorted)},
           {"upper-larger", at_speed(upper_larger)},
           {"smooth-transition", at_speed(smooth_transition)},
-          {"load-lower", plain([](const SceneAnswers& s) { return load(s, Load::lower); })},
-          {"load-upper", plain([](const SceneAnswers& s) { return load(s, Load::upper); })},
-          {"load-increase", plain([](const SceneAnswers& s) { return load(s, Load::increase); })},
+          {"load-lower", plain([](const SceneResults& s) { return load(s, Load::lower); })},
+          {"load-upper", plain([](const SceneResults& s) { return load(s, Load::upper); })},
+          {"load-increase", plain([](const SceneResults& s) { return load(s, Load::increase); })},
           {"upper-load-larger", at_speed(upper_load_larger)}};
 }
 
 // ---- statics and models with one degree of freedom
 
-Finding lumped_natural_frequency(const SceneAnswers& s) {
+Finding lumped_natural_frequency(const SceneResults& s) {
   const SweepArtifact& a = s.sweep(kFigureTorque, "up", "rectangular");
   return {std::sqrt(s.at_rest(100).mean_stiffness / a.lumped.mass) / (2 * std::numbers::pi),
           "secant stiffness at 100 N m"};
 }
 
-Finding mean_transmission_errors(const SceneAnswers& s) {
+Finding mean_transmission_errors(const SceneResults& s) {
   std::string note;
   for (int torque : kTorques)
     note += text(note.empty() ? "" : ", ", digits(s.at_rest(torque).transmission_error_harmonic[0] * kMicro));
   return {kNone, "mean at 100, 200, 300 N m: " + note + " µm"};
 }
 
-Finding levels_of_wave(const SceneAnswers& s) {
+Finding levels_of_wave(const SceneResults& s) {
   const RectangularWave wave = rectangular_wave(s.at_rest(100));
   return {kNone,
           text("rectangular wave ", digits(wave.low * kMega), " and ", digits(wave.high * kMega), " N/µm")};
 }
 
-Finding mean_stiffness_torque(const SceneAnswers& s) {
+Finding mean_stiffness_torque(const SceneResults& s) {
   const double low = s.at_rest(100).mean_stiffness, high = s.at_rest(300).mean_stiffness;
   return yes_or_no(std::abs(high / low - 1) <= 0.028,
                    text("by ", digits(100 * (high / low - 1), 2), " %: ", digits(low * kMega), ", ",
                         digits(s.at_rest(200).mean_stiffness * kMega), ", ", digits(high * kMega), " N/µm"));
 }
 
-Finding lumped_kink(const SceneAnswers& s) {
+Finding lumped_kink(const SceneResults& s) {
   const std::vector<double> lost = speeds_with_loss(s.branches(kFigureTorque, "rectangular"));
   if (lost.empty()) return {kNone, "contact never lost"};
   const double f_n = s.branches(kFigureTorque, "rectangular").up.natural_frequency;
   return {lost.back(), text(digits(lost.back() / f_n, 3), " f_n")};
 }
 
-Finding secant_loses_contact(const SceneAnswers& s, int torque) {
+Finding secant_loses_contact(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque, "secant");
   return yes_or_no(!speeds_with_loss(b).empty(),
                    text(loss_text(b), "; first harmonic of k ",
@@ -299,17 +299,17 @@ Named of_lumped_models() {
           {"sdof-amplitudes", amplitudes("rectangular")},
           {"sdof-jumps", at_torque(lumped_jumps)},
           {"sdof-resonance",
-           of_order([](const SceneAnswers& s, int order) { return resonance(s, order, "rectangular"); })},
+           of_order([](const SceneResults& s, int order) { return resonance(s, order, "rectangular"); })},
           {"sdof-torque-independent", plain(torque_independent)},
-          {"sdof-mean-opposite", plain([](const SceneAnswers& s) { return mean_jumps(s, false); })},
-          {"sdof-mean-less", plain([](const SceneAnswers& s) { return mean_jumps(s, true); })},
+          {"sdof-mean-opposite", plain([](const SceneResults& s) { return mean_jumps(s, false); })},
+          {"sdof-mean-less", plain([](const SceneResults& s) { return mean_jumps(s, true); })},
           {"sdof-kink", plain(lumped_kink)},
           {"sdof-two-branches", at_speed(lumped_two)},
           {"sdof-upper-loses-contact",
-           at_speed([](const SceneAnswers& s, double f) { return lumped_loss(s, f, true); })},
+           at_speed([](const SceneResults& s, double f) { return lumped_loss(s, f, true); })},
           {"sdof-lower-keeps-contact",
-           at_speed([](const SceneAnswers& s, double f) { return lumped_loss(s, f, false); })},
-          {"sdof-force-step", at_speed([](const SceneAnswers& s, double f) {
+           at_speed([](const SceneResults& s, double f) { return lumped_loss(s, f, false); })},
+          {"sdof-force-step", at_speed([](const SceneResults& s, double f) {
              return force_step(s.sweep(kFigureTorque, "up", "rectangular"), f, false, false);
            })},
           {"secant-reduced", plain(secant_reduced)},

@@ -1,4 +1,4 @@
-// How the value that a claim names is read from what a scene answers.
+// How the value that a claim names is read from a scene's results.
 #pragma once
 #include <functional>
 #include <map>
@@ -15,7 +15,7 @@ struct Needs {
 
 struct ClaimValue {
   Needs needs;
-  std::function<Finding(const SceneAnswers&, const PrintedClaim&)> find;
+  std::function<Finding(const SceneResults&, const PrintedClaim&)> find;
 };
 
 // By the name that claims give.

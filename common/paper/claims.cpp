@@ -42,7 +42,7 @@ std::vector<Claim> read_claims(const std::string& path) {
     check("contact", needs.contact, !printed.contact.empty());
     claims.push_back({std::move(printed), {}});
     claims.back().find = [value = found->second.find,
-                          of = PrintedClaim(claims.back())](const SceneAnswers& s) { return value(s, of); };
+                          of = PrintedClaim(claims.back())](const SceneResults& s) { return value(s, of); };
   }
   return claims;
 }

@@ -1,14 +1,14 @@
 // What P2000 prints, claim by claim, beside the value of a scene that each is compared with.
 //
-// A claim is data of data/published/claims.toml: where it is printed, what it says, which tolerance or criterion decides and why.
-// It names its value; paper/claim_values.h says how values are read from what a scene answers.
+// A claim is data of data/published/claims.toml: where it is printed, what it says, which tolerance or criterion decides and
+// why. It names its value; paper/claim_values.h says how values are read from a scene's results.
 #pragma once
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "io/printed_claims.h"
-#include "paper/answers.h"
+#include "paper/results.h"
 
 namespace whine {
 
@@ -26,7 +26,7 @@ inline constexpr const char* kNaturalFrequency = "natural-frequency";
 inline constexpr const char *kPaperScene = "parker2000", *kCalibratedScene = "parker2000-calibrated";
 
 struct Claim : PrintedClaim {
-  std::function<Finding(const SceneAnswers&)> find;
+  std::function<Finding(const SceneResults&)> find;
 };
 
 // In the order of the file. Throws Error(input), with file:line, as read_printed_claims; for a value that is not known; for a

@@ -14,7 +14,7 @@ namespace whine::paper {
 namespace {
 
 // Mean mesh stiffness against that at 100 N m.
-double stiffening(const SceneAnswers& s, int torque) {
+double stiffening(const SceneResults& s, int torque) {
   return s.at_rest(torque).mean_stiffness / s.at_rest(kTorques[0]).mean_stiffness - 1;
 }
 
@@ -71,7 +71,7 @@ double rise(const ResponseArtifact& up, int order) {
 
 }  // namespace
 
-Finding no_second_branch(const SceneAnswers& s, int torque, const Pair& at, double f) {
+Finding no_second_branch(const SceneResults& s, int torque, const Pair& at, double f) {
   if (!at.there()) return {kNone, text("the sweeps do not come to ", digits(f), " Hz")};
   if (like_a_jump(at.upper.rms(), at.lower.rms()))
     return {kNone, text("the upper branch at ", digits(f), " Hz is that of f_n: its largest harmonic is ",
@@ -80,14 +80,14 @@ Finding no_second_branch(const SceneAnswers& s, int torque, const Pair& at, doub
                       " µm: ", excitation(s, torque))};
 }
 
-double largest_load(const SceneAnswers& s, const Motion& m, LoadOf what) {
+double largest_load(const SceneResults& s, const Motion& m, LoadOf what) {
   if (what == LoadOf::sum) return m.sweep->mesh_force_max[m.row];
   if (what == LoadOf::tooth) return m.sweep->tooth_load_max[m.row];
   const SweepArtifact& sweep = s.sweep(kFigureTorque, m.sweep->direction);
   return held_load(sweep.tooth_load[static_cast<size_t>(m.row)], sweep.time.steps_per_period);
 }
 
-Finding table_frequency(const SceneAnswers& s, int torque, const std::string& state) {
+Finding table_frequency(const SceneResults& s, int torque, const std::string& state) {
   const ImpactArtifact& i = s.ring_down(torque);
   const Index k = state_of(i, state);
   if (k < 0) return {kNone, "no part of the period has " + state + " loaded pairs"};
@@ -108,7 +108,7 @@ Finding table_frequency(const SceneAnswers& s, int torque, const std::string& st
   return {i.natural_frequency[k], note};
 }
 
-Finding damping(const SceneAnswers& s) {
+Finding damping(const SceneResults& s) {
   const ImpactArtifact& i = s.ring_down(kFigureTorque);
   std::vector<Reading> readings;
   for (const char* state : {"one", "two", "mean"})
@@ -122,7 +122,7 @@ Finding damping(const SceneAnswers& s) {
                               ", ring-down at ", kFigureTorque, " N m"));
 }
 
-Finding resonance(const SceneAnswers& s, int order, const std::string& model) {
+Finding resonance(const SceneResults& s, int order, const std::string& model) {
   const Summit top = summit(s.branches(kFigureTorque, model).up, order);
   if (top.row < 0)
     return {kNone, text("no summit within 15 % of ", digits(top.natural_frequency / order), " Hz")};
@@ -130,7 +130,7 @@ Finding resonance(const SceneAnswers& s, int order, const std::string& model) {
           text(digits(top.speed), " Hz, f_n ", digits(top.natural_frequency), " Hz")};
 }
 
-Finding driven_by_harmonic(const SceneAnswers& s, int order) {
+Finding driven_by_harmonic(const SceneResults& s, int order) {
   const ResponseArtifact& up = s.branches(kFigureTorque).up;
   const Summit top = summit(up, order);
   if (top.row < 0) return {kNone, "no summit"};
@@ -138,19 +138,19 @@ Finding driven_by_harmonic(const SceneAnswers& s, int order) {
   return {largest == order ? 1.0 : 0.0, text("largest harmonic at ", digits(top.speed), " Hz: ", largest)};
 }
 
-Finding jumps_at(const SceneAnswers& s, int torque) {
+Finding jumps_at(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque);
   if (jumps(b)) return {1, jumps_text(b)};
   return {0, text("one branch; ", loss_text(b), "; ", excitation(s, torque))};
 }
 
-Finding loses_contact(const SceneAnswers& s, int torque) {
+Finding loses_contact(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque);
   const bool lost = !speeds_with_loss(b).empty();
   return {lost ? 1.0 : 0.0, lost ? loss_text(b) : text(loss_text(b), "; ", excitation(s, torque))};
 }
 
-Finding two_at(const SceneAnswers& s, double f) {
+Finding two_at(const SceneResults& s, double f) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) {
     Finding none = no_second_branch(s, kFigureTorque, at, f);
@@ -163,14 +163,14 @@ Finding two_at(const SceneAnswers& s, double f) {
 
 namespace {
 
-double load_of(const SceneAnswers& s, const Pair& p, Load which, LoadOf what) {
+double load_of(const SceneResults& s, const Pair& p, Load which, LoadOf what) {
   const double lower = largest_load(s, p.lower, what), upper = largest_load(s, p.upper, what);
   return which == Load::lower ? lower : which == Load::upper ? upper : 100 * (upper / lower - 1);
 }
 
 }  // namespace
 
-Finding load(const SceneAnswers& s, Load which) {
+Finding load(const SceneResults& s, Load which) {
   const Pair at = printed_branches(s, kPrimary);
   if (!at.two()) {
     Finding none = no_second_branch(s, kFigureTorque, at, kPrimary);
@@ -193,7 +193,7 @@ Finding load(const SceneAnswers& s, Load which) {
   return {load_of(s, at, which, *best), note, kLoadsInWords[best - kLoadsOf.begin()]};
 }
 
-Finding upper_losses(const SceneAnswers& s, double f) {
+Finding upper_losses(const SceneResults& s, double f) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   return {at.upper.losses(),
@@ -201,14 +201,14 @@ Finding upper_losses(const SceneAnswers& s, double f) {
                " % of the period at ", digits(at.upper.speed()), " Hz")};
 }
 
-Finding lower_keeps_contact(const SceneAnswers& s, double f) {
+Finding lower_keeps_contact(const SceneResults& s, double f) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   return {at.lower.loses_contact() ? 0.0 : 1.0,
           text(digits(at.lower.losses(), 3), " losses a period at ", digits(at.lower.speed()), " Hz")};
 }
 
-Finding nearly_harmonic(const SceneAnswers& s, double f, int order) {
+Finding nearly_harmonic(const SceneResults& s, double f, int order) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   const double share = at.upper.share(order);
@@ -216,7 +216,7 @@ Finding nearly_harmonic(const SceneAnswers& s, double f, int order) {
                                           " % of all at ", digits(at.upper.speed()), " Hz")};
 }
 
-Finding lower_more_distorted(const SceneAnswers& s, double f, int order) {
+Finding lower_more_distorted(const SceneResults& s, double f, int order) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   const double upper = at.upper.share(order), lower = at.lower.share(order);
@@ -224,7 +224,7 @@ Finding lower_more_distorted(const SceneAnswers& s, double f, int order) {
                                           digits(100 * upper, 3), " % on the upper branch")};
 }
 
-Finding kink(const SceneAnswers& s, int torque) {
+Finding kink(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque);
   const std::vector<double> lost = speeds_with_loss(b);
   if (lost.empty()) return {kNone, text("contact never lost; ", excitation(s, torque))};
@@ -233,7 +233,7 @@ Finding kink(const SceneAnswers& s, int torque) {
           text(digits(lost.back()), " Hz, ", digits(ratio, 3), " f_n")};
 }
 
-Finding softening(const SceneAnswers& s) {
+Finding softening(const SceneResults& s) {
   const Branches b = s.branches(kFigureTorque);
   if (!jumps(b)) return jumps_at(s, kFigureTorque);
   // Where there are two, the larger motion is the one that falling speed leads to.
@@ -247,7 +247,7 @@ Finding softening(const SceneAnswers& s) {
   return {any && all ? 1.0 : 0.0, jumps_text(b)};
 }
 
-Finding superharmonic_weaker(const SceneAnswers& s) {
+Finding superharmonic_weaker(const SceneResults& s) {
   const ResponseArtifact& up = s.branches(kFigureTorque).up;
   const double first = rise(up, 1), second = rise(up, 2), third = rise(up, 3);
   if (first == 0) return {kNone, "no jump near f_n"};
@@ -256,7 +256,7 @@ Finding superharmonic_weaker(const SceneAnswers& s) {
                ", ", digits(third * kMicro, 3), " µm")};
 }
 
-Finding loss_down_to_the_jump(const SceneAnswers& s) {
+Finding loss_down_to_the_jump(const SceneResults& s) {
   std::vector<double> kept;
   std::string at_torques;
   size_t branches_found = 0;
@@ -284,7 +284,7 @@ Finding loss_down_to_the_jump(const SceneAnswers& s) {
                                                  : "contact kept at " + speeds_text(kept, step)};
 }
 
-Finding loss_beyond_two_branches(const SceneAnswers& s) {
+Finding loss_beyond_two_branches(const SceneResults& s) {
   std::string note;
   bool everywhere = true;
   for (int torque : kTorques) {
@@ -299,7 +299,7 @@ Finding loss_beyond_two_branches(const SceneAnswers& s) {
   return {everywhere ? 1.0 : 0.0, note};
 }
 
-Finding lower_never_loses(const SceneAnswers& s) {
+Finding lower_never_loses(const SceneResults& s) {
   std::string note, bands;
   bool ever = false;
   for (int torque : kTorques) {
@@ -321,7 +321,7 @@ Finding lower_never_loses(const SceneAnswers& s) {
   return {ever ? 0.0 : 1.0, text(note, note.empty() ? "" : "; ", "looked at ", bands)};
 }
 
-Finding grows_with_torque(const SceneAnswers& s) {
+Finding grows_with_torque(const SceneResults& s) {
   double last = 0;
   bool grows = true;
   std::string note;
@@ -337,7 +337,7 @@ Finding grows_with_torque(const SceneAnswers& s) {
                                   digits(100 * first_harmonic_share(s.at_rest(300)), 3), " % of its mean")};
 }
 
-Finding width_at(const SceneAnswers& s, int torque) {
+Finding width_at(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque);
   const std::vector<double> two = speeds_with_two(b);
   return {kNone, two.empty() ? "here one branch" : "here two branches at " + speeds_text(two, step_of(b.up))};

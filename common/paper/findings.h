@@ -1,4 +1,4 @@
-// How the value of each claim is read from what a scene answers.
+// How the value of each claim is read from a scene's results.
 #pragma once
 #include <string>
 
@@ -12,46 +12,46 @@ enum class Load { lower, upper, increase };
 
 // Of the elastic pair.
 // Why there are not two motions at a speed f (Hz).
-Finding no_second_branch(const SceneAnswers& s, int torque, const Pair& at, double f);
+Finding no_second_branch(const SceneResults& s, int torque, const Pair& at, double f);
 // Largest load of a motion, N.
-double largest_load(const SceneAnswers& s, const Motion& m, LoadOf what);
-Finding table_frequency(const SceneAnswers& s, int torque, const std::string& state);
-Finding damping(const SceneAnswers& s);
-Finding resonance(const SceneAnswers& s, int order, const std::string& model = "");
-Finding driven_by_harmonic(const SceneAnswers& s, int order);
-Finding jumps_at(const SceneAnswers& s, int torque);
-Finding loses_contact(const SceneAnswers& s, int torque);
-Finding two_at(const SceneAnswers& s, double f);
-Finding load(const SceneAnswers& s, Load which);
-Finding upper_losses(const SceneAnswers& s, double f);
-Finding lower_keeps_contact(const SceneAnswers& s, double f);
-Finding nearly_harmonic(const SceneAnswers& s, double f, int order);
-Finding lower_more_distorted(const SceneAnswers& s, double f, int order);
-Finding kink(const SceneAnswers& s, int torque);
+double largest_load(const SceneResults& s, const Motion& m, LoadOf what);
+Finding table_frequency(const SceneResults& s, int torque, const std::string& state);
+Finding damping(const SceneResults& s);
+Finding resonance(const SceneResults& s, int order, const std::string& model = "");
+Finding driven_by_harmonic(const SceneResults& s, int order);
+Finding jumps_at(const SceneResults& s, int torque);
+Finding loses_contact(const SceneResults& s, int torque);
+Finding two_at(const SceneResults& s, double f);
+Finding load(const SceneResults& s, Load which);
+Finding upper_losses(const SceneResults& s, double f);
+Finding lower_keeps_contact(const SceneResults& s, double f);
+Finding nearly_harmonic(const SceneResults& s, double f, int order);
+Finding lower_more_distorted(const SceneResults& s, double f, int order);
+Finding kink(const SceneResults& s, int torque);
 // A second steady state below the resonance of the rising sweep.
-Finding softening(const SceneAnswers& s);
-Finding superharmonic_weaker(const SceneAnswers& s);
+Finding softening(const SceneResults& s);
+Finding superharmonic_weaker(const SceneResults& s);
 // Speeds on the branch between the kink and the jump down: those with two branches, and all above them up to the highest
 // speed with loss of contact.
-Finding loss_down_to_the_jump(const SceneAnswers& s);
-Finding loss_beyond_two_branches(const SceneAnswers& s);
-Finding lower_never_loses(const SceneAnswers& s);
-Finding grows_with_torque(const SceneAnswers& s);
-Finding width_at(const SceneAnswers& s, int torque);
+Finding loss_down_to_the_jump(const SceneResults& s);
+Finding loss_beyond_two_branches(const SceneResults& s);
+Finding lower_never_loses(const SceneResults& s);
+Finding grows_with_torque(const SceneResults& s);
+Finding width_at(const SceneResults& s, int torque);
 
 // Of the models with one degree of freedom, and of the stiffness that they take.
-Finding lumped_jumps(const SceneAnswers& s, int torque);
-Finding torque_independent(const SceneAnswers& s);
+Finding lumped_jumps(const SceneResults& s, int torque);
+Finding torque_independent(const SceneResults& s);
 // The rows before and after each jump.
-Finding mean_jumps(const SceneAnswers& s, bool less);
-Finding lumped_two(const SceneAnswers& s, double f);
-Finding lumped_loss(const SceneAnswers& s, double f, bool upper);
+Finding mean_jumps(const SceneResults& s, bool less);
+Finding lumped_two(const SceneResults& s, double f);
+Finding lumped_loss(const SceneResults& s, double f, bool upper);
 // Whether the force of one pair, or of all, has a step or none, at the speed nearest to f.
 Finding force_step(const SweepArtifact& sweep, double f, bool one_pair, bool smooth);
-Finding secant_reduced(const SceneAnswers& s);
-Finding secant_linear(const SceneAnswers& s, int torque);
-Finding stiffness_spectrum(const SceneAnswers& s);
-Finding spectrum_lost(const SceneAnswers& s);
-Finding modest_difference(const SceneAnswers& s);
+Finding secant_reduced(const SceneResults& s);
+Finding secant_linear(const SceneResults& s, int torque);
+Finding stiffness_spectrum(const SceneResults& s);
+Finding spectrum_lost(const SceneResults& s);
+Finding modest_difference(const SceneResults& s);
 
 }  // namespace whine::paper

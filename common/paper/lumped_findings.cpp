@@ -24,7 +24,7 @@ Eigen::VectorXd load_of_a_pair(const SweepArtifact& sweep, Index row) {
 
 }  // namespace
 
-Finding lumped_jumps(const SceneAnswers& s, int torque) {
+Finding lumped_jumps(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque, "rectangular");
   if (jumps(b)) return {1, jumps_text(b)};
   const RectangularWave wave = rectangular_wave(s.at_rest(kTorques[0]));
@@ -33,7 +33,7 @@ Finding lumped_jumps(const SceneAnswers& s, int torque) {
                   "; first harmonic ", digits(100 * wave.amplitude(1) / wave.mean(), 3), " % of their mean")};
 }
 
-Finding torque_independent(const SceneAnswers& s) {
+Finding torque_independent(const SceneResults& s) {
   const auto marks = [&](int torque) {
     const Branches b = s.branches(torque, "rectangular");
     std::vector<double> at;
@@ -59,7 +59,7 @@ Finding torque_independent(const SceneAnswers& s) {
           text("jumps at the three torques differ by ", digits(largest, 3), " Hz at most")};
 }
 
-Finding mean_jumps(const SceneAnswers& s, bool less) {
+Finding mean_jumps(const SceneResults& s, bool less) {
   const Branches b = s.branches(kFigureTorque, "rectangular");
   bool holds = true;
   std::string note;
@@ -75,7 +75,7 @@ Finding mean_jumps(const SceneAnswers& s, bool less) {
   return {holds ? 1.0 : 0.0, note};
 }
 
-Finding lumped_two(const SceneAnswers& s, double f) {
+Finding lumped_two(const SceneResults& s, double f) {
   const Branches b = s.branches(kFigureTorque, "rectangular");
   const Pair at = motions(b, f);
   if (!at.two()) return {0, text("one branch; ", jumps_text(b))};
@@ -83,7 +83,7 @@ Finding lumped_two(const SceneAnswers& s, double f) {
                   " µm at ", digits(at.upper.speed()), " Hz")};
 }
 
-Finding lumped_loss(const SceneAnswers& s, double f, bool upper) {
+Finding lumped_loss(const SceneResults& s, double f, bool upper) {
   const Pair at = motions(s.branches(kFigureTorque, "rectangular"), f);
   if (!at.there() || (upper && !at.two())) return {kNone, text("one branch at ", digits(f), " Hz")};
   const Motion& m = upper ? at.upper : at.lower;
@@ -105,7 +105,7 @@ Finding force_step(const SweepArtifact& sweep, double f, bool one_pair, bool smo
                digits(step.beside), " N, at ", digits(sweep.mesh_frequency[row]), " Hz")};
 }
 
-Finding secant_reduced(const SceneAnswers& s) {
+Finding secant_reduced(const SceneResults& s) {
   bool reduced = true;
   std::string note;
   for (int torque : kTorques) {
@@ -117,7 +117,7 @@ Finding secant_reduced(const SceneAnswers& s) {
   return {reduced ? 1.0 : 0.0, "largest RMS over that of the rectangular wave at 100, 200, 300 N m: " + note};
 }
 
-Finding secant_linear(const SceneAnswers& s, int torque) {
+Finding secant_linear(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque, "secant");
   const double difference =
       ((b.up.dte_rms - b.down.dte_rms.reverse()).array() / b.up.dte_rms.array()).abs().maxCoeff();
@@ -126,7 +126,7 @@ Finding secant_linear(const SceneAnswers& s, int torque) {
           text(loss_text(b), "; up and down differ by ", digits(100 * difference, 2), " % at most")};
 }
 
-Finding stiffness_spectrum(const SceneAnswers& s) {
+Finding stiffness_spectrum(const SceneResults& s) {
   std::array<double, 3> share{};
   std::string note;
   for (size_t t = 0; t < kTorques.size(); ++t) {
@@ -137,7 +137,7 @@ Finding stiffness_spectrum(const SceneAnswers& s) {
   return {falls ? 1.0 : 0.0, "first harmonic of k over its mean at 100, 200, 300 N m: " + note + " %"};
 }
 
-Finding spectrum_lost(const SceneAnswers& s) {
+Finding spectrum_lost(const SceneResults& s) {
   const RectangularWave wave = rectangular_wave(s.at_rest(100));
   const auto strength = [](auto amplitude) {
     double sum = 0;
@@ -158,7 +158,7 @@ Finding spectrum_lost(const SceneAnswers& s) {
           "harmonics 1 to 3 of k over those of the rectangular wave at 100, 200, 300 N m: " + note};
 }
 
-Finding modest_difference(const SceneAnswers& s) {
+Finding modest_difference(const SceneResults& s) {
   double largest = 0;
   const RectangularWave wave = rectangular_wave(s.at_rest(100));
   for (int torque : kTorques) {

@@ -24,7 +24,7 @@ Pair motions(const Branches& b, double f) {
   return pair;
 }
 
-Pair printed_branches(const SceneAnswers& s, double f) {
+Pair printed_branches(const SceneResults& s, double f) {
   const Branches b = s.branches(kFigureTorque);
   const Pair there = motions(b, f);
   if (there.two()) return there;
@@ -106,7 +106,7 @@ Index state_of(const ImpactArtifact& i, const std::string& state) {
   return -1;
 }
 
-std::string excitation(const SceneAnswers& s, int torque) {
+std::string excitation(const SceneResults& s, int torque) {
   std::string words = text("first harmonic of k ", digits(100 * first_harmonic_share(s.at_rest(torque)), 3),
                            " % of its mean");
   const auto damped = s.impacts.find(text("T", torque, "/impact.h5"));

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "motion/impact_result.h"
-#include "paper/answers.h"
+#include "dynamics/impact_result.h"
 #include "paper/claims.h"
+#include "paper/results.h"
 #include "signal/branches.h"
 #include "signal/response.h"
 #include "signal/static_result.h"
@@ -69,7 +69,7 @@ Index row_at(const ResponseArtifact& r, double f);
 Pair motions(const Branches& b, double f);
 // The motions at a speed that P2000 prints for 150 N m; where there are not two, those of the nearest speed that has two
 // between caption and text.
-Pair printed_branches(const SceneAnswers& s, double f);
+Pair printed_branches(const SceneResults& s, double f);
 std::string speeds_text(std::vector<double> speeds, double step);
 double step_of(const ResponseArtifact& r);
 std::vector<double> speeds_with_loss(const Branches& b);
@@ -80,7 +80,7 @@ std::string jumps_text(const Branches& b);
 double first_harmonic_share(const StaticArtifact& s);
 Index state_of(const ImpactArtifact& i, const std::string& state);
 // What decides whether contact is lost: how strongly the stiffness varies, and the damping.
-std::string excitation(const SceneAnswers& s, int torque);
+std::string excitation(const SceneResults& s, int torque);
 std::string loss_text(const Branches& b);
 Step largest_step(const Eigen::Ref<const Eigen::VectorXd>& period);
 

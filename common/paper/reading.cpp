@@ -7,15 +7,15 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "dynamics/impact.h"
 #include "lumped/stiffness.h"
 #include "lumped/sweep.h"
-#include "motion/impact.h"
-#include "motion/statics.h"
-#include "motion/sweep.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
 
 namespace whine {
 
@@ -27,7 +27,7 @@ namespace {
 constexpr double kCoarseElement = 0.8e-3;  // m
 constexpr int kCoarseModes = 21;
 constexpr int kPositions = 128;
-constexpr int kHeldPhases = 64;
+constexpr int kFixedPhases = 64;
 constexpr double kBoreStep = 1e-3;  // m
 constexpr int kLeastBore = 20;      // steps
 
@@ -37,15 +37,15 @@ std::string folder(int torque, const std::string& rest) {
   return text("T", torque, "/", rest);
 }
 
-StaticSlice static_slice_of(const Scene& scene, const CornerRule& corner, ContactModel contact) {
-  StaticSlice slice;
-  slice.mesh = scene.mesh;
-  slice.mesh.corner = corner;
-  slice.contact = scene.contact;
-  slice.contact.positions = kPositions;
-  slice.fidelity = scene.fidelity;
-  slice.fidelity.contact = contact;
-  return slice;
+StaticParameters static_parameters_of(const Scene& scene, const CornerRule& corner, ContactModel contact) {
+  StaticParameters settings;
+  settings.mesh = scene.mesh;
+  settings.mesh.corner = corner;
+  settings.contact = scene.contact;
+  settings.contact.positions = kPositions;
+  settings.fidelity = scene.fidelity;
+  settings.fidelity.contact = contact;
+  return settings;
 }
 
 StaticArtifact with_harmonics(StaticArtifact statics) {
@@ -124,7 +124,8 @@ const BodyArtifact& BoreFamily::body(double bore) {
 
 double BoreFamily::mean_stiffness(int steps, const CornerRule& corner) {
   const BodyArtifact& gear = body(steps * kBoreStep);
-  return static_transmission(gear, gear, static_slice_of(scene_, corner, ContactModel::line), kTorques[0])
+  return static_transmission(gear, gear, static_parameters_of(scene_, corner, ContactModel::line),
+                             kTorques[0])
       .mean_stiffness;
 }
 
@@ -167,9 +168,9 @@ PaperPair::PaperPair(BoreFamily& family, double bore, const Scene& scene, const 
       time_(scene.time) {
   for (int torque : kSweptTorques) {
     pair_.statics[folder(torque, "static.h5")] = with_harmonics(static_transmission(
-        body_, body_, static_slice_of(scene, choices.corner, ContactModel::strips), torque));
-    rest_[torque] =
-        static_transmission(body_, body_, static_slice_of(scene, choices.corner, level_.contact), torque);
+        body_, body_, static_parameters_of(scene, choices.corner, ContactModel::strips), torque));
+    rest_[torque] = static_transmission(body_, body_,
+                                        static_parameters_of(scene, choices.corner, level_.contact), torque);
   }
   add_lumped(scene);
 }
@@ -200,13 +201,13 @@ void PaperPair::add_lumped(const Scene& scene) {
   }
 }
 
-ImpactSlice PaperPair::impact_slice(const OpenChoices& choices, double inertia) const {
-  ImpactSlice slice;
-  slice.driver_inertia = slice.driven_inertia = inertia;
-  slice.damping.undamped_depth = choices.undamped_depth;
-  slice.damping.rayleigh_stiffness = 0;
-  slice.reference_torque = kTorques[0];
-  return slice;
+ImpactParameters PaperPair::impact_parameters(const OpenChoices& choices, double inertia) const {
+  ImpactParameters settings;
+  settings.driver_inertia = settings.driven_inertia = inertia;
+  settings.damping.undamped_depth = choices.undamped_depth;
+  settings.damping.rayleigh_stiffness = 0;
+  settings.reference_torque = kTorques[0];
+  return settings;
 }
 
 double PaperPair::tied_inertia(const std::string& from) {
@@ -222,12 +223,13 @@ double PaperPair::tied_inertia(const std::string& from) {
     double sum = 0;
     int count = 0;
     for (size_t t = 0; t < (from == "table" ? kTorques.size() : 1); ++t) {
-      const ImpactArtifact held = frozen_impact(body_, body_, pair_.at_rest(kTorques[t]), reference_stiffness,
-                                                impact_slice({}, inertia), kHeldPhases);
+      const ImpactArtifact at_phase =
+          frozen_impact(body_, body_, pair_.at_rest(kTorques[t]), reference_stiffness,
+                        impact_parameters({}, inertia), kFixedPhases);
       for (const Claim& row : claims_) {
         if (row.value != kNaturalFrequency || row.torque != kTorques[t]) continue;
         if (from != "table" && from != row.contact) continue;
-        sum += row.printed / (kDamped * held.undamped_frequency[row_of(held, row.contact)]);
+        sum += row.printed / (kDamped * at_phase.undamped_frequency[row_of(at_phase, row.contact)]);
         ++count;
       }
     }
@@ -251,23 +253,24 @@ double PaperPair::tied_inertia(const std::string& from) {
 
 double PaperPair::tied_rayleigh_stiffness(const OpenChoices& choices, double inertia,
                                           double rayleigh_mass) const {
-  ImpactSlice slice = impact_slice(choices, inertia);
-  slice.damping.rayleigh_mass = rayleigh_mass;
+  ImpactParameters settings = impact_parameters(choices, inertia);
+  settings.damping.rayleigh_mass = rayleigh_mass;
   const StaticArtifact& rest = pair_.at_rest(kFigureTorque);
-  const std::vector<HeldState> states =
-      held_states(body_, body_, rest, pair_.at_rest(kTorques[0]).mean_stiffness, slice, kHeldPhases);
+  const std::vector<FixedPhaseState> states = fixed_phase_states(
+      body_, body_, rest, pair_.at_rest(kTorques[0]).mean_stiffness, settings, kFixedPhases);
   // The mean over the period: pairs in mesh by the contact ratio, one pair for the rest.
   const double two = rest.contact_ratio - 1;
   const auto excess = [&](double eta) {
     double ratio = 0, weight = 0;
-    for (const HeldState& s : states) {
+    for (const FixedPhaseState& s : states) {
       const double share = choices.damped_state == s.contact_state ? 1
                            : choices.damped_state != "mean"        ? 0
                            : s.contact_state == "one"              ? 1 - two
                            : s.contact_state == "two"              ? two
                                                                    : 0;
       if (share == 0) continue;
-      ratio += share * frozen_root(with_rayleigh_stiffness(s.mesh, eta, slice.fidelity.body)).damping_ratio;
+      ratio +=
+          share * frozen_root(with_rayleigh_stiffness(s.mesh, eta, settings.fidelity.body)).damping_ratio;
       weight += share;
     }
     if (weight == 0)
@@ -291,11 +294,11 @@ Reading PaperPair::evaluate(const OpenChoices& choices) {
   // Frequencies go as 1 / sqrt(inertia), but for the part of it in the bodies' modes.
   out.total_inertia = tied_inertia(choices.inertia_from) / std::pow(1 + choices.frequency_offset, 2);
   const double bearing_stiffness = pair_.at_rest(kTorques[0]).mean_stiffness;
-  const ImpactSlice held = impact_slice(choices, out.total_inertia);
+  const ImpactParameters at_phase = impact_parameters(choices, out.total_inertia);
   {
     // mu = 2 zeta w with w of the contact state that has the printed ratio.
     const StaticArtifact& rest = pair_.at_rest(kFigureTorque);
-    const ImpactArtifact at = frozen_impact(body_, body_, rest, bearing_stiffness, held, kHeldPhases);
+    const ImpactArtifact at = frozen_impact(body_, body_, rest, bearing_stiffness, at_phase, kFixedPhases);
     out.rayleigh_mass = choices.mass_share * 2 * kPaperDampingRatio * 2 * std::numbers::pi *
                         at.undamped_frequency[row_of(at, choices.damped_state)];
   }
@@ -306,40 +309,40 @@ Reading PaperPair::evaluate(const OpenChoices& choices) {
 Reading PaperPair::judge(Reading out) const {
   const OpenChoices& choices = out.choices;
   const double bearing_stiffness = pair_.at_rest(kTorques[0]).mean_stiffness;
-  ImpactSlice held = impact_slice(choices, out.total_inertia);
-  held.damping.rayleigh_mass = out.rayleigh_mass;
-  held.damping.rayleigh_stiffness = out.rayleigh_stiffness;
+  ImpactParameters at_phase = impact_parameters(choices, out.total_inertia);
+  at_phase.damping.rayleigh_mass = out.rayleigh_mass;
+  at_phase.damping.rayleigh_stiffness = out.rayleigh_stiffness;
   out.verdict.clear();
   out.exists.clear();
   out.value.clear();
 
-  SceneAnswers answers = pair_;
+  SceneResults results = pair_;
   for (int torque : {100, 150, 200, 300})
-    answers.impacts[folder(torque, "impact.h5")] =
-        frozen_impact(body_, body_, pair_.at_rest(torque), bearing_stiffness, held, kHeldPhases);
-  SweepSlice slice;
-  static_cast<ImpactSlice&>(slice) = held;
-  slice.fidelity.contact = level_.contact;
-  slice.frequency_from = level_.from;
-  slice.frequency_to = level_.to;
-  slice.frequency_step = level_.step;
-  slice.time = time_;
-  slice.time.steps_per_period = choices.steps_per_period;
-  if (choices.steps_per_period != time_.steps_per_period) slice.time.min_sample_rate = 1;
+    results.impacts[folder(torque, "impact.h5")] =
+        frozen_impact(body_, body_, pair_.at_rest(torque), bearing_stiffness, at_phase, kFixedPhases);
+  SweepParameters settings;
+  static_cast<ImpactParameters&>(settings) = at_phase;
+  settings.fidelity.contact = level_.contact;
+  settings.frequency_from = level_.from;
+  settings.frequency_to = level_.to;
+  settings.frequency_step = level_.step;
+  settings.time = time_;
+  settings.time.steps_per_period = choices.steps_per_period;
+  if (choices.steps_per_period != time_.steps_per_period) settings.time.min_sample_rate = 1;
   for (int torque : kSweptTorques)
     for (const char* direction : {"up", "down"}) {
       SweepArtifact motion =
-          sweep(body_, body_, rest_.at(torque), bearing_stiffness, slice, direction, kNoReport);
+          sweep(body_, body_, rest_.at(torque), bearing_stiffness, settings, direction, kNoReport);
       const std::string place = folder(torque, std::string(direction) + "/");
-      answers.responses[place + "response.h5"] = response(motion);
-      if (torque == kFigureTorque) answers.sweeps[place + "sweep.h5"] = std::move(motion);
+      results.responses[place + "response.h5"] = response(motion);
+      if (torque == kFigureTorque) results.sweeps[place + "sweep.h5"] = std::move(motion);
     }
 
   const RectangularWave wave = rectangular_wave(pair_.at_rest(kTorques[0]));
   out.level_ratio = wave.high / wave.low;
   const StaticArtifact& rest = pair_.at_rest(kFigureTorque);
   out.first_harmonic = rest.stiffness_harmonic[1] / rest.stiffness_harmonic[0];
-  const Branches figure = answers.branches(kFigureTorque);
+  const Branches figure = results.branches(kFigureTorque);
   const auto primary = [](const ResponseArtifact& r) {
     const double largest = r.jump_frequency.size() > 0 ? r.jump_frequency.maxCoeff() : 0;
     return largest > 0.575 * r.natural_frequency ? largest : 0;
@@ -348,7 +351,7 @@ Reading PaperPair::judge(Reading out) const {
   out.jump_down = primary(figure.down);
   const std::set<std::string> fitted = fitted_claims(choices);
   for (const Claim& claim : claims_) {
-    const Finding finding = claim.find(answers);
+    const Finding finding = claim.find(results);
     const bool exists = std::isfinite(finding.value);
     out.verdict.push_back(static_cast<int>(verdict(claim, finding, fitted.contains(claim.id))));
     out.exists.push_back(exists);

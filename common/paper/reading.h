@@ -72,7 +72,7 @@ class PaperPair {
  private:
   double tied_inertia(const std::string& from);
   double tied_rayleigh_stiffness(const OpenChoices& choices, double inertia, double rayleigh_mass) const;
-  ImpactSlice impact_slice(const OpenChoices& choices, double inertia) const;
+  ImpactParameters impact_parameters(const OpenChoices& choices, double inertia) const;
   void add_lumped(const Scene& scene);
 
   std::vector<Claim> claims_;
@@ -80,7 +80,7 @@ class PaperPair {
   double bore_;
   ReadingLevel level_;
   TimeDiscretisation time_;
-  SceneAnswers pair_;                      // what all readings of the pair share
+  SceneResults pair_;                      // what all readings of the pair share
   std::map<int, StaticArtifact> rest_;     // by torque, with one contact line per tooth pair
   std::map<std::string, double> inertia_;  // kg m2, by what it is fitted to
 };

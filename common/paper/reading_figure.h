@@ -1,8 +1,9 @@
-// The readings of P2000 as a figure: agreeing claims against the level ratio of the mesh stiffness, and which sets of claims hold together.
+// The readings of P2000 as a figure: agreeing claims against the level ratio of the mesh stiffness, and which sets of claims
+// hold together.
 #pragma once
 #include "io/readings_codec.h"
 #include "paper/consistency.h"
-#include "plot/figures.h"
+#include "report/figures.h"
 
 namespace whine {
 

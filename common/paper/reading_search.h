@@ -10,8 +10,8 @@ namespace whine {
 // "dedendum 1.4, rack tip 0.5 of the largest, plane stress, no corner contact: 12 readings"
 std::string pair_words(const OpenChoices& pair, int readings);
 
-// Part `part` (from 1) of `parts` of the plan. A part takes whole families: pairs that share a tooth form and a plane state. What
-// lies outside the model is told, counted and left out.
+// Part `part` (from 1) of `parts` of the plan. A part takes whole families: pairs that share a tooth form and a plane state.
+// What lies outside the model is told, counted and left out.
 ReadingsArtifact run_part(const ReadingPlan& plan, const Scene& scene, int part, int parts,
                           const std::vector<Claim>& claims);
 

@@ -59,7 +59,7 @@ Verdict verdict(const Scorecard& card, const ScoredClaim& row, size_t scene) {
   return verdict(row.claim, row.findings[scene], is_fitted);
 }
 
-Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers>& scenes,
+Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneResults>& scenes,
                 const std::vector<FittedNumber>& fitted) {
   Scorecard card;
   card.fitted = fitted;
@@ -68,11 +68,11 @@ Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers
       if (std::none_of(claims.begin(), claims.end(), [&](const Claim& c) { return c.id == id; }))
         fail(Failure::input, "the number ", n.number, " of scene ", n.scene, " is fitted to the claim '", id,
              "', which does not exist; gear-scorecard --claims lists them");
-  for (const SceneAnswers& s : scenes) card.scenes.push_back(s.name);
+  for (const SceneResults& s : scenes) card.scenes.push_back(s.name);
   for (const Claim& claim : claims) {
     ScoredClaim row{claim, {}, ""};
     std::set<std::string> asked;
-    for (const SceneAnswers& s : scenes) {
+    for (const SceneResults& s : scenes) {
       s.asked.clear();
       row.findings.push_back(claim.find(s));
       asked.insert(s.asked.begin(), s.asked.end());
@@ -192,7 +192,7 @@ std::vector<std::string> bottom_line(const Scorecard& card) {
 }
 
 std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>& sources) {
-  std::string out = "# What P2000 prints beside what the scenes answer\n";
+  std::string out = "# What P2000 prints beside the results of the scenes\n";
   for (const std::string& line : bottom_line(card)) out += "# " + line + "\n";
   for (const std::string& source : sources) out += "# from " + source + "\n";
   out += "# id\tplace\tclaim\tunit\tprinted\ttolerance\tbasis";

@@ -1,4 +1,4 @@
-// The scorecard: what P2000 prints beside what scenes answer. Verdicts follow from value and tolerance alone.
+// The scorecard: what P2000 prints beside the results of scenes. Verdicts follow from value and tolerance alone.
 #pragma once
 #include <string>
 #include <vector>
@@ -24,7 +24,7 @@ struct Scorecard {
   std::vector<ScoredClaim> rows;
 };
 // Throws Error(input) for a number that is fitted to a claim that does not exist.
-Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneAnswers>& scenes,
+Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneResults>& scenes,
                 const std::vector<FittedNumber>& fitted);
 Verdict verdict(const Scorecard& card, const ScoredClaim& row, size_t scene);
 

@@ -1,8 +1,8 @@
 // Table 1 of P2000: natural frequencies by ring-down beside the printed ones.
 #pragma once
+#include "dynamics/impact_result.h"
 #include "io/printed_claims.h"
-#include "motion/impact_result.h"
-#include "plot/figures.h"
+#include "report/figures.h"
 
 namespace whine {
 

@@ -27,15 +27,15 @@ double departure(const BranchMotion* before, const BranchMotion& a, const Branch
                  const BranchMotion* after) {
   if (of_other_kind(a, b)) return std::numeric_limits<double>::infinity();
   const double width = b.mesh_frequency - a.mesh_frequency, change = level(b) - level(a);
-  const auto foretold = [&](const BranchMotion& c, const BranchMotion& d) {
+  const auto predicted = [&](const BranchMotion& c, const BranchMotion& d) {
     return of_other_kind(c, d) || c.mesh_frequency == d.mesh_frequency
                ? 0
                : (level(d) - level(c)) / (d.mesh_frequency - c.mesh_frequency) * width;
   };
-  const double on = before ? foretold(*before, a) : 0;
+  const double on = before ? predicted(*before, a) : 0;
   if (!after) return std::abs(change - on);
   // What is beside counts for no more than twice the change: it may be a jump itself.
-  const double most = 2 * std::abs(change), back = foretold(b, *after);
+  const double most = 2 * std::abs(change), back = predicted(b, *after);
   return std::abs(change - 0.5 * (std::clamp(on, -most, most) + std::clamp(back, -most, most)));
 }
 
@@ -91,7 +91,7 @@ std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<Br
   constexpr int kShrinking = 4;      // steps, in the finest, over which a flank is told from a jump
   constexpr double kLost = 1.25;     // change of RMS of a step that is halved whatever it leads to
   constexpr double kSurelyLost = 2;  // the same for kShrinking finest steps and fewer
-  constexpr double kToFold = 0.75;   // of the way to a fold that is foretold
+  constexpr double kToFold = 0.75;   // of the way to a fold that is predicted
   const double finest = walk.step / walk.fineness;
   const BranchMotion from = sweep[i - 1];
   const BranchMotion* const swept = at_or_none(sweep, i);

@@ -54,9 +54,9 @@ struct BranchJump {
   bool located = false;             // by following the branch; otherwise between the two speeds of the sweep
   double last = 0;                  // Hz: furthest speed on the branch, if located
 };
-// The jump between the motions i - 1 and i of a sweep, or beyond where the sweep left the branch early, by branch_end(); nothing
-// if the branch leads from one to the other. follower: called for a motion i - 1 that is periodic. left_early: takes the motions
-// kept on the way, if given.
+// The jump between the motions i - 1 and i of a sweep, or beyond where the sweep left the branch early, by branch_end();
+// nothing if the branch leads from one to the other. follower: called for a motion i - 1 that is periodic. left_early: takes
+// the motions kept on the way, if given.
 std::optional<BranchJump> find_jump(const std::vector<BranchMotion>& sweep, size_t i,
                                     const std::function<BranchFollower()>& follower,
                                     std::vector<BranchPoint>* left_early);

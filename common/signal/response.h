@@ -15,7 +15,7 @@ namespace whine {
 
 inline constexpr int kResponseHarmonics = 10;
 
-// Rows keep the order of marching. Harmonics are those of the mesh frequency, 10 or as many as the coarsest
+// Rows keep the order in which they were computed. Harmonics are those of the mesh frequency, 10 or as many as the coarsest
 // row resolves; of teeth that differ, orders as well, up to the last of these harmonics: harmonics of the hunting frequency,
 // which hold the shafts' orders and the sidebands of the mesh frequency. Jumps are the sweep's own: it bisects them. Throws
 // Error(input) for a sweep without speeds, arrays whose lengths disagree, values that are not finite, or negative forces.
@@ -24,10 +24,10 @@ ResponseArtifact response(const SweepArtifact& sweep);
 // Ranges of neighbouring speeds (Hz) of which something is true: "2820 to 2980, 3100"; "" if it is of none.
 std::string speed_ranges(const std::map<double, bool>& speeds);
 
-// The row after which the march crosses f (Hz); -1 if it never does.
+// The row after which the sweep crosses f (Hz); -1 if it never does.
 Eigen::Index row_before(const Eigen::VectorXd& frequency, double f);
 
-// (jump) The row after which the march left the branch that ends at a jump: the step of the sweep in which the jump lies, or
+// (jump) The row after which the sweep left the branch that ends at a jump: the step of the sweep in which the jump lies, or
 // one before it across which the RMS changes more than on a flank, because a branch's basin gets narrower than a step; the
 // sweep then followed the branch to its end by itself. -1 if the jump lies outside the sweep.
 std::vector<Eigen::Index> rows_before_jumps(const ResponseArtifact& r);

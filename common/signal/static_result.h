@@ -17,13 +17,13 @@ struct StaticArtifact : PairParameters {
   Eigen::VectorXd mesh_phase;          // (phase) 1, 0 to hunting_periods
   Eigen::VectorXd transmission_error;  // (phase) m
   Eigen::VectorXd unloaded_error;      // (phase) m: the same without load, 0 for flanks as they are designed
-  // (phase) N m-1, of the mesh without bearings; the secant is the load over what it adds to the transmission error; the tangent of contact "line" is off by
-  // up to 0.6 % where contact comes near a tip edge
+  // (phase) N m-1, of the mesh without bearings; the secant is the load over what it adds to the transmission error; the
+  // tangent of contact "line" is off by up to 0.6 % where contact comes near a tip edge
   Eigen::VectorXd stiffness_secant, stiffness_tangent;
   Eigen::VectorXi pair;  // (pair)
   MatrixRM tooth_load;   // (phase, pair) N
-  // [gear] (phase, xy) N: what a gear presses its bearing with; empty for a rigid one. The driver's centre stands at the origin,
-  // the driven gear's above it, the driver turns counter-clockwise.
+  // [gear] (phase, xy) N: what a gear presses its bearing with; empty for a rigid one. The driver's centre stands at the
+  // origin, the driven gear's above it, the driver turns counter-clockwise.
   std::array<MatrixRM, 2> bearing_force;
   // (phase, pair) Pa, m: of contacts that stay inside the flank, 0 elsewhere
   MatrixRM contact_pressure, contact_half_width;

@@ -10,7 +10,7 @@
 
 namespace whine {
 
-// Lines of a sweep's energy ledger: the changes of what is stored and what dampers take equal the works less
+// Lines of a sweep's energy balance: the changes of what is stored and what dampers take equal the works less
 // averaging.
 struct EnergyLine {
   const char *name, *meaning;
@@ -18,16 +18,16 @@ struct EnergyLine {
 inline constexpr std::array<EnergyLine, 12> kEnergyLines{
     {{"kinetic", "change of the energy of motion"},
      {"modal", "change of the energy in the springs of the kept modes and of bearings"},
-     {"residual", "change of the energy in the lagged flexibility"},
-     {"local", "change of the energy in the half-planes and all that follows at once"},
+     {"residual", "change of the energy in the residual flexibility"},
+     {"local", "change of the energy in the half-planes and all that is instantaneous"},
      {"torque", "work of the constant torques on the vibration"},
      {"rolling", "work of the prescribed rolling"},
      {"modal_damping", "taken by the Rayleigh and bearing dampers of the kept coordinates"},
-     {"lag_damping", "taken by the Rayleigh damping of the lagged flexibility"},
+     {"lag_damping", "taken by the Rayleigh damping of the residual flexibility"},
      {"switching", "work of the scheme itself where strips open or close within a step"},
      {"cutting", "work where a corner rule takes out or lets in a pair that carries force"},
-     {"averaging", "mean load times change of the lag, less the exact work: of the scheme itself"},
-     {"forgetting", "taken out with the lag of teeth that are no longer followed"}}};
+     {"averaging", "mean load times change of the relaxed load, less the exact work: of the scheme itself"},
+     {"forgetting", "taken out with the relaxed loads of teeth that are no longer followed"}}};
 
 // What a lumped model (Eq. 23) is made of, in place of elastic bodies: m x'' + c x' + sum_i k_i max(x - g_i, 0) = T / r,
 // k_i and g_i constant in each cell of the mesh period.
@@ -40,7 +40,7 @@ struct LumpedParameters {
   MatrixRM stiffness, gap;   // (cell, spring) N m-1, m; one spring for the whole mesh, or one per tooth pair
 };
 
-// sweep.h5: rows in order of marching
+// sweep.h5: rows in the order in which they were computed
 struct SweepArtifact : MotionParameters {
   std::string model =
       "finite elements";  // or a lumped model's name; then the fields of the bodies say where its

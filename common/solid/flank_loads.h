@@ -23,7 +23,8 @@ class FlankReader {
   // is not inside the tooth.
   SparseReal outward_below(const Eigen::VectorXd& xi, double depth) const;
   // The same as outward() of the other flank of the tooth, which is the mirror image of the driving flank: a displacement read
-  // there is that of the mirrored field read on the driving flank. Throws Error(input) for a mesh that is not its own mirror image.
+  // there is that of the mirrored field read on the driving flank. Throws Error(input) for a mesh that is not its own mirror
+  // image.
   SparseReal back_outward(const Eigen::VectorXd& xi) const;
 
  private:

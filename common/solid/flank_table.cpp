@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/refusal.h"
+#include "base/model_range.h"
 
 namespace whine {
 namespace {
@@ -44,9 +44,10 @@ double FlankTable::zeta(double xi) const {
 Eigen::RowVectorXd FlankTable::weights(double xi) const {
   constexpr double kRoundOff = 1e-9;  // rad
   if (!(xi >= form_ - kRoundOff && xi <= tip_ + kRoundOff))
-    refuse(Failure::numerical, "flank table: a flank point outside the involute: roll angle ", xi,
-           " rad, the flank goes from ", form_, " to ", tip_, " rad (beyond it by ",
-           xi < form_ ? form_ - xi : xi - tip_, " rad, ", kRoundOff, " is round-off); lower the torque");
+    fail_outside_range(Failure::numerical, "flank table: a flank point outside the involute: roll angle ", xi,
+                       " rad, the flank goes from ", form_, " to ", tip_, " rad (beyond it by ",
+                       xi < form_ ? form_ - xi : xi - tip_, " rad, ", kRoundOff,
+                       " is round-off); lower the torque");
   const double z = zeta(xi);
   Eigen::RowVectorXd row(size());
   double sum = 0;

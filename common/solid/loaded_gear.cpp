@@ -185,8 +185,8 @@ ToothField field_of(const MeshArtifact& mesh, const LoadedTooth* at, const Vecto
   return field;
 }
 
-// Stresses and strain energy, element by element. Stresses of the elements are taken at 2 x 2 Gauss points, where they are best,
-// and carried on to the nodes.
+// Stresses and strain energy, element by element. Stresses of the elements are taken at 2 x 2 Gauss points, where they are
+// best, and carried on to the nodes.
 class ElementStress {
  public:
   ElementStress(const MeshArtifact& mesh, const Material& material)

@@ -27,8 +27,8 @@ int nodes_of(const MeshArtifact& mesh) {
   return mesh.discretisation.element_order == 2 ? 9 : 4;
 }
 
-// Nodes, elements and regions of the half sector and its mirror image. (node of the half) its image; of nodes on the centre line
-// themselves.
+// Nodes, elements and regions of the half sector and its mirror image. (node of the half) its image; of nodes on the centre
+// line themselves.
 std::vector<int> add_both_halves(const HalfMesh& half, const Elements& elements, MeshArtifact& mesh) {
   const int count = static_cast<int>(half.node.size()), per_element = nodes_of(mesh);
   std::vector<int> image(half.node.size());

@@ -297,8 +297,8 @@ void store_compliance(const Reduction& r, const FlankLoads& loads, Harmonics& ha
   }
 }
 
-// Of the whole gear's table, all offsets: the least of those of its harmonics, less the kept modes. What the half-plane takes too
-// much beyond its depth leaves up to 2 % of the largest entry below zero (at a module of 0.3 mm); far more is no body.
+// Of the whole gear's table, all offsets: the least of those of its harmonics, less the kept modes. What the half-plane takes
+// too much beyond its depth leaves up to 2 % of the largest entry below zero (at a module of 0.3 mm); far more is no body.
 double least_eigenvalue(const Reduction& r, const std::vector<Eigen::MatrixXcd>& flexibility,
                         const std::vector<KeptMode>& kept, double largest_compliance) {
   const double lowest = -0.1 * largest_compliance;

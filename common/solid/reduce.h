@@ -26,8 +26,8 @@ constexpr int kFlankPoints = 24;
 constexpr int kOffsets = 3;
 
 // Both flanks: the reading of the other flank under a force on the driving flank, X_d on the tooth d counter-clockwise of the
-// loaded one, needs no solution of its own. A tooth is its own mirror image, so a force on the other flank moves the driving flank
-// of tooth -d by X_d, and by reciprocity X_d = X_d^T.
+// loaded one, needs no solution of its own. A tooth is its own mirror image, so a force on the other flank moves the driving
+// flank of tooth -d by X_d, and by reciprocity X_d = X_d^T.
 //
 // modes: elastic modes of the whole gear to keep, 0 or more, or kAllModes; the first torsional zero-diameter mode is always
 // among them. The near field is that of mesh.discretisation. Throws Error(input) for a matching depth whose points are

@@ -132,7 +132,7 @@ do for [p = 1:panels] {
   # Bars along the foot: speeds at which the teeth part during the period.
   bar(i, direction, row) = block(i, direction) . sprintf(' using 1:($4 > 0 ? %g * top : NaN) with points pt 5 ps 0.6 lc rgb "%s" notitle, ', \
     -foot * (row - 0.2), colour(i, direction))
-  # Each curve stops at a jump; an arrow leads to the branch on which the march goes on. Where the branch
+  # Each curve stops at a jump; an arrow leads to the branch on which the sweep goes on. Where the branch
   # was followed past the last speed of the sweep on it, dots lead from there to its end.
   head = 0.02 * top
   jump(i, direction) = block(i, "jumps " . direction) . sprintf(' using 1:2:(0):($3 - $2) with vectors nohead lt 1 lw 2.4 dt (14, 8) lc rgb "%s" notitle, ', colour(i, direction)) \

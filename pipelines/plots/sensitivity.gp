@@ -1,5 +1,5 @@
-# Sensitivity: what each variant of a scene changes, one panel of bars per answer.
-# Variables from gear-plot: tsv, heading, note1, note2, variants, label1.., reach1..6: largest change of each answer
+# Sensitivity: what each variant of a scene changes, one panel of bars per response quantity.
+# Variables from gear-plot: tsv, heading, note1, note2, variants, label1.., reach1..6: largest change of each response quantity
 set datafile separator whitespace
 set datafile commentschars "#"
 set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}"

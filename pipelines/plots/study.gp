@@ -1,4 +1,4 @@
-# A study: a row of panels for each answer, a column for each key that varies; of a sample the distribution beside them.
+# A study: a row of panels for each response quantity, a column for each key that varies; of a sample the distribution beside them.
 # Variables from gear-plot: tsv, heading, subtitle, second_line, height, rows, columns, random, variants, x1.., ticks1.., tick1_1.., own_colour1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
 # percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1.., colour_mark1..
 set datafile separator whitespace

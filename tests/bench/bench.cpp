@@ -25,10 +25,10 @@
 #include "io/scene.h"
 #include "io/static_codec.h"
 #include "io/sweep_codec.h"
-#include "motion/rolling_mesh.h"
 #include "rolling.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "system/rolling_mesh.h"
 #if __has_include(<siconos/numerics/lcp_cst.h>)
 #define WHINE_HAS_SICONOS 1
 #endif
@@ -228,12 +228,12 @@ struct PositionTimes {
   Times warm, cold, cold_with_compliance;
   whine::Equilibrium rest;
 };
-PositionTimes static_position(const whine::GearMeshModel& model, const whine::StaticSlice& slice,
+PositionTimes static_position(const whine::GearMeshModel& model, const whine::StaticParameters& settings,
                               double torque, const char* what) {
   using namespace whine;
   const double load = torque / model.kinematics.gear(0).base_radius(), depth = 1e-3;
-  const ContactRange range = contact_range(
-      model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), slice.contact.strips,
+  const CandidateZone range = candidate_zone(
+      model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), settings.contact.strips,
       load / model.kinematics.contact_ratio(), 1.1 * load, 1e-6 + 8e-9 * load);
   std::vector<MatrixXd> tables[2];
   for (int g = 0; g < 2; ++g)
@@ -285,7 +285,7 @@ PositionTimes static_position(const whine::GearMeshModel& model, const whine::St
 
 // The same position by CalculiX, in plane strain: its elements in plane stress change their thickness.
 void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
-                     const whine::StaticSlice& slice, double torque) {
+                     const whine::StaticParameters& settings, double torque) {
   using namespace whine;
   constexpr double kElement = 0.06e-3;  // m, where the flanks touch
   if (driver.material.youngs_modulus != driven.material.youngs_modulus ||
@@ -300,8 +300,8 @@ void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifac
     reduction = std::min(reduction, double(std::clock() - start) / CLOCKS_PER_SEC);
     return result;
   };
-  const GearMeshModel model(in_plane_strain(driver), in_plane_strain(driven), slice.mesh);
-  const PositionTimes whine = static_position(model, slice, torque, "plane strain");
+  const GearMeshModel model(in_plane_strain(driver), in_plane_strain(driven), settings.mesh);
+  const PositionTimes whine = static_position(model, settings, torque, "plane strain");
   std::printf("The same position by CalculiX\n");
   if (!CalculixPair::installed()) {
     std::printf("  (no CalculiX to compare with: make deps-bench)\n");
@@ -329,8 +329,8 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
                    double peak) {
   using namespace whine;
   constexpr int kCount = 8;  // periods a turn
-  rig.settle(frequency);
-  reference.settle(frequency);
+  rig.run_to_orbit(frequency);
+  reference.run_to_orbit(frequency);
   const auto rms = [](const VectorXd& x) { return std::sqrt((x.array() - x.mean()).square().mean()); };
   const double error = rms(rig.period.transmission_error) / rms(reference.period.transmission_error) - 1;
   const int steps = rig.steps;
@@ -354,14 +354,15 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
     work.bytes += one.bytes / steps;
   }
 
-  Ledger ledger;
+  EnergyBalance energy_balance;
   ComplementaritySolver solver;
   VectorXd p, d;
   std::vector<std::function<void()>> methods = {[&] {
-                                                  for (int i = 0; i < kCount; ++i) rig.march(nullptr);
+                                                  for (int i = 0; i < kCount; ++i) rig.integrate(nullptr);
                                                 },
                                                 [&] {
-                                                  for (int i = 0; i < kCount; ++i) rig.march(&ledger);
+                                                  for (int i = 0; i < kCount; ++i)
+                                                    rig.integrate(&energy_balance);
                                                 }};
   std::vector<int> counts = {kCount * steps, kCount * steps};
   if (strips) {
@@ -389,7 +390,7 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
   long requests[2];
   for (int kept : {0, 1}) {
     const long before = memory_requests;
-    rig.march(kept ? &ledger : nullptr);
+    rig.integrate(kept ? &energy_balance : nullptr);
     requests[kept] = memory_requests - before;
   }
   std::printf("  %-6s %5.0f %6d %8.0f %8.0f %6.2f", strips ? "strips" : "line", frequency, steps,
@@ -407,35 +408,35 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
 
 // Figure 5 of P2000 on one core, reading and writing apart.
 void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
-                   const whine::StaticArtifact& statics, double mean_stiffness, whine::SweepSlice slice,
-                   double eta, whine::SteadyState method) {
+                   const whine::StaticArtifact& statics, double mean_stiffness,
+                   whine::SweepParameters settings, double eta, whine::SteadyState method) {
   using namespace whine;
-  slice.damping.rayleigh_stiffness = eta;
-  slice.time.steady_state = method;
+  settings.damping.rayleigh_stiffness = eta;
+  settings.time.steady_state = method;
   long periods = 0;
   double imbalance = 0;
   const double seconds = least_seconds(5, [&] {
     periods = 0;
     for (const char* direction : {"up", "down"}) {
-      const SweepArtifact result = sweep(driver, driven, statics, mean_stiffness, slice, direction,
+      const SweepArtifact result = sweep(driver, driven, statics, mean_stiffness, settings, direction,
                                          [](long, long, const std::string&) {});
       periods += result.periods.sum();
       imbalance = std::max(imbalance, result.energy_imbalance.maxCoeff());
     }
   });
-  std::printf("  %-6s %9.2g  %-11s %7.2f %8ld  %.0e\n", name_of(slice.fidelity.contact).c_str(), eta,
+  std::printf("  %-6s %9.2g  %-11s %7.2f %8ld  %.0e\n", name_of(settings.fidelity.contact).c_str(), eta,
               name_of(method).c_str(), seconds, periods, imbalance);
 }
 
-void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven, whine::StaticSlice slice,
-             whine::SweepSlice sweep_slice, double torque) {
+void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+             whine::StaticParameters settings, whine::SweepParameters sweep_parameters, double torque) {
   using namespace whine;
   const double peak = peak_flops();
   std::printf(
       "Rolling dynamics: %g N m, Rayleigh %g s, %d modes a gear; least of %d repeats in turn; per step; RMS "
       "against Newmark, "
       "1024 steps a period\n",
-      torque, sweep_slice.damping.rayleigh_stiffness, static_cast<int>(driver.eigenfrequency.size()),
+      torque, sweep_parameters.damping.rayleigh_stiffness, static_cast<int>(driver.eigenfrequency.size()),
       kRepeats);
   std::printf(
       "  machine in this run: %.1f Gflop/s of multiply-adds in registers; reads %.0f, %.0f, %.0f GB/s "
@@ -443,30 +444,31 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
       peak * 1e-9, load_bandwidth(16u << 10) * 1e-9, load_bandwidth(512u << 10) * 1e-9,
       load_bandwidth(8u << 20) * 1e-9);
   std::printf("  %-6s %5s %6s %8s %8s %6s %7s %8s %8s %7s %7s %6s %7s   %s\n", "", "Hz", "steps", "ns",
-              "ledger", "over", "RMS %", "flops", "kB", "Gflop/s", "GB/s", "limit", "mallocs",
+              "balance", "over", "RMS %", "flops", "kB", "Gflop/s", "GB/s", "limit", "mallocs",
               "its contact problem as a matrix, warm: ns, LEMKE's time over it");
   std::vector<StaticArtifact> at_torque, at_reference;
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    slice.fidelity.contact = sweep_slice.fidelity.contact = contact;
-    at_torque.push_back(static_transmission(driver, driven, slice, torque));
-    at_reference.push_back(static_transmission(driver, driven, slice, sweep_slice.reference_torque));
-    const GearMeshModel model(driver, driven, slice.mesh);
-    SweepSlice finer = sweep_slice;
+    settings.fidelity.contact = sweep_parameters.fidelity.contact = contact;
+    at_torque.push_back(static_transmission(driver, driven, settings, torque));
+    at_reference.push_back(static_transmission(driver, driven, settings, sweep_parameters.reference_torque));
+    const GearMeshModel model(driver, driven, settings.mesh);
+    SweepParameters finer = sweep_parameters;
     finer.fidelity.integrator = Integrator::newmark;
     finer.time.steps_per_period = 1024;
-    RollingRig rig(model, at_torque.back(), sweep_slice), reference(model, at_torque.back(), finer);
+    RollingRig rig(model, at_torque.back(), sweep_parameters), reference(model, at_torque.back(), finer);
     for (double frequency : {1350.0, 2400.0, 3300.0})
-      rolling_steps(rig, reference, frequency, slice.fidelity.contact == ContactModel::strips, peak);
+      rolling_steps(rig, reference, frequency, settings.fidelity.contact == ContactModel::strips, peak);
   }
   std::printf(
       "Sweeps up and down on one core, %g to %g Hz in steps of %g Hz; CPU without reading and writing\n",
-      sweep_slice.frequency_from, sweep_slice.frequency_to, sweep_slice.frequency_step);
-  std::printf("  %-6s %9s  %-11s %7s %8s  %s\n", "", "Rayleigh s", "", "CPU s", "periods", "ledger");
+      sweep_parameters.frequency_from, sweep_parameters.frequency_to, sweep_parameters.frequency_step);
+  std::printf("  %-6s %9s  %-11s %7s %8s  %s\n", "", "Rayleigh s", "", "CPU s", "periods", "balance");
   for (size_t c = 0; c < at_torque.size(); ++c)
-    for (double eta : {sweep_slice.damping.rayleigh_stiffness, 5.5e-6})
-      for (const auto method : {SteadyState::extrapolate, SteadyState::march}) {
-        sweep_slice.fidelity.contact = c == 0 ? ContactModel::strips : ContactModel::line;
-        rolling_sweep(driver, driven, at_torque[c], at_reference[c].mean_stiffness, sweep_slice, eta, method);
+    for (double eta : {sweep_parameters.damping.rayleigh_stiffness, 5.5e-6})
+      for (const auto method : {SteadyState::extrapolate, SteadyState::integrate}) {
+        sweep_parameters.fidelity.contact = c == 0 ? ContactModel::strips : ContactModel::line;
+        rolling_sweep(driver, driven, at_torque[c], at_reference[c].mean_stiffness, sweep_parameters, eta,
+                      method);
       }
 }
 
@@ -474,13 +476,14 @@ void body(int argc, char** argv) {
   whine::Options options{"Times complementarity, static positions and reductions", "whine-bench"};
   std::string params, torque = "150";
   std::vector<std::string> bodies;
-  whine::Option slice = options.add("--params", params, "slice of the scene: out/<scene>/params/static.toml");
+  whine::Option settings =
+      options.add("--params", params, "stage parameters of the scene: out/<scene>/params/static.toml");
   whine::Option files =
-      options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").needs(slice);
-  slice.needs(files);
+      options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").needs(settings);
+  settings.needs(files);
   std::string sweep_params;
-  options.add("--sweep-params", sweep_params, "slice of the scene: out/<scene>/params/sweep.toml")
-      .needs(slice);
+  options.add("--sweep-params", sweep_params, "stage parameters of the scene: out/<scene>/params/sweep.toml")
+      .needs(settings);
   options.add("--torque", torque, "torque on the driver in N m, above 0");
   options.parse(argc, argv);
 
@@ -497,11 +500,12 @@ void body(int argc, char** argv) {
   for (int n : {10, 20, 40, 80}) complementarity(n);
   if (params.empty()) return;
   const double load = whine::number_option("--torque", torque);
-  const whine::StaticSlice read = whine::read_static_slice(params);
+  const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
   const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
   static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, params.c_str());
-  if (!sweep_params.empty()) rolling(driving, following, read, whine::read_sweep_slice(sweep_params), load);
+  if (!sweep_params.empty())
+    rolling(driving, following, read, whine::read_sweep_parameters(sweep_params), load);
   reductions(driving);
   beside_calculix(driving, following, read, load);
 }

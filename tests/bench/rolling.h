@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "contact/lanes.h"
-#include "motion/dynamics.h"
-#include "motion/statics.h"
-#include "motion/sweep.h"
+#include "dynamics/dynamics.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
 
 namespace whine {
 
@@ -97,15 +97,16 @@ inline double load_bandwidth(size_t bytes) {
 // P pairs of r shape rows, N nodes and s strips each, L of them with force, M = P s, k strips that touch. Flops, a
 // multiply-add as two:
 //   modes          12 n (propagator 8, share of the new force 4)
-//   lag            2 T F + 4 L F (both gears)
+//   relaxed        2 T F + 4 L F (both gears)
 //   modes read     2 P r n        and loaded: 2 L r n
-//   lag read       strips: 4 P F N + 6 P F;                        lines, which hold the product: 4 P (T S + F - S)
-//   lag loaded     strips: 4 L F N + 4 L (F^2 + (P - 1) S^2);      lines: 2 L F
-//   strips only: basis 2 (P + L) N r, interpolation 2 s (6 P + N L), contact problem 2 k^2 (inverse) and the gaps of all strips:
+//   relaxed read   strips: 4 P F N + 6 P F;                        lines, which hold the product: 4 P (T S + F - S)
+//   relaxed loaded strips: 4 L F N + 4 L (F^2 + (P - 1) S^2);      lines: 2 L F
+//   strips only: basis 2 (P + L) N r, interpolation 2 s (6 P + N L), contact problem 2 k^2 (inverse) and the gaps of all
+// strips:
 //   2 s k + 12 N P L + 12 s P (half-planes, between nodes, to strips)
 // Laws and Newton steps of lines, signs and certificates are not counted. Bytes are those of other places in memory at each
 // step: shapes, weights, gaps, compliance between nodes and the inverse on the strips that touch; what steps share (modal
-// vectors and fields, windows without an edge) stays in the first caches.
+// vectors and fields, candidate zones without an edge) stays in the first caches.
 struct StepWork {
   double flops = 0, bytes = 0;
 };
@@ -117,8 +118,8 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
   w.bytes = P * r * n;
   if (N > 1) {
     w.flops += 4 * P * F * N + 6 * P * F + 4 * L * F * N + 4 * L * (F * F + (P - 1) * S * S) +
-               2 * (P + L) * N * r + 2 * s.strips * (kWindowNodes * P + N * L) + 2 * k * k +
-               2 * s.strips * k + 12 * N * P * L + 12 * s.strips * P;
+               2 * (P + L) * N * r + 2 * s.strips * (kZoneNodes * P + N * L) + 2 * k * k + 2 * s.strips * k +
+               12 * N * P * L + 12 * s.strips * P;
     w.bytes += 2 * P * N * F + M + 6 * N * P * P + k * padded(touching) + s.edges * s.strips * (s.strips + N);
   } else {
     w.flops += 4 * P * (T * S + F - S) + 2 * L * F;
@@ -131,22 +132,22 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
 // A pair as a sweep sets it up, steady at one speed.
 class RollingRig {
  public:
-  RollingRig(const GearMeshModel& model, const StaticArtifact& statics, const SweepSlice& slice)
-      : dynamics_(model, parameters(statics, slice)), slice_(slice) {
-    finest_ = slice.time.steps_per_period;
-    while (finest_ * slice.frequency_from < slice.time.min_sample_rate) finest_ *= 2;
-    dynamics_.set_range(contact_range(model, statics, MotionBounds(model, statics)), finest_);
+  RollingRig(const GearMeshModel& model, const StaticArtifact& statics, const SweepParameters& settings)
+      : dynamics_(model, parameters(statics, settings)), settings_(settings) {
+    finest_ = settings.time.steps_per_period;
+    while (finest_ * settings.frequency_from < settings.time.min_sample_rate) finest_ *= 2;
+    dynamics_.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), finest_);
   }
-  void settle(double frequency) {
-    steps = slice_.time.steps_per_period;
-    while (steps * frequency < slice_.time.min_sample_rate) steps *= 2;
+  void run_to_orbit(double frequency) {
+    steps = settings_.time.steps_per_period;
+    while (steps * frequency < settings_.time.min_sample_rate) steps *= 2;
     dynamics_.set_speed(frequency, steps);
     state = dynamics_.rest();
-    for (int i = 0; i < 200; ++i) march(nullptr);
+    for (int i = 0; i < 200; ++i) integrate(nullptr);
   }
-  void march(Ledger* ledger) {
-    if (!dynamics_.march(state, period, ledger))
-      fail(Failure::numerical, "the contact of the bench leaves its window");
+  void integrate(EnergyBalance* energy_balance) {
+    if (!dynamics_.integrate(state, period, energy_balance))
+      fail(Failure::numerical, "the contact of the bench leaves its candidate zone");
   }
   RollingDynamics& dynamics() { return dynamics_; }
   RollingDynamics::StepSizes sizes(int sample) const {
@@ -158,17 +159,17 @@ class RollingRig {
   int steps = 0;
 
  private:
-  static DynamicParameters parameters(const StaticArtifact& statics, const SweepSlice& slice) {
+  static DynamicParameters parameters(const StaticArtifact& statics, const SweepParameters& settings) {
     DynamicParameters p;
     p.torque = statics.torque;
-    p.inertia = {slice.driver_inertia, slice.driven_inertia};
+    p.inertia = {settings.driver_inertia, settings.driven_inertia};
     p.mean_stiffness = statics.mean_stiffness;
-    p.damping = slice.damping;
-    p.fidelity = slice.fidelity;
+    p.damping = settings.damping;
+    p.fidelity = settings.fidelity;
     return p;
   }
   RollingDynamics dynamics_;
-  const SweepSlice& slice_;
+  const SweepParameters& settings_;
   int finest_ = 0;
 };
 

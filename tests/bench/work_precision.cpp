@@ -7,7 +7,7 @@
 // that reference is worth.
 //
 // Motions settle and branches are followed to their ends as in a sweep, but by smaller last steps; each speed records one orbit
-// with its ledger.
+// with its energy balance.
 //
 // Reads   params of the static and of the sweep stage, body.h5 of both gears (for their design and material)
 // Writes  <output>.{tsv,svg,png}, and the same table in words on standard output
@@ -27,20 +27,20 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "dynamics/dynamics.h"
+#include "dynamics/steady_state.h"
 #include "io/body_codec.h"
 #include "io/named_files.h"
 #include "io/publish.h"
 #include "io/scene.h"
-#include "motion/dynamics.h"
-#include "motion/statics.h"
-#include "motion/steady_state.h"
-#include "plot/figures.h"
-#include "plot/gnuplot.h"
-#include "plot/plot_file.h"
+#include "report/figures.h"
+#include "report/gnuplot.h"
+#include "report/plot_file.h"
 #include "signal/branch_end.h"
 #include "signal/response.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "system/statics.h"
 
 namespace {
 
@@ -53,7 +53,7 @@ constexpr int kMostRuns = 3;
 constexpr int kMostRunsToEnd = 500;
 constexpr double kLowest = 1000, kHighest = 4000;  // Hz, in which branches are followed
 
-// Steady motions that are compared. Up to 2400 Hz and at 3300 Hz rest leads to them, to the upper branch only a march down.
+// Steady motions that are compared. Up to 2400 Hz and at 3300 Hz rest leads to them, to the upper branch only a sweep down.
 enum Motion { k1350, k3300, kLower2400, kUpper2400, kUpper2000, kMotions };
 constexpr double kRestAt = 2900;  // Hz: one branch only, the upper one begins here
 
@@ -69,12 +69,12 @@ struct Setting {
   ContactModel contact;
 };
 
-struct Answer {
+struct Outcome {
   std::array<double, kMotions> rms, mean, peak;  // m, m, N; below 0 (RMS): there is no such motion
   double down = -1, up = -1;          // Hz: ends of the upper and the lower branch; below 0: none found
   double deflection = 0;              // m, static
-  double seconds = 0, reduction = 0;  // CPU: marching, mesh and reduction of both gears
-  Answer() {
+  double seconds = 0, reduction = 0;  // CPU: integration, mesh and reduction of both gears
+  Outcome() {
     rms.fill(-1);
     mean.fill(0);
     peak.fill(0);
@@ -86,7 +86,7 @@ struct Errors {
   double rms = 0, mean = 0, peak = 0, down = 0, up = 0;
 };
 
-Errors errors(const Answer& a, const Answer& b) {
+Errors errors(const Outcome& a, const Outcome& b) {
   Errors e;
   for (int i = 0; i < kMotions; ++i) {
     if (a.rms[i] < 0 || b.rms[i] < 0) {
@@ -107,31 +107,31 @@ double cpu_seconds(std::clock_t since) {
   return static_cast<double>(std::clock() - since) / CLOCKS_PER_SEC;
 }
 
-// A pair marched with one setting.
+// A pair integrated with one setting.
 class Rig {
  public:
   Rig(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
       const Setting& setting)
       : model_(model), statics_(statics), dynamics_(model, parameters), setting_(setting) {
-    set_range();
+    set_zone();
   }
 
-  Answer observe() {
-    Answer answer;
+  Outcome observe() {
+    Outcome outcome;
     RollingDynamics::State state = dynamics_.rest();
-    answer.deflection = dynamics_.static_deflection();
+    outcome.deflection = dynamics_.static_deflection();
     for (const auto& [motion, at] : {std::pair{k1350, 1350.0}, std::pair{k3300, 3300.0}}) {
       state = dynamics_.rest();
-      note(motion, run(state, at), answer);
+      note(motion, run(state, at), outcome);
     }
-    answer.down = follow(kRestAt, -1, [&](double f, const Orbit& orbit) {
-      if (f == 2400) note(kUpper2400, orbit, answer);
-      if (f == 2000) note(kUpper2000, orbit, answer);
+    outcome.down = follow(kRestAt, -1, [&](double f, const Orbit& orbit) {
+      if (f == 2400) note(kUpper2400, orbit, outcome);
+      if (f == 2000) note(kUpper2000, orbit, outcome);
     });
-    answer.up = follow(2400, 1, [&](double f, const Orbit& orbit) {
-      if (f == 2400) note(kLower2400, orbit, answer);
+    outcome.up = follow(2400, 1, [&](double f, const Orbit& orbit) {
+      if (f == 2400) note(kLower2400, orbit, outcome);
     });
-    return answer;
+    return outcome;
   }
 
  private:
@@ -141,9 +141,9 @@ class Rig {
     return steps;
   }
 
-  void set_range() {
-    dynamics_.set_range(
-        contact_range(model_, statics_, MotionBounds(model_, statics_, std::pow(1.6, widened_))),
+  void set_zone() {
+    dynamics_.set_zone(
+        candidate_zone(model_, statics_, MotionBounds(model_, statics_, std::pow(1.6, widened_))),
         steps_at(kLowest));
   }
 
@@ -151,22 +151,24 @@ class Rig {
     const RollingDynamics::State start = state;
     for (;;) {
       dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
-      if (auto orbit = settle(dynamics_, state, setting_.periodicity, setting_.steady_state)) return *orbit;
+      if (auto orbit = find_periodic_orbit(dynamics_, state, setting_.periodicity, setting_.steady_state))
+        return *orbit;
       if (++widened_ > 8) fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks");
-      set_range();
+      set_zone();
       state = start;
     }
   }
 
-  static void note(Motion motion, const Orbit& orbit, Answer& answer) {
+  static void note(Motion motion, const Orbit& orbit, Outcome& outcome) {
     if (orbit.multiple != 1) return;
     const RollingDynamics::Period& period = orbit.record[0];
-    answer.rms[motion] = orbit.rms;
-    answer.mean[motion] = period.transmission_error.mean();
-    answer.peak[motion] = period.pair_load.maxCoeff();
+    outcome.rms[motion] = orbit.rms;
+    outcome.mean[motion] = period.transmission_error.mean();
+    outcome.peak[motion] = period.pair_load.maxCoeff();
   }
 
-  // Hz: where the branch ends that rest leads to at a speed; below 0 if it does not within the limits. visit: of the motions on it.
+  // Hz: where the branch ends that rest leads to at a speed; below 0 if it does not within the limits. visit: of the motions
+  // on it.
   template <class Visit>
   double follow(double from, int direction, Visit visit) {
     struct Run {
@@ -223,59 +225,61 @@ class Rig {
 // The pair and its load; reduces a body anew for each discretisation and keeps it.
 class Bench {
  public:
-  Bench(BodyArtifact driver, BodyArtifact driven, StaticSlice statics, SweepSlice slice, double torque)
+  Bench(BodyArtifact driver, BodyArtifact driven, StaticParameters statics, SweepParameters settings,
+        double torque)
       : driver_(std::move(driver)),
         driven_(std::move(driven)),
         statics_(std::move(statics)),
-        slice_(std::move(slice)),
+        settings_(std::move(settings)),
         torque_(torque) {}
 
   Setting usual() const {
-    return {slice_.time.steps_per_period,
-            slice_.time.min_sample_rate,
+    return {settings_.time.steps_per_period,
+            settings_.time.min_sample_rate,
             statics_.contact.strips,
             driver_.discretisation.modes,
             static_cast<int>(driver_.flank_position.size()),
             driver_.discretisation.element_size,
-            slice_.time.periodicity,
-            slice_.time.steady_state,
-            slice_.fidelity.integrator,
-            slice_.fidelity.body,
-            slice_.fidelity.contact};
+            settings_.time.periodicity,
+            settings_.time.steady_state,
+            settings_.fidelity.integrator,
+            settings_.fidelity.body,
+            settings_.fidelity.contact};
   }
 
-  Answer run(const Setting& setting, const std::string& name) {
+  Outcome run(const Setting& setting, const std::string& name) {
     const Bodies& bodies = reduced(setting);
-    StaticSlice slice = statics_;
-    slice.contact.strips = setting.strips;
-    const StaticArtifact statics = static_transmission(bodies.driver, bodies.driven, slice, torque_);
+    StaticParameters settings = statics_;
+    settings.contact.strips = setting.strips;
+    const StaticArtifact statics = static_transmission(bodies.driver, bodies.driven, settings, torque_);
     DynamicParameters parameters;
     parameters.torque = torque_;
-    parameters.inertia = {slice_.driver_inertia, slice_.driven_inertia};
+    parameters.inertia = {settings_.driver_inertia, settings_.driven_inertia};
     parameters.mean_stiffness =
-        static_transmission(bodies.driver, bodies.driven, slice, slice_.reference_torque).mean_stiffness;
-    parameters.damping = slice_.damping;
-    parameters.fidelity = slice_.fidelity;
+        static_transmission(bodies.driver, bodies.driven, settings, settings_.reference_torque)
+            .mean_stiffness;
+    parameters.damping = settings_.damping;
+    parameters.fidelity = settings_.fidelity;
     parameters.fidelity.integrator = setting.integrator;
     parameters.fidelity.body = setting.body;
     parameters.fidelity.contact = setting.contact;
-    const GearMeshModel model(bodies.driver, bodies.driven, slice.mesh);
-    Answer answer;
+    const GearMeshModel model(bodies.driver, bodies.driven, settings.mesh);
+    Outcome outcome;
     double least = 0, all = 0;
     for (int i = 0; i < kMostRuns && (i == 0 || all < kLeastSeconds); ++i) {
       const std::clock_t start = std::clock();
-      answer = Rig(model, parameters, statics, setting).observe();
+      outcome = Rig(model, parameters, statics, setting).observe();
       const double seconds = cpu_seconds(start);
       least = i == 0 ? seconds : std::min(least, seconds);
       all += seconds;
     }
-    answer.seconds = least;
-    answer.reduction = bodies.seconds;
+    outcome.seconds = least;
+    outcome.reduction = bodies.seconds;
     const auto found = [](double value) { return value < 0 ? "none" : text(value); };
-    tell("work-precision: ", name, ": ", least, " s; RMS at 2400 Hz ", found(answer.rms[kUpper2400]), " and ",
-         found(answer.rms[kLower2400]), " m, branches end at ", found(answer.down), " and ", found(answer.up),
-         " Hz");
-    return answer;
+    tell("work-precision: ", name, ": ", least, " s; RMS at 2400 Hz ", found(outcome.rms[kUpper2400]),
+         " and ", found(outcome.rms[kLower2400]), " m, branches end at ", found(outcome.down), " and ",
+         found(outcome.up), " Hz");
+    return outcome;
   }
 
  private:
@@ -306,8 +310,8 @@ class Bench {
   }
 
   BodyArtifact driver_, driven_;
-  StaticSlice statics_;
-  SweepSlice slice_;
+  StaticParameters statics_;
+  SweepParameters settings_;
   double torque_;
   std::map<std::tuple<double, int, int>, Bodies> bodies_;
 };
@@ -365,21 +369,21 @@ std::vector<Axis> axes(const Setting& usual) {
   vary("periodicity", "change of the state per period", {1e-4, 1e-5, 1e-6, 1e-7}, 1e-9,
        [](Setting& s, double change) { s.periodicity = change; });
   // Not "rigid": nothing but the bearings would damp it, and it has no steady motion at most of these speeds.
-  constexpr BodyModel kRungs[] = {BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal};
+  constexpr BodyModel kLevels[] = {BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal};
   vary("body", "0 quasi-static, 1 lagged", {0, 1}, 2,
-       [&](Setting& s, double rung) { s.body = kRungs[static_cast<int>(rung)]; });
+       [&](Setting& s, double level) { s.body = kLevels[static_cast<int>(level)]; });
   all.back().against = "modal";
   vary("contact", "0 line", {0}, 1,
-       [](Setting& s, double rung) { s.contact = rung == 0 ? ContactModel::line : ContactModel::strips; });
+       [](Setting& s, double level) { s.contact = level == 0 ? ContactModel::line : ContactModel::strips; });
   all.back().against = "strips";
   return all;
 }
 
-std::vector<double> row(double shown, bool of_bodies, const Answer& answer, const Errors& e) {
+std::vector<double> row(double shown, bool of_bodies, const Outcome& outcome, const Errors& e) {
   return {shown,
-          answer.seconds + (of_bodies ? answer.reduction : 0),
-          answer.seconds,
-          answer.reduction,
+          outcome.seconds + (of_bodies ? outcome.reduction : 0),
+          outcome.seconds,
+          outcome.reduction,
           e.rms,
           e.mean,
           e.peak,
@@ -387,13 +391,14 @@ std::vector<double> row(double shown, bool of_bodies, const Answer& answer, cons
           e.up};
 }
 std::vector<std::string> columns(const std::string& setting) {
-  return {"setting [" + setting + "]",     "CPU drawn [s]",  "CPU of the march [s]",
+  return {"setting [" + setting + "]",     "CPU drawn [s]",  "CPU of the integration [s]",
           "CPU of mesh and reduction [s]", "RMS [1]",        "mean [static deflection]",
           "peak tooth load [1]",           "jump down [Hz]", "jump up [Hz]"};
 }
 void print(const FigureBlock& block, const std::string& against) {
   std::printf("%s, against %s\n  %10s %8s %9s %10s %10s %10s %10s %10s\n", block.name.c_str(),
-              against.c_str(), "", "march s", "bodies s", "RMS", "mean", "peak load", "down Hz", "up Hz");
+              against.c_str(), "", "integration s", "bodies s", "RMS", "mean", "peak load", "down Hz",
+              "up Hz");
   for (const auto& values : block.rows) {
     std::printf("  %10g %8.2f %9.2f", values[0], values[2], values[3]);
     for (size_t c = 4; c < values.size(); ++c)
@@ -410,8 +415,10 @@ void body(int argc, char** argv) {
   whine::Options options{"Error against CPU time of each numerical choice", "whine-work-precision"};
   std::string statics, sweeps, output, torque = "150", damping = "5.5e-6", plots = "pipelines/plots";
   std::vector<std::string> bodies;
-  options.add("--static-params", statics, "slice of the scene: out/<scene>/params/static.toml").required();
-  options.add("--sweep-params", sweeps, "slice of the scene: out/<scene>/params/sweep.toml").required();
+  options.add("--static-params", statics, "stage parameters of the scene: out/<scene>/params/static.toml")
+      .required();
+  options.add("--sweep-params", sweeps, "stage parameters of the scene: out/<scene>/params/sweep.toml")
+      .required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--output", output, "path of the results without extension").required();
   options.add("--torque", torque, "torque on the driver in N m, above 0").show_default();
@@ -420,16 +427,16 @@ void body(int argc, char** argv) {
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
   options.parse(argc, argv);
 
-  SweepSlice slice = read_sweep_slice(sweeps);
-  slice.damping.rayleigh_stiffness = number_option("--rayleigh-stiffness", damping);
-  if (!(slice.damping.rayleigh_stiffness > 0))
+  SweepParameters settings = read_sweep_parameters(sweeps);
+  settings.damping.rayleigh_stiffness = number_option("--rayleigh-stiffness", damping);
+  if (!(settings.damping.rayleigh_stiffness > 0))
     fail(Failure::usage, "--rayleigh-stiffness = ", damping, " must be above 0");
   const double load = number_option("--torque", torque);
-  const StaticSlice rest = read_static_slice(statics);
+  const StaticParameters rest = read_static_parameters(statics);
   const std::vector<std::string> paths = NamedFiles("--body", bodies).of(rest.mesh);
-  Bench bench(read_body(paths[0]), read_body(paths[1]), rest, slice, load);
+  Bench bench(read_body(paths[0]), read_body(paths[1]), rest, settings, load);
   const Setting usual = bench.usual();
-  const Answer present = bench.run(usual, "the scene's settings");
+  const Outcome present = bench.run(usual, "the scene's settings");
   if (*std::min_element(present.rms.begin(), present.rms.end()) < 0 || present.down < 0 || present.up < 0 ||
       !like_a_jump(present.rms[kUpper2400], present.rms[kLower2400]))
     fail(Failure::input, "at ", load, " N m and a Rayleigh stiffness of ", damping,
@@ -441,20 +448,20 @@ void body(int argc, char** argv) {
       "one choice varied at a time about the scene's settings (ring), against its finest; tooth loads and "
       "transmission error: worst of five steady motions",
       "3300 and 1350 Hz, 2400 Hz on both branches, 2000 Hz on the upper one; jumps: ends of the branches; "
-      "CPU of the march, for modes, "
+      "CPU of the integration, for modes, "
       "flank table and elements with mesh and reduction"};
   std::string labels;
   FigureBlock circles{"scene", columns("axis"), {}};
   std::vector<Axis> choices = axes(usual);
   for (size_t i = 0; i < choices.size(); ++i) {
     const Axis& axis = choices[i];
-    const Answer reference = bench.run(axis.reference, axis.name + " against " + axis.against);
+    const Outcome reference = bench.run(axis.reference, axis.name + " against " + axis.against);
     FigureBlock block{axis.name, columns(axis.column), {}};
     for (const Axis::Point& point : axis.points) {
-      const Answer answer = bench.run(point.setting, text(axis.name, " ", point.shown));
-      block.rows.push_back(row(point.shown, axis.of_bodies, answer, errors(answer, reference)));
+      const Outcome outcome = bench.run(point.setting, text(axis.name, " ", point.shown));
+      block.rows.push_back(row(point.shown, axis.of_bodies, outcome, errors(outcome, reference)));
     }
-    if (axis.name != "body" && axis.name != "contact")  // measured against the scene's own rung
+    if (axis.name != "body" && axis.name != "contact")  // measured against the scene's own model level
       circles.rows.push_back(
           row(static_cast<double>(i), axis.of_bodies, present, errors(present, reference)));
     print(block, axis.against);
@@ -472,7 +479,8 @@ void body(int argc, char** argv) {
   fine.flank_points = 36, coarser.flank_points = 30;
   fine.element = 0.2e-3, coarser.element = 0.3e-3;
   fine.periodicity = 1e-8, coarser.periodicity = 1e-7;
-  const Answer best = bench.run(fine, "all finer, Newmark"), second = bench.run(coarser, "one level coarser");
+  const Outcome best = bench.run(fine, "all finer, Newmark"),
+                second = bench.run(coarser, "one level coarser");
   FigureBlock together{"together", columns("0 scene, 1 reference one level coarser"), {}};
   together.rows = {row(0, false, present, errors(present, best)),
                    row(1, false, second, errors(second, best))};

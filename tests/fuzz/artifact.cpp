@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as each kind of artifact. They are read or refused by an Error.
+// libFuzzer: any bytes as each kind of artifact. They are read or rejected by an Error.
 //
 // -DSEALED: the content hash is put right first, so that the bytes reach HDF5 and the readers behind it; no accident makes
 // such a file.
@@ -37,20 +37,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const FileOf file(data, size);
 #endif
   const std::string path = file.path();
-  refused_or_read([&] { require_fresh(path); });
-  refused_or_read([&] { summary(path, read_origin(path).schema); });
-  refused_or_read([&] { read_mesh(path); });
-  refused_or_read([&] { read_body(path); });
-  refused_or_read([&] { read_static(path); });
-  refused_or_read([&] { read_error_budget(path); });
-  refused_or_read([&] { read_loaded(path); });
-  refused_or_read([&] { read_impact(path); });
-  refused_or_read([&] { read_sweep(path); });
-  refused_or_read([&] { read_response(path); });
-  refused_or_read([&] { read_branch(path); });
-  refused_or_read([&] { read_jump_map(path); });
-  refused_or_read([&] { read_harris_map(path); });
-  refused_or_read([&] { read_variant(path); });
-  refused_or_read([&] { read_study_artifact(path); });
+  rejected_or_read([&] { require_fresh(path); });
+  rejected_or_read([&] { summary(path, read_origin(path).schema); });
+  rejected_or_read([&] { read_mesh(path); });
+  rejected_or_read([&] { read_body(path); });
+  rejected_or_read([&] { read_static(path); });
+  rejected_or_read([&] { read_error_budget(path); });
+  rejected_or_read([&] { read_loaded(path); });
+  rejected_or_read([&] { read_impact(path); });
+  rejected_or_read([&] { read_sweep(path); });
+  rejected_or_read([&] { read_response(path); });
+  rejected_or_read([&] { read_branch(path); });
+  rejected_or_read([&] { read_jump_map(path); });
+  rejected_or_read([&] { read_harris_map(path); });
+  rejected_or_read([&] { read_variant(path); });
+  rejected_or_read([&] { read_study_artifact(path); });
   return 0;
 }

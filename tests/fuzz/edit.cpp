@@ -39,7 +39,7 @@ herr_t give_back(void* memory, H5FD_file_image_op_t why, void* out) {
 }
 
 herr_t name_of(hid_t, const char* name, const H5O_info_t* info, void* out) {
-  // The hash would be missing, and the file refused before any reader sees it.
+  // The hash would be missing, and the file rejected before any reader sees it.
   if (info->type == H5O_TYPE_DATASET && std::strcmp(name, "provenance/content_sha256") != 0)
     static_cast<std::vector<std::string>*>(out)->push_back(name);
   return 0;

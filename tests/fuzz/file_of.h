@@ -30,9 +30,9 @@ class FileOf {
   int number_;
 };
 
-// What is read may be refused by an Error, and in no other way.
+// What is read may be rejected by an Error, and in no other way.
 template <class Read>
-void refused_or_read(const Read& read) {
+void rejected_or_read(const Read& read) {
   try {
     read();
   } catch (const Error&) {

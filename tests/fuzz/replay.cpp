@@ -1,10 +1,10 @@
-// What a fuzzer's target does with the files of a folder and with files made from them by damage: bits that flip, bytes that go,
-// come or move, numbers that grow, halves of two files. For compilers without libFuzzer, and the same inputs every time.
+// What a fuzzer's target does with the files of a folder and with files made from them by damage: bits that flip, bytes that
+// go, come or move, numbers that grow, halves of two files. For compilers without libFuzzer, and the same inputs every time.
 //
 //   whine-replay-<target> COUNT SEED FOLDER
 //
-// A target that crashes, takes more than 10 s or asks for more than 1 GiB at once ends the program; `replayed.bin` in the working
-// folder is then the input.
+// A target that crashes, takes more than 10 s or asks for more than 1 GiB at once ends the program; `replayed.bin` in the
+// working folder is then the input.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>

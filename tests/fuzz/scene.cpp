@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a scene, and as each slice of one. They are read or refused by an Error; a scene that is read
-// gives slices that are read, too, and say the same again.
+// libFuzzer: any bytes as a scene, and as the stage parameters of one. They are read or rejected by an Error; a scene that is
+// read gives stage parameters that are read, too, and say the same again.
 #include <cstdlib>
 
 #include "base/error.h"
@@ -11,19 +11,19 @@ namespace {
 
 using namespace whine;
 
-// What a slice is read from must be what a program has written.
+// What stage parameters are read from must be what a program has written.
 void require_readable(const Scene& scene) {
-  const auto as_file = [](const std::string& slice, const auto& read) {
-    read(FileOf(reinterpret_cast<const std::uint8_t*>(slice.data()), slice.size()).path());
+  const auto as_file = [](const std::string& settings, const auto& read) {
+    read(FileOf(reinterpret_cast<const std::uint8_t*>(settings.data()), settings.size()).path());
   };
-  as_file(static_slice(scene), read_static_slice);
-  as_file(impact_slice(scene), read_impact_slice);
-  as_file(sweep_slice(scene), read_sweep_slice);
-  as_file(map_slice(scene), read_map_slice);
+  as_file(static_parameters(scene), read_static_parameters);
+  as_file(impact_parameters(scene), read_impact_parameters);
+  as_file(sweep_parameters(scene), read_sweep_parameters);
+  as_file(map_parameters(scene), read_map_parameters);
   for (const SceneGear& gear : scene.gears) {
-    const std::string slice = body_slice(scene, gear.name);
-    as_file(slice, [&](const std::string& path) {
-      if (body_slice(read_body_slice(path)) != slice) std::abort();
+    const std::string settings = body_parameters(scene, gear.name);
+    as_file(settings, [&](const std::string& path) {
+      if (body_parameters(read_body_parameters(path)) != settings) std::abort();
     });
   }
 }
@@ -35,16 +35,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path = file.path();
   Scene scene;
   bool valid = false;
-  refused_or_read([&] {
+  rejected_or_read([&] {
     scene = read_scene(path);
     valid = true;
   });
   if (valid) require_readable(scene);
-  refused_or_read([&] { read_body_slice(path); });
-  refused_or_read([&] { read_static_slice(path); });
-  refused_or_read([&] { read_impact_slice(path); });
-  refused_or_read([&] { read_sweep_slice(path); });
-  refused_or_read([&] { read_map_slice(path); });
-  refused_or_read([&] { scene_variant(path, {"module_mm=2", "bore_radius_mm=35"}); });
+  rejected_or_read([&] { read_body_parameters(path); });
+  rejected_or_read([&] { read_static_parameters(path); });
+  rejected_or_read([&] { read_impact_parameters(path); });
+  rejected_or_read([&] { read_sweep_parameters(path); });
+  rejected_or_read([&] { read_map_parameters(path); });
+  rejected_or_read([&] { scene_variant(path, {"module_mm=2", "bore_radius_mm=35"}); });
   return 0;
 }

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a study, as the plan that a study becomes and as the slice of a variant. They are read or refused by
-// an Error; a study that is read draws values for each of its keys, and its plan is read and says the same again.
+// libFuzzer: any bytes as a study, as the plan that a study becomes and as the stage parameters of a variant. They are read or
+// rejected by an Error; a study that is read draws values for each of its keys, and its plan is read and says the same again.
 #include <algorithm>
 #include <cstdlib>
 
@@ -35,12 +35,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path = file.path();
   Study study;
   bool valid = false;
-  refused_or_read([&] {
+  rejected_or_read([&] {
     study = read_study(path);
     valid = true;
   });
   if (valid) require_plan(study);
-  refused_or_read([&] { read_plan(path); });
-  refused_or_read([&] { read_variant_slice(path); });
+  rejected_or_read([&] { read_plan(path); });
+  rejected_or_read([&] { read_variant_parameters(path); });
   return 0;
 }

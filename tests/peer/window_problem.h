@@ -12,7 +12,7 @@
 
 namespace whine {
 
-struct WindowProblem {
+struct ZoneProblem {
   static constexpr int kPairs = 3, kStrips = 20, kNodes = StripCompliance::kPairNodes;
   // Vectors keep their memory when a problem is moved, and so do the places that `parts` points to.
   std::vector<double> half_plane[kPairs], interpolation[kPairs], at_nodes;
@@ -20,13 +20,13 @@ struct WindowProblem {
   Eigen::MatrixXd a;    // (strip, strip) m N-1
   Eigen::VectorXd gap;  // (strip) m
 
-  WindowProblem(WindowProblem&&) = default;
+  ZoneProblem(ZoneProblem&&) = default;
   // phase: of the middle pair; c: (node, node) m N-1.
-  WindowProblem(double phase, const Eigen::MatrixXd& c) {
+  ZoneProblem(double phase, const Eigen::MatrixXd& c) {
     const GearDesign design = strip_gear();
     const GearPair gears(design, design, 0.150);
     const HalfPlaneSurface surface({207e9, 0.3, 7600, false}, design.face_width);
-    const int n = kPairs * kStrips, nodes = kPairs * kWindowNodes;
+    const int n = kPairs * kStrips, nodes = kPairs * kZoneNodes;
     Eigen::MatrixXd l = Eigen::MatrixXd::Zero(n, nodes), rows = Eigen::MatrixXd::Zero(kPairs * kNodes, nodes);
     a = Eigen::MatrixXd::Zero(n, n);
     gap.resize(n);
@@ -37,10 +37,10 @@ struct WindowProblem {
       interpolation[j].assign(kStrips * kNodes, 0.0);
       std::copy(s.interpolation.data(), s.interpolation.data() + s.interpolation.size(),
                 interpolation[j].begin());
-      l.block(j * kStrips, j * kWindowNodes, kStrips, kWindowNodes) = s.interpolation;
+      l.block(j * kStrips, j * kZoneNodes, kStrips, kZoneNodes) = s.interpolation;
       a.block(j * kStrips, j * kStrips, kStrips, kStrips) = h;
       gap.segment(j * kStrips, kStrips) = s.gap;
-      rows.middleRows<kWindowNodes>(j * kNodes) = c.middleRows<kWindowNodes>(j * kWindowNodes);
+      rows.middleRows<kZoneNodes>(j * kNodes) = c.middleRows<kZoneNodes>(j * kZoneNodes);
     }
     a += l * c * l.transpose();
     at_nodes.assign(rows.data(), rows.data() + rows.size());

@@ -1,10 +1,11 @@
-// Contact problems by the thousand: each ends with a certificate that extended precision confirms, or with a refusal.
+// Contact problems by the thousand: each ends with a certificate that extended precision confirms, or with an error that says
+// why.
 //
 //   whine-stress-contact PROBLEMS [SEED]
 //
 // Random, ill-conditioned (up to 1e14), degenerate, singular and badly scaled matrices with known solutions, strips of gears,
-// and the steps of a march, from nothing, from the set before and from sets that are wrong. Status 1 if an answer is wrong or
-// a problem that is none of the hard ones is refused.
+// and the steps of an integration, from nothing, from the set before and from sets that are wrong. Status 1 if an answer is
+// wrong or a problem that is none of the hard ones is rejected.
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
@@ -29,9 +30,9 @@ struct Problem {
   MatrixXd a;
   VectorXd e;
   VectorXd known;     // a solution, to round-off of e; empty: none is known
-  bool hard = false;  // may be refused
+  bool hard = false;  // may be rejected
   std::vector<int> start;
-  std::shared_ptr<WindowProblem> windows;  // the same in parts, to be solved so; null: there are none
+  std::shared_ptr<ZoneProblem> zones;  // the same in parts, to be solved so; null: there are none
 };
 
 class Problems {
@@ -56,7 +57,7 @@ class Problems {
       case 6:
         return recorded_step();
       case 7:
-        return windows_of_three();
+        return zones_of_three();
       default:
         return cornered();
     }
@@ -69,8 +70,8 @@ class Problems {
                                               "singular, strips that coincide",
                                               "badly scaled, all open, all closed",
                                               "strips of a gear pair, any phase",
-                                              "steps of a march, moved gaps",
-                                              "three windows in parts",
+                                              "steps of an integration, moved gaps",
+                                              "three candidate zones in parts",
                                               "Hilbert and Fathi"};
     return names[kind];
   }
@@ -168,16 +169,16 @@ class Problems {
     return {strips.a, strips.gap.array() - std::pow(10, uniform(-8, -4.5)), {}, false, some(n), nullptr};
   }
   void record() {
-    const SweepSlice slice = paper_sweep(2900, 2900, 1);
+    const SweepParameters settings = paper_sweep(2900, 2900, 1);
     DynamicParameters parameters = paper_parameters(463e6);
-    parameters.inertia = {slice.driver_inertia, slice.driven_inertia};
+    parameters.inertia = {settings.driver_inertia, settings.driven_inertia};
     parameters.damping.rayleigh_stiffness = 5.5e-6;  // contact is lost
     const GearMeshModel model(paper_body(40e-3, 1.5e-3), paper_body(40e-3, 1.5e-3), paper_statics(128).mesh);
     RollingDynamics dynamics(model, parameters);
     const double load = 150 / model.kinematics.gear(0).base_radius();
-    dynamics.set_range(contact_range(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
+    dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
                                      8, load / model.kinematics.contact_ratio(), 10 * load, 60e-6),
-                       128);
+                      128);
     RollingDynamics::State state = dynamics.rest();
     dynamics.set_speed(2900, 128);
     for (int period = 0; period < 40; ++period) {
@@ -196,17 +197,16 @@ class Problems {
   }
   // Bodies from stiff to soft beside the half-planes, whole or between few of their nodes; gaps of gears, or with a solution
   // that is known and may be degenerate.
-  Problem windows_of_three() {
-    constexpr int kNodes = WindowProblem::kPairs * kWindowNodes;
+  Problem zones_of_three() {
+    constexpr int kNodes = ZoneProblem::kPairs * kZoneNodes;
     const double decades = uniform(0, 14);
     const MatrixXd c = std::pow(10, uniform(-13, -8)) * spectrum(kNodes, decades);
-    const auto windows = std::make_shared<WindowProblem>(uniform(-0.45, 0.45), c);
+    const auto zones = std::make_shared<ZoneProblem>(uniform(-0.45, 0.45), c);
     if (whole(0, 1)) {
-      const int n = static_cast<int>(windows->gap.size());
-      return {windows->a, windows->gap.array() - std::pow(10, uniform(-8, -4.5)), {}, false, some(n),
-              windows};
+      const int n = static_cast<int>(zones->gap.size());
+      return {zones->a, zones->gap.array() - std::pow(10, uniform(-8, -4.5)), {}, false, some(n), zones};
     }
-    Problem problem = with_solution(windows->a, false);
+    Problem problem = with_solution(zones->a, false);
     if (whole(0, 2) == 0) {  // what neither carries nor gapes
       VectorXd d = problem.a * problem.known + problem.e;
       for (double& gap : d) gap *= whole(0, 3) > 0;
@@ -215,7 +215,7 @@ class Problems {
         if (problem.known[i] > 0) d[i] = 0;
       problem.e = d - problem.a * problem.known;
     }
-    problem.windows = windows;
+    problem.zones = zones;
     return problem;
   }
   Problem cornered() {
@@ -309,7 +309,7 @@ int main(int argc, char** argv) {
     std::puts("the judge does not find an answer that is wrong");
     return 1;
   }
-  long certified[Problems::kKinds] = {}, refused[Problems::kKinds] = {}, wrong = 0, needless = 0,
+  long certified[Problems::kKinds] = {}, rejected[Problems::kKinds] = {}, wrong = 0, needless = 0,
        fallbacks = 0;
   ComplementaritySolver solver;  // one for all: what a problem leaves behind is no business of the next
   for (long done = 0; done < count;) {
@@ -320,11 +320,11 @@ int main(int argc, char** argv) {
     active.strips = problem.start;
     // The same A with other gaps uses the kept inverse.
     for (int again = problems.whole(1, 4); again > 0 && done < count; --again, ++done) {
-      VectorXd p(n), d(n), nodes(WindowProblem::kPairs * WindowProblem::kNodes);
+      VectorXd p(n), d(n), nodes(ZoneProblem::kPairs * ZoneProblem::kNodes);
       try {
         const Certificate certificate =
-            problem.windows ? solver.solve(problem.windows->parts, problem.e, active, p, d, nodes.data())
-                            : solver.solve(problem.a, problem.e, active, p, d);
+            problem.zones ? solver.solve(problem.zones->parts, problem.e, active, p, d, nodes.data())
+                          : solver.solve(problem.a, problem.e, active, p, d);
         ++certified[kind];
         fallbacks += certificate.fallback;
         if (const char* what = fault(problem, p, d, certificate)) {
@@ -332,9 +332,9 @@ int main(int argc, char** argv) {
             std::printf("wrong answer %ld, %s, %d strips: %s\n", done, Problems::name(kind), n, what);
         }
       } catch (const Error& error) {
-        ++refused[kind];
+        ++rejected[kind];
         if (!problem.hard && ++needless <= 20)
-          std::printf("refused %ld, %s, %d strips: %s\n", done, Problems::name(kind), n, error.what());
+          std::printf("rejected %ld, %s, %d strips: %s\n", done, Problems::name(kind), n, error.what());
         break;
       }
       problem.known.resize(0);
@@ -344,14 +344,14 @@ int main(int argc, char** argv) {
   }
   long all = 0, none = 0;
   for (int kind = 0; kind < Problems::kKinds; ++kind) {
-    std::printf("  %-36s %8ld certified %8ld refused\n", Problems::name(kind), certified[kind],
-                refused[kind]);
+    std::printf("  %-36s %8ld certified %8ld rejected\n", Problems::name(kind), certified[kind],
+                rejected[kind]);
     all += certified[kind];
-    none += refused[kind];
+    none += rejected[kind];
   }
   std::printf(
       "%ld contact problems, seed %u: %ld with a certificate (%ld by Lawson and Hanson's method), %ld "
-      "refused, %ld wrong, %ld refused without need\n",
+      "rejected, %ld wrong, %ld rejected without need\n",
       all + none, seed, all, fallbacks, none, wrong, needless);
   return wrong + needless > 0;
 }

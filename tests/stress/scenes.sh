@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Random valid scenes through statics and a short sweep: each runs with a ledger that closes, or is refused with a reason.
+# Random valid scenes through statics and a short sweep: each runs with an energy balance that closes, or is rejected with a reason.
 #
 #   tests/stress/scenes.sh COUNT [SEED [FOLDER]]     B=build; the reasons and what went wrong on standard output
 #
 # Teeth 12-120, module 0.5-8 mm, shifts, face width, bore, torque over four decades. A coarse mesh: what is at stake is whether
-# an answer is one. Status 1 if a program crashes, hangs, says nothing, refuses for a reason that no valid scene can have, or
-# hands out a motion whose ledger does not close.
+# an answer is one. Status 1 if a program crashes, hangs, says nothing, rejects for a reason that no valid scene can have, or
+# hands out a motion whose energy balance does not close.
 set -uo pipefail
 count=${1:-200} seed=${2:-1}
 bin=$PWD/${B:-build}/bin
@@ -103,7 +103,7 @@ run() {
   status=$?
   [ $status != 0 ] || return 0
   if { [ $status = 3 ] || [ $status = 1 ]; } && [ "$(grep -c ': error: ' said)" = 1 ] && grep -q -E ": error: .*($accepted)" said; then
-    echo "refused $stage" >> tally
+    echo "rejected $stage" >> tally
     echo "scene $number: $(grep ': error: ' said)" >> reasons
   else
     echo "wrong $stage" >> tally
@@ -129,12 +129,12 @@ while read -r -a values; do
     echo "wrong check" >> tally; echo "scene $number: $(head -n 1 said)"; continue; fi
   imbalance=$("$bin/gear-inspect" $home/sweep.h5 | sed -n 's/.*energy imbalance //p')
   if awk -v x="$imbalance" 'BEGIN { exit !(x != "" && x + 0 < 1e-9) }'; then echo "ran closing" >> tally; else
-    echo "wrong ledger" >> tally; echo "scene $number: energy imbalance ${imbalance:-not said} (${values[*]})"; fi
+    echo "wrong energy balance" >> tally; echo "scene $number: energy imbalance ${imbalance:-not said} (${values[*]})"; fi
 done < scenes
 
 touch reasons
-sort -k2 -t: reasons | sed 's/^/  refused: /'
-echo "$count scenes, seed $seed: $(grep -c '^ran' tally) ran with a ledger closed to 1e-9, $(grep -c '^refused' tally) refused, $(grep -c '^wrong' tally) wrong"
-# A program that refuses everything is no sound one.
+sort -k2 -t: reasons | sed 's/^/  rejected: /'
+echo "$count scenes, seed $seed: $(grep -c '^ran' tally) ran with an energy balance closed to 1e-9, $(grep -c '^rejected' tally) rejected, $(grep -c '^wrong' tally) wrong"
+# A program that rejects everything is no sound one.
 ran=$(grep -c '^ran' tally)
 [ "$count" -gt 0 ] && [ $((2 * ${ran:-0})) -ge "$count" ] && ! grep -q '^wrong' tally

@@ -1,0 +1,364 @@
+#include "dynamics/energy_balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "dynamics/dynamics.h"
+
+namespace whine {
+
+using Eigen::Matrix4Xd;
+using Eigen::Vector4d;
+using Eigen::VectorXd;
+
+namespace {
+
+// Gauss-Legendre on (0, 1).
+constexpr int kPoints = 6;
+constexpr double kNode[kPoints] = {0.033765242898423975, 0.16939530676686776, 0.3806904069584015,
+                                   0.6193095930415985,   0.8306046932331322,  0.966234757101576};
+constexpr double kWeight[kPoints] = {0.08566224618958487, 0.18038078652406947, 0.23395696728634569,
+                                     0.23395696728634569, 0.18038078652406947, 0.08566224618958487};
+
+HertzLine::Point at(const HertzLine& law, double force) {
+  return force > 0 ? law.at(force) : HertzLine::Point{};
+}
+
+double stored(const HertzLine& law, double force) {  // N m
+  return force * at(law, force).indentation - at(law, force).energy;
+}
+
+// N m: what a law stores from one force to another, less the mean force times the change of indentation.
+double bent(double from, const HertzLine::Point& at_from, double to, const HertzLine::Point& at_to) {
+  return (to * at_to.indentation - at_to.energy) - (from * at_from.indentation - at_from.energy) -
+         0.5 * (from + to) * (at_to.indentation - at_from.indentation);
+}
+double bent(const HertzLine& law, double from, double to) {
+  return bent(from, at(law, from), to, at(law, to));
+}
+
+// N m, switching and rolling: what a line's law stores while the force and the law change, less the mean force's work.
+std::pair<double, double> law_work(const HertzLine& law0, const HertzLine& law1, double p0, double p1) {
+  const HertzLine::Point old0 = at(law0, p0), old1 = at(law0, p1), new0 = at(law1, p0), new1 = at(law1, p1);
+  return {0.5 * (bent(p0, old0, p1, old1) + bent(p0, new0, p1, new1)),
+          0.25 * (p1 - p0) * (new1.indentation - old1.indentation - (new0.indentation - old0.indentation)) -
+              0.5 * (new0.energy - old0.energy + new1.energy - old1.energy)};
+}
+
+// Calls at(t, weight) over (0, step), in panels over which nothing with the given rate (s-1) changes much.
+template <class Function>
+void quadrature(double step, double rate, Function at) {
+  const int panels = static_cast<int>(std::clamp(std::ceil(step * rate), 1.0, 1000.0));
+  for (int i = 0; i < panels; ++i)
+    for (int k = 0; k < kPoints; ++k) at(step * (i + kNode[k]) / panels, step * kWeight[k] / panels);
+}
+
+// The same for what decays at that rate and then changes slowly: panels that grow from it on.
+template <class Function>
+void graded_quadrature(double step, double rate, Function at) {
+  constexpr double kGrowth = 1.5;
+  double from = 0;
+  for (double width = 1 / rate; from < step; width = (kGrowth - 1) * from) {
+    const double to = from + 1.01 * width < step ? from + width : step;
+    for (int k = 0; k < kPoints; ++k) at(from + (to - from) * kNode[k], (to - from) * kWeight[k]);
+    from = to;
+  }
+}
+
+}  // namespace
+
+RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
+  DampingIntegrals result;
+  const int n = static_cast<int>(coordinates_.size());
+  result.speed = result.mixed = result.push = VectorXd::Zero(padded(n));
+  for (int c = 0; c < n; ++c) {
+    const double frequency = coordinates_[c].frequency, damping = coordinates_[c].damping;
+    if (c > 0 && frequency == coordinates_[c - 1].frequency && damping == coordinates_[c - 1].damping) {
+      for (VectorXd* x : {&result.speed, &result.mixed, &result.push}) (*x)[c] = (*x)[c - 1];
+      continue;
+    }
+    const auto add = [&](double t, double weight) {
+      const Propagator part = exact_propagator(frequency, damping, t);
+      result.speed[c] += weight * part.a22 * part.a22;
+      result.mixed[c] += weight * part.a22 * part.bv;
+      result.push[c] += weight * part.bv * part.bv;
+    };
+    // Every mode of a mesh: most of them are overdamped a thousandfold.
+    if (damping > 4 * frequency)
+      graded_quadrature(step_, frequency + damping, add);
+    else
+      quadrature(step_, frequency + damping, add);
+  }
+  const double eta = relaxation();
+  if (eta > 0)
+    quadrature(step_, 1 / eta, [&](double t, double weight) {
+      const double decay = std::exp(-t / eta), growth = -(eta / step_) * std::expm1(-t / eta);
+      result.decay2 += weight * decay * decay / eta;
+      result.mixed2 += weight * decay * growth / eta;
+      result.growth2 += weight * growth * growth / eta;
+      result.decay += weight * decay / eta;
+      result.growth += weight * growth / eta;
+      result.late_decay += weight * t / step_ * decay / eta;
+      result.late_growth += weight * t / step_ * growth / eta;
+    });
+  return result;
+}
+
+void RollingDynamics::size_ledger() {
+  const int coordinates = kernel_.coordinates(), fields = StepKernel::kSides * kernel_.fields(),
+            own = static_cast<int>(coordinates_.size());
+  int strips = kMostPairs, pairs = 1;
+  for (const Position& position : positions_) {
+    strips = std::max(strips, position.mesh.strips());
+    pairs = std::max(pairs, static_cast<int>(position.mesh.pairs.size()));
+  }
+  EnergyBalanceWorkspace& l = balance_work_;
+  for (Instant& instant : l.instants) {
+    for (VectorXd* x : {&instant.at.z, &instant.at.v, &instant.at.force}) x->setZero(coordinates);
+    for (VectorXd* x : {&instant.at.relaxed, &instant.at.load, &instant.field, &instant.moved_load,
+                        &instant.forgotten_field})
+      x->setZero(fields);
+    for (VectorXd* x : {&instant.p, &instant.d, &instant.local}) x->setZero(strips);
+    for (Matrix4Xd* x : {&instant.moment, &instant.reading}) x->setZero(4, pairs);
+  }
+  for (VectorXd* x : {&l.turned_back, &l.frequency_squared, &l.damping, &l.torque}) x->setZero(coordinates);
+  l.frequency_squared.head(own) = frequency_squared_;
+  l.torque.head(own) = torque_force_;
+  for (int i = 0; i < own; ++i) l.damping[i] = coordinates_[i].damping;
+}
+
+void RollingDynamics::displace_locally(int i, const double* p, VectorXd& result) const {
+  const Position& position = positions_[i];
+  const int strips = position.mesh.strips();
+  if (lines()) {
+    result.head(strips).noalias() = position.at_once.lazyProduct(Eigen::Map<const VectorXd>(p, strips));
+    return;
+  }
+  result.head(strips).setZero();
+  double nodes[StepKernel::kPairNodes * kMostPairs];
+  kernel_.at_once(i).add_product(p, nodes, result.data());
+}
+
+// The instant that the workspace holds; p, d: (strip). What relaxed loads displace goes on from the instant before as the
+// relaxed load itself
+//  does; without one it is computed anew.
+void RollingDynamics::fill(Instant& now, const Instant* before, int position, const double* p,
+                           const double* d) const {
+  const MeshPosition& mesh = positions_[position].mesh;
+  const int strips = mesh.strips(), of_gear = kernel_.fields();
+  const Relaxation& relaxed = kernel_.relaxed();
+  now.position = position;
+  now.renamed = 0;
+  now.forgotten = now.stored_forgotten = 0;
+  now.at = kernel_.vectors();
+  for (int g = 0; g < StepKernel::kSides; ++g)
+    kernel_.displace(g, &now.at.load[g * of_gear], &now.moved_load[g * of_gear]);
+  if (before)
+    now.field = relaxed.decay * before->field + relaxed.from_old * before->moved_load +
+                relaxed.from_new * now.moved_load;
+  for (int g = 0; !before && g < StepKernel::kSides; ++g)
+    kernel_.displace(g, &now.at.relaxed[g * of_gear], &now.field[g * of_gear]);
+  std::copy(p, p + strips, now.p.data());
+  std::copy(d, d + strips, now.d.data());
+  displace_locally(position, now.p.data(), now.local);
+  double unused[StepKernel::kSides * StepKernel::kFields];
+  for (size_t j = 0; j < mesh.pairs.size(); ++j) {
+    const auto pair = static_cast<int>(j);
+    now.moment.col(pair) = kernel_.collect(position, pair, p + mesh.first_strip[j], unused);
+    now.reading.col(pair) = kernel_.reading(position, pair, now.at.z.data());
+  }
+  now.at_once = 0.5 * now.p.head(strips).dot(now.local.head(strips));
+  for (size_t j = 0; j < mesh.law.size(); ++j) now.at_once += stored(mesh.law[j], p[j]);
+}
+
+// Teeth get the names that they have in the next mesh period. One of each gear is no longer followed.
+void RollingDynamics::rename(Instant& now) const {
+  const int of_gear = kernel_.fields(), of_tooth = StepKernel::kFields;
+  StepKernel::Vectors& at = now.at;
+  for (double* y : {at.z.data(), at.v.data(), at.force.data()}) kernel_.turn_doublets(y);
+  now.stored_forgotten = -0.5 * at.relaxed.dot(now.field);
+  now.forgotten = 0;
+  // The load of a tooth that goes under load: a corner rule has then taken its pair out.
+  for (int g = 0; g < StepKernel::kSides; ++g) {
+    const int last = (g + 1) * of_gear - of_tooth;
+    now.forgotten += 0.5 * at.load.segment(last, of_tooth).dot(now.field.segment(last, of_tooth));
+  }
+  now.forgotten_field = now.field;
+  for (double* x : {at.relaxed.data(), at.load.data(), now.forgotten_field.data()}) kernel_.advance_fields(x);
+  for (int g = 0; g < StepKernel::kSides; ++g) {
+    kernel_.displace(g, &at.relaxed[g * of_gear], &now.field[g * of_gear]);
+    kernel_.displace(g, &at.load[g * of_gear], &now.moved_load[g * of_gear]);
+  }
+  now.stored_forgotten += 0.5 * at.relaxed.dot(now.field);
+  now.forgotten += now.stored_forgotten;
+  now.forgotten_field -= now.field;
+  now.renamed = 1;
+}
+
+// With d = e - h z + U + A p and p . d = 0 at both ends, (p_n + p_n+1)/2 . (d_n+1 - d_n) is the switching line, and what
+// the mean forces do on modes, relaxed loads and all that is instantaneous comes term by term; products of an old force with a
+// new shape are the work of the rolling. A pair that a corner rule takes out under load keeps its last geometry for the
+// step, one that it lets in has its first: the gap there is the cutting line.
+//
+// A line's law u(p) with the energy E = integral of u over p stores p u - E. While it is held, mean force times change of
+// u is not the change of what it stores, because it is bent: that difference, mean over the laws of both ends, goes to
+// the switching line, or to the cutting line where a pair is cut. The law's change with the phase is rolling:
+// -(E_n+1 - E_n) at a held force, mean over both forces, and, as in the products above, a quarter of the change of force
+// times the change of u_n+1 - u_n over it.
+//
+// Force on modes and on the relaxed loads goes through a pair's shape rows and fields: p . h z = moment . reading, p . U =
+// share of p in the fields . their displacement.
+double RollingDynamics::field_work(const double* shares, int apart, const VectorXd& field, int slot) const {
+  constexpr int kFields = StepKernel::kFields;
+  double work = 0;
+  for (int g = 0; g < StepKernel::kSides; ++g)
+    work += Eigen::Matrix<double, kFields, 1>::Map(shares + g * apart)
+                .dot(field.segment<kFields>(g * kernel_.fields() + slot * kFields));
+  return work;
+}
+
+RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, const Instant& b) {
+  const MeshPosition &old_mesh = positions_[a.position].mesh, &new_mesh = positions_[b.position].mesh;
+  constexpr int of_tooth = StepKernel::kFields;
+  ContactWork work;
+  work.forgetting = a.forgotten;
+  const bool lines = this->lines();
+  const double* old_z = b.at.z.data();  // of the new instant, in the names of the old position
+  if (a.renamed) {
+    balance_work_.turned_back = b.at.z;
+    kernel_.turn_doublets(balance_work_.turned_back.data(), -1);
+    old_z = balance_work_.turned_back.data();
+  }
+  const auto shares_on = [&](const double* shares, const VectorXd& field, int slot) {
+    return field_work(shares, of_tooth, field, slot);
+  };
+  const auto load_on = [&](const VectorXd& load, const VectorXd& field, int slot) {
+    return field_work(&load[slot * of_tooth], kernel_.fields(), field, slot);
+  };
+  double old_on_new[StepKernel::kSides * of_tooth], new_on_old[StepKernel::kSides * of_tooth];
+  unsigned met = 0;
+  for (size_t i = 0; i < old_mesh.pairs.size(); ++i) {
+    const int pair = old_mesh.pairs[i].pair + a.renamed, slot = pair + reach_, from = old_mesh.first_strip[i];
+    const bool followed = slot <= 2 * reach_;
+    const auto p0 = a.p.segment(from, old_mesh.pairs[i].size());
+    const auto gap0 = old_mesh.gap.segment(from, old_mesh.pairs[i].size());
+    size_t j = 0;
+    while (j < new_mesh.pairs.size() && new_mesh.pairs[j].pair != pair) ++j;
+    if (j < new_mesh.pairs.size()) {
+      met |= 1u << j;
+      const int to = new_mesh.first_strip[j];
+      if (p0.isZero(0) && b.p.segment(to, new_mesh.pairs[j].size()).isZero(0)) continue;  // no force, no work
+    }
+    const auto old_pair = static_cast<int>(i), new_pair = static_cast<int>(j);
+    const Vector4d moment00 = a.moment.col(old_pair),
+                   read_old_new = kernel_.reading(a.position, old_pair, old_z);
+    if (a.renamed && followed) work.forgetting += 0.5 * load_on(a.at.load, a.forgotten_field, slot);
+    if (j == new_mesh.pairs.size()) {
+      if (lines) work.cutting += bent(old_mesh.law[i], p0[0], 0);
+      work.cutting += 0.5 * (p0.dot(gap0) - moment00.dot(read_old_new));
+      if (followed) work.cutting += 0.5 * load_on(a.at.load, b.field, slot);
+      continue;
+    }
+    const int to = new_mesh.first_strip[j], n = new_mesh.pairs[j].size();
+    const auto p1 = b.p.segment(to, n);
+    const auto gap1 = new_mesh.gap.segment(to, n);
+    if (lines) {
+      const auto [switching, rolling] = law_work(old_mesh.law[i], new_mesh.law[j], p0[0], p1[0]);
+      work.switching += switching;
+      work.rolling += rolling;
+    }
+    work.switching += 0.5 * (p0.dot(b.d.segment(to, n)) - p1.dot(a.d.segment(from, n)));
+    work.rolling -= 0.5 * ((p0 + p1).dot(gap1 - gap0) + p0.dot(b.local.segment(to, n)) -
+                           p1.dot(a.local.segment(from, n)));
+    const Vector4d moment01 = kernel_.collect(b.position, new_pair, p0.data(), old_on_new),
+                   moment10 = kernel_.collect(a.position, old_pair, p1.data(), new_on_old),
+                   read_new_old = kernel_.reading(b.position, new_pair, a.at.z.data());
+    work.rolling +=
+        0.5 *
+        (moment01.cwiseProduct(b.reading.col(new_pair)) - moment10.cwiseProduct(a.reading.col(old_pair)) +
+         b.moment.col(new_pair).cwiseProduct(read_new_old) - moment00.cwiseProduct(read_old_new))
+            .sum();
+    work.rolling -= 0.5 * (shares_on(old_on_new, b.field, slot) - shares_on(new_on_old, a.field, slot) +
+                           load_on(b.at.load, a.field, slot) - load_on(a.at.load, b.field, slot));
+    if (a.renamed) work.forgetting += 0.5 * shares_on(new_on_old, a.forgotten_field, slot);
+  }
+  for (size_t j = 0; j < new_mesh.pairs.size(); ++j)
+    if (!(met >> j & 1)) {
+      const int to = new_mesh.first_strip[j], n = new_mesh.pairs[j].size(), new_pair = static_cast<int>(j);
+      if (lines) work.cutting += bent(new_mesh.law[j], 0, b.p[to]);
+      work.cutting -=
+          0.5 * (b.p.segment(to, n).dot(new_mesh.gap.segment(to, n)) -
+                 b.moment.col(new_pair).dot(kernel_.reading(b.position, new_pair, a.at.z.data())) +
+                 load_on(b.at.load, a.field, new_mesh.pairs[j].pair + reach_));
+    }
+  return work;
+}
+
+// Force = torque - h^T p.
+RollingDynamics::ModalWork RollingDynamics::modal_work(const Instant& a, const Instant& b) const {
+  const auto z0 = a.at.z.array(), z1 = b.at.z.array(), v0 = a.at.v.array(), v1 = b.at.v.array(),
+             w2 = balance_work_.frequency_squared.array(), rate = balance_work_.damping.array();
+  ModalWork work;
+  work.torque = (balance_work_.torque.array() * (z1 - z0)).sum();
+  work.kinetic = 0.5 * (v1 * v1 - v0 * v0).sum();
+  work.modal = 0.5 * (w2 * (z1 * z1 - z0 * z0)).sum();
+  if (newmark_) {  // the trapezoidal rule's own velocity
+    work.damping = step_ * (rate * (0.5 * (v0 + v1)).square()).sum();
+  } else {
+    const auto push = 0.5 * (a.at.force.array() + b.at.force.array()) - w2 * z0;
+    work.damping = (rate * (damping_.speed.array() * v0 * v0 + 2 * damping_.mixed.array() * v0 * push +
+                            damping_.push.array() * push * push))
+                       .sum();
+  }
+  return work;
+}
+
+// eta G' + G = g, energy G R G / 2, dissipation eta G' R G', g linear in the step.
+RollingDynamics::LagWork RollingDynamics::lag_work(const Instant& a, const Instant& b) const {
+  const auto load0 = a.at.load.array(), load1 = b.at.load.array(), relaxed0 = a.at.relaxed.array(),
+             field0 = a.field.array(), field1 = b.field.array(), moved0 = a.moved_load.array(),
+             moved1 = b.moved_load.array();
+  LagWork work;
+  work.residual =
+      0.5 * ((b.at.relaxed.array() * field1).sum() - (relaxed0 * field0).sum()) + a.stored_forgotten;
+  double exact = 0.5 * ((load0 + load1) * (moved1 - moved0)).sum();
+  if (relaxation() > 0) {
+    const auto behind = load0 - relaxed0, change = load1 - load0, moved_behind = moved0 - field0,
+               moved_change = moved1 - moved0;
+    const double change2 = (change * moved_change).sum();
+    work.damping = damping_.decay2 * (behind * moved_behind).sum() +
+                   2 * damping_.mixed2 * (behind * moved_change).sum() + damping_.growth2 * change2;
+    exact = damping_.decay * (load0 * moved_behind).sum() + damping_.growth * (load0 * moved_change).sum() +
+            damping_.late_decay * (change * moved_behind).sum() + damping_.late_growth * change2;
+  }
+  work.averaging = 0.5 * ((load0 + load1) * (field1 - field0)).sum() - exact;
+  return work;
+}
+
+void RollingDynamics::record_step(const Instant& a, const Instant& b, EnergyBalance& energy_balance) {
+  const ContactWork contact = contact_work(a, b);
+  const ModalWork modes = modal_work(a, b);
+  const LagWork relaxed = lag_work(a, b);
+  const double local = b.at_once - a.at_once;
+  energy_balance.kinetic += modes.kinetic;
+  energy_balance.modal += modes.modal;
+  energy_balance.residual += relaxed.residual;
+  energy_balance.local += local;
+  energy_balance.torque += modes.torque;
+  energy_balance.rolling += contact.rolling;
+  energy_balance.modal_damping += modes.damping;
+  energy_balance.relaxation_damping += relaxed.damping;
+  energy_balance.switching += contact.switching;
+  energy_balance.cutting += contact.cutting;
+  energy_balance.averaging += relaxed.averaging;
+  energy_balance.forgetting += contact.forgetting;
+  energy_balance.throughput += std::abs(modes.torque) + std::abs(contact.rolling);
+  double& balance = balance_work_.balance;
+  balance += modes.kinetic + modes.modal + relaxed.residual + local + modes.damping + relaxed.damping -
+             modes.torque - contact.rolling - contact.switching - contact.cutting - contact.forgetting +
+             relaxed.averaging;
+  energy_balance.imbalance = std::max(energy_balance.imbalance, std::abs(balance));
+}
+
+}  // namespace whine

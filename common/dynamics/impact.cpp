@@ -1,0 +1,483 @@
+#include "dynamics/impact.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "base/dense.h"
+#include "base/error.h"
+#include "gear/body_inertia.h"
+#include "system/rolling_mesh.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// Per oscillation at the mean undamped frequency: the averaged force lengthens it by (2 pi / steps)^2 / 12, 1e-5 here.
+constexpr int kSteps = 512, kSamples = 32, kOscillations = 8;
+// RMS of what no damped exponentials explain, over the RMS of the decay. Of 30000 decays (100 to 300 N m, 1e-6 to 0.5 of
+// it let go) those below this had the damping ratio of the eigenvalue within 0.5 %, those above were up to 31 % off:
+// contact came and went in them. A decay without such a change leaves 1e-8.
+constexpr double kMostResidual = 1e-5;
+// Im s / |s| below which a root counts as real: the equal real roots of the relaxed loads, -1/eta, come out as pairs, by the
+// root of round-off (1.5e-8) at most. A pair that does oscillate is then within 1e-10 of critical damping.
+constexpr double kReal = 1e-5;
+
+struct Rest {
+  double x = 0;  // of the rigid rotation
+  VectorXd p;    // (strip) N
+  ActiveSet active;
+};
+
+// Contact wants more than the mesh holds.
+void require_in_reach(const FixedPhaseMesh& mesh, double transmission_error, const VectorXd& p) {
+  for (int strip : mesh.zone_end)
+    if (p[strip] > 0)
+      fail(Failure::numerical, "at mesh phase ", mesh.phase,
+           " contact reaches the end of its candidate zone: strip ", strip, " of ", p.size(), " carries ",
+           p[strip], " N of ", p.sum(), " N; lower the torque or the torque step");
+  const auto closes = [&](double gap, const char* edge) {
+    if (transmission_error > gap)
+      fail(Failure::numerical, "at mesh phase ", mesh.phase, " the transmission error ",
+           transmission_error * 1e6, " micrometres closes the gap of ", gap * 1e6,
+           " micrometres of a tip edge ", edge, "; lower the torque or the torque step");
+  };
+  closes(mesh.lost_corner_gap, "that would touch below the involute");
+  closes(mesh.next_corner_gap, "that was left out as too far");
+}
+
+VectorXd coordinates(const FixedPhaseMesh& mesh, const Rest& at, double share) {
+  VectorXd z = share * mesh.torque - mesh.participation.transpose() * at.p;
+  for (int c = 1; c < z.size(); ++c) z[c] /= mesh.frequency_squared[c];
+  z[0] = at.x;
+  return z;
+}
+
+// Static equilibrium under `share` of the torque: elastic coordinates follow their force, the rigid one carries the
+// load.
+Rest rest(const FixedPhaseMesh& mesh, double share, ComplementaritySolver& solver) {
+  VectorXd follow = mesh.frequency_squared;
+  for (double& f : follow) f = f > 0 ? 1 / f : 0;
+  const MatrixXd a =
+      mesh.local + mesh.residual + mesh.participation * follow.asDiagonal() * mesh.participation.transpose();
+  const VectorXd offset = share * mesh.participation * follow.cwiseProduct(mesh.torque);
+  Rest at;
+  const Equilibrium e = equilibrium(a, mesh.gap - offset, mesh.participation.col(0), share * mesh.torque[0],
+                                    0, at.active, solver);
+  at.x = e.x;
+  at.p = e.p;
+  require_in_reach(mesh, mesh.closing(coordinates(mesh, at, share)), at.p);
+  return at;
+}
+
+int loaded_pairs(const FixedPhaseMesh& mesh, const VectorXd& p) {
+  int loaded = 0;
+  for (size_t j = 0; j + 1 < mesh.first_strip.size(); ++j)
+    loaded += p.segment(mesh.first_strip[j], mesh.first_strip[j + 1] - mesh.first_strip[j]).sum() > 0;
+  return loaded;
+}
+
+std::string in_words(int count) {
+  static const char* const kWords[] = {"no", "one", "two", "three", "four", "five", "six", "seven"};
+  return kWords[count];
+}
+
+// The pair at all phases, for any Rayleigh stiffness factor.
+class FixedPhasePair {
+ public:
+  FixedPhasePair(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+                 double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan)
+      : plan_(plan) {
+    if (settings.fidelity.contact != ContactModel::strips)
+      fail(Failure::input, "contact = \"", settings.fidelity.contact,
+           "\" in [fidelity] is not available in ring-downs; set contact = \"strips\"");
+    if (settings.fidelity.body == BodyModel::full)
+      fail(Failure::input,
+           "body = \"full\" in [fidelity] is not available in ring-downs: the eigenvalues beside the decays "
+           "are those of "
+           "dense matrices; set body = \"modal\"");
+    if (plan.phases < 2 || plan.phases % 2)
+      fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
+    require_like_teeth(statics.mesh, "a pair at a fixed mesh phase (gear-impact, gear-jump-map)");
+    require_inertia(statics.mesh, {driver.inertia, driven.inertia},
+                    {settings.driver_inertia, settings.driven_inertia});
+    const GearMeshModel model(driver, driven, statics.mesh);
+    DynamicParameters parameters;
+    parameters.torque = statics.torque;
+    parameters.inertia = {settings.driver_inertia, settings.driven_inertia};
+    parameters.mean_stiffness = mean_stiffness;
+    parameters.damping = settings.damping;
+    parameters.damping.rayleigh_stiffness = 0;
+    parameters.fidelity = settings.fidelity;
+    RollingDynamics dynamics(model, parameters);
+    // As a sweep begins, so that the strips are the same.
+    dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), plan_.phases);
+    set_gears(blank_, driver, driven);
+    blank_.mesh = statics.mesh;
+    blank_.fidelity = settings.fidelity;
+    blank_.contact = statics.contact;
+    blank_.damping = settings.damping;
+    blank_.torque = statics.torque;
+    blank_.torque_step = plan.torque_step;
+    blank_.driver_inertia = settings.driver_inertia;
+    blank_.driven_inertia = settings.driven_inertia;
+    blank_.mean_stiffness = mean_stiffness;
+    blank_.driver_bearing_damper = dynamics.bearing_damper(0);
+    blank_.driven_bearing_damper = dynamics.bearing_damper(1);
+    blank_.mesh_phase = VectorXd::LinSpaced(plan_.phases, 0, 1 - 1.0 / plan_.phases);
+    blank_.phase_undamped_frequency.resize(plan_.phases);
+    blank_.loaded_pairs.resize(plan_.phases);
+    ComplementaritySolver solver;
+    for (int i = 0; i < plan_.phases; ++i) {
+      meshes_.push_back(dynamics.hold(i));
+      blank_.phase_undamped_frequency[i] = dynamics.frozen_frequency(i);
+      if (model.on_bearings()) {
+        meshes_.back().near = blank_.phase_undamped_frequency[i];
+        // The mesh, and each gear on a bearing along the line of action and across.
+        const int shown = 1 + 2 * (model.bearing[0].elastic() + model.bearing[1].elastic());
+        if (i == 0) blank_.frozen_frequency.resize(plan_.phases, shown);
+        blank_.frozen_frequency.row(i) = dynamics.frozen_frequencies(i).head(shown).transpose();
+      }
+      blank_.loaded_pairs[i] = loaded_pairs(meshes_[i], rest(meshes_[i], 1, solver).p);
+    }
+    const double mean_period = 1 / blank_.phase_undamped_frequency.mean();
+    step_ = mean_period / kSteps;
+    blank_.time = VectorXd::LinSpaced(kSamples * kOscillations + 1, 0, kOscillations * mean_period);
+    find_states();
+  }
+
+  // The phases of a contact state; Error(input) if it does not occur.
+  std::vector<int> phases_of(const std::string& contact_state) const {
+    std::vector<int> phases;
+    std::string known;
+    for (const auto& [pairs, phase] : state_phase_) {
+      known += in_words(pairs) + ", ";
+      if (in_words(pairs) == contact_state) return {phase};
+    }
+    if (contact_state != "mean")
+      fail(Failure::input, "the contact state '", contact_state, "' does not occur at ", blank_.torque,
+           " N m; choose one of: ", known, "mean");
+    phases.resize(static_cast<size_t>(plan_.phases));
+    std::iota(phases.begin(), phases.end(), 0);
+    return phases;
+  }
+
+  double damping_ratio(const std::vector<int>& phases, double rayleigh_stiffness) const {
+    double sum = 0;
+    for (int i : phases) sum += decay(at(i, rayleigh_stiffness)).second.root.damping_ratio;
+    return sum / static_cast<double>(phases.size());
+  }
+
+  // The same by eigenvalues of the frozen contact.
+  double frozen_damping_ratio(const std::vector<int>& phases, double rayleigh_stiffness) const {
+    double sum = 0;
+    for (int i : phases) sum += frozen_root(at(i, rayleigh_stiffness)).damping_ratio;
+    return sum / static_cast<double>(phases.size());
+  }
+
+  double mean_frequency() const { return blank_.phase_undamped_frequency.mean(); }
+
+  std::vector<FixedPhaseState> states() const {
+    std::vector<FixedPhaseState> states;
+    for (const auto& [pairs, phase] : state_phase_)
+      states.push_back({in_words(pairs), blank_.phase_undamped_frequency[phase], meshes_[phase]});
+    return states;
+  }
+
+  ImpactArtifact run(double rayleigh_stiffness, const std::function<void(long, long)>& report) const {
+    ImpactArtifact result = blank_;
+    result.damping.rayleigh_stiffness = rayleigh_stiffness;
+    for (VectorXd* v : {&result.phase_natural_frequency, &result.phase_damping_ratio, &result.eigen_frequency,
+                        &result.eigen_damping_ratio, &result.fit_residual})
+      v->resize(plan_.phases);
+    const auto states = static_cast<Eigen::Index>(state_phase_.size());
+    result.transmission_error.resize(states, result.time.size());
+    result.least_mesh_force = 1;
+    for (int i = 0; i < plan_.phases; ++i) {
+      const FixedPhaseMesh mesh = at(i, rayleigh_stiffness);
+      const auto [trace, fit] = decay(mesh);
+      result.phase_natural_frequency[i] = fit.root.frequency;
+      result.phase_damping_ratio[i] = fit.root.damping_ratio;
+      result.fit_residual[i] = fit.residual;
+      result.least_mesh_force = std::min(result.least_mesh_force, trace.least_mesh_force);
+      const DampedRoot root = frozen_root(mesh);
+      result.eigen_frequency[i] = root.frequency;
+      result.eigen_damping_ratio[i] = root.damping_ratio;
+      Eigen::Index row = 0;
+      for (const auto& state : state_phase_) {
+        if (state.second == i) result.transmission_error.row(row) = trace.transmission_error.transpose();
+        ++row;
+      }
+      report(i + 1, plan_.phases);
+    }
+
+    result.natural_frequency.resize(states + 1);
+    result.damping_ratio.resize(states + 1);
+    result.undamped_frequency.resize(states + 1);
+    result.state_phase.resize(states);
+    Eigen::Index row = 0;
+    for (const auto& [pairs, phase] : state_phase_) {
+      result.contact_state.push_back(in_words(pairs));
+      result.state_phase[row] = result.mesh_phase[phase];
+      result.natural_frequency[row] = result.phase_natural_frequency[phase];
+      result.damping_ratio[row] = result.phase_damping_ratio[phase];
+      result.undamped_frequency[row] = result.phase_undamped_frequency[phase];
+      ++row;
+    }
+    result.contact_state.push_back("mean");
+    result.natural_frequency[states] = result.phase_natural_frequency.mean();
+    result.damping_ratio[states] = result.phase_damping_ratio.mean();
+    result.undamped_frequency[states] = result.phase_undamped_frequency.mean();
+    return result;
+  }
+
+  // By eigenvalues alone; the mean is that of the undamped frequencies, each changed as amid its contact state.
+  ImpactArtifact frozen(double rayleigh_stiffness) const {
+    ImpactArtifact result = blank_;
+    result.damping.rayleigh_stiffness = rayleigh_stiffness;
+    std::map<int, DampedRoot> roots;
+    for (const auto& [pairs, phase] : state_phase_) roots[pairs] = frozen_root(at(phase, rayleigh_stiffness));
+    const auto states = static_cast<Eigen::Index>(state_phase_.size());
+    for (VectorXd* v : {&result.natural_frequency, &result.damping_ratio, &result.undamped_frequency})
+      v->setZero(states + 1);
+    result.state_phase.resize(states);
+    Eigen::Index row = 0;
+    std::map<int, double> change;
+    for (const auto& [pairs, phase] : state_phase_) {
+      result.contact_state.push_back(in_words(pairs));
+      result.state_phase[row] = result.mesh_phase[phase];
+      result.natural_frequency[row] = roots[pairs].frequency;
+      result.damping_ratio[row] = roots[pairs].damping_ratio;
+      result.undamped_frequency[row] = result.phase_undamped_frequency[phase];
+      change[pairs] = roots[pairs].frequency / result.phase_undamped_frequency[phase];
+      ++row;
+    }
+    result.contact_state.push_back("mean");
+    for (int i = 0; i < plan_.phases; ++i) {
+      const int pairs = result.loaded_pairs[i];
+      result.natural_frequency[states] += result.phase_undamped_frequency[i] * change[pairs] / plan_.phases;
+      result.damping_ratio[states] += roots[pairs].damping_ratio / plan_.phases;
+    }
+    result.undamped_frequency[states] = result.phase_undamped_frequency.mean();
+    return result;
+  }
+
+ private:
+  FixedPhaseMesh at(int i, double rayleigh_stiffness) const {
+    return with_rayleigh_stiffness(meshes_[i], rayleigh_stiffness, blank_.fidelity.body);
+  }
+
+  std::pair<RingDown, Decay> decay(const FixedPhaseMesh& mesh) const {
+    RingDown trace =
+        ring_down(mesh, plan_.torque_step, step_, static_cast<int>(blank_.time.size()), kSteps / kSamples);
+    const Decay fit = fit_decay(trace.transmission_error, step_ * kSteps / kSamples, mesh.near);
+    if (!(fit.residual <= kMostResidual))
+      fail(Failure::numerical, "at mesh phase ", mesh.phase, " damped oscillations leave ", fit.residual,
+           " of the decay, above ", kMostResidual,
+           ": contact comes and goes in it, and no damping ratio describes it "
+           "(the fit's is ",
+           fit.root.damping_ratio, "); change the torque step, ", plan_.torque_step);
+    return {std::move(trace), fit};
+  }
+
+  // Amid the longest run of phases with as many loaded pairs; the period is cyclic.
+  void find_states() {
+    const Eigen::VectorXi& loaded = blank_.loaded_pairs;
+    std::map<int, int> longest;
+    for (int start = 0; start < plan_.phases; ++start) {
+      const int pairs = loaded[start];
+      if (start > 0 && loaded[start - 1] == pairs) continue;
+      int before = 0, after = 0;  // the run that begins here goes on across the ends of the period
+      while (start == 0 && before < plan_.phases - 1 && loaded[plan_.phases - 1 - before] == pairs) ++before;
+      while (after < plan_.phases - before && loaded[(start + after) % plan_.phases] == pairs) ++after;
+      const int length = before + after;
+      if (length <= longest[pairs]) continue;
+      longest[pairs] = length;
+      state_phase_[pairs] = (start - before + (length - 1) / 2 + plan_.phases) % plan_.phases;
+    }
+  }
+
+  ImpactPlan plan_;
+  double step_ = 0;
+  ImpactArtifact blank_;  // all that does not depend on the Rayleigh stiffness factor
+  std::vector<FixedPhaseMesh> meshes_;
+  std::map<int, int> state_phase_;  // loaded pairs -> phase
+};
+
+}  // namespace
+
+RingDown ring_down(const FixedPhaseMesh& mesh, double torque_step, double step, int samples, int stride) {
+  if (!(torque_step > 0 && torque_step <= 0.5))
+    fail(Failure::input, "a torque step of ", torque_step,
+         " of the torque is outside (0, 0.5]; decays are to stay in the linear regime");
+  ComplementaritySolver solver;
+  const Rest before = rest(mesh, 1 + torque_step, solver), end = rest(mesh, 1, solver);
+  const VectorXd target = coordinates(mesh, end, 1);
+  const double mesh_force = end.p.sum();
+
+  FixedPhaseMotion motion(mesh, step);
+  motion.start(coordinates(mesh, before, 1 + torque_step), before.p);
+  RingDown result;
+  result.transmission_error.resize(samples);
+  result.least_mesh_force = 1;
+  result.transmission_error[0] = mesh.error_weight.dot(motion.z - target);
+  for (int i = 1; i <= (samples - 1) * stride; ++i) {
+    motion.advance();
+    result.least_mesh_force = std::min(result.least_mesh_force, motion.p.sum() / mesh_force);
+    require_in_reach(mesh, mesh.closing(motion.z), motion.p);
+    if (i % stride == 0) result.transmission_error[i / stride] = mesh.error_weight.dot(motion.z - target);
+  }
+  if (!(result.least_mesh_force > 0))
+    fail(Failure::input, "a torque step of ", torque_step,
+         " of the torque parts the teeth; take a smaller one");
+  return result;
+}
+
+DampedRoot frozen_root(const FixedPhaseMesh& mesh) {
+  ComplementaritySolver solver;
+  const Rest end = rest(mesh, 1, solver);
+  const std::vector<int>& touching = end.active.strips;
+  const MatrixXd h = mesh.participation(touching, Eigen::all), r = mesh.residual(touching, touching);
+  MatrixXd a = mesh.local(touching, touching);
+  const auto n = h.cols(), k = h.rows();
+  const bool relaxes = mesh.relaxation > 0;
+  if (!relaxes) a += r;
+  const Eigen::LDLT<MatrixXd> factor(a);
+  const double least = factor.vectorD().minCoeff();
+  if (factor.info() != Eigen::Success || !(least > 0))
+    fail(Failure::numerical, "at mesh phase ", mesh.phase, " the compliance of the ", k,
+         " strips that touch is not positive definite: pivot ", least,
+         " m/N; raise undamped_depth_mm or rebuild body.h5");
+  const MatrixXd coupling = factor.solve(h);
+  // In z, v / w and A P, which are of one size.
+  const double w = std::sqrt(h.col(0).dot(coupling.col(0)));
+  MatrixXd system = MatrixXd::Zero(2 * n + (relaxes ? k : 0), 2 * n + (relaxes ? k : 0));
+  system.block(0, n, n, n).diagonal().setConstant(w);
+  system.block(n, 0, n, n) = -h.transpose() * coupling / w;
+  system.block(n, 0, n, n).diagonal() -= mesh.frequency_squared / w;
+  system.block(n, n, n, n).diagonal() = -mesh.damping;
+  if (relaxes) {
+    const MatrixXd follow = r * factor.solve(MatrixXd::Identity(k, k));  // R P per A P
+    system.block(n, 2 * n, n, k) = coupling.transpose() * follow / w;
+    system.block(2 * n, 0, k, n) = h / mesh.relaxation;
+    system.block(2 * n, 2 * n, k, k) = -follow / mesh.relaxation;
+    system.block(2 * n, 2 * n, k, k).diagonal().array() -= 1 / mesh.relaxation;
+  }
+  const GeneralEigenvalues eigen = general_eigenvalues(system);
+  if (!eigen.converged)
+    fail(Failure::numerical, "at mesh phase ", mesh.phase, " the ", system.rows(),
+         " eigenvalues of the pair at a fixed phase were not found: its matrix has a norm of ", system.norm(),
+         " 1/s");
+  const Eigen::VectorXcd& roots = eigen.values;
+  // The slowest by its modulus, or the nearest: a high mode near critical damping has a small imaginary part, too.
+  DampedRoot lowest;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& s : roots) {
+    const double modulus = std::abs(s), away = std::abs(modulus - 2 * std::numbers::pi * mesh.near);
+    if (!(s.imag() > kReal * modulus) || away >= nearest) continue;
+    nearest = away;
+    lowest = {s.imag() / (2 * std::numbers::pi), -s.real() / modulus};
+  }
+  if (lowest.frequency == 0)
+    fail(Failure::numerical,
+         "no eigenvalue of the pair at a fixed phase oscillates: it is damped above critical");
+  return lowest;
+}
+
+FixedPhaseMesh with_rayleigh_stiffness(FixedPhaseMesh mesh, double eta, BodyModel body) {
+  mesh.damping += eta * (mesh.elastic.size() > 0 ? mesh.elastic : mesh.frequency_squared);  // Eq. 21
+  mesh.relaxation = body == BodyModel::quasi_static ? 0 : eta;
+  return mesh;
+}
+
+std::vector<FixedPhaseState> fixed_phase_states(const BodyArtifact& driver, const BodyArtifact& driven,
+                                                const StaticArtifact& statics, double mean_stiffness,
+                                                const ImpactParameters& settings, int phases) {
+  ImpactPlan plan;
+  plan.phases = phases;
+  return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan).states();
+}
+
+ImpactArtifact frozen_impact(const BodyArtifact& driver, const BodyArtifact& driven,
+                             const StaticArtifact& statics, double mean_stiffness,
+                             const ImpactParameters& settings, int phases) {
+  ImpactPlan plan;
+  plan.phases = phases;
+  return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan)
+      .frozen(settings.damping.rayleigh_stiffness);
+}
+
+ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+                      double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                      const std::function<void(long, long)>& report) {
+  return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan)
+      .run(settings.damping.rayleigh_stiffness, report);
+}
+
+ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
+                         const StaticArtifact& statics, double mean_stiffness,
+                         const ImpactParameters& settings, const ImpactPlan& plan, double damping_ratio,
+                         const std::string& contact_state, const std::function<void(long, long)>& report) {
+  if (!(damping_ratio > 0 && damping_ratio < 1))
+    fail(
+        Failure::input, "a damping ratio of ", damping_ratio, " is outside (0, 1)",
+        damping_ratio >= 1 && damping_ratio < 100
+            ? text("; it is a share of critical damping: ", damping_ratio / 100, " for ", damping_ratio, " %")
+            : "; it is a share of critical damping, such as 0.05 for 5 %");
+  report(0, plan.phases);  // the search comes before the phases
+  const FixedPhasePair pair(driver, driven, statics, mean_stiffness, settings, plan);
+  const std::vector<int> phases = pair.phases_of(contact_state);
+  const auto excess = [&](double eta) { return pair.damping_ratio(phases, eta) - damping_ratio; };
+  // Bracketed by eigenvalues: with hardly any damping the higher modes never leave a decay.
+  const auto frozen = [&](double eta) { return pair.frozen_damping_ratio(phases, eta) - damping_ratio; };
+  double low = 0, below = frozen(low);
+  if (below > 0)
+    fail(Failure::input, "bearings and mass-proportional damping alone give a damping ratio of ",
+         below + damping_ratio, " in the contact state '", contact_state, "', above ", damping_ratio,
+         "; lower bearing_ratio or rayleigh_mass_per_s");
+  // All of the compliance relaxing, the ratio is half of eta w; it is less for the undamped part.
+  double high = damping_ratio / (std::numbers::pi * pair.mean_frequency()), above = frozen(high);
+  while (above < 0) {
+    const double next = frozen(2 * high);
+    if (!(next > above))
+      fail(Failure::input, "no rayleigh_stiffness_s gives a damping ratio of ", damping_ratio,
+           " in the contact state '", contact_state, "': the largest is near ", above + damping_ratio,
+           ", at ", high, " s; ask for less, or lower undamped_depth_mm");
+    low = high;
+    below = above;
+    high *= 2;
+    above = next;
+  }
+  while ((above = excess(high)) < 0) high *= 1.01;  // the decay's own ratio is a little off the eigenvalue's
+  // Regula falsi, Illinois: an end that stays counts half.
+  double eta = high, off = above;
+  for (int side = 0, i = 0; std::abs(off) > 1e-7 * damping_ratio; ++i) {
+    if (i == 60)
+      fail(Failure::numerical, "the damping ratio stays ", off, " away from ", damping_ratio, " at ", eta,
+           " s");
+    eta = high - above * (high - low) / (above - below);
+    off = excess(eta);
+    if (off > 0) {
+      high = eta;
+      above = off;
+      if (side == 1) below *= 0.5;
+      side = 1;
+    } else {
+      low = eta;
+      below = off;
+      if (side == -1) above *= 0.5;
+      side = -1;
+    }
+  }
+  return pair.run(eta, report);
+}
+
+}  // namespace whine

@@ -1,0 +1,40 @@
+// The free decay of the transmission error about the static equilibrium.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "base/matrix.h"
+#include "model/stages.h"
+
+namespace whine {
+
+// impact.h5: free decay of the transmission error about the static equilibrium, gears at a fixed mesh phase. A
+// natural frequency is Im s / 2 pi, that of the decaying oscillation, and a damping ratio -Re s / |s| of the lowest
+// oscillating root s.
+struct ImpactArtifact : MotionParameters {
+  double torque = 0;          // N m on the driver
+  double torque_step = 0;     // 1: what is let go at the start, over the torque
+  double mean_stiffness = 0;  // N m-1 that sets the bearing dampers
+  double driver_bearing_damper = 0, driven_bearing_damper = 0;  // N m s
+  // (state) number of loaded pairs in words, fewest first, each amid the longest part of the period that has it;
+  // "mean" last: over the period
+  std::vector<std::string> contact_state;
+  Eigen::VectorXd natural_frequency, damping_ratio;              // (state) Hz, 1
+  Eigen::VectorXd undamped_frequency;                            // (state) Hz: contact frozen, no damping
+  Eigen::VectorXd state_phase;                                   // (state but the mean) 1: mesh phase
+  Eigen::VectorXd time;                                          // (time) s
+  MatrixRM transmission_error;                                   // (state but the mean, time) m
+  Eigen::VectorXd mesh_phase;                                    // (phase) 1
+  Eigen::VectorXi loaded_pairs;                                  // (phase) in static equilibrium
+  Eigen::VectorXd phase_natural_frequency, phase_damping_ratio;  // (phase) Hz, 1: of the decay
+  Eigen::VectorXd phase_undamped_frequency;                      // (phase) Hz: contact frozen, no damping
+  Eigen::VectorXd eigen_frequency, eigen_damping_ratio;  // (phase) Hz, 1: eigenvalues with contact frozen
+  Eigen::VectorXd fit_residual;                          // (phase) RMS of decay less fit over RMS of decay
+  // (phase, mode) Hz, ascending: of gears on bearings the lowest natural frequencies with the contact frozen, no damping: those
+  // of the hubs on their bearings, and the mesh's, which is phase_undamped_frequency. Empty for rigid axes
+  MatrixRM frozen_frequency;
+  double least_mesh_force = 0;  // 1: least mesh force of all decays, over the static one
+};
+
+}  // namespace whine

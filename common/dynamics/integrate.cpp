@@ -1,0 +1,173 @@
+// Integrates a mesh period over the steps of step_kernel.h.
+#include "dynamics/dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/model_range.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
+  const MeshPosition& mesh = positions_[i].mesh;
+  StepSizes sizes;
+  sizes.coordinates = kernel_.coordinates();
+  sizes.pairs = static_cast<int>(mesh.pairs.size());
+  sizes.rows = lines() ? 1 : StepKernel::kShapeRows;
+  sizes.nodes = lines() ? 1 : StepKernel::kPairNodes;
+  sizes.strips = sizes.pairs > 0 ? mesh.strips() / sizes.pairs : 0;
+  for (int j = 0; !lines() && j < sizes.pairs; ++j)
+    sizes.edges += mesh.pairs[j].low_is_edge || mesh.pairs[j].high_is_edge;
+  sizes.fields = StepKernel::kFields;
+  sizes.shared = StepKernel::kSharedFields;
+  sizes.teeth = 2 * reach_ + 1;
+  return sizes;
+}
+
+std::vector<RollingDynamics::ContactProblem> RollingDynamics::contact_problems(State& state) {
+  std::vector<ContactProblem> problems;
+  Period period;
+  if (lines() || !integrate(state, period, nullptr, &problems))
+    fail(Failure::numerical, "no period of strips to take contact problems from");
+  return problems;
+}
+
+bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* energy_balance) {
+  if (state.z.size() != frequency_squared_.size() || state.pair != pair_stamp_)
+    fail(Failure::input, "the start state, of ", state.z.size(),
+         " coordinates, is of other gears or modes: ", "these have ", frequency_squared_.size(),
+         "; start from rest or from a state of the same pair");
+  if (energy_balance && state.p.size() != positions_[0].mesh.strips())
+    fail(Failure::input,
+         "the energy balance needs the contact forces of the start state at each strip: it has those of ",
+         state.p.size(), " strips, the range has ", positions_[0].mesh.strips(),
+         "; integrate a period without an energy balance first");
+  try {
+    return integrate(state, period, energy_balance, nullptr);
+  } catch (const Error& error) {
+    const std::string words = error.what(), start = "at mesh phase ";
+    if (words.rfind(start, 0) == 0) throw;
+    fail_as(error, start, positions_[sample_ * stride_].mesh.phase, " ", words);
+  }
+}
+
+void RollingDynamics::fit_teeth(State& state) const {
+  const int teeth = 2 * reach_ + 1;
+  for (std::vector<MatrixXd>* fields : {&state.relaxed, &state.load})
+    for (MatrixXd& field : *fields) {
+      const int known = static_cast<int>(field.cols()), kept = std::min(known, teeth);
+      if (known == teeth) continue;
+      MatrixXd other = MatrixXd::Zero(field.rows(), teeth);
+      other.middleCols((teeth - kept) / 2, kept) = field.middleCols((known - kept) / 2, kept);
+      field = other;
+    }
+}
+
+void RollingDynamics::take_bearing_force(Period& period, int sample) const {
+  for (int g = 0; g < gears(); ++g) {
+    const Bearing& bearing = model_.bearing[g];
+    if (!bearing.elastic()) continue;
+    Vec2 force = Vec2::Zero();
+    for (int c = sway_[g].first; c < sway_[g].first + sway_[g].count; ++c)
+      force += coordinates_[c].shift *
+               (bearing.stiffness * kernel_.vectors().z[c] + bearing.damping * kernel_.vectors().v[c]);
+    period.bearing_force[g].col(sample) = force;
+  }
+}
+
+// At the end of a step with this transmission error (m). False if a tip edge that the range leaves out would touch.
+bool RollingDynamics::keeps_corners(int position, double error) const {
+  const Corners& corners = corners_[position];
+  if (error > corners.lost_gap)
+    fail_outside_range(
+        Failure::numerical, "at mesh phase ", positions_[position].mesh.phase, " the transmission error ",
+        error * 1e6, " micrometres closes the gap of ", corners.lost_gap * 1e6,
+        " micrometres of a tip edge that would touch below the involute; lower the torque or set "
+        "corner_contact = false");
+  return !(error > corners.next_gap);
+}
+
+// Contact of a step into the period. False if force stands on the end of a candidate zone.
+bool RollingDynamics::record_contact(const StepKernel::End& end, int position, Period& period) const {
+  const MeshPosition& mesh = positions_[position].mesh;
+  period.least_gap = std::min(period.least_gap, end.certificate.least_gap);
+  period.least_force = std::min(period.least_force, end.certificate.least_force);
+  period.fallbacks += end.certificate.fallback;
+  if (end.contact == StepKernel::Contact::beyond_law)
+    require_line_range(mesh, kernel_.p().head(mesh.strips()));
+  if (end.contact == StepKernel::Contact::zone_end) return false;
+  const StepKernel::Frame& frame = kernel_.frame(position);
+  double drift = 0;
+  for (int j = 0; j < frame.present; ++j) {
+    period.pair_load(frame.pair[j].slot, sample_) = end.carried[j];
+    drift += corners_[position].drift_lever[j] * end.carried[j];
+  }
+  period.drift_force = std::max(period.drift_force, std::abs(drift));
+  return true;
+}
+
+bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* energy_balance,
+                                std::vector<ContactProblem>* problems) {
+  period.transmission_error.resize(steps_);
+  period.pair_load.setZero(2 * reach_ + 1, steps_);
+  period.bearing_force.resize(model_.gear.size());
+  for (int g = 0; g < gears(); ++g)
+    if (sway_[g].count > 0) period.bearing_force[g].resize(2, steps_);
+  period.drift_force = period.least_gap = period.least_force = 0;
+  period.fallbacks = 0;
+  fit_teeth(state);
+  kernel_.take(state);
+  set_gap(0, state.period);
+  std::array<Instant, 2>& instants = balance_work_.instants;
+  balance_work_.balance = 0;
+  if (energy_balance) fill(instants[0], nullptr, 0, state.p.data(), state.d.data());
+  bool begun = false;
+  for (int i = 1; i <= steps_; ++i) {
+    sample_ = i == steps_ ? 0 : i;
+    if (sample_ == 0) {
+      kernel_.rename();
+      if (energy_balance) rename(instants[(i - 1) % 2]);
+      state.period = (state.period + 1) % hunting_;
+    }
+    const int position = sample_ * stride_;
+    if (!begun) {
+      set_gap(position, state.period);
+      kernel_.begin(sample_);
+    }
+    // Pipelining: unless somebody looks at the instant that this step ends at, the next one is begun in the same pass that
+    // applies the contact forces of this one.
+    begun = !energy_balance && !floating_ && i + 1 < steps_;
+    if (begun) set_gap(position + stride_, state.period);
+    const StepKernel::End end = kernel_.finish(sample_, begun ? i + 1 : -1);
+    if (!record_contact(end, position, period)) return false;
+    if (problems) problems->push_back(contact_problem());
+    if (energy_balance) {
+      fill(instants[i % 2], &instants[(i - 1) % 2], position, kernel_.p().data(), kernel_.d().data());
+      record_step(instants[(i - 1) % 2], instants[i % 2], *energy_balance);
+    }
+    period.transmission_error[sample_] = end.error;
+    double closing = end.error;
+    if (floating_) {
+      take_bearing_force(period, sample_);
+      closing = closing_weight_.dot(kernel_.vectors().z.head(closing_weight_.size()));
+    }
+    if (!keeps_corners(position, closing)) return false;
+  }
+  kernel_.give(state, positions_[0].mesh.strips());
+  return true;
+}
+
+// Of the step at hand.
+RollingDynamics::ContactProblem RollingDynamics::contact_problem() const {
+  const StripCompliance a = kernel_.compliance(sample_);
+  ContactProblem problem{MatrixXd(a.size(), a.size()), kernel_.e().head(a.size()),
+                         kernel_.step(sample_).active};
+  a.assemble(problem.compliance.data());
+  return problem;
+}
+
+}  // namespace whine

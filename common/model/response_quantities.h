@@ -1,0 +1,16 @@
+// The response quantities of a variant of a study: names, units, meanings.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace whine {
+
+// What is asked of each variant.
+struct ResponseQuantity {
+  std::string name, units, meaning;
+};
+
+// At rest, then for each direction of a sweep, whose name ends with it.
+std::vector<ResponseQuantity> response_quantities(const std::vector<std::string>& directions);
+
+}  // namespace whine

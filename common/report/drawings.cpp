@@ -1,0 +1,279 @@
+#include "report/drawings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "io/body_codec.h"
+#include "io/branch_codec.h"
+#include "io/error_budget_codec.h"
+#include "io/harris_map_codec.h"
+#include "io/impact_codec.h"
+#include "io/jump_map_codec.h"
+#include "io/mesh_codec.h"
+#include "io/provenance.h"
+#include "io/response_codec.h"
+#include "io/static_codec.h"
+#include "io/study_codec.h"
+#include "io/summary.h"
+#include "io/sweep_codec.h"
+#include "report/gear_figures.h"
+#include "report/harris_figure.h"
+#include "report/jump_map_figures.h"
+#include "report/motion_figures.h"
+#include "report/response_figures.h"
+#include "report/sensitivity_figure.h"
+#include "report/static_figures.h"
+#include "report/study_figure.h"
+#include "signal/response.h"
+
+namespace whine {
+namespace {
+
+using Paths = std::vector<std::string>;
+using Frequencies = std::vector<double>;
+using Drawings = std::map<std::string, Drawing>;
+
+template <class Artifact>
+std::vector<Artifact> read_all(const Paths& inputs, Artifact (*read)(const std::string&)) {
+  std::vector<Artifact> artifacts;
+  for (const std::string& path : inputs) artifacts.push_back(read(path));
+  return artifacts;
+}
+
+// Sweeps of one kind among the inputs, with what other inputs and their scenes tell of them.
+template <class Sweep>
+struct Captioned {
+  std::vector<Sweep> sweeps;
+  Background background;
+
+  void add(const std::string& path, Sweep sweep, const LumpedParameters& lumped) {
+    sweeps.push_back(std::move(sweep));
+    background.scenes.push_back(scene_words(path));
+    background.lumped.push_back(lumped);
+  }
+};
+
+bool is_a(const char* schema, const std::string& path) {
+  return read_origin(path).schema == schema;
+}
+
+Captioned<ResponseArtifact> read_responses(const Paths& inputs) {
+  Captioned<ResponseArtifact> captions;
+  for (const std::string& path : inputs) {
+    if (is_a("whine/impact", path)) {
+      captions.background.impacts.push_back(read_impact(path));
+    } else if (is_a("whine/branch", path)) {
+      captions.background.branches.push_back(read_branch(path));
+    } else if (is_a("whine/sweep", path)) {
+      const SweepArtifact sweep = read_sweep(path);
+      captions.add(path, response(sweep), sweep.lumped);
+    } else {
+      captions.add(path, read_response(path), {});
+    }
+  }
+  return captions;
+}
+
+Captioned<SweepArtifact> read_sweeps(const Paths& inputs) {
+  Captioned<SweepArtifact> captions;
+  for (const std::string& path : inputs) {
+    if (is_a("whine/impact", path)) {
+      captions.background.impacts.push_back(read_impact(path));
+    } else {
+      const SweepArtifact sweep = read_sweep(path);
+      captions.add(path, sweep, sweep.lumped);
+    }
+  }
+  return captions;
+}
+
+Figure draw_responses(const Paths& inputs, const Frequencies&) {
+  const auto captions = read_responses(inputs);
+  return response_figure(captions.sweeps, captions.background);
+}
+
+Drawings drawings_at_rest() {
+  return {
+      {"fig01",
+       {"finite element mesh", "mesh.h5 of driver and driven gear, static.h5", 3, 0,
+        [](const Paths& in, const Frequencies&) {
+          return mesh_figure(read_mesh(in[0]), read_mesh(in[1]), read_static(in[2]));
+        }}},
+      {"fig03",
+       {"contact zone: candidate pairs, inner and outer region, pressure",
+        "mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5", 5, 0,
+        [](const Paths& in, const Frequencies&) {
+          const StaticArtifact pair = read_static(in[4]);
+          return contact_zone_figure(read_mesh(in[0]), read_mesh(in[1]), pair,
+                                     contact_zone(read_body(in[2]), read_body(in[3]), pair));
+        }}},
+      {"fig12",
+       {"static transmission error and its spectrum", "static.h5, one per torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return transmission_error_figure(read_all(in, read_static));
+        }}},
+      {"fig13",
+       {"mesh stiffness and its spectrum", "as fig12", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return mesh_stiffness_figure(read_all(in, read_static));
+        }}},
+      {"load-sharing",
+       {"the share of the load that a tooth pair carries on its way through the mesh", "as fig12", 0, 0,
+        [](const Paths& in, const Frequencies&) { return load_sharing_figure(read_all(in, read_static)); }}},
+      {"profile",
+       {"profile charts of the driving flanks, as an inspection sheet shows them", "static.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return profile_figure(read_static(in[0])); }}},
+      {"error-budget",
+       {"what refining each discretisation alone changes, and what other choices change", "error_budget.h5",
+        1, 0,
+        [](const Paths& in, const Frequencies&) { return error_budget_figure(read_error_budget(in[0])); }}},
+      {"crack",
+       {"the mark of a cracked tooth in the static transmission error, and its orders",
+        "static.h5 of a pair with a crack", 1, 0,
+        [](const Paths& in, const Frequencies&) { return crack_figure(read_static(in[0])); }}},
+      {"sidebands",
+       {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
+        "static.h5 and response.h5 of one torque", 2, 0,
+        [](const Paths& in, const Frequencies&) {
+          return sidebands_figure(read_static(in[0]), read_response(in[1]));
+        }}},
+  };
+}
+
+Drawings drawings_of_motions() {
+  return {
+      {"fig05",
+       {"RMS of the dynamic transmission error against mesh frequency",
+        "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and "
+        "damping ratio); "
+        "a panel for each set of choices; impact.h5 of the same torques, for damping ratios; branch.h5, for "
+        "unstable orbits and "
+        "folds",
+        0, 0, draw_responses}},
+      {"fig08",
+       {"dynamic transmission error over time and its spectrum, both branches at one speed",
+        "sweep.h5 of sweeps up and down of one torque, any choices; impact.h5 of that torque, for damping "
+        "ratios",
+        0, 1,
+        [](const Paths& in, const Frequencies& f) {
+          const auto captions = read_sweeps(in);
+          return vibration_figure(captions.sweeps, f[0], captions.background);
+        }}},
+      {"fig10",
+       {"tooth loads over the mesh phase, both branches at one speed", "as fig08", 0, 1,
+        [](const Paths& in, const Frequencies& f) {
+          const auto captions = read_sweeps(in);
+          return tooth_load_figure(captions.sweeps, f[0], captions.background);
+        }}},
+      {"fig15",
+       {"net mesh force of lumped models at one or two speeds", "sweep.h5 of lumped models at one torque", 0,
+        2,
+        [](const Paths& in, const Frequencies& f) {
+          return mesh_force_figure(read_all(in, read_sweep), f);
+        }}},
+      {"fig16", {"RMS and mean of the dynamic transmission error", "as fig05", 0, 0, draw_responses}},
+      {"waterfall",
+       {"spectra of the dynamic transmission error against mesh frequency, and its first orders",
+        "sweep.h5 of a sweep, or of those up and down of one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) { return waterfall_figure(read_all(in, read_sweep)); }}},
+      {"tooth-loads",
+       {"tooth loads against mesh frequency, and over the mesh period at the speed with the largest RMS",
+        "sweep.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto captions = read_sweeps(in);
+          return dynamic_load_figure(captions.sweeps, captions.background);
+        }}},
+      {"bearing-forces",
+       {"forces on elastic bearings against mesh frequency",
+        "response.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto captions = read_responses(in);
+          return bearing_force_figure(captions.sweeps, captions.background);
+        }}},
+  };
+}
+
+Drawings drawings_of_maps() {
+  return {
+      {"harris-map",
+       {"peak-to-peak transmission error against torque and tip relief, and the Harris cusp", "harris_map.h5",
+        1, 0, [](const Paths& in, const Frequencies&) { return harris_map_figure(read_harris_map(in[0])); }}},
+      {"jump-map",
+       {"two branches, contact loss and tooth loads against torque, damping and corner rule",
+        "jump_map.h5, one per torque and corner rule", 0, 0,
+        [](const Paths& in, const Frequencies&) { return jump_map_figure(read_all(in, read_jump_map)); }}},
+      {"jump-map-lumped",
+       {"the same of lumped models, and in how much they agree with the elastic pair",
+        "jump_map.h5 of lumped models and of the elastic pair, one per torque and model or corner rule", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return lumped_jump_map_figure(read_all(in, read_jump_map));
+        }}},
+      {"sensitivity",
+       {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          std::vector<JumpMapArtifact> maps = read_all(in, read_jump_map);
+          const JumpMapArtifact base = maps.front();
+          maps.erase(maps.begin());
+          return sensitivity_figure(base, maps);
+        }}},
+      {"study",
+       {"response quantities of the variants of a study against the keys that vary", "study.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return study_figure(read_study_artifact(in[0])); }}},
+  };
+}
+
+// Scenes that all of a figure shows: not those that stand at their panels, nor variants of the first.
+Paths scenes_of(const std::string& name, const Paths& inputs, const Figure& figure) {
+  Paths scenes;
+  for (const std::string& path : inputs) {
+    const std::string words = scene_words(path);
+    bool at_panel = words.empty() || (name == "sensitivity" && !scenes.empty());
+    for (const std::string& note : figure.notes) at_panel = at_panel || note.find(words) != std::string::npos;
+    if (!at_panel && std::find(scenes.begin(), scenes.end(), words) == scenes.end()) scenes.push_back(words);
+  }
+  return scenes;
+}
+
+}  // namespace
+
+const std::map<std::string, Drawing>& drawings() {
+  static const std::map<std::string, Drawing> all = [] {
+    Drawings drawings = drawings_at_rest();
+    drawings.merge(drawings_of_motions());
+    drawings.merge(drawings_of_maps());
+    return drawings;
+  }();
+  return all;
+}
+
+std::string figure_names() {
+  std::string names;
+  for (const auto& [name, drawing] : drawings()) names += name + ", ";
+  return names;
+}
+
+Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies& mesh_frequencies,
+                 const std::string& others) {
+  const auto found = drawings().find(name);
+  if (found == drawings().end())
+    fail(Failure::usage, "unknown figure '", name, "'; known are ", figure_names() + others);
+  const Drawing& drawing = found->second;
+  if (drawing.count != 0 && inputs.size() != drawing.count)
+    fail(Failure::usage, name, " needs ", drawing.count, " inputs, ", drawing.inputs, "; ", inputs.size(),
+         " given");
+  if (drawing.frequencies == 0 && !mesh_frequencies.empty())
+    fail(Failure::usage, name, " takes no --mesh-frequency: it is not of single speeds");
+  if (drawing.frequencies > 0 && (mesh_frequencies.empty() || mesh_frequencies.size() > drawing.frequencies))
+    fail(Failure::usage, name, " needs --mesh-frequency, in Hz, ",
+         drawing.frequencies == 1 ? "one" : "one or two; two as in 2200,2150", "; ", mesh_frequencies.size(),
+         " given");
+  for (double f : mesh_frequencies)
+    if (!(f > 0) || !std::isfinite(f))
+      fail(Failure::usage, name, ": --mesh-frequency ", f, "; it is in Hz, above 0");
+  Figure figure = drawing.draw(inputs, mesh_frequencies);
+  figure.scenes = scenes_of(name, inputs, figure);
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,76 @@
+// The tables behind the figures: what is plotted, in the units that an engineer reads, before any drawing.
+//
+// A figure is a list of blocks of numbers (one curve or one set of marks each) and a list of words and
+// numbers for its gnuplot template. Templates only draw: every conversion, selection and derived curve is
+// made here and is in the TSV.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "signal/static_result.h"
+
+namespace whine {
+
+inline constexpr double kMicro = 1e6;  // m -> micrometre
+inline constexpr double kMilli = 1e3;  // m -> mm
+inline constexpr double kMega = 1e-6;  // N m-1 -> 1e6 N m-1
+inline constexpr double kPercent = 100;
+inline constexpr int kShownHarmonics = 10;
+inline constexpr size_t kMostCurves = 6;  // colours, dashes and marks of the templates
+
+struct FigureBlock {
+  std::string name;                       // gnuplot finds it by `index "[name]"`
+  std::vector<std::string> columns;       // with their unit: "mesh_frequency [Hz]"
+  std::vector<std::vector<double>> rows;  // an empty row lifts the pen
+  std::string table = {};  // of the tables of numbers the one that it stands in; "": one of its own
+  std::string curve =
+      {};                // which rows of that table are its, in its first column; "": the table has no other
+  bool drawing = false;  // lines and areas of a drawing, which are in no table
+};
+
+struct Figure {
+  std::string title;
+  std::vector<std::string> scenes;  // "file: title" of those that all of it shows; filled by the caller
+  std::vector<std::string> notes;   // one line each: operating point, choices, model level
+  std::vector<FigureBlock> blocks;
+  std::vector<std::pair<std::string, double>> numbers;     // variables of the template
+  std::vector<std::pair<std::string, std::string>> words;  // string variables of the template
+  int height = 1000;  // of the picture beside a width of 1600; also a variable
+};
+
+// %.<digits>g, %.<decimals>f: text() would show ten digits.
+std::string shown(double value, int digits);
+std::string fixed(double value, int decimals);
+// To these decimals, without zeros at the end.
+std::string rounded(double value, int decimals);
+
+// 0: "a", the letter of a panel.
+std::string letter_of(size_t i);
+
+// "150 N m"; "corner contact on"; teeth, module, centre distance, contact ratio and corner rule of a pair.
+std::string torque_words(double torque);
+std::string corner_words(const CornerRule& corner);
+std::string pair_words(const StaticArtifact& s);
+
+// What P2000 shows as figures of the same: "Figure 7" of a figure named fig07 or fig07-600, "" of one that is not the paper's.
+std::string paper_figure(const std::string& name);
+
+// Words as they stand, in a text in which gnuplot reads marks such as '_' (subscript).
+std::string without_markup(const std::string& words);
+
+// What gnuplot reads: '#' lines with title, notes and columns, then the blocks, two empty lines between them.
+std::string plot_data(const Figure& figure);
+
+// The numbers of a figure: what a table says is its own file for pandas.read_csv(sep="\t", comment="#") and others: '#' lines
+// with title, scenes, notes and sources, one line of column names, one line for each row. The first has no name and is the
+// figure's main one.
+struct FigureTable {
+  std::string name, text;
+};
+std::vector<FigureTable> tables(const Figure& figure, const std::vector<std::string>& sources);
+
+// Writes them: <output>.tsv, and <output>-<name>.tsv for those after the first.
+void publish_tables(const Figure& figure, const std::string& output, const std::vector<std::string>& sources);
+
+}  // namespace whine

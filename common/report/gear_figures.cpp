@@ -1,0 +1,281 @@
+#include "report/gear_figures.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "contact/half_plane_strip.h"
+#include "gear/pair.h"
+#include "io/summary.h"
+#include "report/wireframe.h"
+#include "solid/sector_mesh.h"
+
+namespace whine {
+namespace {
+
+void require_same_gear(const char* role, const GearDesign& mesh, const GearDesign& pair) {
+  if (mesh.teeth != pair.teeth || mesh.module != pair.module || mesh.profile_shift != pair.profile_shift ||
+      mesh.bore_radius != pair.bore_radius)
+    fail(Failure::input, "figure: the mesh.h5 of the ", role, " (", mesh.teeth, " teeth, module ",
+         mesh.module, " m, bore ", mesh.bore_radius, " m) is not that of the static.h5 (", pair.teeth,
+         " teeth, module ", pair.module, " m, bore ", pair.bore_radius,
+         " m); give driver, driven, static in this order");
+}
+
+// Closed outlines of the elements of tooth 0 in which the half-plane field is subtracted.
+Strokes tooth_elements(const MeshArtifact& mesh, const Placement& at, double scale) {
+  Strokes rows;
+  const int sides = mesh.element_node.cols() == 9 ? 2 : 1;
+  for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e) {
+    if (mesh.element_region[e] != 1) continue;
+    for (int k = 0; k <= 4 * sides; ++k) {
+      const int corner = k / sides % 4, node = mesh.element_node(e, k % sides ? 4 + corner : corner);
+      const Vec2 p = at(mesh.node_position.row(node).transpose()) * scale;
+      rows.push_back({p.x(), p.y()});
+    }
+    rows.emplace_back();
+  }
+  return rows;
+}
+
+}  // namespace
+
+Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s) {
+  require_same_gear("driver", driver.design, s.driver);
+  require_same_gear("driven gear", driven.design, s.driven);
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double alpha = pair.working_pressure_angle();
+
+  const Vec2 pitch_point(0.0, pair.gear(0).base_radius() / std::cos(alpha));
+  const double pitch = std::numbers::pi * s.driver.module;
+  const double half_zone = 1.45 * pitch;
+
+  Figure figure;
+  figure.title = "Finite element mesh of the gear pair";
+  long elements = 0, nodes = 0;
+  for (int g = 0; g < 2; ++g) {
+    const MeshArtifact& mesh = g == 0 ? driver : driven;
+    const std::string name = g == 0 ? "driver" : "driven";
+    const Wireframe wire(mesh);
+    const Placement at = placed(pair, g);
+    const std::vector<std::string> columns{"x [mm]", "y [mm]"};
+    const auto lines = [&](const char* what, const Strokes& strokes, bool drawing) {
+      figure.blocks.push_back({name + what, columns, strokes, "lines", name + what, drawing});
+    };
+    lines(" outline", wire.outline(at, kMilli), false);
+    lines(" bore", wire.bore(at, kMilli), false);
+    // Of the elements mesh.h5 holds the numbers.
+    // A twentieth of a pixel of the picture of both gears.
+    const double hair =
+        1e-4 * (s.mesh.centre_distance + pair.gear(0).tip_radius() + pair.gear(1).tip_radius()) * kMilli;
+    lines(" gear", simplified(wire.whole(at, kMilli), hair), true);
+    lines(" teeth", wire.window(at, kMilli, pitch_point, half_zone), true);
+    elements += static_cast<long>(mesh.element_node.rows()) * mesh.design.teeth;
+    nodes += static_cast<long>(mesh.node_position.rows() - mesh.side_node.rows()) * mesh.design.teeth;
+  }
+  // The driver turns counter-clockwise: contact moves along the outward normal of its flank.
+  const Vec2 along(-std::cos(alpha), std::sin(alpha));
+  FigureBlock path{"path of contact", {"x [mm]", "y [mm]"}, {}, "lines", "path of contact"};
+  for (double x : {pair.path_start(), 0.0, pair.path_end()}) {
+    const Vec2 p = (pitch_point + x * along) * kMilli;
+    path.rows.push_back({p.x(), p.y()});
+  }
+  figure.blocks.push_back(path);
+  figure.blocks.push_back(
+      {"pitch point", {"x [mm]", "y [mm]"}, {{0.0, pitch_point.y() * kMilli}}, "lines", "pitch point"});
+
+  figure.notes.push_back(pair_words(s));
+  figure.notes.push_back(
+      text(elements, driver.discretisation.element_order == 2 ? " nine" : " four", "-node elements, ", nodes,
+           " nodes; ", shown(driver.discretisation.element_size * kMilli, 4),
+           " mm on the flank; rigid hub of ", shown(s.driver.bore_radius * kMilli, 4), " mm radius",
+           s.driven.bore_radius == s.driver.bore_radius
+               ? std::string()
+               : " (driven: " + shown(s.driven.bore_radius * kMilli, 4) + " mm)"));
+  figure.notes.push_back("unloaded, mesh phase 0: the reference pair touches at the pitch point");
+  figure.numbers = {{"pitch_y", pitch_point.y() * kMilli},
+                    {"half_window", half_zone * kMilli},
+                    {"driver_tip", pair.gear(0).tip_radius() * kMilli},
+                    {"driven_tip", pair.gear(1).tip_radius() * kMilli},
+                    {"centre_distance", s.mesh.centre_distance * kMilli}};
+  return figure;
+}
+
+namespace {
+
+// Outline, teeth in the window about `touch`, and the inner region of one gear.
+void add_body(const MeshArtifact& mesh, const StaticArtifact& s, const GearPair& pair, int g,
+              const Vec2& touch, double half_zone, Figure& figure) {
+  const std::string name = g == 0 ? "driver" : "driven";
+  const Wireframe wire(mesh);
+  const Placement at = placed(pair, g);
+  const std::vector<std::string> columns{"x [mm]", "y [mm]"};
+  figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli), "", "", true});
+  figure.blocks.push_back(
+      {name + " teeth", columns, wire.window(at, kMilli, touch, half_zone), "", "", true});
+  const BodyDiscretisation& body = g == 0 ? s.driver_body : s.driven_body;
+  FigureBlock inner{name + " inner region", columns, {}, "", "", true};
+  if (body.near_field == NearField::matching) {
+    const ToothGeometry& tooth = pair.gear(g);
+    for (double t = 0; t <= 1.0001; t += 0.02) {
+      const double roll = tooth.form_roll_angle() + t * (tooth.tip_roll_angle() - tooth.form_roll_angle());
+      const Vec2 p = at(tooth.flank_point(roll) - body.matching_depth * tooth.flank_normal(roll)) * kMilli;
+      inner.rows.push_back({p.x(), p.y()});
+    }
+  } else {
+    inner.rows = tooth_elements(mesh, at, kMilli);
+  }
+  figure.blocks.push_back(inner);
+}
+
+// Hertz's line contact (Johnson, Contact Mechanics, 4.2c) of a force.
+struct HertzContact {
+  double half_width, peak;  // m, Pa
+};
+
+HertzContact hertz_contact(const StaticArtifact& s, const GearPair& pair, double force, double face_width) {
+  const auto coefficient = [&](const Material& material) {
+    return HalfPlaneSurface(in_contact_plane(material, s.mesh.contact_plane), face_width).coefficient();
+  };
+  const double compliance = coefficient(s.driver_material) + coefficient(s.driven_material);
+  const double half_width = std::sqrt(2 * pair.relative_curvature_radius(0.0) * force * compliance);
+  const double peak = 2 * force / (std::numbers::pi * half_width * face_width);
+  return {half_width, peak};
+}
+
+FigureBlock hertz_block(const HertzContact& contact) {
+  FigureBlock hertz{"Hertz", {"along flank [mm]", "pressure [MPa]"}, {}};
+  for (int k = 0; k <= 120; ++k) {
+    const double x = -std::cos(std::numbers::pi * k / 120);
+    hertz.rows.push_back(
+        {x * contact.half_width * kMilli, 1e-6 * contact.peak * std::sqrt(std::max(0.0, 1 - x * x))});
+  }
+  return hertz;
+}
+
+}  // namespace
+
+Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s,
+                           const ContactZone& zone) {
+  require_same_gear("driver", driver.design, s.driver);
+  require_same_gear("driven gear", driven.design, s.driven);
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double alpha = pair.working_pressure_angle();
+  const PairStrips& strips = zone.strips;
+  const Vec2 touch(0.0, pair.gear(0).base_radius() / std::cos(alpha));
+  // Out of the driver's flank along the line of action; along the flank to the driver's tip.
+  const Vec2 normal(-std::cos(alpha), std::sin(alpha)), tangent(std::sin(alpha), std::cos(alpha));
+  const double half_zone = 2 * s.driver.module;
+
+  Figure figure;
+  figure.title = text("Contact zone of the reference pair at the pitch point, ", torque_words(s.torque));
+  for (int g = 0; g < 2; ++g) add_body(g == 0 ? driver : driven, s, pair, g, touch, half_zone, figure);
+  FigureBlock action{"line of action", {"x [mm]", "y [mm]"}, {}, "", "", true};
+  for (double side : {-1.0, 1.0}) {
+    const Vec2 p = (touch + side * half_zone * normal) * kMilli;
+    action.rows.push_back({p.x(), p.y()});
+  }
+  figure.blocks.push_back(action);
+
+  const FlankDeviation deviation[2] = {{pair.gear(0), s.mesh.modification[0]},
+                                       {pair.gear(1), s.mesh.modification[1]}};
+  const auto on_flanks = [&](double x) {
+    const FlankGap at = pair.gap_at(strips.contact, x);
+    std::array<Vec2, 2> local;  // along the flank, out of the driver
+    for (int g = 0; g < 2; ++g) {
+      const ToothGeometry& gear = pair.gear(g);
+      const Vec2 place =
+          gear.flank_point(at.roll[g]) - deviation[g].at(at.roll[g], 0) * gear.flank_normal(at.roll[g]);
+      const Vec2 p = placed(pair, g)(place) - touch;
+      local[g] = Vec2(p.dot(tangent), p.dot(normal));
+    }
+    return local;
+  };
+  FigureBlock flanks{"flanks", {"along flank [mm]", "driver [µm]", "driven [µm]"}, {}};
+  const Eigen::Index n = strips.size();
+  const double reach = 0.5 * (strips.border[n] - strips.border[0]);
+  for (int k = -60; k <= 60; ++k) {
+    const double x = std::clamp(reach * 1.3 * k / 60, strips.contact.x_min, strips.contact.x_max);
+    const auto local = on_flanks(x);
+    flanks.rows.push_back({x * kMilli, local[0].y() * kMicro, local[1].y() * kMicro});
+  }
+  FigureBlock candidates{
+      "candidate pairs",
+      {"along flank [mm]", "P on driver [µm]", "G on driven gear [µm]", "strip from [mm]", "strip to [mm]",
+       "gap of strip [µm]", "separation under load [µm]", "pressure [MPa]"},
+      {}};
+  const double face_width = std::min(s.driver.face_width, s.driven.face_width);
+  for (int i = 0; i < n; ++i) {
+    const auto local = on_flanks(strips.middle(i));
+    candidates.rows.push_back({strips.middle(i) * kMilli, local[0].y() * kMicro, local[1].y() * kMicro,
+                               strips.border[i] * kMilli, strips.border[i + 1] * kMilli,
+                               strips.gap[i] * kMicro, zone.separation[i] * kMicro,
+                               1e-6 * zone.force[i] / (strips.width(i) * face_width)});
+  }
+  const double force = zone.force.sum();
+  const auto [half_width, peak] = hertz_contact(s, pair, force, face_width);
+  figure.blocks.insert(figure.blocks.end(), {candidates, flanks, hertz_block({half_width, peak})});
+
+  figure.notes.push_back(pair_words(s));
+  const std::string inner =
+      s.driver_body.near_field == NearField::matching
+          ? "matched to the finite elements at " + shown(s.driver_body.matching_depth * kMilli, 4) +
+                " mm depth"
+          : "the half-plane's field is subtracted there, finite elements carry the smooth rest";
+  figure.notes.push_back("inner region: " + inner + "; outer region: finite elements");
+  figure.notes.push_back(text(n, " strips in the candidate zone; tooth force ", fixed(force, 0),
+                              " N; approach of the gears ", shown(zone.approach * kMicro, 4),
+                              " µm; Hertz: half-width ", shown(half_width * kMicro, 4), " µm, peak ",
+                              shown(peak * 1e-6, 4), " MPa"));
+  figure.numbers = {{"matching", s.driver_body.near_field == NearField::matching},
+                    {"touch_y", touch.y() * kMilli},
+                    {"half_window", half_zone * kMilli},
+                    {"reach", 1.3 * reach * kMilli},
+                    {"peak", peak * 1e-6},
+                    {"strips", static_cast<double>(n)}};
+  return figure;
+}
+
+Figure profile_figure(const StaticArtifact& s) {
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double degree = std::numbers::pi / 180, pitch = pair.base_pitch(),
+               tangent = std::tan(pair.working_pressure_angle());
+  Figure figure;
+  figure.title = "Profile charts of the driving flanks";
+  double low = 0, high = 0;
+  for (int g = 0; g < 2; ++g) {
+    const std::string name = g == 0 ? "driver" : "driven";
+    const ToothGeometry& gear = pair.gear(g);
+    const FlankDeviation deviation(gear, s.mesh.modification[g]);
+    figure.notes.push_back((g == 0 ? s.mesh.driver : s.mesh.driven) + ", " + name + ": " +
+                           in_words(s.mesh.modification[g]));
+    figure.words.emplace_back("title_" + name, figure.notes.back());
+    FigureBlock trace{name, {"roll angle [deg]", "length of roll [mm]", "material [µm]"}, {}, "flanks", name};
+    const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
+    constexpr int kPlaces = 400;
+    for (int i = 0; i <= kPlaces; ++i) {
+      const double roll = form + (tip - form) * i / kPlaces, removed = deviation.at(roll, 0);
+      trace.rows.push_back({roll / degree, gear.base_radius() * roll * kMilli, -removed * kMicro});
+      low = std::min(low, -removed * kMicro);
+      high = std::max(high, -removed * kMicro);
+    }
+    figure.blocks.push_back(trace);
+    // Start of the active profile, lowest and highest point of single-pair contact: where along the path of contact.
+    const double first = g == 0 ? pair.path_start() : -pair.path_end(),
+                 last = g == 0 ? pair.path_end() : -pair.path_start();
+    for (const auto& [mark, path] : {std::pair{"sap", first}, std::pair{"lpstc", last - pitch},
+                                     std::pair{"pitch", 0.0}, std::pair{"hpstc", first + pitch}})
+      figure.numbers.emplace_back(std::string(mark) + "_" + name,
+                                  (tangent + path / gear.base_radius()) / degree);
+    figure.numbers.emplace_back("form_" + name, form / degree);
+    figure.numbers.emplace_back("tip_" + name, tip / degree);
+  }
+  figure.numbers.emplace_back("lowest", low);
+  figure.numbers.emplace_back("highest", high);
+  return figure;
+}
+
+}  // namespace whine

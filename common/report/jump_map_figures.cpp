@@ -1,0 +1,510 @@
+#include "report/jump_map_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+bool elastic(const JumpMapArtifact& a) {
+  return a.model == "finite elements";
+}
+
+// "secant" of "secant-contact", whose damper acts in contact only.
+std::string base_model(const JumpMapArtifact& a) {
+  return a.model.substr(0, a.model.find('-'));
+}
+
+std::string panel_name(const JumpMapArtifact& a) {
+  if (!elastic(a)) return base_model(a) + (a.model == base_model(a) ? "" : ", damper in contact");
+  const CornerRule& corner = a.mesh.corner;
+  const std::string rule =
+      !corner.enabled ? "no corner contact"
+      : std::isinf(corner.largest_angle)
+          ? "corner contact"
+          : "corner contact up to " + rounded(corner.largest_angle * 180 / std::numbers::pi, 3) + "°";
+  return a.damping.rayleigh_mass > 0 ? text(rule, ", mu ", rounded(a.damping.rayleigh_mass, 0), " 1/s")
+                                     : rule;
+}
+
+// P2000, section 2.1; the gears it leaves open are the scene's.
+bool pair_of_paper(const JumpMapArtifact& a) {
+  const auto close = [](double x, double y) { return std::abs(x - y) < 1e-9; };
+  return a.driver.teeth == 50 && a.driven.teeth == 50 && close(a.driver.module, 3e-3) &&
+         close(a.driver.face_width, 25.4e-3) && close(a.mesh.centre_distance, 0.15) &&
+         close(a.driver_material.youngs_modulus, 207e9);
+}
+constexpr double kPaperRatio = 0.07, kPaperLumpedRatio = 0.08;
+const double kPaperTorques[] = {100, 150, 200, 300, 600};  // at which P2000 prints or draws jumps, N m
+
+bool lost(const JumpMapArtifact& a, Index c) {
+  return a.loss_to[c] > 0;
+}
+
+// The case of a ratio; -1 if the map has none within 1e-4 of it.
+Index case_of(const JumpMapArtifact& a, double ratio) {
+  for (Index c = 0; c < a.damping_ratio.size(); ++c)
+    if (std::abs(a.damping_ratio[c] - ratio) < 1e-4 * ratio) return c;
+  return -1;
+}
+
+// "20 to 600", "100, 150", "none" of those that hold.
+std::string torques_where(const std::vector<const JumpMapArtifact*>& panel,
+                          const std::function<bool(const JumpMapArtifact&)>& holds) {
+  std::string list;
+  size_t count = 0;
+  for (const JumpMapArtifact* a : panel)
+    if (holds(*a)) {
+      list += text(list.empty() ? "" : ", ", a->torque);
+      ++count;
+    }
+  if (count == 0) return "no torque";
+  if (count == panel.size())
+    return text("every torque from ", panel[0]->torque, " to ", panel.back()->torque, " N m");
+  return list + " N m";
+}
+
+// Damping ratio at which contact loss ends, between the cases beside; 0 if the map does not show it.
+double ratio_of_loss(const JumpMapArtifact& a) {
+  std::vector<Index> order(a.damping_ratio.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](Index i, Index j) { return a.damping_ratio[i] < a.damping_ratio[j]; });
+  for (size_t i = order.size(); i-- > 1;)
+    if (lost(a, order[i - 1]) && !lost(a, order[i]))
+      return 0.5 * (a.damping_ratio[order[i - 1]] + a.damping_ratio[order[i]]);
+  return 0;
+}
+
+// (first harmonic / mean of the stiffness) / damping ratio: the least that loses contact, the most that keeps it.
+struct Needed {
+  double least_lost = 1e300, most_kept = 0;
+};
+
+Needed needed_for_loss(const std::vector<const JumpMapArtifact*>& maps) {
+  Needed needed;
+  for (const JumpMapArtifact* a : maps)
+    for (Index c = 0; c < a->damping_ratio.size(); ++c) {
+      const double times = a->first_harmonic / a->mean_stiffness / a->damping_ratio[c];
+      if (lost(*a, c))
+        needed.least_lost = std::min(needed.least_lost, times);
+      else
+        needed.most_kept = std::max(needed.most_kept, times);
+    }
+  return needed;
+}
+
+// Edges of cells about their middles: between neighbours, and as far beyond the ends.
+std::vector<double> edges(const std::vector<double>& middle) {
+  std::vector<double> edge(middle.size() + 1);
+  for (size_t i = 1; i < middle.size(); ++i) edge[i] = 0.5 * (middle[i - 1] + middle[i]);
+  const size_t n = middle.size();
+  edge[0] = n > 1 ? 2 * middle[0] - edge[1] : middle[0] - 0.5;
+  edge[n] = n > 1 ? 2 * middle[n - 1] - edge[n - 1] : middle[0] + 0.5;
+  return edge;
+}
+
+using Panel = std::pair<std::string, std::vector<const JumpMapArtifact*>>;
+
+std::vector<Panel> panels_of(const std::vector<JumpMapArtifact>& maps) {
+  std::vector<Panel> panels;
+  for (const JumpMapArtifact& a : maps) {
+    if (a.damping_ratio.size() != maps[0].damping_ratio.size() ||
+        !((a.damping_ratio - maps[0].damping_ratio).cwiseAbs().maxCoeff() <
+          1e-4 * maps[0].damping_ratio.minCoeff()))
+      fail(Failure::input, "the maps of ", maps[0].torque, " and ", a.torque,
+           " N m have other damping ratios; make all of them again");
+    const std::string name = panel_name(a);
+    auto panel = std::find_if(panels.begin(), panels.end(), [&](const Panel& p) { return p.first == name; });
+    if (panel == panels.end()) panel = panels.insert(panels.end(), {name, {}});
+    for (const JumpMapArtifact* other : panel->second)
+      if (other->torque == a.torque) fail(Failure::input, "two maps of ", a.torque, " N m with ", name);
+    panel->second.push_back(&a);
+  }
+  for (Panel& panel : panels) {
+    std::sort(panel.second.begin(), panel.second.end(),
+              [](const JumpMapArtifact* a, const JumpMapArtifact* b) { return a->torque < b->torque; });
+    const auto same = [](const JumpMapArtifact* a, const JumpMapArtifact* b) {
+      return a->torque == b->torque;
+    };
+    if (!std::equal(panel.second.begin(), panel.second.end(), panels[0].second.begin(),
+                    panels[0].second.end(), same))
+      fail(Failure::input, "the panels '", panels[0].first, "' and '", panel.first,
+           "' have other torques; give one map per torque and rule");
+  }
+  return panels;
+}
+
+FigureBlock cells(const std::string& name, const std::vector<const JumpMapArtifact*>& maps) {
+  FigureBlock block{name,
+                    {"damping_ratio [%]",
+                     "torque [N m]",
+                     "ratio_low [%]",
+                     "ratio_high [%]",
+                     "torque_low [N m]",
+                     "torque_high [N m]",
+                     "class [0 contact kept, 1 lost, 2 two branches]",
+                     "held_tooth_load [kN]",
+                     "branches_from [Hz]",
+                     "branches_to [Hz]",
+                     "open_below [1]",
+                     "loss_from [Hz]",
+                     "loss_to [Hz]",
+                     "held_there_up [kN]",
+                     "held_there_down [kN]",
+                     "sampled_there_up [kN]",
+                     "sampled_there_down [kN]",
+                     "sampled_peak_up [kN]",
+                     "sampled_peak_down [kN]",
+                     "rayleigh_stiffness [1e-6 s]",
+                     "first_harmonic_over_mean [1]",
+                     "excitation [1]",
+                     "unsteady [1]"},
+                    {},
+                    "maps"};
+  std::vector<double> ratio, torque;
+  for (double r : maps[0]->damping_ratio) ratio.push_back(r * 100);
+  for (const JumpMapArtifact* a : maps) torque.push_back(std::log10(a->torque));
+  const std::vector<double> x = edges(ratio), y = edges(torque);
+  for (size_t t = 0; t < maps.size(); ++t) {
+    const JumpMapArtifact& a = *maps[t];
+    if (t > 0) block.rows.emplace_back();
+    for (Index c = 0; c < a.damping_ratio.size(); ++c) {
+      const bool at = a.load_frequency > 0;
+      block.rows.push_back({ratio[c],
+                            a.torque,
+                            x[c],
+                            x[c + 1],
+                            std::pow(10, y[t]),
+                            std::pow(10, y[t + 1]),
+                            a.two_branches[c] ? 2.0
+                            : lost(a, c)      ? 1.0
+                                              : 0.0,
+                            a.held_tooth_load.row(c).maxCoeff() * 1e-3,
+                            a.branches_from[c],
+                            a.branches_to[c],
+                            static_cast<double>(a.open_below[c]),
+                            a.loss_from[c],
+                            a.loss_to[c],
+                            at ? a.held_load_there(c, 0) * 1e-3 : 0,
+                            at ? a.held_load_there(c, 1) * 1e-3 : 0,
+                            at ? a.tooth_load(c, 0) * 1e-3 : 0,
+                            at ? a.tooth_load(c, 1) * 1e-3 : 0,
+                            a.peak_tooth_load(c, 0) * 1e-3,
+                            a.peak_tooth_load(c, 1) * 1e-3,
+                            a.rayleigh_stiffness[c] * 1e6,
+                            a.first_harmonic / a.mean_stiffness,
+                            a.excitation[c],
+                            static_cast<double>(a.unsteady[c])});
+    }
+  }
+  return block;
+}
+
+std::string loads_in_words(const JumpMapArtifact& a, Index c) {
+  const double up = a.held_load_there(c, 0) * 1e-3, down = a.held_load_there(c, 1) * 1e-3;
+  const bool both =
+      a.two_branches[c] && a.branches_from[c] < a.load_frequency && a.load_frequency < a.branches_to[c];
+  return both ? text(rounded(up, 2), " and ", rounded(down, 2)) : rounded(up, 2);
+}
+
+// Cases ascend on the axis.
+void require_ascending(const std::vector<JumpMapArtifact>& maps) {
+  for (const JumpMapArtifact& a : maps)
+    for (Index c = 1; c < a.damping_ratio.size(); ++c)
+      if (!(a.damping_ratio[c] > a.damping_ratio[c - 1]))
+        fail(Failure::input, "the damping ratios of the map at ", a.torque,
+             " N m do not ascend: ", a.damping_ratio[c - 1], ", then ", a.damping_ratio[c]);
+}
+
+bool same_corner(const JumpMapArtifact& a, const JumpMapArtifact& b) {
+  const CornerRule &x = a.mesh.corner, &y = b.mesh.corner;
+  return x.enabled == y.enabled && (!x.enabled || x.largest_angle == y.largest_angle);
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
+  return all.empty() ? "none" : all;
+}
+
+// Share of the cells, in percent, in which two maps answer alike.
+double alike(const Panel& one, const Panel& other,
+             const std::function<bool(const JumpMapArtifact&, Index)>& verdict) {
+  double same = 0, cells = 0;
+  for (size_t t = 0; t < one.second.size(); ++t)
+    for (Index c = 0; c < one.second[t]->damping_ratio.size(); ++c, ++cells)
+      same += verdict(*one.second[t], c) == verdict(*other.second[t], c);
+  return 100 * same / cells;
+}
+
+// What the teeth carry at 150 N m in the case `at`, beside P2000's loads; and how far single samples go beyond held loads.
+void add_load_notes(const std::vector<JumpMapArtifact>& maps, const std::vector<Panel>& panels, Index at,
+                    double ratio, bool paper, std::vector<std::string>& notes) {
+  std::string loads = paper ? "P2000 prints 3.00 and 4.85" : "";
+  bool known = false;
+  for (const Panel& panel : panels)
+    for (const JumpMapArtifact* a : panel.second)
+      if (a->load_frequency > 0 && a->torque == 150) {
+        loads += text(loads.empty() ? "" : "; ", panel.first, " ", loads_in_words(*a, at));
+        known = true;
+      }
+  if (known)
+    notes.push_back(text("tooth loads in kN at 150 N m, ", rounded(ratio * 100, 2), " %, ",
+                         maps[0].load_frequency, " Hz: ", loads));
+  double spike = 1;
+  std::string where = panels[0].first;
+  for (const Panel& panel : panels)
+    for (const JumpMapArtifact* a : panel.second)
+      if (const double ratio_of = (a->peak_tooth_load.array() / a->held_tooth_load.array()).maxCoeff();
+          ratio_of > spike) {
+        spike = ratio_of;
+        where = panel.first;
+      }
+  notes.push_back(text("tooth loads are held for 1/64 of a mesh period; single samples reach ",
+                       rounded(spike, 2), " times as much (", where,
+                       "): spikes at entry, as high as the time step lets them"));
+}
+
+void add_needed_note(const std::vector<JumpMapArtifact>& maps, std::vector<std::string>& notes) {
+  std::vector<double> needed;
+  std::vector<const JumpMapArtifact*> all;
+  for (const JumpMapArtifact& a : maps) {
+    all.push_back(&a);
+    if (const double edge = ratio_of_loss(a); edge > 0)
+      needed.push_back(a.first_harmonic / a.mean_stiffness / edge);
+  }
+  const auto [least_lost, most_kept] = needed_for_loss(all);
+  if (!needed.empty()) {
+    std::sort(needed.begin(), needed.end());
+    notes.push_back(text("loss needs (first harmonic / mean of the stiffness) / damping ratio above ",
+                         rounded(needed[needed.size() / 2], 2), " (median of ", needed.size(), " limits, ",
+                         rounded(needed.front(), 2), " to ", rounded(needed.back(), 2), "); no cell below ",
+                         rounded(least_lost, 2), " loses contact, none above ", rounded(most_kept, 2),
+                         " keeps it"));
+  }
+}
+
+std::vector<std::string> jump_map_notes(const std::vector<JumpMapArtifact>& maps,
+                                        const std::vector<Panel>& panels, bool paper) {
+  std::vector<std::string> notes;
+  // Which choices lose contact at every torque, and what the teeth then carry.
+  const double ratio = case_of(maps[0], kPaperRatio) >= 0
+                           ? kPaperRatio
+                           : maps[0].damping_ratio[maps[0].damping_ratio.size() / 2];
+  const Index at = case_of(maps[0], ratio);
+  std::string everywhere;
+  for (const Panel& panel : panels)
+    if (std::all_of(panel.second.begin(), panel.second.end(),
+                    [&](const JumpMapArtifact* a) { return lost(*a, at); }))
+      everywhere += text(everywhere.empty() ? "" : "; ", panel.first);
+  for (const Panel& panel : panels)
+    notes.push_back(
+        text("at ", rounded(ratio * 100, 2), " %, ", panel.first, ": two branches at ",
+             torques_where(panel.second, [&](const JumpMapArtifact& a) { return a.two_branches[at] == 1; }),
+             ", contact lost at ",
+             torques_where(panel.second, [&](const JumpMapArtifact& a) { return lost(a, at); })));
+  notes.push_back(
+      text("contact is lost at every torque with: ", everywhere.empty() ? "none of these" : everywhere,
+           paper ? "; P2000 prints jumps at 100 to 300 and 600 N m (diamonds)" : ""));
+  add_load_notes(maps, panels, at, ratio, paper, notes);
+  add_needed_note(maps, notes);
+  const JumpMapArtifact& first = maps[0];
+  notes.push_back(text(first.mesh_frequency.size(), " speeds from ", rounded(first.mesh_frequency[0], 0),
+                       " to ", rounded(first.mesh_frequency[first.mesh_frequency.size() - 1], 0),
+                       " Hz, up and down; contact = ", first.fidelity.contact, ", body = ",
+                       first.fidelity.body, "; lines: largest tooth load of these speeds, any branch"));
+  return notes;
+}
+
+bool two_branches(const JumpMapArtifact& a, Index c) {
+  return a.two_branches[c] == 1;
+}
+
+const JumpMapArtifact* at_torque(const Panel& panel, double torque) {
+  for (const JumpMapArtifact* a : panel.second)
+    if (a->torque == torque) return a;
+  return nullptr;
+}
+
+// P2000's Figure 16, of its second lumped model: contact is lost at 100 N m, kept at 200 and 300 N m.
+struct SecondModel {
+  std::vector<std::string> ratios;  // damping ratios (%) at which a panel does so
+  bool low = false;                 // at the case `at`: lost at a low torque only
+};
+
+// first: the map whose damping ratios are named.
+SecondModel second_model_of(const Panel& panel, const JumpMapArtifact& first, Index at) {
+  SecondModel found;
+  const JumpMapArtifact &a100 = *at_torque(panel, 100), &a200 = *at_torque(panel, 200),
+                        &a300 = *at_torque(panel, 300);
+  for (Index c = 0; c < first.damping_ratio.size(); ++c)
+    if (lost(a100, c) && !lost(a200, c) && !lost(a300, c))
+      found.ratios.push_back(rounded(100 * first.damping_ratio[c], 2));
+  found.low = !lost(a200, at) && !lost(a300, at) &&
+              std::any_of(panel.second.begin(), panel.second.end(),
+                          [&](const JumpMapArtifact* a) { return a->torque < 200 && lost(*a, at); });
+  return found;
+}
+
+// A line for each panel, then what they have in common, then what (a), (b) and (c) mean. at: the case of the damping ratio.
+std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
+                                      const std::vector<Panel>& panels, Index at, double ratio,
+                                      const JumpMapArtifact& reference) {
+  const bool beside = elastic(*panels[0].second[0]), paper = pair_of_paper(maps[0]);
+  const std::string percent = text(rounded(ratio * 100, 2), " %");
+  const bool second_model =
+      paper && at_torque(panels[0], 100) && at_torque(panels[0], 200) && at_torque(panels[0], 300);
+  std::vector<std::string> notes, jumping, losing, low;
+  for (const Panel& panel : panels) {
+    const auto everywhere = [&](const auto& holds) {
+      return std::all_of(panel.second.begin(), panel.second.end(),
+                         [&](const JumpMapArtifact* a) { return holds(*a, at); });
+    };
+    if (everywhere(two_branches)) jumping.push_back(panel.first);
+    if (everywhere(lost)) losing.push_back(panel.first);
+    const auto [least_lost, most_kept] = needed_for_loss(panel.second);
+    std::string said = text(
+        panel.first, ": at ", percent, " two branches at ",
+        torques_where(panel.second, [&](const JumpMapArtifact& a) { return two_branches(a, at); }),
+        ", contact lost at ",
+        torques_where(panel.second, [&](const JumpMapArtifact& a) { return lost(a, at); }), "; (a) ",
+        least_lost < 1e300 ? rounded(least_lost, 2) : "-", "/", most_kept > 0 ? rounded(most_kept, 2) : "-");
+    if (beside && &panel != &panels[0])
+      said += text("; (b) ", rounded(alike(panels[0], panel, lost), 0), "/",
+                   rounded(alike(panels[0], panel, two_branches), 0), " %");
+    if (second_model) {
+      const SecondModel found = second_model_of(panel, maps[0], at);
+      said += text("; (c) ", joined(found.ratios, ", "), found.ratios.empty() ? "" : " %");
+      if (found.low) low.push_back(panel.first);
+    }
+    notes.push_back(said);
+  }
+  notes.push_back(text("at ", percent, " two branches at every torque: ", joined(jumping, "; "),
+                       "; contact lost at every torque: ", joined(losing, "; ")));
+  if (second_model)
+    notes.push_back(
+        text("at ", percent, " lost at low torque only, kept at 200 and 300 N m: ", joined(low, "; ")));
+  notes.push_back(
+      "(a) (first harmonic / mean of the stiffness) / damping ratio: lowest that loses contact / highest "
+      "that "
+      "keeps it");
+  if (beside)
+    notes.push_back(
+        "(b) cells in which the model answers as the elastic pair at that damping ratio: contact lost or "
+        "kept / "
+        "two branches or not");
+  if (second_model)
+    notes.push_back(
+        "(c) damping ratios at which contact is lost at 100 N m, kept at 200 and 300 N m, as of P2000's "
+        "second "
+        "lumped model (Figure 16)");
+  notes.push_back(text(
+      "damping ratios: lumped models c / 2 sqrt(mean stiffness x mass), as P2000's 8 %",
+      beside ? "; elastic pair: with two pairs in contact" : "", "; ", reference.mesh_frequency.size(),
+      " speeds, steps of ",
+      rounded(
+          reference.mesh_frequency.size() > 1 ? reference.mesh_frequency[1] - reference.mesh_frequency[0] : 0,
+          1),
+      " Hz, up and down"));
+  return notes;
+}
+
+}  // namespace
+
+Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
+  if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
+  require_ascending(maps);
+  const std::vector<Panel> panels = panels_of(maps);
+  const bool paper = pair_of_paper(maps[0]);
+  Figure figure;
+  figure.title = "Jumps, contact loss and tooth loads of the primary resonance";
+
+  figure.notes = jump_map_notes(maps, panels, paper);
+
+  double largest = 0;
+  for (size_t p = 0; p < panels.size(); ++p) {
+    figure.blocks.push_back(cells(text("panel", p + 1), panels[p].second));
+    figure.blocks.back().curve = panels[p].first;
+    figure.words.emplace_back(text("panel", p + 1), panels[p].first);
+    for (const JumpMapArtifact* a : panels[p].second)
+      largest = std::max(largest, a->held_tooth_load.maxCoeff() * 1e-3);
+  }
+  if (paper) {
+    FigureBlock printed{"printed", {"damping_ratio [%]", "torque [N m]"}, {}, "", "", true};
+    for (double torque : kPaperTorques) printed.rows.push_back({kPaperRatio * 100, torque});
+    figure.blocks.push_back(printed);
+  }
+  const auto& extent = figure.blocks[0].rows;
+  figure.numbers = {{"panels", static_cast<double>(panels.size())},
+                    {"printed", paper ? 1.0 : 0.0},
+                    {"ratio_from", extent.front()[2]},
+                    {"ratio_to", extent.back()[3]},
+                    {"torque_from", extent.front()[4]},
+                    {"torque_to", extent.back()[5]},
+                    {"first_ratio", extent.front()[0]},
+                    {"last_ratio", extent.back()[0]},
+                    {"notes", static_cast<double>(figure.notes.size())},
+                    {"lines", panels[0].second.size() > 1 && maps[0].damping_ratio.size() > 1 ? 1.0 : 0.0},
+                    {"largest", largest}};
+  return figure;
+}
+
+Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps) {
+  const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !elastic(a); });
+  if (lumped == maps.end())
+    fail(Failure::input, "a map of lumped models needs one of their artifacts at least");
+  // The elastic pair beside them has the corner rule of the statics that they are made from.
+  const JumpMapArtifact reference = *lumped;
+  std::erase_if(maps, [&](const JumpMapArtifact& a) { return elastic(a) && !same_corner(a, reference); });
+  std::stable_partition(maps.begin(), maps.end(), elastic);
+  require_ascending(maps);
+  std::vector<Panel> panels = panels_of(maps);
+  if (elastic(*panels[0].second[0])) panels[0].first = "elastic pair, " + panels[0].first;
+
+  Figure figure;
+  figure.title = "Jumps and contact loss of lumped models";
+  figure.height = 1250;
+  const double ratio = case_of(maps[0], kPaperLumpedRatio) >= 0
+                           ? kPaperLumpedRatio
+                           : maps[0].damping_ratio[maps[0].damping_ratio.size() / 2];
+  const Index at = case_of(maps[0], ratio);
+
+  figure.notes = lumped_notes(maps, panels, at, ratio, reference);
+
+  // A column per model, below it the same with the damper in contact only.
+  std::vector<std::string> columns;
+  for (const Panel& panel : panels)
+    if (const std::string base = base_model(*panel.second[0]);
+        std::find(columns.begin(), columns.end(), base) == columns.end())
+      columns.push_back(base);
+  for (size_t p = 0; p < panels.size(); ++p) {
+    const JumpMapArtifact& a = *panels[p].second[0];
+    const std::string name = text("panel", p + 1);
+    figure.blocks.push_back(cells(name, panels[p].second));
+    figure.blocks.back().curve = panels[p].first;
+    figure.words.emplace_back(name, panels[p].first);
+    figure.numbers.emplace_back(
+        text("column", p + 1),
+        static_cast<double>(std::find(columns.begin(), columns.end(), base_model(a)) - columns.begin()));
+    figure.numbers.emplace_back(text("row", p + 1), a.model == base_model(a) ? 0 : 1);
+  }
+  const auto& extent = figure.blocks[0].rows;
+  for (const auto& [name, value] :
+       {std::pair{"panels", static_cast<double>(panels.size())},
+        std::pair{"columns", static_cast<double>(columns.size())}, std::pair{"ratio_from", extent.front()[2]},
+        std::pair{"ratio_to", extent.back()[3]}, std::pair{"torque_from", extent.front()[4]},
+        std::pair{"torque_to", extent.back()[5]}, std::pair{"marked", 100 * ratio},
+        std::pair{"notes", static_cast<double>(figure.notes.size())}})
+    figure.numbers.emplace_back(name, value);
+  return figure;
+}
+
+}  // namespace whine

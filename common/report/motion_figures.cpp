@@ -1,0 +1,466 @@
+#include "report/motion_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "gear/pair.h"
+#include "report/response_figures.h"
+#include "signal/response.h"
+#include "signal/spectrum.h"
+
+namespace whine {
+namespace {
+
+struct Motion {
+  const SweepArtifact* sweep = nullptr;
+  Eigen::Index row = 0;
+  int periods = 1;    // of one orbit, or all that is stored of a motion that is not periodic
+  int first = 0;      // of these periods: the one that is shown amid its neighbours
+  std::string title;  // which branch of which choices
+
+  Eigen::Index per_period() const { return sweep->time.steps_per_period; }
+  Eigen::VectorXd orbit(const MatrixRM& rows) const {
+    return rows.row(row).head(periods * per_period()).transpose();
+  }
+};
+
+Motion motion_at(const SweepArtifact& s, double frequency) {
+  Motion m;
+  m.sweep = &s;
+  (s.mesh_frequency.array() - frequency).abs().minCoeff(&m.row);
+  if (std::abs(s.mesh_frequency[m.row] - frequency) > 1e-6 * frequency)
+    fail(Failure::input, "figure: the sweep ", s.direction, " at ", torque_words(s.torque),
+         " holds no speed of ", frequency, " Hz; the nearest is ", s.mesh_frequency[m.row], " Hz");
+  m.periods = s.period_multiple[m.row] > 0
+                  ? s.period_multiple[m.row]
+                  : static_cast<int>(s.transmission_error.cols() / s.time.steps_per_period);
+  return m;
+}
+
+std::vector<LumpedParameters> lumped_of(const std::vector<SweepArtifact>& sweeps) {
+  std::vector<LumpedParameters> lumped;
+  lumped.reserve(sweeps.size());
+  for (const SweepArtifact& s : sweeps) lumped.push_back(s.lumped);
+  return lumped;
+}
+
+std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double frequency,
+                               Background captions, Figure& figure) {
+  constexpr double kSameBranch = 0.02;  // of the larger RMS: far above what periodicity leaves open
+  if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; an up and a down sweep are the least");
+  std::vector<Motion> motions;
+  captions.lumped = lumped_of(sweeps);
+  for (const auto& panel : panels_of(sweeps, captions)) {
+    constexpr size_t kWidth = 170;  // characters that fit into a line
+    const std::string operating = operating_words(panel, captions);
+    if (panel.scene.size() + operating.size() > kWidth) {
+      figure.notes.push_back(panel.scene);
+      figure.notes.push_back(operating);
+    } else {
+      figure.notes.push_back(panel.scene + (panel.scene.empty() ? "" : "; ") + operating);
+    }
+    figure.notes.push_back(panel.choices);
+    for (const auto& curve : panel.curves) {
+      Motion up = motion_at(*curve.up, frequency), down = motion_at(*curve.down, frequency);
+      const std::string damping =
+          elastic(*curve.up)
+              ? "η = " + shown(curve.up->damping.rayleigh_stiffness * kMicro, 6) + " µs"
+              : curve.up->model + " at " + shown(panel.lumped.damping_ratio * kPercent, 4) + " %";
+      const auto rms = [](const Motion& m) { return harmonics(m.orbit(m.sweep->transmission_error), 0).rms; };
+      const double of_up = rms(up), of_down = rms(down);
+      if (std::abs(of_up - of_down) <= kSameBranch * std::max(of_up, of_down)) {
+        up.title = damping + ": no second branch here, speed rising and falling agree";
+        motions.push_back(up);
+        continue;
+      }
+      Motion& upper = of_up > of_down ? up : down;
+      Motion& lower = of_up > of_down ? down : up;
+      upper.title = damping + ": upper branch, speed " + (of_up > of_down ? "rising" : "falling");
+      lower.title = damping + ": lower branch, speed " + (of_up > of_down ? "falling" : "rising");
+      motions.push_back(upper);
+      motions.push_back(lower);
+    }
+  }
+  if (motions.size() > kMostCurves)
+    fail(Failure::input, "figure: ", motions.size(), " motions at ", frequency, " Hz; ", kMostCurves,
+         " fit into a figure");
+  return motions;
+}
+
+void set_motion_title(Figure& figure, const std::string& what, const std::vector<Motion>& motions,
+                      double frequency) {
+  figure.title = what + " at a mesh frequency of " + shown(frequency, 6) + " Hz, " +
+                 torque_words(motions[0].sweep->torque);
+  for (size_t i = 0; i < figure.notes.size(); ++i)
+    figure.words.emplace_back(text("line", i + 1), without_markup(figure.notes[i]));
+  figure.numbers.emplace_back("lines", static_cast<double>(figure.notes.size()));
+  figure.numbers.emplace_back("motions", static_cast<double>(motions.size()));
+}
+
+// Shown of tooth loads: mesh periods about the middle one, teeth from two before tooth i to three after it.
+constexpr int kFirstPeriod = -1, kPeriods = 3, kFirstTooth = -2, kLastTooth = 3;
+
+double static_force(const SweepArtifact& s) {
+  return s.torque / ToothGeometry(s.driver).base_radius();
+}
+
+// Panel `letter`: loads of successive teeth and of all of them, phases at which contact is lost, and the result in words. The
+// largest force of it, N.
+double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& m) {
+  const Eigen::Index n = m.per_period();
+  const Eigen::VectorXd force = m.orbit(m.sweep->mesh_force);
+  const MatrixRM& loads = m.sweep->tooth_load[m.row];
+  // Sample k of the shown periods: its place in the orbit, its period, its phase.
+  const auto row_of = [&](Eigen::Index k) {
+    return (k + (kPeriods * m.periods + m.first + kFirstPeriod) * n) % force.size();
+  };
+  const auto phase_of = [&](Eigen::Index k) { return kFirstPeriod + static_cast<double>(k) / n; };
+  FigureBlock net{
+      letter + " mesh force", {"phase of tooth i [1]", "force [N]"}, {}, "loads", letter + " all teeth"};
+  FigureBlock lost{letter + " contact lost", {"from phase [1]", "to phase [1]"}, {}, "contact lost", letter};
+  for (Eigen::Index k = 0; k <= kPeriods * n; ++k) {
+    const double f = force[row_of(k)];
+    net.rows.push_back({phase_of(k), f});
+    if (f > 0) continue;
+    if (k > 0 && !lost.rows.empty() && force[row_of(k - 1)] == 0)
+      lost.rows.back()[1] = phase_of(k);
+    else
+      lost.rows.push_back({phase_of(k), phase_of(k)});
+  }
+  figure.numbers.emplace_back("lost_" + letter, static_cast<double>(lost.rows.size()));
+  figure.blocks.push_back(net);
+  figure.blocks.push_back(lost);
+  // Pair j is j places ahead of the reference pair, which touches at the pitch point at the start of a period: the tooth
+  // that does so t periods after tooth i is pair (period - t). Drawn while it carries load, with a sample on either side.
+  for (int t = kFirstTooth; t <= kLastTooth; ++t) {
+    FigureBlock tooth{
+        text(letter, " tooth i", t < 0 ? "" : "+", t), {"phase of tooth i [1]", "force [N]"}, {}, "loads"};
+    tooth.curve = tooth.name;
+    const auto load_at = [&](Eigen::Index k) {
+      const Eigen::Index j = kFirstPeriod + k / n - t - m.sweep->pair[0];
+      return k >= 0 && k < kPeriods * n && j >= 0 && j < loads.cols() ? loads(row_of(k), j) : 0.0;
+    };
+    for (Eigen::Index k = 0; k < kPeriods * n; ++k)
+      if (load_at(k - 1) > 0 || load_at(k) > 0 || load_at(k + 1) > 0)
+        tooth.rows.push_back({phase_of(k), load_at(k)});
+      else if (!tooth.rows.empty() && !tooth.rows.back().empty())
+        tooth.rows.emplace_back();
+    figure.numbers.emplace_back(text("shown_", letter, "_", t - kFirstTooth), !tooth.rows.empty());
+    figure.blocks.push_back(tooth);
+  }
+  const Separations apart = separations(force);
+  const double most = loads.topRows(force.size()).maxCoeff();
+  std::string result = text("largest tooth load ", fixed(most, 0),
+                            " N = ", fixed(most / static_force(*m.sweep), 2), " T / r_b; ");
+  result += apart.intervals == 0
+                ? "contact is never lost"
+                : text("contact lost ", shown(static_cast<double>(apart.intervals) / m.periods, 3),
+                       apart.intervals == m.periods ? " time" : " times", " a mesh period, for ",
+                       fixed(100 * apart.fraction, 1), " % of it");
+  figure.words.emplace_back("result_" + letter, result);
+  return std::max(most, force.maxCoeff());
+}
+
+void add_load_axes(Figure& figure, const SweepArtifact& sweep, double largest) {
+  figure.numbers.emplace_back("largest", largest);
+  figure.numbers.emplace_back("static_force", static_force(sweep));
+  figure.numbers.emplace_back("phase_from", kFirstPeriod);
+  figure.numbers.emplace_back("phase_to", kFirstPeriod + kPeriods);
+  figure.numbers.emplace_back("first_tooth", kFirstTooth);
+  figure.numbers.emplace_back("last_tooth", kLastTooth);
+}
+
+constexpr Eigen::Index kOrders = 5;  // that a waterfall shows
+
+// Of each `group` neighbouring speeds the spectrum of the one with the largest RMS, up to `end` (Hz).
+FigureBlock spectra_block(const SweepArtifact& sweep, const ResponseArtifact& r, Eigen::Index group,
+                          double end) {
+  FigureBlock lines{"spectra " + sweep.direction,
+                    {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"},
+                    {},
+                    "spectra",
+                    sweep.direction};
+  const Eigen::Index speeds = r.mesh_frequency.size();
+  for (Eigen::Index g = 0; g < speeds; g += group) {
+    Eigen::Index row = 0;
+    r.dte_rms.segment(g, std::min(group, speeds - g)).maxCoeff(&row);
+    const double f = r.mesh_frequency[g + row];
+    const Motion m = motion_at(sweep, f);
+    const Eigen::VectorXd x = m.orbit(sweep.transmission_error);
+    const int count = resolved_harmonics(x.size(), static_cast<int>(std::floor(end / f * m.periods)));
+    const Harmonics h = harmonics(x, count);
+    for (int k = 1; k <= count; ++k)
+      lines.rows.push_back({f, k * f / m.periods, h.amplitude[k - 1] * kMicro});
+  }
+  return lines;
+}
+
+// Amplitudes of the first `known` orders of the mesh frequency at every speed.
+FigureBlock orders_block(const ResponseArtifact& r, Eigen::Index known) {
+  FigureBlock orders{"orders " + r.direction, {"mesh_frequency [Hz]"}, {}, "orders", r.direction};
+  for (Eigen::Index k = 1; k <= known; ++k) orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
+  const std::vector<bool> broken = broken_after(r);
+  for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
+    std::vector<double> row{r.mesh_frequency[i]};
+    for (Eigen::Index k = 0; k < known; ++k) row.push_back(r.dte_harmonic(i, k) * kMicro);
+    orders.rows.push_back(row);
+    if (broken[i]) orders.rows.emplace_back();
+  }
+  return orders;
+}
+
+}  // namespace
+
+Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
+                        const Background& captions) {
+  constexpr int kShownPeriods = 3;
+  Figure figure;
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, captions, figure);
+  set_motion_title(figure, "Oscillating dynamic transmission error (DTE)", motions, mesh_frequency);
+  figure.height = 960 + 29 * static_cast<int>(figure.notes.size());
+  double time_end = 0, largest = 0, largest_amplitude = 0;
+  for (size_t i = 0; i < motions.size(); ++i) {
+    const Motion& m = motions[i];
+    const Eigen::VectorXd x = m.orbit(m.sweep->transmission_error);
+    const int count = resolved_harmonics(x.size(), kShownHarmonics * m.periods);
+    if (count < 1)
+      fail(Failure::input, "figure: ", x.size(),
+           " samples do not resolve the mesh frequency; raise steps_per_period");
+    const Harmonics h = harmonics(x, count);
+    const std::string curve = letter_of(i) + " " + m.title;
+    FigureBlock history{
+        letter_of(i) + " history", {"time [ms]", "oscillating dte [µm]"}, {}, "histories", curve};
+    const Eigen::Index shown_samples = std::max(kShownPeriods, m.periods) * m.per_period();
+    for (Eigen::Index n = 0; n <= shown_samples; ++n) {
+      const double value = (x[n % x.size()] - h.mean) * kMicro;
+      history.rows.push_back({1e3 * n / (m.per_period() * mesh_frequency), value});
+      largest = std::max(largest, std::abs(value));
+    }
+    time_end = std::max(time_end, history.rows.back()[0]);
+    FigureBlock spectrum{
+        letter_of(i) + " spectrum", {"frequency [Hz]", "amplitude [µm]"}, {}, "spectra", curve};
+    for (int k = 1; k <= count; ++k)
+      spectrum.rows.push_back({k * mesh_frequency / m.periods, h.amplitude[k - 1] * kMicro});
+    Eigen::Index strongest = 0;
+    const double amplitude = h.amplitude.maxCoeff(&strongest);
+    largest_amplitude = std::max(largest_amplitude, amplitude * kMicro);
+    figure.words.emplace_back("title_" + letter_of(i), m.title);
+    figure.words.emplace_back(
+        "result_" + letter_of(i),
+        text("RMS ", shown(h.rms * kMicro, 3), " µm, ", shown(50 * std::pow(amplitude / h.rms, 2), 3),
+             " % of its square at ", shown((strongest + 1.0) / m.periods, 3), " × mesh frequency; mean ",
+             shown(h.mean * kMicro, 3), " µm"));
+    figure.blocks.push_back(history);
+    figure.blocks.push_back(spectrum);
+  }
+  for (const auto& [name, value] : {std::pair{"time_end", time_end},
+                                    {"largest", largest},
+                                    {"largest_amplitude", largest_amplitude},
+                                    {"frequency_end", kShownHarmonics * mesh_frequency}})
+    figure.numbers.emplace_back(name, value);
+  return figure;
+}
+
+Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
+                         const Background& captions) {
+  Figure figure;
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, captions, figure);
+  set_motion_title(figure, "Tooth loads", motions, mesh_frequency);
+  figure.height = 150 + 29 * static_cast<int>(figure.notes.size()) + 330 * static_cast<int>(motions.size());
+  double largest = 0;
+  for (size_t i = 0; i < motions.size(); ++i) {
+    largest = std::max(largest, add_tooth_loads(figure, letter_of(i), motions[i]));
+    figure.words.emplace_back("title_" + letter_of(i), motions[i].title);
+  }
+  add_load_axes(figure, *motions[0].sweep, largest);
+  return figure;
+}
+
+Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background captions) {
+  captions.lumped = lumped_of(sweeps);
+  const auto panels = panels_of(sweeps, captions);
+  if (panels.size() != 1 || panels[0].curves.size() != 1)
+    fail(Failure::input, "figure: sweeps of ",
+         panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
+         " torques or sets of choices given; tooth loads against speed are of one");
+  const auto& curve = panels[0].curves[0];
+  Figure figure;
+  figure.title = "Tooth loads against mesh frequency, " + torque_words(curve.up->torque);
+  figure.notes = {operating_words(panels[0], captions), panels[0].choices};
+  figure.height = 1240;
+  Motion worst;
+  double rms = -1, from = std::numeric_limits<double>::infinity(), to = 0, most = 0;
+  bool lost = false;
+  for (const SweepArtifact* sweep : {curve.up, curve.down}) {
+    const ResponseArtifact r = response(*sweep);
+    figure.blocks.push_back(response_block(sweep->direction, r));
+    Eigen::Index row = 0;
+    if (const double here = r.dte_rms.maxCoeff(&row); here > rms) {
+      rms = here;
+      worst = motion_at(*sweep, r.mesh_frequency[row]);
+    }
+    from = std::min(from, r.mesh_frequency.minCoeff());
+    to = std::max(to, r.mesh_frequency.maxCoeff());
+    most = std::max(most, r.tooth_load_max.maxCoeff());
+    lost |= r.separation_fraction.maxCoeff() > 0;
+  }
+  // Of several periods that differ the one with the largest load in the middle.
+  Eigen::Index sample = 0;
+  worst.sweep->tooth_load[worst.row]
+      .topRows(worst.periods * worst.per_period())
+      .rowwise()
+      .maxCoeff()
+      .maxCoeff(&sample);
+  worst.first = static_cast<int>(sample / worst.per_period());
+  const double speed = worst.sweep->mesh_frequency[worst.row];
+  const double largest = add_tooth_loads(figure, "b", worst);
+  add_load_axes(figure, *curve.up, largest);
+  figure.words.emplace_back(
+      "title_b",
+      text("at ", shown(speed, 6), " Hz, speed ", worst.sweep->direction == "up" ? "rising" : "falling",
+           ", where the RMS of the transmission error is largest (", shown(rms * kMicro, 3), " µm)"));
+  figure.numbers.insert(figure.numbers.end(),
+                        {{"frequency_from", from},
+                         {"frequency_to", to},
+                         {"speeds", static_cast<double>(curve.up->mesh_frequency.size())},
+                         {"load_max", most},
+                         {"worst_speed", speed},
+                         {"contact_lost", lost}});
+  return figure;
+}
+
+Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
+  constexpr Eigen::Index kMostSpectra = 160;
+  constexpr double kLeast = 1e-4;  // of the largest amplitude
+  if (sweeps.empty() || sweeps.size() > 2)
+    fail(Failure::input, "figure: ", sweeps.size(),
+         " sweep.h5 given; a waterfall is of a sweep, or of those up and down");
+  if (sweeps.size() == 2) panels_of(sweeps, Background{{}, lumped_of(sweeps), {}});
+  std::vector<const SweepArtifact*> shown;
+  for (const char* direction : {"up", "down"})
+    for (const SweepArtifact& sweep : sweeps)
+      if (sweep.direction == direction) shown.push_back(&sweep);
+  if (shown.empty())
+    fail(Failure::input, "figure: a sweep of direction '", sweeps[0].direction, "'; up and down are known");
+  const SweepArtifact& first = *shown.front();
+  Figure figure;
+  figure.title = text("Spectra of the dynamic transmission error against mesh frequency, ",
+                      torque_words(first.torque), ", ",
+                      shown.size() == 2         ? "speed rising and falling"
+                      : first.direction == "up" ? "speed rising"
+                                                : "speed falling");
+  figure.notes.push_back(elastic(first) ? choice_words(first)
+                                        : choice_words(first) + "; " + lumped_words(first.lumped));
+  figure.height = shown.size() == 1 ? 1000 : 1760;
+
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0, end = 0;
+  Eigen::Index group = 1, known = kOrders;
+  for (const SweepArtifact* sweep : shown) {
+    slowest = std::min(slowest, sweep->mesh_frequency.minCoeff());
+    fastest = std::max(fastest, sweep->mesh_frequency.maxCoeff());
+    end = std::max({end, 2.5 * sweep->natural_frequency, 1.5 * fastest});
+    group = std::max(group, (sweep->mesh_frequency.size() + kMostSpectra - 1) / kMostSpectra);
+  }
+  std::string directions;
+  double largest = 0;
+  for (const SweepArtifact* sweep : shown) {
+    const ResponseArtifact r = response(*sweep);
+    known = std::min(known, r.dte_harmonic.cols());
+    FigureBlock lines = spectra_block(*sweep, r, group, end);
+    for (const std::vector<double>& row : lines.rows) largest = std::max(largest, row[2]);
+    figure.blocks.insert(figure.blocks.end(), {std::move(lines), orders_block(r, known)});
+    directions += (directions.empty() ? "" : " ") + sweep->direction;
+  }
+  figure.notes.push_back(
+      group == 1 ? "a spectrum at each speed"
+                 : text("of ", group, " neighbouring speeds the spectrum of the one with the largest RMS"));
+  for (FigureBlock& block : figure.blocks)
+    if (block.name.starts_with("spectra"))
+      std::erase_if(block.rows, [&](const std::vector<double>& row) { return row[2] < kLeast * largest; });
+  figure.words = {{"directions", directions}};
+  figure.numbers = {
+      {"orders", static_cast<double>(known)},
+      {"largest", largest},
+      {"speed_step",
+       (fastest - slowest) / std::max<double>(1, std::ceil(static_cast<double>(first.mesh_frequency.size()) /
+                                                           static_cast<double>(group)) -
+                                                     1)},
+      {"natural_frequency", first.natural_frequency},
+      {"frequency_end", end},
+      {"rows", static_cast<double>(shown.size())},
+      {"frequency_from", slowest},
+      {"frequency_to", fastest}};
+  return figure;
+}
+
+Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
+                         const std::vector<double>& mesh_frequencies) {
+  if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; 1 is the least");
+  if (sweeps.size() > kMostCurves)
+    fail(Failure::input, "figure: ", sweeps.size(), " sweep.h5 given; ", kMostCurves,
+         " curves can be told apart");
+  if (mesh_frequencies.empty() || mesh_frequencies.size() > 2)
+    fail(Failure::input, "figure: ", mesh_frequencies.size(),
+         " mesh frequencies given; one or two are shown");
+  Figure figure;
+  const double torque = sweeps[0].torque;
+  figure.title = text("Net mesh force of one degree of freedom (Eq. 23), ", torque_words(torque));
+  double largest = 0;
+  std::vector<std::string> labels(mesh_frequencies.size());
+  const std::vector<std::string> dashes{"solid",       "dashed",      "dotted",
+                                        "dash-dotted", "long dashes", "fine dots"};
+  for (size_t s = 0; s < sweeps.size(); ++s) {
+    const SweepArtifact& sweep = sweeps[s];
+    if (sweep.lumped.cell_end.size() == 0)
+      fail(Failure::input, "figure: a sweep of elastic gears given; give those of lumped models");
+    if (sweep.torque != torque)
+      fail(Failure::input, "figure: sweeps at ", torque, " and ", sweep.torque,
+           " N m; give those of one torque");
+    const double low = sweep.lumped.stiffness.minCoeff(), high = sweep.lumped.stiffness.maxCoeff();
+    const bool rising = sweep.direction == "up";
+    std::string jumps;
+    for (double f : sweep.jump_frequency) jumps += (jumps.empty() ? ", jump at " : ", ") + fixed(f, 1);
+    figure.notes.push_back(text(dashes[s], ": ", sweep.model, " stiffness, ", fixed(low * kMega, 1), " to ",
+                                fixed(high * kMega, 1), " × 10⁶ N/m (ratio ", fixed(high / low, 3),
+                                "), mean ", fixed(sweep.mean_stiffness * kMega, 1), "; ",
+                                lumped_words(sweep.lumped), "; speed ", rising ? "rising" : "falling",
+                                jumps.empty() ? ", no jump" : jumps + " Hz"));
+    for (size_t k = 0; k < mesh_frequencies.size(); ++k) {
+      Eigen::Index row = 0;
+      (sweep.mesh_frequency.array() - mesh_frequencies[k]).abs().minCoeff(&row);
+      const double f = sweep.mesh_frequency[row];
+      const Eigen::Index samples = sweep.time.steps_per_period, stored = sweep.mesh_force.cols();
+      FigureBlock block{text(letter_of(k), " ", s + 1),
+                        {"time [mesh periods]", "mesh_force [N]", "transmission_error [µm]"},
+                        {},
+                        "forces",
+                        text(shown(f, 6), " Hz, sweep ", s + 1)};
+      for (Eigen::Index i = 0; i <= 2 * samples; ++i)
+        block.rows.push_back({static_cast<double>(i) / static_cast<double>(samples),
+                              sweep.mesh_force(row, i % stored),
+                              sweep.transmission_error(row, i % stored) * kMicro});
+      figure.blocks.push_back(block);
+      largest = std::max(largest, sweep.mesh_force.row(row).maxCoeff());
+      // The jump that the sweep comes to next, else the one that it has behind it.
+      double next = 0, behind = 0;
+      for (double jump : sweep.jump_frequency) {
+        double& side = (jump > f) == rising ? next : behind;
+        if (side == 0 || std::abs(jump - f) < std::abs(side - f)) side = jump;
+      }
+      labels[k] += text("'", shown(f, 6), " Hz, ratio ", fixed(high / low, 3),
+                        next > 0     ? ", before its jump at " + fixed(next, 0) + " Hz' "
+                        : behind > 0 ? ", after its jump at " + fixed(behind, 0) + " Hz' "
+                                     : ", no jump' ");
+    }
+  }
+  figure.numbers = {{"curves", static_cast<double>(sweeps.size())},
+                    {"panels", static_cast<double>(mesh_frequencies.size())},
+                    {"force_max", largest},
+                    {"static_force", torque / ToothGeometry(sweeps[0].driver).base_radius()}};
+  for (size_t k = 0; k < labels.size(); ++k) figure.words.emplace_back("labels_" + letter_of(k), labels[k]);
+  return figure;
+}
+
+}  // namespace whine

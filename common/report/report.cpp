@@ -1,0 +1,122 @@
+#include "report/report.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "gear/pair.h"
+#include "report/figures.h"
+#include "report/html.h"
+#include "report/report_figures.h"
+#include "report/report_geometry.h"
+#include "report/report_guide.h"
+#include "report/report_results.h"
+#include "report/report_style.h"
+#include "report/report_tables.h"
+
+namespace whine {
+namespace {
+
+std::string introduction(const ReportContent& c) {
+  const StaticArtifact& s = c.statics[0];
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  std::vector<std::string> torques;
+  for (const auto& a : c.statics) torques.push_back(shown(a.torque, 6));
+  std::string out =
+      text(s.mesh.driver, " (", s.driver.teeth, " teeth) drives ", s.mesh.driven, " (", s.driven.teeth,
+           " teeth), module ", shown(s.driver.module * kMilli, 4), " mm, at a centre distance of ",
+           shown(pair.centre_distance() * kMilli, 7), " mm: contact ratio ", fixed(s.contact_ratio, 3),
+           ", working pressure angle ", fixed(pair.working_pressure_angle() * 180 / std::numbers::pi, 2),
+           "°. Torque on the driver: ", listed(torques), " N m.");
+  if (!c.sweeps.empty()) {
+    const Eigen::VectorXd& f = c.sweeps[0].response.mesh_frequency;
+    const double rpm = 60.0 / s.driver.teeth;
+    out += text(" Speeds: ", hertz(f.minCoeff()), " to ", hertz(f.maxCoeff()), " Hz mesh frequency, ",
+                fixed(f.minCoeff() * rpm, 0), " to ", fixed(f.maxCoeff() * rpm, 0), " 1/min of the driver.");
+  } else {
+    out += " Without motion: only gears at rest are computed for such a scene.";
+  }
+  return html::paragraph(out);
+}
+
+void require_whole(const ReportContent& c) {
+  if (c.statics.empty())
+    fail(Failure::input, "report: no static.h5 given; that of the scene's first torque is the least");
+  const StaticArtifact& first = c.statics[0];
+  const auto same_pair = [&](const auto& a, const std::string& what) {
+    if (a.driver.teeth != first.driver.teeth || a.driven.teeth != first.driven.teeth ||
+        a.mesh.centre_distance != first.mesh.centre_distance ||
+        a.mesh.modification != first.mesh.modification)
+      fail(Failure::input, "report: ", what, " at ", a.torque,
+           " N m is of another pair than the static.h5 at ", first.torque,
+           " N m; give artifacts of one scene");
+  };
+  for (const auto& s : c.statics) same_pair(s, "a static.h5");
+  for (const auto& a : c.impacts) same_pair(a, "an impact.h5");
+  for (const auto& s : c.sweeps) same_pair(s.response, "a sweep.h5");
+  if (c.budget) same_pair(*c.budget, "the error_budget.h5");
+  const std::vector<std::string> known = report_figures();
+  for (size_t i = 0; i < c.pictures.size(); ++i) {
+    const std::string& name = c.pictures[i].name;
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      fail(Failure::input, "report: there are no words for a figure '", name, "'; known are ", listed(known));
+    for (size_t j = 0; j < i; ++j)
+      if (c.pictures[j].name == name) fail(Failure::input, "report: figure ", name, " is given twice");
+  }
+}
+
+}  // namespace
+
+std::string report_tsv(const ReportContent& c) {
+  require_whole(c);
+  std::string out = "# " + c.scene + "\ntorque [N m]\tquantity\tvalue\tunit\tremark\n";
+  for (const GeometryNumber& g : pair_geometry(c.statics[0]))
+    out += text("\t", g.quantity, "\t", g.value, "\t", g.unit, "\t\n");
+  for (const ReportNumber& r : report_numbers(c))
+    out += text(shown(r.torque, 6), "\t", r.quantity, "\t", r.value, "\t", r.unit, "\t", r.remark, "\n");
+  return out;
+}
+
+std::string report_html(const ReportContent& c) {
+  require_whole(c);
+  const size_t colon = c.scene.find(": ");
+  const std::string file = c.scene.substr(0, colon),
+                    title = colon == std::string::npos ? c.scene : c.scene.substr(colon + 2);
+
+  struct Section {
+    std::string id, heading, inside;
+  };
+  std::vector<Section> sections;
+  const auto add = [&](const char* id, const char* heading, const std::string& inside) {
+    if (!inside.empty()) sections.push_back({id, heading, inside});
+  };
+  add("results", "Results", introduction(c) + results_table(c));
+  add("remarks", "Warnings and remarks", remarks_list(c));
+  add("guide", "What the numbers mean", guide_to_numbers(c));
+  add("gears", "The gears", gears_table(c) + figures_of(c, "gears"));
+  add("rest", "At rest", stiffness_tables(c) + figures_of(c, "rest"));
+  add("frequencies", "Natural frequencies and damping",
+      c.impacts.empty() ? "" : natural_frequencies_table(c));
+  add("motion", "In motion", figures_of(c, "motion"));
+  add("errors", "What the errors are", figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : ""));
+  add("parameters", "Parameters", parameters_table(c));
+  add("provenance", "Provenance", provenance_table(c));
+
+  std::string contents, inside;
+  for (const Section& s : sections) {
+    contents += text("<li><a href=\"#", s.id, "\">", html::escaped(s.heading), "</a></li>\n");
+    inside += text("<section id=\"", s.id, "\">\n<h2>", html::escaped(s.heading), "</h2>\n", s.inside,
+                   "</section>\n");
+  }
+  return text(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
+      html::escaped(title), "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<header>\n<h1>",
+      html::escaped(title), "</h1>\n<p class=\"scene\">Gear whine report of the scene <code>",
+      html::escaped(file), "</code></p>\n</header>\n<main>\n<nav aria-label=\"Contents\"><ol>\n", contents,
+      "</ol></nav>\n", inside, "</main>\n<footer><p>Whine ", kVersion,
+      ", gear whine from elastic teeth that touch, part and touch again.</p></footer>\n</body>\n</html>\n");
+}
+
+}  // namespace whine

@@ -1,0 +1,125 @@
+#include "report/report_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "base/error.h"
+#include "contact/half_plane_strip.h"
+#include "gear/pair.h"
+#include "io/summary.h"
+#include "report/figures.h"
+#include "signal/response.h"
+
+namespace whine {
+
+using Eigen::Index;
+
+const ReportSweep* sweep_of(const ReportContent& c, double torque, const std::string& direction) {
+  for (const ReportSweep& s : c.sweeps)
+    if (s.response.torque == torque && s.response.direction == direction) return &s;
+  return nullptr;
+}
+
+const ImpactArtifact* impact_of(const ReportContent& c, double torque) {
+  for (const ImpactArtifact& a : c.impacts)
+    if (a.torque == torque) return &a;
+  return nullptr;
+}
+
+double static_force(const StaticArtifact& s) {
+  return s.torque / ToothGeometry(s.driver).base_radius();
+}
+
+double face_width(const StaticArtifact& s) {
+  return std::min(s.driver.face_width, s.driven.face_width);
+}
+
+double peak_to_peak(const Eigen::VectorXd& v) {
+  return v.maxCoeff() - v.minCoeff();
+}
+
+std::string hertz(double f) {
+  return fixed(f, 0);
+}
+
+std::string jumps_of(const ResponseArtifact& r) {
+  std::vector<double> jumps(r.jump_frequency.begin(), r.jump_frequency.end());
+  std::sort(jumps.begin(), jumps.end());
+  std::string out;
+  for (const double f : jumps) out += (out.empty() ? "" : ", ") + hertz(f);
+  return out.empty() ? "none" : out;
+}
+
+double hertz_pressure(const StaticArtifact& s, double force) {
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const double tangent = std::tan(pair.working_pressure_angle());
+  const double curvature = (1 / pair.gear(0).base_radius() + 1 / pair.gear(1).base_radius()) / tangent;
+  const auto compliance = [&](const Material& material) {
+    const Material m = in_contact_plane(material, s.mesh.contact_plane);
+    return (m.plane_stress ? 1 : 1 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus;
+  };
+  return std::sqrt(
+      force * curvature /
+      (face_width(s) * std::numbers::pi * (compliance(s.driver_material) + compliance(s.driven_material))));
+}
+
+bool beyond_backlash(const ReportSweep& s, Index row) {
+  return row < s.backlash_left.size() && s.backlash_left[row] <= 0;
+}
+
+std::string way_words(const ReportSweep& s) {
+  return s.response.direction == "up" ? "speed rising" : "speed falling";
+}
+
+std::string speeds_beyond_backlash(const ReportSweep& s) {
+  std::map<double, bool> beyond;
+  for (Index i = 0; i < s.response.mesh_frequency.size(); ++i)
+    beyond[s.response.mesh_frequency[i]] = beyond_backlash(s, i);
+  return speed_ranges(beyond);
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string out;
+  for (size_t i = 0; i < words.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return out;
+}
+
+std::string significant(double value, int digits) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%#.*g", digits, value);
+  std::string out = buffer;
+  if (out.back() == '.') out.pop_back();
+  return out;
+}
+
+std::vector<Index> resonances(const ResponseArtifact& r) {
+  constexpr double kHigher = 1.2;
+  constexpr size_t kMost = 5;
+  const Index n = r.mesh_frequency.size();
+  std::vector<Index> order(static_cast<size_t>(n)), peaks;
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return r.mesh_frequency[a] < r.mesh_frequency[b]; });
+  const auto rms = [&](Index k) { return r.dte_rms[order[static_cast<size_t>(k)]]; };
+  // Least RMS on the way to a higher one, or to the end of the sweep.
+  const auto foot = [&](Index k, Index step) {
+    double least = rms(k);
+    for (Index i = k + step; i >= 0 && i < n && rms(i) <= rms(k); i += step) least = std::min(least, rms(i));
+    return least;
+  };
+  for (Index k = 1; k + 1 < n; ++k)
+    if (rms(k) > rms(k - 1) && rms(k) >= rms(k + 1) && rms(k) > kHigher * std::max(foot(k, -1), foot(k, 1)))
+      peaks.push_back(k);
+  std::sort(peaks.begin(), peaks.end(), [&](Index a, Index b) { return rms(a) > rms(b); });
+  peaks.resize(std::min(peaks.size(), kMost));
+  std::sort(peaks.begin(), peaks.end());
+  for (Index& k : peaks) k = order[static_cast<size_t>(k)];
+  return peaks;
+}
+
+}  // namespace whine

@@ -1,0 +1,69 @@
+// What a report is made of, and words and numbers that its parts share.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/impact_result.h"
+#include "io/provenance.h"
+#include "signal/response_result.h"
+#include "studies/error_budget_result.h"
+#include "system/statics.h"
+
+namespace whine {
+
+// A figure as gear-plot draws it; its name says what it shows.
+struct ReportPicture {
+  std::string name;   // file name without extension: "fig12"
+  std::string bytes;  // of a PNG
+};
+
+// One sweep, without its motions.
+struct ReportSweep {
+  ResponseArtifact response;
+  std::vector<Remark> remarks;
+  Eigen::VectorXd backlash_left = {};  // (speed) m, of backlash_left(); none: not known
+};
+
+struct ReportSource {
+  std::string path, sha256;
+  Origin origin;
+};
+
+// Artifacts in the order in which the scene lists its torques.
+struct ReportContent {
+  std::string scene;  // "file: title"
+  std::vector<StaticArtifact> statics;
+  std::vector<ImpactArtifact> impacts;
+  std::vector<ReportSweep> sweeps;
+  std::optional<ErrorBudgetArtifact> budget;
+  std::vector<ReportPicture> pictures;
+  std::vector<ReportSource> sources;
+};
+
+// Of the content; nullptr if there is none.
+const ReportSweep* sweep_of(const ReportContent& c, double torque, const std::string& direction);
+const ImpactArtifact* impact_of(const ReportContent& c, double torque);
+
+double static_force(const StaticArtifact& s);  // N: T / r_b
+double face_width(const StaticArtifact& s);    // m: that of the narrower gear
+double peak_to_peak(const Eigen::VectorXd& v);
+
+// Hertz's pressure (Pa) of a force (N) on one tooth pair at the pitch point.
+double hertz_pressure(const StaticArtifact& s, double force);
+
+// Whether the motion at a row of the sweep goes beyond the backlash.
+bool beyond_backlash(const ReportSweep& s, Eigen::Index row);
+// In Hz; "" if there are none.
+std::string speeds_beyond_backlash(const ReportSweep& s);
+
+std::string way_words(const ReportSweep& s);                // "speed rising"
+std::string hertz(double f);                                // whole Hz
+std::string jumps_of(const ResponseArtifact& r);            // "1819, 2645", "none"
+std::string listed(const std::vector<std::string>& words);  // "a, b and c"
+std::string significant(double value, int digits);  // with all of its digits: 1.400 where shown() has 1.4
+
+// Speeds (rows) at which the RMS of a response has a peak: higher than its surroundings by a fifth, ascending in frequency;
+// the ends of the sweep are none.
+std::vector<Eigen::Index> resonances(const ResponseArtifact& response);
+}  // namespace whine

@@ -1,0 +1,223 @@
+#include "report/report_figures.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "base/error.h"
+#include "io/publish.h"
+#include "report/figures.h"
+#include "report/html.h"
+#include "report/response_figures.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+std::string at_torques(const ReportContent& c,
+                       const std::function<std::string(const StaticArtifact&)>& said) {
+  std::vector<std::string> parts;
+  for (const StaticArtifact& s : c.statics) parts.push_back(said(s) + " at " + torque_words(s.torque));
+  return listed(parts);
+}
+
+std::string of_transmission_error(const ReportContent& c) {
+  return "Static transmission error over a mesh period and its harmonics: how far the driver runs ahead of "
+         "where rigid, unloaded "
+         "gears would have it. From peak to peak it is " +
+         at_torques(c,
+                    [](const auto& s) {
+                      return significant(peak_to_peak(s.transmission_error) * kMicro, 3) + " µm";
+                    }) +
+         "; this variation is what excites the whine.";
+}
+
+std::string of_stiffness(const ReportContent& c) {
+  return "Mesh stiffness, the load over what it adds to the transmission error, over a mesh period and its "
+         "harmonics; "
+         "black: the rectangular "
+         "wave that lumped models take instead. Its mean is " +
+         at_torques(c, [](const auto& s) { return fixed(s.mean_stiffness * 1e-6, 1) + " N/µm"; }) + ".";
+}
+
+std::string of_load_sharing(const ReportContent& c) {
+  const StaticArtifact& s = c.statics[0];
+  return text(
+      "The share of the load that a tooth pair carries on its way from the root of the driver's tooth to its "
+      "tip (left), and the loads "
+      "of all pairs over a mesh period at ",
+      torque_words(s.torque),
+      " (right). Grey lines: where contact begins and ends on the line of action, and between "
+      "them the part with one pair; load beyond them is carried by tip edges. The contact ratio is ",
+      fixed(s.contact_ratio, 3), ".");
+}
+
+// Where sweeps at a torque (0: at any) go beyond the backlash; "" if none does.
+std::string beyond_words(const ReportContent& c, double torque) {
+  std::string list;
+  for (const ReportSweep& s : c.sweeps) {
+    const std::string speeds = speeds_beyond_backlash(s);
+    if (speeds.empty() || (torque > 0 && s.response.torque != torque)) continue;
+    list += text(list.empty() ? "" : "; ", torque > 0 ? "" : torque_words(s.response.torque) + ", ",
+                 way_words(s), ": ", speeds, " Hz");
+  }
+  return list.empty()
+             ? ""
+             : " Beyond the backlash, where back flanks would touch, which is not modelled: " + list + ".";
+}
+
+std::string of_response(const ReportContent& c) {
+  std::string out =
+      "RMS of the oscillating part of the dynamic transmission error against mesh frequency, with speed "
+      "rising and falling; f_n is the natural frequency with the contact frozen under the static load, mean "
+      "over the "
+      "mesh period. ";
+  for (const StaticArtifact& s : c.statics) {
+    const ReportSweep *up = sweep_of(c, s.torque, "up"), *down = sweep_of(c, s.torque, "down");
+    if (!up || !down) continue;
+    const ResponseArtifact &r = up->response, &f = down->response;
+    std::vector<std::string> peaks;
+    for (const Index i : resonances(r))
+      peaks.push_back(
+          text(hertz(r.mesh_frequency[i]), " Hz (", significant(r.dte_rms[i] * kMicro, 3), " µm)"));
+    const std::string loss = loss_ranges(r, f);
+    out += text("At ", torque_words(s.torque), ", f_n = ", hertz(r.natural_frequency),
+                " Hz: ", peaks.empty() ? "no resonance within the sweep" : "resonances at " + listed(peaks),
+                "; ");
+    if (r.jump_frequency.size() + f.jump_frequency.size() > 0)
+      out += text("jumps rising: ", jumps_of(r), r.jump_frequency.size() > 0 ? " Hz" : "",
+                  ", falling: ", jumps_of(f), f.jump_frequency.size() > 0 ? " Hz" : "", "; ");
+    else
+      out += "no jumps; ";
+    out += loss == "nowhere" ? "contact is never lost. " : "contact is lost at " + loss + " Hz. ";
+  }
+  while (out.ends_with(' ')) out.pop_back();
+  return out + beyond_words(c, 0);
+}
+
+std::string of_waterfall(const ReportContent& c) {
+  const ReportSweep& s = c.sweeps[0];
+  return text(
+      "Spectra of the dynamic transmission error at ", torque_words(s.response.torque),
+      sweep_of(c, s.response.torque, "up") && sweep_of(c, s.response.torque, "down")
+          ? ", speed rising (above) and falling (below)"
+          : ", " + way_words(s),
+      " as colours, one line for each speed (left), and the amplitudes of the first orders of the mesh "
+      "frequency (right). Orders run along rays; each "
+      "is strong where it crosses the natural frequency of ",
+      hertz(s.response.natural_frequency),
+      " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
+      s.response.driver.teeth, " times the speed of the driver: 1000 Hz are ",
+      fixed(60000.0 / s.response.driver.teeth, 0), " 1/min.", beyond_words(c, s.response.torque));
+}
+
+std::string of_tooth_loads(const ReportContent& c) {
+  const StaticArtifact& s = c.statics[0];
+  const ReportSweep *up = sweep_of(c, s.torque, "up"), *down = sweep_of(c, s.torque, "down");
+  std::string out =
+      "Largest load of a tooth pair against mesh frequency (above), and the loads over the mesh period at "
+      "the speed with the largest "
+      "vibration (below).";
+  if (up && down) {
+    const double load =
+        std::max(up->response.tooth_load_max.maxCoeff(), down->response.tooth_load_max.maxCoeff());
+    out += text(" At ", torque_words(s.torque), " it reaches ", fixed(load, 0), " N, ",
+                fixed(load / static_force(s), 2), " times T / r_b = ", fixed(static_force(s), 0), " N.");
+  }
+  return out + beyond_words(c, s.torque);
+}
+
+std::string of_bearings(const ReportContent& c) {
+  return "Force of each gear on its bearing against mesh frequency: what a housing hears. RMS of the "
+         "oscillating part, at most " +
+         at_torques(c,
+                    [&](const StaticArtifact& s) {
+                      double most = 0;
+                      for (const char* direction : {"up", "down"})
+                        if (const ReportSweep* sweep = sweep_of(c, s.torque, direction))
+                          for (const Eigen::VectorXd& rms : sweep->response.bearing_force_rms)
+                            if (rms.size() > 0) most = std::max(most, rms.maxCoeff());
+                      return fixed(most, 0) + " N";
+                    }) +
+         ", and the largest force, beside the load at rest.";
+}
+
+std::string of_budget(const ReportContent& c) {
+  if (!c.budget) return "";
+  return text("Error budget of the statics at ", torque_words(c.budget->torque),
+              ": what refining each discretisation alone changes. In all the mean stiffness changes by ",
+              shown(c.budget->refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 2),
+              " %, the first harmonic of the transmission error by ",
+              shown(c.budget->refinement.harmonic_change.col(0).cwiseAbs().sum() * kPercent, 2),
+              " % at most.");
+}
+
+struct Explained {
+  const char *name, *section, *title;
+  std::function<std::string(const ReportContent&)> words;
+};
+
+std::function<std::string(const ReportContent&)> plain(const char* words) {
+  return [words](const ReportContent&) { return std::string(words); };
+}
+
+const std::vector<Explained>& explained() {
+  static const std::vector<Explained> all{
+      {"fig01", "gears", "Mesh of the pair",
+       plain("Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the "
+             "contact; the mesh carries their bending.")},
+      {"profile-chart", "gears", "Profile charts",
+       plain("Profile charts of the driving flanks as an inspection sheet shows them: material against roll "
+             "angle, the tip to the right.")},
+      {"fig03", "rest", "Contact zone",
+       plain("Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside "
+             "Hertz's.")},
+      {"fig12", "rest", "Static transmission error", of_transmission_error},
+      {"fig13", "rest", "Mesh stiffness", of_stiffness},
+      {"load-sharing", "rest", "Load sharing", of_load_sharing},
+      {"sidebands", "rest", "Sidebands",
+       plain("Teeth that differ: transmission error over the period after which the same teeth meet, and the "
+             "shafts' orders and sidebands at rest and in motion.")},
+      {"crack", "rest", "The cracked tooth",
+       plain("The mark of the cracked tooth in the static transmission error, and its orders.")},
+      {"fig05", "motion", "Vibration over speed", of_response},
+      {"fig07", "motion", "Vibration over speed", of_response},
+      {"fig14-elastic", "motion", "RMS and mean over speed",
+       plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
+      {"waterfall", "motion", "Spectra over speed", of_waterfall},
+      {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
+      {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
+      {"error-budget", "errors", "Error budget", of_budget}};
+  return all;
+}
+
+// By its name, which is that of its files: numbers of the page would be taken for those of P2000's figures.
+std::string figure(const ReportContent& c, const ReportPicture& picture, const Explained& kind) {
+  std::string words = html::escaped(kind.words(c));
+  if (const std::string paper = paper_figure(picture.name); !paper.empty())
+    words += text(" ", picture.name, " shows of this pair what ", paper, " of P2000 ",
+                  paper.starts_with("Figures") ? "show" : "shows", " of its own.");
+  return text("<figure id=\"", picture.name, "\">\n<img alt=\"", html::escaped(picture.name),
+              "\" src=\"data:image/png;base64,", base64(picture.bytes), "\">\n<figcaption><strong>",
+              kind.title, " (", picture.name, ").</strong> ", words, " <span class=\"files\">", "<a href=\"",
+              picture.name, ".tsv\">numbers</a> <a href=\"", picture.name, ".svg\">svg</a> <a href=\"",
+              picture.name, ".png\">png</a></span></figcaption>\n</figure>\n");
+}
+
+}  // namespace
+
+std::vector<std::string> report_figures() {
+  std::vector<std::string> names;
+  for (const Explained& kind : explained()) names.push_back(kind.name);
+  return names;
+}
+
+std::string figures_of(const ReportContent& c, const std::string& section) {
+  std::string out;
+  for (const Explained& kind : explained())
+    for (const ReportPicture& picture : c.pictures)
+      if (section == kind.section && picture.name == kind.name) out += figure(c, picture, kind);
+  return out;
+}
+
+}  // namespace whine

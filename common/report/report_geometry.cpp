@@ -1,0 +1,49 @@
+#include "report/report_geometry.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "gear/pair.h"
+#include "gear/path_points.h"
+#include "report/figures.h"
+#include "signal/static_result.h"
+
+namespace whine {
+
+std::vector<GeometryNumber> pair_geometry(const StaticArtifact& s) {
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  std::vector<GeometryNumber> out;
+  const auto add = [&](const std::string& quantity, const std::string& unit, const std::string& value) {
+    out.push_back({quantity, unit, value});
+  };
+  const auto degrees = [](double rad) { return fixed(rad * 180 / std::numbers::pi, 4); };
+  const auto millimetres = [](double m) { return fixed(std::abs(m) < 1e-9 ? 0.0 : m * kMilli, 4); };
+  add("contact ratio", "1", fixed(pair.contact_ratio(), 4));
+  add("centre distance", "mm", millimetres(pair.centre_distance()));
+  add("working pressure angle", "deg", degrees(pair.working_pressure_angle()));
+  add("base pitch", "mm", millimetres(pair.base_pitch()));
+  add("path of contact, length", "mm", millimetres(pair.path_end() - pair.path_start()));
+  add("path of contact before the pitch point", "mm", millimetres(-pair.path_start()));
+  add("backlash along the line of action", "mm", millimetres(pair.backlash()));
+  const auto points = path_points(pair);
+  for (int g = 0; g < 2; ++g) {
+    const ToothGeometry& gear = pair.gear(g);
+    const std::string of = g == 0 ? ", " + s.mesh.driver + " (driver)" : ", " + s.mesh.driven + " (driven)";
+    const auto at = [&](int p) { return millimetres(points[static_cast<size_t>(p)].diameter[g]); };
+    add("teeth" + of, "1", std::to_string(gear.design().teeth));
+    add("base diameter" + of, "mm", millimetres(2 * gear.base_radius()));
+    add("reference diameter" + of, "mm", millimetres(2 * gear.pitch_radius()));
+    add("working pitch diameter" + of, "mm", at(2));
+    add("tip diameter" + of, "mm", millimetres(2 * gear.tip_radius()));
+    add("root diameter" + of, "mm", millimetres(2 * gear.root_radius()));
+    add("SAP diameter, where the active profile starts" + of, "mm", at(g == 0 ? 0 : 4));
+    add("diameter d_B" + of, "mm", at(1));
+    add("diameter d_D" + of, "mm", at(3));
+    add("form diameter, where the involute begins" + of, "mm",
+        millimetres(2 * std::hypot(1.0, gear.form_roll_angle()) * gear.base_radius()));
+    add("tooth thickness at the tip" + of, "mm", millimetres(gear.thickness_at_radius(gear.tip_radius())));
+  }
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,177 @@
+#include "report/report_guide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+#include "report/figures.h"
+
+namespace whine {
+namespace {
+
+// What is needed for a row to stand on the page.
+enum class Needs { nothing, rest, ring_down, motion, budget };
+
+struct Row {
+  Needs needs;
+  const char* figures;  // names, blank between; one of them must be there, "": none is needed
+  const char* what;
+  const char* reading;
+  const char* trust;
+  const char* next;
+};
+
+// Percentages are those of tests/README.md, "Discretisation error of the statics" and "What the settings cost and buy".
+constexpr Row kRows[] = {
+    {Needs::nothing, "", "Contact ratio, diameters, angles",
+     "Geometry of the gears as drawn: exact involutes at the given centre distance. SAP is where the active "
+     "profile starts; between the diameters at B and D one pair alone is in contact.",
+     "All digits shown. Compare them with your drawing first: a wrong one shows here.",
+     "If one is off, correct the scene: addendum and dedendum, or tip_diameter_mm and root_diameter_mm."},
+    {Needs::rest, "fig12 error-budget", "Static transmission error (mean, peak to peak, harmonics)",
+     "How far the driver runs ahead under load, along the line of action. The mean is no noise. The "
+     "variation is what excites the whine; harmonic 1 sounds at the mesh frequency, harmonic 2 at twice it.",
+     "0.1 % against other finite element codes for the same drawing. Real flanks deviate by micrometres, "
+     "and those add to it: trust comparisons of designs more than the level of one.",
+     "Tip relief (harris-map says how much at which torque), other torques, errors of manufacture "
+     "([gear.name.error])."},
+    {Needs::rest, "fig13", "Mesh stiffness",
+     "Load over what it adds to the transmission error. It falls where fewer pairs carry. Per face width it "
+     "compares with c-gamma of ISO 6336-1.",
+     "0.1 % for the drawing; ISO's formula is for solid discs and may be 10 to 20 % above where a bore or a "
+     "thin body is in the scene.",
+     "If it is far below ISO's, look at bore_radius_mm: inside it the gear is rigid."},
+    {Needs::rest, "load-sharing", "Load sharing, static tooth load",
+     "The part of the load that each pair carries. Load beyond the grey lines is carried by tip edges of "
+     "bent "
+     "teeth.",
+     "0.1 to 0.2 %, tip edges included.", "Load at a tip edge: relieve the tips."},
+    {Needs::rest, "fig03", "Static contact pressure",
+     "Largest pressure on a strip of the contact, inside a flank.",
+     "2 % of Hertz's with 8 strips, 0.6 % with 15. At the kink of a linear relief and at tip edges it grows "
+     "with the number of strips: there it is a warning, not a number.",
+     "Set strips = 15 and then 32 and see whether it stays; make reliefs parabolic."},
+    {Needs::ring_down, "", "Natural frequency and damping ratio by ring-down",
+     "The pair is at a fixed mesh phase, let go from a part of the torque, and the decay is fitted.",
+     "0.2 % for the inertia and the stiffness of the scene. 1 % of inertia is 0.5 % of frequency. Shafts and "
+     "bearings are rigid unless the scene says otherwise, so that lower modes of a real drive are missing.",
+     "Check total_inertia_kgm2: it is of all that turns with the gear. The damping ratio is an input in "
+     "disguise: see below."},
+    {Needs::motion, "", "Damping",
+     "No drawing says it. 1 to 10 % of critical damping are usual for an oiled pair.",
+     "As good as your guess. At a resonance the amplitude goes with 1 / damping: 5 % instead of 7 % make it "
+     "1.4 times as high, and whether teeth lose contact may depend on it.",
+     "Run the report with a low and a high ratio (make calibrate DAMPING=0.03, then 0.07), and believe what "
+     "both say."},
+    {Needs::motion, "fig07 fig05 fig14-elastic", "RMS of the dynamic transmission error over speed",
+     "The vibration at each mesh frequency, after it has settled, with speed rising and falling. Peaks stand "
+     "near f_n (the natural frequency), f_n / 2 and f_n / 3. Where the two directions differ there are two "
+     "motions at one speed, and jumps between them.",
+     "0.2 % of numerical error for the scene's damping; a jump's frequency to 4 Hz. Away from resonances it "
+     "is "
+     "as good as the static transmission error, at resonances as good as the damping.",
+     "Keep operating speeds away from the peaks, or lower the harmonic of the static transmission error "
+     "that meets f_n there."},
+    {Needs::motion, "", "Contact lost, jumps",
+     "Speeds at which the teeth part in each mesh period, and speeds at which the motion changes to another "
+     "one.",
+     "Yes or no is sharp only away from the limit: contact is lost where the first harmonic of the stiffness "
+     "over its mean is more than about 1.7 times the damping ratio.",
+     "make jump-map shows both against torque and damping."},
+    {Needs::motion, "tooth-loads", "Largest tooth load, over T / r_b",
+     "T / r_b is the load of one pair alone at rest; the ratio is the dynamic factor of this model.",
+     "0.7 % of numerical error, else as the RMS. A number with a * is of a motion larger than the backlash: "
+     "not to be trusted at all.",
+     "For strength take it with speed rising and falling, and at the damping you are sure of."},
+    {Needs::motion, "waterfall sidebands", "Spectra over speed",
+     "Which frequencies sound at which speed. Orders of the mesh frequency run along rays; teeth that differ "
+     "add orders of the shafts around them.",
+     "Amplitudes as the RMS; below 1/1000 of the largest they are numerical.",
+     "make histories AT=1250 shows the motion at one speed."},
+    {Needs::motion, "bearing-forces", "Forces on the bearings",
+     "What each gear presses its bearing with, spring and damper together; the oscillating part is what a "
+     "housing "
+     "hears.",
+     "As good as stiffness and damping of the bearings, which the scene gives; the bearings are linear and "
+     "alike in "
+     "all directions.",
+     ""},
+    {Needs::budget, "error-budget", "Error budget",
+     "What each refinement of the computation alone changes. Add the lines: the sum bounds the numerical "
+     "error "
+     "of the statics.",
+     "It tells nothing of what is not modelled: shafts, friction, lead errors, heat.",
+     "A line above 1 %: refine that key of [discretisation]."},
+    {Needs::nothing, "fig01", "Mesh of the pair",
+     "The finite elements that carry the bending; flanks in contact are exact.",
+     "A picture: look whether these are your gears.", ""},
+    {Needs::rest, "profile-chart", "Profile charts", "What the scene takes off the flanks.",
+     "Exact: compare with the inspection sheet.", ""},
+    {Needs::rest, "crack", "Cracked tooth", "What the crack adds while its tooth is in mesh.",
+     "Some per cent for a straight crack of one depth over the face width.", ""},
+};
+
+std::string cell(const std::string& words) {
+  return "<td>" + words + "</td>";
+}
+
+bool has_picture(const ReportContent& c, const std::string& names) {
+  return std::any_of(c.pictures.begin(), c.pictures.end(), [&](const ReportPicture& picture) {
+    return (" " + names + " ").find(" " + picture.name + " ") != std::string::npos;
+  });
+}
+
+// Links to the figures of a row that are on the page.
+std::string links(const ReportContent& c, const std::string& names) {
+  std::string out;
+  for (const ReportPicture& picture : c.pictures)
+    if ((" " + names + " ").find(" " + picture.name + " ") != std::string::npos)
+      out += text(out.empty() ? " (" : ", ", "<a href=\"#", picture.name, "\">", picture.name, "</a>");
+  return out.empty() ? "" : out + ")";
+}
+
+}  // namespace
+
+std::string guide_to_numbers(const ReportContent& c) {
+  const auto there = [&](const Row& row) {
+    const bool only_a_picture = !*row.next && *row.figures;
+    if (only_a_picture) return has_picture(c, row.figures);
+    switch (row.needs) {
+      case Needs::nothing:
+      case Needs::rest:
+        return true;
+      case Needs::ring_down:
+        return !c.impacts.empty();
+      case Needs::motion:
+        return !c.sweeps.empty();
+      case Needs::budget:
+        return c.budget.has_value();
+    }
+    return true;
+  };
+  std::string out =
+      "<p>DTE is the dynamic transmission error: how far the driver runs ahead of where rigid, exact gears "
+      "would have it, along the line of action, in motion; STE is the same at rest. Frequencies are mesh "
+      "frequencies in Hz unless said otherwise: teeth of the driver times its turns per second.</p>\n";
+  if (c.budget)
+    out += text("<p>For this pair the error budget at ", torque_words(c.budget->torque), " sums up to ",
+                shown(c.budget->refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 2),
+                " % of the mean mesh stiffness, ",
+                shown(c.budget->refinement.peak_to_peak_change.cwiseAbs().sum() * kPercent, 2),
+                " % of the peak-to-peak transmission error and ",
+                shown(c.budget->refinement.harmonic_change.col(0).cwiseAbs().sum() * kPercent, 2),
+                " % of its first harmonic: more digits than these have no meaning.</p>\n");
+  out +=
+      "<div class=\"wide\"><table class=\"guide\">\n<caption>Numerical errors are those that the defaults "
+      "leave on "
+      "the pair of P2000; your own pair's stand in the error budget.</caption>\n<thead><tr><th>what</th>"
+      "<th>how to read it</th><th>how far to trust it</th><th>what to do next</th></tr></thead>\n<tbody>\n";
+  for (const Row& row : kRows)
+    if (there(row))
+      out += "<tr>" + cell(row.what + links(c, row.figures)) + cell(row.reading) + cell(row.trust) +
+             cell(row.next) + "</tr>\n";
+  return out + "</tbody></table></div>\n";
+}
+
+}  // namespace whine

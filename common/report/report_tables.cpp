@@ -1,0 +1,261 @@
+#include "report/report_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "gear/body_inertia.h"
+#include "gear/pair.h"
+#include "gear/path_points.h"
+#include "io/scene_keys.h"
+#include "io/summary.h"
+#include "report/figures.h"
+#include "report/html.h"
+#include "report/stiffness_table.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+// "" for gears on rigid axes.
+std::string bearing_frequencies_table(const ReportContent& c) {
+  html::Rows rows;
+  for (const ImpactArtifact& a : c.impacts)
+    for (Index i = 0; i < a.state_phase.size() && a.frozen_frequency.size() > 0; ++i) {
+      Index phase = 0;
+      (a.mesh_phase.array() - a.state_phase[i]).abs().minCoeff(&phase);
+      std::string all;
+      for (const double f : a.frozen_frequency.row(phase)) all += (all.empty() ? "" : ", ") + fixed(f, 1);
+      rows.push_back({shown(a.torque, 6), a.contact_state[static_cast<size_t>(i)], all});
+    }
+  if (rows.empty()) return "";
+  return html::table(
+      "Lowest natural frequencies with the contact frozen, undamped: the hubs on their bearings, along the "
+      "line of "
+      "action and across, and the mesh, which the table above shows.",
+      {"torque (N m)", "loaded tooth pairs", "frequencies (Hz)"}, rows);
+}
+
+}  // namespace
+
+std::string gears_table(const ReportContent& c) {
+  const StaticArtifact& s = c.statics.front();
+  constexpr double kNoBacklash = 1e-6;  // m: what a centre distance rounded to a micrometre leaves
+  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const auto degrees = [](double rad) { return fixed(rad * 180 / std::numbers::pi, 3); };
+  html::Rows rows;
+  const auto both = [&](const std::string& what, const std::string& unit, const auto& value) {
+    rows.push_back({what, unit, value(pair.gear(0)), value(pair.gear(1))});
+  };
+  using G = const ToothGeometry&;
+  both("teeth", "–", [](G g) { return text(g.design().teeth); });
+  both("module", "mm", [](G g) { return shown(g.design().module * kMilli, 6); });
+  both("profile shift", "modules", [](G g) { return shown(g.design().profile_shift, 6); });
+  both("base diameter", "mm", [](G g) { return fixed(2 * g.base_radius() * kMilli, 3); });
+  both("reference diameter", "mm", [](G g) { return fixed(2 * g.pitch_radius() * kMilli, 3); });
+  both("tip diameter", "mm", [](G g) { return fixed(2 * g.tip_radius() * kMilli, 3); });
+  both("root diameter", "mm", [](G g) { return fixed(2 * g.root_radius() * kMilli, 3); });
+  both("roll angle where the involute begins", "deg", [&](G g) { return degrees(g.form_roll_angle()); });
+  both("roll angle at the tip", "deg", [&](G g) { return degrees(g.tip_roll_angle()); });
+  both("tooth thickness at the tip", "mm",
+       [](G g) { return fixed(g.thickness_at_radius(g.tip_radius()) * kMilli, 3); });
+  const auto points = path_points(pair);
+  const auto diameter = [&](const std::string& what, size_t driver, size_t driven) {
+    rows.push_back({what, "mm", fixed(points[driver].diameter[0] * kMilli, 3),
+                    fixed(points[driven].diameter[1] * kMilli, 3)});
+  };
+  diameter("diameter where the active profile starts (SAP)", 0, 4);
+  diameter("diameter at B, from where one pair carries alone", 1, 1);
+  diameter("diameter at D, up to where it does", 3, 3);
+  both("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
+  rows.push_back({"inertia of the body as drawn, bore to tip, without fillets", "kg m²",
+                  shown(least_body_inertia(pair.gear(0), s.driver_material), 3),
+                  shown(least_body_inertia(pair.gear(1), s.driven_material), 3)});
+  if (!c.impacts.empty()) {
+    constexpr double kFillets = 1.03;  // what fillets add to the outline at most
+    const ImpactArtifact& a = c.impacts.front();
+    const auto total = [&](size_t g, const Material& material, double inertia) {
+      return shown(inertia, 4) +
+             (inertia < kFillets * least_body_inertia(pair.gear(g), material) ? ", as drawn" : "");
+    };
+    rows.push_back({"inertia in motion, with all that turns with the gear", "kg m²",
+                    total(0, s.driver_material, a.driver_inertia),
+                    total(1, s.driven_material, a.driven_inertia)});
+  }
+  rows.push_back({"flanks", "", in_words(s.mesh.modification[0]), in_words(s.mesh.modification[1])});
+  if (s.mesh.on_bearings()) {
+    const auto of_bearing = [&](const char* what, const char* unit, double scale, double Bearing::*number,
+                                const char* none) {
+      const auto value = [&](const Bearing& b) {
+        return !b.elastic() ? "rigid" : b.*number == 0 ? none : shown(b.*number * scale, 5);
+      };
+      rows.push_back({what, unit, value(s.mesh.bearing[0]), value(s.mesh.bearing[1])});
+    };
+    of_bearing("radial stiffness of the bearing", "N/µm", 1e-6, &Bearing::stiffness, "0");
+    of_bearing("radial damping of the bearing", "N s/m", 1, &Bearing::damping, "0");
+    of_bearing("mass on the bearing", "kg", 1, &Bearing::mass, "as drawn");
+  }
+  return html::table(text("The gears: ", s.mesh.driver, " drives ", s.mesh.driven, "."),
+                     {"", "unit", s.mesh.driver + " (driver)", s.mesh.driven + " (driven)"}, rows) +
+         html::table("Their mesh.", {"", "unit", "value"},
+                     {{"centre distance", "mm", shown(pair.centre_distance() * kMilli, 7)},
+                      {"working pressure angle", "deg", degrees(pair.working_pressure_angle())},
+                      {"base pitch", "mm", fixed(pair.base_pitch() * kMilli, 4)},
+                      {"contact ratio", "–", fixed(pair.contact_ratio(), 4)},
+                      {"path of contact before the pitch point", "mm", fixed(-pair.path_start() * kMilli, 3)},
+                      {"path of contact after it", "mm", fixed(pair.path_end() * kMilli, 3)},
+                      {"backlash along the line of action", "mm",
+                       std::abs(pair.backlash()) < kNoBacklash ? "none" : fixed(pair.backlash() * kMilli, 4)},
+                      {"tip edges off the line of action", "", corner_words(s.mesh.corner)}});
+}
+
+std::string stiffness_tables(const ReportContent& c) {
+  std::string out;
+  for (const WordTable& t : {compliance_table(c.statics[0]), iso_table(c.statics[0])})
+    out += html::table(t.caption, t.head, t.rows);
+  return out;
+}
+
+std::string natural_frequencies_table(const ReportContent& c) {
+  html::Rows rows;
+  for (const ImpactArtifact& a : c.impacts)
+    for (Index i = 0; i < a.natural_frequency.size(); ++i)
+      rows.push_back(
+          {shown(a.torque, 6),
+           i < a.state_phase.size() ? a.contact_state[static_cast<size_t>(i)] : "mean over the mesh period",
+           fixed(a.natural_frequency[i], 1), fixed(a.damping_ratio[i] * kPercent, 3),
+           fixed(a.undamped_frequency[i], 1)});
+  return html::table(
+             "Natural frequency and damping ratio of the mesh by ring-down: the gears are at a fixed mesh "
+             "phase, a part of the torque is let go, and the decay is fitted.",
+             {"torque (N m)", "loaded tooth pairs", "by ring-down (Hz)", "damping ratio (%)",
+              "contact frozen, undamped (Hz)"},
+             rows) +
+         html::paragraph(
+             "Three kinds of natural frequency stand on this page. By ring-down: of the decay, damped, the "
+             "contact free to change. Contact frozen, undamped: the eigenvalue at the same phases, with the "
+             "contact that the load leaves kept as it is. f_n in the figures of motion: the mean of that "
+             "eigenvalue over phases of the mesh period that need not be those of the ring-downs, under the "
+             "static load; resonances stand near it and its fractions.") +
+         bearing_frequencies_table(c);
+}
+
+std::string budget_table(const ErrorBudgetArtifact& b) {
+  html::Rows rows;
+  const auto add = [&](const StaticChanges& changes, const std::string& what) {
+    std::string rest = changes.entry;
+    for (Index i = 0; i < changes.mean_stiffness_change.size(); ++i) {
+      const size_t comma = rest.find(", ");
+      const auto percent = [](double share) { return fixed(share * kPercent, 4); };
+      rows.push_back({what, rest.substr(0, comma), percent(changes.mean_stiffness_change[i]),
+                      percent(changes.peak_to_peak_change[i]), percent(changes.harmonic_change(i, 0)),
+                      i < changes.pressure_change.size() ? percent(changes.pressure_change[i]) : "–"});
+      rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
+    }
+  };
+  add(b.refinement, "error");
+  add(b.choice, "other model");
+  return html::table(
+             "What each refinement alone changes in the statics at " + torque_words(b.torque) +
+                 ". Another model is no error of this one and in no sum.",
+             {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)", "flank pressure (%)"},
+             rows) +
+         (b.choice_missing.empty() ? "" : html::paragraph("Not computed: " + b.choice_missing + "."));
+}
+
+std::string parameters_table(const ReportContent& c) {
+  const std::vector<SceneKey> keys =
+      c.sweeps.empty() ? scene_keys_of(c.statics[0]) : scene_keys_of(c.sweeps[0].response);
+  html::Rows rows;
+  for (const SceneKey& key : keys)
+    rows.push_back({key.section, key.name, key.driver, key.driven, key.meaning});
+  std::string torques;
+  for (const auto& s : c.statics) torques += (torques.empty() ? "" : ", ") + shown(s.torque, 6);
+  rows.push_back(
+      {"operation", "torque_Nm", torques, "", "torque on the driver; the first sets the bearing dampers"});
+  if (!c.sweeps.empty()) {
+    const Eigen::VectorXd& f = c.sweeps[0].response.mesh_frequency;
+    rows.push_back({"operation", "mesh_frequency_Hz",
+                    text(shown(f.minCoeff(), 6), " to ", shown(f.maxCoeff(), 6), ", ", f.size(), " speeds"),
+                    "", "speeds of a sweep"});
+  }
+  return html::table(
+      "Every value of the scene that went into the results, defaults included, in the scene's units.",
+      {"section", "key", c.statics[0].mesh.driver + ", or all", c.statics[0].mesh.driven, "meaning"}, rows,
+      "small");
+}
+
+std::string provenance_table(const ReportContent& c) {
+  html::Rows rows;
+  std::vector<std::string> history;
+  for (const ReportSource& source : c.sources) {
+    std::string inputs;
+    for (const InputRecord& input : source.origin.inputs)
+      inputs += text(inputs.empty() ? "" : "; ", input.role, " ", input.path, " (",
+                     input.sha256.substr(0, 12), ")");
+    rows.push_back({source.path, source.sha256,
+                    source.origin.tool + " " + source.origin.version + ": " + source.origin.command, inputs});
+    for (const std::string& stage : source.origin.history)
+      if (std::find(history.begin(), history.end(), stage) == history.end()) history.push_back(stage);
+  }
+  std::string out = html::table(
+      "Artifacts, the SHA-256 of each file, the command that made it, and its inputs with the first "
+      "digits of their SHA-256. `gear-inspect` says of each whether it is still what these inputs give.",
+      {"artifact", "SHA-256", "made by", "from"}, rows, "small code");
+  html::Rows earlier;
+  for (const std::string& stage : history) earlier.push_back({stage});
+  if (!earlier.empty()) out += html::table("Stages before these.", {"command"}, earlier, "small code");
+  return out + html::paragraph(text("This page was written by gear-report ", kVersion, "."));
+}
+
+std::string remarks_list(const ReportContent& c) {
+  constexpr size_t kMost = 12;  // of one artifact
+  std::string out;
+  bool warned = false;
+  const auto add = [&](const std::string& where, const std::vector<Remark>& remarks) {
+    for (size_t i = 0; i < std::min(remarks.size(), kMost); ++i)
+      out += html::tagged(remarks[i].warning ? "li class=\"warning\"" : "li",
+                          (remarks[i].warning ? "<strong>Warning.</strong> " : "") +
+                              html::escaped(where + ": " + remarks[i].words) + ".") +
+             "\n";
+    if (remarks.size() > kMost)
+      out += html::tagged("li", html::escaped(text(where, ": ", remarks.size() - kMost, " more of these."))) +
+             "\n";
+    for (const Remark& remark : remarks) warned = warned || remark.warning;
+  };
+  for (const StaticArtifact& s : c.statics) add("at rest, " + torque_words(s.torque), remarks(s));
+  for (const ImpactArtifact& a : c.impacts) {
+    std::vector<Remark> found;
+    for (Index i = 0; i < a.state_phase.size(); ++i)
+      if (const double ratio = a.damping_ratio[i]; ratio < 0.01 || ratio > 0.12)
+        found.push_back(remark(true, "the damping ratio by ring-down with ",
+                               a.contact_state[static_cast<size_t>(i)],
+                               a.contact_state[static_cast<size_t>(i)] == "one" ? " pair" : " pairs",
+                               " in contact is ", shown(ratio * kPercent, 3),
+                               " %, outside 1 to 12 %; `make calibrate` finds the damping for a ratio"));
+    add("ring-down, " + torque_words(a.torque), found);
+  }
+  for (const ReportSweep& s : c.sweeps) {
+    std::vector<Remark> found = s.remarks;
+    for (const StaticArtifact& at : c.statics) {
+      if (at.torque != s.response.torque) continue;
+      if (const double pressure = hertz_pressure(at, s.response.tooth_load_max.maxCoeff());
+          pressure > kHardenedSteelPressure)
+        found.push_back(remark(true,
+                               "the contact pressure of the largest tooth load (Hertz, at the pitch "
+                               "point) of ",
+                               fixed(pressure * 1e-9, 2), kBeyondSteel));
+    }
+    add(text(way_words(s), ", ", torque_words(s.response.torque)), found);
+  }
+  if (c.budget && !c.budget->choice_missing.empty())
+    out +=
+        html::tagged("li", html::escaped("error budget: not computed: " + c.budget->choice_missing)) + "\n";
+  return (warned ? "" : html::paragraph("No stage warns of anything.")) +
+         (out.empty() ? "" : html::tagged("ul class=\"remarks\"", "\n" + out) + "\n");
+}
+
+}  // namespace whine

@@ -1,0 +1,319 @@
+#include "report/response_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/error.h"
+#include "gear/pair.h"
+#include "io/summary.h"
+#include "signal/response.h"
+
+namespace whine {
+namespace {
+
+// In order of frequency. What the RMS and the mean are after a jump is read off the branch on which the sweep goes on.
+FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
+  FigureBlock block{name,
+                    {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
+                     "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
+                    {},
+                    "jumps",
+                    name};
+  const std::vector<Eigen::Index> left = rows_before_jumps(r);
+  for (Eigen::Index j = 0; j < r.jump_frequency.size(); ++j) {
+    const double f = r.jump_frequency[j];
+    const Eigen::Index at = row_before(r.mesh_frequency, f), i = left[j];
+    if (at < 0)
+      fail(Failure::input, "response: a jump at ", f, " Hz lies outside the sweep, ",
+           r.mesh_frequency.minCoeff(), " to ", r.mesh_frequency.maxCoeff(), " Hz");
+    const double share = (f - r.mesh_frequency[at]) / (r.mesh_frequency[at + 1] - r.mesh_frequency[at]);
+    const auto after = [&](const Eigen::VectorXd& v) {
+      return (i == at ? v[at + 1] : (1 - share) * v[at] + share * v[at + 1]) * kMicro;
+    };
+    block.rows.push_back({f, r.dte_rms[i] * kMicro, after(r.dte_rms), r.jump_width[j], r.dte_mean[i] * kMicro,
+                          after(r.dte_mean), r.mesh_frequency[i]});
+  }
+  std::sort(block.rows.begin(), block.rows.end());
+  return block;
+}
+
+// Unstable orbits in the order of the arc, each stretch from the fold, or the last stable orbit, to the next.
+FigureBlock unstable_block(const std::string& name, const BranchArtifact& b) {
+  FigureBlock block{
+      name, {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]"}, {}, "unstable orbits", name};
+  const auto add = [&](Eigen::Index i) {
+    block.rows.push_back({b.mesh_frequency[i], b.dte_rms[i] * kMicro, b.dte_mean[i] * kMicro});
+  };
+  const Eigen::Index n = b.mesh_frequency.size();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (b.stable[i]) continue;
+    if (i > 0 && b.stable[i - 1]) add(i - 1);
+    add(i);
+    if (i + 1 == n || !b.stable[i + 1]) continue;
+    add(i + 1);
+    block.rows.emplace_back();
+  }
+  return block;
+}
+
+FigureBlock fold_block(const std::string& name, const BranchArtifact& b) {
+  FigureBlock block{name,
+                    {"fold_frequency [Hz]", "dte_rms [µm]", "multiplier before [1]", "multiplier after [1]"},
+                    {},
+                    "folds",
+                    name};
+  for (Eigen::Index i = 0; i < b.fold_frequency.size(); ++i)
+    block.rows.push_back(
+        {b.fold_frequency[i], b.fold_rms[i] * kMicro, b.fold_multiplier(i, 0), b.fold_multiplier(i, 1)});
+  return block;
+}
+
+// " 1241, 1410" of a block of jumps; after the sixth only how many more there are.
+std::string listed(const FigureBlock& jumps) {
+  constexpr size_t kMostListed = 6;
+  std::string list;
+  for (size_t j = 0; j < std::min(jumps.rows.size(), kMostListed); ++j)
+    list += (j ? ", " : " ") + fixed(jumps.rows[j][0], 0);
+  return jumps.rows.size() > kMostListed ? text(list, " and ", jumps.rows.size() - kMostListed, " more")
+                                         : list;
+}
+
+std::string loss_words(const ChoicePanel<ResponseArtifact>& panel) {
+  const auto& curves = panel.curves;
+  const auto loss_words = [](const auto& curve) {
+    const std::string ranges = loss_ranges(*curve.up, *curve.down);
+    return ranges == "nowhere" ? ranges : ranges + " Hz";
+  };
+  const std::string first = loss_words(curves[0]);
+  std::string each;
+  bool alike = true;
+  for (const auto& c : curves) {
+    const std::string words = loss_words(c);
+    alike = alike && words == first;
+    const std::string label = curve_label(panel, *c.up);
+    each += (each.empty() ? " " : "; ") + (label == torque_words(c.up->torque) ? "at " + label : label) +
+            ": " + words;
+  }
+  if (alike && first == "nowhere") return "contact is never lost";
+  return alike && curves.size() > 1 ? "contact lost at every torque: " + first : "contact lost" + each;
+}
+
+// What the axes of a panel have to hold.
+struct Extent {
+  double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;  // m
+  bool lost = false;                                                                            // contact
+
+  void add(const ResponseArtifact& r) {
+    rms = std::max(rms, r.dte_rms.maxCoeff());
+    mean_high = std::max(mean_high, r.dte_mean.maxCoeff());
+    mean_low = std::min(mean_low, r.dte_mean.minCoeff());
+    lost |= r.separation_fraction.maxCoeff() > 0;
+  }
+};
+
+// One torque or flank of a panel, number c from 1: both directions, the branch beside them, its natural frequency. "150 N m:
+// jumps rising 2645, falling 1819 Hz"
+std::string add_curve(Figure& figure, const std::string& letter, size_t c, const std::string& label,
+                      const ChoicePanel<ResponseArtifact>::Curve& curve, const Background& captions,
+                      Extent& extent) {
+  const auto number = [&](const std::string& name, double value) {
+    figure.numbers.emplace_back(text(name, "_", letter, "_", c), value);
+  };
+  const std::string name = letter + " " + label + " ";
+  std::string found;
+  for (const ResponseArtifact* r : {curve.up, curve.down}) {
+    figure.blocks.push_back(response_block(name + r->direction, *r));
+    figure.blocks.push_back(jump_block(name + "jumps " + r->direction, *r));
+    const std::string at = listed(figure.blocks.back());
+    if (!at.empty())
+      found += (found.empty() ? " " : ", ") + std::string(r->direction == "up" ? "rising" : "falling") + at;
+    number("jumps_" + r->direction, static_cast<double>(r->jump_frequency.size()));
+    extent.add(*r);
+  }
+  if (const BranchArtifact* branch = branch_of(*curve.up, captions)) {
+    figure.blocks.push_back(unstable_block(name + "unstable", *branch));
+    number("unstable", static_cast<double>(figure.blocks.back().rows.size()));
+    figure.blocks.push_back(fold_block(name + "folds", *branch));
+    number("folds", static_cast<double>(branch->fold_frequency.size()));
+    extent.rms = std::max(extent.rms, branch->dte_rms.maxCoeff());
+  }
+  number("natural_frequency", curve.up->natural_frequency);
+  return label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz");
+}
+
+void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<ResponseArtifact>& panel,
+               const Background& captions) {
+  const auto& curves = panel.curves;
+  if (curves.size() > kMostCurves)
+    fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
+         " curves can be told apart");
+  std::string labels, jumps, found_jumps;
+  Extent extent;
+  for (size_t c = 0; c < curves.size(); ++c) {
+    const std::string label = curve_label(panel, *curves[c].up);
+    const std::string words = add_curve(figure, letter, c + 1, label, curves[c], captions, extent);
+    labels += "'" + label + "' ";
+    jumps += "'" + words + "' ";
+    found_jumps += (c ? "; " : "") + words;
+  }
+  // Scene, operating point, choices: lines above the panel.
+  std::vector<std::string> lines{operating_words(panel, captions), panel.choices};
+  if (!panel.scene.empty()) lines.insert(lines.begin(), panel.scene);
+  std::string note, heading;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    note += (i ? "; " : "") + lines[i];
+    heading += (i ? "\n" : "") + without_markup(lines[i]);
+  }
+  const std::string loss = loss_words(panel);
+  figure.notes.push_back("(" + letter + ") " + note);
+  figure.notes.push_back("(" + letter + ") " + found_jumps + "; " + loss);
+  for (const auto& [name, value] :
+       {std::pair{"heading_", heading}, {"loss_", loss}, {"labels_", labels}, {"jump_labels_", jumps}})
+    figure.words.emplace_back(name + letter, value);
+  for (const auto& [name, value] : {std::pair{"heading_lines_", static_cast<double>(lines.size())},
+                                    {"curves_", static_cast<double>(curves.size())},
+                                    {"rms_max_", extent.rms * kMicro},
+                                    {"mean_max_", extent.mean_high * kMicro},
+                                    {"mean_min_", extent.mean_low * kMicro},
+                                    {"contact_lost_", extent.lost ? 1.0 : 0.0}})
+    figure.numbers.emplace_back(name + letter, value);
+}
+
+}  // namespace
+
+std::vector<bool> broken_after(const ResponseArtifact& r) {
+  const Eigen::Index n = r.mesh_frequency.size();
+  std::vector<bool> jumps(n, false), broken;
+  for (const Eigen::Index i : rows_before_jumps(r))
+    if (i >= 0) jumps[i] = true;
+  broken = jumps;
+  const auto change = [&](Eigen::Index i) {
+    return i < 0 || i + 1 >= n || jumps[i] ? 0.0 : std::abs(std::log(r.dte_rms[i + 1] / r.dte_rms[i]));
+  };
+  for (Eigen::Index i = 0; i + 1 < n; ++i)
+    if (r.dte_rms[i] > 0 && r.dte_rms[i + 1] > 0 &&
+        change(i) > std::max(std::log(1.5), 2.5 * std::max(change(i - 1), change(i + 1))))
+      broken[i] = true;
+  return broken;
+}
+
+FigureBlock response_block(const std::string& name, const ResponseArtifact& r) {
+  FigureBlock block{name,
+                    {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
+                     "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
+                    {},
+                    "responses",
+                    name};
+  const std::vector<bool> broken = broken_after(r);
+  for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
+    block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
+                          r.separation_fraction[i], r.mesh_force_max[i], r.tooth_load_max[i],
+                          static_cast<double>(r.period_multiple[i])});
+    // A line across would pretend that there are states between.
+    if (broken[i]) block.rows.emplace_back();
+  }
+  return block;
+}
+
+std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down) {
+  std::map<double, bool> parts;
+  for (const ResponseArtifact* r : {&up, &down})
+    for (Eigen::Index f = 0; f < r->mesh_frequency.size(); ++f)
+      parts[r->mesh_frequency[f]] |= r->separation_fraction[f] > 0;
+  const std::string ranges = speed_ranges(parts);
+  if (ranges.empty()) return "nowhere";
+  return parts.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too
+}
+
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& captions) {
+  if (sweeps.empty())
+    fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
+  const std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps, captions);
+  Figure figure;
+  std::vector<double> torques;
+  bool any_elastic = false, any_lumped = false;
+  for (const auto& r : sweeps) {
+    torques.push_back(r.torque);
+    (elastic(r) ? any_elastic : any_lumped) = true;
+  }
+  std::sort(torques.begin(), torques.end());
+  torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
+  figure.title = "Dynamic transmission error (DTE) against mesh frequency, ";
+  for (size_t i = 0; i < torques.size(); ++i) figure.title += (i ? ", " : "") + shown(torques[i], 6);
+  figure.title += " N m";
+  figure.notes.push_back(
+      std::string("f_n: ") +
+      (any_elastic ? "mean natural frequency over the mesh period, contact frozen under the static load"
+                   : "") +
+      (any_elastic && any_lumped ? "; one degree of freedom: " : "") +
+      (any_lumped ? "natural frequency of the mass on the mean stiffness" : ""));
+  figure.height = panels.size() == 1 ? 1060 : 240 + 660 * static_cast<int>(panels.size());
+  for (size_t p = 0; p < panels.size(); ++p) add_panel(figure, letter_of(p), panels[p], captions);
+  double from = std::numeric_limits<double>::infinity(), to = 0;
+  Eigen::Index speeds = 0;
+  for (const auto& r : sweeps) {
+    from = std::min(from, r.mesh_frequency.minCoeff());
+    to = std::max(to, r.mesh_frequency.maxCoeff());
+    speeds = std::max(speeds, r.mesh_frequency.size());
+  }
+  figure.numbers.insert(figure.numbers.end(), {{"speeds", static_cast<double>(speeds)},
+                                               {"panels", static_cast<double>(panels.size())},
+                                               {"frequency_from", from},
+                                               {"frequency_to", to}});
+  return figure;
+}
+
+Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& captions) {
+  const auto panels = panels_of(sweeps, captions);
+  if (panels.size() != 1 || panels[0].curves.size() != 1)
+    fail(Failure::input, "figure: sweeps of ",
+         panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
+         " torques or sets of choices given; bearing forces against speed are of one");
+  const auto& curve = panels[0].curves[0];
+  const GearMeshSpec& mesh = curve.up->mesh;
+  if (!mesh.on_bearings())
+    fail(Failure::input,
+         "figure: no gear of this pair is on an elastic bearing; add [[bearing]] to the scene");
+  Figure figure;
+  figure.title = "Forces on the bearings against mesh frequency, " + torque_words(curve.up->torque);
+  figure.notes = {operating_words(panels[0], captions), panels[0].choices};
+  std::string labels;
+  double rms = 0, most = 0;
+  int curves = 0;
+  for (int g = 0; g < 2; ++g) {
+    const Bearing& bearing = mesh.bearing[g];
+    if (!bearing.elastic()) continue;
+    ++curves;
+    labels += text("'", mesh.gear(g), ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
+    for (const ResponseArtifact* r : {curve.up, curve.down}) {
+      const std::string name = text(curves, " ", r->direction);
+      FigureBlock block{name,
+                        {"mesh_frequency [Hz]", "bearing_force_rms [N]", "bearing_force_max [N]"},
+                        {},
+                        "forces",
+                        mesh.gear(g) + " " + r->direction};
+      const std::vector<bool> broken = broken_after(*r);
+      for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
+        block.rows.push_back({r->mesh_frequency[i], r->bearing_force_rms[g][i], r->bearing_force_max[g][i]});
+        if (broken[i]) block.rows.emplace_back();
+      }
+      rms = std::max(rms, r->bearing_force_rms[g].maxCoeff());
+      most = std::max(most, r->bearing_force_max[g].maxCoeff());
+      figure.blocks.push_back(block);
+    }
+  }
+  figure.words.emplace_back("labels", labels);
+  const GearPair gears(curve.up->driver, curve.up->driven, mesh.centre_distance);
+  figure.numbers = {{"curves", curves},
+                    {"rms_max", rms},
+                    {"force_max", most},
+                    {"static_force", curve.up->torque / gears.gear(0).base_radius()},
+                    {"frequency_from", curve.up->mesh_frequency.minCoeff()},
+                    {"frequency_to", curve.up->mesh_frequency.maxCoeff()},
+                    {"natural_frequency", curve.up->natural_frequency}};
+  return figure;
+}
+
+}  // namespace whine

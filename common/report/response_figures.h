@@ -1,0 +1,28 @@
+// Figures of responses: against mesh frequency, both directions of a sweep.
+#pragma once
+#include "report/sweep_panels.h"
+
+namespace whine {
+
+// RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
+// choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending) and
+// each modification of the flanks. With branches the orbits that no sweep finds, unstable ones, and the folds at which
+// branches turn. Throws Error(input) unless every sweep up has one sweep down of the same torque and choices.
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& captions = {});
+
+// Force of each gear on its elastic bearing against mesh frequency for both directions of the sweep: RMS of what of it
+// oscillates, and the largest. Throws Error(input) for gears on rigid bearings, for sweeps of two torques or sets of choices,
+// else as response_figure.
+Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& captions = {});
+
+// Ranges of neighbouring speeds at which either sweep loses contact, in Hz: "2820 to 2980, 3100", or "nowhere".
+std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down);
+
+// Rows after which a curve breaks: where the sweep left a branch that ends at a jump, and where the RMS changes by half of
+// itself at once and 2.5 times as much as in the steps beside, which is another branch, too.
+std::vector<bool> broken_after(const ResponseArtifact& r);
+
+// The response of one direction of a sweep as a curve that lifts the pen where it breaks.
+FigureBlock response_block(const std::string& name, const ResponseArtifact& r);
+
+}  // namespace whine

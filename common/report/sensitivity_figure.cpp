@@ -1,0 +1,134 @@
+#include "report/sensitivity_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "io/scene_keys.h"
+#include "io/summary.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+struct Row {
+  std::string label, key;
+  const JumpMapArtifact* map;
+};
+
+double load(const JumpMapArtifact& a, Index c) {
+  return a.held_tooth_load.row(c).maxCoeff();
+}
+
+// One for each variant; those of the key that moves the end of the upper branch most in the last case come first.
+std::vector<Row> rows_of(const JumpMapArtifact& base, const std::vector<JumpMapArtifact>& variants) {
+  const Index cases = base.damping_ratio.size(), shown = cases - 1;
+  std::vector<Row> rows;
+  for (const JumpMapArtifact& v : variants) {
+    if (v.torque != base.torque || v.damping_ratio.size() != cases)
+      fail(Failure::input, "a variant at ", v.torque, " N m with ", v.damping_ratio.size(),
+           " cases stands beside a base at ", base.torque, " N m with ", cases, "; make all of them again");
+    const std::string label = changed_keys(base, v);
+    if (label.empty())
+      fail(Failure::input, "a variant has the same keys as the base; its change changes nothing");
+    rows.push_back({label, label.substr(0, label.find(' ')), &v});
+  }
+  // What moves the end of the upper branch most stands on top; a branch that is gone moves it most of all.
+  const auto effect = [&](const JumpMapArtifact& v) {
+    if (v.two_branches[shown] != base.two_branches[shown])
+      return 1e9 +
+             std::abs(v.held_tooth_load.row(shown).maxCoeff() - base.held_tooth_load.row(shown).maxCoeff());
+    return std::abs(v.branches_from[shown] - base.branches_from[shown]) +
+           1e-6 * std::abs(v.mean_stiffness - base.mean_stiffness);
+  };
+  std::map<std::string, double> of_key;
+  for (const Row& row : rows) of_key[row.key] = std::max(of_key[row.key], effect(*row.map));
+  std::stable_sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
+    return of_key[a.key] != of_key[b.key] ? of_key[a.key] > of_key[b.key] : a.key < b.key;
+  });
+  return rows;
+}
+
+// What each variant changes in case c, and its own numbers.
+FigureBlock changes_block(const JumpMapArtifact& base, const std::vector<Row>& rows, Index c) {
+  const bool shown = c == base.damping_ratio.size() - 1;
+  FigureBlock block{
+      shown ? "changes" : text("changes at eta ", rounded(base.rayleigh_stiffness[c] * 1e6, 3), "e-6 s"),
+      {"variant", "mean_stiffness [%]", "one_pair_frequency [Hz]", "two_pair_frequency [Hz]",
+       "branches_from [Hz]", "branches_to [Hz]", "held_tooth_load [%]", "two_branches [1]", "open_below [1]",
+       "damping_ratio [%]", "rayleigh_stiffness [1e-6 s]", "branches_from, itself [Hz]",
+       "branches_to, itself [Hz]", "held_tooth_load, itself [kN]", "sampled peak up, itself [kN]",
+       "sampled peak down, itself [kN]"},
+      {},
+      "",
+      "",
+      true};
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const JumpMapArtifact& v = *rows[i].map;
+    const bool both = v.two_branches[c] && base.two_branches[c];
+    block.rows.push_back(
+        {static_cast<double>(i), (v.mean_stiffness / base.mean_stiffness - 1) * 100,
+         v.one_pair_frequency - base.one_pair_frequency, v.two_pair_frequency - base.two_pair_frequency,
+         both ? v.branches_from[c] - base.branches_from[c] : 0,
+         both ? v.branches_to[c] - base.branches_to[c] : 0, (load(v, c) / load(base, c) - 1) * 100,
+         static_cast<double>(v.two_branches[c]), static_cast<double>(v.open_below[c]),
+         v.damping_ratio[c] * 100, v.rayleigh_stiffness[c] * 1e6, v.branches_from[c], v.branches_to[c],
+         load(v, c) * 1e-3, v.peak_tooth_load(c, 0) * 1e-3, v.peak_tooth_load(c, 1) * 1e-3});
+  }
+  return block;
+}
+
+}  // namespace
+
+Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMapArtifact>& variants) {
+  if (variants.empty())
+    fail(Failure::input, "sensitivity needs the map of one variant at least beside the base's");
+  const Index cases = base.damping_ratio.size(), shown = cases - 1;
+  const std::vector<Row> rows = rows_of(base, variants);
+  Figure figure;
+  figure.title = text("What inputs are worth at ", base.torque, " N m, ",
+                      rounded(base.damping_ratio[shown] * 100, 2), " % damping with two pairs in contact");
+  const auto branch_words = [&](const JumpMapArtifact& a, Index c) {
+    return a.two_branches[c]
+               ? text("two branches from ", rounded(a.branches_from[c], 0),
+                      a.open_below[c] ? " Hz or less to " : " to ", rounded(a.branches_to[c], 0), " Hz")
+               : std::string("one branch");
+  };
+  figure.notes.push_back(text(
+      "base: mean stiffness ", rounded(base.mean_stiffness * 1e-6, 1), "e6 N/m, natural frequencies ",
+      rounded(base.one_pair_frequency, 0), " Hz (one pair) and ", rounded(base.two_pair_frequency, 0),
+      " Hz (two), ", branch_words(base, shown), ", tooth load up to ", rounded(load(base, shown) * 1e-3, 2),
+      " kN; eta ", rounded(base.rayleigh_stiffness[shown] * 1e6, 2), "e-6 s"));
+  figure.notes.push_back(
+      text("each variant has an eta of its own for the same ratio; ×: one branch; △: goes on below the least "
+           "speed; "
+           "in the table also at one eta; contact = ",
+           base.fidelity.contact, ", steps of ",
+           rounded(base.mesh_frequency.size() > 1 ? base.mesh_frequency[1] - base.mesh_frequency[0] : 0, 1),
+           " Hz"));
+  std::vector<FigureBlock> named;  // the same rows under the names of the variants
+  for (Index c = cases; c-- > 0;) {
+    FigureBlock block = changes_block(base, rows, c);
+    const std::string at = text(" at eta ", rounded(base.rayleigh_stiffness[c] * 1e6, 3), "e-6 s");
+    for (size_t i = 0; i < rows.size(); ++i)
+      named.push_back(
+          {text("variant ", i, at), block.columns, {block.rows[i]}, "variants", rows[i].label + at});
+    figure.blocks.push_back(block);
+  }
+  figure.blocks.insert(figure.blocks.end(), named.begin(), named.end());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    figure.notes.push_back(text("variant ", i, ": ", rows[i].label));
+    figure.words.emplace_back(text("label", i + 1), rows[i].label);
+  }
+  figure.numbers = {{"variants", static_cast<double>(rows.size())}};
+  for (size_t column = 1; column <= 6; ++column) {
+    double reach = 0;
+    for (const auto& row : figure.blocks[0].rows) reach = std::max(reach, std::abs(row[column]));
+    figure.numbers.emplace_back(text("reach", column), reach > 0 ? reach : 1);
+  }
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,370 @@
+#include "report/static_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "dynamics/impact_result.h"
+#include "gear/pair.h"
+#include "lumped/stiffness.h"
+#include "signal/response_result.h"
+#include "signal/spectrum.h"
+#include "studies/error_budget_result.h"
+
+namespace whine {
+namespace {
+
+// Returns the one that came first, of the first torque of the scene.
+StaticArtifact sort_by_torque(std::vector<StaticArtifact>& statics) {
+  if (statics.empty()) fail(Failure::input, "figure: no static.h5 given; 1 is the least");
+  if (statics.size() > kMostCurves)
+    fail(Failure::input, "figure: ", statics.size(), " static.h5 given; ", kMostCurves,
+         " curves can be told apart");
+  const StaticArtifact first = statics[0];
+  std::sort(statics.begin(), statics.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });
+  for (size_t i = 0; i + 1 < statics.size(); ++i)
+    if (statics[i].torque == statics[i + 1].torque)
+      fail(Failure::input, "figure: two static.h5 of the same torque, ", statics[i].torque,
+           " N m; give each once");
+  for (const auto& s : statics) {
+    if (s.hunting_periods > 1)
+      fail(Failure::input, "figure: the teeth of ", s.torque,
+           " N m differ from each other, and this figure shows one mesh period; make sidebands");
+    if (s.mesh_phase.size() != statics[0].mesh_phase.size() || s.mesh_phase != statics[0].mesh_phase)
+      fail(Failure::input, "figure: the static.h5 of ", s.torque, " N m and of ", statics[0].torque,
+           " N m have different mesh phases; make them with the same `positions`");
+  }
+  return first;
+}
+
+std::string torque_label(const StaticArtifact& s) {
+  return torque_words(s.torque);
+}
+
+// One column per curve, first column the phase; the first point again at phase 1, so that the period closes.
+FigureBlock period_block(const std::vector<StaticArtifact>& statics, const std::string& quantity,
+                         const std::string& unit, Eigen::VectorXd StaticArtifact::*curve, double factor) {
+  FigureBlock block{quantity, {"mesh_phase [1]"}, {}};
+  for (const auto& s : statics)
+    block.columns.push_back(text(quantity, " ", torque_label(s), " [", unit, "]"));
+  const Eigen::Index n = statics[0].mesh_phase.size();
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    std::vector<double> row{i < n ? statics[0].mesh_phase[i] : 1.0};
+    for (const auto& s : statics) row.push_back((s.*curve)[i < n ? i : 0] * factor);
+    block.rows.push_back(row);
+  }
+  return block;
+}
+
+FigureBlock spectrum_block(const std::vector<StaticArtifact>& statics, const std::string& quantity,
+                           const std::string& unit, Eigen::VectorXd StaticArtifact::*harmonic,
+                           double factor) {
+  FigureBlock block{quantity + " harmonics", {"harmonic [1]"}, {}, "harmonics"};
+  Eigen::Index last = kShownHarmonics;
+  for (const auto& s : statics) {
+    block.columns.push_back(text("amplitude ", torque_label(s), " [", unit, "]"));
+    last = std::min(last, (s.*harmonic).size() - 1);
+  }
+  if (last < 1) fail(Failure::input, "figure: the static.h5 holds no harmonics; 1 is the least");
+  for (Eigen::Index k = 1; k <= last; ++k) {
+    std::vector<double> row{static_cast<double>(k)};
+    for (const auto& s : statics) row.push_back((s.*harmonic)[k] * factor);
+    block.rows.push_back(row);
+  }
+  return block;
+}
+
+double wrapped(double phase) {
+  return phase - std::floor(phase);
+}
+
+}  // namespace
+
+Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
+  sort_by_torque(statics);
+  Figure figure;
+  figure.title = "Static transmission error";
+  figure.notes.push_back(pair_words(statics[0]));
+  figure.blocks.push_back(
+      period_block(statics, "transmission_error", "µm", &StaticArtifact::transmission_error, kMicro));
+  figure.blocks.push_back(spectrum_block(statics, "transmission_error", "µm",
+                                         &StaticArtifact::transmission_error_harmonic, kMicro));
+  figure.numbers = {{"curves", static_cast<double>(statics.size())}};
+  std::string labels;
+  for (const auto& s : statics) labels += text("'", torque_label(s), "' ");
+  figure.words = {{"labels", labels}};
+  return figure;
+}
+
+Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
+  const StaticArtifact first = sort_by_torque(statics);
+  const RectangularWave wave = rectangular_wave(first);
+  Figure figure;
+  figure.title = "Mesh stiffness: torque / (base radius × (static − unloaded transmission error))";
+  figure.notes.push_back(pair_words(statics[0]));
+  figure.notes.push_back(
+      text("rectangular wave: levels at the middle of the zones of few and of many pairs at ",
+           torque_label(first), ", steps where pairs come and go without load"));
+
+  const std::string unit = "1e6 N/m";
+  FigureBlock rectangle{"rectangular wave", {"mesh_phase [1]", "mesh_stiffness [" + unit + "]"}, {}};
+  std::vector<double> steps{wrapped(wave.high_begin), wrapped(wave.high_end)};
+  std::sort(steps.begin(), steps.end());
+  const double tiny = 1e-9;  // of a period: the two sides of a step
+  rectangle.rows.push_back({0.0, wave.at(tiny) * kMega});
+  for (double step : steps)
+    for (double side : {-tiny, tiny}) rectangle.rows.push_back({step, wave.at(step + side) * kMega});
+  rectangle.rows.push_back({1.0, wave.at(1.0 - tiny) * kMega});
+
+  FigureBlock spectrum =
+      spectrum_block(statics, "mesh_stiffness", unit, &StaticArtifact::stiffness_harmonic, kMega);
+  FigureBlock rectangle_spectrum{
+      "rectangular wave harmonics", {"harmonic [1]", "amplitude [" + unit + "]"}, {}};
+  for (const auto& row : spectrum.rows)
+    rectangle_spectrum.rows.push_back({row[0], wave.amplitude(static_cast<int>(row[0])) * kMega});
+
+  figure.blocks = {period_block(statics, "mesh_stiffness", unit, &StaticArtifact::stiffness_secant, kMega),
+                   rectangle, spectrum, rectangle_spectrum};
+  figure.numbers = {{"curves", static_cast<double>(statics.size())}};
+  std::string labels;
+  for (const auto& s : statics)
+    labels += text("'", torque_label(s), ", mean ", fixed(s.mean_stiffness * kMega, 1), "' ");
+  figure.words = {{"labels", labels},
+                  {"rectangle_label", "rectangular wave, mean " + fixed(wave.mean() * kMega, 1)}};
+  return figure;
+}
+
+// What a pair of teeth carries on its way through the mesh. Pair j is j places ahead of the reference pair: at mesh phase f it
+// is at phase f + j of its own.
+Figure load_sharing_figure(std::vector<StaticArtifact> statics) {
+  const StaticArtifact first = sort_by_torque(statics);
+  const GearPair pair(first.driver, first.driven, first.mesh.centre_distance);
+  const Eigen::Index n = first.mesh_phase.size();
+  // Pairs that carry load at any torque.
+  int from = 0, to = 0;
+  for (const auto& s : statics)
+    for (Eigen::Index c = 0; c < s.pair.size(); ++c)
+      if (s.tooth_load.col(c).maxCoeff() > 0) {
+        from = std::min(from, s.pair[c]);
+        to = std::max(to, s.pair[c]);
+      }
+  const auto load = [](const StaticArtifact& s, Eigen::Index i, int j) {
+    const auto found = std::find(s.pair.begin(), s.pair.end(), j);
+    return found == s.pair.end() ? 0.0 : s.tooth_load(i, found - s.pair.begin());
+  };
+
+  Figure figure;
+  figure.title = "Load sharing of the tooth pairs at rest";
+  figure.notes.push_back(pair_words(first));
+  FigureBlock share{"share", {"phase of the pair [1]"}, {}};
+  FigureBlock loads{"loads", {"mesh_phase [1]", "all pairs [N]"}, {}};
+  for (const auto& s : statics) share.columns.push_back(text("share of the load ", torque_label(s), " [%]"));
+  for (int j = from; j <= to; ++j) {
+    loads.columns.push_back(text("pair ", j, " [N]"));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      std::vector<double> row{first.mesh_phase[i] + j};
+      for (const auto& s : statics) row.push_back(load(s, i, j) / s.tooth_load.row(i).sum() * kPercent);
+      share.rows.push_back(row);
+    }
+  }
+  const auto carries = [](const std::vector<double>& row) {
+    return std::any_of(row.begin() + 1, row.end(), [](double percent) { return percent > 0; });
+  };
+  // With a position without load on either side.
+  const auto begin = std::find_if(share.rows.begin(), share.rows.end(), carries);
+  const auto end = std::find_if(share.rows.rbegin(), share.rows.rend(), carries).base();
+  share.rows = std::vector<std::vector<double>>(begin == share.rows.begin() ? begin : begin - 1,
+                                                end == share.rows.end() ? end : end + 1);
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    std::vector<double> row{i < n ? first.mesh_phase[i] : 1.0, first.tooth_load.row(i % n).sum()};
+    // At phase 1 every pair has taken the place of the one ahead.
+    for (int j = from; j <= to; ++j) row.push_back(i < n ? load(first, i, j) : load(first, 0, j + 1));
+    loads.rows.push_back(row);
+  }
+  std::string labels, alone;
+  for (const auto& s : statics) {
+    const auto one = ((s.tooth_load.array() > 0).cast<int>().rowwise().sum() == 1).count();
+    const std::string percent = fixed(kPercent * static_cast<double>(one) / static_cast<double>(n), 0);
+    labels += text("'", torque_label(s), ": one pair alone ", percent, " %' ");
+    alone += text(alone.empty() ? "" : ", ", percent, " % at ", torque_label(s));
+  }
+  figure.notes.push_back(text("one pair alone carries the load for ", alone,
+                              " of the mesh period; on the line of action alone it would for ",
+                              fixed(kPercent * std::max(0.0, 2 - first.contact_ratio), 0), " %"));
+  figure.blocks = {share, loads};
+  const double pitch = pair.base_pitch();
+  figure.numbers = {{"curves", static_cast<double>(statics.size())},
+                    {"pairs", static_cast<double>(to - from + 1)},
+                    {"first_pair", from},
+                    {"path_start", pair.path_start() / pitch},
+                    {"path_end", pair.path_end() / pitch},
+                    {"static_force", first.torque / pair.gear(0).base_radius()}};
+  figure.words = {{"labels", labels}, {"torque", torque_label(first)}};
+  return figure;
+}
+
+namespace {
+
+// The end of a logarithmic axis above all amplitudes of a block, a power of ten; 1 if there are none.
+double decade_above(const FigureBlock& block) {
+  double largest = 0;
+  for (const auto& row : block.rows) largest = std::max(largest, row[1]);
+  return largest > 0 ? std::pow(10, std::floor(std::log10(largest)) + 1) : 1;
+}
+
+}  // namespace
+
+Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
+  const int periods = s.hunting_periods;
+  if (periods < 2)
+    fail(Failure::input,
+         "figure: the teeth are all alike and have no sidebands; give a gear of the scene a "
+         "section [gear.<name>.error]");
+  if (r.hunting_periods != periods || r.torque != s.torque)
+    fail(Failure::input, "figure: the sweep is of ", r.hunting_periods, " mesh periods at ", r.torque,
+         " N m, the statics are of ", periods, " at ", s.torque, " N m; give those of one scene and torque");
+  constexpr double kLastOrder = 3.5, kFloor = 1e-12;  // m: below, nothing but round-off
+  Eigen::Index peak = 0;
+  r.dte_rms.maxCoeff(&peak);
+  Figure figure;
+  figure.title = "Sidebands of teeth that differ";
+  figure.notes.push_back(text(pair_words(s), ", ", torque_words(s.torque)));
+  figure.notes.push_back(text(
+      "the same teeth meet after ", periods, " mesh periods; orders of the mesh frequency, of the shafts ",
+      shown(1.0 / s.driver.teeth, 4), " (driver) and ", shown(1.0 / s.driven.teeth, 4)));
+  FigureBlock error{"transmission_error", {"mesh_phase [1]", "transmission_error [µm]"}, {}};
+  for (Eigen::Index i = 0; i < s.mesh_phase.size(); ++i)
+    error.rows.push_back({s.mesh_phase[i], s.transmission_error[i] * kMicro});
+  const auto orders = [&](const std::string& name, Eigen::Index count, const auto& amplitude) {
+    FigureBlock block{"orders " + name, {"order [1]", "amplitude [µm]"}, {}, "orders", name};
+    for (Eigen::Index k = 1; k <= count && k <= kLastOrder * periods; ++k)
+      block.rows.push_back({static_cast<double>(k) / periods, std::max(kFloor, amplitude(k)) * kMicro});
+    return block;
+  };
+  figure.blocks = {
+      error,
+      orders("at rest", s.transmission_error_order.size() - 1,
+             [&](Eigen::Index k) { return s.transmission_error_order[k]; }),
+      orders("in motion", r.dte_order.cols(), [&](Eigen::Index k) { return r.dte_order(peak, k - 1); })};
+  figure.numbers = {{"periods", static_cast<double>(periods)},
+                    {"last_order", kLastOrder},
+                    {"top_at_rest", decade_above(figure.blocks[1])},
+                    {"top_in_motion", decade_above(figure.blocks[2])}};
+  figure.words = {{"speed", fixed(r.mesh_frequency[peak], 0) + " Hz"}};
+  figure.height = 1300;
+  return figure;
+}
+
+Figure crack_figure(const StaticArtifact& s) {
+  const std::array<const GearDesign*, 2> gears{&s.driver, &s.driven};
+  std::string cracks;
+  for (size_t g = 0; g < 2; ++g)
+    if (const Crack& crack = gears[g]->crack; crack.depth > 0)
+      cracks += text(cracks.empty() ? "" : "; ", "tooth ", crack.tooth,
+                     g ? " of the driven gear" : " of the driver", ": a slit of ",
+                     shown(crack.depth * 1e3, 4), " mm from the fillet, ",
+                     shown(crack.angle * 180 / std::numbers::pi, 4), "° to the tooth's centre line");
+  if (cracks.empty())
+    fail(Failure::input,
+         "figure: no tooth has a crack; give a gear of the scene a section [gear.<name>.crack]");
+  for (const ToothErrors& errors : s.mesh.errors)
+    if (!errors.none())
+      fail(
+          Failure::input,
+          "figure: teeth have errors of their own beside the crack; use a scene without [gear.<name>.error]");
+  const Eigen::Index positions = s.mesh_phase.size() / s.hunting_periods;
+  const auto period = [&](Eigen::Index k) { return s.transmission_error.segment(k * positions, positions); };
+  Eigen::Index stiffest = 0, most = 0;
+  double largest = 0;
+  for (Eigen::Index k = 0; k < s.hunting_periods; ++k)
+    if (period(k).mean() < period(stiffest).mean()) stiffest = k;
+  const Eigen::VectorXd intact = period(stiffest);
+  for (Eigen::Index k = 0; k < s.hunting_periods; ++k)
+    if (const double here = (period(k) - intact).maxCoeff(); here > largest) {
+      largest = here;
+      most = k;
+    }
+  constexpr int kAround = 5;  // mesh periods either side
+  constexpr double kLastOrder = 3.5, kFloor = 1e-12;
+  Figure figure;
+  figure.title = "The mark of a cracked tooth in the transmission error";
+  figure.notes.push_back(text(pair_words(s), ", ", torque_words(s.torque)));
+  figure.notes.push_back(text(cracks, "; adds up to ", shown(largest * kMicro, 3), " µm, ",
+                              shown(100 * largest / intact.mean(), 3), " % of the mean"));
+  FigureBlock error{"transmission_error",
+                    {"mesh periods [1]", "with the crack [µm]", "without [µm]", "difference [µm]"},
+                    {}};
+  for (Eigen::Index k = -kAround; k <= kAround; ++k) {
+    const Eigen::Index at = ((most + k) % s.hunting_periods + s.hunting_periods) % s.hunting_periods;
+    for (Eigen::Index i = 0; i < positions; ++i)
+      error.rows.push_back({static_cast<double>(k) + static_cast<double>(i) / static_cast<double>(positions),
+                            period(at)[i] * kMicro, intact[i] * kMicro,
+                            (period(at)[i] - intact[i]) * kMicro});
+  }
+  FigureBlock orders{"orders", {"order [1]", "amplitude [µm]"}, {}, "orders", "with the crack"};
+  for (Eigen::Index k = 1; k < s.transmission_error_order.size() && k <= kLastOrder * s.hunting_periods; ++k)
+    orders.rows.push_back({static_cast<double>(k) / s.hunting_periods,
+                           std::max(kFloor, s.transmission_error_order[k]) * kMicro});
+  FigureBlock without{"orders without", {"order [1]", "amplitude [µm]"}, {}, "orders", "without"};
+  const Harmonics of_intact = harmonics(intact, static_cast<int>(kLastOrder));
+  for (Eigen::Index k = 0; k < of_intact.amplitude.size(); ++k)
+    without.rows.push_back({static_cast<double>(k + 1), of_intact.amplitude[k] * kMicro});
+  figure.blocks = {error, orders, without};
+  figure.numbers = {{"around", kAround}, {"last_order", kLastOrder}, {"top", decade_above(orders)}};
+  return figure;
+}
+
+Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
+  Figure figure;
+  figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
+  figure.notes.push_back(
+      text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
+           shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
+  figure.notes.push_back(
+      text("contact = ", budget.fidelity.contact, ", near field by ", budget.driver_body.near_field,
+           "; beyond the line what another choice changes, which is no error of this one"));
+  for (const auto& [name, labels, count, changes] :
+       {std::tuple{"changes", "labels", "entries", &budget.refinement},
+        std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {
+    FigureBlock block{name, {"entry [1]", "mean_stiffness [%]", "peak_to_peak [%]"}, {}, "", "", true};
+    for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
+      block.columns.push_back(text("harmonic_", n, " [% of the first]"));
+    const bool pressure = changes->pressure_change.size() > 0;
+    if (pressure) block.columns.emplace_back("flank_pressure [%]");
+    std::string words, rest = changes->entry;
+    for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
+      std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * kPercent,
+                              std::abs(changes->peak_to_peak_change[i]) * kPercent};
+      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
+        row.push_back(std::abs(changes->harmonic_change(i, n)) * kPercent);
+      if (pressure) row.push_back(std::abs(changes->pressure_change[i]) * kPercent);
+      block.rows.push_back(row);
+      const size_t comma = rest.find(", ");
+      std::string label = rest.substr(0, comma);
+      // The same numbers under the name of what is changed, and with their signs.
+      FigureBlock named{text(name, " ", i), block.columns, {row}, "changes", label};
+      named.columns[0] = "error [1 yes, 0 another choice]";
+      named.rows[0][0] = changes == &budget.refinement ? 1 : 0;
+      named.rows[0][1] = changes->mean_stiffness_change[i] * kPercent;
+      named.rows[0][2] = changes->peak_to_peak_change[i] * kPercent;
+      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
+        named.rows[0][static_cast<size_t>(3 + n)] = changes->harmonic_change(i, n) * kPercent;
+      figure.blocks.push_back(named);
+      // The values on a line of their own: '|' to the template.
+      const size_t value = std::min(label.find(" at "), label.find_first_of("0123456789") - 1);
+      if (value < label.size()) label[value] = '|';
+      words += "'" + label + "' ";
+      rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
+    }
+    figure.blocks.push_back(block);
+    figure.words.emplace_back(labels, words);
+    figure.numbers.emplace_back(count, static_cast<double>(block.rows.size()));
+    if (changes == &budget.refinement) figure.numbers.emplace_back("bars_each", pressure ? 8 : 7);
+  }
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,51 @@
+#include "report/stiffness_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "report/figures.h"
+#include "system/compliance_split.h"
+
+namespace whine {
+
+WordTable compliance_table(const StaticArtifact& s) {
+  const ComplianceSplit split = compliance_split(s);
+  const double width = std::min(s.driver.face_width, s.driven.face_width);
+  WordTable out{
+      "Where the compliance of the mesh comes from, mean over the period at " + torque_words(s.torque) + ".",
+      {"", "µm mm/N", "share (%)", "mesh stiffness with a bore 10 % larger, at least"},
+      {}};
+  const auto add = [&](const std::string& what, double compliance, const std::string& wider) {
+    out.rows.push_back(
+        {what, fixed(compliance * width * 1e9, 5), fixed(compliance / split.whole * kPercent, 1), wider});
+  };
+  const auto wider = [&](size_t g) { return "+" + fixed(split.wider_bore[g] * kPercent, 1) + " %"; };
+  add("twist of " + s.mesh.driver + " between bore and root circle", split.body[0], wider(0));
+  add("twist of " + s.mesh.driven + " between bore and root circle", split.body[1], wider(1));
+  add("contact (Hertz)", split.contact, "");
+  add("teeth, the rest", split.teeth, "");
+  add("whole", split.whole, "");
+  return out;
+}
+
+WordTable iso_table(const StaticArtifact& s) {
+  const ComplianceSplit split = compliance_split(s);
+  const double width = std::min(s.driver.face_width, s.driven.face_width);
+  const auto per_width = [&](double stiffness) {
+    return stiffness > 0 ? fixed(stiffness / width * 1e-9, 2) : std::string("–");
+  };
+  const auto iso = [](double value) { return fixed(value * 1e-9, 2); };
+  return {
+      text("Stiffness per face width at ", torque_words(s.torque), " (", fixed(split.iso.line_load * 1e-3, 0),
+           " N/mm) beside ISO 6336-1, method B, which is for solid discs and knows of no bore",
+           split.iso.in_range ? "."
+                              : "; profile shifts or contact ratio lie outside what its formula is for."),
+      {"", "N/(mm µm)", "bodies not twisting", "ISO 6336-1 B"},
+      {{"c', one pair, largest", per_width(split.single), per_width(split.single_teeth),
+        iso(split.iso.single)},
+       {"c_γα, mean over the period", per_width(s.mean_stiffness), per_width(split.mean_teeth),
+        iso(split.iso.mesh)}}};
+}
+
+}  // namespace whine

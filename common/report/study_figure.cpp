@@ -1,0 +1,516 @@
+#include "report/study_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+struct Shown {
+  const char* units;
+  double scale;
+};
+
+Shown shown_units(const std::string& units) {
+  if (units == "m") return {"µm", 1e6};
+  if (units == "N m-1") return {"10^6 N/m", 1e-6};
+  if (units == "N") return {"kN", 1e-3};
+  return {units == "1" ? "" : "Hz", 1};
+}
+
+// Key values as an axis shows them: powers of ten of small numbers stand at the unit.
+struct AxisUnits {
+  std::string words;
+  double scale;
+};
+
+AxisUnits axis_units(const VariedKey& key, double largest) {
+  static const std::map<std::string, std::string> spelt{
+      {"um", "µm"},     {"Nm", "N m"},     {"deg", "°"}, {"kgm2", "kg m²"},
+      {"per_s", "1/s"}, {"kgm3", "kg/m³"}, {"1", ""}};
+  if (!key.number) return {"", 1};
+  const auto found = spelt.find(key.scene_units);
+  const std::string unit = found == spelt.end() ? key.scene_units : found->second;
+  if (!(largest > 0 && largest < 1e-2)) return {unit, 1};
+  const int power = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+  return {text("10^{", power, "} ", unit), std::pow(10, -power)};
+}
+
+// What an engineer calls a key, where its name in a scene is not that.
+std::string axis_name(const VariedKey& key) {
+  static const std::map<std::string, std::string> known{{"rayleigh stiffness", "Rayleigh stiffness damping"},
+                                                        {"rayleigh mass", "Rayleigh mass damping"},
+                                                        {"bearing ratio", "damping ratio of the bearings"},
+                                                        {"youngs modulus", "Young's modulus"},
+                                                        {"poisson ratio", "Poisson's ratio"}};
+  const size_t comma = key.label.find(", ");  // after the gear or the material
+  const size_t at = comma == std::string::npos ? 0 : comma + 2;
+  const auto found = known.find(key.label.substr(at));
+  return found == known.end() ? key.label : key.label.substr(0, at) + found->second;
+}
+
+std::string with_unit(const std::string& name, const std::string& units) {
+  return units.empty() || units == "1" ? name : name + " (" + units + ")";
+}
+
+// gnuplot reads '%' in the label of a tick as the start of a format.
+std::string tick_label(const std::string& words) {
+  std::string out;
+  for (const char c : without_markup(words)) out += c == '%' ? "%%" : std::string(1, c);
+  return out;
+}
+
+// "largest RMS, up" of rms_max_up.
+std::string label_of(const std::string& quantity) {
+  static const std::map<std::string, std::string> known{
+      {"te_mean", "mean static TE"},
+      {"te_peak_to_peak", "static TE, peak to peak"},
+      {"te_peak_to_peak_mesh", "static TE, peak to peak in a mesh period"},
+      {"te_harmonic_1", "static TE, harm. 1"},
+      {"te_harmonic_2", "static TE, harm. 2"},
+      {"te_harmonic_3", "static TE, harm. 3"},
+      {"tooth_load_static", "largest static tooth load"},
+      {"rms_max", "largest RMS of DTE"},
+      {"rms_max_speed", "its mesh frequency"},
+      {"tooth_load_max", "largest tooth load"},
+      {"separation_max", "largest contact loss"},
+      {"loss_from", "contact lost from"},
+      {"loss_to", "contact lost to"},
+      {"jump_frequency", "highest jump"},
+      {"unsteady", "unsteady speeds"}};
+  for (const char* end : {"_up", "_down"})
+    if (quantity.ends_with(end)) {
+      const std::string base = quantity.substr(0, quantity.size() - std::string(end).size());
+      const auto found = known.find(base);
+      return (found == known.end() ? base : found->second) + ", " + (end + 1);
+    }
+  const auto found = known.find(quantity);
+  if (found != known.end()) return found->second;
+  std::string words = quantity;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+// Response quantities whose 0 says that there is none.
+bool absent(const std::string& quantity, double value) {
+  return value == 0 && (quantity.starts_with("jump_frequency_") || quantity.starts_with("loss_"));
+}
+
+// A number for each value of a key: itself, or the place of a word among the words, from 1.
+struct Axis {
+  std::vector<double> at;           // (variant)
+  std::vector<std::string> levels;  // ascending, or in order of the study
+};
+
+Axis axis_of(const StudyArtifact& a, size_t k) {
+  Axis axis;
+  const bool number = a.plan.keys[k].number;
+  for (const GatheredVariant& v : a.variants) {
+    const std::string& value = v.values[k];
+    auto found = std::find(axis.levels.begin(), axis.levels.end(), value);
+    if (found == axis.levels.end()) found = axis.levels.insert(axis.levels.end(), value);
+    axis.at.push_back(number ? std::strtod(value.c_str(), nullptr)
+                             : static_cast<double>(found - axis.levels.begin()) + 1);
+  }
+  if (number)
+    std::sort(axis.levels.begin(), axis.levels.end(), [](const std::string& x, const std::string& y) {
+      return std::strtod(x.c_str(), nullptr) < std::strtod(y.c_str(), nullptr);
+    });
+  return axis;
+}
+
+size_t key_of(const StudyArtifact& a, const std::string& name) {
+  for (size_t k = 0; k < a.plan.keys.size(); ++k)
+    if (a.plan.keys[k].name == name) return k;
+  fail(Failure::input, "the study varies no key '", name, "'");
+}
+
+Index quantity_of(const StudyArtifact& a, const std::string& name) {
+  const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), name);
+  if (found == a.plan.quantities.end())
+    fail(Failure::input, "the study gathers no response quantity '", name, "'");
+  return found - a.plan.quantities.begin();
+}
+
+ResponseQuantity kind_of(const StudyArtifact& a, const std::string& name) {
+  for (const ResponseQuantity& kind : response_quantities(a.plan.directions))
+    if (kind.name == name) return kind;
+  fail(Failure::input, "there is no response quantity '", name, "'");
+}
+
+constexpr size_t kFewLevels = 6;  // have a colour and a mark each
+
+// From indigo by blue, green and yellow to dark red: as many hues as there are levels to be told apart, in the order of values.
+double colour(double share) {
+  static const int stops[kFewLevels][3] = {{0x33, 0x22, 0x88}, {0x00, 0x84, 0xc8}, {0x00, 0x96, 0x50},
+                                           {0xc9, 0xa4, 0x00}, {0xe8, 0x62, 0x10}, {0xa0, 0x10, 0x30}};
+  constexpr int kLast = static_cast<int>(kFewLevels) - 1;
+  const double at = std::clamp(share, 0.0, 1.0) * kLast;
+  const int i = std::min(kLast - 1, static_cast<int>(at));
+  double rgb = 0;
+  for (int c = 0; c < 3; ++c)
+    rgb = rgb * 256 + std::round(stops[i][c] + (at - i) * (stops[i + 1][c] - stops[i][c]));
+  return rgb;
+}
+
+// gnuplot's filled marks, each other in form, for those who cannot tell the colours.
+double mark(size_t place) {
+  constexpr int kMarks[kFewLevels] = {7, 5, 9, 13, 11, 15};
+  return kMarks[place % kFewLevels];
+}
+
+// Response quantities that the figure has room for: those that do not vary at all leave their row to others that were
+// gathered, if the study did not choose them itself.
+struct ShownQuantities {
+  std::vector<std::string> rows, constant;
+};
+
+ShownQuantities shown_quantities(const StudyArtifact& a) {
+  const auto varies = [&](const std::string& name) {
+    double least = 0, most = 0;
+    bool any = false;
+    for (size_t v = 0; v < a.variants.size(); ++v) {
+      if (!a.rejection[v].empty()) continue;
+      const double value = a.quantity(static_cast<Index>(v), quantity_of(a, name));
+      least = any ? std::min(least, value) : value;
+      most = any ? std::max(most, value) : value;
+      any = true;
+    }
+    constexpr double kRoundOff = 1e-9;
+    return most - least > kRoundOff * std::max(std::abs(least), std::abs(most));
+  };
+  const std::vector<std::string>& wanted = a.plan.figure_quantities;
+  ShownQuantities out;
+  for (const std::string& name : wanted) (varies(name) ? out.rows : out.constant).push_back(name);
+  const bool chosen = wanted.size() > a.plan.quantities.size() ||
+                      !std::equal(wanted.begin(), wanted.end(), a.plan.quantities.begin());
+  for (size_t i = wanted.size(); !chosen && i < a.plan.quantities.size() && out.rows.size() < wanted.size();
+       ++i)
+    if (varies(a.plan.quantities[i])) out.rows.push_back(a.plan.quantities[i]);
+  if (out.rows.empty()) {
+    out.rows.push_back(wanted.front());
+    out.constant.erase(out.constant.begin());
+  }
+  return out;
+}
+
+std::vector<double> ranks(const std::vector<double>& values) {
+  std::vector<size_t> order(values.size());
+  std::iota(order.begin(), order.end(), size_t(0));
+  std::sort(order.begin(), order.end(), [&](size_t i, size_t j) { return values[i] < values[j]; });
+  std::vector<double> rank(values.size());
+  for (size_t i = 0; i < order.size();) {
+    size_t end = i;
+    while (end < order.size() && values[order[end]] == values[order[i]]) ++end;
+    for (size_t j = i; j < end; ++j) rank[order[j]] = 0.5 * static_cast<double>(i + end - 1);
+    i = end;
+  }
+  return rank;
+}
+
+// By linear interpolation between the sorted values.
+double percentile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto i = static_cast<size_t>(at);
+  return i + 1 < sorted.size() ? sorted[i] + (at - static_cast<double>(i)) * (sorted[i + 1] - sorted[i])
+                               : sorted[i];
+}
+
+FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
+  FigureBlock table{"variants", {"variant [1]", "refused [1]", "unsteady speeds [1]"}, {}};
+  for (const VariedKey& key : a.plan.keys)
+    table.columns.push_back(key.name +
+                            (key.number ? " [" + key.scene_units + "]" : " [place in the list above]"));
+  std::vector<double> scale;
+  for (const std::string& name : a.plan.quantities) {
+    const Shown unit = shown_units(kind_of(a, name).units);
+    table.columns.push_back(name + " [" + (*unit.units ? unit.units : "1") + "]");
+    scale.push_back(unit.scale);
+  }
+  for (size_t v = 0; v < a.variants.size(); ++v) {
+    std::vector<double> row{static_cast<double>(v), a.rejection[v].empty() ? 0.0 : 1.0,
+                            static_cast<double>(a.unsteady[static_cast<Index>(v)])};
+    for (const Axis& axis : axes) row.push_back(axis.at[v]);
+    for (size_t i = 0; i < scale.size(); ++i)
+      row.push_back(a.quantity(static_cast<Index>(v), static_cast<Index>(i)) * scale[i]);
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+// Answers that are the same in all variants, as words; "" if there are none.
+std::string constant_words(const StudyArtifact& a, const ShownQuantities& quantities) {
+  std::string words;
+  if (!quantities.constant.empty()) {
+    words = "the same in all variants, without a panel:";
+    for (size_t i = 0; i < quantities.constant.size(); ++i) {
+      const std::string& name = quantities.constant[i];
+      const auto drawn = std::find(a.rejection.begin(), a.rejection.end(), "") - a.rejection.begin();
+      const Shown unit = shown_units(kind_of(a, name).units);
+      char value[32];
+      std::snprintf(value, sizeof value, "%.5g", a.quantity(drawn, quantity_of(a, name)) * unit.scale);
+      words += text(i ? ", " : " ", label_of(name), " ");
+      words += absent(name, a.quantity(drawn, quantity_of(a, name)))
+                   ? std::string("none")
+                   : text(value, *unit.units ? " " : "", unit.units);
+    }
+  }
+  return words;
+}
+
+// What only the table says: values of keys that are no numbers, and reasons of errors, which may be long.
+void add_notes_of_table(const StudyArtifact& a, const std::vector<Axis>& axes, Figure& figure) {
+  for (size_t k = 0; k < axes.size(); ++k)
+    if (!a.plan.keys[k].number) {
+      std::string list;
+      for (const std::string& level : axes[k].levels) list += (list.empty() ? "" : ", ") + level;
+      figure.notes.push_back(text("values of ", a.plan.keys[k].name, ", counted from 1: ", list));
+    }
+  std::map<std::string, size_t> reasons;
+  for (const std::string& why : a.rejection)
+    if (!why.empty()) ++reasons[why];
+  constexpr size_t kMostReasons = 20;
+  size_t listed = 0;
+  for (const auto& [why, count] : reasons)
+    if (listed++ < kMostReasons)
+      figure.notes.push_back(text("outside the model's range (", count, "): ", why));
+  if (reasons.size() > kMostReasons)
+    figure.notes.push_back(
+        text("and ", reasons.size() - kMostReasons, " other reasons; study.h5 holds them all"));
+}
+
+// How the variants are told apart by one of the keys: all alike without one.
+struct Colours {
+  bool coloured = false;
+  size_t by = 0;                   // the key
+  std::vector<double> rgb, marks;  // of each variant
+};
+
+// The colour of a value between 0 and 1: by place among few levels, by value where there are many.
+class ColourScale {
+ public:
+  explicit ColourScale(const Axis& axis)
+      : levels_(axis.levels.size()),
+        least_(*std::min_element(axis.at.begin(), axis.at.end())),
+        most_(*std::max_element(axis.at.begin(), axis.at.end())) {}
+  double most() const { return most_; }
+  double rgb(double value, size_t place) const { return colour(share(value, place)); }
+  double shape(size_t place) const { return mark(levels_ <= kFewLevels ? place : 0); }
+
+ private:
+  double share(double value, size_t place) const {
+    if (levels_ <= kFewLevels)
+      return levels_ > 1 ? static_cast<double>(place) / static_cast<double>(levels_ - 1) : 0.2;
+    return most_ > least_ ? (value - least_) / (most_ - least_) : 0.2;
+  }
+  size_t levels_;
+  double least_, most_;
+};
+
+// Adds the legend of the colours.
+Colours colours_of(const StudyArtifact& a, const std::vector<Axis>& axes, Figure& figure) {
+  const size_t variants = a.variants.size();
+  Colours found{!a.plan.figure_colour.empty(), 0, std::vector<double>(variants, colour(0.2)),
+                std::vector<double>(variants, mark(0))};
+  if (!found.coloured) {
+    figure.numbers.emplace_back("colours", 0);
+    return found;
+  }
+  found.by = key_of(a, a.plan.figure_colour);
+  const Axis& axis = axes[found.by];
+  const ColourScale scale(axis);
+  const size_t levels = axis.levels.size();
+  for (size_t v = 0; v < variants; ++v) {
+    const auto level = std::find(axis.levels.begin(), axis.levels.end(), a.variants[v].values[found.by]);
+    const auto place = static_cast<size_t>(level - axis.levels.begin());
+    found.rgb[v] = scale.rgb(axis.at[v], place);
+    found.marks[v] = scale.shape(place);
+  }
+  const VariedKey& key = a.plan.keys[found.by];
+  const AxisUnits units = axis_units(key, scale.most());
+  figure.words.emplace_back("colour_label", with_unit(axis_name(key), units.words));
+  const size_t entries = std::min(levels, kFewLevels);
+  for (size_t e = 0; e < entries; ++e) {
+    const size_t place = entries > 1 ? e * (levels - 1) / (entries - 1) : 0;
+    const std::string& level = axis.levels[place];
+    const double value = key.number ? std::strtod(level.c_str(), nullptr) : static_cast<double>(place) + 1;
+    char short_number[32];
+    std::snprintf(short_number, sizeof short_number, "%.5g", value * units.scale);
+    figure.words.emplace_back(text("colour_name", e + 1), key.number ? short_number : without_markup(level));
+    figure.numbers.emplace_back(text("colour_rgb", e + 1), scale.rgb(value, place));
+    figure.numbers.emplace_back(text("colour_mark", e + 1), scale.shape(place));
+  }
+  figure.numbers.emplace_back("colours", static_cast<double>(entries));
+  return found;
+}
+
+// Column c from 1, of key k.
+void add_column(const StudyArtifact& a, const std::vector<Axis>& axes, const Colours& colours, size_t k,
+                size_t c, Figure& figure) {
+  const VariedKey& key = a.plan.keys[k];
+  // Along the key that colours, a line between points of two colours would have the colour of neither.
+  figure.numbers.emplace_back(text("own_colour", c), colours.coloured && k == colours.by);
+  const AxisUnits units = axis_units(key, *std::max_element(axes[k].at.begin(), axes[k].at.end()));
+  figure.words.emplace_back(text("x", c), with_unit(axis_name(key), units.words));
+  figure.numbers.emplace_back(text("scale", c), units.scale);
+  const size_t ticks = key.number ? 0 : axes[k].levels.size();
+  for (size_t l = 0; l < ticks; ++l)
+    figure.words.emplace_back(text("tick", c, "_", l + 1), tick_label(axes[k].levels[l]));
+  figure.numbers.emplace_back(text("ticks", c), static_cast<double>(ticks));
+}
+
+// What one answer is in each variant, in the unit of the figure, and which variants have it.
+struct DrawnAnswer {
+  std::string name;
+  std::vector<double> value;
+  std::vector<size_t> drawn;
+};
+
+// Row r and column c from 1: the answer against key k.
+void add_panel(const StudyArtifact& a, const Axis& axis, const Colours& colours, const DrawnAnswer& quantity,
+               size_t k, size_t r, size_t c, Figure& figure) {
+  // What the pair answers at rest does not depend on how its motion ends.
+  const bool of_motion = quantity.name.ends_with("_up") || quantity.name.ends_with("_down");
+  FigureBlock panel{
+      text("panel", r, "_", c),
+      {with_unit(a.plan.keys[k].name, ""), quantity.name, "colour [rgb]", "unsteady speeds [1]", "mark [1]"},
+      {},
+      "",
+      "",
+      true};
+  std::vector<size_t> order = quantity.drawn;
+  // Those that agree in all other keys come one after the other.
+  const auto others = [&](size_t v) {
+    std::vector<std::string> rest = a.variants[v].values;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+    return rest;
+  };
+  if (!a.plan.random)
+    std::stable_sort(order.begin(), order.end(), [&](size_t i, size_t j) {
+      const auto x = others(i), y = others(j);
+      return x != y ? x < y : axis.at[i] < axis.at[j];
+    });
+  double crossed = 0;
+  for (size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && !a.plan.random && others(order[i]) != others(order[i - 1])) panel.rows.emplace_back();
+    const int own_unsteady = a.unsteady[static_cast<Index>(order[i])];
+    crossed += of_motion && own_unsteady > 0;
+    panel.rows.push_back({axis.at[order[i]], quantity.value[order[i]], colours.rgb[order[i]],
+                          of_motion ? static_cast<double>(own_unsteady) : 0.0, colours.marks[order[i]]});
+  }
+  figure.numbers.emplace_back(text("drawn", r, "_", c), static_cast<double>(order.size()));
+  figure.numbers.emplace_back(text("crossed", r, "_", c), crossed);
+  figure.blocks.push_back(panel);
+  std::vector<double> x, y;
+  for (const size_t v : quantity.drawn) {
+    x.push_back(axis.at[v]);
+    y.push_back(quantity.value[v]);
+  }
+  char correlation[32];
+  std::snprintf(correlation, sizeof correlation, "ρ = %.2f", rank_correlation(x, y));
+  figure.words.emplace_back(text("correlation", r, "_", c),
+                            a.plan.random && a.plan.keys[k].number ? correlation : "");
+}
+
+// The distribution of an answer in a sample, and three of its percentiles.
+void add_spread(const DrawnAnswer& quantity, size_t r, Figure& figure) {
+  std::vector<double> sorted;
+  sorted.reserve(quantity.drawn.size());
+  for (const size_t v : quantity.drawn) sorted.push_back(quantity.value[v]);
+  std::sort(sorted.begin(), sorted.end());
+  FigureBlock spread{text("spread", r), {"share [%]", quantity.name}, {}, "", "", true};
+  for (size_t i = 0; i < sorted.size(); ++i)
+    spread.rows.push_back(
+        {100 * (static_cast<double>(i) + 0.5) / static_cast<double>(sorted.size()), sorted[i]});
+  figure.blocks.push_back(spread);
+  const double shares[] = {0.05, 0.5, 0.95};
+  for (int p = 0; p < 3; ++p)
+    figure.numbers.emplace_back(text("percentile", r, "_", p + 1),
+                                sorted.empty() ? 0 : percentile(sorted, shares[p]));
+}
+
+}  // namespace
+
+double rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
+  if (x.size() < 2) return 0;
+  const std::vector<double> rx = ranks(x), ry = ranks(y);
+  const double middle = 0.5 * static_cast<double>(x.size() - 1);
+  double xy = 0, xx = 0, yy = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    xy += (rx[i] - middle) * (ry[i] - middle);
+    xx += (rx[i] - middle) * (rx[i] - middle);
+    yy += (ry[i] - middle) * (ry[i] - middle);
+  }
+  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
+}
+
+Figure study_figure(const StudyArtifact& a) {
+  const size_t variants = a.variants.size();
+  const auto rejected = static_cast<size_t>(std::count_if(
+      a.rejection.begin(), a.rejection.end(), [](const std::string& why) { return !why.empty(); }));
+  if (rejected == variants)
+    fail(Failure::input, "all ", variants,
+         " variants of the study lie outside the model's range, the first because: ", a.rejection.at(0));
+  std::vector<Axis> axes;
+  for (size_t k = 0; k < a.plan.keys.size(); ++k) axes.push_back(axis_of(a, k));
+
+  Figure figure;
+  figure.title = a.plan.title;
+  figure.notes.push_back(text(
+      variants, " variants of ", a.plan.scene,
+      a.plan.random ? text(", drawn with seed ", a.plan.seed) : ", all combinations",
+      rejected > 0 ? text("; ", rejected,
+                          " lie outside the model's range (column 'refused' of the table) and are not drawn")
+                   : ""));
+  const auto unsteady = (a.unsteady.array() > 0).count();
+  if (unsteady > 0)
+    figure.notes[0] += text("; ", unsteady, unsteady == 1 ? " has" : " have",
+                            " speeds that did not settle (column 'unsteady speeds'; crossed)");
+  figure.words.emplace_back("subtitle", without_markup(figure.notes[0]));
+  const ShownQuantities quantities = shown_quantities(a);
+  std::string second_line = constant_words(a, quantities);
+  // A column of a key that does nothing would only repeat all lines as level ones.
+  std::vector<std::string> columns_of = a.plan.figure_keys;
+  const std::vector<std::string> idle = keys_without_effect(a.plan, a.variants);
+  for (const std::string& name : idle) {
+    second_line += text(second_line.empty() ? "" : "; ", name, " changes nothing that the study computes");
+    if (columns_of.size() > 1) std::erase(columns_of, name);
+  }
+  if (!second_line.empty()) figure.notes.push_back(second_line);
+  figure.words.emplace_back("second_line", without_markup(second_line));
+  add_notes_of_table(a, axes, figure);
+  figure.blocks.push_back(table_of(a, axes));
+
+  const Colours colours = colours_of(a, axes, figure);
+  std::vector<size_t> columns;  // their keys
+  for (const std::string& name : columns_of) columns.push_back(key_of(a, name));
+  for (size_t c = 0; c < columns.size(); ++c) add_column(a, axes, colours, columns[c], c + 1, figure);
+  for (size_t r = 0; r < quantities.rows.size(); ++r) {
+    DrawnAnswer quantity{quantities.rows[r], std::vector<double>(variants), {}};
+    const Shown unit = shown_units(kind_of(a, quantity.name).units);
+    figure.words.emplace_back(text("y", r + 1),
+                              label_of(quantity.name) + (*unit.units ? text("\n(", unit.units, ")") : ""));
+    for (size_t v = 0; v < variants; ++v) {
+      quantity.value[v] = a.quantity(static_cast<Index>(v), quantity_of(a, quantity.name)) * unit.scale;
+      if (a.rejection[v].empty() && !absent(quantity.name, quantity.value[v])) quantity.drawn.push_back(v);
+    }
+    for (size_t c = 0; c < columns.size(); ++c)
+      add_panel(a, axes[columns[c]], colours, quantity, columns[c], r + 1, c + 1, figure);
+    if (a.plan.random) add_spread(quantity, r + 1, figure);
+  }
+  figure.numbers.emplace_back("rows", static_cast<double>(quantities.rows.size()));
+  figure.numbers.emplace_back("columns", static_cast<double>(columns.size()));
+  figure.numbers.emplace_back("random", a.plan.random ? 1 : 0);
+  figure.numbers.emplace_back("variants", static_cast<double>(a.variants.size()));
+  figure.height = 340 + 270 * static_cast<int>(quantities.rows.size());
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,176 @@
+#include "report/sweep_panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "base/error.h"
+#include "gear/pair.h"
+#include "io/summary.h"
+
+namespace whine {
+namespace {
+
+template <class Artifact>
+auto gears_of(const Artifact& s) {
+  const auto of_gear = [](const GearDesign& g) {
+    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
+  };
+  return std::tuple(of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
+                    s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
+                    s.mesh.contact_plane, s.damping.rayleigh_stiffness, s.damping.rayleigh_mass,
+                    s.damping.bearing_ratio, s.damping.undamped_depth);
+}
+
+// All that two sweeps must share to be one experiment, besides the torque.
+template <class Sweep>
+auto choices_of(const Sweep& s, const LumpedParameters& lumped) {
+  return std::tuple(s.model, gears_of(s), s.fidelity.body, s.fidelity.contact, s.fidelity.integrator,
+                    lumped.mass, lumped.damping_ratio, lumped.damper_acts);
+}
+
+}  // namespace
+
+std::string lumped_words(const LumpedParameters& lumped) {
+  if (!(lumped.mass > 0)) return "mass and damping ratio: see its sweep.h5";
+  return text("mass ", shown(lumped.mass, 5), " kg, damping ratio ",
+              shown(lumped.damping_ratio * kPercent, 4), " %, damper ",
+              lumped.damper_acts == "contact" ? "in contact only" : "always on");
+}
+
+template <class Sweep>
+std::string choice_words(const Sweep& s) {
+  if (!elastic(s))
+    return text("one degree of freedom (Eq. 23), mesh stiffness: ", s.model, "; integrator ",
+                s.fidelity.integrator, "; its statics: ", corner_words(s.mesh.corner));
+  std::string words = "Rayleigh damping η = " + shown(s.damping.rayleigh_stiffness * kMicro, 6) + " µs";
+  if (s.damping.rayleigh_mass != 0) words += ", µ = " + shown(s.damping.rayleigh_mass, 6) + " s⁻¹";
+  return words + text(", undamped to ", shown(s.damping.undamped_depth * kMilli, 4),
+                      " mm depth, bearing ratio ", shown(s.damping.bearing_ratio, 4), "; ",
+                      corner_words(s.mesh.corner), "; body ", s.fidelity.body, ", contact ",
+                      s.fidelity.contact, ", integrator ", s.fidelity.integrator);
+}
+
+template <class Sweep>
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& captions) {
+  std::vector<ChoicePanel<Sweep>> panels;
+  std::vector<const Sweep*> first;  // of each panel
+  for (size_t i = 0; i < sweeps.size(); ++i) {
+    const Sweep& s = sweeps[i];
+    const LumpedParameters lumped = captions.lumped.empty() ? LumpedParameters{} : captions.lumped.at(i);
+    if (s.direction != "up" && s.direction != "down")
+      fail(Failure::input, "figure: a sweep of direction '", s.direction, "'; up and down are known");
+    size_t p = 0;
+    while (p < first.size() && choices_of(*first[p], panels[p].lumped) != choices_of(s, lumped)) ++p;
+    if (p == first.size()) {
+      first.push_back(&s);
+      panels.push_back({choice_words(s), captions.scenes.empty() ? "" : captions.scenes.at(i), lumped, {}});
+    }
+    auto& curves = panels[p].curves;
+    const auto of = [](const auto& c) { return c.up ? c.up : c.down; };
+    const auto same = [&](const auto& c) {
+      return of(c)->torque == s.torque && of(c)->mesh.modification == s.mesh.modification;
+    };
+    auto at = std::find_if(curves.begin(), curves.end(), same);
+    if (at == curves.end())
+      at = curves.emplace(std::find_if(curves.begin(), curves.end(),
+                                       [&](const auto& c) { return of(c)->torque > s.torque; }));
+    const Sweep*& place = s.direction == "up" ? at->up : at->down;
+    if (place)
+      fail(Failure::input, "figure: two sweeps ", s.direction, " at ", torque_words(s.torque), " with ",
+           choice_words(s), "; give each once");
+    place = &s;
+  }
+  for (const auto& panel : panels)
+    for (const auto& c : panel.curves)
+      if (!c.up || !c.down)
+        fail(Failure::input, "figure: the sweep ", c.up ? "up" : "down", " at ",
+             torque_words((c.up ? c.up : c.down)->torque), " with ", panel.choices, " has no sweep ",
+             c.up ? "down" : "up",
+             " of the same torque, gears, model, damping, corner rule and fidelity beside it; make both from "
+             "one scene");
+  return panels;
+}
+
+template <class Sweep>
+std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& captions) {
+  std::vector<std::string> torques, at;
+  std::string ratios, state, with_one;
+  const auto once = [](std::vector<std::string>& list, const std::string& word) {
+    if (list.empty() || list.back() != word) list.push_back(word);
+  };
+  size_t known = 0;
+  for (const auto& curve : panel.curves) {
+    const Sweep& s = *curve.up;
+    once(torques, shown(s.torque, 6));
+    const auto found =
+        std::find_if(captions.impacts.begin(), captions.impacts.end(), [&](const ImpactArtifact& impact) {
+          return impact.torque == s.torque && gears_of(impact) == gears_of(s) &&
+                 impact.mesh.modification == s.mesh.modification && impact.state_phase.size() > 0;
+        });
+    if (!elastic(s) || found == captions.impacts.end()) continue;
+    // Many pairs as without load; with any load there may be more.
+    static const std::array<std::string, 4> kCounts{"one", "two", "three", "four"};
+    const size_t many = static_cast<size_t>(
+        std::ceil(GearPair(s.driver, s.driven, s.mesh.centre_distance).contact_ratio() - 1e-9));
+    const auto& states = found->contact_state;
+    const auto wanted = std::find(states.begin(), states.end(), many <= 4 ? kCounts[many - 1] : "");
+    const Eigen::Index i = wanted != states.end() ? wanted - states.begin() : found->state_phase.size() - 1;
+    state = known++ == 0 || state == states[i] ? states[i] : "most";
+    ratios += (ratios.empty() ? "" : ", ") + fixed(found->damping_ratio[i] * kPercent, 2);
+    if (i > 0 && states[0] == "one")
+      with_one += (with_one.empty() ? "" : ", ") + fixed(found->damping_ratio[0] * kPercent, 2);
+    once(at, shown(s.torque, 6));
+  }
+  const auto in_a_row = [](const std::vector<std::string>& list) {
+    std::string row;
+    for (const std::string& word : list) row += (row.empty() ? "" : ", ") + word;
+    return row + " N m";
+  };
+  const std::string words = in_a_row(torques);
+  if (!elastic(*panel.curves[0].up)) return words + "; " + lumped_words(panel.lumped);
+  if (known == 0) return words;
+  return words + "; damping ratio " + (with_one.empty() ? "" : with_one + " % with one pair, ") + ratios +
+         " %" + (at == torques ? "" : " at " + in_a_row(at)) + " with " + state +
+         (state == "one" ? " pair" : " pairs") + " in contact, by ring-down";
+}
+
+template <class Sweep>
+std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
+  bool others = false, torques = false;
+  for (const auto& curve : panel.curves) {
+    others |= curve.up->torque == s.torque && curve.up->mesh.modification != s.mesh.modification;
+    torques |= curve.up->torque != s.torque;
+  }
+  if (!others) return torque_words(s.torque);
+  const auto& both = s.mesh.modification;
+  const std::string flanks = both[0] == both[1]
+                                 ? in_words(both[0])
+                                 : "driver " + in_words(both[0]) + ", driven " + in_words(both[1]);
+  return flanks + (torques ? ", " + torque_words(s.torque) : "");
+}
+
+const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& captions) {
+  if (!elastic(r)) return nullptr;
+  const auto found =
+      std::find_if(captions.branches.begin(), captions.branches.end(), [&](const BranchArtifact& b) {
+        return b.torque == r.torque && gears_of(b) == gears_of(r) &&
+               b.mesh.modification == r.mesh.modification && b.fidelity.body == r.fidelity.body &&
+               b.fidelity.contact == r.fidelity.contact && b.fidelity.integrator == r.fidelity.integrator;
+      });
+  return found == captions.branches.end() ? nullptr : &*found;
+}
+
+template std::vector<ChoicePanel<ResponseArtifact>> panels_of(const std::vector<ResponseArtifact>&,
+                                                              const Background&);
+template std::string choice_words(const ResponseArtifact&);
+template std::string operating_words(const ChoicePanel<ResponseArtifact>&, const Background&);
+template std::string curve_label(const ChoicePanel<ResponseArtifact>&, const ResponseArtifact&);
+template std::vector<ChoicePanel<SweepArtifact>> panels_of(const std::vector<SweepArtifact>&,
+                                                           const Background&);
+template std::string choice_words(const SweepArtifact&);
+template std::string operating_words(const ChoicePanel<SweepArtifact>&, const Background&);
+template std::string curve_label(const ChoicePanel<SweepArtifact>&, const SweepArtifact&);
+
+}  // namespace whine

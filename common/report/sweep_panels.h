@@ -1,0 +1,62 @@
+// Sweeps that belong together in a figure, and what is said of them: torques, damping, model and other choices.
+#pragma once
+#include "dynamics/impact_result.h"
+#include "report/figures.h"
+#include "signal/response_result.h"
+#include "signal/sweep_result.h"
+#include "studies/branch_result.h"
+
+namespace whine {
+
+// What figures of sweeps say about them that is in other artifacts.
+struct Background {
+  std::vector<std::string> scenes = {};       // of each sweep, "file: title"; or none
+  std::vector<LumpedParameters> lumped = {};  // of each sweep, empty for elastic gears; or none
+  std::vector<ImpactArtifact> impacts =
+      {};  // for damping ratios, of any gears and torques; found by what they were made from
+  std::vector<BranchArtifact> branches = {};  // for unstable orbits and folds; found likewise
+};
+
+template <class Sweep>
+bool elastic(const Sweep& s) {
+  return s.model == "finite elements";
+}
+
+// Sweeps of the same choices, both directions at each torque (ascending), those of other flanks in the order in which they
+// come.
+template <class Sweep>
+struct ChoicePanel {
+  struct Curve {
+    const Sweep *up = nullptr, *down = nullptr;
+  };
+  std::string choices, scene;
+  LumpedParameters lumped;
+  std::vector<Curve> curves;
+};
+
+// Functions on Sweep are there for ResponseArtifact and SweepArtifact.
+
+// In the order in which the choices come. Throws Error(input) where a direction is missing or given twice.
+template <class Sweep>
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& captions);
+
+// Damping, corner rule and fidelity of elastic gears; stiffness and integrator of a lumped model.
+template <class Sweep>
+std::string choice_words(const Sweep& s);
+
+// "mass 1.4 kg, damping ratio 8 %, damper always on"
+std::string lumped_words(const LumpedParameters& lumped);
+
+// Torques and damping of a panel: "150 N m; damping ratio 5.81 % with one pair, 6.95 % with two pairs in contact, by
+// ring-down". Without the impact.h5 of its sweeps the torques alone.
+template <class Sweep>
+std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& captions);
+
+// What tells the curves of a panel apart: their torques, or their flanks where those differ at one torque.
+template <class Sweep>
+std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s);
+
+// The branch of a sweep's pair at its torque; none if it is not among them.
+const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& captions);
+
+}  // namespace whine

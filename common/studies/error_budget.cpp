@@ -1,0 +1,197 @@
+#include "studies/error_budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/error.h"
+#include "signal/spectrum.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+#include "system/flank_pressure.h"
+#include "system/statics.h"
+
+namespace whine {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kHarmonics = 5;
+
+struct Outcome {
+  double mean_stiffness, peak_to_peak, pressure;
+  VectorXd harmonic;
+};
+
+Outcome outcome(const StaticArtifact& s) {
+  return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
+          flank_pressure(s).smooth, harmonics(s.transmission_error, kHarmonics).amplitude};
+}
+
+StaticChanges changes(const std::vector<std::pair<std::string, Outcome>>& others, const Outcome& reference) {
+  const auto count = static_cast<Eigen::Index>(others.size());
+  StaticChanges result;
+  result.mean_stiffness_change.resize(count);
+  result.peak_to_peak_change.resize(count);
+  result.harmonic_change.resize(count, kHarmonics);
+  if (reference.pressure > 0) result.pressure_change.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& [name, other] = others[i];
+    result.entry += (i ? ", " : "") + name;
+    result.mean_stiffness_change[i] = other.mean_stiffness / reference.mean_stiffness - 1;
+    result.peak_to_peak_change[i] = other.peak_to_peak / reference.peak_to_peak - 1;
+    if (reference.pressure > 0) result.pressure_change[i] = other.pressure / reference.pressure - 1;
+    result.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
+  }
+  return result;
+}
+
+// "strips 8 to 16": what was refined, from which value of the driver or the pair to which.
+std::string from_to(const char* name, double from, double to, const char* unit = "") {
+  return text(name, " ", from, " to ", to, unit);
+}
+
+BodyArtifact reduced_again(const BodyArtifact& body, const BodyDiscretisation& discretisation,
+                           int flank_points) {
+  constexpr int kModes = 1;  // statics ask for none
+  return reduce(make_sector_mesh(body.design, discretisation), body.material, kModes, flank_points);
+}
+
+}  // namespace
+
+ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
+                                 const StaticParameters& settings, double torque) {
+  const auto solve = [&](const BodyArtifact& a, const BodyArtifact& b, const StaticParameters& s,
+                         double zone_factor = 1) {
+    return outcome(static_transmission(a, b, s, torque, zone_factor));
+  };
+  const StaticArtifact base = static_transmission(driver, driven, settings, torque);
+  const Outcome reference = outcome(base);
+
+  std::vector<std::pair<std::string, Outcome>> refined;
+  const bool strips = settings.fidelity.contact == ContactModel::strips;
+  if (strips) {
+    StaticParameters finer = settings;
+    finer.contact.strips *= 2;
+    refined.emplace_back(from_to("strips", settings.contact.strips, finer.contact.strips),
+                         solve(driver, driven, finer));
+  }
+  const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
+  const auto of_bodies = [&](const std::function<BodyArtifact(const BodyArtifact&)>& change) {
+    const BodyArtifact first = change(driver);
+    return solve(first, alike ? first : change(driven), settings);
+  };
+  const auto with_bodies = [&](const std::string& name,
+                               const std::function<BodyArtifact(const BodyArtifact&)>& change) {
+    refined.emplace_back(name, of_bodies(change));
+  };
+  const auto flank_points = static_cast<int>(driver.flank_position.size());
+  with_bodies(
+      from_to("flank table", flank_points, 2 * flank_points, " points"), [](const BodyArtifact& body) {
+        return reduced_again(body, body.discretisation, 2 * static_cast<int>(body.flank_position.size()));
+      });
+  const double element = driver.discretisation.element_size * 1e3;
+  with_bodies(from_to("elements", element, 0.5 * element, " mm"), [](const BodyArtifact& body) {
+    BodyDiscretisation half = body.discretisation;
+    half.element_size *= 0.5;
+    return reduced_again(body, half, static_cast<int>(body.flank_position.size()));
+  });
+  if (driver.discretisation.element_order == 1 || driven.discretisation.element_order == 1)
+    with_bodies(from_to("order", 1, 2), [](const BodyArtifact& body) {
+      BodyDiscretisation second = body.discretisation;
+      second.element_order = 2;
+      return reduced_again(body, second, static_cast<int>(body.flank_position.size()));
+    });
+  if (strips)
+    refined.emplace_back(from_to("search range", 1, 2, " times"), solve(driver, driven, settings, 2));
+  StaticParameters denser = settings;
+  denser.contact.positions *= 2;
+  refined.emplace_back(from_to("positions", settings.contact.positions, denser.contact.positions),
+                       solve(driver, driven, denser));
+
+  ErrorBudgetArtifact budget;
+  set_gears(budget, driver, driven);
+  budget.mesh = base.mesh;
+  budget.fidelity = base.fidelity;
+  budget.contact = base.contact;
+  budget.torque = torque;
+  budget.refinement = changes(refined, reference);
+
+  // A choice has limits of its own; where it cannot be made the budget is still one.
+  std::vector<std::pair<std::string, Outcome>> chosen;
+  const auto choose = [&](const std::string& name, const std::function<Outcome()>& instead) {
+    try {
+      chosen.emplace_back(name, instead());
+    } catch (const Error& error) {
+      budget.choice_missing += text(budget.choice_missing.empty() ? "" : "; ", name, ": ", error.what());
+    }
+  };
+  const BodyDiscretisation& present = driver.discretisation;
+  const bool matched = present.near_field == NearField::matching;
+  choose(matched ? "subtraction" : text("matching at ", present.matching_depth * 1e3, " mm"), [&] {
+    return of_bodies([&](const BodyArtifact& body) {
+      BodyDiscretisation other = body.discretisation;
+      other.near_field = matched ? NearField::subtraction : NearField::matching;
+      return reduced_again(body, other, static_cast<int>(body.flank_position.size()));
+    });
+  });
+  if (present.element_order == 2)  // there is no higher order to refine to
+    choose("order 1", [&] {
+      return of_bodies([&](const BodyArtifact& body) {
+        BodyDiscretisation first = body.discretisation;
+        first.element_order = 1;
+        return reduced_again(body, first, static_cast<int>(body.flank_position.size()));
+      });
+    });
+  StaticParameters other = settings;
+  other.fidelity.contact = strips ? ContactModel::line : ContactModel::strips;
+  choose(text("contact ", other.fidelity.contact), [&] { return solve(driver, driven, other); });
+  budget.choice = changes(chosen, reference);
+  return budget;
+}
+
+NextLevel next_contact_level(const BodyArtifact& driver, const BodyArtifact& driven,
+                             const StaticParameters& settings, const StaticArtifact& result) {
+  if (settings.fidelity.contact != ContactModel::line)
+    fail(Failure::input, "contact = \"", settings.fidelity.contact,
+         "\" is the last model level of contact; the error budget says what its strips are worth");
+  StaticParameters next = settings;
+  next.fidelity.contact = ContactModel::strips;
+  const StaticArtifact strips = static_transmission(driver, driven, next, result.torque);
+  const GearPair gears(driver.design, driven.design, settings.mesh.centre_distance);
+  const double mean_error = strips.transmission_error.mean(),
+               load = result.torque / gears.gear(0).base_radius();
+  const auto load_of = [](const StaticArtifact& a, Eigen::Index position, int pair) {
+    const int j = pair - a.pair[0];
+    return j >= 0 && j < a.pair.size() ? a.tooth_load(position, j) : 0.0;
+  };
+  const int lowest = std::min(result.pair[0], strips.pair[0]),
+            highest = std::max(result.pair[result.pair.size() - 1], strips.pair[strips.pair.size() - 1]);
+  NextLevel change;
+  for (Eigen::Index i = 0; i < result.mesh_phase.size(); ++i) {
+    bool corner = false;
+    double worst = 0;
+    for (int pair = lowest; pair <= highest; ++pair) {
+      const double line = load_of(result, i, pair), by_strips = load_of(strips, i, pair);
+      worst = std::max(worst, std::abs(by_strips - line) / load);
+      if (line > 0 || by_strips > 0)
+        corner |= gears.contact(result.mesh_phase[i] - std::floor(result.mesh_phase[i]) + pair).corner;
+    }
+    const double error = (strips.transmission_error[i] - result.transmission_error[i]) / mean_error;
+    StaticDifference& zone = corner ? change.corner : change.elsewhere;
+    ++zone.positions;
+    zone.error_largest = std::max(zone.error_largest, std::abs(error));
+    zone.load_largest = std::max(zone.load_largest, worst);
+    zone.error_rms += error * error;
+    zone.load_rms += worst * worst;
+  }
+  for (StaticDifference* zone : {&change.corner, &change.elsewhere})
+    if (zone->positions > 0) {
+      zone->error_rms = std::sqrt(zone->error_rms / zone->positions);
+      zone->load_rms = std::sqrt(zone->load_rms / zone->positions);
+    }
+  return change;
+}
+
+}  // namespace whine

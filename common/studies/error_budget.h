@@ -1,0 +1,38 @@
+// What each discretisation of the static stage is worth: one is refined alone, and the change of the answer is its entry;
+// beside them what another model of near field or contact would change; and what the next model level of contact would, at
+// each position.
+#pragma once
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
+#include "studies/error_budget_result.h"
+
+namespace whine {
+
+// The bodies are meshed and reduced again where an entry needs it. Entries: strips (twice as many), flank table (twice
+// the points), elements (half the size), order (only for first-order elements: second), search range twice as wide (how far
+// from the touching point contact is looked for). The pressure is that of contacts clear of ridges (system/flank_pressure.h).
+// One contact line per pair has neither strips nor a search range. Choices, of which none is an error of the other: the other
+// near field (matching at the body's matching_depth, or subtraction) and the other model level of contact; one that cannot be
+// computed stands in choice_missing with its reason.
+// Errors of all else as static_transmission, make_sector_mesh and reduce.
+ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
+                                 const StaticParameters& settings, double torque);
+
+// Difference of two static answers over some of the positions.
+struct StaticDifference {
+  int positions = 0;
+  double error_largest = 0, error_rms = 0;  // of the transmission error, over its mean
+  double load_largest = 0, load_rms = 0;    // of the pair load that differs most, over the load T / r_b
+};
+
+// Positions where a pair carries load off the line of action, and all others.
+struct NextLevel {
+  StaticDifference corner, elsewhere;
+};
+
+// What contact = "strips" changes in `result`, an answer with contact = "line" at the same stage parameters; relative to the
+// strips. Throws Error(input) if the stage parameters' contact is another, errors as static_transmission.
+NextLevel next_contact_level(const BodyArtifact& driver, const BodyArtifact& driven,
+                             const StaticParameters& settings, const StaticArtifact& result);
+
+}  // namespace whine

@@ -1,0 +1,419 @@
+#include "studies/harris_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "contact/load_path.h"
+#include "signal/spectrum.h"
+#include "studies/sweep.h"
+#include "system/rolling_mesh.h"
+#include "system/statics.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kDepth = 1e-3;  // m: statics do not depend on it
+constexpr int kHarmonics = 3;
+// Ranges of torque and of relief that share their strips: strips that suit the least load of a range are many under the
+// largest, and wide reliefs want wide candidate zones.
+constexpr double kTorqueRange = 3, kReliefRange = 2;
+constexpr int kReliefRanges = 4;
+
+FlankModification with_tip(FlankModification m, double amount, double length, ReliefShape shape) {
+  m.tip = {};
+  m.tip.amount = amount;
+  m.tip.length = length;
+  m.tip.shape = shape;
+  return m;
+}
+
+GearMeshSpec relieved_mesh(const HarrisMapArtifact& map, double relief, double length) {
+  GearMeshSpec mesh = map.mesh;
+  for (int g = 0; g < kSides; ++g)
+    if (map.relieved == "both" || map.relieved == (g == 0 ? "driver" : "driven"))
+      mesh.modification[g] = with_tip(mesh.modification[g], relief, length, map.shape);
+  return mesh;
+}
+
+// The contact at one mesh position for a range of torques and reliefs.
+struct Position {
+  double phase = 0;
+  MatrixXd compliance;  // (strip, strip) m N-1
+  VectorXd gap, unit,
+      approach;  // (strip) m without the relief, 1: what the relief adds to it, over the relief; 1
+  std::vector<int> zone_end;  // strips at the ends of candidate zones that are no tip edges
+  struct TipEdge {
+    double gap, unit;  // m, 1
+  };
+  std::vector<TipEdge> left_out;  // too far to touch, or with no flank to touch
+};
+
+class Range {
+ public:
+  // load: N, ascending, of this range.
+  Range(const GearMeshModel& model, const std::array<FlankDeviation, 2>& relief, double largest_relief,
+        const std::array<std::vector<MatrixXd>, 2>& tables, VectorXd load, const HarrisPlan& plan)
+      : model_(model),
+        relief_(relief),
+        tables_(tables),
+        load_(std::move(load)),
+        largest_(largest_relief),
+        plan_(plan) {
+    build();
+  }
+
+  // (position, load) m: transmission error under a relief (m, the largest of the range at most).
+  MatrixXd error(double relief) {
+    for (int attempt = 0;; ++attempt) {
+      MatrixXd x(positions_.size(), load_.size());
+      const std::string beyond = solve(relief, x);
+      if (beyond.empty()) return x;
+      constexpr int kWidenings = 6;
+      if (attempt == kWidenings)
+        fail(Failure::numerical, "at ", load_[load_.size() - 1], " N contact leaves the flanks: ", beyond,
+             "; lower the torque");
+      widening_ *= 1.6;
+      build();
+    }
+  }
+
+ private:
+  void build() {
+    const double largest = load_[load_.size() - 1];
+    const double scale = largest_ / kUnit;
+    // The steepest of all together sets the candidate zone: of the modifications that stay, and of the largest relief.
+    PairDeviation flanks = model_.flanks();
+    CandidateZone range =
+        candidate_zone(model_.kinematics, model_.gear[0].half_plane(), model_.gear[1].half_plane(),
+                       plan_.strips, load_[0] / model_.kinematics.contact_ratio(), 1.1 * largest * widening_,
+                       (1e-6 + 8e-9 * largest) * widening_, flanks);
+    const double radius = model_.kinematics.relative_curvature_radius(0);
+    double slope = 0, spread = 0;
+    for (const FlankDeviation& r : relief_) {
+      slope += scale * r.steepest();
+      spread += scale * r.largest();
+    }
+    const double wider = range.half_zone + std::min(radius * slope, std::sqrt(2 * radius * spread));
+    constexpr int kMostStrips = 32;
+    range.strips =
+        std::min(kMostStrips, 4 * static_cast<int>(std::ceil(range.strips * wider / range.half_zone / 4)));
+    range.half_zone = wider;
+    range.follows = false;
+
+    positions_.clear();
+    const PairDeviation unit{{&relief_[0], &relief_[1]}, {}};
+    for (int i = 0; i < plan_.positions; ++i) {
+      Position p;
+      p.phase = static_cast<double>(i) / plan_.positions;
+      const MeshPosition position = make_position(model_, p.phase, range);
+      p.compliance = contact_compliance(model_, position, tables_, kDepth);
+      p.gap = position.gap;
+      p.unit.resize(position.strips());
+      p.approach = position.strip_lever[0] / model_.kinematics.gear(0).base_radius();
+      for (size_t j = 0; j < position.pairs.size(); ++j) {
+        const PairStrips& s = position.pairs[j];
+        p.unit.segment(position.first_strip[j], s.size()) =
+            mean_deviation(model_.kinematics, s, unit) / kUnit;
+        if (!s.low_is_edge) p.zone_end.push_back(position.first_strip[j]);
+        if (!s.high_is_edge) p.zone_end.push_back(position.first_strip[j + 1] - 1);
+      }
+      // Edges that are left out move away with the relief of their own tip.
+      p.left_out.push_back({position.lost_corner_gap, 0});
+      constexpr double kFarther = 4;
+      const PairsInReach around = pairs_in_reach(model_, p.phase, kFarther * range.corner_gap);
+      for (int j = 0; j < around.size(); ++j) {
+        const bool inside = std::any_of(position.pairs.begin(), position.pairs.end(),
+                                        [&](const PairStrips& s) { return s.pair == around.pair[j]; });
+        if (!inside)
+          p.left_out.push_back({around.contact[j].gap + model_.flanks().at(around.contact[j].roll),
+                                0.9 * unit.at(around.contact[j].roll) / kUnit});
+      }
+      p.left_out.push_back({around.next_corner_gap, 0});
+      positions_.push_back(std::move(p));
+    }
+  }
+
+  // Where and how contact wants more than the candidate zones hold, if it does.
+  std::string solve(double relief, MatrixXd& x) {
+    VectorXd row(load_.size());
+    for (size_t i = 0; i < positions_.size(); ++i) {
+      const Position& p = positions_[i];
+      path_.follow(p.compliance, p.gap + relief * p.unit, p.approach, load_, row);
+      for (const int strip : p.zone_end)
+        if (path_.force()[strip] > 0)
+          return text("at mesh phase ", p.phase, " the pressure reaches a candidate zone's end");
+      const double deepest = row[row.size() - 1];
+      for (const Position::TipEdge& edge : p.left_out)
+        if (deepest > edge.gap + relief * edge.unit)
+          return text("at mesh phase ", p.phase, " the deflection ", deepest * 1e6,
+                      " micrometres closes a tip edge's gap of ", (edge.gap + relief * edge.unit) * 1e6,
+                      " micrometres");
+      x.row(i) = row.transpose();
+    }
+    return "";
+  }
+
+ public:
+  static constexpr double kUnit = 1e-6;  // m: of the reliefs that `relief_` holds
+
+ private:
+  const GearMeshModel& model_;
+  const std::array<FlankDeviation, 2>& relief_;  // of kUnit at the tip
+  const std::array<std::vector<MatrixXd>, 2>& tables_;
+  VectorXd load_;
+  double largest_;
+  const HarrisPlan& plan_;
+  double widening_ = 1;
+  std::vector<Position> positions_;
+  LoadPath path_;
+};
+
+double peak_to_peak(const Eigen::Ref<const VectorXd>& error) {
+  return error.maxCoeff() - error.minCoeff();
+}
+
+void require_plan(const HarrisPlan& plan) {
+  for (const auto& [what, unit, values, least] :
+       {std::tuple{"torque", " N m", &plan.torque, 0.0}, std::tuple{"relief", " m", &plan.relief, -1.0},
+        std::tuple{"length", " m", &plan.length, 0.0}}) {
+    if (values->empty()) fail(Failure::input, "Harris map: no ", what, "; give one at least");
+    for (size_t i = 0; i < values->size(); ++i) {
+      const double value = (*values)[i];
+      if (!std::isfinite(value) || !(value > least) || value < 0)
+        fail(Failure::input, "Harris map: ", what, " ", value, unit, " must be ",
+             least < 0 ? "at least" : "above", " 0");
+      if (i > 0 && !(value > (*values)[i - 1]))
+        fail(Failure::input, "Harris map: ", what, " ", value, unit, " after ", (*values)[i - 1],
+             "; they must ascend");
+    }
+  }
+  if (plan.positions < 8) fail(Failure::input, "Harris map: ", plan.positions, " positions; 8 are the least");
+  if (!(plan.design_torque >= plan.torque.front() && plan.design_torque <= plan.torque.back()))
+    fail(Failure::input, "Harris map: the design torque ", plan.design_torque, " N m lies outside the map's ",
+         plan.torque.front(), " to ", plan.torque.back(), " N m");
+}
+
+}  // namespace
+
+double single_pair_relief_length(const BodyArtifact& driver, const BodyArtifact& driven,
+                                 const GearMeshSpec& mesh) {
+  const GearPair pair(driver.design, driven.design, mesh.centre_distance);
+  return (pair.contact_ratio() - 1) * pair.base_pitch();
+}
+
+HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& driven,
+                             const StaticParameters& statics, const HarrisPlan& plan,
+                             const std::function<void(long, long, const std::string&)>& report) {
+  require_plan(plan);
+  require_like_teeth(statics.mesh, "a Harris map");
+  require_rigid_bearings(statics.mesh, "a Harris map");
+  if (hunting_periods(GearMeshModel(driver, driven, statics.mesh)) > 1)
+    fail(Failure::input,
+         "a Harris map is of teeth that are alike, and a gear of this pair has a cracked one; take a scene "
+         "without [gear.<name>.crack]");
+  const auto as_vector = [](const std::vector<double>& v) {
+    return VectorXd(Eigen::Map<const VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
+  };
+  HarrisMapArtifact map;
+  set_gears(map, driver, driven);
+  map.mesh = statics.mesh;
+  for (FlankModification& m : map.mesh.modification) m.tip = {};
+  map.fidelity.contact = ContactModel::strips;
+  map.contact = statics.contact;
+  map.contact.strips = plan.strips;
+  map.contact.positions = plan.positions;
+  map.relieved = plan.relieved;
+  map.shape = plan.shape;
+  map.torque = as_vector(plan.torque);
+  map.relief = as_vector(plan.relief);
+  map.length = as_vector(plan.length);
+  map.design_torque = plan.design_torque;
+  const Eigen::Index torques = map.torque.size(), reliefs = map.relief.size(), starts = map.length.size();
+  map.optimum_relief = map.optimum_peak_to_peak = VectorXd::Zero(starts);
+  map.cusp = MatrixRM::Zero(starts, torques);
+  map.unrelieved = VectorXd::Zero(torques);
+  map.start_roll.resize(starts, 2);
+
+  const GearMeshModel model(driver, driven, map.mesh);
+  const std::array tables{compliance_tables(model.gear[0], kDepth), compliance_tables(model.gear[1], kDepth)};
+  const double rb = model.kinematics.gear(0).base_radius();
+  // Torques of a range, the design torque in a last one of its own.
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> torque_ranges;  // first, count
+  for (Eigen::Index first = 0, t = 0; t <= torques; ++t)
+    if (t == torques || map.torque[t] > kTorqueRange * map.torque[first]) {
+      torque_ranges.emplace_back(first, t - first);
+      first = t;
+    }
+  std::vector<double> relief_ends;  // ascending, the largest relief of each range
+  for (int r = kReliefRanges - 1; r >= 0; --r)
+    relief_ends.push_back(map.relief[reliefs - 1] / std::pow(kReliefRange, r));
+  relief_ends.back() = map.relief[reliefs - 1];
+
+  for (Eigen::Index s = 0; s < starts; ++s) {
+    std::array<FlankDeviation, 2> unit;
+    for (int g = 0; g < kSides; ++g) {
+      const ToothGeometry& gear = model.kinematics.gear(g);
+      map.start_roll(s, g) = gear.tip_roll_angle() - map.length[s] / gear.base_radius();
+      if (map.relieved == "both" || map.relieved == (g == 0 ? "driver" : "driven"))
+        unit[g] = FlankDeviation(gear, with_tip({}, Range::kUnit, map.length[s], map.shape));
+      // The largest must fit the tooth, together with what else is taken off.
+      FlankDeviation(gear, relieved_mesh(map, map.relief[reliefs - 1], map.length[s]).modification[g]);
+    }
+    map.peak_to_peak.push_back(MatrixRM::Zero(torques, reliefs));
+    for (auto& h : map.harmonic) h.push_back(MatrixRM::Zero(torques, reliefs));
+    const auto range_of = [&](double relief) {
+      return std::lower_bound(relief_ends.begin(), relief_ends.end(), relief * (1 - 1e-12));
+    };
+    const auto fill = [&](Range& range, Eigen::Index first, double relief, const auto& take) {
+      const MatrixXd error = range.error(relief);
+      for (Eigen::Index t = 0; t < error.cols(); ++t) take(first + t, error.col(t));
+    };
+    // The optimum first: its relief then has a curve over all torques.
+    {
+      const VectorXd load = VectorXd::Constant(1, plan.design_torque / rb);
+      // A range of one load has no strips to spare, as the others have under their larger loads.
+      HarrisPlan finer = plan;
+      finer.strips *= 2;
+      std::vector<Range> ranges;
+      ranges.reserve(relief_ends.size());
+      for (const double end : relief_ends) ranges.emplace_back(model, unit, end, tables, load, finer);
+      const auto value = [&](double relief) {
+        return peak_to_peak(ranges[range_of(relief) - relief_ends.begin()].error(relief).col(0));
+      };
+      Eigen::Index best = 0;
+      VectorXd there(reliefs);
+      for (Eigen::Index r = 0; r < reliefs; ++r) {
+        there[r] = value(map.relief[r]);
+        if (there[r] < there[best]) best = r;
+      }
+      // Golden section between the neighbours of the best of the map.
+      double low = map.relief[std::max<Eigen::Index>(0, best - 1)],
+             high = map.relief[std::min(reliefs - 1, best + 1)];
+      const double golden = 0.5 * (std::sqrt(5.0) - 1);
+      double a = high - golden * (high - low), b = low + golden * (high - low), at_a = value(a),
+             at_b = value(b);
+      while (high - low > 1e-3 * map.relief[reliefs - 1]) {
+        if (at_a <= at_b) {
+          high = b;
+          b = a;
+          at_b = at_a;
+          at_a = value(a = high - golden * (high - low));
+        } else {
+          low = a;
+          a = b;
+          at_a = at_b;
+          at_b = value(b = low + golden * (high - low));
+        }
+      }
+      map.optimum_relief[s] = at_a <= at_b ? a : b;
+      map.optimum_peak_to_peak[s] = std::min(at_a, at_b);
+      if (there[best] <= map.optimum_peak_to_peak[s]) {
+        map.optimum_relief[s] = map.relief[best];
+        map.optimum_peak_to_peak[s] = there[best];
+      }
+    }
+    long done = 0;
+    const long total = static_cast<long>(torque_ranges.size() * relief_ends.size());
+    double after = -1;
+    for (const double end : relief_ends) {
+      for (const auto& [first, count] : torque_ranges) {
+        Range range(model, unit, end, tables, map.torque.segment(first, count) / rb, plan);
+        for (Eigen::Index r = 0; r < reliefs; ++r) {
+          if (relief_ends[std::min<size_t>(range_of(map.relief[r]) - relief_ends.begin(),
+                                           relief_ends.size() - 1)] != end)
+            continue;
+          fill(range, first, map.relief[r], [&](Eigen::Index t, const auto& error) {
+            map.peak_to_peak[s](t, r) = peak_to_peak(error);
+            const Harmonics h = harmonics(error, kHarmonics);
+            for (int n = 0; n < kHarmonics; ++n) map.harmonic[n][s](t, r) = h.amplitude[n];
+          });
+        }
+        if (map.optimum_relief[s] > after && map.optimum_relief[s] <= end)
+          fill(range, first, map.optimum_relief[s],
+               [&](Eigen::Index t, const auto& error) { map.cusp(s, t) = peak_to_peak(error); });
+        if (s == 0 && after < 0)
+          fill(range, first, 0.0,
+               [&](Eigen::Index t, const auto& error) { map.unrelieved[t] = peak_to_peak(error); });
+        report(++done + s * total, starts * total, text("relief to ", end * 1e6, " um"));
+      }
+      after = end;
+    }
+  }
+  return map;
+}
+
+void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifact& driven, int positions,
+           int points, int finer) {
+  const Eigen::Index torques = map.torque.size(), reliefs = map.relief.size(), all = torques * reliefs;
+  StaticParameters settings;
+  settings.fidelity.contact = ContactModel::strips;
+  settings.contact.strips = finer * map.contact.strips;
+  settings.contact.positions = finer * positions;
+  map.checked = 0;
+  map.largest_error = 0;
+  const auto compare = [&](double relief, double length, double torque, double found) {
+    settings.mesh = relieved_mesh(map, relief, length);
+    const StaticArtifact fine = static_transmission(driver, driven, settings, torque);
+    map.largest_error =
+        std::max(map.largest_error, std::abs(found / peak_to_peak(fine.transmission_error) - 1));
+    ++map.checked;
+  };
+  for (Eigen::Index s = 0; s < map.length.size(); ++s)
+    compare(map.optimum_relief[s], map.length[s], map.design_torque, map.optimum_peak_to_peak[s]);
+  // Spread over the map by the golden section of its places.
+  for (int k = 0; k < points; ++k) {
+    const double place = std::fmod((k + 0.5) * 0.5 * (std::sqrt(5.0) - 1), 1.0);
+    const auto at =
+        std::min(all - 1, static_cast<Eigen::Index>((k + place) / points * static_cast<double>(all)));
+    const Eigen::Index t = at / reliefs, r = at % reliefs, s = k % map.length.size();
+    compare(map.relief[r], map.length[s], map.torque[t], map.peak_to_peak[s](t, r));
+  }
+}
+
+void add_dynamics(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifact& driven,
+                  const SweepParameters& settings, double bearing_stiffness,
+                  const std::function<void(long, long, const std::string&)>& report) {
+  map.fidelity = settings.fidelity;
+  map.time = settings.time;
+  map.damping = settings.damping;
+  map.driver_inertia = settings.driver_inertia;
+  map.driven_inertia = settings.driven_inertia;
+  map.frequency_from = settings.frequency_from;
+  map.frequency_to = settings.frequency_to;
+  map.frequency_step = settings.frequency_step;
+  StaticParameters statics;
+  statics.fidelity = settings.fidelity;
+  statics.contact = map.contact;
+  const Eigen::Index torques = map.torque.size(), reliefs = map.relief.size(), starts = map.length.size();
+  const long total = static_cast<long>(torques * reliefs * starts);
+  long done = 0;
+  for (Eigen::Index s = 0; s < starts; ++s) {
+    map.dynamic_rms.push_back(MatrixRM::Zero(torques, reliefs));
+    map.worst_frequency.push_back(MatrixRM::Zero(torques, reliefs));
+    for (Eigen::Index r = 0; r < reliefs; ++r) {
+      statics.mesh = relieved_mesh(map, map.relief[r], map.length[s]);
+      for (Eigen::Index t = 0; t < torques; ++t) {
+        const StaticArtifact rest = static_transmission(driver, driven, statics, map.torque[t]);
+        for (const std::string direction : {"up", "down"}) {
+          const SweepArtifact sweep = whine::sweep(driver, driven, rest, bearing_stiffness, settings,
+                                                   direction, [](long, long, const std::string&) {});
+          for (Eigen::Index f = 0; f < sweep.mesh_frequency.size(); ++f) {
+            const double rms = harmonics(sweep.transmission_error.row(f).transpose(), 0).rms;
+            if (rms <= map.dynamic_rms[s](t, r)) continue;
+            map.dynamic_rms[s](t, r) = rms;
+            map.worst_frequency[s](t, r) = sweep.mesh_frequency[f];
+          }
+        }
+        report(++done, total, text(map.torque[t], " N m, ", map.relief[r] * 1e6, " um"));
+      }
+    }
+  }
+}
+
+}  // namespace whine

@@ -1,0 +1,34 @@
+// Where the primary resonance of a pair has two branches, where its teeth part, and what they carry, against damping: speed
+// sweeps up and down for a series of damping ratios, with all that does not depend on damping computed once.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "signal/branches.h"
+#include "signal/jump_map_result.h"
+#include "solid/reduced_body.h"
+
+namespace whine {
+
+struct JumpMapPlan : MapSpeeds {
+  // Cases: first these Rayleigh stiffness factors (s) as they are, then those factors that give these damping ratios with
+  // two pairs in contact and the contact frozen.
+  std::vector<double> rayleigh_stiffness, damping_ratio;
+};
+
+// statics: mesh with its corner rule, contact; both it and settings say which contact. torque: N m. settings: as
+// read_map_parameters gives it; its reference torque sets the bearing dampers, with the corner rule of the map. The natural
+// frequency of the default speeds is that of the mean stiffness between rigid gears. report(done, total, note) is called after
+// each sweep. Peak loads, loads at load_frequency and contact loss count what a branch does beyond the speed at
+// which the sweep left it; between such motions loads at load_frequency are interpolated. Ends of branches are the
+// jumps of the sweeps, as sweep() finds them; where the motions differ without a jump, the last speeds at which they
+// do. Throws Error(input) for no case, a factor or ratio that is not positive, a ratio that bearings and
+// mass-proportional damping exceed or no factor gives, an empty range of speeds or one without load_frequency, a pair
+// that is never in contact with two pairs; other errors as static_transmission, fixed_phase_states and sweep.
+JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
+                         const StaticParameters& statics, double torque, const SweepParameters& settings,
+                         const JumpMapPlan& plan,
+                         const std::function<void(long, long, const std::string&)>& report);
+
+}  // namespace whine

@@ -1,0 +1,118 @@
+#include "studies/next_level.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "signal/response.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
+
+namespace whine {
+
+namespace {
+
+StaticArtifact statics_with(const BodyArtifact& driver, const BodyArtifact& driven,
+                            const StaticArtifact& like, ContactModel contact) {
+  StaticParameters settings;
+  settings.mesh = like.mesh;
+  settings.fidelity = like.fidelity;
+  settings.fidelity.contact = contact;
+  settings.contact = like.contact;
+  return static_transmission(driver, driven, settings, like.torque);
+}
+
+BodyArtifact with_all_modes(const BodyArtifact& body) {
+  return reduce(make_sector_mesh(body.design, body.discretisation), body.material, kAllModes,
+                static_cast<int>(body.flank_position.size()));
+}
+
+void add(Change& change, double relative, double frequency) {
+  change.rms += relative * relative;
+  if (std::abs(relative) <= change.largest) return;
+  change.largest = std::abs(relative);
+  change.at = frequency;
+}
+
+}  // namespace
+
+std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifact& driven,
+                                   const StaticArtifact& statics, const StaticArtifact& reference,
+                                   const SweepParameters& settings) {
+  std::vector<NextSweep> sweeps;
+  std::string reasons;
+  const Fidelity& from = settings.fidelity;
+  const auto blank = [&](const char* key, const std::string& level) {
+    return NextSweep{key, level, "", driver, driven, statics, reference.mean_stiffness, settings, ""};
+  };
+  const auto give_reason = [&](const NextSweep& next, const std::string& reason) {
+    reasons += text(reasons.empty() ? "" : "; ", next.key, " = \"", next.from, "\" ", reason);
+  };
+  NextSweep by_contact = blank("contact", name_of(from.contact));
+  if (const auto to = next_of(from.contact)) {
+    by_contact.to = name_of(*to);
+    by_contact.settings.fidelity.contact = *to;
+    by_contact.statics = statics_with(driver, driven, statics, *to);
+    by_contact.mean_stiffness = reference.torque == statics.torque
+                                    ? by_contact.statics.mean_stiffness
+                                    : statics_with(driver, driven, reference, *to).mean_stiffness;
+    sweeps.push_back(std::move(by_contact));
+  } else {
+    give_reason(by_contact, "is the last model level of contact");
+  }
+  NextSweep by_body = blank("body", name_of(from.body));
+  if (const auto to = next_of(from.body)) {
+    by_body.to = name_of(*to);
+    by_body.settings.fidelity.body = *to;
+    if (*to == BodyModel::full) {
+      try {
+        by_body.driver = with_all_modes(driver);
+        by_body.driven = driver.compliance == driven.compliance ? by_body.driver : with_all_modes(driven);
+      } catch (const Error& error) {
+        if (error.kind() != Failure::input) throw;
+        by_body.missing = error.what();
+        give_reason(by_body, "is followed by \"full\": " + by_body.missing);
+      }
+    }
+    sweeps.push_back(std::move(by_body));
+  } else {
+    give_reason(by_body, "is the last model level of body");
+  }
+  if (std::all_of(sweeps.begin(), sweeps.end(), [](const NextSweep& s) { return !s.missing.empty(); }))
+    fail(Failure::input, reasons);
+  return sweeps;
+}
+
+SweepChange sweep_change(const SweepArtifact& here, const SweepArtifact& next) {
+  const ResponseArtifact a = response(here), b = response(next);
+  const Eigen::Index speeds = a.mesh_frequency.size();
+  if (b.mesh_frequency.size() != speeds || a.mesh_frequency != b.mesh_frequency)
+    fail(Failure::input, "two sweeps of ", speeds, " and ", b.mesh_frequency.size(),
+         " speeds are not of the same speeds in the same order; they cannot be compared");
+  std::vector<bool> jumped(static_cast<size_t>(speeds), false);  // a branch was left before this speed
+  for (const ResponseArtifact* r : {&a, &b})
+    for (const Eigen::Index i : rows_before_jumps(*r))
+      if (i >= 0) jumped[static_cast<size_t>(i) + 1] = true;
+  SweepChange change;
+  bool apart = false;
+  for (Eigen::Index i = 0; i < speeds; ++i) {
+    apart = (apart || jumped[static_cast<size_t>(i)]) && like_a_jump(a.dte_rms[i], b.dte_rms[i]);
+    if (a.period_multiple[i] < 1 || a.period_multiple[i] != b.period_multiple[i]) {
+      ++change.uneven;
+    } else if (apart) {
+      ++change.apart;
+    } else {
+      ++change.compared;
+      add(change.dte_rms, a.dte_rms[i] / b.dte_rms[i] - 1, a.mesh_frequency[i]);
+      add(change.dte_mean, a.dte_mean[i] / b.dte_mean[i] - 1, a.mesh_frequency[i]);
+      add(change.tooth_load, a.tooth_load_max[i] / b.tooth_load_max[i] - 1, a.mesh_frequency[i]);
+    }
+  }
+  for (Change* c : {&change.dte_rms, &change.dte_mean, &change.tooth_load})
+    c->rms = change.compared > 0 ? std::sqrt(c->rms / change.compared) : 0;
+  return change;
+}
+
+}  // namespace whine

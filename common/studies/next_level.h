@@ -1,0 +1,46 @@
+// What the next model level of contact or body would change in a speed sweep.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "signal/static_result.h"
+#include "signal/sweep_result.h"
+#include "solid/reduced_body.h"
+
+namespace whine {
+
+// A sweep one model level up in one key of [fidelity], as sweep() wants it.
+struct NextSweep {
+  std::string key, from, to;  // key "contact" or "body"; its model levels
+  BodyArtifact driver, driven;
+  StaticArtifact statics;
+  double mean_stiffness = 0;  // N m-1
+  SweepParameters settings;
+  std::string missing;  // why this model level cannot be had here; the rest is then not filled
+};
+
+// The next model levels of a sweep with these inputs, contact before body. Another contact has statics of its own, at the
+// torques of `statics` and `reference`; body = "full" has bodies of its own, of the same meshes: they are reduced again. What
+// has no next model level is left out. Throws Error(input), with the reasons, if nothing is left or all of it is missing;
+// other errors as static_transmission.
+std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifact& driven,
+                                   const StaticArtifact& statics, const StaticArtifact& reference,
+                                   const SweepParameters& settings);
+
+// Largest and RMS over the speeds, relative to the next model level.
+struct Change {
+  double largest = 0, rms = 0;
+  double at = 0;  // Hz: speed of the largest
+};
+struct SweepChange {
+  int compared = 0;  // speeds
+  int apart = 0;     // speeds at which one sweep has left a branch that the other is on
+  int uneven = 0;    // speeds at which a sweep is not periodic, or the two have orbits of other lengths
+  Change dte_rms, dte_mean, tooth_load;
+};
+
+// Both of the same speeds in the same order; throws Error(input) otherwise. After a jump of either sweep speeds count as
+// apart for as long as the RMS of the two differ as across a jump.
+SweepChange sweep_change(const SweepArtifact& here, const SweepArtifact& next);
+
+}  // namespace whine

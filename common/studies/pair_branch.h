@@ -1,0 +1,26 @@
+// The branch of periodic orbits of a pair of elastic gears over the mesh frequencies of a scene, stable or not.
+//
+// It begins with the orbit into which the pair settles at the highest speed and is followed towards lower ones, round its
+// folds, until it leaves the speeds of the scene or ends. Steps per period change with the speed, as in a sweep
+// (min_sample_rate_kHz): there the orbit is found anew with the other number of steps, and its change is measured. The
+// candidate contact zone is the same all along; where an orbit wants a wider one, the branch is followed again with that.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
+#include "studies/branch_result.h"
+
+namespace whine {
+
+// statics, mean_stiffness, settings: as of sweep(). report(done, total, note) is called after each point, in
+// steps of the scene's speeds. Throws Error(input) for teeth
+// that differ, Error(numerical) if the pair does not settle into an orbit of one mesh period at the highest speed or contact
+// leaves the flanks.
+BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& driven,
+                           const StaticArtifact& statics, double mean_stiffness,
+                           const SweepParameters& settings,
+                           const std::function<void(long, long, const std::string&)>& report);
+
+}  // namespace whine

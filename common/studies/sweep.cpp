@@ -1,0 +1,544 @@
+#include "studies/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "base/error.h"
+#include "base/model_range.h"
+#include "dynamics/dynamics.h"
+#include "dynamics/steady_state.h"
+#include "gear/body_inertia.h"
+#include "gear/numbers.h"
+#include "gear/pair.h"
+#include "signal/branch_end.h"
+#include "signal/response.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
+  constexpr int kMostSteps = 65536;  // as of steps_per_period
+  int steps = time.steps_per_period;
+  if (steps < 1)  // a scene cannot say so, stage parameters that were edited can
+    fail(Failure::input, "steps_per_period = ", steps,
+         " must be at least 1; write the stage parameters from a scene anew");
+  while (steps * mesh_frequency < time.min_sample_rate) steps *= 2;
+  if (steps > kMostSteps)
+    fail(Failure::input, "at ", mesh_frequency, " Hz min_sample_rate_kHz = ", time.min_sample_rate * 1e-3,
+         " needs ", steps, " steps per mesh period, ", kMostSteps,
+         " at most; raise the lowest mesh_frequency_Hz (Hz, not kHz), or lower min_sample_rate_kHz");
+  return steps;
+}
+
+namespace {
+
+// All motions, and the state that each speed ended with, are kept until the sweep is written.
+void require_memory(int hunting, int speeds, const SweepParameters& settings, int pairs, double state) {
+  constexpr double kMostMemory = 4e9;  // bytes
+  double samples = 0;
+  for (int i = 0; i < speeds; ++i)
+    samples += settings.time.steps_per_period +
+               steps_at(settings.time, settings.frequency_from + i * settings.frequency_step);
+  const double memory = 8.0 * (samples * hunting * (2 + pairs) + speeds * state);
+  if (memory > kMostMemory)
+    fail(Failure::input,
+         hunting > 1 ? text("teeth that differ meet again after ", hunting, " mesh periods; ") : "", speeds,
+         hunting > 1 ? " speeds of that length need " : " speeds need ", memory * 1e-9, " GB, at most ",
+         kMostMemory * 1e-9,
+         " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period and min_sample_rate_kHz");
+}
+
+// The pair on candidate contact zones of growing levels, whose strips are of one width: a candidate zone holds those of the
+// level below. A motion is that of the lowest level that holds it, whatever the speeds before it wanted.
+class Sweeper {
+ public:
+  Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
+          const SweepParameters& settings)
+      : model_(model), parameters_(parameters), statics_(statics), settings_(settings) {
+    finest_ = steps_at(settings.time, settings.frequency_from);
+    lowest_ = range(0);
+    state_ = dynamics(0).rest();
+    hunting_ = dynamics(0).hunting_periods();
+  }
+
+  const RollingDynamics& dynamics() { return dynamics(level_); }
+  int hunting_periods() const { return hunting_; }
+  int reach() const { return reach_; }  // largest |pair| that any level can touch
+  // Mean over the mesh period with the contact frozen as the static load leaves it. Hz
+  double natural_frequency() {
+    constexpr int kPhases = 32;
+    const int positions = std::min(kPhases, finest_);
+    double sum = 0;
+    // Of teeth that differ other ones at each phase.
+    for (int i = 0; i < positions; ++i)
+      sum += dynamics(0).frozen_frequency(i * (finest_ / positions),
+                                          i * dynamics(0).hunting_periods() / positions);
+    return sum / positions;
+  }
+  RollingDynamics::State& state() { return state_; }
+  AndersonAcceleration& acceleration() { return acceleration_; }  // to begin the next run with
+
+  // Runs at this speed from the present state until the state repeats, or as find_periodic_orbit() has it.
+  Orbit run(double mesh_frequency, const RmsRange& looked_for = {}) {
+    const RollingDynamics::State start = state_;
+    for (;; ++level_) {
+      if (level_ > kMostLevel)
+        fail_outside_range(Failure::numerical, "at ", mesh_frequency,
+                           " Hz contact leaves the flanks: forces above ", bounds(kMostLevel).force,
+                           " N or deflections above ", bounds(kMostLevel).deflection * 1e6,
+                           " micrometres; lower the torque");
+      if (auto orbit = try_level(mesh_frequency, looked_for))
+        return on_lowest_level(mesh_frequency, std::move(*orbit));
+      state_ = start;
+    }
+  }
+
+  // The same from a state that is predicted; from the present one if that leads beyond what the contact holds.
+  Orbit run_from(const RollingDynamics::State& predicted, double mesh_frequency) {
+    const RollingDynamics::State present = state_;
+    const int level = level_;
+    state_ = predicted;
+    // Returned behind the catch, or clang-tidy takes what follows for never reached.
+    std::optional<Orbit> orbit;
+    try {
+      orbit = run(mesh_frequency);
+    } catch (const Error& error) {
+      if (error.kind() != Failure::numerical) throw;
+    }
+    if (orbit) return std::move(*orbit);
+    state_ = present;
+    level_ = level;
+    acceleration_.forget();
+    return run(mesh_frequency);
+  }
+
+ private:
+  static constexpr int kMostLevel = 8;
+
+  MotionBounds bounds(int level) const { return {model_, statics_, std::pow(kWidening, level)}; }
+
+  std::optional<Orbit> try_level(double mesh_frequency, const RmsRange& looked_for = {}) {
+    try {
+      RollingDynamics& dynamics = this->dynamics(level_);
+      dynamics.set_speed(mesh_frequency, steps_at(settings_.time, mesh_frequency));
+      return find_periodic_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state,
+                                 looked_for, &acceleration_);
+    } catch (const Error& error) {
+      fail_as(error, "at ", mesh_frequency, " Hz, ", error.what());
+    }
+  }
+
+  // A transient may have wanted more than the orbit does.
+  Orbit on_lowest_level(double mesh_frequency, Orbit orbit) {
+    while (level_ > 0 && !keeps_one_level() && orbit.multiple > 0) {
+      const RollingDynamics::State reached = state_;
+      --level_;
+      std::optional<Orbit> lower;
+      try {
+        lower = try_level(mesh_frequency);
+      } catch (const Error& error) {  // the orbit on the level above stands
+        if (error.kind() != Failure::numerical) throw;
+      }
+      if (!lower || lower->multiple != orbit.multiple) {
+        state_ = reached;
+        ++level_;
+        break;
+      }
+      lower->periods += orbit.periods;
+      orbit = std::move(*lower);
+    }
+    return orbit;
+  }
+
+  CandidateZone range(int level) const {
+    CandidateZone range = candidate_zone(model_, statics_, bounds(level));
+    if (level > 0) {
+      const double wider = range.half_zone / lowest_.half_zone;
+      constexpr int kAtOnce = StepKernel::kStripsAtOnce;
+      range.strips = kAtOnce * static_cast<int>(std::ceil(wider * lowest_.strips / kAtOnce));
+      range.half_zone = lowest_.half_zone * range.strips / lowest_.strips;
+    }
+    return range;
+  }
+
+  // Every mode of a mesh fills the memory once.
+  bool keeps_one_level() const { return settings_.fidelity.body == BodyModel::full; }
+  RollingDynamics& dynamics(int level) {
+    if (static_cast<int>(levels_.size()) <= level) levels_.resize(level + 1);
+    if (!levels_[level]) {
+      if (keeps_one_level())
+        for (auto& other : levels_) other.reset();
+      ZoneMemory fixed;
+      for (const auto& other : levels_)
+        if (other) {
+          fixed.coordinates += other->memory().coordinates;
+          fixed.gaps += other->memory().gaps;
+        }
+      levels_[level] = std::make_unique<RollingDynamics>(model_, parameters_);
+      levels_[level]->set_zone(range(level), finest_, fixed);
+      levels_[level]->rest();  // sets the scale of distances
+      reach_ = std::max(reach_, levels_[level]->reach());
+    }
+    return *levels_[level];
+  }
+
+  const GearMeshModel& model_;
+  DynamicParameters parameters_;
+  const StaticArtifact& statics_;
+  const SweepParameters& settings_;
+  int finest_ = 0, level_ = 0, reach_ = 0, hunting_ = 1;
+  CandidateZone lowest_;
+  std::vector<std::unique_ptr<RollingDynamics>> levels_;
+  RollingDynamics::State state_;
+  AndersonAcceleration acceleration_;
+};
+
+BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
+  BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
+  for (const RollingDynamics::Period& period : orbit.record) {
+    point.tooth_load_max = std::max(point.tooth_load_max, period.pair_load.maxCoeff());
+    point.held_load = std::max(
+        point.held_load, held_load(period.pair_load.transpose(), static_cast<int>(period.pair_load.cols())));
+    point.parted = point.parted || !(period.pair_load.colwise().sum().minCoeff() > 0);
+  }
+  return point;
+}
+
+BranchMotion branch_motion(double mesh_frequency, const Orbit& orbit) {
+  return {mesh_frequency, orbit.rms, orbit.multiple};
+}
+
+// Runs from where the motions of the last speeds lead, which is nearer to the motion at the next speed than where the last
+// one ended, and on the branch up to where it ends; from where that one ended where the RMS does not go on evenly (by more than
+// some 8 % a step, or as across a jump).
+Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
+             const std::vector<RollingDynamics::State>& reached, double mesh_frequency) {
+  constexpr size_t kMostKnown = 3;
+  const size_t n = motions.size();
+  const auto even = [&](size_t i) {
+    const int single = sweeper.hunting_periods();
+    return motions[i - 1].multiple == single && motions[i].multiple == single && !may_break(motions, i);
+  };
+  size_t first = n;
+  while (first > 1 && n - first < kMostKnown - 1 && even(first - 1)) --first;
+  if (first == n) {
+    sweeper.acceleration().forget();
+    return sweeper.run(mesh_frequency);
+  }
+  std::vector<KnownOrbit> known;
+  for (size_t i = first - 1; i < n; ++i) known.push_back({motions[i].mesh_frequency, reached[i]});
+  return sweeper.run_from(predicted(sweeper.dynamics(), known, mesh_frequency), mesh_frequency);
+}
+
+// How the branch of the motion i - 1 of a sweep is followed; reached: the states at the end of speeds.
+BranchFollower follow_branch(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
+                             const std::vector<RollingDynamics::State>& reached, bool integrate) {
+  struct Run {
+    Orbit orbit;
+    KnownOrbit end;
+    AndersonAcceleration acceleration;
+  };
+  struct Branch {
+    std::vector<Run> runs;
+    std::vector<KnownOrbit> known;
+    AndersonAcceleration acceleration;
+    double rms = 0;
+    bool single = false;
+  };
+  const auto branch = std::make_shared<Branch>();
+  const BranchMotion& from = motions[i - 1];
+  branch->rms = from.rms;
+  // Of a subharmonic nothing says in which of its periods a run ends.
+  branch->single = from.multiple == sweeper.hunting_periods();
+  size_t first = i - 1;
+  while (branch->single && first > 0 && i - first < 3 && motions[first - 1].multiple == from.multiple)
+    --first;
+  for (size_t k = first; k < i; ++k) branch->known.push_back({motions[k].mesh_frequency, reached[k]});
+  BranchFollower follower;
+  follower.run = [&sweeper, branch, integrate](double mesh_frequency, double most) {
+    sweeper.state() =
+        integrate ? branch->known.back().state : predicted(sweeper.dynamics(), branch->known, mesh_frequency);
+    sweeper.acceleration() = branch->acceleration;
+    const Orbit orbit = sweeper.run(
+        mesh_frequency, branch->single ? RmsRange{branch->rms / most, branch->rms * most} : RmsRange{});
+    branch->runs.push_back({orbit, {mesh_frequency, sweeper.state()}, sweeper.acceleration()});
+    return branch_motion(mesh_frequency, orbit);
+  };
+  follower.keep = [branch](int n) {
+    const Run& run = branch->runs[static_cast<size_t>(n)];
+    branch->known.push_back(run.end);
+    branch->acceleration = run.acceleration;
+    if (!branch->single || branch->known.size() > 3) branch->known.erase(branch->known.begin());
+    branch->rms = run.orbit.rms;
+    return branch_point(run.end.mesh_frequency, run.orbit);
+  };
+  return follower;
+}
+
+}  // namespace
+
+double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping, double driver_inertia,
+                               double driven_inertia) {
+  double inverse_mass = 0;
+  for (const auto& [design, inertia] :
+       {std::pair{&statics.driver, driver_inertia}, std::pair{&statics.driven, driven_inertia}}) {
+    const double r = ToothGeometry(*design).base_radius();
+    inverse_mass += r * r / inertia;
+  }
+  return 0.5 * damping.rayleigh_stiffness * std::sqrt(statics.mean_stiffness * inverse_mass);
+}
+
+double steps_per_oscillation(const SweepArtifact& sweep) {
+  double rate = std::numeric_limits<double>::infinity();  // Hz, of time steps
+  for (const double f : sweep.mesh_frequency) rate = std::min(rate, f * steps_at(sweep.time, f));
+  return rate / sweep.natural_frequency;
+}
+
+namespace {
+
+// m, (speed): by how little the flanks close along the line of action at least: the transmission error less what elastic
+// bearings give way. Their dampers' forces are taken for those of their springs.
+VectorXd least_closing(const SweepArtifact& s) {
+  if (!s.mesh.on_bearings()) return s.transmission_error.rowwise().minCoeff();
+  const GearPair gears(s.driver, s.driven, s.mesh.centre_distance);
+  VectorXd least(s.transmission_error.rows());
+  for (Eigen::Index i = 0; i < least.size(); ++i) {
+    VectorXd closing = s.transmission_error.row(i).transpose();
+    for (size_t g = 0; g < s.bearing_force.size(); ++g)
+      if (!s.bearing_force[g].empty())
+        closing += (g == 0 ? 1 : -1) / s.mesh.bearing[g].stiffness *
+                   (s.bearing_force[g][static_cast<size_t>(i)] * contact_normal(gears));
+    least[i] = closing.minCoeff();
+  }
+  return least;
+}
+
+}  // namespace
+
+Eigen::VectorXd backlash_left(const SweepArtifact& s) {
+  // By the samples that are stored: between them a motion swings back further by the square of their distance.
+  const VectorXd least = least_closing(s);
+  return least.array() - least.minCoeff() + s.backlash_margin;
+}
+
+namespace {
+
+// The eta that a scene without [damping] gets is that of P2000's pair; others it damps by what nobody chose.
+std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::vector<double>& inertia,
+                                     const Damping& damping) {
+  const auto of_paper = [](const GearDesign& g) { return g.teeth == 50 && std::abs(g.module - 3e-3) < 1e-9; };
+  const double ratio = stiffness_damping_ratio(statics, damping, inertia[0], inertia[1]);
+  const bool fits = of_paper(statics.driver) && of_paper(statics.driven) && ratio >= 0.01 && ratio <= 0.12;
+  if (damping.rayleigh_stiffness != kDefaultRayleighStiffness || fits) return {};
+  std::ostringstream percent;
+  percent << std::setprecision(3) << ratio * 100;
+  return remark(
+      true, "rayleigh_stiffness_s = ", damping.rayleigh_stiffness,
+      ", the default, is for the gears of P2000; these it gives a damping ratio of about ", percent.str(),
+      " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` "
+      "prints the value for 7 %, to be put into [damping]");
+}
+
+}  // namespace
+
+std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::vector<double>& inertia,
+                                  const Damping& damping, const Fidelity& fidelity) {
+  constexpr double kFlywheel =
+      100;  // times the inertia of the drawing: more than what shafts and couplings add
+  std::vector<Remark> out;
+  if (fidelity.body != BodyModel::rigid && fidelity.body != BodyModel::quasi_static)
+    if (const auto damped = damping_remark(statics, inertia, damping)) out.push_back(*damped);
+  for (size_t g = 0; g < inertia.size(); ++g) {
+    const double own = least_body_inertia(ToothGeometry(g ? statics.driven : statics.driver),
+                                          g ? statics.driven_material : statics.driver_material);
+    if (inertia[g] > kFlywheel * own)
+      out.push_back(remark(true, "total_inertia_kgm2 = ", inertia[g], " of [gear.",
+                           g ? statics.mesh.driven : statics.mesh.driver, "] is ",
+                           std::round(inertia[g] / own), " times that of the gear as drawn, ",
+                           shown_number(own), "; check its unit, kg m2"));
+  }
+  return out;
+}
+
+std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& statics) {
+  constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
+  std::vector<Remark> out;
+  const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
+  // Said once of a pair of sweeps, by the one of rising speed.
+  if (s.direction == "up" && s.model == "finite elements")
+    out = setup_remarks(statics, {s.driver_inertia, s.driven_inertia}, s.damping, s.fidelity);
+  if (const double steps = steps_per_oscillation(s); steps < kFewestSteps)
+    add(true, "a time step is too long for the contact: ", steps,
+        " steps per oscillation at its natural frequency of ", s.natural_frequency, " Hz, ", kFewestSteps,
+        " are needed to follow it; raise min_sample_rate_kHz or steps_per_period");
+  constexpr double kImbalance = 1e-6;  // of the energy that goes in: what rounding leaves is below 1e-9
+  if (Eigen::Index worst = 0;
+      s.energy_imbalance.size() > 0 && s.energy_imbalance.cwiseAbs().maxCoeff(&worst) > kImbalance)
+    add(true, "the energy balance does not close: at ", s.mesh_frequency[worst], " Hz it is off by ",
+        shown_number(std::abs(s.energy_imbalance[worst])), " of the energy that goes in, at most ",
+        kImbalance, " is right; do not rely on this sweep, and check [damping]");
+  for (Eigen::Index i = 0; i < s.mesh_frequency.size(); ++i)
+    if (s.period_multiple[i] == 0)
+      add(true, "at ", s.mesh_frequency[i], " Hz the motion is not periodic after ", s.periods[i],
+          " mesh periods; the state still changes by ", s.residual[i], " per period");
+    else if (s.period_multiple[i] > s.hunting_periods)
+      add(false, "at ", s.mesh_frequency[i], " Hz the motion is subharmonic: it repeats after ",
+          s.period_multiple[i], " mesh periods");
+  // Against the least transmission error at which unloaded teeth touch.
+  const double least = least_closing(s).minCoeff() - statics.unloaded_error.minCoeff();
+  if (least < 0 && !std::isfinite(s.backlash_margin))
+    add(false, "the teeth swing ", std::round(-least * 1e7) / 10,
+        " µm apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
+  if (s.backlash_margin <= 0) {
+    std::map<double, bool> beyond;
+    const Eigen::VectorXd left = backlash_left(s);
+    for (Eigen::Index i = 0; i < left.size(); ++i) beyond[s.mesh_frequency[i]] = left[i] <= 0;
+    add(true, "at ", speed_ranges(beyond), " Hz the motion goes up to ",
+        std::round(-s.backlash_margin * 1e8) / 100,
+        " µm beyond the backlash; back flanks would touch there, which is not modelled");
+  }
+  return out;
+}
+
+SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+                    double mean_stiffness, const SweepParameters& settings, const std::string& direction,
+                    const std::function<void(long, long, const std::string&)>& report,
+                    std::vector<BranchPoint>* left_early) {
+  const int speeds =
+      static_cast<int>(
+          std::floor((settings.frequency_to - settings.frequency_from) / settings.frequency_step + 1e-9)) +
+      1;
+  if (speeds < 1 || !(settings.frequency_from > 0))
+    fail(Failure::input, "the speed range from ", settings.frequency_from, " to ", settings.frequency_to,
+         " Hz in steps of ", settings.frequency_step, " Hz is empty");
+
+  require_inertia(statics.mesh, {driver.inertia, driven.inertia},
+                  {settings.driver_inertia, settings.driven_inertia});
+  const GearMeshModel model(driver, driven, statics.mesh);
+  DynamicParameters parameters;
+  parameters.torque = statics.torque;
+  parameters.inertia = {settings.driver_inertia, settings.driven_inertia};
+  parameters.mean_stiffness = mean_stiffness;
+  parameters.damping = settings.damping;
+  parameters.fidelity = settings.fidelity;
+  Sweeper sweeper(model, parameters, statics, settings);
+
+  SweepArtifact result;
+  set_gears(result, driver, driven);
+  result.mesh = statics.mesh;
+  result.fidelity = settings.fidelity;
+  result.contact = statics.contact;
+  result.time = settings.time;
+  result.damping = settings.damping;
+  result.torque = statics.torque;
+  result.driver_inertia = settings.driver_inertia;
+  result.driven_inertia = settings.driven_inertia;
+  result.mean_stiffness = mean_stiffness;
+  result.driver_bearing_damper = sweeper.dynamics().bearing_damper(0);
+  result.driven_bearing_damper = sweeper.dynamics().bearing_damper(1);
+  result.natural_frequency = sweeper.natural_frequency();
+  result.hunting_periods = sweeper.hunting_periods();
+  require_memory(result.hunting_periods, speeds, settings,
+                 2 * sweeper.dynamics().reach() + 1 + (model.on_bearings() ? 4 : 0),
+                 static_cast<double>(sweeper.dynamics().difference(sweeper.state(), sweeper.state()).size()));
+  result.direction = direction;
+  result.mesh_frequency.resize(speeds);
+  result.periods.resize(speeds);
+  result.residual.resize(speeds);
+  result.period_multiple.resize(speeds);
+  result.energy_imbalance.resize(speeds);
+  result.energy.resize(speeds, kEnergyLines.size());
+  result.drift_force = VectorXd::Zero(speeds);
+
+  const auto speed = [&](int i) { return settings.frequency_from + i * settings.frequency_step; };
+  std::vector<Orbit> steady;
+  std::vector<BranchMotion> motions;
+  std::vector<RollingDynamics::State> reached;
+  for (int i = 0; i < speeds; ++i) {
+    const double f = speed(direction == "up" ? i : speeds - 1 - i);
+    steady.push_back(settings.time.steady_state == SteadyState::integrate
+                         ? sweeper.run(f)
+                         : run_on(sweeper, motions, reached, f));
+    motions.push_back(branch_motion(f, steady.back()));
+    reached.push_back(sweeper.state());
+    const Orbit& s = steady.back();
+    result.mesh_frequency[i] = f;
+    result.periods[i] = s.periods;
+    result.residual[i] = s.residual;
+    result.period_multiple[i] = s.multiple;
+    const EnergyBalance& l = s.energy_balance;
+    result.energy_imbalance[i] = l.imbalance / l.throughput;
+    result.energy.row(i) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
+        l.relaxation_damping, l.switching, l.cutting, l.averaging, l.forgetting;  // kEnergyLines
+    report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
+  }
+
+  std::vector<BranchJump> jumps;
+  for (size_t i = 1; i < motions.size(); ++i)
+    if (may_break(motions, i)) {
+      const auto follower = [&] {
+        return follow_branch(sweeper, motions, i, reached,
+                             settings.time.steady_state == SteadyState::integrate);
+      };
+      if (const auto jump = find_jump(motions, i, follower, left_early)) jumps.push_back(*jump);
+    }
+
+  // Rows of one length: shorter orbits repeat to fill theirs.
+  size_t longest = 1;
+  for (const Orbit& s : steady) longest = std::max(longest, s.record.size());
+  const int samples = settings.time.steps_per_period, reach = sweeper.reach();
+  result.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
+  result.transmission_error.resize(speeds, longest * samples);
+  result.mesh_force.resize(speeds, longest * samples);
+  double least_error = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < speeds; ++i) {
+    MatrixRM loads = MatrixRM::Zero(longest * samples, 2 * reach + 1);
+    for (size_t g = 0; g < model.bearing.size(); ++g)
+      if (model.bearing[g].elastic()) result.bearing_force[g].emplace_back(longest * samples, 2);
+    for (const RollingDynamics::Period& period : steady[i].record) {
+      least_error = std::min(least_error, period.transmission_error.minCoeff());
+      result.drift_force[i] = std::max(result.drift_force[i], period.drift_force);
+      result.least_gap = std::min(result.least_gap, period.least_gap);
+      result.least_force = std::min(result.least_force, period.least_force);
+      result.fallbacks += period.fallbacks;
+    }
+    for (size_t k = 0; k < longest; ++k) {
+      const RollingDynamics::Period& period = steady[i].record[k % steady[i].record.size()];
+      const int stride = static_cast<int>(period.transmission_error.size()) / samples;
+      const int own_reach = static_cast<int>(period.pair_load.rows()) / 2;
+      for (int n = 0; n < samples; ++n) {
+        const int row = static_cast<int>(k) * samples + n;
+        result.transmission_error(i, row) = period.transmission_error[n * stride];
+        loads.row(row).segment(reach - own_reach, 2 * own_reach + 1) =
+            period.pair_load.col(n * stride).transpose();
+        result.mesh_force(i, row) = loads.row(row).sum();
+        for (size_t g = 0; g < model.bearing.size(); ++g)
+          if (model.bearing[g].elastic())
+            result.bearing_force[g].back().row(row) = period.bearing_force[g].col(n * stride).transpose();
+      }
+    }
+    result.tooth_load.push_back(std::move(loads));
+  }
+  if (model.on_bearings()) least_error = least_closing(result).minCoeff();
+  result.backlash_margin = driver.design.tooth_thinning + driven.design.tooth_thinning > 0
+                               ? model.kinematics.backlash() + least_error
+                               : std::numeric_limits<double>::infinity();
+  result.jump_frequency.resize(jumps.size());
+  result.jump_width.resize(jumps.size());
+  for (size_t i = 0; i < jumps.size(); ++i) {
+    result.jump_frequency[i] = jumps[i].frequency;
+    result.jump_width[i] = jumps[i].width;
+  }
+  return result;
+}
+
+}  // namespace whine

@@ -1,0 +1,53 @@
+// Speed sweeps: the state is carried from speed to speed, as on a test rig, and each speed runs until it is
+// periodic.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "signal/branches.h"
+#include "signal/static_result.h"
+#include "signal/sweep_result.h"
+#include "solid/reduced_body.h"
+#include "system/statics.h"
+
+namespace whine {
+
+// statics: of the same torque and contact; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets
+// the bearing dampers. direction: "up" or "down". report(done, total, note) is called after each speed.
+// A speed at which the motion does not become periodic is kept with period_multiple 0. left_early: takes the motions on
+// branches between the speeds at which the sweep left them and their ends, if given. Throws Error(input) for
+// parameters that do not fit, Error(numerical), with speed and mesh phase, if contact leaves the flanks or has no certified
+// solution.
+SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+                    double mean_stiffness, const SweepParameters& settings, const std::string& direction,
+                    const std::function<void(long, long, const std::string&)>& report,
+                    std::vector<BranchPoint>* left_early = nullptr);
+
+// Time steps per mesh period at a mesh frequency (Hz): steps_per_period, doubled until the sampling rate is the least that is
+// asked for. Throws Error(input) if that is more than 65536.
+int steps_at(const TimeDiscretisation& time, double mesh_frequency);
+
+// Damping ratio that eta of Eq. 21 alone gives the pair on its mean mesh stiffness k: eta w / 2 with w^2 = k (r1^2 / I1 +
+// r2^2 / I2). An estimate from above: flexibility that follows its load at once is not damped.
+double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping, double driver_inertia,
+                               double driven_inertia);
+
+// What is out of the ordinary in the numbers of a scene that only motions need: a damping that nobody chose for these gears,
+// inertias a hundred times those of the drawing. inertia: (gear) kg m2.
+std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::vector<double>& inertia,
+                                  const Damping& damping, const Fidelity& fidelity);
+
+// What a reader of a sweep of elastic gears has to know beside its numbers, in words: a default damping that is not for these
+// gears, steps too long for the contact, motions that do not repeat or after several mesh periods, backlash used up. `statics`
+// is of the same torque.
+std::vector<Remark> remarks(const SweepArtifact& sweep, const StaticArtifact& statics);
+
+// (speed) m: backlash that the motion leaves, below 0 where back flanks would touch, which is not modelled; infinite where the
+// scene counts no backlash.
+Eigen::VectorXd backlash_left(const SweepArtifact& sweep);
+
+// Time steps per oscillation at the natural frequency, at the speed with the fewest.
+double steps_per_oscillation(const SweepArtifact& sweep);
+
+}  // namespace whine

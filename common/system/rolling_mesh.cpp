@@ -1,0 +1,502 @@
+#include "system/rolling_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/model_range.h"
+#include "contact/lanes.h"
+#include "gear/train.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh)
+    : GearMeshModel({std::make_shared<const ElasticGear>(driver, mesh.contact_plane),
+                     std::make_shared<const ElasticGear>(driven, mesh.contact_plane)},
+                    mesh, pair_system(mesh, driver.design, driven.design).meshes[0]) {}
+
+GearMeshModel::GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, const System::Mesh& placed)
+    : kinematics(gears[0].body().design, gears[1].body().design, mesh.centre_distance),
+      gear(gears),
+      corner(mesh.corner),
+      deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0]),
+                FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1])},
+      bearing(mesh.bearing),
+      layout(placed) {}
+
+Vec2 GearMeshModel::outward_in_system(int g, const PairContact& contact) const {
+  Vec2 own = outward(g, contact);
+  if (layout.side[0].sense < 0) own.x() = -own.x();
+  return Eigen::Rotation2Dd(layout.direction - 0.5 * std::numbers::pi) * own;
+}
+
+VectorXd MeshPosition::to_strips(const Eigen::Ref<const VectorXd>& at_nodes) const {
+  if (!law.empty()) return at_nodes;
+  VectorXd out(strips());
+  for (size_t j = 0; j < pairs.size(); ++j)
+    out.segment(first_strip[j], pairs[j].size()).noalias() =
+        pairs[j].interpolation * at_nodes.segment<kZoneNodes>(j * kZoneNodes);
+  return out;
+}
+
+VectorXd MeshPosition::to_nodes(const Eigen::Ref<const VectorXd>& on_strips) const {
+  if (!law.empty()) return on_strips;
+  VectorXd out(nodes());
+  for (size_t j = 0; j < pairs.size(); ++j)
+    out.segment<kZoneNodes>(j * kZoneNodes).noalias() =
+        pairs[j].interpolation.transpose() * on_strips.segment(first_strip[j], pairs[j].size());
+  return out;
+}
+
+void MeshPosition::add_to_strips(const MatrixXd& at_nodes, MatrixXd& a) const {
+  if (!law.empty()) {
+    a += at_nodes;
+    return;
+  }
+  Eigen::Matrix<double, Eigen::Dynamic, kZoneNodes> half;
+  for (size_t i = 0; i < pairs.size(); ++i)
+    for (size_t j = 0; j < pairs.size(); ++j) {
+      half.setZero(pairs[i].size(), kZoneNodes);
+      for (int k = 0; k < kZoneNodes; ++k)
+        add_six_columns(half.col(k).data(), half.col(k).data(), pairs[i].interpolation.data(),
+                        pairs[i].size(), &at_nodes(i * kZoneNodes, j * kZoneNodes + k), 1, pairs[i].size());
+      for (int c = 0; c < pairs[j].size(); ++c) {
+        double* column = &a(first_strip[i], first_strip[j] + c);
+        add_six_columns(column, column, half.data(), pairs[i].size(), &pairs[j].interpolation(c, 0),
+                        pairs[j].size(), pairs[i].size());
+      }
+    }
+}
+
+VectorXd MeshPosition::pair_loads(const Eigen::Ref<const VectorXd>& p) const {
+  VectorXd loads(pairs.size());
+  for (size_t j = 0; j < pairs.size(); ++j) loads[j] = p.segment(first_strip[j], pairs[j].size()).sum();
+  return loads;
+}
+
+bool MeshPosition::reaches_zone_end(const Eigen::Ref<const VectorXd>& p) const {
+  for (size_t j = 0; j < pairs.size(); ++j) {
+    if (!pairs[j].low_is_edge && p[first_strip[j]] > 0) return true;
+    if (!pairs[j].high_is_edge && p[first_strip[j + 1] - 1] > 0) return true;
+  }
+  return false;
+}
+
+int hunting_periods(const GearMeshModel& model) {
+  int periods = 1;
+  for (int g = 0; g < kSides; ++g) {
+    periods = std::lcm(periods, model.deviation[g].repeats());
+    if (model.gear[g].cracked()) periods = std::lcm(periods, model.kinematics.gear(g).design().teeth);
+  }
+  return periods;
+}
+
+PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap) {
+  PairsInReach reach;
+  const GearPair& gears = model.kinematics;
+  const double tangent = std::tan(gears.working_pressure_angle()), pitch = gears.base_pitch();
+  for (int pair = -3; pair <= 3; ++pair) {  // more than a contact ratio of 4 and corners could need
+    const double path = (phase + pair) * pitch;
+    // Beyond the tangent points of the base circles there is no contact of these flanks.
+    if (gears.gear(0).base_radius() * tangent + path <= 0 ||
+        gears.gear(1).base_radius() * tangent - path <= 0)
+      continue;
+    const PairContact contact = gears.contact(phase + pair);
+    if (contact.corner) {
+      if (!model.corner.enabled || contact.normal_angle > model.corner.largest_angle) continue;
+      const PairDeviation flanks = model.common_flanks();
+      const double nearer = flanks.between_teeth();  // other teeth, at most
+      if (!contact.on_flank) {
+        reach.lost_corner_gap =
+            std::min(reach.lost_corner_gap, contact.gap + flanks.at(contact.roll) - nearer);
+        continue;
+      }
+      const double gap =
+          (flanks.none() ? contact.gap : gears.gap_at(contact, gears.nearest(contact, flanks), flanks)) -
+          nearer;
+      if (gap > corner_gap) {
+        reach.next_corner_gap = std::min(reach.next_corner_gap, gap);
+        continue;
+      }
+    }
+    reach.pair.push_back(pair);
+    reach.contact.push_back(contact);
+  }
+  return reach;
+}
+
+double unloaded_transmission_error(const GearMeshModel& model, double phase, int period) {
+  const GearPair& gears = model.kinematics;
+  if (model.flanks().none()) return 0;
+  // A pair on the line of action, which there always is, has no larger gap.
+  const double largest = std::max(0.0, model.deviation[0].largest() + model.deviation[1].largest());
+  constexpr double kLever = 1.1;  // over the lever of a tip edge
+  const PairsInReach reach = pairs_in_reach(model, phase, kLever * largest);
+  double least = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < reach.size(); ++j) {
+    const PairContact& contact = reach.contact[j];
+    const PairDeviation flanks = model.flanks(reach.pair[j], period);
+    const double gap = gears.gap_at(contact, gears.nearest(contact, flanks), flanks);
+    least = std::min(least, gap * gears.gear(0).base_radius() / contact.lever[0]);
+  }
+  return least;
+}
+
+VectorXd flank_gaps(const GearMeshModel& model, const MeshPosition& position, int period) {
+  VectorXd gap(position.first_strip.back());
+  for (size_t j = 0; j < position.pairs.size(); ++j) {
+    const PairStrips& s = position.pairs[j];
+    gap.segment(position.first_strip[j], s.size()) = s.gap;
+    const PairDeviation own = model.flanks(s.pair, period), common = model.common_flanks();
+    if (!own.differs()) continue;
+    const auto places = static_cast<int>(s.gap_roll[0].size()) / s.size();
+    for (int i = 0; i < s.size(); ++i) {
+      double sum = 0;
+      for (int k = i * places; k < (i + 1) * places; ++k) {
+        const std::array<double, 2> roll{s.gap_roll[0][k], s.gap_roll[1][k]};
+        sum += own.at(roll) - common.at(roll);
+      }
+      gap[position.first_strip[j] + i] += sum / places;
+    }
+  }
+  return gap;
+}
+
+MeshPosition make_position(const GearMeshModel& model, double phase, const CandidateZone& range, int period) {
+  MeshPosition position;
+  position.phase = phase;
+  const PairsInReach reach = pairs_in_reach(model, phase, range.corner_gap);
+  position.next_corner_gap = reach.next_corner_gap;
+  position.lost_corner_gap = reach.lost_corner_gap;
+  for (int j = 0; j < reach.size(); ++j)
+    position.pairs.push_back(
+        make_strips(model.kinematics, reach.pair[j], reach.contact[j], range, model.common_flanks()));
+
+  position.first_strip.push_back(0);
+  for (const PairStrips& s : position.pairs)
+    position.first_strip.push_back(position.first_strip.back() + s.size());
+  position.gap = flank_gaps(model, position, period);
+  for (int g = 0; g < kSides; ++g) {
+    position.strip_lever[g].resize(position.strips());
+    position.node_lever[g].resize(position.nodes());
+    position.table_weights[g].resize(position.nodes(), model.gear[g].table_size());
+  }
+  for (size_t j = 0; j < position.pairs.size(); ++j) {
+    const PairStrips& s = position.pairs[j];
+    for (int g = 0; g < kSides; ++g) {
+      position.strip_lever[g].segment(position.first_strip[j], s.size()).setConstant(s.contact.lever[g]);
+      position.node_lever[g].segment<kZoneNodes>(j * kZoneNodes).setConstant(s.contact.lever[g]);
+      for (int k = 0; k < kZoneNodes; ++k)
+        position.table_weights[g].row(j * kZoneNodes + k) = model.gear[g].table().weights(s.node_roll[g][k]);
+    }
+  }
+  return position;
+}
+
+MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& position, double depth) {
+  MatrixXd a = MatrixXd::Zero(position.strips(), position.strips());
+  if (!position.law.empty()) return a;
+  for (size_t j = 0; j < position.pairs.size(); ++j) {
+    const int first = position.first_strip[j], n = position.pairs[j].size();
+    a.block(first, first, n, n) = half_plane_compliance(position.pairs[j], model.gear[0].half_plane(),
+                                                        model.gear[1].half_plane(), depth);
+  }
+  return a;
+}
+
+namespace {
+
+// What a line contact takes in place of the gap of two flanks: a parabola, cut off at the tip edge that is near.
+struct LineGap {
+  double gap = 0;         // m, at the touching point
+  double radius = 0;      // m
+  double edge_slope = 0;  // 1, see HertzLine
+  double touch = 0;       // m: tangential coordinate of the touching point, of the edge if that touches
+};
+
+// tip: m, distances of the tip edges of driver and driven gear; near: whose the law knows of. half_width: m, of the
+// contact over which flanks that deviate are averaged.
+LineGap line_gap(const GearPair& gears, const PairContact& contact, const PairDeviation& deviation,
+                 const double tip[2], int near, double half_width) {
+  LineGap line;
+  line.gap = contact.gap;
+  line.radius = gears.relative_curvature_radius(contact);
+  line.edge_slope = contact.corner ? std::tan(contact.normal_angle) : -tip[near] / line.radius;
+  if (deviation.none()) return line;
+
+  // Gap of the flanks as designed, to the side on which both exist: contact.gap + leaning x + x^2 / (2 R).
+  const double side = near == 0 ? -1 : 1;  // the driver's tip edge is where x is largest
+  const double leaning = contact.corner ? side * std::tan(contact.normal_angle) : 0,
+               curvature = 1 / line.radius;
+  // Pressure that is bounded at both ends weighs a gap by 1 / sqrt(a^2 - x^2) (Johnson, Contact Mechanics, section 2.7):
+  // what it feels of the deviation are the first Chebyshev coefficients over its width.
+  struct Parabola {
+    double value, slope, curvature;  // m, 1, m-1 at the middle
+  };
+  const auto felt = [&](double middle) {
+    constexpr int kNodes = 24;
+    double mean = 0, first = 0, second = 0;
+    for (int k = 0; k < kNodes; ++k) {
+      const double angle = (k + 0.5) * std::numbers::pi / kNodes, cosine = std::cos(angle);
+      const double x = middle + half_width * cosine;
+      std::array<double, 2> roll;
+      for (int g = 0; g < kSides; ++g) {  // along the flank's arc: x to 1e-4 of itself
+        const double rb = gears.gear(g).base_radius(), sign = g == 0 ? 1 : -1;
+        roll[g] = std::sqrt(std::max(0.0, contact.roll[g] * contact.roll[g] + 2 * sign * x / rb));
+      }
+      const double d = deviation.at(roll) / kNodes;
+      mean += d;
+      first += d * cosine;
+      second += d * std::cos(2 * angle);
+    }
+    return Parabola{mean - 2 * second, 2 * first / half_width, 8 * second / (half_width * half_width)};
+  };
+  // The middle of the contact, where the slopes add up to nothing, or the end of the flanks that it is pushed against.
+  double low = contact.x_min, high = contact.x_max;
+  const auto slope = [&](double x) { return leaning + curvature * x + felt(x).slope; };
+  double middle = low;
+  if (slope(high) < 0)
+    middle = high;
+  else if (slope(low) < 0)
+    while (high - low > 1e-6 * half_width) {
+      middle = 0.5 * (low + high);
+      if (middle == low || middle == high) break;
+      (slope(middle) < 0 ? low : high) = middle;
+    }
+  const Parabola p = felt(middle);
+  // A hollow that is as narrow as the flanks' own curvature holds no single contact; the law stops short of it.
+  constexpr double kLeastCurvature = 0.1;
+  const double whole = std::max(curvature + p.curvature, kLeastCurvature * curvature);
+  const double slope_there = leaning + curvature * middle + p.slope;
+  double touch = middle - slope_there / whole;
+  const double edge = -side * tip[near];
+  line.radius = 1 / whole;
+  if (std::isfinite(edge) && side * (touch - edge) < 0) touch = edge;
+  const double off = touch - middle;
+  line.gap = contact.gap + (leaning + 0.5 * curvature * middle) * middle + p.value +
+             (slope_there + 0.5 * whole * off) * off;
+  line.edge_slope = touch == edge ? side * (slope_there + whole * off) : -side * (touch - edge) * whole;
+  line.touch = touch;
+  return line;
+}
+
+}  // namespace
+
+MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
+                                double pair_force, int period) {
+  const GearPair& gears = model.kinematics;
+  MeshPosition position;
+  position.phase = phase;
+  position.nodes_per_pair = 1;
+  const PairsInReach reach = pairs_in_reach(model, phase, corner_gap);
+  position.next_corner_gap = reach.next_corner_gap;
+  position.lost_corner_gap = reach.lost_corner_gap;
+  const int n = reach.size();
+  const double coefficient =
+      model.gear[0].half_plane().coefficient() + model.gear[1].half_plane().coefficient();
+  position.first_strip = {0};
+  for (int g = 0; g < kSides; ++g) {
+    position.strip_lever[g].resize(n);
+    position.table_weights[g].resize(n, model.gear[g].table_size());
+  }
+  for (int j = 0; j < n; ++j) {
+    const PairContact& contact = reach.contact[j];
+    PairStrips line;
+    line.pair = reach.pair[j];
+    line.contact = contact;
+    const double tip[2] = {gears.tip_distance(contact, 0), gears.tip_distance(contact, 1)};
+    const int near = contact.corner ? contact.tip_gear : tip[0] < tip[1] ? 0 : 1;
+    const double half_width =
+        std::sqrt(2 * gears.relative_curvature_radius(contact) * pair_force * coefficient);
+    const LineGap flanks = line_gap(gears, contact, model.common_flanks(), tip, near, half_width);
+    line.gap = VectorXd::Constant(1, flanks.gap);
+    if (model.common_flanks().differs()) {
+      const FlankGap touch = gears.gap_at(contact, flanks.touch);
+      for (int g = 0; g < kSides; ++g) line.gap_roll[g] = VectorXd::Constant(1, touch.roll[g]);
+    }
+    position.pairs.push_back(line);
+    position.first_strip.push_back(j + 1);
+    position.law.emplace_back(model.gear[0].half_plane(), model.gear[1].half_plane(), flanks.radius, depth,
+                              flanks.edge_slope);
+    const HertzLine& law = position.law.back();
+    // The driver's tip edge is where x is largest.
+    const double edge = contact.corner ? 0 : near == 0 ? tip[0] : -tip[1];
+    const FlankGap middle =
+        gears.gap_at(contact, law.at_edge(pair_force) ? edge + (near == 0 ? -1 : 1) * law.centroid(pair_force)
+                                                      : flanks.touch);
+    for (int g = 0; g < kSides; ++g) {
+      position.strip_lever[g][j] = contact.lever[g];
+      position.table_weights[g].row(j) = model.gear[g].table().weights(middle.roll[g]);
+    }
+  }
+  position.node_lever = position.strip_lever;
+  position.gap = flank_gaps(model, position, period);
+  return position;
+}
+
+void require_line_range(const MeshPosition& position, const Eigen::Ref<const VectorXd>& force) {
+  require_hertz_range(position.law, force);
+  for (size_t j = 0; j < position.pairs.size(); ++j) {
+    const PairContact& contact = position.pairs[j].contact;
+    const double width = position.law[j].width(force[j]);
+    if (width > contact.x_max - contact.x_min)
+      fail_outside_range(Failure::numerical, "at mesh phase ", position.phase,
+                         " contact leaves the flanks: a pair carries ", force[j], " N on a width of ",
+                         1e3 * width, " mm, and its flanks face each other over ",
+                         (contact.x_max - contact.x_min) * 1e3, " mm; lower the torque");
+  }
+}
+
+namespace {
+
+// kNodes rows of weights per pair.
+template <int kNodes>
+MatrixXd between_nodes(const MatrixXd& weights, const std::vector<int>& pair, int g,
+                       const std::vector<MatrixXd>& tables) {
+  const int max = static_cast<int>(tables.size()) / 2;
+  MatrixXd c = MatrixXd::Zero(weights.rows(), weights.rows());
+  for (size_t i = 0; i < pair.size(); ++i)
+    for (size_t j = 0; j < pair.size(); ++j) {
+      const int offset = GearMeshModel::tooth(g, pair[i] - pair[j]);
+      if (std::abs(offset) > max) continue;
+      c.block<kNodes, kNodes>(i * kNodes, j * kNodes) = weights.middleRows<kNodes>(i * kNodes) *
+                                                        tables[offset + max] *
+                                                        weights.middleRows<kNodes>(j * kNodes).transpose();
+    }
+  return c;
+}
+
+}  // namespace
+
+MatrixXd body_compliance(const MeshPosition& position, int g, const std::vector<MatrixXd>& tables) {
+  std::vector<int> pair;
+  for (const PairStrips& strips : position.pairs) pair.push_back(strips.pair);
+  return (position.law.empty() ? between_nodes<kZoneNodes> : between_nodes<1>)(position.table_weights[g],
+                                                                               pair, g, tables);
+}
+
+std::vector<MatrixXd> compliance_tables(const ElasticGear& gear, double depth) {
+  std::vector<MatrixXd> tables;
+  for (int offset = -gear.body().offsets; offset <= gear.body().offsets; ++offset)
+    tables.push_back(gear.compliance(offset, depth));
+  return tables;
+}
+
+MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
+                            const std::array<std::vector<MatrixXd>, 2>& tables, double depth) {
+  MatrixXd a = local_compliance(model, position, depth);
+  position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
+                         a);
+  add_bearings(model, position, a);
+  return a;
+}
+
+MatrixXd hub_translation(const GearMeshModel& model, const MeshPosition& position, int g) {
+  MatrixXd rows(position.strips(), 2);
+  for (size_t j = 0; j < position.pairs.size(); ++j)
+    for (int i = position.first_strip[j]; i < position.first_strip[j + 1]; ++i)
+      rows.row(i) = model.outward(g, position.pairs[j].contact).transpose();
+  return rows;
+}
+
+void add_bearings(const GearMeshModel& model, const MeshPosition& position, MatrixXd& a) {
+  for (int g = 0; g < kSides; ++g) {
+    if (!model.bearing[g].elastic()) continue;
+    const MatrixXd rows = hub_translation(model, position, g);
+    a += rows * rows.transpose() / model.bearing[g].stiffness;
+  }
+}
+
+Vec2 bearing_force(const GearMeshModel& model, const MeshPosition& position, int g,
+                   const Eigen::Ref<const VectorXd>& p) {
+  return -hub_translation(model, position, g).transpose() * p;
+}
+
+MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period) {
+  const auto pairs = static_cast<Eigen::Index>(position.pairs.size());
+  MatrixXd c;
+  for (int g = 0; g < kSides; ++g) {
+    if (!model.gear[g].cracked()) continue;
+    const auto tooth = [&](Eigen::Index pair) {
+      return GearMeshModel::tooth(g, position.pairs[static_cast<size_t>(pair)].pair - period);
+    };
+    for (Eigen::Index i = 0; i < pairs; ++i)
+      for (Eigen::Index j = 0; j < pairs; ++j) {
+        const MatrixXd share = model.gear[g].crack_compliance(tooth(i), tooth(j));
+        if (share.size() == 0) continue;
+        if (c.size() == 0) c.setZero(position.nodes(), position.nodes());
+        const auto rows = position.nodes_of(static_cast<size_t>(i)),
+                   columns = position.nodes_of(static_cast<size_t>(j));
+        c(rows, columns) += position.table_weights[g](rows, Eigen::all) * share *
+                            position.table_weights[g](columns, Eigen::all).transpose();
+      }
+  }
+  return c;
+}
+
+Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& approach, double load,
+                        double start, ActiveSet& active, ComplementaritySolver& solver) {
+  VectorXd d(gap.size()), reduced, response;
+  return equilibrium(gap, approach, load, start, [&](const VectorXd& e, VectorXd& p) {
+    FixedContact fixed;
+    fixed.certificate = solver.solve(a, e, active, p, d);
+    const int k = static_cast<int>(active.strips.size());
+    reduced.resize(k);
+    for (int i = 0; i < k; ++i) reduced[i] = approach[active.strips[i]];
+    response = active.inverse * reduced;
+    fixed.stiffness = reduced.dot(response);
+    return fixed;
+  });
+}
+
+Equilibrium equilibrium(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& gap,
+                        const VectorXd& approach, double load, double start) {
+  VectorXd d(gap.size());
+  return equilibrium(gap, approach, load, start, [&](const VectorXd& e, VectorXd& force) {
+    const Certificate certificate = solve_line_contact(c, law, e, force, d);
+    return FixedContact{certificate, line_contact_stiffness(c, law, approach, force)};
+  });
+}
+
+Equilibrium equilibrium(const VectorXd& gap, const VectorXd& approach, double load, double start,
+                        const ContactSolve& solve) {
+  const int n = static_cast<int>(gap.size());
+  Equilibrium result;
+  result.p = VectorXd::Zero(n);
+  VectorXd e(n);
+  double touch = std::numeric_limits<double>::infinity();  // where the first strip touches
+  for (int k = 0; k < n; ++k)
+    if (approach[k] > 0) touch = std::min(touch, gap[k] / approach[k]);
+  if (!std::isfinite(touch)) fail(Failure::numerical, "no pair is in reach to carry the load");
+  double low = touch, high = std::numeric_limits<double>::infinity();
+  double x = std::max(start, touch + 1e-3 * std::abs(touch) + 1e-9);
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    e = gap - x * approach;
+    const FixedContact fixed = solve(e, result.p);
+    result.certificate = fixed.certificate;
+    result.stiffness = fixed.stiffness;
+    const double excess = approach.dot(result.p) - load;
+    if (!std::isfinite(excess) || !std::isfinite(result.stiffness))
+      fail(Failure::numerical, "static equilibrium: the contact at x = ", x, " m carries ", excess + load,
+           " N with a stiffness of ", result.stiffness, " N/m: the compliance holds no number");
+    result.x = x;
+    result.residual = std::abs(excess) / load;
+    if (result.residual < 1e-12) return result;
+    (excess > 0 ? high : low) = x;
+    double next = result.stiffness > 0 ? x - excess / result.stiffness : x;
+    // No double between is left to try.
+    if (result.residual < 1e-10 && (next == x || high - low < 4e-16 * std::abs(x))) return result;
+    if (!(next > low && next < high)) next = std::isfinite(high) ? 0.5 * (low + high) : 2 * x - touch + 1e-9;
+    x = next;
+  }
+  fail(Failure::numerical, "static equilibrium did not converge: residual ", result.residual, " of the load ",
+       load, " N after 200 steps at x = ", result.x, " m");
+}
+
+}  // namespace whine

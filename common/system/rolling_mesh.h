@@ -1,0 +1,269 @@
+// Two elastic gears in mesh at given positions: strips, gaps and compliance, ready for statics and dynamics.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contact/complementarity.h"
+#include "contact/half_plane_strip.h"
+#include "contact/line_contact.h"
+#include "contact/strips.h"
+#include "gear/pair.h"
+#include "model/system.h"
+#include "solid/flank_table.h"
+#include "solid/reduced_body.h"
+
+namespace whine {
+
+// One of a gear's flanks.
+struct ToothFlank {
+  int tooth = 0;  // its number, counter-clockwise, any whole one
+  FlankSide side = FlankSide::leading;
+};
+
+// A gear's solid as contact sees it.
+//
+// The body's table R is what the finite elements say less the half-plane H_b(x; D_0) in the body's plane state, relative to the
+// reference depth D_0. The displacement of the flank is u = R + H_b(x; D_0). Where the contact has a plane state c of its own,
+// the half-plane between the surface and the depth D is in that state, and all below D stays the body's:
+//   u = R + [H_b(x; D_0) - H_b(x; D)] + H_c(x; D) = R + C_b ln(D_0 / D) + H_c(x; D),
+// H(x; D) = C (ln(D / |x|) - 1 / (2 (1 - nu))). Assumption: a sharp change at D. Inside a wide face the strain along the line
+// is prevented near the line load only. With near_field = "subtraction" D is half the tooth thickness at the reference circle,
+// pi m / 4, the depth that Weber and Banaschek (1953) give the local approach; with "matching" it is the matching depth, since
+// just what lies above it is a half-plane there. Another depth f D would change u by (C_b - C_c) ln f: 0.5 % of the
+// deflection of one pair of the paper's for f = 2.
+class ElasticGear {
+ public:
+  // Throws Error(input) for numbers that are not finite, by the name of their array, and for a flank table with other
+  // points than this program's.
+  explicit ElasticGear(const BodyArtifact& body, ContactPlane contact_plane = ContactPlane::body);
+  const BodyArtifact& body() const { return body_; }
+  // In the plane state of the contact.
+  const HalfPlaneSurface& half_plane() const { return half_plane_; }
+  // m: down to which the half-plane in the plane state of the contact takes the place of that of the body.
+  double contact_depth() const;
+  // m N-1: what the plane state of the contact adds to the inward displacement, averaged over a strip of half width `reading`
+  // (m) at distance x (m), of a unit force spread evenly over a strip of half width `half_width` (m).
+  double plane_change(double x, double half_width, double reading) const;
+  const FlankTable& table() const { return table_; }
+  int table_size() const { return table_.size(); }
+  // (flank, flank) m N-1: inward displacement read on tooth `offset` counter-clockwise of the loaded one,
+  // less the half-plane relative to `depth` (m) on the loaded tooth itself. Zero beyond the stored offsets: teeth so far
+  // apart are loaded together only in passing.
+  Eigen::MatrixXd compliance(int offset, double depth) const;
+  // The same between any two flanks of the gear, however far apart; of one flank relative to `depth`. Without cracks.
+  Eigen::MatrixXd compliance(const ToothFlank& read, const ToothFlank& loaded, double depth) const;
+  // The same less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual
+  // flexibility.
+  Eigen::MatrixXd residual(int offset, double depth, const std::vector<int>& kept) const;
+  bool cracked() const { return body_.crack_compliance.size() > 0; }
+  // (flank, flank) m N-1: what the crack adds to the inward displacement of tooth `read` by a force on tooth `loaded`: numbers
+  // of teeth, counter-clockwise, any whole ones. Empty where it adds nothing: without a crack, and further than the stored
+  // offsets from the cracked tooth.
+  Eigen::MatrixXd crack_compliance(int read, int loaded) const;
+  // (flank) kg^-1/2: outward normal displacement of mode `column` on the tooth `tooth` places
+  // counter-clockwise.
+  Eigen::VectorXd mode_on_tooth(int column, int tooth) const;
+  // The other component of a doublet; the column itself if the mode is single.
+  int partner(int column) const;
+  double tooth_angle(int column) const;  // rad: 2 pi n / teeth, the turn of a doublet per tooth
+
+ private:
+  BodyArtifact body_;
+  HalfPlaneSurface half_plane_, body_half_plane_;
+  bool own_plane_;  // the contact has another plane state than the body
+  FlankTable table_;
+};
+
+// The bodies on the two sides of a mesh; other meshes may hold the same ones.
+class SideGears {
+ public:
+  using Shared = std::shared_ptr<const ElasticGear>;
+  SideGears(Shared first, Shared second) : gear_{std::move(first), std::move(second)} {}
+  const ElasticGear& operator[](size_t side) const { return *gear_[side]; }
+  const Shared& shared(size_t side) const { return gear_[side]; }
+  static constexpr size_t size() { return 2; }
+
+ private:
+  std::array<Shared, 2> gear_;
+};
+
+// One mesh: two bodies, each of which it sees from one side. All that it computes is in its own image: side 0 pushes, turns
+// counter-clockwise and stands at the origin, side 1 above it. `layout` says how the mesh lies in its system: turned by its
+// direction, and mirrored where side 0 turns clockwise, which changes no length, no gap and, teeth being their own mirror
+// images, no compliance.
+struct GearMeshModel {
+  // Of a system of one pair.
+  GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh);
+  GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, const System::Mesh& layout);
+  GearPair kinematics;
+  SideGears gear;  // [side]
+  CornerRule corner;
+  std::array<FlankDeviation, 2> deviation;  // [side]
+  std::array<Bearing, 2> bearing;           // [side]
+  System::Mesh layout;
+
+  bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
+  // Of gear g: outward displacement of its flank per unit translation of its hub, in the frame of placed().
+  Vec2 outward(int g, const PairContact& contact = {}) const {
+    return (g == 0 ? 1.0 : -1.0) * contact_normal(kinematics, contact);
+  }
+  // The same in the frame of the system.
+  Vec2 outward_in_system(int g, const PairContact& contact = {}) const;
+  // Tooth of side g that works in pair `pair`, in the mesh's own image: pairs count in the sense of motion, teeth
+  // counter-clockwise. Numbers in the system: layout.side[g].tooth(pair).
+  static int tooth(int g, int pair) { return g == 0 ? pair : -pair; }
+  // Flanks of a pair `period` mesh periods after tooth 0 of both gears met at the pitch point: the reference pair is then that
+  // of the teeth `period` places behind.
+  PairDeviation flanks(int pair = 0, int period = 0) const {
+    return {{&deviation[0], &deviation[1]},
+            {layout.side[0].tooth(pair - period), layout.side[1].tooth(pair - period)}};
+  }
+  // What all pairs have in common.
+  PairDeviation common_flanks() const { return {{&deviation[0], &deviation[1]}, {kEveryTooth, kEveryTooth}}; }
+};
+
+// Which pairs may touch at one phase, in the order of their numbers.
+struct PairsInReach {
+  std::vector<int> pair;
+  std::vector<PairContact> contact;
+  double next_corner_gap =
+      std::numeric_limits<double>::infinity();  // m, least gap of a tip edge left out as too far
+  double lost_corner_gap =
+      std::numeric_limits<double>::infinity();  // m, least gap of one that has no flank to touch
+
+  int size() const { return static_cast<int>(pair.size()); }
+};
+
+// Mesh periods after which the same teeth meet, as far as teeth differ; 1 if they are all alike.
+int hunting_periods(const GearMeshModel& model);
+
+// corner_gap: m, tip edges with a larger gap than this are left out; where flanks deviate it is the least gap of the two
+// flanks that counts, wherever near the edge it is, and of whichever teeth come nearest: pairs are the same in every mesh
+// period.
+PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap);
+
+// m: how far the driver turns ahead, along the line of action, until the first of its unloaded flanks touches: the least of
+// all pairs' gaps, each over its driving lever. 0 for flanks that do not deviate. Exact to 1e-13 m.
+double unloaded_transmission_error(const GearMeshModel& model, double phase, int period = 0);
+
+// All that contact needs at one phase; strips and nodes of all pairs in one row, pair after pair. With one contact line
+// per pair a line stands for a pair's only strip and only node.
+struct MeshPosition {
+  double phase = 0;
+  std::vector<PairStrips> pairs;  // of a line: number, kinematics and gap
+  std::vector<HertzLine> law;     // (pair) of lines; empty: strips
+  int nodes_per_pair = kZoneNodes;
+  std::vector<int> first_strip;                  // (pair + 1)
+  Eigen::VectorXd gap;                           // (strip) m, of the teeth that meet in one mesh period
+  std::array<Eigen::VectorXd, 2> strip_lever;    // (strip) m
+  std::array<Eigen::VectorXd, 2> node_lever;     // (node) m
+  std::array<Eigen::MatrixXd, 2> table_weights;  // (node, flank) 1: the S of load and reading
+  double next_corner_gap =
+      std::numeric_limits<double>::infinity();  // m, least gap of a tip edge left out as too far
+  double lost_corner_gap =
+      std::numeric_limits<double>::infinity();  // m, least gap of one that has no flank to touch
+
+  int strips() const { return static_cast<int>(gap.size()); }
+  int nodes() const { return static_cast<int>(pairs.size()) * nodes_per_pair; }
+  auto nodes_of(size_t pair) const {  // as rows of a matrix
+    return Eigen::seqN(static_cast<Eigen::Index>(pair) * nodes_per_pair, nodes_per_pair);
+  }
+  Eigen::VectorXd to_strips(const Eigen::Ref<const Eigen::VectorXd>& at_nodes) const;
+  Eigen::VectorXd to_nodes(const Eigen::Ref<const Eigen::VectorXd>& on_strips) const;
+  // a += L C L^T, C (node, node), a (strip, strip).
+  void add_to_strips(const Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& a) const;
+  // (pair) N: sum of the strips' forces.
+  Eigen::VectorXd pair_loads(const Eigen::Ref<const Eigen::VectorXd>& p) const;
+  // True if force stands on a candidate zone's end that is no tip edge: the candidate zone is too narrow.
+  bool reaches_zone_end(const Eigen::Ref<const Eigen::VectorXd>& p) const;
+};
+
+// m: (strip) gaps of the teeth that meet in a mesh period; all else at a position is the same in every one.
+Eigen::VectorXd flank_gaps(const GearMeshModel& model, const MeshPosition& position, int period);
+
+// phase: within a mesh period, 0 to 1; period: which one, for teeth that differ.
+MeshPosition make_position(const GearMeshModel& model, double phase, const CandidateZone& range,
+                           int period = 0);
+
+// The same with one contact line per pair. depth: m, of the Hertz laws. The tables are read at the middle of the
+// pressure that pair_force (N) makes, which moves inwards from the touching point where contact ends at a tip edge; held
+// there, whatever force the pair carries. So is the parabola that the law takes in place of flanks that deviate: the one
+// that a contact under pair_force feels of what all teeth have in common. What sets teeth apart changes the gap where these
+// touch, and nothing else: a slope s of one tooth leaves out R s^2 / 2, 4 nm for 10 micrometres over a flank of 7 mm.
+MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
+                                double pair_force, int period = 0);
+
+// The pair_force of statics and dynamics under a mean `load` (N): where a contact comes to a tip edge, two pairs share it.
+inline double shared_force(double load) {
+  return 0.5 * load;
+}
+
+// force: (pair) N. Throws Error(numerical) if a pair is beyond what Hertz's law holds for, or wider than its flanks face
+// each other.
+void require_line_range(const MeshPosition& position, const Eigen::Ref<const Eigen::VectorXd>& force);
+
+// (strip, strip) m N-1: half-planes of both gears, block diagonal; of lines 0, their laws are the half-planes.
+Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& position, double depth);
+
+// (node, node) m N-1: tables[offset + max] (flank, flank) of gear g between all nodes.
+Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
+                                const std::vector<Eigen::MatrixXd>& tables);
+
+// (strip, 2) 1: outward displacement of the flanks of gear g per unit translation of its hub along x and y.
+Eigen::MatrixXd hub_translation(const GearMeshModel& model, const MeshPosition& position, int g);
+
+// Adds what elastic bearings give way between all strips, sum over the gears of N N^T / k; a: (strip, strip) m N-1.
+void add_bearings(const GearMeshModel& model, const MeshPosition& position, Eigen::MatrixXd& a);
+
+// N, in the frame of placed(): what gear g presses its bearing with under the forces p (strip, N).
+Vec2 bearing_force(const GearMeshModel& model, const MeshPosition& position, int g,
+                   const Eigen::Ref<const Eigen::VectorXd>& p);
+
+// m N-1: ElasticGear::compliance for every stored tooth offset, from the most negative on, as body_compliance takes them.
+std::vector<Eigen::MatrixXd> compliance_tables(const ElasticGear& gear, double depth);
+
+// (strip, strip) m N-1: half-planes, bodies and bearings, `tables` of both gears relative to `depth`; not of lines.
+Eigen::MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
+                                   const std::array<std::vector<Eigen::MatrixXd>, 2>& tables, double depth);
+
+// (node, node) m N-1: what cracks in the teeth of both gears add between all nodes in a mesh period; empty if no tooth near a
+// cracked one is in reach.
+Eigen::MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period);
+
+// Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
+// approach . p = load (Eq. 18-20).
+struct Equilibrium {
+  double x = 0;          // m if approach is 1: the rigid freedom
+  double stiffness = 0;  // d load / d x at this position, contact changes included
+  Eigen::VectorXd p;     // (strip) N
+  Certificate certificate;
+  double residual = 0;  // |approach . p - load| / load
+};
+
+// A contact whose rigid freedom is held, so that its gaps are e (m): fills the forces p (N), start and result.
+struct FixedContact {
+  Certificate certificate;
+  double stiffness = 0;  // d (approach . p) / d x
+};
+using ContactSolve = std::function<FixedContact(const Eigen::VectorXd& e, Eigen::VectorXd& p)>;
+
+// load > 0. Newton on a monotone function between brackets, until the load is met to 1e-12. Where neighbouring doubles x
+// already carry loads that differ by more (loads so small that the gaps are round-off), the nearest one is taken if it
+// meets the load to 1e-10; `residual` says what was reached. Throws Error(numerical) with the residual otherwise.
+Equilibrium equilibrium(const Eigen::VectorXd& gap, const Eigen::VectorXd& approach, double load,
+                        double start, const ContactSolve& solve);
+
+// The same for d = A p + e.
+Equilibrium equilibrium(const Eigen::MatrixXd& a, const Eigen::VectorXd& gap, const Eigen::VectorXd& approach,
+                        double load, double start, ActiveSet& active, ComplementaritySolver& solver);
+
+// The same for lines, d = C p + law(p) + e.
+Equilibrium equilibrium(const Eigen::MatrixXd& c, std::span<const HertzLine> law, const Eigen::VectorXd& gap,
+                        const Eigen::VectorXd& approach, double load, double start);
+
+}  // namespace whine

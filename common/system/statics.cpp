@@ -1,0 +1,201 @@
+#include "system/statics.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "base/error.h"
+#include "base/model_range.h"
+#include "base/progress.h"
+#include "system/compliance_split.h"
+#include "system/flank_pressure.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// The system of a scene under a torque (N m) on its first body; all others but the held one are free of torque.
+SystemModel loaded_system(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh,
+                          double torque) {
+  SystemModel system(driver, driven, mesh);
+  system.layout.drives.push_back({0, System::DriveKind::torque, torque});
+  return system;
+}
+
+// Of the only mesh, one whole hunting period; where and how contact wants more than the range holds, if it does.
+std::string solve_period(const SystemModel& system, const std::vector<CandidateZone>& range, int positions,
+                         StaticArtifact& result) {
+  const GearMeshModel& model = system.mesh[0];
+  const double load = mesh_loads(system)[0];
+  SystemStatics statics(system, result.fidelity.contact, range);
+  const int rows = positions * result.hunting_periods;
+  std::vector<std::pair<int, LoadedSegment>> loads;  // row and what a pair carries there
+  int lowest = 0, highest = 0;
+  std::vector<VectorXd> start(static_cast<size_t>(result.hunting_periods), VectorXd::Zero(2));
+  result.least_gap = result.least_force = std::numeric_limits<double>::infinity();
+  result.torque_residual = 0;
+  for (int row = 0; row < rows; ++row) {
+    report_step("mesh positions", row, rows);
+    const int period = row % result.hunting_periods, position = row / result.hunting_periods,
+              i = period * positions + position;
+    const double phase = static_cast<double>(position) / positions;
+    const SystemAnswer& solution = statics.solve(phase, period, start[static_cast<size_t>(period)]);
+    const SystemEquilibrium& e = solution.equilibrium;
+    start[static_cast<size_t>(period)] = e.x;
+    if (const std::string beyond = beyond_range(solution, phase); !beyond.empty()) return beyond;
+    const double deflection = solution.deflection[0];
+    result.mesh_phase[i] = period + phase;
+    result.transmission_error[i] = solution.transmission_error[0];
+    result.unloaded_error[i] = unloaded_transmission_error(model, phase, period);
+    result.stiffness_secant[i] = load / (deflection - result.unloaded_error[i]);
+    result.stiffness_tangent[i] = e.stiffness(0, 0);
+    for (size_t b = 0; b < system.body.size(); ++b) {
+      const Bearing& bearing = system.layout.bodies[b].bearing;
+      if (!bearing.elastic()) continue;
+      result.bearing_force[b].row(i) = solution.bearing_force[b].transpose();
+      // In series on the line of action; that a corner's normal is tilted against it is left out here.
+      result.stiffness_tangent[i] = 1 / (1 / result.stiffness_tangent[i] - 1 / bearing.stiffness);
+    }
+    result.torque_residual = std::max(result.torque_residual, e.residual);
+    result.least_gap = std::min(result.least_gap, e.certificate.least_gap);
+    result.least_force = std::min(result.least_force, e.certificate.least_force);
+    for (const LoadedSegment& at : solution.loads)
+      if (at.force > 0) {
+        lowest = std::min(lowest, at.pair);
+        highest = std::max(highest, at.pair);
+        loads.emplace_back(i, at);
+      }
+  }
+  lowest = std::min(lowest, -1);
+  highest = std::max(highest, 1);
+  result.pair = Eigen::VectorXi::LinSpaced(highest - lowest + 1, lowest, highest);
+  result.tooth_load = MatrixRM::Zero(rows, result.pair.size());
+  result.contact_pressure = result.contact_half_width = result.tooth_load;
+  for (const auto& [i, at] : loads) {
+    result.tooth_load(i, at.pair - lowest) = at.force;
+    result.contact_pressure(i, at.pair - lowest) = at.patch.pressure;
+    result.contact_half_width(i, at.pair - lowest) = at.patch.half_width;
+  }
+  return "";
+}
+
+}  // namespace
+
+StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
+                                   const StaticParameters& settings, double torque, double zone_factor) {
+  constexpr double kLeastTorque = 1e-9;  // N m: gaps are round-off below
+  if (!(torque >= kLeastTorque) || !std::isfinite(torque))
+    fail(Failure::input, "torque_Nm = ", torque, " must be finite and at least ", kLeastTorque,
+         ": static transmission needs a load");
+  const SystemModel system = loaded_system(driver, driven, settings.mesh, torque);
+  const GearMeshModel& model = system.mesh[0];
+  const double load = mesh_loads(system)[0];
+  const int positions = settings.contact.positions;
+
+  StaticArtifact result;
+  set_gears(result, driver, driven);
+  result.mesh = settings.mesh;
+  result.fidelity = settings.fidelity;
+  result.contact = settings.contact;
+  result.torque = torque;
+  result.contact_ratio = model.kinematics.contact_ratio();
+  result.hunting_periods = hunting_periods(model);
+  constexpr int kMostRows = 1 << 21;
+  if (positions > kMostRows / result.hunting_periods)
+    fail(Failure::input, "teeth that differ meet again after ", result.hunting_periods,
+         " mesh periods; with positions = ", positions, " these are ",
+         static_cast<double>(positions) * result.hunting_periods, " positions, at most ", kMostRows,
+         " are allowed; lower positions");
+  for (VectorXd* v : {&result.mesh_phase, &result.transmission_error, &result.unloaded_error,
+                      &result.stiffness_secant, &result.stiffness_tangent})
+    v->resize(positions * result.hunting_periods);
+  for (size_t b = 0; b < system.body.size(); ++b)
+    if (system.layout.bodies[b].bearing.elastic())
+      result.bearing_force[b].resize(positions * result.hunting_periods, 2);
+
+  double widening = 1;
+  for (int attempt = 0;; ++attempt) {
+    const std::vector<CandidateZone> ranges =
+        static_ranges(system, settings.contact.strips, zone_factor, widening);
+    const CandidateZone& range = ranges[0];
+    const std::string beyond = solve_period(system, ranges, positions, result);
+    if (beyond.empty()) break;
+    if (attempt == kWidenings)
+      fail_outside_range(Failure::numerical, "at ", torque, " N m contact leaves the flanks: candidate zone ",
+                         range.half_zone * 1e3, " mm either side",
+                         // Beyond, no tip edge is that far from a flank.
+                         range.corner_gap < 1e-3
+                             ? text(", tip edges up to ", range.corner_gap * 1e6, " micrometres away")
+                             : "",
+                         ", and still ", beyond, "; lower the torque",
+                         result.hunting_periods > 1 ? " or the errors of the teeth" : "");
+    widening *= kWidening;
+  }
+  result.mean_stiffness = result.stiffness_secant.mean();
+  result.backlash_margin =
+      driver.design.tooth_thinning + driven.design.tooth_thinning > 0
+          ? model.kinematics.backlash() +
+                (model.on_bearings()
+                     ? (load / result.stiffness_secant.array() + result.unloaded_error.array()).minCoeff()
+                     : result.transmission_error.minCoeff())
+          : std::numeric_limits<double>::infinity();
+  return result;
+}
+
+std::vector<Remark> remarks(const StaticArtifact& s) {
+  std::vector<Remark> out;
+  const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
+  if (s.hunting_periods > 1)
+    add(false, "teeth differ: ", s.hunting_periods, " mesh periods, after which the same ones meet, of ",
+        s.contact.positions, " positions each");
+  if (!s.mesh.corner.enabled)
+    add(false, "corner contact is off: only pairs on the line of action carry load");
+  if (s.driver.tooth_thinning + s.driven.tooth_thinning > 0 && s.backlash_margin <= 0)
+    add(true, "the backlash is used up by ", -s.backlash_margin * 1e6,
+        " µm; back flanks would touch, which is not modelled");
+  const double pressure = flank_pressure(s).smooth;
+  if (pressure > kHardenedSteelPressure)
+    add(true, "the contact pressure of ", std::round(pressure * 1e-7) / 100, kBeyondSteel);
+  for (const std::vector<Remark>& more : {pressure_remarks(s), body_remarks(s)})
+    out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArtifact& driven,
+                                       const StaticArtifact& statics, double phase, int period) {
+  if (!(phase >= 0 && phase < 1))
+    fail(Failure::input, "mesh phase ", phase, " is not within a mesh period: 0 up to, not including, 1");
+  if (period < 0 || period >= statics.hunting_periods)
+    fail(Failure::input, "mesh phase ", phase + period, " is outside the range: 0 up to, not including, ",
+         statics.hunting_periods,
+         statics.hunting_periods == 1 ? " (all teeth are alike, so that every mesh period is the same)"
+                                      : " (mesh periods after which the same teeth meet)");
+  const SystemModel system = loaded_system(driver, driven, statics.mesh, statics.torque);
+  double widening = 1;
+  for (int attempt = 0; attempt < kWidenings; ++attempt, widening *= kWidening) {
+    SystemStatics solver(system, ContactModel::strips,
+                         static_ranges(system, statics.contact.strips, 1, widening));
+    const SystemAnswer& solution = solver.solve(phase, period, VectorXd::Zero(2));
+    if (!solution.leaves_zone && solution.deflection[0] <= solution.next_corner_gap[0])
+      return solver.zones()[0];
+  }
+  fail(Failure::numerical, "at mesh phase ", phase, " and ", statics.torque,
+       " N m contact leaves the flanks; lower the torque");
+}
+
+ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
+                         const StaticArtifact& statics) {
+  for (ContactZone& zone : contact_zones(driver, driven, statics, 0.0, 0))
+    if (zone.strips.pair == 0) return zone;
+  fail(Failure::numerical, "at mesh phase 0 the reference pair is out of reach");
+}
+
+}  // namespace whine

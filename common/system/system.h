@@ -1,0 +1,121 @@
+// Any number of elastic bodies and meshes at one phase: contact segments, maps, compliance, equilibrium.
+//
+// Contact forces p (N) and gaps d (m) of all meshes stand in one row of strips, mesh after mesh. With x_b = r_b theta_b (m),
+// the rotation of body b in its own sense times its base radius,
+//   d = e + A p - D x,   d >= 0, p >= 0, d . p = 0,   L^T p = f,
+// e the gaps of the unloaded flanks, D the displacement map (by how much a motion closes them), L the load map (what forces do
+// to a motion), f_b = T_b / r_b. A holds the half-planes, the bodies (between all strips that touch one body, of whatever mesh
+// and flank) and the bearings. Without friction L = D.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "system/rolling_mesh.h"
+
+namespace whine {
+
+struct SystemModel {
+  System layout;
+  std::vector<SideGears::Shared> body;
+  std::vector<GearMeshModel> mesh;
+
+  // The one pair of a scene.
+  SystemModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh);
+  // specs: of each mesh of the layout; of its bearings those of the layout count. Throws Error(input) for a number of bodies or
+  // meshes that is not the layout's, and for a cracked gear, whose teeth are not their own mirror images, in several meshes.
+  SystemModel(const System& layout, const std::vector<BodyArtifact>& bodies,
+              const std::vector<GearMeshSpec>& specs);
+
+  double base_radius(int b) const;  // m
+  // The side of mesh m that body b is; -1: none.
+  int side_of(int b, int m) const;
+};
+
+// The unit of contact: one stage parameters of one pair of teeth on one side of their flanks.
+struct ContactSegment {
+  int mesh = 0;
+  int pair = 0;                          // -1 following, 0 reference, 1 preceding
+  int settings = 0;                      // along the face width; spur gears have one
+  std::array<int, 2> tooth{};            // [side] number, counter-clockwise
+  FlankSide flank = FlankSide::leading;  // of both gears
+  double phase = 0;                      // mesh periods from the pitch point
+  double gap = 0;                        // m, at the nominal point
+  Vec2 normal = Vec2::Zero();       // from the first side's flank to the second's, in the frame of the system
+  std::array<double, 2> lever{};    // [side] m
+  double width = 0;                 // m along the face
+  int first_strip = 0, strips = 0;  // in the row of all strips
+};
+
+// Between the strips and the motions of the bodies.
+struct ContactMap {
+  Eigen::MatrixXd rotation;  // (strip, body) 1: of x
+  std::vector<Eigen::MatrixXd>
+      translation;  // [body] (strip, xy) 1: outward normal of its flank; no rows for a rigid bearing
+  std::vector<std::array<Eigen::MatrixXd, 2>>
+      flank;  // [mesh][side] (node of the mesh, flank) 1: in the flank table
+};
+
+struct SystemPosition {
+  double phase = 0;  // mesh periods since the first mesh's reference pair met at the pitch point
+  std::vector<MeshPosition> mesh;  // each at its own phase
+  std::vector<ContactSegment> segment;
+  std::vector<int> first_strip;   // (mesh + 1)
+  Eigen::VectorXd gap;            // (strip) m
+  ContactMap displacement, load;  // of motions on gaps; of forces on motions
+
+  int strips() const { return static_cast<int>(gap.size()); }
+  auto strips_of(size_t m) const { return Eigen::seqN(first_strip[m], first_strip[m + 1] - first_strip[m]); }
+};
+
+// Phase, 0 to 1, and number of the mesh period of mesh m, when the system is at `phase`, 0 to 1, of its own mesh period.
+struct MeshInstant {
+  double phase;
+  int period;
+};
+MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int period);
+
+// positions: of each mesh, at its mesh_instant.
+SystemPosition join(const SystemModel& system, double phase, int period, std::vector<MeshPosition> positions);
+
+// [mesh][side], as compliance_tables, each relative to the depth (m) of its mesh.
+using SystemTables = std::vector<std::array<std::vector<Eigen::MatrixXd>, 2>>;
+SystemTables compliance_tables(const SystemModel& system, std::span<const double> depth);
+
+// (strip, strip) m N-1: A above; without cracks. Of lines their laws are not in it.
+Eigen::MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& position,
+                                   const SystemTables& tables, std::span<const double> depth);
+
+// N: mean force along the line of action that each mesh carries, by the balance of torques alone. Throws Error(input) if a mesh
+// would be pulled apart, or if torques of free bodies are left that no mesh carries.
+Eigen::VectorXd mesh_loads(const SystemModel& system);
+
+struct SystemEquilibrium {
+  Eigen::VectorXd x;          // (body) m; 0 of held ones
+  Eigen::VectorXd p;          // (strip) N
+  Eigen::MatrixXd stiffness;  // (free body, free body) N m-1: d (L^T p) / d x, contact changes included
+  Certificate certificate;
+  double residual = 0;  // largest |L^T p - f| of free bodies over the largest mesh load
+
+  // m: sum of the sides' rotations along the line of action, positive where the first side is ahead.
+  double transmission_error(const SystemModel& system, int m) const;
+};
+
+// Free bodies: those that no drive holds, one at least; start: (body) m. With one free body it is the monotone search of
+// equilibrium(); with more Newton's method with a line search on the convex energy whose gradient L^T p - f is, to 1e-12, or
+// to 1e-10 where round-off allows no more. laws: of lines, else empty. Throws Error(numerical) with the residual if that is
+// not reached.
+SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& position,
+                              const Eigen::MatrixXd& compliance, const Eigen::VectorXd& start,
+                              ComplementaritySolver& solver);
+
+// N, in the frame of the system: what body b presses its bearing with.
+Vec2 bearing_force(const SystemPosition& position, int b, const Eigen::Ref<const Eigen::VectorXd>& p);
+
+// m: what mesh m alone gives way, the transmission error less what its bearings give way along the line of action.
+double mesh_deflection(const SystemModel& system, const SystemPosition& position, const SystemEquilibrium& at,
+                       int m);
+
+}  // namespace whine

@@ -1,0 +1,202 @@
+#include "system/system_statics.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/model_range.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+constexpr double kStripsDepth = 1e-3;  // m: statics do not depend on it, near field and far field cancel it
+
+// [mesh] N: what contact is looked for with; of a mesh without load a thousandth of the largest.
+VectorXd loads_of_ranges(const SystemModel& system) {
+  const VectorXd loads = mesh_loads(system);
+  return loads.cwiseMax(1e-3 * loads.maxCoeff());
+}
+}  // namespace
+
+std::vector<CandidateZone> static_ranges(const SystemModel& system, int strips, double zone,
+                                         double widening) {
+  const VectorXd loads = loads_of_ranges(system);
+  std::vector<CandidateZone> out;
+  for (size_t m = 0; m < system.mesh.size(); ++m) {
+    const GearMeshModel& mesh = system.mesh[m];
+    const double load = loads[static_cast<Eigen::Index>(m)];
+    double errors = 0;  // m: what teeth that differ may add to the transmission error
+    for (const FlankDeviation& flank : mesh.deviation)
+      if (flank.repeats() > 1) errors += std::max(0.0, flank.largest());
+    out.push_back(candidate_zone(mesh.kinematics, mesh.gear[0].half_plane(), mesh.gear[1].half_plane(),
+                                 strips, load / mesh.kinematics.contact_ratio(),
+                                 1.1 * load * zone * zone * widening,
+                                 (1e-6 + 8e-9 * load) * widening + errors, mesh.flanks()));
+  }
+  return out;
+}
+
+std::string beyond_range(const SystemAnswer& answer, double phase) {
+  if (answer.leaves_zone)
+    return text("at mesh phase ", phase, " the pressure reaches the candidate zone's end");
+  for (size_t m = 0; m < answer.deflection.size(); ++m) {
+    const double deflection = answer.deflection[m];
+    if (deflection > answer.lost_corner_gap[m])
+      fail_outside_range(
+          Failure::numerical, "at mesh phase ", phase, " the deflection ", deflection * 1e6,
+          " micrometres closes the gap of a tip edge that would touch below the involute (gap ",
+          answer.lost_corner_gap[m] * 1e6, " micrometres); lower the torque or set corner_contact = false");
+    if (deflection > answer.next_corner_gap[m])
+      return text("at mesh phase ", phase, " the deflection ", deflection * 1e6,
+                  " micrometres closes a tip edge's gap of ", answer.next_corner_gap[m] * 1e6,
+                  " micrometres");
+  }
+  return "";
+}
+
+std::vector<SystemAnswer> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
+                                           int positions) {
+  double widening = 1;
+  for (int attempt = 0;; ++attempt, widening *= kWidening) {
+    SystemStatics statics(system, contact, static_ranges(system, strips, 1, widening));
+    std::vector<SystemAnswer> out;
+    std::string beyond;
+    VectorXd start = VectorXd::Zero(static_cast<Eigen::Index>(system.body.size()));
+    for (int i = 0; i < positions && beyond.empty(); ++i) {
+      const double phase = static_cast<double>(i) / positions;
+      out.push_back(statics.solve(phase, 0, start));
+      start = out.back().equilibrium.x;
+      beyond = beyond_range(out.back(), phase);
+    }
+    if (beyond.empty()) return out;
+    if (attempt == kWidenings)
+      fail_outside_range(Failure::numerical, "contact leaves the flanks: ", beyond, "; lower the torque");
+  }
+}
+
+SystemStatics::SystemStatics(const SystemModel& system, ContactModel contact,
+                             std::vector<CandidateZone> range)
+    : system_(system), lines_(contact == ContactModel::line), alike_(true), range_(std::move(range)) {
+  const VectorXd load = loads_of_ranges(system);
+  for (size_t m = 0; m < system.mesh.size(); ++m) {
+    // The half candidate zone is Hertz's half-width under the whole load: the laws of lines rise over all of it, and the
+    // tables keep what lies deeper.
+    depth_.push_back(lines_ ? 3 * range_[m].half_zone : kStripsDepth);
+    pair_force_.push_back(shared_force(load[static_cast<Eigen::Index>(m)]));
+    for (const FlankDeviation& flank : system.mesh[m].deviation) alike_ = alike_ && flank.repeats() == 1;
+  }
+  tables_ = compliance_tables(system, depth_);
+}
+
+void SystemStatics::take_position(double phase, int period) {
+  const bool here = position_ && position_->phase == phase;
+  if (here && (period == period_ || alike_) && !lines_) return;
+  std::vector<MeshPosition> meshes;
+  for (size_t m = 0; m < system_.mesh.size(); ++m) {
+    const MeshInstant at = mesh_instant(system_, static_cast<int>(m), phase, period);
+    const GearMeshModel& mesh = system_.mesh[m];
+    meshes.push_back(lines_ ? make_line_position(mesh, at.phase, range_[m].corner_gap, depth_[m],
+                                                 pair_force_[m], at.period)
+                     : here ? position_->mesh[m]
+                            : make_position(mesh, at.phase, range_[m]));
+    if (!lines_ && !alike_) meshes[m].gap = flank_gaps(mesh, meshes[m], at.period);
+  }
+  position_ = join(system_, phase, period, std::move(meshes));
+  period_ = period;
+  if (here) return;
+  repeats_ = false;
+  compliance_ = contact_compliance(system_, *position_, tables_, depth_);
+  if (lines_) return;
+  // A contact that happens to end on a sound part of a broken table would look right.
+  const double least = compliance_.allFinite() ? compliance_.ldlt().vectorD().minCoeff()
+                                               : std::numeric_limits<double>::quiet_NaN();
+  if (!(least > 0))
+    fail(Failure::numerical, "at mesh phase ", phase, " the compliance of ", position_->strips(),
+         " strips is not positive definite: pivot ", least,
+         " m/N; the body's table is wrong, rebuild body.h5");
+}
+
+const SystemAnswer& SystemStatics::solve(double phase, int period, const VectorXd& start) {
+  take_position(phase, period);
+  const SystemPosition& position = *position_;
+  // Cracked gears come in single pairs.
+  const MatrixXd cracks =
+      system_.mesh.size() == 1 ? crack_compliance(system_.mesh[0], position.mesh[0], period) : MatrixXd();
+  cracked_here_ = cracks.size() > 0;
+  if (repeats_ && !cracked_here_) return answer_;
+  if (cracked_here_) {
+    with_cracks_ = compliance_;
+    position.mesh[0].add_to_strips(cracks, with_cracks_);
+  }
+  SystemAnswer answer;
+  answer.equilibrium =
+      equilibrium(system_, position, cracked_here_ ? with_cracks_ : compliance_, start, solver_);
+  for (size_t b = 0; b < system_.body.size(); ++b)
+    answer.bearing_force.push_back(system_.layout.bodies[b].bearing.elastic()
+                                       ? bearing_force(position, static_cast<int>(b), answer.equilibrium.p)
+                                       : Vec2(0, 0));
+  for (size_t m = 0; m < position.mesh.size(); ++m) {
+    const int number = static_cast<int>(m);
+    answer.transmission_error.push_back(answer.equilibrium.transmission_error(system_, number));
+    answer.deflection.push_back(mesh_deflection(system_, position, answer.equilibrium, number));
+    answer.next_corner_gap.push_back(position.mesh[m].next_corner_gap);
+    answer.lost_corner_gap.push_back(position.mesh[m].lost_corner_gap);
+  }
+  lines_ ? take_lines(answer) : take_strips(answer);
+  answer_ = std::move(answer);
+  repeats_ = alike_ && !cracked_here_ && !lines_;
+  return answer_;
+}
+
+void SystemStatics::take_strips(SystemAnswer& answer) const {
+  const VectorXd& p = answer.equilibrium.p;
+  for (size_t m = 0; m < position_->mesh.size(); ++m)
+    answer.leaves_zone =
+        answer.leaves_zone || position_->mesh[m].reaches_zone_end(p(position_->strips_of(m)));
+  for (const ContactSegment& segment : position_->segment) {
+    const auto own = p.segment(segment.first_strip, segment.strips);
+    const MeshPosition& mesh = position_->mesh[static_cast<size_t>(segment.mesh)];
+    const auto strips = std::find_if(mesh.pairs.begin(), mesh.pairs.end(),
+                                     [&](const PairStrips& of) { return of.pair == segment.pair; });
+    answer.loads.push_back(
+        {segment.mesh, segment.pair, own.sum(), contact_patch(*strips, own, segment.width)});
+  }
+}
+
+void SystemStatics::take_lines(SystemAnswer& answer) const {
+  const VectorXd& force = answer.equilibrium.p;
+  for (size_t m = 0; m < position_->mesh.size(); ++m)
+    require_line_range(position_->mesh[m], force(position_->strips_of(m)));
+  for (const ContactSegment& segment : position_->segment) {
+    const auto mesh = static_cast<size_t>(segment.mesh);
+    const int strip = segment.first_strip;
+    const HertzLine& law =
+        position_->mesh[mesh].law[static_cast<size_t>(strip - position_->first_strip[mesh])];
+    const double width = law.width(force[strip]);
+    ContactPatch patch;
+    if (force[strip] > 0 && !law.at_edge(force[strip]))
+      patch = {4 * force[strip] / (std::numbers::pi * width * segment.width), 0.5 * width};
+    answer.loads.push_back({segment.mesh, segment.pair, force[strip], patch});
+  }
+}
+
+std::vector<std::vector<ContactZone>> SystemStatics::zones() const {
+  const SystemEquilibrium& at = answer_.equilibrium;
+  const MatrixXd& a = cracked_here_ ? with_cracks_ : compliance_;
+  const VectorXd separation = a * at.p + position_->gap - position_->displacement.rotation * at.x;
+  std::vector<std::vector<ContactZone>> out(position_->mesh.size());
+  for (size_t m = 0; m < out.size(); ++m)
+    for (size_t j = 0; j < position_->mesh[m].pairs.size(); ++j) {
+      const MeshPosition& mesh = position_->mesh[m];
+      const auto own = Eigen::seqN(position_->first_strip[m] + mesh.first_strip[j], mesh.pairs[j].size());
+      out[m].push_back({mesh.pairs[j], at.p(own), separation(own), answer_.transmission_error[m]});
+    }
+  return out;
+}
+
+}  // namespace whine

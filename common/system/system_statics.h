@@ -1,0 +1,81 @@
+// A system at rest: which contact each phase has under the torques of its drives.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "system/system.h"
+
+namespace whine {
+
+struct LoadedSegment {
+  int mesh = 0, pair = 0;
+  double force = 0;  // N
+  ContactPatch patch;
+};
+
+struct SystemAnswer {
+  SystemEquilibrium equilibrium;
+  std::vector<LoadedSegment> loads;
+  std::vector<Vec2> bearing_force;                       // [body] N, see bearing_force(); 0 of rigid bearings
+  std::vector<double> transmission_error, deflection;    // [mesh] m; see mesh_deflection
+  std::vector<double> next_corner_gap, lost_corner_gap;  // [mesh] m, see PairsInReach
+  bool leaves_zone = false;                              // a wider range may do
+};
+
+// One pair of a position that is loaded.
+struct ContactZone {
+  PairStrips strips;
+  Eigen::VectorXd force;       // (strip) N
+  Eigen::VectorXd separation;  // (strip) m, of the loaded flanks (d of Eq. 18)
+  double approach = 0;         // m: the transmission error at this phase
+};
+
+// A range that contact has left is tried again so many times, each this many times as wide.
+inline constexpr int kWidenings = 6;
+inline constexpr double kWidening = 1.6;
+
+// [mesh] How far contact is looked for under the mesh loads; candidate zone: the strips' candidate zone is this many times as
+// wide as the load alone asks for; widening: 1 unless contact has left it.
+std::vector<CandidateZone> static_ranges(const SystemModel& system, int strips, double zone, double widening);
+
+// Where and how contact wants more than the range holds, in words; empty if it does not. Throws Error(numerical) where a tip
+// edge would leave the other's involute.
+std::string beyond_range(const SystemAnswer& answer, double phase);
+
+// (position) over one mesh period, from phase 0 on; strips: across the contact width, of contact "strips". Throws as
+// static_transmission.
+std::vector<SystemAnswer> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
+                                           int positions);
+
+class SystemStatics {
+ public:
+  // range: of each mesh.
+  SystemStatics(const SystemModel& system, ContactModel contact, std::vector<CandidateZone> range);
+
+  // At a phase, 0 to 1, of a mesh period; start: (body) m. One phase after the other: what all mesh periods have in common
+  // there is kept. Throws Error(numerical) where there is no equilibrium within the flanks.
+  const SystemAnswer& solve(double phase, int period, const Eigen::VectorXd& start);
+  // [mesh], of strips, of the position that was solved last.
+  std::vector<std::vector<ContactZone>> zones() const;
+
+ private:
+  void take_position(double phase, int period);
+  void take_strips(SystemAnswer& answer) const;
+  void take_lines(SystemAnswer& answer) const;
+  const SystemModel& system_;
+  bool lines_, alike_;
+  std::vector<CandidateZone> range_;
+  std::vector<double> depth_;       // [mesh] m
+  std::vector<double> pair_force_;  // [mesh] N, of lines
+  SystemTables tables_;
+  std::optional<SystemPosition> position_;
+  int period_ = 0;
+  Eigen::MatrixXd compliance_, with_cracks_;
+  bool cracked_here_ = false;
+  SystemAnswer answer_;
+  bool repeats_ = false;  // answer_ holds in all mesh periods
+  ComplementaritySolver solver_;
+};
+
+}  // namespace whine

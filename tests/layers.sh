@@ -1,0 +1,71 @@
+# The layers of common/: a layer includes only layers below it, heavy libraries stay behind their walls.
+set -uo pipefail
+
+declare -A below=(
+  [base]="base"
+  [model]="base model"
+  [gear]="base model gear"
+  [solid]="base model gear solid"
+  [contact]="base model gear solid contact"
+  [signal]="base model signal"
+  [orbits]="base orbits"
+  [system]="base model gear solid contact signal system"
+  [dynamics]="base model gear solid contact signal orbits system dynamics"
+  [studies]="base model gear solid contact signal orbits system dynamics studies"
+  [lumped]="base model gear solid contact signal orbits lumped"
+  [io]="base model gear solid contact signal orbits system dynamics studies lumped io"
+  [report]="base model gear solid contact signal orbits system dynamics studies lumped io report"
+  [paper]="base model gear solid contact signal orbits system dynamics studies lumped io report paper"
+)
+faults=$(for file in common/*/*.h common/*/*.cpp; do
+  layer=$(basename "$(dirname "$file")")
+  [ -n "${below[$layer]:-}" ] || { echo "$file: layer '$layer' has no place in the order"; continue; }
+  for other in $(sed -n 's|^#include "\([a-z_]*\)/.*|\1|p' "$file"); do
+    case " ${below[$layer]} " in *" $other "*) ;; *) echo "$file includes $other/, which is not below $layer/" ;; esac
+  done
+  sed -n "s|^#include \"\([^/]*\)\"|$file includes \"\1\" without its layer|p" "$file"
+done)
+if [ -z "$faults" ]; then echo "ok: layers include only layers below them"; else echo "FAILED: $faults"; fi
+
+# confined <header> <pattern of files that may include it>
+confined() {
+  local found
+  found=$(grep -l "#include <$1" common/*/* tools/* tests/*.cpp | grep -v -E "^($2)$" | tr '\n' ' ')
+  if [ -z "$found" ]; then echo "ok: only $2 includes $1"; else echo "FAILED: $1 is included by $found"; fi
+}
+confined hdf5 'common/io/.*\.cpp|common/io/h5\.h'
+confined gmsh 'common/solid/gmsh_mesh\.cpp'
+confined cholmod 'common/solid/.*\.cpp'
+confined fftw3 'common/signal/.*\.cpp'
+confined toml 'common/io/.*\.cpp|common/io/toml\.h'
+confined CLI/ 'common/base/options\.cpp'
+
+found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/* tools/* | head -3)
+if [ -z "$found" ]; then echo "ok: no date is compiled in"; else echo "FAILED: a date or std::format: $found"; fi
+# gmsh's library has an Eigen of its own, compiled for another processor: a template that a program exports would take its place.
+programs=$(find "$B/bin" -name 'gear-*' -o -name 'whine-*' 2> /dev/null)
+exported=$(for program in $programs; do
+  symbols=$(nm -D --defined-only "$program" 2>&1) || echo "$program ($symbols)"
+  case $symbols in *Eigen*) echo "$program" ;; esac
+done)
+if [ -z "$programs" ]; then
+  echo "skipped: what programs export ($B/bin has none)"
+elif [ -z "$exported" ]; then
+  echo "ok: programs export nothing of Eigen"
+else
+  echo "FAILED: Eigen's symbols are exported by $exported"
+fi
+if [ -x "$B/bin/whine-tests" ]; then
+  found=$(grep -v '^#' tests/unsanitized | while read -r pattern; do
+    [ "$("$B/bin/whine-tests" --no-colors=true -c -tc="$pattern" | sed -n 's/.*current filters: *//p')" = 1 ] || echo "$pattern"; done)
+  if [ -z "$found" ]; then echo "ok: each line of tests/unsanitized is a case"; else echo "FAILED: tests/unsanitized: not one case: $found"; fi
+fi
+found=$(grep -n -w Approx tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp | grep -v '^tests/relative\.h:' | head -3)
+if [ -z "$found" ]; then echo "ok: tests compare numbers by relative() only"; else echo "FAILED: Approx adds 1 to the scale, use relative(): $found"; fi
+if ! command -v clang-format > /dev/null; then
+  echo "skipped: layout of the sources (clang-format is not installed)"
+elif found=$(make -s check-format 2>&1); then
+  echo "ok: sources are laid out by clang-format"
+else
+  echo "FAILED: make format would change $(grep -o '^[^:]*\.\(cpp\|h\)' <<< "$found" | sort -u | tr '\n' ' ')"
+fi
