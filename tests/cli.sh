@@ -79,7 +79,6 @@ for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100
     /Attribute: units/ { units = 1 }
     /Attribute: long_name/ { long_name = 1 }
     /Attribute: axes/ { axes = 1 }
-    /This is a netCDF dimension but not a netCDF variable/ { units = long_name = axes = 1 }  # an axis without values
     END { judge(); if (!seen) print "no datasets" }' | tr '\n' ' ')
   claim="every dataset of ${artifact##*/} has units, a long name and, unless it is one number, axes"
   if [ -z "$bare" ]; then ok "$claim"; else wrong "$claim" "$bare"; fi

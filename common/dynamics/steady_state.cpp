@@ -118,6 +118,7 @@ std::optional<State> AndersonAcceleration::propose() const {
 }
 
 // Orders of subharmonics are in hunting periods.
+// NOLINTNEXTLINE(readability-function-size): one loop over mesh periods, whose parts share the proposal, the recurrence and the state
 std::optional<Orbit> find_periodic_orbit(RollingDynamics& dynamics, State& state, double periodicity,
                                          SteadyState method, const RmsRange& looked_for,
                                          AndersonAcceleration* shared) {

@@ -290,6 +290,9 @@ struct Writer::Impl {
     char name[80];  // the words by which netCDF knows a dimension without a variable
     std::snprintf(name, sizeof name, "This is a netCDF dimension but not a netCDF variable.%10zu", extent);
     check(H5DSset_scale(id, name), "make a scale of " + path);
+    text_attribute(id, "units", "1");
+    text_attribute(id, "long_name", "axis without values");
+    text_attribute(id, "axes", name_in(path));
     extent_of[path] = extent;
     return path;
   }

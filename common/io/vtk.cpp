@@ -29,6 +29,7 @@ constexpr std::uint8_t kLine = 3, kQuad = 9, kBiquadraticQuad = 28;  // VTK cell
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): copies of one sector, whose numbering all parts share
 VtkGrid whole_gear(const MeshArtifact& sector) {
   const int teeth = sector.design.teeth;
   const Eigen::Index nodes = sector.node_position.rows(), elements = sector.element_node.rows();
@@ -121,6 +122,7 @@ VtkGrid whole_gear(const MeshArtifact& sector) {
   return out;
 }
 
+// NOLINTNEXTLINE(readability-function-size): the sequence of datasets that the format asks for
 void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   const std::string group = "/VTKHDF/";
   const auto points = static_cast<std::size_t>(grid.point.rows());

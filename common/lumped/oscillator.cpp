@@ -37,6 +37,7 @@ constexpr std::array<std::array<double, 2>, 4> kGauss{{{0.18343464249564980, 0.3
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): the pieces of one period in the order of their derivation
 LumpedOscillator::LumpedOscillator(const LumpedParameters& p, double force, int samples, int newmark_steps)
     : parameters_(p), force_(force), samples_(samples), newmark_steps_(newmark_steps) {
   if (!(p.mass > 0) || !std::isfinite(p.mass))

@@ -60,6 +60,7 @@ BodyArtifact reduced_again(const BodyArtifact& body, const BodyDiscretisation& d
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): one row of the table after the other
 ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
                                  const StaticParameters& settings, double torque) {
   const auto solve = [&](const BodyArtifact& a, const BodyArtifact& b, const StaticParameters& s,

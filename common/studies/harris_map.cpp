@@ -207,6 +207,7 @@ double single_pair_relief_length(const BodyArtifact& driver, const BodyArtifact&
   return (pair.contact_ratio() - 1) * pair.base_pitch();
 }
 
+// NOLINTNEXTLINE(readability-function-size): one sweep of torque and relief for each start, whose positions all points share
 HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& driven,
                              const StaticParameters& statics, const HarrisPlan& plan,
                              const std::function<void(long, long, const std::string&)>& report) {

@@ -120,6 +120,7 @@ Eigen::VectorXd frequencies(const std::vector<SpecialPoint>& all, Special kind) 
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): segments of one branch, then its artifact
 BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& driven,
                            const StaticArtifact& statics, double mean_stiffness,
                            const SweepParameters& stage_settings,

@@ -409,6 +409,7 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
   return out;
 }
 
+// NOLINTNEXTLINE(readability-function-size): speeds in their order, then the artifact of all of them
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepParameters& settings, const std::string& direction,
                     const std::function<void(long, long, const std::string&)>& report,

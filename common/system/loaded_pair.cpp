@@ -60,6 +60,7 @@ struct GridPart {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): one field after the other on the grid of both gears
 LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& driven_mesh,
                            const BodyArtifact& driver, const BodyArtifact& driven,
                            const StaticArtifact& statics, double phase, int period) {
