@@ -1,8 +1,7 @@
 // gear-harris: peak-to-peak transmission error and its first harmonics against torque and tip relief (Harris map).
 //
-// Reads   static-params (stage parameters of a scene: mesh with modifications, contact), body.h5 of driver and driven gear;
-// with
-//         --dynamic params (stage parameters: damping, inertia, speeds, time), too
+// Reads   static-params (stage parameters of a scene: mesh with modifications, contact), body.h5 of both gears; with --dynamic
+//         params (stage parameters: damping, inertia, speeds, time), too
 // Writes  harris_map.h5   the map at rest, the optimum for the design torque, its curve over torque (the Harris cusp), and
 //                         what a finer solution of some points differs by; with --dynamic the RMS at the worst speed
 // Equations: as gear-static; with --dynamic as gear-sweep
@@ -29,8 +28,7 @@
 namespace {
 
 using namespace whine;
-// The map at rest, checked at so many points; with params (stage parameters for sweeps) in motion, too. took: s of this
-// processor.
+// The map at rest, checked at so many points; with params (of sweeps) in motion, too. took: s of this processor.
 HarrisMapArtifact computed(const BodyArtifact& first, const BodyArtifact& second,
                            const StaticParameters& settings, const HarrisPlan& plan, int checks,
                            const std::string& params, const std::string& reference, double& took) {
