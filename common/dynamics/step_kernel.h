@@ -63,7 +63,8 @@ struct StepSystem {
   std::vector<Eigen::MatrixXd> half_plane;             // [candidate zone] (strip, strip) m N-1
 
   const Eigen::MatrixXd& block(int side, int offset) const {
-    return coupling[static_cast<size_t>(side)][static_cast<size_t>(offset + 2 * reach)];
+    const int place = offset + 2 * reach;
+    return coupling[static_cast<size_t>(side)][static_cast<size_t>(place)];
   }
   int teeth() const { return 2 * reach + 1; }
 };

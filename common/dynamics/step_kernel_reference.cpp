@@ -86,7 +86,7 @@ VectorXd coefficients(const std::vector<Propagator>& propagators, double Propaga
 
 }  // namespace
 
-StepReference::StepReference(const StepSystem& system, std::vector<Propagator> propagators,
+StepReference::StepReference(const StepSystem& system, const std::vector<Propagator>& propagators,
                              const Relaxation& relaxed)
     : system_(system),
       a11_(coefficients(propagators, &Propagator::a11)),

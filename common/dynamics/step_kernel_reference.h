@@ -10,7 +10,8 @@ namespace whine {
 
 class StepReference {
  public:
-  StepReference(const StepSystem& system, std::vector<Propagator> propagators, const Relaxation& relaxed);
+  StepReference(const StepSystem& system, const std::vector<Propagator>& propagators,
+                const Relaxation& relaxed);
 
   // Takes a state by one step to `position`. Result: transmission error, m. Throws Error(numerical) if contact finds no
   // solution.
