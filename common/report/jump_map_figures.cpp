@@ -305,6 +305,7 @@ std::vector<std::string> jump_map_notes(const std::vector<JumpMapArtifact>& maps
     if (std::all_of(panel.second.begin(), panel.second.end(),
                     [&](const JumpMapArtifact* a) { return lost(*a, at); }))
       everywhere += text(everywhere.empty() ? "" : "; ", panel.first);
+  notes.reserve(notes.size() + panels.size());
   for (const Panel& panel : panels)
     notes.push_back(
         text("at ", rounded(ratio * 100, 2), " %, ", panel.first, ": two branches at ",

@@ -490,6 +490,7 @@ Figure study_figure(const StudyArtifact& a) {
 
   const Colours colours = colours_of(a, axes, figure);
   std::vector<size_t> columns;  // their keys
+  columns.reserve(columns_of.size());
   for (const std::string& name : columns_of) columns.push_back(key_of(a, name));
   for (size_t c = 0; c < columns.size(); ++c) add_column(a, axes, colours, columns[c], c + 1, figure);
   for (size_t r = 0; r < quantities.rows.size(); ++r) {

@@ -25,6 +25,7 @@ std::vector<double> default_reliefs(const BodyArtifact& driver, const BodyArtifa
   const double bent = static_transmission(driver, driven, settings, torque).transmission_error.maxCoeff();
   const double largest = std::ceil(1.2 * bent * 1e6) * 1e-6;
   std::vector<double> reliefs;
+  reliefs.reserve(kReliefs);
   for (int r = 0; r < kReliefs; ++r) reliefs.push_back(largest * r / (kReliefs - 1));
   return reliefs;
 }
@@ -75,6 +76,7 @@ std::vector<double> relief_lengths(const std::vector<double>& starts, const std:
   if (!starts.empty()) return lengths_of(starts, first.design, second.design, relieved);
   if (millimetres.empty()) return {default_relief_length(first, second, mesh)};
   std::vector<double> lengths;
+  lengths.reserve(millimetres.size());
   for (const double mm : millimetres) lengths.push_back(mm * 1e-3);
   return lengths;
 }
