@@ -75,8 +75,8 @@ lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks 
 
 FUZZ_SECONDS ?= 60
 fuzz_targets := scene study artifact sealed
-# Dense decompositions take clang minutes and a gigabyte, and no reader uses one.
-fuzz_sources := $(filter-out common/base/dense%,$(wildcard common/base/*.cpp common/model/*.cpp common/io/*.cpp))
+# Dense decompositions take clang minutes and a gigabyte, and no reader uses one; what expands a study or fits a lumped model calls physics.
+fuzz_sources := $(filter-out common/base/dense% common/io/study_expansion.cpp common/io/lumped_inputs.cpp,$(wildcard common/base/*.cpp common/model/*.cpp common/io/*.cpp))
 fuzz_flags := -std=c++20 -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
 
 $(B)/fuzz/ $(B)/fuzz/found/:

@@ -7,7 +7,7 @@
 #   cracked), SCENE_S_MODIFIED (yes: flanks are not as designed), SCENE_S_BEARINGS (rigid or elastic), BODIES.
 # Make remakes a fragment before anything else, under -n as well (gear-scene itself is then compiled, too). This
 # happens in every run and costs milliseconds: times cannot tell a scene of the same name in another folder, one that
-# went back in time, or a deleted stage parameters. All that it writes keeps its time if its content stays.
+# went back in time, or deleted stage parameters. All that it writes keeps its time if its content stays.
 
 # SCENE: the user's scene; out/<its stem>/ is made from it. Without it `static`, `fig05` ... are of the paper's scene.
 scene_stem := $(basename $(notdir $(SCENE)))

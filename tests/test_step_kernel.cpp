@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -59,11 +60,14 @@ struct Rig {
 };
 
 double off(const MatrixXd& found, const MatrixXd& expected) {
+  if (found.rows() != expected.rows() || found.cols() != expected.cols() || !found.allFinite())
+    return std::numeric_limits<double>::infinity();
   const double size = expected.cwiseAbs().maxCoeff();
   return size > 0 ? (found - expected).cwiseAbs().maxCoeff() / size : found.cwiseAbs().maxCoeff();
 }
 
 double off(const std::vector<MatrixXd>& found, const std::vector<MatrixXd>& expected) {
+  if (found.size() != expected.size()) return std::numeric_limits<double>::infinity();
   double worst = 0;
   for (size_t i = 0; i < expected.size(); ++i) worst = std::max(worst, off(found[i], expected[i]));
   return worst;
@@ -215,6 +219,7 @@ TEST_CASE(
         REQUIRE(end.contact != StepKernel::Contact::zone_end);
         kernel.give(found, position.mesh.strips());
         const double error = reference.step(expected, position);
+        REQUIRE(std::isfinite(end.error));
         const double terms = data.system.error_weight.cwiseAbs().dot(expected.z.cwiseAbs());
         worst = std::max({worst, off(found, expected), std::abs(end.error - error) / terms});
         touched += (expected.p.array() > 0).any();
@@ -231,6 +236,7 @@ TEST_CASE(
       for (int i = 1; i < kSteps; ++i) {
         const StepKernel::End end = kernel.finish(i, i + 1 < kSteps ? i + 1 : -1);
         const double error = reference.step(expected, data.positions[static_cast<size_t>(2 * i)]);
+        REQUIRE(std::isfinite(end.error));
         const double terms = data.system.error_weight.cwiseAbs().dot(expected.z.cwiseAbs());
         drift = std::max(drift, std::abs(end.error - error) / terms);
       }

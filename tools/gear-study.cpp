@@ -7,10 +7,8 @@
 //            --output                                          make fragment: variants by their pair of bodies
 //            --gather: study.h5 instead, a row for each variant
 // Equations  none; variants are scenes as gear-scene --set makes them, draws as io/study.h says
-// Example    gear-study --study data/studies/damping-torque-relief.toml --output build/studies/damping-torque-relief.mk --out
-// out
-//            gear-study --gather out/studies/damping-torque-relief/plan.toml --output
-// out/studies/damping-torque-relief/study.h5
+// Example    gear-study --study data/studies/tolerances.toml --output build/studies/tolerances.mk --out out
+//            gear-study --gather out/studies/tolerances/plan.toml --output out/studies/tolerances/study.h5
 #include <algorithm>
 #include <filesystem>
 #include <set>

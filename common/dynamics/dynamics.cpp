@@ -83,7 +83,7 @@ MatrixXd relaxed_fields(const std::vector<MatrixXd>& tables, int g, int most, in
     const double rest = (r - fixed * (fixed.transpose() * r * fixed) * fixed.transpose()).norm();
     if (!(rest <= kMostRemainder * whole))
       fail(Failure::numerical, "the ", fixed.cols(), " residual fields of the ", g ? "driven gear" : "driver",
-           " leave ", rest / whole, " of a tooth's residual flexibility to are instantaneous (between teeth ",
+           " leave ", rest / whole, " of a tooth's residual flexibility instantaneous (between teeth ",
            offset, " apart), above ", kMostRemainder, "; rebuild body.h5 with more modes or finer elements");
   }
   return fields;

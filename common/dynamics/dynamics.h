@@ -96,7 +96,7 @@ class RollingDynamics {
   // Builds the strips, or the lines, at `steps` phases; keeps nothing of an earlier range. Of a range lines use the
   // corner gap alone. beside: of other dynamics that are held at the same time. Throws Error(input) if, with these, the
   // coordinates of all steps need more than 12 GB or gaps of teeth that differ more than 2 GB, Error(numerical) if the
-  // residual fields leave more than 1e-3 of a gear's residual flexibility to are instantaneous.
+  // residual fields leave more than 1e-3 of a gear's residual flexibility instantaneous.
   void set_zone(const CandidateZone& range, int steps, const ZoneMemory& beside = {});
   const ZoneMemory& memory() const { return memory_; }
   // mesh frequency: Hz; steps per period must divide the steps of the range.
@@ -106,9 +106,7 @@ class RollingDynamics {
   // Integrates one mesh period and renames teeth, so that the state can be compared with the one before.
   // False if contact leaves the candidate zone; the state is then undefined. With an energy balance a step of strips costs
   // three times as much, one of lines seven times. Throws Error(input) for a state of other gears or modes, or with an energy
-  // balance
-  //  of another range; Error(numerical), with the mesh phase, if the contact of a step has no certified
-  // solution or a line carries more than Hertz's law or its flanks hold.
+  // balance of another zone; Error(numerical), with the mesh phase, if the contact of a step has no certified solution or a line carries more than Hertz's law or its flanks hold.
   bool integrate(State& state, Period& period, EnergyBalance* energy_balance = nullptr);
   // The contact problem of each step of a period of strips integrated from `state`: what integrate() hands to its solver.
   struct ContactProblem {

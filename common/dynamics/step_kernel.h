@@ -5,7 +5,7 @@
 // each coordinate:
 //   z* = a11 z + a12 v + (bq / 2) (f + t),  v* = a21 z + a22 v + (a12 / 2) (f + t),  g* = decay g + from_old l
 //   e  = gap - W (h z* - sum over sides of V C g*)                          gap without new contact force
-//   A  = H + W (B + from_new R + h (bq / 2) h^T) W^T                        H: half-planes, B: at_once, R: lagged
+//   A  = H + W (B + from_new R + h (bq / 2) h^T) W^T                        H: half-planes, B: at_once, R: relaxed
 //   d  = A p + e >= 0,  p >= 0,  d . p = 0                                  of lines with Hertz's law of p in place of H
 //   n  = W^T p,  l = V^T n,  z = z* - (bq / 2) h^T n,  v = v* - (a12 / 2) h^T n,  g = g* + from_new l.
 // W: (strip, node) interpolation; V: (node, field) of a pair; C: coupling of the fields of two teeth of a gear; lines have a
@@ -171,7 +171,7 @@ class StepKernel {
   StripCompliance compliance(int sample) const;
   StripCompliance at_once(int position) const;
 
-  // For the energy balance. y: (coordinate), direction -1 turns back; fields: as Vectors::lag, one tooth on.
+  // For the energy balance. y: (coordinate), direction -1 turns back; fields: as Vectors::relaxed, one tooth on.
   void turn_doublets(double* y, int direction = 1) const;
   void advance_fields(double* fields) const;
   // Of pair j of a position, (shape row, then 0): m that z (coordinate) moves; shares of p (strip of the pair) in shape rows,

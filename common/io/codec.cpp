@@ -157,6 +157,10 @@ void Codec::note_shape(const Dataset& d, const std::vector<Eigen::Index>& shape)
 }
 
 void Codec::dataset(const Dataset& d, const Member& member) {
+  const bool words = std::holds_alternative<std::string*>(member) ||
+                     std::holds_alternative<std::vector<std::string>*>(member);
+  if (!words && std::isinf(d.range.least) && std::isinf(d.range.most))
+    fail(Failure::numerical, "dataset ", d.name, " has no range; its codec gives it one");
   if (list_) {
     list_->push_back(d);
     return;

@@ -286,7 +286,7 @@ std::vector<Key> make_keys() {
      "relative change of the state over a mesh period at which a speed counts as steady; round-off is 1e-14",
      [](V& v) -> Slot { return &v.time.periodicity; }},
     {Part::time, "discretisation", "steady_state", kNone, "extrapolate", 0, 0, false, kWordsOf<SteadyState>,
-     "start where the last speeds lead and, once close, skip the rest of a transient, or march through it as a rig would; the same orbits but for a speed or two at the end of a branch",
+     "start where the last speeds lead and, once close, skip the rest of a transient, or integrate all of it, as a rig would run it; the same orbits but for a speed or two at the end of a branch",
      [](V& v) -> Slot { return choice_slot(v.time.steady_state); }},
   };
   // clang-format on

@@ -95,10 +95,19 @@ void describe(Codec& c, StudyArtifact& a) {
           {"/answer/" + kind.name, kind.units, kind.meaning + "; 0 where refused is 1", "variant", kQuantity},
           a.quantity, found - a.plan.quantities.begin(), quantities);
   }
+  if (c.lists()) {
+    c.dataset({"/key/<key>", "its own", "value in each variant", "variant", kQuantity}, &a.unsteady);
+    c.dataset({"/answer/<quantity>", "its own", "response quantity of each variant", "variant", kQuantity},
+              &a.unsteady);
+  }
+  for (std::size_t q = 1; c.in() && q < a.plan.quantities.size(); ++q)
+    if (std::find(a.plan.quantities.begin(), a.plan.quantities.begin() + static_cast<std::ptrdiff_t>(q),
+                  a.plan.quantities[q]) != a.plan.quantities.begin() + static_cast<std::ptrdiff_t>(q))
+      c.in()->file().reject("names the response quantity '" + a.plan.quantities[q] + "' twice");
   if (c.in())
     for (const std::string& name : a.plan.quantities)
       if (std::none_of(kinds.begin(), kinds.end(), [&](const ResponseQuantity& k) { return k.name == name; }))
-        c.in()->file().reject("names the answer '" + name + "', which no variant gives");
+        c.in()->file().reject("names the response quantity '" + name + "', which no variant gives");
   Eigen::VectorXi rejected(static_cast<Eigen::Index>(a.rejection.size()));
   for (Eigen::Index v = 0; v < rejected.size(); ++v) rejected[v] = a.rejection[v].empty() ? 0 : 1;
   c.dataset({"/refused", "1", "1: the variant lies outside the model's range and has no response quantities",
@@ -112,7 +121,7 @@ void describe(Codec& c, StudyArtifact& a) {
 
 void write(const std::string& path, const StudyArtifact& a, const Provenance& provenance) {
   if (a.quantity.rows() != static_cast<Eigen::Index>(a.variants.size()))
-    fail(Failure::numerical, "result answer has ", a.quantity.rows(), " rows, expected ", a.variants.size());
+    fail(Failure::numerical, "result has ", a.quantity.rows(), " rows, expected ", a.variants.size());
   write_artifact(path, kSchema, "Study: " + a.plan.title, a, provenance);
 }
 

@@ -395,7 +395,7 @@ void show(Lines& lines, const VariantArtifact& a) {
   if (!a.directions.empty())
     add(lines, "speeds", a.frequency_from, " to ", a.frequency_to, " Hz, ", a.directions.size(),
         a.directions.size() == 1 ? " direction" : " directions");
-  if (!a.rejection.empty()) add(lines, "refused", a.rejection);
+  if (!a.rejection.empty()) add(lines, "outside the model's range", a.rejection);
   const std::vector<ResponseQuantity> kinds = response_quantities(a.directions);
   for (Eigen::Index i = 0; i < a.quantity.size(); ++i)
     add(lines, kinds[i].name, a.quantity[i], " ", kinds[i].units == "1" ? "" : kinds[i].units);
@@ -408,7 +408,7 @@ void show(Lines& lines, const StudyArtifact& a) {
       a.rejection.size() - static_cast<size_t>(std::count(a.rejection.begin(), a.rejection.end(), ""));
   add(lines, "study", a.variants.size(), " variants of ", a.plan.scene,
       a.plan.random ? ", drawn at random" : ", all combinations", ", ", rejected, " rejected, ",
-      (a.unsteady.array() > 0).count(), " with speeds that did not settle");
+      (a.unsteady.array() > 0).count(), " with speeds without a periodic motion");
   add(lines, "keys", keys);
   for (const ResponseQuantity& kind : response_quantities(a.plan.directions)) {
     const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), kind.name);

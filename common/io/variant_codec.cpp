@@ -17,6 +17,7 @@ void describe_directions(Codec& c, std::vector<std::string>& directions) {
   std::string line;
   for (const std::string& direction : directions) line += (line.empty() ? "" : " ") + direction;
   c.dataset({"/parameters/operation/directions", "1", "directions of the sweeps; none: at rest", ""}, &line);
+  if (c.lists()) directions = {"up", "down"};
   if (!c.in()) return;
   directions.clear();
   std::istringstream words(line);
@@ -46,7 +47,7 @@ void describe(Codec& c, VariantArtifact& a) {
   const std::vector<ResponseQuantity> kinds = response_quantities(a.directions);
   const auto count = static_cast<Eigen::Index>(kinds.size());
   if (c.out() && a.quantity.size() != count)
-    fail(Failure::numerical, "result answer has ", a.quantity.size(), " rows, expected ", count);
+    fail(Failure::numerical, "result has ", a.quantity.size(), " rows, expected ", count);
   if (!c.out()) a.quantity.resize(count);
   for (Eigen::Index i = 0; i < count; ++i)
     c.dataset({"/answer/" + kinds[i].name, kinds[i].units, kinds[i].meaning, "", kQuantity}, &a.quantity[i]);

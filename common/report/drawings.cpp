@@ -114,12 +114,12 @@ Drawings drawings_at_rest() {
           return transmission_error_figure(read_all(in, read_static));
         }}},
       {"fig13",
-       {"mesh stiffness and its spectrum", "as fig12", 0, 0,
+       {"mesh stiffness and its spectrum", "what fig12 takes", 0, 0,
         [](const Paths& in, const Frequencies&) {
           return mesh_stiffness_figure(read_all(in, read_static));
         }}},
       {"load-sharing",
-       {"the share of the load that a tooth pair carries on its way through the mesh", "as fig12", 0, 0,
+       {"the share of the load that a tooth pair carries on its way through the mesh", "what fig12 takes", 0, 0,
         [](const Paths& in, const Frequencies&) { return load_sharing_figure(read_all(in, read_static)); }}},
       {"profile",
        {"profile charts of the driving flanks, as an inspection sheet shows them", "static.h5", 1, 0,
@@ -161,7 +161,7 @@ Drawings drawings_of_motions() {
           return vibration_figure(captions.sweeps, f[0], captions.background);
         }}},
       {"fig10",
-       {"tooth loads over the mesh phase, both branches at one speed", "as fig08", 0, 1,
+       {"tooth loads over the mesh phase, both branches at one speed", "what fig08 takes", 0, 1,
         [](const Paths& in, const Frequencies& f) {
           const auto captions = read_sweeps(in);
           return tooth_load_figure(captions.sweeps, f[0], captions.background);
@@ -172,7 +172,7 @@ Drawings drawings_of_motions() {
         [](const Paths& in, const Frequencies& f) {
           return mesh_force_figure(read_all(in, read_sweep), f);
         }}},
-      {"fig16", {"RMS and mean of the dynamic transmission error", "as fig05", 0, 0, draw_responses}},
+      {"fig16", {"RMS and mean of the dynamic transmission error", "what fig05 takes", 0, 0, draw_responses}},
       {"waterfall",
        {"spectra of the dynamic transmission error against mesh frequency, and its first orders",
         "sweep.h5 of a sweep, or of those up and down of one torque", 0, 0,

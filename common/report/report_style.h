@@ -1,4 +1,4 @@
-// How the page of a report looks; private to plot/report.cpp.
+// How the page of a report looks; private to report/report.cpp.
 #pragma once
 
 namespace whine {

@@ -42,6 +42,11 @@ SystemModel::SystemModel(const System& of, const std::vector<BodyArtifact>& bodi
   if (bodies.size() != layout.bodies.size() || specs.size() != layout.meshes.size() || specs.empty())
     fail(Failure::input, "a system of ", layout.bodies.size(), " bodies and ", layout.meshes.size(),
          " meshes is given ", bodies.size(), " and ", specs.size());
+  for (const GearMeshSpec& spec : specs)
+    if (spec.contact_plane != specs[0].contact_plane)
+      fail(Failure::input, "the meshes of a system have contact_plane = \"", specs[0].contact_plane,
+           "\" and \"", spec.contact_plane,
+           "\": bodies that take part in both have one; give all meshes the same");
   for (const BodyArtifact& artifact : bodies)
     body.push_back(std::make_shared<const ElasticGear>(artifact, specs[0].contact_plane));
   for (size_t m = 0; m < specs.size(); ++m) {

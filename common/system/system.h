@@ -34,11 +34,11 @@ struct SystemModel {
   int side_of(int b, int m) const;
 };
 
-// The unit of contact: one stage parameters of one pair of teeth on one side of their flanks.
+// The unit of contact: one slice of one pair of teeth on one side of their flanks.
 struct ContactSegment {
   int mesh = 0;
   int pair = 0;                          // -1 following, 0 reference, 1 preceding
-  int settings = 0;                      // along the face width; spur gears have one
+  int slice = 0;                         // along the face width; spur gears have one
   std::array<int, 2> tooth{};            // [side] number, counter-clockwise
   FlankSide flank = FlankSide::leading;  // of both gears
   double phase = 0;                      // mesh periods from the pitch point

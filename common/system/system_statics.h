@@ -35,7 +35,7 @@ struct ContactZone {
 inline constexpr int kWidenings = 6;
 inline constexpr double kWidening = 1.6;
 
-// [mesh] How far contact is looked for under the mesh loads; candidate zone: the strips' candidate zone is this many times as
+// [mesh] How far contact is looked for under the mesh loads; zone: that of the strips is this many times as
 // wide as the load alone asks for; widening: 1 unless contact has left it.
 std::vector<CandidateZone> static_ranges(const SystemModel& system, int strips, double zone, double widening);
 
