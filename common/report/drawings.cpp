@@ -119,7 +119,8 @@ Drawings drawings_at_rest() {
           return mesh_stiffness_figure(read_all(in, read_static));
         }}},
       {"load-sharing",
-       {"the share of the load that a tooth pair carries on its way through the mesh", "what fig12 takes", 0, 0,
+       {"the share of the load that a tooth pair carries on its way through the mesh", "what fig12 takes", 0,
+        0,
         [](const Paths& in, const Frequencies&) { return load_sharing_figure(read_all(in, read_static)); }}},
       {"profile",
        {"profile charts of the driving flanks, as an inspection sheet shows them", "static.h5", 1, 0,
