@@ -17,7 +17,6 @@ void describe_directions(Codec& c, std::vector<std::string>& directions) {
   std::string line;
   for (const std::string& direction : directions) line += (line.empty() ? "" : " ") + direction;
   c.dataset({"/parameters/operation/directions", "1", "directions of the sweeps; none: at rest", ""}, &line);
-  if (c.lists()) directions = {"up", "down"};
   if (!c.in()) return;
   directions.clear();
   std::istringstream words(line);
@@ -44,6 +43,13 @@ void describe(Codec& c, VariantArtifact& a) {
   c.dataset({"/refusal", "1", "why the variant lies outside the model's range; empty: it does not", ""},
             &a.rejection);
   if (!a.rejection.empty()) return;
+  if (c.lists()) {
+    double any = 0;
+    c.dataset({"/answer/<quantity>", "its own", "response quantity, those of sweeps for each direction", "",
+               kQuantity},
+              &any);
+    return;
+  }
   const std::vector<ResponseQuantity> kinds = response_quantities(a.directions);
   const auto count = static_cast<Eigen::Index>(kinds.size());
   if (c.out() && a.quantity.size() != count)
