@@ -87,7 +87,7 @@ done
 # --- every program's --help ends with examples, and they run, in the order of the flow on a coarse pair of the paper's name
 mkdir -p examples/data/scenes
 ln -s "$(dirname "$plots")" examples/pipelines
-cp -r "$(dirname "$scene_of_paper")"/../{studies,published} examples/data/
+cp -r "$(dirname "$scene_of_paper")"/../{studies,published,examples} examples/data/
 sed "$coarse; s/^torque_Nm = .*/torque_Nm = [100, 150]/; s/from = 2000, to = 2100/from = 2350, to = 2400/" "$scene_of_paper" > examples/data/scenes/parker2000.toml
 flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard report study variant"
 examples_of() { "$bin/$1" --help | sed '1,/^Examples\{0,1\}:$/d; s/^ *//; /^$/d'; }
@@ -141,6 +141,7 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --printed $claims --output x out/scene/T100/static.h5"
   [gear-report]="$bin/gear-report out/scene/T100/static.h5 --output x"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
+  [gear-import]="$bin/gear-import --input $scene_of_paper --output x.toml"
   [gear-loaded]="${stage_loaded[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-study]="$bin/gear-study --study scene.toml --output study.mk"

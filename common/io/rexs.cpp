@@ -1,0 +1,224 @@
+#include "io/rexs.h"
+
+#include <jsoncpp/json/json.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "io/publish.h"
+
+namespace whine {
+namespace {
+
+constexpr size_t kMostBytes = 64u << 20;  // of a model; one of a whole gearbox has less than 10 MB
+
+[[noreturn]] void reject(const std::string& path, const std::string& why) {
+  fail(Failure::input, path, ": ", printable(why, 300),
+       "; a REXS model of version 1.0 to 2.0 is wanted (.rexs, .rexsj or .rexsz)");
+}
+
+int id_of(const std::string& path, const std::string& word, const char* what) {
+  int id = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
+  if (error != std::errc() || end != word.data() + word.size() || id < 0)
+    reject(path, text("the id '", word, "' of a ", what, " is no number from 0 on"));
+  return id;
+}
+
+// Of the archive the only entry that may be a model: gearbox models come with pictures and meshes beside them.
+std::string unpacked(const std::string& path, const std::string& bytes) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+  zip_t* opened = source ? zip_open_from_source(source, ZIP_RDONLY, &error) : nullptr;
+  if (!opened) {
+    const std::string why = zip_error_strerror(&error);
+    if (source) zip_source_free(source);
+    zip_error_fini(&error);
+    reject(path, "its zip archive cannot be opened: " + why);
+  }
+  const std::unique_ptr<zip_t, void (*)(zip_t*)> archive(opened, zip_discard);
+  std::vector<zip_uint64_t> models;
+  const zip_int64_t entries = zip_get_num_entries(archive.get(), 0);
+  for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(std::max<zip_int64_t>(entries, 0)); ++i) {
+    const char* given = zip_get_name(archive.get(), i, 0);
+    const std::string name = given ? given : "";
+    for (const char* end : {".rexs", ".rexsj", ".xml", ".json"})
+      if (name.ends_with(end)) models.push_back(i);
+  }
+  if (models.size() != 1)
+    reject(path, text("its zip archive holds ", models.size(), " models instead of one"));
+  zip_stat_t entry;
+  zip_stat_init(&entry);
+  if (zip_stat_index(archive.get(), models[0], 0, &entry) != 0 || !(entry.valid & ZIP_STAT_SIZE))
+    reject(path, "its zip archive does not say how long the model is");
+  if (entry.size > kMostBytes)
+    reject(path, text("the model in it has ", entry.size, " bytes, more than 64 MB"));
+  const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive.get(), models[0], 0),
+                                                               zip_fclose);
+  std::string model(entry.size, '\0');
+  if (!file || zip_fread(file.get(), model.data(), entry.size) != static_cast<zip_int64_t>(entry.size))
+    reject(path, "the model in its zip archive is damaged or encrypted");
+  return model;
+}
+
+void add(const std::string& path, std::map<int, RexsComponent>& components, RexsComponent component) {
+  const int id = component.id;
+  if (!components.emplace(id, std::move(component)).second)
+    reject(path, text("two components have the id ", id));
+}
+
+// --- XML: <model version><relations><relation id type><ref id role/>, <components><component id type name><attribute id unit>
+
+RexsComponent component_of(const std::string& path, const pugi::xml_node& node) {
+  RexsComponent out;
+  out.id = id_of(path, node.attribute("id").value(), "component");
+  out.type = node.attribute("type").value();
+  out.name = node.attribute("name").value();
+  for (const pugi::xml_node& attribute : node.children("attribute")) {
+    RexsAttribute read{attribute.attribute("unit").value(), attribute.child_value(), false};
+    read.list = attribute.first_child().type() == pugi::node_element;
+    for (const pugi::xml_node& child : attribute.children())
+      read.list = read.list || child.type() == pugi::node_element;
+    out.attributes[attribute.attribute("id").value()] = read;
+  }
+  return out;
+}
+
+void read_xml(const std::string& bytes, RexsModel& model) {
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_buffer(bytes.data(), bytes.size());
+  if (!parsed) {
+    const auto line =
+        1 + std::count(bytes.begin(), bytes.begin() + std::min<long>(parsed.offset, bytes.size()), '\n');
+    reject(model.path, text("its XML is broken in line ", line, ": ", parsed.description()));
+  }
+  const pugi::xml_node root = document.child("model");
+  if (!root)
+    reject(model.path, text("its XML begins with <", document.document_element().name(), ">, not <model>"));
+  model.version = root.attribute("version").value();
+  for (const pugi::xml_node& node : root.child("components").children("component"))
+    add(model.path, model.components, component_of(model.path, node));
+  for (const pugi::xml_node& node : root.child("relations").children("relation")) {
+    RexsRelation relation{node.attribute("type").value(), {}};
+    for (const pugi::xml_node& ref : node.children("ref"))
+      relation.references.push_back(
+          {ref.attribute("role").value(), id_of(model.path, ref.attribute("id").value(), "reference")});
+    model.relations.push_back(std::move(relation));
+  }
+  for (const pugi::xml_node& node : root.child("load_spectrum").children("load_case")) {
+    model.load_cases.emplace_back();
+    for (const pugi::xml_node& part : node.children("component"))
+      add(model.path, model.load_cases.back(), component_of(model.path, part));
+  }
+}
+
+// --- JSON: the same names; the value of an attribute stands behind its kind ("floating_point": 2.5)
+
+std::string word_of(const Json::Value& value) {
+  return value.isString() || value.isNumeric() || value.isBool() ? value.asString() : "";
+}
+
+RexsComponent component_of(const std::string& path, const Json::Value& node) {
+  RexsComponent out;
+  out.id = id_of(path, word_of(node["id"]), "component");
+  out.type = word_of(node["type"]);
+  out.name = word_of(node["name"]);
+  for (const Json::Value& attribute : node["attributes"]) {
+    RexsAttribute read{word_of(attribute["unit"]), "", false};
+    for (const std::string& kind : attribute.getMemberNames()) {
+      if (kind == "id" || kind == "unit") continue;
+      read.list =
+          !attribute[kind].isNull() && word_of(attribute[kind]).empty() && !attribute[kind].isString();
+      read.value = word_of(attribute[kind]);
+    }
+    out.attributes[word_of(attribute["id"])] = read;
+  }
+  return out;
+}
+
+void read_json(const std::string& bytes, RexsModel& model) {
+  Json::CharReaderBuilder builder;
+  builder["collectComments"] = false;
+  builder["precision"] = 17;
+  Json::Value document;
+  std::string why;
+  const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());
+  if (!reader->parse(bytes.data(), bytes.data() + bytes.size(), &document, &why))
+    reject(model.path, "its JSON is broken: " + why.substr(why.find_first_not_of("* \n")));
+  if (!document.isObject() || !document["model"].isObject())
+    reject(model.path, "its JSON holds no \"model\"");
+  const Json::Value& root = document["model"];
+  model.version = word_of(root["version"]);
+  for (const Json::Value& node : root["components"])
+    add(model.path, model.components, component_of(model.path, node));
+  for (const Json::Value& node : root["relations"]) {
+    RexsRelation relation{word_of(node["type"]), {}};
+    for (const Json::Value& ref : node["refs"])
+      relation.references.push_back(
+          {word_of(ref["role"]), id_of(model.path, word_of(ref["id"]), "reference")});
+    model.relations.push_back(std::move(relation));
+  }
+  for (const Json::Value& node : root["load_spectrum"]["load_cases"]) {
+    model.load_cases.emplace_back();
+    for (const Json::Value& part : node["components"])
+      add(model.path, model.load_cases.back(), component_of(model.path, part));
+  }
+}
+
+void check_version(const RexsModel& model) {
+  const std::string& v = model.version;
+  const bool numbers =
+      v.size() >= 3 && v[1] == '.' && v.find_first_not_of("0123456789.") == std::string::npos;
+  if (!numbers || !(v[0] == '1' || v.starts_with("2.0")))
+    reject(model.path, v.empty() ? "it names no version" : "its version is " + v);
+}
+
+}  // namespace
+
+int RexsRelation::in_role(const std::string& role) const {
+  for (const Reference& reference : references)
+    if (reference.role == role) return reference.component;
+  return -1;
+}
+
+bool RexsRelation::holds(int component) const {
+  return std::any_of(references.begin(), references.end(),
+                     [&](const Reference& reference) { return reference.component == component; });
+}
+
+RexsModel read_rexs(const std::string& path) {
+  std::string bytes = read_bytes(path);
+  if (bytes.size() > kMostBytes) reject(path, text("it has ", bytes.size(), " bytes, more than 64 MB"));
+  if (bytes.starts_with("PK")) bytes = unpacked(path, bytes);
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);  // byte order mark
+  RexsModel model;
+  model.path = path;
+  const size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) reject(path, "it is empty");
+  try {
+    if (bytes[first] == '<')
+      read_xml(bytes, model);
+    else if (bytes[first] == '{')
+      read_json(bytes, model);
+    else
+      reject(path, "it is neither XML nor JSON nor a zip archive");
+  } catch (const Json::Exception& e) {
+    reject(path, std::string("its JSON is not that of a model: ") + e.what());
+  }
+  check_version(model);
+  for (const RexsRelation& relation : model.relations)
+    for (const RexsRelation::Reference& reference : relation.references)
+      if (!model.components.contains(reference.component))
+        reject(path, text("a relation '", relation.type, "' names component ", reference.component,
+                          ", which does not exist"));
+  return model;
+}
+
+}  // namespace whine

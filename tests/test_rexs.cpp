@@ -1,0 +1,469 @@
+// REXS models, written here after the published schema: what is read of them, scenes made from them, foreign and damaged files.
+#include <doctest/doctest.h>
+#include <jsoncpp/json/json.h>
+#include <unistd.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "gear/scene_geometry.h"
+#include "io/rexs.h"
+#include "io/rexs_scene.h"
+#include "io/scene.h"
+
+using namespace whine;
+
+namespace {
+
+struct Part {
+  int id;
+  std::string type, name;
+  std::vector<std::array<std::string, 3>> attributes;  // id, unit, value
+};
+struct Link {
+  std::string type;
+  std::vector<std::pair<std::string, int>> refs;
+};
+struct Gearbox {
+  std::string version = "1.4";
+  std::vector<Part> parts;
+  std::vector<Link> links;
+  std::vector<Part> load;  // of one load case
+};
+
+// The pair of data/scenes/first-pair.toml, with the values that a model of a gearbox has.
+Gearbox first_pair() {
+  Gearbox box;
+  box.parts = {{1, "gear_unit", "Unit", {}},
+               {10,
+                "cylindrical_gear",
+                "Pinion A",
+                {{"number_of_teeth", "", "30"},
+                 {"normal_module", "mm", "2.5"},
+                 {"face_width", "mm", "20"},
+                 {"inner_diameter", "mm", "40"},
+                 {"helix_angle_reference_diameter", "deg", "0"}}},
+               {11,
+                "cylindrical_gear",
+                "Wheel B",
+                {{"number_of_teeth", "none", "45"},
+                 {"normal_module", "mm", "2.5"},
+                 {"face_width", "mm", "20"},
+                 {"inner_diameter", "mm", "60"}}},
+               {12, "cylindrical_stage", "First stage", {{"center_distance", "mm", "94.5"}}},
+               {20,
+                "cylindrical_gear_flank",
+                "",
+                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.25"}}},
+               {21,
+                "cylindrical_gear_flank",
+                "",
+                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.25"}}},
+               {22,
+                "cylindrical_gear_flank",
+                "",
+                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.05"}}},
+               {23,
+                "cylindrical_gear_flank",
+                "",
+                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.05"}}},
+               {30,
+                "rack_shaped_tool",
+                "Tool",
+                {{"addendum_coefficient_reference_profile", "", "1.25"},
+                 {"dedendum_coefficient_reference_profile", "", "1"},
+                 {"tip_radius_factor", "", "0.38"}}},
+               {31,
+                "material",
+                "Steel",
+                {{"elastic_modulus", "N / mm^2", "206000"},
+                 {"poisson_ratio", "", "0.3"},
+                 {"density", "kg / dm^3", "7.85"}}},
+               {40, "shaft", "Input", {}},
+               {41, "external_load", "Load", {}}};
+  box.links = {{"stage", {{"stage", 12}, {"gear_1", 10}, {"gear_2", 11}}},
+               {"flank", {{"gear", 10}, {"left", 20}, {"right", 21}}},
+               {"flank", {{"gear", 11}, {"left", 22}, {"right", 23}}},
+               {"manufacturing_step", {{"workpiece", 10}, {"tool", 30}}},
+               {"manufacturing_step", {{"workpiece", 11}, {"tool", 30}}},
+               {"reference", {{"origin", 10}, {"referenced", 31}}},
+               {"reference", {{"origin", 11}, {"referenced", 31}}},
+               {"assembly", {{"assembly", 40}, {"part", 10}}},
+               {"assembly", {{"assembly", 40}, {"part", 41}}}};
+  box.load = {{40, "shaft", "Input", {{"rotational_speed", "1 / min", "6000"}}},
+              {41, "external_load", "Load", {{"torque_around_u_axis", "N m", "-60"}}}};
+  return box;
+}
+
+std::string xml_parts(const std::vector<Part>& parts) {
+  std::string out;
+  for (const Part& part : parts) {
+    out += "<component id=\"" + std::to_string(part.id) + "\" type=\"" + part.type + "\" name=\"" +
+           part.name + "\">\n";
+    for (const auto& [id, unit, value] : part.attributes)
+      out += "<attribute id=\"" + id + "\" unit=\"" + unit + "\">" + value + "</attribute>\n";
+    out += "</component>\n";
+  }
+  return out;
+}
+
+std::string xml(const Gearbox& box) {
+  std::string out =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model version=\"" + box.version + "\">\n<relations>\n";
+  for (size_t i = 0; i < box.links.size(); ++i) {
+    out += "<relation id=\"" + std::to_string(100 + i) + "\" type=\"" + box.links[i].type + "\">";
+    for (const auto& [role, id] : box.links[i].refs)
+      out += "<ref id=\"" + std::to_string(id) + "\" role=\"" + role + "\"/>";
+    out += "</relation>\n";
+  }
+  out += "</relations>\n<components>\n" + xml_parts(box.parts) + "</components>\n";
+  if (!box.load.empty())
+    out += "<load_spectrum id=\"1\"><load_case id=\"1\">" + xml_parts(box.load) +
+           "</load_case></load_spectrum>\n";
+  return out + "</model>\n";
+}
+
+Json::Value json_parts(const std::vector<Part>& parts) {
+  Json::Value out(Json::arrayValue);
+  for (const Part& part : parts) {
+    Json::Value node;
+    node["id"] = part.id;
+    node["type"] = part.type;
+    node["name"] = part.name;
+    node["attributes"] = Json::Value(Json::arrayValue);
+    for (const auto& [id, unit, value] : part.attributes) {
+      Json::Value attribute;
+      attribute["id"] = id;
+      attribute["unit"] = unit;
+      attribute["floating_point"] = std::stod(value);
+      node["attributes"].append(attribute);
+    }
+    out.append(node);
+  }
+  return out;
+}
+
+std::string json(const Gearbox& box) {
+  Json::Value root;
+  Json::Value& model = root["model"];
+  model["version"] = box.version;
+  model["components"] = json_parts(box.parts);
+  for (size_t i = 0; i < box.links.size(); ++i) {
+    Json::Value relation;
+    relation["id"] = static_cast<int>(100 + i);
+    relation["type"] = box.links[i].type;
+    for (const auto& [role, id] : box.links[i].refs) {
+      Json::Value ref;
+      ref["id"] = id;
+      ref["role"] = role;
+      relation["refs"].append(ref);
+    }
+    model["relations"].append(relation);
+  }
+  Json::Value load_case;
+  load_case["id"] = 1;
+  load_case["components"] = json_parts(box.load);
+  model["load_spectrum"]["load_cases"].append(load_case);
+  return Json::writeString(Json::StreamWriterBuilder(), root);
+}
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "whine-rexs-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string file(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return (path_ / name).string();
+  }
+  std::string zipped(const std::string& name,
+                     const std::vector<std::pair<std::string, std::string>>& entries) const {
+    const std::string path = (path_ / name).string();
+    zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
+    REQUIRE(archive != nullptr);
+    for (const auto& [entry, bytes] : entries)
+      zip_file_add(archive, entry.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), 0);
+    REQUIRE(zip_close(archive) == 0);
+    return path;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Scene imported(const Folder& folder, const std::string& model, const std::string& stage = "") {
+  return read_scene(folder.file("imported.toml", scene_of_rexs(read_rexs(model), stage, 1).text));
+}
+
+void set(Gearbox& box, int id, const std::string& attribute, const std::string& unit,
+         const std::string& value) {
+  for (Part& part : box.parts) {
+    if (part.id != id) continue;
+    std::erase_if(part.attributes, [&](const auto& a) { return a[0] == attribute; });
+    part.attributes.push_back({attribute, unit, value});
+  }
+}
+
+void unset(Gearbox& box, int id, const std::string& attribute) {
+  for (Part& part : box.parts)
+    if (part.id == id) std::erase_if(part.attributes, [&](const auto& a) { return a[0] == attribute; });
+}
+
+std::string message_of(const auto& run) {
+  try {
+    run();
+  } catch (const Error& e) {
+    CHECK(e.kind() == Failure::input);
+    return e.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("REXS: a model in XML, JSON and zip gives the gears of the scene that it describes") {
+  const Folder folder;
+  const Scene expected = read_scene("data/scenes/first-pair.toml");
+  const Gearbox box = first_pair();
+  for (const std::string& path :
+       {folder.file("pair.rexs", xml(box)), folder.file("bom.rexs", "\xef\xbb\xbf" + xml(box)),
+        folder.file("pair.rexsj", json(box)),
+        folder.zipped("pair.rexsz", {{"pair.rexs", xml(box)}, {"picture.png", "?"}}),
+        folder.zipped("json.rexsz", {{"pair.rexsj", json(box)}})}) {
+    CAPTURE(path);
+    const Scene scene = imported(folder, path);
+    REQUIRE(scene.gears.size() == 2);
+    for (size_t g = 0; g < 2; ++g) {
+      const GearDesign &a = scene.gears[g].design, &b = expected.gears[g].design;
+      CHECK(a.teeth == b.teeth);
+      CHECK(a.module == b.module);
+      CHECK(a.pressure_angle == b.pressure_angle);
+      CHECK(a.profile_shift == b.profile_shift);
+      CHECK(a.addendum == b.addendum);
+      CHECK(a.dedendum == b.dedendum);
+      CHECK(a.rack_tip_radius == b.rack_tip_radius);
+      CHECK(a.face_width == b.face_width);
+      CHECK(a.bore_radius == b.bore_radius);
+      CHECK(scene.gears[g].material.youngs_modulus == expected.gears[g].material.youngs_modulus);
+      CHECK(scene.gears[g].material.density == expected.gears[g].material.density);
+    }
+    CHECK(scene.gears[0].name == "pinion_a");
+    CHECK(scene.mesh.driver == "pinion_a");
+    CHECK(scene.mesh.centre_distance == expected.mesh.centre_distance);
+    CHECK(scene.operation.torques == std::vector<double>{60});
+    // 6000 1/min of 30 teeth: 3000 Hz, from a fifth of it to half beyond
+    CHECK(scene.operation.frequency_from == 600);
+    CHECK(scene.operation.frequency_to == 4500);
+  }
+}
+
+TEST_CASE("REXS: units, reliefs, the generating shift and the flank that works") {
+  const Folder folder;
+  Gearbox box = first_pair();
+  box.version = "2.0";
+  set(box, 10, "normal_module", "m", "0.0025");
+  set(box, 20, "normal_pressure_angle", "rad", "0.3490658503988659");
+  set(box, 21, "normal_pressure_angle", "rad", "0.3490658503988659");
+  set(box, 31, "elastic_modulus", "GPa", "206");
+  set(box, 10, "tip_diameter", "mm", "81.25");
+  box.parts.push_back({50,
+                       "tip_relief",
+                       "",
+                       {{"tip_relief_depth", "mm", "0.02"},
+                        {"tip_relief_datum_diameter", "mm", "79"},
+                        {"shape_of_relief", "", "parabolic"}}});
+  box.parts.push_back({51,
+                       "tip_relief",
+                       "",
+                       {{"tip_relief_depth", "mum", "7"}, {"tip_relief_datum_diameter", "mm", "79.5"}}});
+  box.parts.push_back({52, "cylindrical_stage_gear_data", "", {{"loaded_tooth_flank", "", "right"}}});
+  box.parts.push_back({53,
+                       "cylindrical_gear_manufacturing_settings",
+                       "",
+                       {{"generated_addendum_modification_coefficient", "", "0.23"}}});
+  box.parts.push_back(
+      {54,
+       "profile_crowning",
+       "",
+       {{"profile_crowning_at_tip", "mm", "0.003"}, {"profile_crowning_at_root", "mm", "0.003"}}});
+  box.links.push_back({"reference", {{"origin", 20}, {"referenced", 50}}});
+  box.links.push_back({"reference", {{"origin", 21}, {"referenced", 51}}});
+  box.links.push_back({"reference", {{"origin", 21}, {"referenced", 54}}});
+  box.links.push_back({"stage_gear_data", {{"stage", 12}, {"gear", 10}, {"stage_gear_data", 52}}});
+  box.links.push_back({"manufacturing_step", {{"workpiece", 10}, {"manufacturing_settings", 53}}});
+  const Scene scene = imported(folder, folder.file("pair.rexs", xml(box)));
+  const SceneGear& pinion = scene.gears[0];
+  CHECK(pinion.design.module == 2.5e-3);
+  CHECK(pinion.design.pressure_angle == doctest::Approx(std::numbers::pi / 9).epsilon(1e-14));
+  CHECK(pinion.material.youngs_modulus == 206e9);
+  CHECK(pinion.design.addendum == doctest::Approx(1.0).epsilon(1e-12));
+  CHECK(pinion.modification.tip.amount == doctest::Approx(7e-6).epsilon(1e-14));  // of the right flank
+  CHECK(pinion.modification.tip.start_radius == doctest::Approx(39.75e-3).epsilon(1e-14));
+  CHECK(pinion.modification.tip.shape == ReliefShape::linear);
+  CHECK(pinion.modification.crowning == doctest::Approx(3e-6).epsilon(1e-14));
+  CHECK(pinion.design.tooth_thinning ==
+        doctest::Approx(2 * 2.5e-3 * 0.02 * std::tan(std::numbers::pi / 9)).epsilon(1e-12));
+  CHECK(scene.gears[1].modification == FlankModification{});
+}
+
+TEST_CASE(
+    "REXS: one of several stages, driven by its second gear; what the model lacks is assumed and said") {
+  const Folder folder;
+  Gearbox box = first_pair();
+  for (const auto& [id, name] : {std::pair{60, "Third"}, std::pair{61, "Fourth"}})
+    box.parts.push_back(
+        {id,
+         "cylindrical_gear",
+         name,
+         {{"number_of_teeth", "", "25"}, {"normal_module", "mm", "3"}, {"face_width", "mm", "30"}}});
+  box.parts.push_back({62, "cylindrical_stage", "Second stage", {{"center_distance", "mm", "76"}}});
+  for (int id : {63, 64})
+    box.parts.push_back(
+        {id,
+         "cylindrical_gear_flank",
+         "",
+         {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.2"}}});
+  box.parts.push_back({65, "cylindrical_stage_gear_data", "", {{"is_driving_gear", "", "true"}}});
+  box.links.push_back({"stage", {{"stage", 62}, {"gear_1", 60}, {"gear_2", 61}}});
+  box.links.push_back({"flank", {{"gear", 60}, {"left", 63}}});
+  box.links.push_back({"flank", {{"gear", 61}, {"left", 64}}});
+  box.links.push_back({"stage_gear_data", {{"stage", 62}, {"gear", 61}, {"stage_gear_data", 65}}});
+  const std::string path = folder.file("box.rexs", xml(box));
+  CHECK(message_of([&] { scene_of_rexs(read_rexs(path), "", 1); }).find("2 stages; name one with --stage") !=
+        std::string::npos);
+  CHECK(message_of([&] { scene_of_rexs(read_rexs(path), "Fifth", 1); }).find("no stage is called 'Fifth'") !=
+        std::string::npos);
+  for (const char* stage : {"62", "Second stage"}) {
+    const Scene scene = imported(folder, path, stage);
+    CHECK(scene.mesh.driver == "fourth");
+    CHECK(scene.mesh.driven == "third");
+    CHECK(scene.mesh.centre_distance == 76e-3);
+    CHECK(scene.gears[0].design.dedendum == 1.25);
+    CHECK(scene.gears[0].material.youngs_modulus == 206e9);
+  }
+  const RexsScene scene = scene_of_rexs(read_rexs(path), "62", 1);
+  const auto says = [&](const std::string& words) {
+    return std::any_of(scene.assumed.begin(), scene.assumed.end(),
+                       [&](const std::string& a) { return a.find(words) != std::string::npos; });
+  };
+  for (const char* key : {"gear.third.dedendum", "gear.fourth.bore_radius_mm", "youngs_modulus_GPa",
+                          "torque_Nm", "rayleigh_stiffness_s"})
+    CHECK_MESSAGE(says(key), key);
+}
+
+TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of the model are data") {
+  const Folder folder;
+  Gearbox box = first_pair();
+  set(box, 10, "single_pitch_deviation_iso_1328_2013", "mum", "5");
+  box.parts.push_back({50, "helix_crowning", "", {}});
+  box.links.push_back({"reference", {{"origin", 20}, {"referenced", 50}}});
+  for (Part& part : box.parts)
+    if (part.id == 11) part.name = "&quot;]&#10;[material.evil]&#10;x = `touch x`";
+  const RexsScene scene = scene_of_rexs(read_rexs(folder.file("pair.rexs", xml(box))), "", 1);
+  CHECK(scene.text.find("single_pitch_deviation_iso_1328_2013") != std::string::npos);
+  CHECK(scene.text.find("helix_crowning 50") != std::string::npos);
+  CHECK(scene.text.find("\n[material.evil]") == std::string::npos);
+  CHECK(read_scene(folder.file("scene.toml", scene.text)).gears.size() == 2);
+}
+
+TEST_CASE("REXS: foreign and damaged files are rejected with the reason") {
+  const Folder folder;
+  const std::string good = xml(first_pair()), good_json = json(first_pair());
+  const auto changed = [](const auto& change) {
+    Gearbox box = first_pair();
+    change(box);
+    return xml(box);
+  };
+  const auto without = [&](const std::string& bytes, const std::string& word, const std::string& with) {
+    std::string out = bytes;
+    const size_t at = out.find(word);
+    REQUIRE(at != std::string::npos);
+    return out.replace(at, word.size(), with);
+  };
+  struct Case {
+    const char* what;
+    std::string bytes, message;
+  };
+  const std::vector<Case> cases = {
+      {"empty", "", "empty"},
+      {"blank", " \n\t", "empty"},
+      {"a text", "teeth = 30\n", "neither XML nor JSON"},
+      {"XML cut off", good.substr(0, good.size() / 2), "XML is broken in line"},
+      {"other XML", "<?xml version=\"1.0\"?><html><body/></html>", "begins with <html>"},
+      {"JSON cut off", good_json.substr(0, good_json.size() / 2), "JSON is broken"},
+      {"other JSON", "{\"scene\": 1}", "holds no \"model\""},
+      {"JSON with a number for its components", "{\"model\": {\"version\": \"1.4\", \"components\": 5}}",
+       "no cylindrical_stage"},
+      {"JSON with components that are numbers", "{\"model\": {\"version\": \"1.4\", \"components\": [1, 2]}}",
+       "not that of a model"},
+      {"JSON nested deeply", std::string(100000, '['), "neither XML nor JSON"},
+      {"JSON nested deeply in a model", "{\"model\":" + std::string(100000, '['), "JSON"},
+      {"zip cut off", "PK\x03\x04 and nothing else", "zip archive cannot be opened"},
+      {"no version", without(good, " version=\"1.4\"", ""), "names no version"},
+      {"version 3.0", without(good, "version=\"1.4\"", "version=\"3.0\""), "version is 3.0"},
+      {"an id twice", without(good, "component id=\"11\"", "component id=\"10\""),
+       "two components have the id 10"},
+      {"an id that is a word", without(good, "component id=\"11\"", "component id=\"x\""),
+       "is no number from 0 on"},
+      {"a relation to nothing", without(good, "ref id=\"11\"", "ref id=\"99\""),
+       "component 99, which does not exist"},
+      {"no stage", without(good, "type=\"cylindrical_stage\"", "type=\"bevel_stage\""),
+       "holds no cylindrical_stage"},
+      {"a stage without gears", without(good, "role=\"gear_2\"", "role=\"gear_3\""),
+       "no relation 'stage' with gear_1 and gear_2"},
+      {"helical", changed([](Gearbox& b) { set(b, 10, "helix_angle_reference_diameter", "deg", "15"); }),
+       "is helical"},
+      {"internal", changed([](Gearbox& b) { set(b, 11, "number_of_teeth", "", "-99"); }), "is internal"},
+      {"a ring", without(good, "\"11\" type=\"cylindrical_gear\"", "\"11\" type=\"ring_gear\""),
+       "is no cylindrical_gear"},
+      {"teeth missing", changed([](Gearbox& b) { unset(b, 10, "number_of_teeth"); }),
+       "has no 'number_of_teeth'"},
+      {"half a tooth", changed([](Gearbox& b) { set(b, 10, "number_of_teeth", "", "30.5"); }),
+       "is no number of teeth"},
+      {"a number that is none", changed([](Gearbox& b) { set(b, 10, "normal_module", "mm", "2,5"); }),
+       "= '2,5' is no number"},
+      {"an infinite number", changed([](Gearbox& b) { set(b, 10, "normal_module", "mm", "inf"); }),
+       "= 'inf' is no number"},
+      {"a unit of something else", changed([](Gearbox& b) { set(b, 10, "normal_module", "deg", "2.5"); }),
+       "is in 'deg'"},
+      {"a list",
+       changed([](Gearbox& b) { set(b, 12, "center_distance", "mm", "<array><c>94</c><c>95</c></array>"); }),
+       "is no single number"},
+      {"flanks that differ", changed([](Gearbox& b) { set(b, 21, "normal_pressure_angle", "deg", "25"); }),
+       "differ: normal_pressure_angle"},
+      {"no centre distance", changed([](Gearbox& b) { unset(b, 12, "center_distance"); }),
+       "has no 'center_distance'"},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.what);
+    const std::string path = folder.file("bad.rexs", c.bytes);
+    const std::string said = message_of([&] { scene_of_rexs(read_rexs(path), "", 1); });
+    CHECK_MESSAGE(said.find(c.message) != std::string::npos, said);
+    CHECK(said.find('\n') == std::string::npos);
+    CHECK(said.starts_with(path));
+  }
+  for (const auto& [what, entries, message] :
+       {std::tuple{"no model", std::vector<std::pair<std::string, std::string>>{{"readme.txt", "x"}},
+                   "holds 0 models"},
+        std::tuple{"two models",
+                   std::vector<std::pair<std::string, std::string>>{{"a.rexs", good}, {"b.rexs", good}},
+                   "holds 2 models"}}) {
+    CAPTURE(what);
+    const std::string path = folder.zipped("bad.rexsz", entries);
+    CHECK(message_of([&] { read_rexs(path); }).find(message) != std::string::npos);
+    std::filesystem::remove(path);
+  }
+  CHECK(message_of([&] {
+          scene_of_rexs(read_rexs(folder.file("pair.rexs", good)), "", 2);
+        }).find("there is no load case 2") != std::string::npos);
+}
