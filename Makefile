@@ -188,8 +188,8 @@ deps-vtk: | $(with_deps) ## install VTK for the one check in `test` that reads a
 	$(install_wanted)
 
 .PHONY: deps-python
-deps-python: wanted := python3-xarray python3-h5netcdf
-deps-python: | $(with_deps) ## install xarray for the one check in `test` that opens artifacts by their axes
+deps-python: wanted := python3-xarray python3-h5netcdf python3-matplotlib
+deps-python: | $(with_deps) ## install xarray and matplotlib for the checks in `test` that open artifacts by their axes and run data/examples
 	$(install_wanted)
 
 # --- tests and upkeep -----------------------------------------------------------------------------------------
