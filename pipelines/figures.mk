@@ -123,6 +123,13 @@ $2.tsv $2.svg $2.png &: $3 $4 $(call titles,$3) pipelines/plots/$(drawn_as).gp $
 	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $(if $(filter out/figures/fig%,$2),--paper-figure $1) $3
 endef
 
+# Heard at a speed of the user's choice, the rising branch first; with a transfer function a file of its own.
+sound_file = $(figure_folder)/sound-$(AT)Hz-T$(TORQUE)$(if $(TRANSFER),-$(basename $(notdir $(TRANSFER))))
+define sound_rule # sweeps
+$(sound_file).wav $(sound_file).tsv &: $1 $(TRANSFER) $(call id,gear-sound) | $(B)/bin/gear-sound $(with_deps)
+	$(B)/bin/gear-sound $(foreach f,$1,--sweep $f) --mesh-frequency $(AT) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
+endef
+
 define table_rule # path without extension, inputs, published values, what else it depends on
 $1.tsv $1.txt &: $2 $3 $4 $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot table1 $(if $3,--published $3) --output $1 $2
@@ -164,6 +171,7 @@ $(foreach f,$(report_figures) $(other_figures),\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
 $(if $(filter histories,$(goals)),$(if $(filter $1,$(own_scene)),$(foreach f,$(history_figures),\
   $(eval $(call figure_rule,$(firstword $(subst -$(AT)Hz, ,$(notdir $f))),$f,$(call inputs_fig08,$1,$(TORQUE)))))))
+$(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call both_ways,$1,$(TORQUE),sweep)))))
 $(eval $(call report_rule,$1))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef
@@ -173,7 +181,7 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # $(call stands,words): where a goal is to be found, also when nothing was to be made. By $(info): `make -q` and `make -n` stay as they are.
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
-.PHONY: figures $(figures) table1 scorecard animation report histories
+.PHONY: figures $(figures) table1 scorecard animation report histories sound
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
@@ -210,4 +218,6 @@ sidebands: ## teeth that differ: transmission error over the hunting period, sha
 crack: ## a cracked tooth: static transmission error with and without it, orders, 150 N m of parker2000-crack (SCENE: its first torque)
 histories: $(if $(filter histories,$(goals)),$$(addsuffix .png,$$(history_figures))) ## DTE over time, its spectrum and the tooth loads at one mesh frequency in Hz, both branches: AT=1250 TORQUE=150 (SCENE: its first torque)
 	$(call stands,histories: $(addsuffix .{png$(,)svg$(,)tsv},$(history_figures)))
+sound: $(if $(filter sound,$(goals)),$$(sound_file).wav) ## what is heard of the mesh force at one mesh frequency in Hz, rising branch, then falling, as WAV: AT=2400 TORQUE=150 TRANSFER=file.csv (SCENE: its first torque)
+	$(call stands,sound: $(sound_file).{wav$(,)tsv})
 animation: $(figure_folder)/animation/motion.gif ## one mesh period with contact loss, GIF and a PNG of each frame, 150 N m, 2400 Hz, upper branch of parker2000-calibrated (SCENE: first torque, at resonance)

@@ -121,9 +121,11 @@ $(if $(filter calibrate,$(goals)),$(if $(call outside,$(DAMPING),1e-12,1),\
   $(error DAMPING=$(DAMPING): it is a share of critical damping, above 0 and below 1: 0.05 for 5 %)))
 $(if $(filter histories,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
   $(error histories: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make histories AT=1250)))
+$(if $(filter sound,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
+  $(error sound: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make sound AT=2400)))
 $(if $(filter loaded,$(goals)),$(if $(filter alike,$(SCENE_$(own_scene)_TEETH)),$(if $(call outside,$(PHASE),0,1),\
   $(error PHASE=$(PHASE): it is a share of the mesh period, 0 up to, not including, 1))))
-calibrated_torque = $(if $(filter calibrate loaded histories,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
+calibrated_torque = $(if $(filter calibrate loaded histories sound,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
 
 # Torques of a scene that have rules: those that it lists and those in the paths of goals and figures.
 path_torques = $(patsubst T%,%,$(foreach f,$(filter out/$1/T%,$(goals) $(figure_inputs)),$(word 3,$(subst /, ,$f))))

@@ -141,6 +141,7 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --printed $claims --output x out/scene/T100/static.h5"
   [gear-report]="$bin/gear-report out/scene/T100/static.h5 --output x"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
+  [gear-sound]="$bin/gear-sound --sweep out/scene/T100/up/sweep.h5 --mesh-frequency 2000 --output x"
   [gear-import]="$bin/gear-import --input $scene_of_paper --output x.toml"
   [gear-loaded]="${stage_loaded[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"

@@ -184,6 +184,10 @@ rm own.toml
 rejected_by_make "a damping in per cent is told the share" 'DAMPING=5: it is a share of critical damping, above 0 and below 1: 0.05 for 5 %' DAMPING=5 calibrate
 rejected_by_make "a damping with a decimal comma is rejected" 'DAMPING=0,05: it is a share' DAMPING=0,05 calibrate
 rejected_by_make "histories without a speed are told how to say one" 'say the mesh frequency in Hz, one of the sweep: make histories AT=1250' histories
+rejected_by_make "a sound without a speed is told how to say one" 'say the mesh frequency in Hz, one of the sweep: make sound AT=2400' sound
+make_ -n AT=1250 TORQUE=100 sound
+grep -q 'gear-sound --sweep out/parker2000/T100/up/sweep.h5 --sweep out/parker2000/T100/down/sweep.h5 --mesh-frequency 1250 .*--output out/figures/sound-1250Hz-T100' "$log" &&
+  ok "a sound at a speed and a torque of one's own" || wrong "a sound at a speed and a torque of one's own" "$(tail -n 1 "$log")"
 make_ -n AT=1250 TORQUE=100 histories
 grep -q 'gear-plot fig08 --output out/figures/histories-1250Hz-T100 --mesh-frequency 1250 .*out/parker2000/T100/up/sweep.h5' "$log" &&
   grep -q 'gear-plot fig10 --output out/figures/history-loads-1250Hz-T100 --mesh-frequency 1250 ' "$log" && ok "histories at a speed and a torque of one's own" ||

@@ -3,6 +3,7 @@
 #include <fftw3.h>
 
 #include <cmath>
+#include <complex>
 #include <memory>
 
 #include "base/error.h"
@@ -20,7 +21,8 @@ class RealTransform {
   }
   double* input() { return in_.get(); }
   void execute() { fftw_execute(plan_.get()); }
-  double magnitude(int bin) const { return std::hypot(out_.get()[bin][0], out_.get()[bin][1]); }
+  std::complex<double> bin(int k) const { return {out_.get()[k][0], out_.get()[k][1]}; }
+  double magnitude(int k) const { return std::hypot(out_.get()[k][0], out_.get()[k][1]); }
 
  private:
   struct Free {
@@ -65,6 +67,19 @@ Harmonics harmonics(const Eigen::Ref<const Eigen::VectorXd>& samples, int count,
   transform.execute();
   for (int k = 1; k <= count; ++k) result.amplitude[k - 1] = 2.0 * transform.magnitude(k * periods) / n;
   return result;
+}
+
+Eigen::VectorXcd fourier_coefficients(const Eigen::Ref<const Eigen::VectorXd>& samples, int count) {
+  const int n = static_cast<int>(samples.size());
+  if (n < 2 || count < 0 || count > resolved_harmonics(n, count))
+    fail(Failure::input, "Fourier coefficients: ", n, " samples do not resolve ", count, " harmonics");
+  require_finite(samples, "Fourier coefficients");
+  RealTransform transform(n);
+  Eigen::Map<Eigen::VectorXd>(transform.input(), n) = samples;
+  transform.execute();
+  Eigen::VectorXcd c(count + 1);
+  for (int k = 0; k <= count; ++k) c[k] = transform.bin(k) / static_cast<double>(n);
+  return c;
 }
 
 int resolved_harmonics(Eigen::Index samples, int wanted, int periods) {

@@ -22,6 +22,9 @@ struct Harmonics {
 // harmonic that the samples do not resolve (count * periods must stay below half the number of samples).
 Harmonics harmonics(const Eigen::Ref<const Eigen::VectorXd>& samples, int count, int periods = 1);
 
+// (harmonic 0..count) unit of the samples: c_k = sum x_j exp(-2 pi i j k / n) / n of one period. Throws as harmonics().
+Eigen::VectorXcd fourier_coefficients(const Eigen::Ref<const Eigen::VectorXd>& samples, int count);
+
 // The number of harmonics, `wanted` at most, that `samples` over `periods` base periods resolve; may be 0.
 int resolved_harmonics(Eigen::Index samples, int wanted, int periods = 1);
 

@@ -1,0 +1,73 @@
+#include "io/transfer_function.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "io/publish.h"
+
+namespace whine {
+namespace {
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream rest(line);
+  for (std::string field; std::getline(rest, field, ',');) {
+    const auto first = field.find_first_not_of(" \t"), last = field.find_last_not_of(" \t");
+    out.push_back(first == std::string::npos ? "" : field.substr(first, last - first + 1));
+  }
+  return out;
+}
+
+}  // namespace
+
+TransferFunction read_transfer_function(const std::string& path) {
+  const std::array<std::string, 3> wanted = {"frequency_Hz", "magnitude", "phase_deg"};
+  std::array<size_t, 3> column{};
+  std::array<std::vector<double>, 3> values;
+  bool named = false;
+  int number = 0;
+  const auto reject = [&](const std::string& why) {
+    fail(Failure::input, path, ":", number, ": ", printable(why, 200),
+         "; the first line names frequency_Hz, magnitude, phase_deg, each further one holds their numbers");
+  };
+  std::istringstream lines(read_bytes(path));
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
+    const std::vector<std::string> fields = fields_of(line);
+    if (fields.size() != wanted.size()) reject(text("holds ", fields.size(), " words instead of 3"));
+    for (size_t c = 0; c < wanted.size(); ++c) {
+      if (!named) {
+        const auto found = std::find(fields.begin(), fields.end(), wanted[c]);
+        if (found == fields.end()) reject("names no column " + wanted[c]);
+        column[c] = static_cast<size_t>(found - fields.begin());
+        continue;
+      }
+      const std::string& word = fields[column[c]];
+      double value = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
+        reject("'" + word + "' is no number");
+      values[c].push_back(value);
+    }
+    if (named && values[0].size() > 1 && !(values[0].back() > values[0][values[0].size() - 2]))
+      reject(text("frequency_Hz = ", values[0].back(), " does not ascend"));
+    if (named && values[1].back() < 0) reject(text("magnitude = ", values[1].back(), " is below 0"));
+    named = true;
+  }
+  if (values[0].size() < 2) reject(text("holds ", values[0].size(), " rows; 2 are the least"));
+  const auto vector = [](const std::vector<double>& v) {
+    return Eigen::VectorXd(Eigen::VectorXd::Map(v.data(), static_cast<Eigen::Index>(v.size())));
+  };
+  return {vector(values[0]), vector(values[1]), vector(values[2]) * (std::numbers::pi / 180)};
+}
+
+}  // namespace whine

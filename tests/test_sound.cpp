@@ -1,0 +1,132 @@
+// Sound: the Fourier series against closed forms, transfer functions, levels, the WAV file as another library reads it.
+#include <doctest/doctest.h>
+#include <sndfile.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "base/error.h"
+#include "failure_of.h"
+#include "io/transfer_function.h"
+#include "io/wav.h"
+#include "signal/sound.h"
+
+using namespace whine;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+class Temporary {
+ public:
+  explicit Temporary(const std::string& bytes) {
+    std::string name = (std::filesystem::temp_directory_path() / "whine-sound-XXXXXX").string();
+    const int file = mkstemp(name.data());
+    REQUIRE(file >= 0);
+    close(file);
+    path_ = name;
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  ~Temporary() { std::filesystem::remove(path_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+double rms(const VectorXd& y) {
+  return std::sqrt(y.squaredNorm() / static_cast<double>(y.size()));
+}
+
+}  // namespace
+
+TEST_CASE("sound: three cosines of a record are three cosines at the rate of the sound") {
+  constexpr int n = 256;
+  constexpr double f = 1234.5, rate = 48000;
+  const auto force = [](double turns) {
+    return 700 + 30 * std::cos(kTwoPi * turns + 0.3) + 5 * std::cos(2 * kTwoPi * turns - 1) +
+           std::cos(3 * kTwoPi * turns);
+  };
+  VectorXd record(n);
+  for (int j = 0; j < n; ++j) record[j] = force(j / static_cast<double>(n));
+  const VectorXd y = sound(record, f, nullptr, rate, 4800);
+  for (int j = 0; j < y.size(); ++j)
+    CHECK(y[j] == doctest::Approx(force(f * j / rate) - 700).epsilon(1e-9).scale(30));
+  // A gain of 2 and a delay of 1 ms
+  constexpr double delay = 1e-3;
+  TransferFunction late{VectorXd::LinSpaced(2001, 0, 10000), VectorXd::Constant(2001, 2), VectorXd(2001)};
+  late.phase = -kTwoPi * delay * late.frequency;
+  const VectorXd z = sound(record, f, std::make_unique<Transfer>(late).get(), rate, 4800);
+  for (int j = 0; j < z.size(); ++j)
+    CHECK(z[j] == doctest::Approx(2 * (force(f * (j / rate - delay)) - 700)).epsilon(1e-8).scale(60));
+}
+
+TEST_CASE(
+    "sound: nothing is folded back from above half the rate, and nothing comes from outside the transfer "
+    "function") {
+  VectorXd record(64);
+  for (int j = 0; j < 64; ++j) record[j] = std::cos(kTwoPi * 3 * j / 64.0);
+  CHECK(sound(record, 9000, nullptr, 48000, 480).cwiseAbs().maxCoeff() < 1e-12);  // 27 kHz
+  CHECK(rms(sound(record, 7000, nullptr, 48000, 48000)) == doctest::Approx(std::sqrt(0.5)).epsilon(1e-9));
+  const Transfer narrow({VectorXd::LinSpaced(2, 100, 200), VectorXd::Ones(2), VectorXd::Zero(2)});
+  CHECK(sound(record, 1000, &narrow, 48000, 480).cwiseAbs().maxCoeff() == 0);
+  CHECK(level(10, 1) == doctest::Approx(20));
+  CHECK(std::isinf(level(0, 1)));
+}
+
+TEST_CASE("sound: a phase meter's jumps are undone") {
+  // A delay of 1 ms, measured modulo a turn every 300 Hz
+  TransferFunction rows{VectorXd::LinSpaced(11, 0, 3000), VectorXd::Ones(11), VectorXd(11)};
+  for (int i = 0; i < 11; ++i) rows.phase[i] = std::remainder(-kTwoPi * 1e-3 * rows.frequency[i], kTwoPi);
+  const Transfer transfer(rows);
+  for (double f : {150.0, 450.0, 1350.0, 2999.0})
+    CHECK(std::abs(transfer.at(f) - std::polar(1.0, -kTwoPi * 1e-3 * f)) < 1e-9);
+}
+
+TEST_CASE("sound: transfer functions from files, and what is wrong with them") {
+  const Temporary good("# hammer test\nmagnitude, frequency_Hz, phase_deg\n0.5, 100, 90\n1.5, 300, 180\r\n");
+  const TransferFunction rows = read_transfer_function(good.path());
+  CHECK(rows.frequency[1] == 300);
+  CHECK(rows.magnitude[0] == 0.5);
+  CHECK(rows.phase[1] == doctest::Approx(std::numbers::pi));
+  CHECK(std::abs(Transfer(rows).at(200) - std::polar(1.0, 0.75 * std::numbers::pi)) < 1e-12);
+  for (const char* bad : {"", "frequency_Hz, magnitude\n1, 2\n", "frequency_Hz, magnitude, phase\n1, 2, 3\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 2, 3\n",
+                          "frequency_Hz, magnitude, phase_deg\n2, 1, 0\n1, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, x, 0\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, -1, 0\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 1, inf\n2, 1, 0\n"}) {
+    CAPTURE(bad);
+    const Temporary file(bad);
+    CHECK(failure_of([&] { read_transfer_function(file.path()); }) == Failure::input);
+  }
+  CHECK(failure_of([&] {
+          Transfer({VectorXd::Ones(2), VectorXd::Ones(2), VectorXd::Zero(2)});
+        }) == Failure::input);
+}
+
+TEST_CASE("sound: a WAV file holds the samples to its last bit, and the same bytes twice") {
+  VectorXd y(1000);
+  for (int j = 0; j < 1000; ++j) y[j] = 0.9 * std::sin(0.1 * j);
+  const std::string bytes = wav_bytes(y, 48000);
+  CHECK(bytes == wav_bytes(y, 48000));
+  CHECK(bytes.size() == 44 + 3 * 1000);
+  const Temporary file(bytes);
+  SF_INFO info{};
+  SNDFILE* in = sf_open(file.path().c_str(), SFM_READ, &info);
+  REQUIRE(in != nullptr);
+  CHECK(info.samplerate == 48000);
+  CHECK(info.channels == 1);
+  CHECK(info.format == (SF_FORMAT_WAV | SF_FORMAT_PCM_24));
+  VectorXd back(1000);
+  CHECK(sf_read_double(in, back.data(), 1000) == 1000);
+  sf_close(in);
+  // Rounding is half of a bit; written with 2^23 - 1 steps to the full scale, read with 2^23.
+  CHECK((back - y).cwiseAbs().maxCoeff() <= 1.5 / (1 << 23));
+  y[3] = 1.2;
+  CHECK(failure_of([&] { wav_bytes(y, 48000); }) == Failure::input);
+}
