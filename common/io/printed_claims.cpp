@@ -110,12 +110,7 @@ PrintedClaim Row::claim() const {
 }  // namespace
 
 std::vector<PrintedClaim> read_printed_claims(const std::string& path) {
-  toml::table root;
-  try {
-    root = parse_toml(read_bytes(path, "check the path of the table of P2000's claims"));
-  } catch (const toml::parse_error& error) {
-    fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
-  }
+  const toml::table root = read_toml(path, "the table of P2000's claims");
   for (const auto& [label, value] : root)
     if (label.str() != "claim")
       fail(Failure::input, path, ":", value.source().begin.line, ": unknown key '", label.str(),
