@@ -132,7 +132,7 @@ endef
 
 define table_rule # path without extension, inputs, published values, what else it depends on
 $1.tsv $1.txt &: $2 $3 $4 $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
-	$(B)/bin/gear-plot table1 $(if $3,--published $3) --output $1 $2
+	$(B)/bin/gear-plot table1 $(if $3,--printed $3) --output $1 $2
 endef
 
 # 2400 Hz is where P2000 shows two branches at 150 N m; of a scene it is its first torque and the speed with the largest RMS.

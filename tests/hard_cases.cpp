@@ -138,8 +138,8 @@ const BodyArtifact& paper_body() {
 
 StaticParameters static_parameters(int positions, bool corner) {
   StaticParameters settings;
-  settings.mesh.driver = "pinion";
-  settings.mesh.driven = "wheel";
+  settings.mesh.gear[0] = "pinion";
+  settings.mesh.gear[1] = "wheel";
   settings.mesh.centre_distance = 0.150;
   settings.mesh.corner.enabled = corner;
   settings.contact.positions = positions;
@@ -151,7 +151,7 @@ StaticArtifact statics(double torque, int positions = 128, bool corner = true) {
 
 SweepParameters sweep_parameters(double from, double to, double step, double rayleigh_stiffness) {
   SweepParameters settings;
-  settings.driver_inertia = settings.driven_inertia = 0.0148;
+  settings.inertia[0] = settings.inertia[1] = 0.0148;
   settings.damping.rayleigh_stiffness = rayleigh_stiffness;
   settings.reference_torque = 100;
   settings.frequency_from = from;
@@ -159,7 +159,7 @@ SweepParameters sweep_parameters(double from, double to, double step, double ray
   settings.frequency_step = step;
   return settings;
 }
-SweepArtifact run_sweep(const SweepParameters& settings, double torque, const std::string& direction = "up",
+SweepArtifact run_sweep(const SweepParameters& settings, double torque, Direction direction = Direction::up,
                         const BodyArtifact& body = paper_body()) {
   const StaticArtifact at = static_transmission(body, body, static_parameters(128, true), torque);
   return sweep(body, body, at, 463e6, settings, direction, [](long, long, const std::string&) {});
@@ -879,7 +879,7 @@ void near_fold(Table& table) {
 }
 
 void stiff_damping(Table& table) {
-  const auto forgotten = [](double eta, double frequency) {  // energy, of the orbit's work of the rolling
+  const auto dropped = [](double eta, double frequency) {  // energy, of the orbit's work of the rolling
     const SweepArtifact result = run_sweep(sweep_parameters(frequency, frequency, 1, eta), 150);
     const auto line = [&](const std::string& name) {
       size_t i = 0;
@@ -898,10 +898,10 @@ void stiff_damping(Table& table) {
                    1e6 * rms(usual.transmission_error.row(0)), eta < 1e-3 ? 0.0015 : 0.007);
     table.at_most(at + "energy balance, relative", 1e-9, usual.energy_imbalance[0]);
   }
-  table.at_least("1e-4 s, 2500 Hz: energy in the relaxed loads of forgotten teeth, over the work of rolling",
-                 1e-8, std::abs(forgotten(1e-4, 2500)));
+  table.at_least("1e-4 s, 2500 Hz: energy in the relaxed loads of dropped teeth, over the work of rolling",
+                 1e-8, std::abs(dropped(1e-4, 2500)));
   table.at_most("that at 1250 over 2500 Hz, falls with exp(-2 T / eta)", std::exp(-8.0),
-                std::abs(forgotten(1e-4, 1250) / forgotten(1e-4, 2500)));
+                std::abs(dropped(1e-4, 1250) / dropped(1e-4, 2500)));
 }
 
 void ten_times_the_torque(Table& table) {
@@ -933,7 +933,8 @@ void many_modes(Table& table) {
   const BodyArtifact body = reduce(paper_mesh(), steel(true), 61);
   table.at_least("body with 61 modes: modes", 61, static_cast<double>(body.eigenfrequency.size()));
   SweepParameters settings = sweep_parameters(2800, 2900, 100, 5.5e-6);
-  const SweepArtifact many = run_sweep(settings, 150, "down", body), few = run_sweep(settings, 150, "down");
+  const SweepArtifact many = run_sweep(settings, 150, Direction::down, body),
+                      few = run_sweep(settings, 150, Direction::down);
   table.at_most("61 modes a gear, contact lost at 2900 Hz: energy balance, relative", 1e-9,
                 many.energy_imbalance.maxCoeff());
   table.at_most("least mesh force, N", 0, many.mesh_force.minCoeff());

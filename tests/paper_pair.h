@@ -59,8 +59,8 @@ inline const BodyArtifact& paper_body(double bore = 40e-3, double element = 0.4e
 
 inline StaticParameters paper_statics(int positions) {
   StaticParameters settings;
-  settings.mesh.driver = "pinion";
-  settings.mesh.driven = "wheel";
+  settings.mesh.gear[0] = "pinion";
+  settings.mesh.gear[1] = "wheel";
   settings.mesh.centre_distance = 0.150;
   settings.contact.positions = positions;
   return settings;
@@ -68,7 +68,7 @@ inline StaticParameters paper_statics(int positions) {
 
 inline SweepParameters paper_sweep(double from, double to, double step) {
   SweepParameters settings;
-  settings.driver_inertia = settings.driven_inertia = 0.0148;
+  settings.inertia[0] = settings.inertia[1] = 0.0148;
   settings.damping.rayleigh_stiffness = 7.7e-6;
   settings.reference_torque = 100;
   settings.frequency_from = from;

@@ -219,7 +219,8 @@ TEST_CASE(
     settings.time.min_sample_rate = 60e3;
     settings.time.periodicity = 1e-9;
     settings.damping.rayleigh_mass = 3000;  // of rigid bodies nothing else is damped
-    return sweep(coarse_body(), coarse_body(), statics, statics.mean_stiffness, settings, "up", no_report);
+    return sweep(coarse_body(), coarse_body(), statics, statics.mean_stiffness, settings, Direction::up,
+                 no_report);
   };
   const SweepArtifact on = swept(BodyModel::modal, soft(4000));
   const double load = 150 / ToothGeometry(paper_gear()).base_radius();
@@ -261,7 +262,7 @@ TEST_CASE("ring-down on bearings: the decay has the eigenvalue that the frozen c
   rest.contact.strips = 15;
   const StaticArtifact statics = at_rest(rest);
   ImpactParameters settings;
-  settings.driver_inertia = settings.driven_inertia = 0.0148;
+  settings.inertia[0] = settings.inertia[1] = 0.0148;
   settings.damping.rayleigh_stiffness = 7.7e-6;
   settings.reference_torque = 100;
   const ImpactArtifact result = impact(coarse_body(), coarse_body(), statics, 463e6, settings,

@@ -181,7 +181,7 @@ LumpedParameters wave(double ratio, double begin = 0) {
   p.mass = 1.4;
   p.damping_ratio = ratio;
   p.damper = 2 * ratio * std::sqrt(462.1e6 * 1.4);
-  p.damper_acts = "always";
+  p.damper_acts = DamperActs::always;
   return p;
 }
 constexpr double kForce = 150 / 0.0704769466;
@@ -518,10 +518,10 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
   CHECK(branch.segment_mismatch.maxCoeff() < 0.1);
   REQUIRE(branch.fold_frequency.size() == 2);
   CHECK((branch.stable.array() == 0).any());
-  for (const std::string direction : {"down", "up"}) {
+  for (const Direction direction : {Direction::down, Direction::up}) {
     const SweepArtifact swept = sweep(body, body, statics, 463e6, stage_settings, direction, no_report);
     REQUIRE(swept.jump_frequency.size() == 1);
-    const double fold = branch.fold_frequency[direction == "down" ? 0 : 1];
+    const double fold = branch.fold_frequency[direction == Direction::down ? 0 : 1];
     MESSAGE(direction << ": jump at " << swept.jump_frequency[0] << " Hz, fold at " << fold << " Hz");
     CHECK(std::abs(swept.jump_frequency[0] - fold) < 1 + swept.jump_width[0]);
     // Stable orbits are the sweep's.

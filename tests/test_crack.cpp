@@ -490,7 +490,7 @@ TEST_CASE("lines and strips see the same crack, and motion rejects it") {
   }
   CHECK(most > 1.05 * strips.transmission_error.minCoeff());
   CHECK(failure_of([&] {
-          sweep(cracked, plain, strips, 4.6e8, paper_sweep(2000, 2000, 20), "up", no_report);
+          sweep(cracked, plain, strips, 4.6e8, paper_sweep(2000, 2000, 20), Direction::up, no_report);
         }) == Failure::input);
 }
 

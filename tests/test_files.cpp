@@ -132,9 +132,8 @@ bool same(const GearDesign& a, const GearDesign& b) {
 }
 
 bool same(const GearMeshSpec& a, const GearMeshSpec& b) {
-  return a.driver == b.driver && a.driven == b.driven && a.centre_distance == b.centre_distance &&
-         a.corner.enabled == b.corner.enabled && a.corner.largest_angle == b.corner.largest_angle &&
-         a.contact_plane == b.contact_plane;
+  return a.gear == b.gear && a.centre_distance == b.centre_distance && a.corner.enabled == b.corner.enabled &&
+         a.corner.largest_angle == b.corner.largest_angle && a.contact_plane == b.contact_plane;
 }
 
 bool same(const Damping& a, const Damping& b) {
@@ -164,19 +163,20 @@ bool same(const TimeDiscretisation& a, const TimeDiscretisation& b) {
 // Both gears of a pair, all different, so that swapped roles show.
 template <class Artifact>
 void set_pair(Artifact& a) {
-  a.driver = odd_design(50);
-  a.driven = odd_design(35);
-  a.driver_material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
-  a.driven_material = {110e9 / 1.3, 0.27 / 1.1, 7200 / 1.3, true};
-  a.driver_body = {0.0004 / 1.3, 2, 5};
-  a.driven_body = {0.0007 / 1.3, 1, 12, NearField::matching, 0.001 / 1.3};
+  a.gear[0].design = odd_design(50);
+  a.gear[1].design = odd_design(35);
+  a.gear[0].material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
+  a.gear[1].material = {110e9 / 1.3, 0.27 / 1.1, 7200 / 1.3, true};
+  a.gear[0].discretisation = {0.0004 / 1.3, 2, 5};
+  a.gear[1].discretisation = {0.0007 / 1.3, 1, 12, NearField::matching, 0.001 / 1.3};
 }
 
 template <class Artifact>
 bool same_pair(const Artifact& a, const Artifact& b) {
-  return same(a.driver, b.driver) && same(a.driven, b.driven) && same(a.driver_material, b.driver_material) &&
-         same(a.driven_material, b.driven_material) && same(a.driver_body, b.driver_body) &&
-         same(a.driven_body, b.driven_body);
+  return same(a.gear[0].design, b.gear[0].design) && same(a.gear[1].design, b.gear[1].design) &&
+         same(a.gear[0].material, b.gear[0].material) && same(a.gear[1].material, b.gear[1].material) &&
+         same(a.gear[0].discretisation, b.gear[0].discretisation) &&
+         same(a.gear[1].discretisation, b.gear[1].discretisation);
 }
 
 // A ring sector of two four-node elements, one on the other, closing exactly after a turn of 360/teeth
@@ -287,11 +287,11 @@ ImpactArtifact small_impact() {
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
   a.torque = 150;
   a.torque_step = 0.01 / 3;
-  a.driver_inertia = 0.0148 / 1.1;
-  a.driven_inertia = 0.0148 / 1.3;
+  a.inertia[0] = 0.0148 / 1.1;
+  a.inertia[1] = 0.0148 / 1.3;
   a.mean_stiffness = 4e8 / 1.1;
-  a.driver_bearing_damper = 1.0 / 3;
-  a.driven_bearing_damper = 2.0 / 3;
+  a.bearing_damper[0] = 1.0 / 3;
+  a.bearing_damper[1] = 2.0 / 3;
   a.contact_state = {"one", "two", "mean"};
   a.natural_frequency = odd_vector(3, 3e3);
   a.damping_ratio = odd_vector(3, 0.07);
@@ -320,13 +320,13 @@ SweepArtifact small_sweep() {
   a.time = {64, 250e3 / 1.1, 1e-6 / 3};
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
   a.torque = 150;
-  a.driver_inertia = 0.0148 / 1.1;
-  a.driven_inertia = 0.0148 / 1.3;
+  a.inertia[0] = 0.0148 / 1.1;
+  a.inertia[1] = 0.0148 / 1.3;
   a.mean_stiffness = 4e8 / 1.1;
-  a.driver_bearing_damper = 1.0 / 3;
-  a.driven_bearing_damper = 2.0 / 3;
+  a.bearing_damper[0] = 1.0 / 3;
+  a.bearing_damper[1] = 2.0 / 3;
   a.natural_frequency = 2900.0 / 1.3;
-  a.direction = "down";
+  a.direction = Direction::down;
   a.mesh_frequency = Eigen::VectorXd{{4000, 3980 + 1.0 / 3}};
   a.transmission_error = odd_matrix(2, 64, 1e-5);
   a.mesh_force = odd_matrix(2, 64, 3e3);
@@ -351,12 +351,12 @@ SweepArtifact small_sweep() {
 ResponseArtifact small_response() {
   ResponseArtifact a;
   set_pair(a);
-  a.driver_inertia = 0.0148 / 1.1;
-  a.driven_inertia = 0.0148 / 1.3;
+  a.inertia[0] = 0.0148 / 1.1;
+  a.inertia[1] = 0.0148 / 1.3;
   a.contact = {17, 128};
   a.time = {64, 250e3 / 1.1, 1e-6 / 3};
   a.torque = 150;
-  a.direction = "up";
+  a.direction = Direction::up;
   a.model = "finite elements";
   a.mesh_frequency = odd_vector(2, 1e3).cwiseAbs();
   a.dte_rms = odd_vector(2, 1e-6);
@@ -410,7 +410,7 @@ HarrisMapArtifact small_harris_map() {
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
   a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
-  a.relieved = "both";
+  a.relieved = Relieved::both;
   a.shape = ReliefShape::parabolic;
   a.torque = Eigen::VectorXd{{50.0 / 3, 150}};
   a.relief = Eigen::VectorXd{{0, 5e-6 / 3, 1e-5}};
@@ -432,8 +432,8 @@ HarrisMapArtifact small_harris_map() {
   a.worst_frequency = cube(3e3);
   a.time = {64, 250e3 / 1.1, 1e-6 / 3};
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
-  a.driver_inertia = 0.0148 / 1.1;
-  a.driven_inertia = 0.0148 / 1.3;
+  a.inertia[0] = 0.0148 / 1.1;
+  a.inertia[1] = 0.0148 / 1.3;
   a.frequency_from = 1000.0 / 3;
   a.frequency_to = 4000.0 / 3;
   a.frequency_step = 20.0 / 3;
@@ -450,12 +450,12 @@ VariantArtifact small_variant() {
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
   a.torque = 150.0 / 1.3;
   a.reference_torque = 100.0 / 1.3;
-  a.driver_inertia = 0.0148 / 1.1;
-  a.driven_inertia = 0.0148 / 1.3;
+  a.inertia[0] = 0.0148 / 1.1;
+  a.inertia[1] = 0.0148 / 1.3;
   a.frequency_from = 1000.0 / 3;
   a.frequency_to = 4000.0 / 3;
   a.frequency_step = 20.0 / 3;
-  a.directions = {"up", "down"};
+  a.directions = {Direction::up, Direction::down};
   a.quantity = odd_vector(static_cast<Eigen::Index>(response_quantities(a.directions).size()), 1e-6);
   return a;
 }
@@ -464,7 +464,7 @@ StudyArtifact small_study() {
   StudyArtifact a;
   a.plan.title = "A study";
   a.plan.scene = "data/scenes/parker2000.toml";
-  a.plan.directions = {"up"};
+  a.plan.directions = {Direction::up};
   a.plan.random = true;
   a.plan.seed = 7;
   a.plan.keys = {varied_key("damping.rayleigh_stiffness_s"), varied_key("fidelity.contact")};
@@ -485,7 +485,7 @@ BranchArtifact small_branch() {
   set_pair(a);
   a.mesh = small_static().mesh;
   a.torque = 150;
-  a.driver_inertia = a.driven_inertia = 0.01;
+  a.inertia[0] = a.inertia[1] = 0.01;
   a.mesh_frequency = odd_vector(2, 2e3);
   a.dte_rms = a.dte_mean = a.residual = odd_vector(2, 1e-6);
   a.dte_harmonic = odd_matrix(2, 3, 1e-6);
@@ -504,7 +504,7 @@ JumpMapArtifact small_jump_map() {
   set_pair(a);
   a.mesh = small_static().mesh;
   a.torque = 150;
-  a.driver_inertia = a.driven_inertia = 0.01;
+  a.inertia[0] = a.inertia[1] = 0.01;
   a.rayleigh_stiffness = a.damping_ratio = a.branches_from = a.branches_to = a.loss_from = a.loss_to =
       a.excitation = odd_vector(2, 1);
   a.two_branches = a.open_below = a.unsteady = Eigen::Vector2i(1, 0);
@@ -517,6 +517,18 @@ JumpMapArtifact small_jump_map() {
     a.tooth_load_max[d] = odd_matrix(2, 3, 4e3);
     a.separation_fraction[d] = odd_matrix(2, 3, 0.9);
   }
+  return a;
+}
+
+ReadingsArtifact small_readings() {
+  ReadingsArtifact a;
+  a.title = "odd";
+  a.claim = {"one", "two"};
+  Reading r;
+  r.verdict = {0, 1};
+  r.value = {1.5, 0};
+  r.exists = {1, 0};
+  a.readings = {r, r, r};
   return a;
 }
 
@@ -675,11 +687,11 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
   CHECK(same(a.contact, b.contact));
   CHECK(same(a.time, b.time));
   CHECK(a.torque == b.torque);
-  CHECK(a.driver_inertia == b.driver_inertia);
-  CHECK(a.driven_inertia == b.driven_inertia);
+  CHECK(a.inertia[0] == b.inertia[0]);
+  CHECK(a.inertia[1] == b.inertia[1]);
   CHECK(a.mean_stiffness == b.mean_stiffness);
-  CHECK(a.driver_bearing_damper == b.driver_bearing_damper);
-  CHECK(a.driven_bearing_damper == b.driven_bearing_damper);
+  CHECK(a.bearing_damper[0] == b.bearing_damper[0]);
+  CHECK(a.bearing_damper[1] == b.bearing_damper[1]);
   CHECK(a.direction == b.direction);
   CHECK(a.mesh_frequency == b.mesh_frequency);
   CHECK(a.transmission_error == b.transmission_error);
@@ -721,11 +733,11 @@ TEST_CASE("impact.h5 gives back every value bit by bit, and rejects rows that do
   CHECK(same(a.contact, b.contact));
   CHECK(a.torque == b.torque);
   CHECK(a.torque_step == b.torque_step);
-  CHECK(a.driver_inertia == b.driver_inertia);
-  CHECK(a.driven_inertia == b.driven_inertia);
+  CHECK(a.inertia[0] == b.inertia[0]);
+  CHECK(a.inertia[1] == b.inertia[1]);
   CHECK(a.mean_stiffness == b.mean_stiffness);
-  CHECK(a.driver_bearing_damper == b.driver_bearing_damper);
-  CHECK(a.driven_bearing_damper == b.driven_bearing_damper);
+  CHECK(a.bearing_damper[0] == b.bearing_damper[0]);
+  CHECK(a.bearing_damper[1] == b.bearing_damper[1]);
   CHECK(a.contact_state == b.contact_state);
   CHECK(a.natural_frequency == b.natural_frequency);
   CHECK(a.damping_ratio == b.damping_ratio);
@@ -792,8 +804,8 @@ TEST_CASE(
 
 TEST_CASE("bodies are given by the names of their gears, in any order, one for each") {
   GearMeshSpec mesh;
-  mesh.driver = "pinion";
-  mesh.driven = "wheel";
+  mesh.gear[0] = "pinion";
+  mesh.gear[1] = "wheel";
   const NamedFiles both("--body", {"wheel=out/b=c/body.h5", "pinion=a.h5"});
   CHECK(both.of(mesh) == std::vector<std::string>{"a.h5", "out/b=c/body.h5"});
   CHECK(both.role("wheel") == "body wheel");
@@ -832,8 +844,8 @@ TEST_CASE("response.h5 gives back every value bit by bit") {
   CHECK(a.jump_width == b.jump_width);
   CHECK(a.period_multiple == b.period_multiple);
   CHECK(same_pair(a, b));
-  CHECK(a.driver_inertia == b.driver_inertia);
-  CHECK(a.driven_inertia == b.driven_inertia);
+  CHECK(a.inertia[0] == b.inertia[0]);
+  CHECK(a.inertia[1] == b.inertia[1]);
   CHECK(same(a.mesh, b.mesh));
   CHECK(same(a.contact, b.contact));
   CHECK(same(a.time, b.time));
@@ -894,8 +906,8 @@ TEST_CASE("harris_map.h5 gives back every value bit by bit, with and without mot
   CHECK(same(a.damping, b.damping));
   CHECK(a.fidelity.body == b.fidelity.body);
   CHECK(a.fidelity.integrator == b.fidelity.integrator);
-  CHECK(a.driver_inertia == b.driver_inertia);
-  CHECK(a.driven_inertia == b.driven_inertia);
+  CHECK(a.inertia[0] == b.inertia[0]);
+  CHECK(a.inertia[1] == b.inertia[1]);
   CHECK(a.frequency_from == b.frequency_from);
   CHECK(a.frequency_to == b.frequency_to);
   CHECK(a.frequency_step == b.frequency_step);
@@ -920,8 +932,8 @@ TEST_CASE("variant.h5 gives back every value bit by bit, and a refusal instead")
   CHECK(same(a.damping, b.damping));
   CHECK(a.torque == b.torque);
   CHECK(a.reference_torque == b.reference_torque);
-  CHECK(a.driver_inertia == b.driver_inertia);
-  CHECK(a.driven_inertia == b.driven_inertia);
+  CHECK(a.inertia[0] == b.inertia[0]);
+  CHECK(a.inertia[1] == b.inertia[1]);
   CHECK(a.frequency_from == b.frequency_from);
   CHECK(a.frequency_to == b.frequency_to);
   CHECK(a.frequency_step == b.frequency_step);
@@ -1572,6 +1584,26 @@ TEST_CASE("a tool's exit status says the kind of failure") {
 }
 
 // tests/xarray.sh opens what WHINE_KEEP keeps of this case.
+TEST_CASE("an empty list of matrices is given back as such: a branch without a point") {
+  Folder folder;
+  BranchArtifact a = small_branch();
+  for (Eigen::VectorXd* v :
+       {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual, &a.fold_frequency, &a.fold_rms})
+    v->resize(0);
+  a.dte_harmonic.resize(0, 3);
+  a.floquet_multiplier.clear();
+  a.stable.resize(0);
+  a.steps.resize(0);
+  a.fold_smooth.resize(0);
+  a.fold_multiplier.resize(0, 2);
+  write("branch.h5", a, kMade);
+  const BranchArtifact b = read_branch("branch.h5");
+  CHECK(b.floquet_multiplier.empty());
+  CHECK(b.mesh_frequency.size() == 0);
+  CHECK(b.dte_harmonic.cols() == 3);
+  CHECK(b.end == a.end);
+}
+
 TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of harmonics among them") {
   Folder folder;
   write("mesh.h5", small_mesh(), kMade);
@@ -1587,6 +1619,7 @@ TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of ha
   write("harris_map.h5", small_harris_map(), kMade);
   write("variant.h5", small_variant(), kMade);
   write("study.h5", small_study(), kMade);
+  write("readings.h5", small_readings(), kMade);
   // A coordinate is one by HDF5's attribute CLASS.
   const auto is_scale = [](const std::string& path, const std::string& dataset) {
     return h5::Reader(read_bytes(path), path, "").string_attribute(dataset, "CLASS") == "DIMENSION_SCALE";

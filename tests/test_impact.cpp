@@ -50,8 +50,8 @@ const BodyArtifact& coarse_body(int modes = 5) {
 
 StaticArtifact coarse_statics(double torque, int strips = 15) {
   StaticParameters settings;
-  settings.mesh.driver = "pinion";
-  settings.mesh.driven = "wheel";
+  settings.mesh.gear[0] = "pinion";
+  settings.mesh.gear[1] = "wheel";
   settings.mesh.centre_distance = 0.150;
   settings.contact.positions = 64;
   settings.contact.strips = strips;
@@ -60,7 +60,7 @@ StaticArtifact coarse_statics(double torque, int strips = 15) {
 
 ImpactParameters coarse_impact() {
   ImpactParameters settings;
-  settings.driver_inertia = settings.driven_inertia = 0.0148;
+  settings.inertia[0] = settings.inertia[1] = 0.0148;
   settings.damping.rayleigh_stiffness = 7.7e-6;
   settings.reference_torque = 100;
   return settings;

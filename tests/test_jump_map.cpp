@@ -53,10 +53,10 @@ JumpMapPlan plan(double from, double to, double step) {
 
 JumpMapArtifact small_map(double torque, bool corner, std::vector<double> ratios, double lost_below) {
   JumpMapArtifact a;
-  a.driver = a.driven = coarse().design;
-  a.driver_material = a.driven_material = {207e9, 0.3, 7600, true};
-  a.driver_body = a.driven_body = coarse().discretisation;
-  a.driver_inertia = a.driven_inertia = 0.0148;
+  a.gear[0].design = a.gear[1].design = coarse().design;
+  a.gear[0].material = a.gear[1].material = {207e9, 0.3, 7600, true};
+  a.gear[0].discretisation = a.gear[1].discretisation = coarse().discretisation;
+  a.inertia[0] = a.inertia[1] = 0.0148;
   a.mesh = paper_statics(128).mesh;
   a.mesh.corner.enabled = corner;
   a.torque = torque;
@@ -131,11 +131,11 @@ TEST_CASE(
   settings.frequency_to = 3000;
   settings.frequency_step = 100;
   settings.damping.rayleigh_stiffness = 5.5e-6;
-  for (const std::string direction : {"up", "down"}) {
+  for (const Direction direction : {Direction::up, Direction::down}) {
     const SweepArtifact alone =
         sweep(coarse(), coarse(), statics, statics.mean_stiffness, settings, direction, no_report);
     REQUIRE(alone.jump_frequency.size() == 1);
-    const int d = direction == "up" ? 0 : 1;
+    const int d = direction == Direction::up ? 0 : 1;
     CHECK((d == 0 ? map.branches_to : map.branches_from)[0] == alone.jump_frequency[0]);
     const int row = d == 0 ? 7 : 6;  // 2400 Hz
     REQUIRE(alone.mesh_frequency[row] == 2400);
@@ -236,13 +236,13 @@ TEST_CASE("a map that was written reads back, and tells what differs from anothe
   CHECK(a.held_tooth_load == b.held_tooth_load);
   CHECK(a.separation_fraction[1] == b.separation_fraction[1]);
   CHECK(a.jump_frequency == b.jump_frequency);
-  CHECK(a.driver.bore_radius == b.driver.bore_radius);
+  CHECK(a.gear[0].design.bore_radius == b.gear[0].design.bore_radius);
   CHECK(changed_keys(a, b).empty());
-  b.driver.bore_radius = b.driven.bore_radius = 35e-3;
+  b.gear[0].design.bore_radius = b.gear[1].design.bore_radius = 35e-3;
   CHECK(changed_keys(a, b) == "bore_radius_mm 40 → 35");
-  b.driven.bore_radius = 40e-3;
+  b.gear[1].design.bore_radius = 40e-3;
   CHECK(changed_keys(a, b) == "driver: bore_radius_mm 40 → 35; driven: ");
-  b.driver.bore_radius = 40e-3;
+  b.gear[0].design.bore_radius = 40e-3;
   b.mesh.corner.enabled = false;
   CHECK(changed_keys(a, b) == "corner_contact true → false");
 }
@@ -273,7 +273,7 @@ TEST_CASE("the map's figure says what its data say") {
   std::vector<JumpMapArtifact> split = maps;
   for (JumpMapArtifact& a : split) a.damping.rayleigh_mass = 1337;
   CHECK(says(jump_map_figure(split), "no corner contact, mu 1337 1/s: two branches"));
-  for (JumpMapArtifact& a : maps) a.driver.teeth = 40;
+  for (JumpMapArtifact& a : maps) a.gear[0].design.teeth = 40;
   CHECK(!says(jump_map_figure(maps), "P2000"));
   maps.push_back(maps[0]);
   CHECK(thrown([&] { jump_map_figure(maps); }).second.find("two maps of 100 N m") != std::string::npos);
@@ -314,7 +314,7 @@ TEST_CASE("the figure of lumped models tells which keep contact, and how they ag
              "secant: at 8 % two branches at no torque, contact lost at 100 N m; (a) 1.25/1.67; (b) "
              "89/100 %; (c) 8 %"));
   CHECK(says(figure, "at every torque from 100 to 300 N m; (a) 1/-; (b) 44/0 %; (c) none"));
-  for (JumpMapArtifact& a : maps) a.driver.teeth = 40;
+  for (JumpMapArtifact& a : maps) a.gear[0].design.teeth = 40;
   CHECK(!says(lumped_jump_map_figure(maps), "P2000's second"));
   std::erase_if(maps, [](const JumpMapArtifact& a) { return a.model == "finite elements"; });
   figure = lumped_jump_map_figure(maps);
@@ -331,10 +331,10 @@ TEST_CASE("the figure of lumped models tells which keep contact, and how they ag
 TEST_CASE("sensitivity: changes against the base, rows of one key together") {
   const JumpMapArtifact base = small_map(150, true, {0.05}, 0.2);
   JumpMapArtifact bore = base, stiff = base, corner = base;
-  bore.driver.bore_radius = bore.driven.bore_radius = 35e-3;
+  bore.gear[0].design.bore_radius = bore.gear[1].design.bore_radius = 35e-3;
   bore.mean_stiffness = 437e6;
   bore.branches_from[0] = 1850;
-  stiff.driver_material.poisson_ratio = stiff.driven_material.poisson_ratio = 0.27;
+  stiff.gear[0].material.poisson_ratio = stiff.gear[1].material.poisson_ratio = 0.27;
   stiff.two_pair_frequency = 3050;
   corner.mesh.corner.enabled = false;
   corner.two_branches[0] = 0;

@@ -45,7 +45,7 @@ StaticParameters coarse_statics(ContactModel contact) {
 
 SweepParameters coarse_sweep(double from, double to, double step, BodyModel body, ContactModel contact) {
   SweepParameters settings = paper_sweep(from, to, step);
-  settings.driver_inertia = settings.driven_inertia = 1e-3;
+  settings.inertia[0] = settings.inertia[1] = 1e-3;
   settings.damping.rayleigh_stiffness = 4e-6;
   settings.time.min_sample_rate = 1;
   settings.fidelity.body = body;
@@ -134,7 +134,7 @@ TEST_CASE("every mode: a mesh that is too fine is rejected with its numbers and 
   const StaticArtifact statics = static_transmission(few, few, coarse_statics(ContactModel::line), 50);
   const std::string lacking = rejection([&] {
     sweep(few, few, statics, statics.mean_stiffness,
-          coarse_sweep(3000, 3000, 1, BodyModel::full, ContactModel::line), "up", no_report);
+          coarse_sweep(3000, 3000, 1, BodyModel::full, ContactModel::line), Direction::up, no_report);
   });
   CHECK(lacking.find("holds " + std::to_string(few.eigenfrequency.size()) + " modes") != std::string::npos);
   // Steps of stage parameters that somebody edited: no number that is doubled until it is large enough.
@@ -142,7 +142,7 @@ TEST_CASE("every mode: a mesh that is too fine is rejected with its numbers and 
     SweepParameters none = coarse_sweep(3000, 3000, 1, BodyModel::modal, ContactModel::line);
     none.time.steps_per_period = steps;
     CHECK(rejection([&] {
-            sweep(few, few, statics, statics.mean_stiffness, none, "up", no_report);
+            sweep(few, few, statics, statics.mean_stiffness, none, Direction::up, no_report);
           }).find("steps_per_period = " + std::to_string(steps)) != std::string::npos);
   }
 }
@@ -176,10 +176,11 @@ TEST_CASE("every mode against 61 modes and relaxed loads on the same mesh, both 
     for (const auto integrator : {Integrator::exact, Integrator::newmark}) {
       SweepParameters settings = coarse_sweep(frequency, frequency, 1, BodyModel::full, ContactModel::line);
       settings.fidelity.integrator = integrator;
-      const SweepArtifact full = sweep(all, all, statics, statics.mean_stiffness, settings, "up", no_report);
+      const SweepArtifact full =
+          sweep(all, all, statics, statics.mean_stiffness, settings, Direction::up, no_report);
       settings.fidelity.body = BodyModel::modal;
       const SweepArtifact modal =
-          sweep(some, some, statics, statics.mean_stiffness, settings, "up", no_report);
+          sweep(some, some, statics, statics.mean_stiffness, settings, Direction::up, no_report);
       INFO(frequency << " Hz, " << integrator);
       CHECK(rms(full, 0) == relative(rms(modal, 0), 0.03));  // 2.1, 0.2, 0.3 %
       CHECK(rms(full, 0) != rms(modal, 0));
@@ -191,7 +192,7 @@ TEST_CASE("every mode against 61 modes and relaxed loads on the same mesh, both 
         // at a depth of 0.5 mm, 1882 N at 0.1 mm, 2056 N with every mode; with 512 steps 1598, 1859, 2075 N.
         settings.damping.undamped_depth = 0.1e-3;
         const SweepArtifact shallow =
-            sweep(some, some, statics, statics.mean_stiffness, settings, "up", no_report);
+            sweep(some, some, statics, statics.mean_stiffness, settings, Direction::up, no_report);
         CHECK(peak(shallow) > 1.1 * peak(modal));
         CHECK(peak(full) > 1.05 * peak(shallow));
         CHECK(peak(full) < 1.2 * peak(shallow));
@@ -213,7 +214,7 @@ TEST_CASE("model levels of the body: each is nearer to the one with the most mod
     settings.fidelity.contact = ContactModel::line;
     const auto with = [&](BodyModel level) {
       settings.fidelity.body = level;
-      return rms(sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report), 0);
+      return rms(sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report), 0);
     };
     const double modal = with(BodyModel::modal), lagged = std::abs(with(BodyModel::lagged) / modal - 1),
                  at_once = std::abs(with(BodyModel::quasi_static) / modal - 1),
@@ -249,7 +250,8 @@ TEST_CASE("what the next model level changes: its sweeps are those of a scene on
   CHECK(next[1].settings.fidelity.contact == ContactModel::line);
   CHECK(next[1].mean_stiffness == reference.mean_stiffness);
 
-  const SweepArtifact here = sweep(body, body, statics, reference.mean_stiffness, settings, "up", no_report);
+  const SweepArtifact here =
+      sweep(body, body, statics, reference.mean_stiffness, settings, Direction::up, no_report);
   SweepArtifact there = here;
   const SweepChange none = sweep_change(here, there);
   CHECK(none.compared == 3);
@@ -299,6 +301,6 @@ TEST_CASE("what the next model level changes: after the last one, and where the 
       coarse, coarse, at, at, coarse_sweep(4000, 4000, 1, BodyModel::modal, ContactModel::strips));
   REQUIRE(next.size() == 1);
   CHECK(next[0].missing == "");
-  CHECK(next[0].driver.eigenfrequency.size() == coarse_body(kAllModes).eigenfrequency.size());
-  CHECK(next[0].driver.eigenfrequency == coarse_body(kAllModes).eigenfrequency);
+  CHECK(next[0].body[0].eigenfrequency.size() == coarse_body(kAllModes).eigenfrequency.size());
+  CHECK(next[0].body[0].eigenfrequency == coarse_body(kAllModes).eigenfrequency);
 }

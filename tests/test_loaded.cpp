@@ -212,7 +212,7 @@ TEST_CASE("loaded: artifacts are read as they were written, and what cannot be s
   CHECK(back.tooth == at.tooth);
   CHECK(back.hub_torque == at.hub_torque);
   CHECK(back.mesh_phase == 0.25);
-  CHECK(back.driver.teeth == 50);
+  CHECK(back.gear[0].design.teeth == 50);
   std::filesystem::remove(path);
   std::filesystem::remove(path.substr(0, path.size() - 2) + "hdf");
 

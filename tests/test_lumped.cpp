@@ -35,7 +35,7 @@ LumpedParameters wave(double low, double high, double duty, double ratio) {
   p.mass = kMass;
   p.damping_ratio = ratio;
   p.damper = 2 * ratio * std::sqrt((low + (high - low) * duty) * kMass);
-  p.damper_acts = "always";
+  p.damper_acts = DamperActs::always;
   return p;
 }
 
@@ -279,7 +279,7 @@ TEST_CASE("lumped: works and stored energies balance, with contact loss and with
 TEST_CASE("lumped: the derivative of the period map is that of finite differences") {
   LumpedParameters base = wave(kLow, kHigh, 0.75, 0.07);
   LumpedParameters contact = base;
-  contact.damper_acts = "contact";
+  contact.damper_acts = DamperActs::contact;
   LumpedParameters pairs = base;
   pairs.stiffness.resize(2, 2);
   pairs.gap.resize(2, 2);
@@ -287,7 +287,7 @@ TEST_CASE("lumped: the derivative of the period map is that of finite difference
   pairs.gap << 0, 3e-6, 0, 0.5e-6;
   for (const LumpedParameters& p : {base, contact, pairs})
     for (int newmark : {0, 256}) {
-      if (newmark > 0 && p.damper_acts == "contact") continue;
+      if (newmark > 0 && p.damper_acts == DamperActs::contact) continue;
       LumpedOscillator o(p, 150 / kRadius, 64, newmark);
       o.set_speed(2550);
       const State y(6 * o.reference(), -1e-3);  // parts within the period
@@ -314,7 +314,7 @@ TEST_CASE("lumped: the derivative of the period map is that of finite difference
 TEST_CASE("lumped: a damper in contact only lets a mass bounce with the restitution of half an oscillation") {
   LumpedParameters p = wave(kMean, kMean, 0.5, 0.07);
   const double force = 1e-6, natural = std::sqrt(kMean / kMass);
-  const auto leaves = [&](const std::string& acts) {
+  const auto leaves = [&](DamperActs acts) {
     p.damper_acts = acts;
     LumpedOscillator o(p, force, 16);
     o.set_speed(natural / (2 * std::numbers::pi) / 0.8);
@@ -323,12 +323,13 @@ TEST_CASE("lumped: a damper in contact only lets a mass bounce with the restitut
     CHECK(y[0] < 0);
     return std::sqrt(y[1] * y[1] - 2 * force / kMass * y[0]);
   };
-  CHECK(leaves("contact") == relative(std::exp(-std::numbers::pi * 0.07 / std::sqrt(1 - 0.07 * 0.07)), 1e-9));
-  CHECK(leaves("always") < 0.79);
+  CHECK(leaves(DamperActs::contact) ==
+        relative(std::exp(-std::numbers::pi * 0.07 / std::sqrt(1 - 0.07 * 0.07)), 1e-9));
+  CHECK(leaves(DamperActs::always) < 0.79);
 
   // Less is damped than by Eq. 23, so that the upper branch is longer.
   LumpedParameters q = wave(kLow, kHigh, 0.75, 0.08);
-  q.damper_acts = "contact";
+  q.damper_acts = DamperActs::contact;
   LumpedOscillator o(q, 150 / kRadius, 64);
   const auto ends = folds(o, 1800, 2800);
   CHECK(ends[0] < 2200);
@@ -373,7 +374,7 @@ TEST_CASE("lumped: cells that carry the means of a curve converge with their squ
     CHECK(p.cell_end.size() == cells + 1);
     p.mass = kMass;
     p.damper = 2 * 0.08 * std::sqrt(kMean * kMass);
-    p.damper_acts = "always";
+    p.damper_acts = DamperActs::always;
     LumpedOscillator o(p, 150 / kRadius, 8, newmark);
     CHECK(o.mean_stiffness() == relative(kMean, 1e-12));
     return steady(o, 2500).rms;
@@ -410,7 +411,7 @@ TEST_CASE("lumped: models from a static result") {
 
   LumpedOptions o;
   o.mass = 1.4;
-  o.direction = "down";
+  o.direction = Direction::down;
   o.frequency_from = 2000;
   o.frequency_to = 2200;
   o.frequency_step = 100;
@@ -439,7 +440,7 @@ TEST_CASE("lumped: models from a static result") {
   const auto at_rest = [&](const LumpedParameters& p) {
     LumpedParameters q = p;
     q.mass = kMass;
-    q.damper_acts = "always";
+    q.damper_acts = DamperActs::always;
     return LumpedOscillator(q, force, 8).rest()[0];
   };
   CHECK(at_rest(pairs) == relative(s.transmission_error[0], 1e-9));
@@ -492,7 +493,7 @@ TEST_CASE(
     LumpedParameters p = cells_of_pairs(s, cells, spring_numbers, chords);
     p.mass = kMass;
     p.damper = damper;
-    p.damper_acts = "always";
+    p.damper_acts = DamperActs::always;
     LumpedOscillator o(p, force, 32);
     CHECK(o.rest()[0] == relative(s.transmission_error[0], 1e-9));
     o.set_speed(mesh_frequency);
@@ -542,7 +543,7 @@ TEST_CASE(
   LumpedOptions o;
   o.model = "pairs-hertz";
   o.mass = kMass;
-  o.direction = "up";
+  o.direction = Direction::up;
   o.frequency_from = o.frequency_to = 2000;
   o.frequency_step = 100;
   const LumpedParameters springs = cells_of_pairs(s, cells, spring_numbers, 16);
@@ -563,7 +564,7 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   o.frequency_step = 50;
   std::vector<SweepArtifact> sweeps;
   std::vector<ResponseArtifact> responses;
-  for (const char* direction : {"down", "up"}) {
+  for (const Direction direction : {Direction::down, Direction::up}) {
     o.direction = direction;
     sweeps.push_back(lumped_sweep(s, cells_of(wave), Eigen::VectorXi::Zero(1), o, no_report));
     responses.push_back(response(sweeps.back()));
@@ -626,8 +627,7 @@ TEST_CASE("lumped: what is no model is rejected by name") {
   says([](auto& p) { p.mass = 0; }, "mass is 0 kg");
   says([](auto& p) { p.mass = NAN; }, "mass is nan");
   says([](auto& p) { p.damper = -1; }, "damper is -1");
-  says([](auto& p) { p.damper_acts = "never"; }, "'never'");
-  says([](auto& p) { p.damper_acts = "contact"; }, "exact integrator", 2000, 64);
+  says([](auto& p) { p.damper_acts = DamperActs::contact; }, "exact integrator", 2000, 64);
   says([](auto& p) { p.stiffness(0, 0) = -1; }, "below 0");
   says([](auto& p) { p.stiffness.setZero(); }, "no spring");
   says([](auto& p) { p.cell_end[1] = 0.9; }, "ends at phase 0.9");
@@ -635,7 +635,7 @@ TEST_CASE("lumped: what is no model is rejected by name") {
   says([](auto& p) { p.gap.resize(1, 1); }, "of gaps");
   says([](auto&) {}, "force is 0 N", 0);
   StaticArtifact place;
-  place.driver = place.driven = paper_gear();
+  place.gear[0].design = place.gear[1].design = paper_gear();
   place.mesh.centre_distance = 0.15;
   place.torque = 150;
   place.mesh_phase = Eigen::VectorXd::LinSpaced(2, 0, 0.5);
@@ -657,7 +657,7 @@ TEST_CASE("lumped: what is no model is rejected by name") {
 
 TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that model say") {
   StaticArtifact statics;
-  statics.driver = statics.driven = paper_body(40e-3, 0.8e-3).design;
+  statics.gear[0].design = statics.gear[1].design = paper_body(40e-3, 0.8e-3).design;
   statics.mesh = paper_statics(128).mesh;
   statics.torque = 150;
   statics.mesh_phase = Eigen::VectorXd::LinSpaced(8, 0, 0.875);
@@ -694,11 +694,11 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
   o.frequency_to = 3000;
   o.frequency_step = 40;
   o.damping_ratio = 0.07;
-  for (const std::string direction : {"up", "down"}) {
+  for (const Direction direction : {Direction::up, Direction::down}) {
     o.direction = direction;
     const SweepArtifact alone = lumped_sweep(statics, springs, numbers, o, no_report);
     REQUIRE(alone.jump_frequency.size() == 1);
-    const int d = direction == "up" ? 0 : 1;
+    const int d = direction == Direction::up ? 0 : 1;
     CHECK((d == 0 ? map.branches_to : map.branches_from)[0] == alone.jump_frequency[0]);
     for (Eigen::Index i = 0; i < alone.mesh_frequency.size(); ++i) {
       const Eigen::Index row = d == 0 ? i : alone.mesh_frequency.size() - 1 - i;
@@ -707,7 +707,7 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
       CHECK(map.tooth_load_max[d](0, row) == alone.tooth_load[i].maxCoeff());
     }
   }
-  o.damper_acts = "contact";
+  o.damper_acts = DamperActs::contact;
   CHECK(lumped_jump_map(statics, springs, numbers, o, range, {0.07}, no_report).model ==
         "rectangular-contact");
   const auto rejected = [&](const MapSpeeds& speeds, const std::vector<double>& ratios, const char* words) {

@@ -432,7 +432,7 @@ TEST_CASE(
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
   const auto rejection = [&](const SweepParameters& settings) {
     try {
-      sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report);
+      sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report);
     } catch (const Error& e) {
       return std::string(e.what());
     }
@@ -485,11 +485,10 @@ TEST_CASE("a sweep says how many time steps an oscillation of the contact has, a
   settings.time.steps_per_period = 16;
   settings.time.min_sample_rate = 1;
   const SweepArtifact result =
-      sweep(body, body, statics, statics.mean_stiffness, settings, "down", no_report);
+      sweep(body, body, statics, statics.mean_stiffness, settings, Direction::down, no_report);
   CHECK(steps_per_oscillation(result) == relative(16 * 1000 / result.natural_frequency, 1e-12));
   // Between the ring-downs of one pair and two, 5.8 and 7.0 %.
-  const double ratio =
-      stiffness_damping_ratio(statics, settings.damping, settings.driver_inertia, settings.driven_inertia);
+  const double ratio = stiffness_damping_ratio(statics, settings.damping, settings.inertia);
   CHECK(ratio > 0.058);
   CHECK(ratio < 0.070);
 }
@@ -696,7 +695,7 @@ TEST_CASE("crawling gears follow the static transmission error") {
     SweepParameters settings = paper_sweep(10, 10, 1);
     settings.fidelity.contact = contact;
     const SweepArtifact sweep_result =
-        sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report);
+        sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report);
     // At 10 Hz the slope of the error excites 4e-3 of its size at f_n.
     const VectorXd difference =
         sweep_result.transmission_error.row(0).transpose() - statics.transmission_error;
@@ -719,7 +718,7 @@ TEST_CASE(
           settings.damping.bearing_ratio = 0.1;  // the only damper of that model level
         settings.fidelity = {level, contact, integrator};
         const SweepArtifact result =
-            sweep(body, body, statics, statics.mean_stiffness, settings, "down", no_report);
+            sweep(body, body, statics, statics.mean_stiffness, settings, Direction::down, no_report);
         CHECK(result.energy_imbalance.maxCoeff() < 1e-9);
         CHECK(result.least_gap > -1e-15);
         CHECK(result.drift_force.maxCoeff() < 0.02 * 2128);  // lever arms at a corner differ by 2 % at most
@@ -740,7 +739,7 @@ TEST_CASE("the energy balance closes where a corner rule cuts pairs off under lo
       SweepParameters speeds = paper_sweep(1400, 2900, 500);
       speeds.fidelity.contact = contact;
       const SweepArtifact result =
-          sweep(body, body, statics, statics.mean_stiffness, speeds, "up", no_report);
+          sweep(body, body, statics, statics.mean_stiffness, speeds, Direction::up, no_report);
       CHECK(result.energy_imbalance.maxCoeff() < 1e-9);
     }
 }
@@ -753,7 +752,8 @@ TEST_CASE("orbits: a row holds its orbit, a subharmonic is one only if no shorte
   const StaticArtifact statics = static_transmission(body, body, statics_parameters, 150);
   SweepParameters settings = paper_sweep(5600, 6000, 100);
   settings.damping.rayleigh_stiffness = 2e-6;
-  const SweepArtifact result = sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report);
+  const SweepArtifact result =
+      sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report);
   CHECK((result.period_multiple.array() == 2).any());
   const int samples = settings.time.steps_per_period;
   for (int i = 0; i < result.mesh_frequency.size(); ++i) {
@@ -798,10 +798,10 @@ TEST_CASE("residual flexibility of neighbouring teeth stays semidefinite however
 TEST_CASE("a speed is steady when its state repeats: sweeps up and down meet where there is one branch") {
   const BodyArtifact& body = paper_body();
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
-  const SweepArtifact up =
-      sweep(body, body, statics, statics.mean_stiffness, paper_sweep(3200, 3400, 100), "up", no_report);
-  const SweepArtifact down =
-      sweep(body, body, statics, statics.mean_stiffness, paper_sweep(3200, 3400, 100), "down", no_report);
+  const SweepArtifact up = sweep(body, body, statics, statics.mean_stiffness, paper_sweep(3200, 3400, 100),
+                                 Direction::up, no_report);
+  const SweepArtifact down = sweep(body, body, statics, statics.mean_stiffness, paper_sweep(3200, 3400, 100),
+                                   Direction::down, no_report);
   for (int i = 0; i < 3; ++i) {
     CHECK(up.mesh_frequency[i] == down.mesh_frequency[2 - i]);
     CHECK(up.residual[i] < TimeDiscretisation{}.periodicity);
@@ -817,8 +817,8 @@ TEST_CASE("at less damping there are two branches at 150 N m and 2400 Hz, and th
   const double reference = static_transmission(body, body, paper_statics(128), 100).mean_stiffness;
   SweepParameters settings = paper_sweep(2400, 3000, 40);
   settings.damping.rayleigh_stiffness = 5.5e-6;
-  const SweepArtifact up = sweep(body, body, statics, reference, settings, "up", no_report);
-  const SweepArtifact down = sweep(body, body, statics, reference, settings, "down", no_report);
+  const SweepArtifact up = sweep(body, body, statics, reference, settings, Direction::up, no_report);
+  const SweepArtifact down = sweep(body, body, statics, reference, settings, Direction::down, no_report);
   CHECK(rms(up, 0) == relative(1.15e-6, 0.05));
   CHECK(rms(down, 15) == relative(7.2e-6, 0.05));
   REQUIRE(up.jump_frequency.size() == 1);
@@ -838,7 +838,8 @@ TEST_CASE("time step: second order in the steps per period") {
     settings.time.steps_per_period = steps;
     settings.time.min_sample_rate = 1;
     settings.time.periodicity = 1e-9;
-    values.push_back(rms(sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report), 0));
+    values.push_back(
+        rms(sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report), 0));
   }
   const double coarse = std::abs(values[0] - values[1]), fine = std::abs(values[1] - values[2]),
                finest = std::abs(values[2] - values[3]);
@@ -855,18 +856,18 @@ TEST_CASE("a total inertia below the body's own is rejected with both numbers") 
   CHECK(least > 0.98 * body.inertia);
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
   SweepParameters settings = paper_sweep(2000, 2000, 100);
-  settings.driven_inertia = 0.5 * body.inertia;
+  settings.inertia[1] = 0.5 * body.inertia;
   for (const auto level : {BodyModel::modal, BodyModel::rigid}) {
     settings.fidelity.body = level;
     std::string message;
     try {
-      sweep(body, body, statics, statics.mean_stiffness, settings, "up", no_report);
+      sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report);
     } catch (const Error& e) {
       message = e.what();
     }
     INFO(message);
-    CHECK(message.find(text("[gear.", statics.mesh.driven, "] of the scene: total_inertia_kgm2 = ",
-                            shown_number(settings.driven_inertia), " ")) != std::string::npos);
+    CHECK(message.find(text("[gear.", statics.mesh.gear[1], "] of the scene: total_inertia_kgm2 = ",
+                            shown_number(settings.inertia[1]), " ")) != std::string::npos);
     CHECK(message.find(shown_number(body.inertia)) != std::string::npos);
   }
 }
@@ -883,7 +884,7 @@ TEST_CASE(
       const StaticArtifact statics = static_transmission(body, body, settings, torque);
       SweepParameters speeds = paper_sweep(1300, 3300, 500);
       speeds.fidelity.contact = settings.fidelity.contact;
-      result[k] = sweep(body, body, statics, statics.mean_stiffness, speeds, "up", no_report);
+      result[k] = sweep(body, body, statics, statics.mean_stiffness, speeds, Direction::up, no_report);
       CHECK(result[k].natural_frequency == relative(result[0].natural_frequency, 1e-3));
     }
     for (int i = 0; i < 5; ++i) {
@@ -908,7 +909,8 @@ TEST_CASE("sweeps with one line per pair: over an orbit the flanks carry the tor
   speeds.damping.rayleigh_stiffness = 5.5e-6;
   speeds.time.min_sample_rate = 1;  // every step is stored
   speeds.time.periodicity = 1e-9;
-  const SweepArtifact result = sweep(body, body, statics, statics.mean_stiffness, speeds, "down", no_report);
+  const SweepArtifact result =
+      sweep(body, body, statics, statics.mean_stiffness, speeds, Direction::down, no_report);
   for (int i = 0; i < 3; ++i) {
     CHECK(result.mesh_force.row(i).mean() == relative(150 / 70.4769466e-3, 1e-7));
     CHECK(result.drift_force[i] < 1e-9);

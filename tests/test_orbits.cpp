@@ -269,7 +269,7 @@ TEST_CASE(
   SweepParameters settings = paper_sweep(6000, 6000, 20);
   settings.damping.rayleigh_stiffness = 2e-7;
   settings.damping.bearing_ratio = 1e-4;
-  const SweepArtifact swept = sweep(body, body, statics, 463e6, settings, "up", no_report);
+  const SweepArtifact swept = sweep(body, body, statics, 463e6, settings, Direction::up, no_report);
   REQUIRE(swept.period_multiple[0] == 0);
   CHECK(swept.residual[0] > 1e-3);
   CHECK(swept.periods[0] == 3000);
@@ -297,7 +297,7 @@ TEST_CASE("the end of a branch does not depend on the steps of the sweep that le
   for (const double step : {20.0, 50.0}) {
     SweepParameters settings = paper_sweep(1700, 2900, step);
     settings.damping.rayleigh_stiffness = kLightDamping;
-    const SweepArtifact down = sweep(body, body, statics, 463e6, settings, "down", no_report);
+    const SweepArtifact down = sweep(body, body, statics, 463e6, settings, Direction::down, no_report);
     REQUIRE(down.jump_frequency.size() == 1);
     CHECK(down.jump_width[0] < 1);
     ends.push_back(down.jump_frequency[0]);
@@ -318,7 +318,7 @@ TEST_CASE(
     settings.time.periodicity = 1e-6;
     settings.damping.rayleigh_stiffness = kLightDamping;
     settings.time.steady_state = method;
-    return response(sweep(body, body, statics, 463e6, settings, "down", no_report));
+    return response(sweep(body, body, statics, 463e6, settings, Direction::down, no_report));
   };
   const ResponseArtifact predicted = swept(SteadyState::extrapolate),
                          integrated = swept(SteadyState::integrate);
@@ -356,8 +356,9 @@ TEST_CASE("on one branch sweeps up and down agree, though one of them came from 
   SweepParameters settings = paper_sweep(1350, 2900, 50);
   settings.damping.rayleigh_stiffness = 6e-6;
   settings.time.periodicity = 1e-6;
-  const ResponseArtifact up = response(sweep(body, body, statics, 463e6, settings, "up", no_report)),
-                         down = response(sweep(body, body, statics, 463e6, settings, "down", no_report));
+  const ResponseArtifact up = response(sweep(body, body, statics, 463e6, settings, Direction::up, no_report)),
+                         down = response(
+                             sweep(body, body, statics, 463e6, settings, Direction::down, no_report));
   REQUIRE(down.jump_frequency.size() == 1);
   REQUIRE(up.jump_frequency.size() == 1);
   double apart = 0;
@@ -379,12 +380,12 @@ TEST_CASE("near the cusp: a jump of less than 20 % is found from wide steps, whe
   StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
   const StaticArtifact statics = static_transmission(body, body, coarse, 150);
-  const auto swept = [&](double from, double to, double step, const std::string& direction) {
+  const auto swept = [&](double from, double to, double step, Direction direction) {
     SweepParameters settings = paper_sweep(from, to, step);
     settings.damping.rayleigh_stiffness = 7.25e-6;
     return response(sweep(body, body, statics, 463e6, settings, direction, no_report));
   };
-  for (const std::string direction : {"up", "down"}) {
+  for (const Direction direction : {Direction::up, Direction::down}) {
     // Of steps of 1 Hz the one with the largest change.
     const ResponseArtifact fine = swept(2820, 2880, 1, direction);
     Eigen::Index at = 0;

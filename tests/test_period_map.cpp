@@ -214,7 +214,7 @@ TEST_CASE("period map: of a lumped oscillator, its tangent and the borders that 
   p.mass = 1.4;
   p.damping_ratio = 0.08;
   p.damper = 2 * 0.08 * std::sqrt(462.1e6 * 1.4);
-  p.damper_acts = "always";
+  p.damper_acts = DamperActs::always;
   LumpedOscillator oscillator(p, 150 / 0.0704769466, 64);
   LumpedPeriodMap map(oscillator);
   map.set_parameter(2700);

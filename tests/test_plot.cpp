@@ -43,7 +43,7 @@ GearDesign standard_gear() {
 // Two levels with rounded steps; what a static stage would give, near enough for the drawing.
 StaticArtifact some_static(double torque) {
   StaticArtifact s;
-  s.driver = s.driven = standard_gear();
+  s.gear[0].design = s.gear[1].design = standard_gear();
   s.mesh.centre_distance = 0.15;
   s.torque = torque;
   s.contact_ratio = 1.7547;
@@ -66,7 +66,7 @@ StaticArtifact some_static(double torque) {
   return s;
 }
 
-ResponseArtifact some_response(const std::string& direction) {
+ResponseArtifact some_response(Direction direction) {
   ResponseArtifact r;
   r.torque = 150;
   r.direction = direction;
@@ -74,7 +74,7 @@ ResponseArtifact some_response(const std::string& direction) {
   r.natural_frequency = 2900;
   const int n = 5;
   r.mesh_frequency = Eigen::VectorXd::LinSpaced(n, 2000, 2400);
-  if (direction == "down") r.mesh_frequency.reverseInPlace();
+  if (direction == Direction::down) r.mesh_frequency.reverseInPlace();
   r.dte_rms = Eigen::VectorXd::LinSpaced(n, 1e-6, 5e-6);
   r.dte_mean = r.tooth_load_max = r.mesh_force_max = Eigen::VectorXd::Ones(n);
   r.separation_fraction = r.separations_per_period = Eigen::VectorXd::Zero(n);
@@ -215,7 +215,7 @@ TEST_CASE(
 TEST_CASE(
     "response figure: order of the inputs does not matter, the pen lifts at a jump, the arrow follows the "
     "sweep") {
-  const ResponseArtifact up = some_response("up"), down = some_response("down");
+  const ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
   const Figure figure = response_figure({down, up});
   CHECK(plot_data(figure) == plot_data(response_figure({up, down})));
   const auto& rows = block(figure, "a 150 N m up").rows;
@@ -234,13 +234,13 @@ TEST_CASE(
     "response figure: two of one direction, other torques, other choices, a jump outside the sweep are "
     "rejected") {
   const auto rejected = [](auto change) {
-    ResponseArtifact up = some_response("up"), down = some_response("down");
+    ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
     change(up, down);
     return failure_of([&] { response_figure({up, down}); }) == Failure::input;
   };
   using R = ResponseArtifact;
   CHECK_FALSE(rejected([](R&, R&) {}));
-  CHECK(rejected([](R&, R& down) { down.direction = "up"; }));
+  CHECK(rejected([](R&, R& down) { down.direction = Direction::up; }));
   CHECK(rejected([](R& up, R&) { up.torque = 200; }));
   CHECK(rejected([](R& up, R&) { up.damping.rayleigh_stiffness = 1e-6; }));
   CHECK(rejected([](R& up, R&) { up.mesh.corner.enabled = false; }));
@@ -253,7 +253,7 @@ TEST_CASE(
   std::vector<ResponseArtifact> sweeps;
   for (double eta : {7.7e-6, 4e-6})
     for (double torque : {300.0, 100.0})
-      for (const char* direction : {"up", "down"}) {
+      for (const Direction direction : {Direction::up, Direction::down}) {
         sweeps.push_back(some_response(direction));
         sweeps.back().torque = torque;
         sweeps.back().damping.rayleigh_stiffness = eta;
@@ -283,7 +283,7 @@ TEST_CASE(
 
 TEST_CASE("response figure: a curve breaks where it changes branch without a jump, not on a steep slope") {
   const auto rows_of = [](const Eigen::VectorXd& rms) {
-    ResponseArtifact up = some_response("up"), down = some_response("down");
+    ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
     up.jump_frequency.resize(0);
     up.jump_width.resize(0);
     up.dte_rms = rms;
@@ -300,7 +300,7 @@ TEST_CASE("response figure: a curve breaks where it changes branch without a jum
 }
 
 TEST_CASE("response figure: a curve stops where the sweep left its branch, steps before the branch ends") {
-  ResponseArtifact up = some_response("up"), down = some_response("down");
+  ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
   // falling from 2400 Hz: off the branch after 2300, which ends at 2050 Hz
   down.dte_rms << 5e-6, 6e-6, 1e-6, 1.1e-6, 1.2e-6;
   down.jump_frequency[0] = 2050;
@@ -321,22 +321,22 @@ TEST_CASE("response figure: a curve stops where the sweep left its branch, steps
 
 // Sweep at 1000 and 1100 Hz; at 1100 Hz both directions are alike, at 1000 Hz the falling one is `factor` times as large.
 // A tooth carries load(its own phase), of period `multiple` in its amplitude.
-SweepArtifact some_sweep(const std::string& direction, double factor, int multiple = 1) {
+SweepArtifact some_sweep(Direction direction, double factor, int multiple = 1) {
   constexpr int n = 64;
   SweepArtifact s;
-  s.driver = s.driven = standard_gear();
+  s.gear[0].design = s.gear[1].design = standard_gear();
   s.mesh.centre_distance = 0.15;
   s.torque = 150;
   s.direction = direction;
   s.time.steps_per_period = n;
   s.mesh_frequency = Eigen::Vector2d(1000, 1100);
-  if (direction == "down") s.mesh_frequency.reverseInPlace();
+  if (direction == Direction::down) s.mesh_frequency.reverseInPlace();
   s.period_multiple = Eigen::Vector2i::Constant(multiple);
   s.transmission_error.resize(2, n * multiple);
   s.mesh_force.resize(2, n * multiple);
   s.pair = Eigen::Vector3i(-1, 0, 1);
   for (int f = 0; f < 2; ++f) {
-    const double size = direction == "down" && s.mesh_frequency[f] == 1000 ? factor : 1.0;
+    const double size = direction == Direction::down && s.mesh_frequency[f] == 1000 ? factor : 1.0;
     MatrixRM load(n * multiple, 3);
     for (int k = 0; k < n * multiple; ++k) {
       const double phase = static_cast<double>(k) / n;
@@ -362,7 +362,7 @@ std::string word_of(const Figure& figure, const std::string& name) {
 }
 
 TEST_CASE("branches at one speed: two columns where up and down differ, one that says so where they agree") {
-  const std::vector<SweepArtifact> sweeps{some_sweep("up", 3), some_sweep("down", 3)};
+  const std::vector<SweepArtifact> sweeps{some_sweep(Direction::up, 3), some_sweep(Direction::down, 3)};
   const Figure two = vibration_figure(sweeps, 1000);
   CHECK(word_of(two, "title_a").find("upper branch, speed falling") != std::string::npos);
   CHECK(word_of(two, "title_b").find("lower branch, speed rising") != std::string::npos);
@@ -389,7 +389,8 @@ TEST_CASE("branches at one speed: two columns where up and down differ, one that
   CHECK(failure_of([&] { tooth_load_figure({}, 1000); }) == Failure::input);
 
   // the orbit of a subharmonic is drawn whole, its lines stand between the harmonics
-  const Figure sub = vibration_figure({some_sweep("up", 1, 4), some_sweep("down", 1, 4)}, 1000);
+  const Figure sub =
+      vibration_figure({some_sweep(Direction::up, 1, 4), some_sweep(Direction::down, 1, 4)}, 1000);
   CHECK(block(sub, "a history").rows.size() == 4 * 64 + 1);
   CHECK(block(sub, "a spectrum").rows[0][0] == 250);
   CHECK(block(sub, "a spectrum").rows[0][1] == relative(0.5, 1e-12));
@@ -398,7 +399,8 @@ TEST_CASE("branches at one speed: two columns where up and down differ, one that
 TEST_CASE(
     "tooth loads: every tooth keeps its own load from period to period, loss of contact where no tooth "
     "carries") {
-  const Figure figure = tooth_load_figure({some_sweep("up", 3), some_sweep("down", 3)}, 1000);
+  const Figure figure =
+      tooth_load_figure({some_sweep(Direction::up, 3), some_sweep(Direction::down, 3)}, 1000);
   for (int t : {-1, 0, 1, 2}) {
     CAPTURE(t);
     const auto& rows = block(figure, text("a tooth i", t < 0 ? "" : "+", t)).rows;
@@ -422,7 +424,7 @@ TEST_CASE("tooth loads of rolling gears pass from period to period without a ste
   const BodyArtifact& body = paper_body();
   const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
   std::vector<SweepArtifact> sweeps;
-  for (const char* direction : {"up", "down"})
+  for (const Direction direction : {Direction::up, Direction::down})
     sweeps.push_back(sweep(body, body, statics, statics.mean_stiffness, paper_sweep(2400, 2400, 20),
                            direction, no_report));
   const Figure figure = tooth_load_figure(sweeps, 2400);
@@ -454,7 +456,7 @@ TEST_CASE(
   }
   MeshArtifact mesh = make_sector_mesh(body.design, body.discretisation);
   const Figure figure = contact_zone_figure(mesh, mesh, statics, zone);
-  const GearPair pair(statics.driver, statics.driven, 0.15);
+  const GearPair pair(statics.gear[0].design, statics.gear[1].design, 0.15);
   const auto& rows = block(figure, "candidate pairs").rows;
   REQUIRE(rows.size() == static_cast<size_t>(zone.strips.size()));
   double force = 0, most = 0;
@@ -474,7 +476,7 @@ TEST_CASE(
 
 ImpactArtifact some_impact(double torque) {
   ImpactArtifact a;
-  a.driver = a.driven = standard_gear();
+  a.gear[0].design = a.gear[1].design = standard_gear();
   a.mesh.centre_distance = 0.15;
   a.torque = torque;
   a.contact_state = {"one", "two", "mean"};
@@ -532,10 +534,10 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
   Background captions;
   for (double eta : {7.7e-6, 4e-6})
     for (double torque : {100.0, 300.0}) {
-      for (const char* direction : {"up", "down"}) {
+      for (const Direction direction : {Direction::up, Direction::down}) {
         sweeps.push_back(some_response(direction));
         sweeps.back().torque = torque;
-        sweeps.back().driver = sweeps.back().driven = standard_gear();
+        sweeps.back().gear[0].design = sweeps.back().gear[1].design = standard_gear();
         sweeps.back().mesh.centre_distance = 0.15;
         sweeps.back().damping.rayleigh_stiffness = eta;
         captions.scenes.push_back(eta > 5e-6 ? "first: a_b" : "second");
@@ -564,13 +566,13 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
 }
 
 TEST_CASE("response figure: a lumped model is not described as elastic gears") {
-  ResponseArtifact up = some_response("up"), down = some_response("down");
+  ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
   up.model = down.model = "secant";
   up.separation_fraction[1] = up.separation_fraction[2] = down.separation_fraction[0] = 0.1;
   LumpedParameters lumped;
   lumped.mass = 1.4;
   lumped.damping_ratio = 0.08;
-  lumped.damper_acts = "always";
+  lumped.damper_acts = DamperActs::always;
   Background captions;
   captions.lumped = {lumped, lumped};
   const Figure figure = response_figure({up, down}, captions);
@@ -581,7 +583,7 @@ TEST_CASE("response figure: a lumped model is not described as elastic gears") {
   CHECK(response_figure({up, down}).notes[1].find("Rayleigh") == std::string::npos);
   captions.lumped[1].damping_ratio = 0.05;
   CHECK(failure_of([&] { response_figure({up, down}, captions); }) == Failure::input);
-  CHECK(word_of(response_figure({some_response("up"), some_response("down")}), "loss_a") ==
+  CHECK(word_of(response_figure({some_response(Direction::up), some_response(Direction::down)}), "loss_a") ==
         "contact is never lost");
 }
 

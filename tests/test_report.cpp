@@ -51,20 +51,20 @@ StaticArtifact statics_of_paper(double torque) {
 // Speeds of 1000, 1100, ... Hz; the transmission error has 3 um of order 1, 2 um of order 2 and, at the second speed, whose
 // motion repeats after two periods, 1 um of order 1/2. One pair carries the load, 10 N more at each speed, 5 N more in the
 // second of two periods.
-SweepArtifact some_sweep(const std::string& direction, int speeds = 4) {
+SweepArtifact some_sweep(Direction direction, int speeds = 4) {
   constexpr int kSteps = 32;
   SweepArtifact s;
-  s.driver = s.driven = paper_gear();
-  s.mesh.driver = "pinion";
-  s.mesh.driven = "wheel";
+  s.gear[0].design = s.gear[1].design = paper_gear();
+  s.mesh.gear[0] = "pinion";
+  s.mesh.gear[1] = "wheel";
   s.mesh.centre_distance = 0.150;
   s.torque = 150;
   s.direction = direction;
   s.natural_frequency = 2900;
-  s.driver_inertia = s.driven_inertia = 0.0148;
+  s.inertia[0] = s.inertia[1] = 0.0148;
   s.time.steps_per_period = kSteps;
   s.mesh_frequency = Eigen::VectorXd::LinSpaced(speeds, 1000, 1000 + 100 * (speeds - 1));
-  if (direction == "down") s.mesh_frequency.reverseInPlace();
+  if (direction == Direction::down) s.mesh_frequency.reverseInPlace();
   s.pair.resize(1);
   s.pair << 0;
   s.transmission_error.resize(speeds, 2 * kSteps);
@@ -124,7 +124,7 @@ TEST_CASE("load sharing: shares at a mesh phase add up to the whole load, period
   const FigureBlock& loads = block(figure, "loads");
   REQUIRE(loads.rows.size() == 65);
   // They are of the torque that the scene lists first.
-  CHECK(loads.rows[0][1] == relative(heavy.torque / ToothGeometry(heavy.driver).base_radius(), 1e-9));
+  CHECK(loads.rows[0][1] == relative(heavy.torque / ToothGeometry(heavy.gear[0].design).base_radius(), 1e-9));
   for (size_t pair = 2; pair + 1 < loads.columns.size(); ++pair)
     CHECK(loads.rows.back()[pair] == loads.rows.front()[pair + 1]);
   for (const auto& row : loads.rows) {
@@ -137,7 +137,7 @@ TEST_CASE("load sharing: shares at a mesh phase add up to the whole load, period
 TEST_CASE(
     "waterfall: lines stand at the orders of what is known, half orders where the motion repeats after two "
     "periods") {
-  const Figure figure = waterfall_figure({some_sweep("up")});
+  const Figure figure = waterfall_figure({some_sweep(Direction::up)});
   std::map<std::pair<double, double>, double> lines;
   for (const auto& row : block(figure, "spectra up").rows) lines[{row[0], row[1]}] = row[2];
   CHECK(lines.size() == 4 * 2 + 1);
@@ -153,7 +153,7 @@ TEST_CASE(
     CHECK(row[2] == relative(2, 1e-12));
   }
   // Of many speeds those with the largest RMS: every second one of 320, but that of the half order.
-  const Figure many = waterfall_figure({some_sweep("down", 320)});
+  const Figure many = waterfall_figure({some_sweep(Direction::down, 320)});
   std::set<double> shown;
   for (const auto& row : block(many, "spectra down").rows) shown.insert(row[0]);
   CHECK(shown.size() == 160);
@@ -161,23 +161,23 @@ TEST_CASE(
   for (const auto& [name, value] : many.numbers)
     if (name == "speed_step") CHECK(value == relative(31900 / 159.0, 1e-12));
   // Of two sweeps the rising one comes first, each with blocks of its own.
-  const Figure both = waterfall_figure({some_sweep("down"), some_sweep("up")});
+  const Figure both = waterfall_figure({some_sweep(Direction::down), some_sweep(Direction::up)});
   REQUIRE(both.blocks.size() == 4);
   CHECK(both.blocks[0].rows == block(figure, "spectra up").rows);
   CHECK(block(both, "orders down").rows.front()[0] == 1300);
-  CHECK_THROWS_AS(waterfall_figure({some_sweep("up"), some_sweep("up")}), Error);
-  SweepArtifact heavier = some_sweep("down");
+  CHECK_THROWS_AS(waterfall_figure({some_sweep(Direction::up), some_sweep(Direction::up)}), Error);
+  SweepArtifact heavier = some_sweep(Direction::down);
   heavier.torque = 300;
-  CHECK_THROWS_AS(waterfall_figure({some_sweep("up"), heavier}), Error);
+  CHECK_THROWS_AS(waterfall_figure({some_sweep(Direction::up), heavier}), Error);
 }
 
 TEST_CASE("tooth loads against speed: those of the sweeps, the period of the largest load in the middle") {
-  const Figure figure = dynamic_load_figure({some_sweep("down"), some_sweep("up")});
-  for (const char* direction : {"up", "down"}) {
+  const Figure figure = dynamic_load_figure({some_sweep(Direction::down), some_sweep(Direction::up)});
+  for (const Direction direction : {Direction::up, Direction::down}) {
     const SweepArtifact sweep = some_sweep(direction);
     const ResponseArtifact r = response(sweep);
     size_t i = 0;
-    for (const auto& row : block(figure, direction).rows) {
+    for (const auto& row : block(figure, name_of(direction)).rows) {
       if (row.empty()) continue;
       CHECK(row[5] == r.tooth_load_max[static_cast<Eigen::Index>(i++)]);
     }
@@ -186,13 +186,13 @@ TEST_CASE("tooth loads against speed: those of the sweeps, the period of the lar
   // The half order has the largest RMS; at 1100 Hz on the way up, with 115 N in the second period.
   for (const auto& row : block(figure, "b tooth i+0").rows)
     if (!row.empty() && row[0] >= 0 && row[0] < 1) CHECK(row[1] == 115);
-  SweepArtifact other = some_sweep("down");
+  SweepArtifact other = some_sweep(Direction::down);
   other.torque = 200;
-  CHECK(failure_of([&] { dynamic_load_figure({some_sweep("up"), other}); }) == Failure::input);
-  SweepArtifact second = some_sweep("up");
+  CHECK(failure_of([&] { dynamic_load_figure({some_sweep(Direction::up), other}); }) == Failure::input);
+  SweepArtifact second = some_sweep(Direction::up);
   second.torque = 200;
   CHECK(failure_of([&] {
-          dynamic_load_figure({some_sweep("up"), some_sweep("down"), second, other});
+          dynamic_load_figure({some_sweep(Direction::up), some_sweep(Direction::down), second, other});
         }) == Failure::input);
 }
 
@@ -222,7 +222,8 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   ReportContent content;
   content.scene = "pair: <Gears> & \"teeth\"";
   content.statics = {statics_of_paper(150), statics_of_paper(100)};
-  const ResponseArtifact up = response(some_sweep("up")), down = response(some_sweep("down"));
+  const ResponseArtifact up = response(some_sweep(Direction::up)),
+                         down = response(some_sweep(Direction::down));
   content.sweeps = {{up, {remark(true, "back flanks < touch")}}, {down, {}}};
   content.pictures = {{"fig12", "\x89PNG"}};
   const std::string page = report_html(content);
@@ -251,7 +252,7 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   CHECK(rejected([](ReportContent& c) { c.statics.clear(); }));
   CHECK(rejected([](ReportContent& c) { c.pictures[0].name = "fig99"; }));
   CHECK(rejected([](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }));
-  CHECK(rejected([](ReportContent& c) { c.statics[1].driven.teeth = 51; }));
+  CHECK(rejected([](ReportContent& c) { c.statics[1].gear[1].design.teeth = 51; }));
 }
 
 TEST_CASE("report: the inertia that moves stands beside that of the drawing") {
@@ -261,14 +262,14 @@ TEST_CASE("report: the inertia that moves stands beside that of the drawing") {
   const StaticArtifact& s = content.statics[0];
   CHECK(report_html(content).find("inertia in motion") == std::string::npos);
   ImpactArtifact a;
-  a.driver = s.driver;
-  a.driven = s.driven;
-  a.driver_material = s.driver_material;
-  a.driven_material = s.driven_material;
+  a.gear[0].design = s.gear[0].design;
+  a.gear[1].design = s.gear[1].design;
+  a.gear[0].material = s.gear[0].material;
+  a.gear[1].material = s.gear[1].material;
   a.mesh = s.mesh;
   a.torque = 150;
-  a.driver_inertia = 1.01 * least_body_inertia(ToothGeometry(s.driver), s.driver_material);
-  a.driven_inertia = 0.5;
+  a.inertia[0] = 1.01 * least_body_inertia(ToothGeometry(s.gear[0].design), s.gear[0].material);
+  a.inertia[1] = 0.5;
   content.impacts = {a};
   const std::string page = report_html(content);
   const size_t row = page.find("inertia in motion");
@@ -295,7 +296,7 @@ TEST_CASE("report: what the numbers mean is said of what is on the page, and of 
   CHECK(at_rest.find("Damping") == std::string::npos);
   CHECK(at_rest.find("ring-down") == std::string::npos);
   for (const std::string& name : report_figures()) content.pictures.push_back({name, "\x89PNG"});
-  content.sweeps = {{response(some_sweep("up")), {}}};
+  content.sweeps = {{response(some_sweep(Direction::up)), {}}};
   const std::string all = guide();
   CHECK(all.find("As good as your guess") != std::string::npos);
   for (const std::string& name : report_figures()) {
@@ -308,7 +309,7 @@ TEST_CASE("results: one line of names, geometry without a torque, as many cells 
   ReportContent content;
   content.scene = "pair: gears";
   content.statics = {statics_of_paper(150)};
-  content.sweeps = {{response(some_sweep("up")), {}}};
+  content.sweeps = {{response(some_sweep(Direction::up)), {}}};
   std::istringstream lines(report_tsv(content));
   std::vector<std::vector<std::string>> rows;
   for (std::string line; std::getline(lines, line);) {
@@ -344,7 +345,7 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   content.scene = "pair: gears";
   content.statics = {statics_of_paper(150)};
   content.pictures = {{"fig07", "\x89PNG"}};
-  SweepArtifact up = some_sweep("up"), down = some_sweep("down");
+  SweepArtifact up = some_sweep(Direction::up), down = some_sweep(Direction::down);
   // The half order at the second speed swings farthest back.
   up.backlash_margin = -1e-7;
   down.backlash_margin = std::numeric_limits<double>::infinity();
@@ -373,7 +374,7 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
 }
 
 TEST_CASE("an energy balance that does not close is warned of, with its speed and its size") {
-  SweepArtifact sweep = some_sweep("up");
+  SweepArtifact sweep = some_sweep(Direction::up);
   const StaticArtifact statics = statics_of_paper(150);
   const auto warned = [&] {
     const std::vector<Remark> said = remarks(sweep, statics);
@@ -398,7 +399,7 @@ TEST_CASE(
   const StaticArtifact& s = content.statics[0];
   Eigen::Index pair = 0;
   const double load = s.tooth_load.row(0).maxCoeff(&pair);  // at the pitch point, of one pair alone
-  SweepArtifact sweep = some_sweep("up");
+  SweepArtifact sweep = some_sweep(Direction::up);
   for (MatrixRM& loads : sweep.tooth_load) loads.setConstant(load);
   sweep.mesh_force.setConstant(load);
   content.sweeps = {{response(sweep), {}}};
@@ -423,7 +424,7 @@ TEST_CASE(
 TEST_CASE("keys of a scene from its artifacts: in the scene's units, motion only where there is one") {
   const auto value = [](const std::vector<SceneKey>& keys, const std::string& name) {
     for (const SceneKey& key : keys)
-      if (key.name == name) return key.driver + "|" + key.driven;
+      if (key.name == name) return key.value[0] + "|" + key.value[1];
     return std::string("none");
   };
   StaticArtifact s = statics_of_paper(100);
@@ -439,7 +440,7 @@ TEST_CASE("keys of a scene from its artifacts: in the scene's units, motion only
   s.mesh.errors[0].single_pitch = {1e-6, -1e-6};
   CHECK(value(scene_keys_of(s), "points") == "|[[17.1887, 1], [22.9183, 2]]");
   CHECK(value(scene_keys_of(s), "single_pitch_um") == "[1, -1]|");
-  const ResponseArtifact r = response(some_sweep("up"));
+  const ResponseArtifact r = response(some_sweep(Direction::up));
   CHECK(value(scene_keys_of(r), "total_inertia_kgm2") == "0.0148|0.0148");
   CHECK(value(scene_keys_of(r), "undamped_depth_mm") == "0.5|");
 }

@@ -430,8 +430,8 @@ TEST_CASE("stage parameters read back bit by bit") {
   CHECK(body.discretisation.matching_depth == s.body.matching_depth);
 
   const StaticParameters statics = read_static_parameters(file.path(static_parameters(s), "static.toml"));
-  CHECK(statics.mesh.driver == "pinion");
-  CHECK(statics.mesh.driven == "wheel");
+  CHECK(statics.mesh.gear[0] == "pinion");
+  CHECK(statics.mesh.gear[1] == "wheel");
   CHECK(statics.mesh.centre_distance == s.mesh.centre_distance);
   CHECK(statics.mesh.corner.enabled);
   CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
@@ -441,15 +441,15 @@ TEST_CASE("stage parameters read back bit by bit") {
       "must be one of: strain, stress, body"));
   CHECK(statics.fidelity.contact == ContactModel::strips);
   CHECK(statics.contact.strips == 8);
-  CHECK(statics.driver_body == body_hash(body_parameters(s, "pinion")));
-  CHECK(statics.driven_body == body_hash(body_parameters(s, "wheel")));
-  CHECK(statics.driver_body == body_hash(body_parameters(BodyParameters{s.gear("pinion").design,
-                                                                        s.gear("pinion").material, s.body})));
+  CHECK(statics.body[0] == body_hash(body_parameters(s, "pinion")));
+  CHECK(statics.body[1] == body_hash(body_parameters(s, "wheel")));
+  CHECK(statics.body[0] == body_hash(body_parameters(
+                               BodyParameters{s.gear("pinion").design, s.gear("pinion").material, s.body})));
   CHECK(statics.contact.positions == 200);  // resolved: as steps_per_period, which is above 128
 
   const SweepParameters sweep = read_sweep_parameters(file.path(sweep_parameters(s), "sweep.toml"));
-  CHECK(sweep.driver_inertia == 0.0148);
-  CHECK(sweep.driven_inertia == 0.0148);
+  CHECK(sweep.inertia[0] == 0.0148);
+  CHECK(sweep.inertia[1] == 0.0148);
   CHECK(sweep.damping.rayleigh_mass == 0.7);
   CHECK(sweep.damping.rayleigh_stiffness == s.damping.rayleigh_stiffness);
   CHECK(sweep.damping.undamped_depth == s.damping.undamped_depth);
@@ -466,8 +466,8 @@ TEST_CASE("stage parameters read back bit by bit") {
   CHECK(sweep.time.steady_state == s.time.steady_state);
 
   const ImpactParameters impact = read_impact_parameters(file.path(impact_parameters(s), "impact.toml"));
-  CHECK(impact.driver_inertia == 0.0148);
-  CHECK(impact.driven_inertia == 0.0148);
+  CHECK(impact.inertia[0] == 0.0148);
+  CHECK(impact.inertia[1] == 0.0148);
   CHECK(impact.damping.rayleigh_mass == 0.7);
   CHECK(impact.damping.rayleigh_stiffness == s.damping.rayleigh_stiffness);
   CHECK(impact.damping.undamped_depth == s.damping.undamped_depth);
@@ -478,8 +478,8 @@ TEST_CASE("stage parameters read back bit by bit") {
 
   const SweepParameters lumped =
       read_lumped_parameters(file.path(lumped_parameters(s, true), "lumped.toml"), true);
-  CHECK(lumped.driver_inertia == 0.0148);
-  CHECK(lumped.driven_inertia == 0.0148);
+  CHECK(lumped.inertia[0] == 0.0148);
+  CHECK(lumped.inertia[1] == 0.0148);
   CHECK(lumped.reference_torque == 100);
   CHECK(lumped.frequency_to == 4000);
   CHECK(lumped.fidelity.contact == ContactModel::strips);

@@ -51,7 +51,7 @@ Verdict verdict_at(Scale scale, double printed, double tolerance, double value) 
 }
 
 // Speeds of 20 Hz; RMS 1 µm and a pure first harmonic unless changed.
-ResponseArtifact flat_response(double torque, const std::string& direction) {
+ResponseArtifact flat_response(double torque, Direction direction) {
   ResponseArtifact r;
   r.torque = torque;
   r.direction = direction;
@@ -59,7 +59,7 @@ ResponseArtifact flat_response(double torque, const std::string& direction) {
   r.natural_frequency = 2900;
   const Eigen::Index n = 171;
   r.mesh_frequency = Eigen::VectorXd::LinSpaced(n, 600, 4000);
-  if (direction == "down") r.mesh_frequency.reverseInPlace();
+  if (direction == Direction::down) r.mesh_frequency.reverseInPlace();
   r.dte_rms = Eigen::VectorXd::Constant(n, 1e-6);
   r.dte_mean = Eigen::VectorXd::Constant(n, 5e-6);
   r.dte_harmonic = MatrixRM::Zero(n, 10);
@@ -82,12 +82,12 @@ SceneResults flat_results() {
   SceneResults s;
   s.name = "flat";
   StaticArtifact& statics = s.statics["T150/static.h5"];
-  statics.driver = statics.driven = paper_gear();
+  statics.gear[0].design = statics.gear[1].design = paper_gear();
   statics.contact_ratio = 1.7547;
   statics.stiffness_harmonic = Eigen::Vector3d(460e6, 46e6, 1e6);
   statics.mean_stiffness = 460e6;
-  for (const char* direction : {"up", "down"}) {
-    const std::string folder = std::string("T150/") + direction;
+  for (const Direction direction : {Direction::up, Direction::down}) {
+    const std::string folder = text("T150/", direction);
     const ResponseArtifact& r = s.responses[folder + "/response.h5"] = flat_response(150, direction);
     SweepArtifact& sweep = s.sweeps[folder + "/sweep.h5"];
     sweep.time.steps_per_period = 128;
@@ -328,7 +328,7 @@ TEST_CASE(
     "its speed") {
   SceneResults s = flat_results();
   for (int torque : {100, 200, 300})
-    for (const char* direction : {"up", "down"})
+    for (const Direction direction : {Direction::up, Direction::down})
       s.responses[text("T", torque, "/", direction, "/response.h5")] = flat_response(torque, direction);
   const auto two_at = [&](int torque, double f, double lower_loss) {
     ResponseArtifact& down = s.responses[text("T", torque, "/down/response.h5")];

@@ -37,7 +37,7 @@ TEST_CASE(
         relative(1 / narrow.mean_stiffness, 1e-12));
   // The twist alone against the whole elastic bodies, both bores a tenth larger: that the ring also moves sideways is the rest.
   const double ring =
-      split.body[0] + split.body[1] - 2 * body_twist(narrow.driver, narrow.driver_material, 27.5e-3);
+      split.body[0] + split.body[1] - 2 * body_twist(narrow.gear[0].design, narrow.gear[0].material, 27.5e-3);
   const double change = 1 / narrow.mean_stiffness - 1 / wide.mean_stiffness;
   CHECK(ring < change);
   CHECK(ring > 0.8 * change);
@@ -52,7 +52,7 @@ TEST_CASE(
 TEST_CASE("a rim thinner than a module is warned of") {
   StaticArtifact s = at_rest(40e-3);
   CHECK_FALSE(says(body_remarks(s), "less than a module"));
-  s.driven.bore_radius = ToothGeometry(s.driven).root_radius() - 0.5e-3;
+  s.gear[1].design.bore_radius = ToothGeometry(s.gear[1].design).root_radius() - 0.5e-3;
   CHECK(says(body_remarks(s), "[gear.wheel] are 0.5 mm, less than a module"));
 }
 
@@ -66,18 +66,18 @@ TEST_CASE(
   Damping left_out;
   left_out.rayleigh_stiffness = 7.7e-6;
   CHECK(setup_remarks(s, {0.0148, 0.0148}, left_out, {}).empty());  // the pair that it is for
-  s.driver.teeth = 49;
+  s.gear[0].design.teeth = 49;
   CHECK(says(setup_remarks(s, {0.0148, 0.0148}, left_out, {}), "the default, is for the gears of P2000"));
 
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
   ImpactParameters settings;
-  settings.driven_inertia = 0.0148;
+  settings.inertia[1] = 0.0148;
   as_drawn(settings, {body.inertia, body.inertia});
-  CHECK(settings.driver_inertia == relative(1.001 * body.inertia, 1e-12));
-  CHECK(settings.driven_inertia == 0.0148);
+  CHECK(settings.inertia[0] == relative(1.001 * body.inertia, 1e-12));
+  CHECK(settings.inertia[1] == 0.0148);
   ImpactParameters by_outline;
   as_outlined(by_outline, at_rest(40e-3));
-  CHECK(by_outline.driver_inertia == relative(body.inertia, 0.01));
+  CHECK(by_outline.inertia[0] == relative(body.inertia, 0.01));
 }
 
 TEST_CASE("a study answers the peak to peak within a mesh period beside that over the hunting period") {

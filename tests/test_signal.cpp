@@ -38,15 +38,15 @@ double known_signal(double t) {
 
 SweepArtifact small_sweep() {
   SweepArtifact s;
-  s.driver.teeth = s.driven.teeth = 50;
-  s.driver.module = s.driven.module = 3e-3;
-  s.driver.pressure_angle = s.driven.pressure_angle = 20.0 * std::numbers::pi / 180.0;
-  s.driver_inertia = s.driven_inertia = 0.0148;
+  s.gear[0].design.teeth = s.gear[1].design.teeth = 50;
+  s.gear[0].design.module = s.gear[1].design.module = 3e-3;
+  s.gear[0].design.pressure_angle = s.gear[1].design.pressure_angle = 20.0 * std::numbers::pi / 180.0;
+  s.inertia[0] = s.inertia[1] = 0.0148;
   s.mean_stiffness = 462.1e6;
   s.natural_frequency = 2950;
   s.time.steps_per_period = 32;  // rows of two periods, as long as the longest orbit
   s.torque = 150;
-  s.direction = "down";
+  s.direction = Direction::down;
   const int n = 64;
   s.mesh_frequency = Eigen::VectorXd{{2000, 1900}};
   s.transmission_error.resize(2, n);
@@ -177,7 +177,7 @@ TEST_CASE("separations: intervals are counted on the cyclic period, one that wra
 TEST_CASE("response: mean, RMS, harmonics, loads and separations of a sweep made by hand") {
   const ResponseArtifact r = response(small_sweep());
   CHECK(r.torque == 150);
-  CHECK(r.direction == "down");
+  CHECK(r.direction == Direction::down);
   CHECK(r.model == "finite elements");
   CHECK(r.mesh_frequency == Eigen::VectorXd(Eigen::Vector2d(2000, 1900)));
   // 1e-13: round-off of 64 samples

@@ -224,15 +224,16 @@ TEST_CASE("stage parameters of variants depend on what their stage computes, on 
   Scene damped = scene;
   damped.damping.rayleigh_stiffness *= 2;
   CHECK(variant_stage_parameters(scene, 150, {}) == variant_stage_parameters(damped, 150, {}));
-  CHECK(variant_stage_parameters(scene, 150, {"up"}) != variant_stage_parameters(damped, 150, {"up"}));
+  CHECK(variant_stage_parameters(scene, 150, {Direction::up}) !=
+        variant_stage_parameters(damped, 150, {Direction::up}));
   CHECK(variant_stage_parameters(scene, 150, {}) != variant_stage_parameters(scene, 151, {}));
   Scene relieved = scene;
   relieved.mesh.modification[0].tip.amount = 1e-6;
   CHECK(variant_stage_parameters(scene, 150, {}) != variant_stage_parameters(relieved, 150, {}));
-  const Written file(variant_stage_parameters(relieved, 150, {"up", "down"}), "slice.toml");
+  const Written file(variant_stage_parameters(relieved, 150, {Direction::up, Direction::down}), "slice.toml");
   const VariantParameters settings = read_variant_parameters(file.path);
   CHECK(settings.torque == 150);
-  CHECK(settings.directions == std::vector<std::string>{"up", "down"});
+  CHECK(settings.directions == std::vector<Direction>{Direction::up, Direction::down});
   CHECK(settings.motion.reference_torque == 100);
   CHECK(settings.statics.mesh.modification[0].tip.amount == 1e-6);
   CHECK(settings.motion.damping.rayleigh_stiffness == scene.damping.rayleigh_stiffness);
@@ -275,8 +276,7 @@ TEST_CASE("a plan with a response quantity, direction or key that the study does
   };
   CHECK_FALSE(rejected([](StudyPlan&) {}));
   CHECK(rejected([](StudyPlan& plan) { plan.quantities.push_back("rms_max_sideways"); }));
-  CHECK(rejected([](StudyPlan& plan) { plan.directions.push_back("sideways"); }));
-  CHECK(rejected([](StudyPlan& plan) { plan.directions = {"down"}; }));
+  CHECK(rejected([](StudyPlan& plan) { plan.directions = {Direction::down}; }));
   CHECK(rejected([](StudyPlan& plan) { plan.figure_quantities = {"te_mean"}; }));
   CHECK(rejected([](StudyPlan& plan) { plan.figure_keys = {"fidelity.contact"}; }));
   CHECK(rejected([](StudyPlan& plan) { plan.figure_colour = "fidelity.contact"; }));

@@ -81,7 +81,7 @@ TEST_CASE(
   HarrisMapArtifact map;
   map.torque = Eigen::VectorXd::LinSpaced(8, 50, 160);
   map.relief = Eigen::VectorXd::LinSpaced(30, 0, 15e-6);
-  map.relieved = "both";
+  map.relieved = Relieved::both;
   map.shape = ReliefShape::linear;
   map.design_torque = 100;
   map.length = map.optimum_relief = map.optimum_peak_to_peak = Eigen::VectorXd::Constant(1, 3e-6);

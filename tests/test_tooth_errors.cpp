@@ -303,8 +303,10 @@ TEST_CASE("a hunting period of teeth that do not differ repeats the mesh period,
     speeds.time.min_sample_rate = 1;
     speeds.time.steps_per_period = 64;
     speeds.time.periodicity = 1e-10;
-    const SweepArtifact one = sweep(body, body, plain, plain.mean_stiffness, speeds, "up", no_report),
-                        all = sweep(body, body, hunting, plain.mean_stiffness, speeds, "up", no_report);
+    const SweepArtifact one =
+                            sweep(body, body, plain, plain.mean_stiffness, speeds, Direction::up, no_report),
+                        all = sweep(body, body, hunting, plain.mean_stiffness, speeds, Direction::up,
+                                    no_report);
     CHECK(one.hunting_periods == 1);
     CHECK(all.hunting_periods == 50);
     CHECK(all.period_multiple[0] == 50);
@@ -409,7 +411,8 @@ TEST_CASE("slow motion of teeth that differ is the static transmission error, to
     slow.damping.bearing_ratio = 0;
     slow.time.steps_per_period = 512;
     slow.time.min_sample_rate = 1;
-    const SweepArtifact motion = sweep(body, body, statics, statics.mean_stiffness, slow, "up", no_report);
+    const SweepArtifact motion =
+        sweep(body, body, statics, statics.mean_stiffness, slow, Direction::up, no_report);
     REQUIRE(motion.transmission_error.cols() == 50 * 512);
     // Where tip edges touch, the lever of the held driven gear is another: 15 nm without errors.
     double worst = 0, corner = 0;

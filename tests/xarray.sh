@@ -48,6 +48,7 @@ expected = {
     "harris_map": ("/", "peak_to_peak", ("relief_length", "torque", "relief"), {"relief_length", "torque", "relief"}),
     "variant": ("/answer", "mean_stiffness", (), set()),
     "study": ("/", "unsteady", ("variant",), {"variant"}),
+    "readings": ("/", "value", ("draw", "claim"), {"claim"}),
 }
 for kind, (group, name, axes, coordinates) in expected.items():
     path = kind + ".h5"

@@ -16,10 +16,8 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
-#include "io/body_codec.h"
-#include "io/fit.h"
 #include "io/harris_map_codec.h"
-#include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "io/static_codec.h"
@@ -72,7 +70,7 @@ void body(int argc, char** argv) {
   Options options{"Transmission error against torque and tip relief", "gear-harris"};
   HarrisPlan plan;
   std::string params, static_params, output, torque, relief, start, length, design,
-      points = "0", reference, shape = name_of(plan.shape);
+      points = "0", reference, shape = name_of(plan.shape), relieved = name_of(plan.relieved);
   std::vector<std::string> bodies;
   bool dynamic = false;
   options
@@ -93,7 +91,7 @@ void body(int argc, char** argv) {
   options.add("--length-mm", length, "the same as lengths of roll to the tip, smallest first")
       .excludes(start_option);
   options.add("--shape", shape, "how the relief grows").show_default().one_of({"linear", "parabolic"});
-  options.add("--relieved", plan.relieved, "whose tips").show_default().one_of({"driver", "driven", "both"});
+  options.add("--relieved", relieved, "whose tips").show_default().one_of({"driver", "driven", "both"});
   options.add("--design-torque", design, "torque in N m for which the optimum is sought (default: midway)");
   options.add("--positions", plan.positions, "mesh positions").show_default();
   options.add("--strips", plan.strips, "strips across the contact at the least load of a range of torques")
@@ -115,6 +113,7 @@ void body(int argc, char** argv) {
       "--relief-um 0:20:40 --design-torque 150 --output harris_map.h5");
   options.parse(argc, argv);
   plan.shape = choice_of<ReliefShape>(shape).value();
+  plan.relieved = choice_of<Relieved>(relieved).value();
   if (dynamic && (params.empty() || reference.empty()))
     fail(Failure::usage, "--dynamic needs --params and --reference-static");
   if (torque.empty() && design.empty()) fail(Failure::usage, "--torque or --design-torque is needed");
@@ -128,10 +127,7 @@ void body(int argc, char** argv) {
   if (dynamic) inputs.insert(inputs.end(), {"params=" + params, "reference_static=" + reference});
   const Provenance provenance = made_by(argc, argv, std::move(inputs));
   const StaticParameters settings = read_static_parameters(static_params);
-  const std::vector<std::string> paths = files.of(settings.mesh);
-  const BodyArtifact first = read_body(paths[0]), second = read_body(paths[1]);
-  require_body(first, settings.driver_body, settings.mesh.driver, paths[0]);
-  require_body(second, settings.driven_body, settings.mesh.driven, paths[1]);
+  const auto [first, second] = read_bodies(files, settings);
   plan.length = relief_lengths(number_list("--start-deg", start), number_list("--length-mm", length), first,
                                second, settings.mesh, plan.relieved);
   for (const double um : number_list("--relief-um", relief)) plan.relief.push_back(um * 1e-6);

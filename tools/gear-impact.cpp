@@ -1,8 +1,7 @@
 // gear-impact: natural frequency and damping of the pair by ring-down, at a series of fixed mesh phases.
 //
-// Reads   params (stage parameters of a scene: damping, inertia, fidelity), body.h5 of both gears, static.h5 of the torque
-// (mesh,
-//         contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
+// Reads   params (stage parameters of a scene: damping, inertia, fidelity), body.h5 of both gears, static.h5 of the
+//         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
 // Writes  impact.h5   frequency, damping ratio and decay per contact state; both, with the eigenvalues, per mesh phase
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Eq. 13-20 at every step, Eq. 21; Table 1 of P2000.
 // With --calibrate: the eta of Eq. 21 that gives a damping ratio in one contact state, on standard output; no file.
@@ -15,13 +14,10 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "dynamics/impact.h"
-#include "gear/body_inertia.h"
-#include "io/body_codec.h"
 #include "io/impact_codec.h"
-#include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/static_codec.h"
 #include "studies/sweep.h"
 
 namespace {
@@ -82,19 +78,8 @@ void body(int argc, char** argv) {
       argc, argv,
       files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
   whine::ImpactParameters settings = whine::read_impact_parameters(params);
-  const whine::StaticArtifact at_torque = whine::read_static(statics),
-                              at_reference = whine::read_static(reference);
-  const std::vector<std::string> paths = files.of(at_torque.mesh);
-  for (int g = 0; g < whine::kSides; ++g)
-    for (const std::string& file : {statics, reference})
-      whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
-  if (at_reference.torque != settings.reference_torque)
-    whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
-                " N m, but the scene's first torque, which sets the bearing dampers, is ",
-                settings.reference_torque, " N m; give the static.h5 of that torque");
-
-  const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
-  whine::as_drawn(settings, {first.inertia, second.inertia});
+  const auto [pair, at_torque, at_reference] = whine::read_pair_inputs(files, statics, reference, settings);
+  const auto& [driver, driven] = pair;
   std::optional<whine::Progress> progress;
   const auto report = [&](long done, long total) {
     if (!progress) progress.emplace("gear-impact", total);
@@ -103,18 +88,18 @@ void body(int argc, char** argv) {
   if (!ratio_word.empty()) {
     const double ratio = whine::number_option("--calibrate", ratio_word);
     const whine::ImpactArtifact result = whine::calibrate(
-        first, second, at_torque, at_reference.mean_stiffness, settings, plan, ratio, state, report);
+        driver, driven, at_torque, at_reference.mean_stiffness, settings, plan, ratio, state, report);
     progress.reset();
     print_calibration(result, ratio, state);
     return;
   }
   const whine::ImpactArtifact result =
-      whine::impact(first, second, at_torque, at_reference.mean_stiffness, settings, plan, report);
+      whine::impact(driver, driven, at_torque, at_reference.mean_stiffness, settings, plan, report);
   progress.reset();
   whine::write(output, result, provenance);
   whine::tell("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", output);
-  for (const whine::Remark& remark : whine::setup_remarks(
-           at_torque, {result.driver_inertia, result.driven_inertia}, result.damping, result.fidelity))
+  for (const whine::Remark& remark :
+       whine::setup_remarks(at_torque, result.inertia, result.damping, result.fidelity))
     whine::tell("gear-impact: warning: ", remark.words);
 }
 

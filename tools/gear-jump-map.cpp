@@ -1,11 +1,10 @@
 // gear-jump-map: where the primary resonance has two branches, and what the teeth then carry, for a series of dampings.
 //
-// Reads   params (stage parameters of a scene: damping, inertia, fidelity, time), static-params (stage parameters: mesh,
-// contact), body.h5 of both
-//         gears
+// Reads   params (stage parameters of a scene: damping, inertia, fidelity, time), static-params (stage parameters:
+//         mesh, contact), body.h5 of both gears
 // Writes  jump_map.h5    per damping: ends of the branches, speeds that lose contact, tooth loads, jumps; the responses
 // Equations: as gear-static and gear-sweep; damping ratios are those of the slowest eigenvalue with two pairs in contact
-// and the contact frozen under the static load (Eq. 21 for eta).
+//            and the contact frozen under the static load (Eq. 21 for eta)
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -16,10 +15,8 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
-#include "io/body_codec.h"
-#include "io/fit.h"
 #include "io/jump_map_codec.h"
-#include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "studies/jump_map.h"
@@ -96,11 +93,8 @@ void body(int argc, char** argv) {
   if (!contact.empty())
     statics.fidelity.contact = settings.fidelity.contact =
         whine::choice_of<whine::ContactModel>(contact).value();
-  const std::vector<std::string> paths = files.of(statics.mesh);
-  const whine::BodyArtifact first = whine::read_body(paths[0]), second = whine::read_body(paths[1]);
+  const auto [first, second] = whine::read_bodies(files, statics);
   whine::as_drawn(settings, {first.inertia, second.inertia});
-  whine::require_body(first, statics.driver_body, statics.mesh.driver, paths[0]);
-  whine::require_body(second, statics.driven_body, statics.mesh.driven, paths[1]);
 
   std::optional<whine::Progress> progress;
   const whine::JumpMapArtifact result = whine::jump_map(first, second, statics, torque, settings, plan,

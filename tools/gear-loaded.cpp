@@ -65,7 +65,7 @@ void body(int argc, char** argv) {
   const whine::LoadedPressure pressure = whine::largest_pressure(result);
   Eigen::Index pair = 0, gear = 0;
   result.root_stress.maxCoeff(&pair, &gear);
-  const std::string& root_gear = gear == 0 ? result.mesh.driver : result.mesh.driven;
+  const std::string& root_gear = result.mesh.gear[gear];
   whine::tell("gear-loaded: ", result.torque, " N m, mesh phase ", result.mesh_phase, ", ",
               result.pair.size(), " pairs, transmission error ", result.transmission_error * 1e6,
               " um, largest pressure inside a flank ", pressure.inside * 1e-6, " MPa, root stress ",

@@ -33,7 +33,7 @@ int count_option(const std::string& name, const std::string& word) {
 
 struct Given {
   whine::LumpedOptions o;
-  std::string integrator = name_of(o.integrator);
+  std::string integrator = name_of(o.integrator), damper = name_of(o.damper_acts), direction;
   std::string statics, reference, params, output, levels, duty, torque, cells, steps, from, to, step;
   std::string mass, at;
   std::vector<std::string> ratios{"0.08"};
@@ -65,7 +65,7 @@ void declare(whine::Options& options, Given& given) {
   options.add("--damping-ratio", given.ratios, "c / (2 sqrt(mean stiffness x mass)); with --map several")
       .separated_by(',')
       .show_default();
-  options.add("--damper", given.o.damper_acts, "always, as in Eq. 23, or in contact only")
+  options.add("--damper", given.damper, "always, as in Eq. 23, or in contact only")
       .show_default()
       .one_of({"always", "contact"});
   options.add("--integrator", given.integrator, "exact: from event to event; newmark: Eq. 8")
@@ -83,7 +83,7 @@ void declare(whine::Options& options, Given& given) {
               "lowest mesh frequency in Hz; with --to and --step in place of those of --params");
   options.add("--to", given.to, "highest mesh frequency in Hz");
   options.add("--step", given.step, "step of the mesh frequency in Hz");
-  options.add("--direction", given.o.direction, "up or down").one_of({"up", "down"});
+  options.add("--direction", given.direction, "up or down").one_of({"up", "down"});
   options.flag("--map", given.map,
                "a map of jumps over the damping ratios instead of one sweep; --params is then "
                "out/<scene>/params/lumped_map.toml, each of --from, --to and --step has a default");
@@ -101,7 +101,7 @@ void declare(whine::Options& options, Given& given) {
 void check(const Given& given) {
   const auto usage = [](const auto&... words) { whine::fail(whine::Failure::usage, words...); };
   const bool speeds = given.speeds(), stated = !given.levels.empty();
-  if (given.map != given.o.direction.empty())
+  if (given.map != given.direction.empty())
     usage("--direction is needed for a sweep, and not taken by --map");
   if (!given.map && given.ratios.size() > 1)
     usage("--damping-ratio: a sweep has one, ", given.ratios.size(), " are given; --map takes several");
@@ -190,6 +190,9 @@ void body(int argc, char** argv) {
   declare(options, given);
   options.parse(argc, argv);
   given.o.integrator = whine::choice_of<whine::Integrator>(given.integrator).value();
+  given.o.damper_acts = whine::choice_of<whine::DamperActs>(given.damper).value();
+  if (!given.direction.empty())
+    given.o.direction = whine::choice_of<whine::Direction>(given.direction).value();
   check(given);
   whine::LumpedOptions& o = given.o;
   std::vector<double> damping_ratio;
@@ -222,7 +225,7 @@ void body(int argc, char** argv) {
   std::optional<whine::Progress> progress;
   const auto report = [&](long done, long total, const std::string& note) {
     if (!progress)
-      progress.emplace("gear-lumped " + o.model + " " + (given.map ? "map" : o.direction), total);
+      progress.emplace("gear-lumped " + o.model + " " + (given.map ? "map" : given.direction), total);
     progress->update(done, note);
   };
   if (given.map) {

@@ -13,14 +13,10 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "gear/body_inertia.h"
-#include "io/body_codec.h"
 #include "io/branch_codec.h"
-#include "io/fit.h"
-#include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/static_codec.h"
 #include "studies/pair_branch.h"
 
 namespace {
@@ -48,25 +44,12 @@ void body(int argc, char** argv) {
       argc, argv,
       files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
   whine::SweepParameters settings = whine::read_sweep_parameters(params);
-  const whine::StaticArtifact at_torque = whine::read_static(statics),
-                              at_reference = whine::read_static(reference);
-  const std::vector<std::string> paths = files.of(at_torque.mesh);
-  for (int g = 0; g < whine::kSides; ++g)
-    for (const std::string& file : {statics, reference})
-      whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
-  whine::require_contact(at_torque, settings.fidelity, statics);
-  whine::require_contact(at_reference, settings.fidelity, reference);
-  if (at_reference.torque != settings.reference_torque)
-    whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
-                " N m, but the scene's first torque, which sets the bearing dampers, is ",
-                settings.reference_torque, " N m; give the static.h5 of that torque");
-  const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
-                            driven_body = whine::read_body(paths[1]);
-  whine::as_drawn(settings, {driver_body.inertia, driven_body.inertia});
+  const auto [pair, at_torque, at_reference] = whine::read_pair_inputs(files, statics, reference, settings);
+  const auto& [driver, driven] = pair;
 
   std::optional<whine::Progress> progress;
   const whine::BranchArtifact result =
-      whine::pair_branch(driver_body, driven_body, at_torque, at_reference.mean_stiffness, settings,
+      whine::pair_branch(driver, driven, at_torque, at_reference.mean_stiffness, settings,
                          [&](long done, long total, const std::string& note) {
                            if (!progress) progress.emplace("gear-orbit", total);
                            progress->update(done, note);

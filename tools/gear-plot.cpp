@@ -1,11 +1,9 @@
 // gear-plot: a figure of the paper as numbers and as pictures.
 //
 // Reads      artifacts, which ones `gear-plot --help` says for each figure; params/title.txt in the folder of their scene, if
-//            there is one; table1 besides --published FILE, what P2000 prints; <plots>/<figure>.gp, the template
-// Writes     <output>.tsv (further tables of the figure: <output>-<table>.tsv), <output>.svg, <output>.png, each whole or not
-// at
-//            all; for table1 <output>.tsv and, to read,
-//            <output>.txt
+//            there is one; table1 besides --printed FILE, what P2000 prints; <plots>/<figure>.gp, the template
+// Writes     <output>.tsv (further tables of the figure: <output>-<table>.tsv), <output>.svg, <output>.png, each whole
+//            or not at all; for table1 <output>.tsv and, to read, <output>.txt
 // Equations  k = (T / r_b) / STE
 #include "base/error.h"
 #include "base/tool.h"
@@ -48,7 +46,7 @@ void publish_figure(const whine::Figure& figure, const Paths& inputs, const Path
 
 void body(int argc, char** argv) {
   whine::Options options{"Draws a figure of the paper from artifacts", "gear-plot"};
-  std::string name, output, published, beside, claim_sets, plots = "pipelines/plots";
+  std::string name, output, printed, beside, claim_sets, plots = "pipelines/plots";
   Paths inputs;
   const std::string others = std::string(kReading) + ", " + kTable;
   std::vector<double> mesh_frequencies;
@@ -60,7 +58,7 @@ void body(int argc, char** argv) {
            "speed of fig08 and fig10 in Hz, one of the sweeps'; one or two of fig15, of its panels "
            "(the sweeps' nearest)")
       .separated_by(',');
-  options.add("--published", published,
+  options.add("--printed", printed,
               "what P2000 prints, which table1 compares with: data/published/claims.toml");
   options.add("--claim-sets", claim_sets, "sets of claims that the figure of readings shows");
   options.add("--paper-figure", beside,
@@ -83,9 +81,8 @@ void body(int argc, char** argv) {
   if (name == kTable) {
     std::vector<whine::ImpactArtifact> impacts;
     for (const std::string& path : inputs) impacts.push_back(whine::read_impact(path));
-    const whine::Figure table =
-        whine::natural_frequency_table(impacts, published.empty() ? std::vector<whine::PrintedClaim>{}
-                                                                  : whine::read_printed_claims(published));
+    const whine::Figure table = whine::natural_frequency_table(
+        impacts, printed.empty() ? std::vector<whine::PrintedClaim>{} : whine::read_printed_claims(printed));
     const std::string words = whine::natural_frequency_text(table);
     for (const std::string& path : inputs) whine::require_fresh(path);
     whine::publish_tables(table, output, sources);

@@ -1,8 +1,7 @@
 // gear-reading: readings of P2000, compared with its claims.
 //
-// Reads      a plan of readings (TOML), the scene that it names and what P2000 prints (data/published/claims.toml); or parts
-// of a
-//            search; or readings.h5 and sets of claims
+// Reads      a plan of readings (TOML), the scene that it names and what P2000 prints (data/published/claims.toml); or
+//            parts of a search; or readings.h5 and sets of claims
 // Writes     readings.h5: each reading, what it is fitted to, and its verdict on every claim; with --sets <output>.md and
 //            <output>.tsv: which sets of claims hold together
 // Equations  none of its own; paper/reading.h says what is tied to which printed number

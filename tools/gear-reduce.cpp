@@ -3,8 +3,7 @@
 // Reads      params     stage parameters of a scene: gear, material, number of modes
 //            mesh.h5    geometry; rejected unless it is of the gear of the stage parameters
 // Writes     body.h5    eigenfrequencies with the hub fixed, mode shapes and compliance on the flank, inertia
-//                       coupling
-//                       and what the crack of a tooth adds to the compliance, if the gear has one
+//                       coupling, and what the crack of a tooth adds to the compliance, if the gear has one
 // Equations  K u = omega^2 M u and M_fr of Eq. 3-6, sector by sector in the harmonics of cyclic symmetry;
 //            flexibility K x = f with the half-plane solution of the line load subtracted in the tooth, or matched
 //            at a depth

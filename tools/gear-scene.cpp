@@ -1,8 +1,8 @@
 // gear-scene: checks a scene and cuts it into the parts that the stages depend on.
 //
 // Reads      a scene (TOML)
-// Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml    stage parameters in SI, replaced only if
-// they change
+// Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml
+//                                                        stage parameters in SI, replaced only if they change
 //            <out>/<scene>/params/title.txt              what figures call it
 //            <out>/<scene>/params/scene.txt              path of the scene, from the working folder
 //            <out>/bodies/<hash>/body.toml               one per distinct gear

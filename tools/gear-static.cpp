@@ -5,7 +5,7 @@
 // Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20); k = (T / r_b) / STE.
 // With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
 // for information those by the other near field and the other contact.
-// With --next-level: beside static.h5, in words, what contact = "strips" would change in the answer of contact = "line".
+// With --next-level: beside static.h5, in words, what contact = "strips" would change in the result of contact = "line".
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -13,10 +13,8 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/body_codec.h"
 #include "io/error_budget_codec.h"
-#include "io/fit.h"
-#include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "io/static_codec.h"
@@ -69,14 +67,10 @@ void body(int argc, char** argv) {
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::StaticParameters settings = whine::read_static_parameters(params);
-  const std::vector<std::string> paths = files.of(settings.mesh);
-  const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
-                            driven_body = whine::read_body(paths[1]);
-  whine::require_body(driver_body, settings.driver_body, settings.mesh.driver, paths[0]);
-  whine::require_body(driven_body, settings.driven_body, settings.mesh.driven, paths[1]);
+  const auto [driver, driven] = whine::read_bodies(files, settings);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-static");
   if (budget) {
-    const whine::ErrorBudgetArtifact errors = whine::error_budget(driver_body, driven_body, settings, torque);
+    const whine::ErrorBudgetArtifact errors = whine::error_budget(driver, driven, settings, torque);
     steps.reset();
     whine::write(output, errors, provenance);
     whine::tell("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
@@ -86,9 +80,9 @@ void body(int argc, char** argv) {
       whine::tell("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
     return;
   }
-  whine::StaticArtifact result = whine::static_transmission(driver_body, driven_body, settings, torque);
+  whine::StaticArtifact result = whine::static_transmission(driver, driven, settings, torque);
   std::optional<whine::NextLevel> change;
-  if (next_level) change = whine::next_contact_level(driver_body, driven_body, settings, result);
+  if (next_level) change = whine::next_contact_level(driver, driven, settings, result);
   const int periods = result.hunting_periods;
   result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error, periods, periods);
   result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant, periods, periods);

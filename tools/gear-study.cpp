@@ -1,4 +1,4 @@
-// gear-study: what variants a study has and where they come from; afterwards, what they answered, in one file.
+// gear-study: what variants a study has and where they come from; afterwards, their response quantities in one file.
 //
 // Reads      a study (TOML) and the scene that it names; with --gather its plan and the artifact of each variant
 // Writes     <out>/studies/<study>/variants/ab/ab12....toml    stage parameters of each variant, replaced only if they change

@@ -1,11 +1,12 @@
 // gear-sweep: the dynamic response of the pair at a series of speeds, each started from the state of the one before.
 //
-// Reads   params (stage parameters of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears, static.h5 of
-// the
-//         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
+// Reads   params (stage parameters of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears,
+//         static.h5 of the torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of
+//         the dampers)
 // Writes  sweep.h5    transmission error and tooth loads over one orbit at every speed, energy, certificate, jumps
-// With --next-level: beside sweep.h5, in words, what the same sweep answers on the next model level of contact and on that of
-// body. Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
+// Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step
+// With --next-level: beside sweep.h5, in words, what the same sweep gives on the next model level of contact and on that of
+// body.
 #include <optional>
 #include <sstream>
 #include <string>
@@ -14,13 +15,9 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "gear/body_inertia.h"
-#include "io/body_codec.h"
-#include "io/fit.h"
-#include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/static_codec.h"
 #include "io/sweep_codec.h"
 #include "studies/next_level.h"
 #include "studies/sweep.h"
@@ -55,7 +52,7 @@ void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
 void body(int argc, char** argv) {
   whine::Options options{"Speed sweep of the dynamic response, with contact solved at every step",
                          "gear-sweep"};
-  std::string params, statics, reference, direction, output;
+  std::string params, statics, reference, way, output;
   std::vector<std::string> bodies;
   bool next_level = false;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
@@ -63,7 +60,7 @@ void body(int argc, char** argv) {
   options.add("--static", statics, "static.h5 of the torque to run").required();
   options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
       .required();
-  options.add("--direction", direction, "up or down").required().one_of({"up", "down"});
+  options.add("--direction", way, "up or down").required().one_of({"up", "down"});
   options.add("--output", output, "sweep.h5 to write").required();
   options.flag("--next-level", next_level,
                "sweep with the next level of [fidelity] contact and with that of body as well, and say what "
@@ -75,42 +72,29 @@ void body(int argc, char** argv) {
       "--reference-static out/parker2000/T100/static.h5 --direction up --output "
       "sweep.h5");
   options.parse(argc, argv);
+  const whine::Direction direction = whine::choice_of<whine::Direction>(way).value();
 
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(
       argc, argv,
       files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
   whine::SweepParameters settings = whine::read_sweep_parameters(params);
-  const whine::StaticArtifact at_torque = whine::read_static(statics),
-                              at_reference = whine::read_static(reference);
-  const std::vector<std::string> paths = files.of(at_torque.mesh);
-  for (int g = 0; g < whine::kSides; ++g)
-    for (const std::string& file : {statics, reference})
-      whine::require_made_from(file, files.role(at_torque.mesh.gear(g)), paths[static_cast<size_t>(g)]);
-  whine::require_contact(at_torque, settings.fidelity, statics);
-  whine::require_contact(at_reference, settings.fidelity, reference);
-  if (at_reference.torque != settings.reference_torque)
-    whine::fail(whine::Failure::input, reference, " is at ", at_reference.torque,
-                " N m, but the scene's first torque, which sets the bearing dampers, is ",
-                settings.reference_torque, " N m; give the static.h5 of that torque");
-
-  const whine::BodyArtifact driver_body = whine::read_body(paths[0]),
-                            driven_body = whine::read_body(paths[1]);
-  whine::as_drawn(settings, {driver_body.inertia, driven_body.inertia});
+  const auto [pair, at_torque, at_reference] = whine::read_pair_inputs(files, statics, reference, settings);
+  const auto& [driver, driven] = pair;
   std::vector<whine::NextSweep> next;
-  if (next_level) next = whine::next_sweeps(driver_body, driven_body, at_torque, at_reference, settings);
+  if (next_level) next = whine::next_sweeps(driver, driven, at_torque, at_reference, settings);
   const auto run = [&](const whine::BodyArtifact& a, const whine::BodyArtifact& b,
                        const whine::StaticArtifact& at, double mean_stiffness,
                        const whine::SweepParameters& s, const std::string& name) {
     std::optional<whine::Progress> progress;
     return whine::sweep(a, b, at, mean_stiffness, s, direction,
                         [&](long done, long total, const std::string& note) {
-                          if (!progress) progress.emplace("gear-sweep " + direction + name, total);
+                          if (!progress) progress.emplace(whine::text("gear-sweep ", direction, name), total);
                           progress->update(done, note);
                         });
   };
   const whine::SweepArtifact result =
-      run(driver_body, driven_body, at_torque, at_reference.mean_stiffness, settings, "");
+      run(driver, driven, at_torque, at_reference.mean_stiffness, settings, "");
 
   whine::write(output, result, provenance);
   std::string jumps;
@@ -122,7 +106,7 @@ void body(int argc, char** argv) {
     whine::tell("gear-sweep: ", remark.warning ? "warning: " : "", remark.words);
   for (const whine::NextSweep& s : next)
     if (s.missing.empty())
-      tell_change(s, result, run(s.driver, s.driven, s.statics, s.mean_stiffness, s.settings, " " + s.to));
+      tell_change(s, result, run(s.body[0], s.body[1], s.statics, s.mean_stiffness, s.settings, " " + s.to));
     else
       whine::tell("gear-sweep: ", s.key, " = \"", s.from, "\" against \"", s.to,
                   "\" is not compared: ", s.missing);

@@ -1,8 +1,7 @@
-// gear-variant: one variant of a study, from the bodies to its answers, in one go.
+// gear-variant: one variant of a study, from the bodies to its response quantities, in one go.
 //
-// Reads   params (stage parameters of the variant: mesh, contact, torque, and of motions damping, inertia, speeds, fidelity,
-// time), body.h5
-//         of both gears
+// Reads   params (stage parameters of the variant: mesh, contact, torque, and of motions damping, inertia, speeds,
+//         fidelity, time), body.h5 of both gears
 // Writes  variant.h5    transmission error and stiffness at rest, and of each sweep RMS, loads, contact loss, jumps, as numbers
 // With --mark-refusals a variant of what no pair can do is an artifact, too, which says why; whatever else fails is an error.
 // Equations: as gear-static, gear-sweep and gear-spectra, whose numbers these are.
@@ -17,9 +16,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
-#include "io/body_codec.h"
-#include "io/fit.h"
-#include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/study.h"
 #include "io/variant_codec.h"
@@ -59,13 +56,7 @@ void body(int argc, char** argv) {
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   whine::VariantParameters settings = whine::read_variant_parameters(params);
-  const std::vector<std::string> paths = files.of(settings.statics.mesh);
-  const whine::BodyArtifact first = whine::read_body(paths[0]);
-  std::optional<whine::BodyArtifact> other;  // gears that are alike share a body
-  if (paths[1] != paths[0]) other = whine::read_body(paths[1]);
-  const whine::BodyArtifact& second = other ? *other : first;
-  whine::require_body(first, settings.statics.driver_body, settings.statics.mesh.driver, paths[0]);
-  whine::require_body(second, settings.statics.driven_body, settings.statics.mesh.driven, paths[1]);
+  const auto [first, second] = whine::read_bodies(files, settings.statics);
   if (!settings.directions.empty()) whine::as_drawn(settings.motion, {first.inertia, second.inertia});
   whine::VariantArtifact result = whine::variant_parameters(first, second, settings);
   std::vector<whine::Remark> remarks;

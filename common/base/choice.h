@@ -2,8 +2,10 @@
 #pragma once
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace whine {
 
@@ -29,6 +31,25 @@ template <WordedChoice Choice>
 std::optional<Choice> choice_of(const std::string& word) {
   const std::optional<int> place = place_of(kWordsOf<Choice>, word);
   return place ? std::optional(static_cast<Choice>(*place)) : std::nullopt;
+}
+
+// A list of choices as one line of words with a blank between, and back; nothing if a word is none of the choice's.
+template <WordedChoice Choice>
+std::string names_of(const std::vector<Choice>& list) {
+  std::string line;
+  for (const Choice choice : list) line += (line.empty() ? "" : " ") + name_of(choice);
+  return line;
+}
+template <WordedChoice Choice>
+std::optional<std::vector<Choice>> choices_in(const std::string& line) {
+  std::vector<Choice> list;
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    const std::optional<Choice> choice = choice_of<Choice>(word);
+    if (!choice) return std::nullopt;
+    list.push_back(*choice);
+  }
+  return list;
 }
 
 // The enumerator after `choice`; nothing after the last.

@@ -28,6 +28,15 @@ void require_memory(double own, double beside, double most, const char* remedy, 
 
 }  // namespace
 
+DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_stiffness,
+                                     const ImpactParameters& settings) {
+  return {statics.torque,
+          {settings.inertia.begin(), settings.inertia.end()},
+          mean_stiffness,
+          settings.damping,
+          settings.fidelity};
+}
+
 MotionBounds::MotionBounds(const GearMeshModel& model, const StaticArtifact& statics, double widening) {
   constexpr double kBeyondStatics = 2.5;
   force = kBeyondStatics * (statics.torque / model.kinematics.gear(0).base_radius()) * widening;
@@ -108,7 +117,7 @@ void RollingDynamics::set_zone(const CandidateZone& range, int steps, const Zone
   set_hunting_gaps(beside.gaps);
   share_windows(system);
   kernel_.set_zone(std::move(system), positions_);
-  size_ledger();
+  size_energy_balance();
 }
 
 void RollingDynamics::place_positions(const CandidateZone& range, int steps) {

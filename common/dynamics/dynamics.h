@@ -54,6 +54,10 @@ struct DynamicParameters {
   Fidelity fidelity;
 };
 
+// Those of the pair of `statics` at its torque, in motion; mean_stiffness: N m-1, sets the bearing dampers.
+DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_stiffness,
+                                     const ImpactParameters& settings);
+
 // What a motion at the torque of `statics` may want of its contact: 2.5 times the load and the deflection of rest, times
 // `widening`, which grows where a motion wants more.
 struct MotionBounds {
@@ -182,12 +186,12 @@ class RollingDynamics {
     int renamed = 0;  // added to its pair numbers since
     StepKernel::Vectors at;
     Eigen::VectorXd field, moved_load;  // as relaxed, m: displacement that relaxed, and present, loads cause
-    Eigen::VectorXd forgotten_field;    // m: share of `field` that a renaming took out
-    double stored_forgotten = 0;        // J: change of G R G / 2 by it
-    double forgotten = 0;               // J: that, and the work of loads that went with it
+    Eigen::VectorXd dropped_field;      // m: share of `field` that a renaming took out
+    double stored_dropped = 0;          // J: change of G R G / 2 by it
+    double dropped = 0;                 // J: that, and the work of loads that went with it
     Eigen::VectorXd p, d, local;        // (strip) N, m, m: local p
-    Eigen::Matrix4Xd moment, reading;   // (shape row and zeros, pair): of p on modes; of z
-    double at_once = 0;                 // J: stored by half-planes, laws and all else that is instantaneous
+    Eigen::Matrix4Xd shape_force, shape_displacement;  // (shape row and zeros, pair): of p on modes; of z
+    double at_once = 0;  // J: stored by half-planes, laws and all else that is instantaneous
   };
   struct EnergyBalanceWorkspace {
     std::array<Instant, 2> instants;  // before and after a step, in turn
@@ -202,23 +206,23 @@ class RollingDynamics {
            growth2 = 0;  // of (a, b): load - relaxed = a (load0 - relaxed0) + b (load1 - load0)
     double decay = 0, growth = 0, late_decay = 0, late_growth = 0;  // of a, b, t a, t b
   };
-  void size_ledger();
+  void size_energy_balance();
   void fill(Instant& now, const Instant* before, int position, const double* p, const double* d) const;
   void rename(Instant& instant) const;
   struct ContactWork {  // J, as the lines of the energy balance
-    double rolling = 0, switching = 0, cutting = 0, forgetting = 0;
+    double rolling = 0, switching = 0, cutting = 0, dropped = 0;
   };
   struct ModalWork {
     double torque = 0, kinetic = 0, modal = 0, damping = 0;
   };
-  struct LagWork {
+  struct RelaxationWork {
     double residual = 0, damping = 0, averaging = 0;
   };
   // J: shares of a force in fields, those of one side `apart` from those of the other, on the displacement of a tooth.
   double field_work(const double* shares, int apart, const Eigen::VectorXd& field, int slot) const;
   ContactWork contact_work(const Instant& before, const Instant& after);
   ModalWork modal_work(const Instant& before, const Instant& after) const;
-  LagWork lag_work(const Instant& before, const Instant& after) const;
+  RelaxationWork relaxation_work(const Instant& before, const Instant& after) const;
   void record_step(const Instant& before, const Instant& after, EnergyBalance& energy_balance);
   DampingIntegrals damping_integrals() const;
   double relaxation() const { return relaxation_; }

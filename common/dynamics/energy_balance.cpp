@@ -105,7 +105,7 @@ RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
   return result;
 }
 
-void RollingDynamics::size_ledger() {
+void RollingDynamics::size_energy_balance() {
   const int coordinates = kernel_.coordinates(), fields = StepKernel::kSides * kernel_.fields(),
             own = static_cast<int>(coordinates_.size());
   int strips = kMostPairs, pairs = 1;
@@ -116,11 +116,11 @@ void RollingDynamics::size_ledger() {
   EnergyBalanceWorkspace& l = balance_work_;
   for (Instant& instant : l.instants) {
     for (VectorXd* x : {&instant.at.z, &instant.at.v, &instant.at.force}) x->setZero(coordinates);
-    for (VectorXd* x : {&instant.at.relaxed, &instant.at.load, &instant.field, &instant.moved_load,
-                        &instant.forgotten_field})
+    for (VectorXd* x :
+         {&instant.at.relaxed, &instant.at.load, &instant.field, &instant.moved_load, &instant.dropped_field})
       x->setZero(fields);
     for (VectorXd* x : {&instant.p, &instant.d, &instant.local}) x->setZero(strips);
-    for (Matrix4Xd* x : {&instant.moment, &instant.reading}) x->setZero(4, pairs);
+    for (Matrix4Xd* x : {&instant.shape_force, &instant.shape_displacement}) x->setZero(4, pairs);
   }
   for (VectorXd* x : {&l.turned_back, &l.frequency_squared, &l.damping, &l.torque}) x->setZero(coordinates);
   l.frequency_squared.head(own) = frequency_squared_;
@@ -150,7 +150,7 @@ void RollingDynamics::fill(Instant& now, const Instant* before, int position, co
   const Relaxation& relaxed = kernel_.relaxed();
   now.position = position;
   now.renamed = 0;
-  now.forgotten = now.stored_forgotten = 0;
+  now.dropped = now.stored_dropped = 0;
   now.at = kernel_.vectors();
   for (int g = 0; g < StepKernel::kSides; ++g)
     kernel_.displace(g, &now.at.load[g * of_gear], &now.moved_load[g * of_gear]);
@@ -165,8 +165,8 @@ void RollingDynamics::fill(Instant& now, const Instant* before, int position, co
   double unused[StepKernel::kSides * StepKernel::kFields];
   for (size_t j = 0; j < mesh.pairs.size(); ++j) {
     const auto pair = static_cast<int>(j);
-    now.moment.col(pair) = kernel_.collect(position, pair, p + mesh.first_strip[j], unused);
-    now.reading.col(pair) = kernel_.reading(position, pair, now.at.z.data());
+    now.shape_force.col(pair) = kernel_.collect(position, pair, p + mesh.first_strip[j], unused);
+    now.shape_displacement.col(pair) = kernel_.reading(position, pair, now.at.z.data());
   }
   now.at_once = 0.5 * now.p.head(strips).dot(now.local.head(strips));
   for (size_t j = 0; j < mesh.law.size(); ++j) now.at_once += stored(mesh.law[j], p[j]);
@@ -177,22 +177,22 @@ void RollingDynamics::rename(Instant& now) const {
   const int of_gear = kernel_.fields(), of_tooth = StepKernel::kFields;
   StepKernel::Vectors& at = now.at;
   for (double* y : {at.z.data(), at.v.data(), at.force.data()}) kernel_.turn_doublets(y);
-  now.stored_forgotten = -0.5 * at.relaxed.dot(now.field);
-  now.forgotten = 0;
+  now.stored_dropped = -0.5 * at.relaxed.dot(now.field);
+  now.dropped = 0;
   // The load of a tooth that goes under load: a corner rule has then taken its pair out.
   for (int g = 0; g < StepKernel::kSides; ++g) {
     const int last = (g + 1) * of_gear - of_tooth;
-    now.forgotten += 0.5 * at.load.segment(last, of_tooth).dot(now.field.segment(last, of_tooth));
+    now.dropped += 0.5 * at.load.segment(last, of_tooth).dot(now.field.segment(last, of_tooth));
   }
-  now.forgotten_field = now.field;
-  for (double* x : {at.relaxed.data(), at.load.data(), now.forgotten_field.data()}) kernel_.advance_fields(x);
+  now.dropped_field = now.field;
+  for (double* x : {at.relaxed.data(), at.load.data(), now.dropped_field.data()}) kernel_.advance_fields(x);
   for (int g = 0; g < StepKernel::kSides; ++g) {
     kernel_.displace(g, &at.relaxed[g * of_gear], &now.field[g * of_gear]);
     kernel_.displace(g, &at.load[g * of_gear], &now.moved_load[g * of_gear]);
   }
-  now.stored_forgotten += 0.5 * at.relaxed.dot(now.field);
-  now.forgotten += now.stored_forgotten;
-  now.forgotten_field -= now.field;
+  now.stored_dropped += 0.5 * at.relaxed.dot(now.field);
+  now.dropped += now.stored_dropped;
+  now.dropped_field -= now.field;
   now.renamed = 1;
 }
 
@@ -207,7 +207,7 @@ void RollingDynamics::rename(Instant& now) const {
 // -(E_n+1 - E_n) at a held force, mean over both forces, and, as in the products above, a quarter of the change of force
 // times the change of u_n+1 - u_n over it.
 //
-// Force on modes and on the relaxed loads goes through a pair's shape rows and fields: p . h z = moment . reading, p . U =
+// Force on modes and on the relaxed loads goes through a pair's shape rows and fields: p . h z = shape_force . shape_displacement, p . U =
 // share of p in the fields . their displacement.
 double RollingDynamics::field_work(const double* shares, int apart, const VectorXd& field, int slot) const {
   constexpr int kFields = StepKernel::kFields;
@@ -222,7 +222,7 @@ RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, con
   const MeshPosition &old_mesh = positions_[a.position].mesh, &new_mesh = positions_[b.position].mesh;
   constexpr int of_tooth = StepKernel::kFields;
   ContactWork work;
-  work.forgetting = a.forgotten;
+  work.dropped = a.dropped;
   const bool lines = this->lines();
   const double* old_z = b.at.z.data();  // of the new instant, in the names of the old position
   if (a.renamed) {
@@ -251,12 +251,12 @@ RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, con
       if (p0.isZero(0) && b.p.segment(to, new_mesh.pairs[j].size()).isZero(0)) continue;  // no force, no work
     }
     const auto old_pair = static_cast<int>(i), new_pair = static_cast<int>(j);
-    const Vector4d moment00 = a.moment.col(old_pair),
+    const Vector4d force00 = a.shape_force.col(old_pair),
                    read_old_new = kernel_.reading(a.position, old_pair, old_z);
-    if (a.renamed && followed) work.forgetting += 0.5 * load_on(a.at.load, a.forgotten_field, slot);
+    if (a.renamed && followed) work.dropped += 0.5 * load_on(a.at.load, a.dropped_field, slot);
     if (j == new_mesh.pairs.size()) {
       if (lines) work.cutting += bent(old_mesh.law[i], p0[0], 0);
-      work.cutting += 0.5 * (p0.dot(gap0) - moment00.dot(read_old_new));
+      work.cutting += 0.5 * (p0.dot(gap0) - force00.dot(read_old_new));
       if (followed) work.cutting += 0.5 * load_on(a.at.load, b.field, slot);
       continue;
     }
@@ -275,13 +275,13 @@ RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, con
                    moment10 = kernel_.collect(a.position, old_pair, p1.data(), new_on_old),
                    read_new_old = kernel_.reading(b.position, new_pair, a.at.z.data());
     work.rolling +=
-        0.5 *
-        (moment01.cwiseProduct(b.reading.col(new_pair)) - moment10.cwiseProduct(a.reading.col(old_pair)) +
-         b.moment.col(new_pair).cwiseProduct(read_new_old) - moment00.cwiseProduct(read_old_new))
-            .sum();
+        0.5 * (moment01.cwiseProduct(b.shape_displacement.col(new_pair)) -
+               moment10.cwiseProduct(a.shape_displacement.col(old_pair)) +
+               b.shape_force.col(new_pair).cwiseProduct(read_new_old) - force00.cwiseProduct(read_old_new))
+                  .sum();
     work.rolling -= 0.5 * (shares_on(old_on_new, b.field, slot) - shares_on(new_on_old, a.field, slot) +
                            load_on(b.at.load, a.field, slot) - load_on(a.at.load, b.field, slot));
-    if (a.renamed) work.forgetting += 0.5 * shares_on(new_on_old, a.forgotten_field, slot);
+    if (a.renamed) work.dropped += 0.5 * shares_on(new_on_old, a.dropped_field, slot);
   }
   for (size_t j = 0; j < new_mesh.pairs.size(); ++j)
     if (!(met >> j & 1)) {
@@ -289,7 +289,7 @@ RollingDynamics::ContactWork RollingDynamics::contact_work(const Instant& a, con
       if (lines) work.cutting += bent(new_mesh.law[j], 0, b.p[to]);
       work.cutting -=
           0.5 * (b.p.segment(to, n).dot(new_mesh.gap.segment(to, n)) -
-                 b.moment.col(new_pair).dot(kernel_.reading(b.position, new_pair, a.at.z.data())) +
+                 b.shape_force.col(new_pair).dot(kernel_.reading(b.position, new_pair, a.at.z.data())) +
                  load_on(b.at.load, a.field, new_mesh.pairs[j].pair + reach_));
     }
   return work;
@@ -315,13 +315,13 @@ RollingDynamics::ModalWork RollingDynamics::modal_work(const Instant& a, const I
 }
 
 // eta G' + G = g, energy G R G / 2, dissipation eta G' R G', g linear in the step.
-RollingDynamics::LagWork RollingDynamics::lag_work(const Instant& a, const Instant& b) const {
+RollingDynamics::RelaxationWork RollingDynamics::relaxation_work(const Instant& a, const Instant& b) const {
   const auto load0 = a.at.load.array(), load1 = b.at.load.array(), relaxed0 = a.at.relaxed.array(),
              field0 = a.field.array(), field1 = b.field.array(), moved0 = a.moved_load.array(),
              moved1 = b.moved_load.array();
-  LagWork work;
+  RelaxationWork work;
   work.residual =
-      0.5 * ((b.at.relaxed.array() * field1).sum() - (relaxed0 * field0).sum()) + a.stored_forgotten;
+      0.5 * ((b.at.relaxed.array() * field1).sum() - (relaxed0 * field0).sum()) + a.stored_dropped;
   double exact = 0.5 * ((load0 + load1) * (moved1 - moved0)).sum();
   if (relaxation() > 0) {
     const auto behind = load0 - relaxed0, change = load1 - load0, moved_behind = moved0 - field0,
@@ -339,7 +339,7 @@ RollingDynamics::LagWork RollingDynamics::lag_work(const Instant& a, const Insta
 void RollingDynamics::record_step(const Instant& a, const Instant& b, EnergyBalance& energy_balance) {
   const ContactWork contact = contact_work(a, b);
   const ModalWork modes = modal_work(a, b);
-  const LagWork relaxed = lag_work(a, b);
+  const RelaxationWork relaxed = relaxation_work(a, b);
   const double local = b.at_once - a.at_once;
   energy_balance.kinetic += modes.kinetic;
   energy_balance.modal += modes.modal;
@@ -352,11 +352,11 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, EnergyBala
   energy_balance.switching += contact.switching;
   energy_balance.cutting += contact.cutting;
   energy_balance.averaging += relaxed.averaging;
-  energy_balance.forgetting += contact.forgetting;
+  energy_balance.dropped += contact.dropped;
   energy_balance.throughput += std::abs(modes.torque) + std::abs(contact.rolling);
   double& balance = balance_work_.balance;
   balance += modes.kinetic + modes.modal + relaxed.residual + local + modes.damping + relaxed.damping -
-             modes.torque - contact.rolling - contact.switching - contact.cutting - contact.forgetting +
+             modes.torque - contact.rolling - contact.switching - contact.cutting - contact.dropped +
              relaxed.averaging;
   energy_balance.imbalance = std::max(energy_balance.imbalance, std::abs(balance));
 }

@@ -21,7 +21,7 @@ struct EnergyBalance {
   double averaging = 0;  // the scheme's own: mean load times change of the relaxed load, less the exact work
   // The relaxed load of a tooth that is no longer followed, about a mesh period after its load: minus the energy G R G / 2
   // that goes with it, plus the work of the mean contact forces on the displacement that it took away.
-  double forgetting = 0;
+  double dropped = 0;
   double throughput = 0;  // sum of |torque| + |rolling| per step
   double imbalance = 0;   // largest |sum of the imbalance so far|
 

@@ -107,31 +107,18 @@ class FixedPhasePair {
     if (plan.phases < 2 || plan.phases % 2)
       fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
     require_like_teeth(statics.mesh, "a pair at a fixed mesh phase (gear-impact, gear-jump-map)");
-    require_inertia(statics.mesh, {driver.inertia, driven.inertia},
-                    {settings.driver_inertia, settings.driven_inertia});
+    require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
     const GearMeshModel model(driver, driven, statics.mesh);
-    DynamicParameters parameters;
-    parameters.torque = statics.torque;
-    parameters.inertia = {settings.driver_inertia, settings.driven_inertia};
-    parameters.mean_stiffness = mean_stiffness;
-    parameters.damping = settings.damping;
+    DynamicParameters parameters = dynamic_parameters(statics, mean_stiffness, settings);
     parameters.damping.rayleigh_stiffness = 0;
-    parameters.fidelity = settings.fidelity;
     RollingDynamics dynamics(model, parameters);
     // As a sweep begins, so that the strips are the same.
     dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), plan_.phases);
-    set_gears(blank_, driver, driven);
-    blank_.mesh = statics.mesh;
-    blank_.fidelity = settings.fidelity;
-    blank_.contact = statics.contact;
-    blank_.damping = settings.damping;
+    set_motion(blank_, {driver, driven}, statics, settings);
     blank_.torque = statics.torque;
     blank_.torque_step = plan.torque_step;
-    blank_.driver_inertia = settings.driver_inertia;
-    blank_.driven_inertia = settings.driven_inertia;
     blank_.mean_stiffness = mean_stiffness;
-    blank_.driver_bearing_damper = dynamics.bearing_damper(0);
-    blank_.driven_bearing_damper = dynamics.bearing_damper(1);
+    for (int g = 0; g < kSides; ++g) blank_.bearing_damper[g] = dynamics.bearing_damper(g);
     blank_.mesh_phase = VectorXd::LinSpaced(plan_.phases, 0, 1 - 1.0 / plan_.phases);
     blank_.phase_undamped_frequency.resize(plan_.phases);
     blank_.loaded_pairs.resize(plan_.phases);

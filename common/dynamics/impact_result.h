@@ -1,6 +1,7 @@
 // The free decay of the transmission error about the static equilibrium.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,10 @@ namespace whine {
 // natural frequency is Im s / 2 pi, that of the decaying oscillation, and a damping ratio -Re s / |s| of the lowest
 // oscillating root s.
 struct ImpactArtifact : MotionParameters {
-  double torque = 0;          // N m on the driver
-  double torque_step = 0;     // 1: what is let go at the start, over the torque
-  double mean_stiffness = 0;  // N m-1 that sets the bearing dampers
-  double driver_bearing_damper = 0, driven_bearing_damper = 0;  // N m s
+  double torque = 0;                               // N m on the driver
+  double torque_step = 0;                          // 1: what is let go at the start, over the torque
+  double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers
+  std::array<double, kSides> bearing_damper = {};  // N m s
   // (state) number of loaded pairs in words, fewest first, each amid the longest part of the period that has it;
   // "mean" last: over the period
   std::vector<std::string> contact_state;

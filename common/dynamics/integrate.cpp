@@ -49,9 +49,7 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
   try {
     return integrate(state, period, energy_balance, nullptr);
   } catch (const Error& error) {
-    const std::string words = error.what(), start = "at mesh phase ";
-    if (words.rfind(start, 0) == 0) throw;
-    fail_as(error, start, positions_[sample_ * stride_].mesh.phase, " ", words);
+    fail_as(error, "at mesh phase ", positions_[sample_ * stride_].mesh.phase, " ", error.what());
   }
 }
 
@@ -84,8 +82,8 @@ bool RollingDynamics::keeps_corners(int position, double error) const {
   const Corners& corners = corners_[position];
   if (error > corners.lost_gap)
     fail_outside_range(
-        Failure::numerical, "at mesh phase ", positions_[position].mesh.phase, " the transmission error ",
-        error * 1e6, " micrometres closes the gap of ", corners.lost_gap * 1e6,
+        Failure::numerical, "the transmission error ", error * 1e6, " micrometres closes the gap of ",
+        corners.lost_gap * 1e6,
         " micrometres of a tip edge that would touch below the involute; lower the torque or set "
         "corner_contact = false");
   return !(error > corners.next_gap);

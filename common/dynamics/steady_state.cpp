@@ -20,7 +20,7 @@ constexpr int kMostPeriods = 3000;   // mesh periods per speed, before it counts
 constexpr int kLeastTurns = 100;     // but this many hunting periods
 constexpr int kAndersonColumns = 2;  // as many multipliers go at once: the slowest two, of one resonance
 constexpr double kClose = 1e-2;      // change per period below which the motion counts as close to its orbit
-constexpr double kFarAlong = 2.5;    // of the last step along a branch: further it does not foretell
+constexpr double kFarAlong = 2.5;    // of the last step along a branch: further it does not predict
 constexpr int kLongestPause = 64;    // periods of plain integration after proposals that gained nothing
 
 double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {

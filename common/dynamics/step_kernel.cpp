@@ -370,17 +370,17 @@ struct StepKernel::LineContact {
     for (int j = 0; j < modal.count; ++j, line += record.size()) {
       modal.rows[j] = line + LineRecord::kShape;
       static_assert(kFields - kSharedFields == kLanes && kSides == 2);
-      const double *first_lag = relaxed + frame.pair[j].slot * kFields + kSharedFields,
-                   *second_lag = first_lag + fields;
-      Lanes first = lanes(line + record.own_reading(0)) * lanes(first_lag),
-            second = lanes(line + record.own_reading(1)) * lanes(second_lag);
+      const double *first_relaxed = relaxed + frame.pair[j].slot * kFields + kSharedFields,
+                   *second_relaxed = first_relaxed + fields;
+      Lanes first = lanes(line + record.own_reading(0)) * lanes(first_relaxed),
+            second = lanes(line + record.own_reading(1)) * lanes(second_relaxed);
       for (int tooth = live.first; tooth < live.last; ++tooth) {
         const double *first_row = line + record.reading(0, tooth), *second_row = first_row + kSharedFields;
-        first_lag = relaxed + tooth * kFields;
-        second_lag = first_lag + fields;
+        first_relaxed = relaxed + tooth * kFields;
+        second_relaxed = first_relaxed + fields;
         for (int k = 0; k < kSharedFields; k += kLanes) {
-          first += lanes(first_row + k) * lanes(first_lag + k);
-          second += lanes(second_row + k) * lanes(second_lag + k);
+          first += lanes(first_row + k) * lanes(first_relaxed + k);
+          second += lanes(second_row + k) * lanes(second_relaxed + k);
         }
       }
       e[j] = line[LineRecord::kGap] + sum(first + second);

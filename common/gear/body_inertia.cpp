@@ -40,24 +40,23 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material) 
 
 void as_drawn(ImpactParameters& settings, const std::array<double, 2>& body_inertia) {
   constexpr double kMore = 1.001;
-  if (settings.driver_inertia == 0) settings.driver_inertia = kMore * body_inertia[0];
-  if (settings.driven_inertia == 0) settings.driven_inertia = kMore * body_inertia[1];
+  for (int g = 0; g < kSides; ++g)
+    if (settings.inertia[g] == 0) settings.inertia[g] = kMore * body_inertia[g];
 }
 
 void as_outlined(ImpactParameters& settings, const PairParameters& pair) {
   constexpr double kFillets = 1.015;
-  const auto drawn = [&](const GearDesign& design, const Material& material) {
-    return kFillets * least_body_inertia(ToothGeometry(design), material);
-  };
-  if (settings.driver_inertia == 0) settings.driver_inertia = drawn(pair.driver, pair.driver_material);
-  if (settings.driven_inertia == 0) settings.driven_inertia = drawn(pair.driven, pair.driven_material);
+  for (int g = 0; g < kSides; ++g)
+    if (settings.inertia[g] == 0)
+      settings.inertia[g] =
+          kFillets * least_body_inertia(ToothGeometry(pair.gear[g].design), pair.gear[g].material);
 }
 
 void require_inertia(const GearMeshSpec& mesh, const std::array<double, 2>& body_inertia,
                      const std::array<double, 2>& inertia) {
-  for (size_t g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     if (!(inertia[g] > body_inertia[g]))
-      fail_outside_range(Failure::input, "[gear.", g ? mesh.driven : mesh.driver,
+      fail_outside_range(Failure::input, "[gear.", mesh.gear[g],
                          "] of the scene: ", too_light(inertia[g], shown_number(body_inertia[g])));
 }
 

@@ -13,7 +13,6 @@ namespace whine {
 
 namespace {
 constexpr double kPi = std::numbers::pi;
-const char* const kGearName[2] = {"driver", "driven gear"};
 
 Vec2 rotated(const Vec2& v, double tilt) {  // components of v along tangent (cos, -sin) and normal (sin, cos)
   return {v.x() * std::cos(tilt) - v.y() * std::sin(tilt), v.x() * std::sin(tilt) + v.y() * std::cos(tilt)};

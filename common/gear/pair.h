@@ -9,7 +9,7 @@
 
 #include "gear/flank_deviation.h"
 #include "gear/involute.h"
-#include "model/gear.h"
+#include "model/stages.h"
 
 namespace whine {
 
@@ -41,6 +41,8 @@ class GearPair {
   // Throws Error(input) if the pair does not reach, jams (backlash below -1 micrometre, tip in root, tip
   // beyond the other's involute), has unequal base pitches or a contact ratio below 1.
   GearPair(const GearDesign& driver, const GearDesign& driven, double centre_distance);
+  explicit GearPair(const PairParameters& pair)
+      : GearPair(pair.gear[0].design, pair.gear[1].design, pair.mesh.centre_distance) {}
 
   const ToothGeometry& gear(int g) const { return gear_[g]; }
   double centre_distance() const { return centre_distance_; }  // m

@@ -20,8 +20,4 @@ std::array<PathPoint, 5> path_points(const GearPair& pair) {
   return points;
 }
 
-double active_profile_diameter(const GearPair& pair, int g) {
-  return path_points(pair)[g == 0 ? 0 : 4].diameter[static_cast<size_t>(g)];
-}
-
 }  // namespace whine

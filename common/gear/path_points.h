@@ -17,7 +17,4 @@ struct PathPoint {
 };
 std::array<PathPoint, 5> path_points(const GearPair& pair);
 
-// Diameter at which the active profile of a gear starts, m.
-double active_profile_diameter(const GearPair& pair, int g);
-
 }  // namespace whine

@@ -19,7 +19,7 @@ std::string minutes(double seconds) {
 // Mesh periods after which the same teeth meet, as far as they differ.
 double hunting(const Scene& scene) {
   long periods = 1;
-  for (const std::string& name : {scene.mesh.driver, scene.mesh.driven}) {
+  for (const std::string& name : scene.mesh.gear) {
     const SceneGear& gear = scene.gear(name);
     if (!gear.errors.none() || gear.design.crack.depth > 0)
       periods = std::lcm(periods, static_cast<long>(gear.design.teeth));

@@ -39,8 +39,8 @@ void check_geometry(const Scene& scene, const ScenePlace& where) {
     in_part(".modification", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
     in_part(".error", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
   }
-  in("[[mesh]]", {"mesh", "gear." + scene.mesh.driven, "gear." + scene.mesh.driver}, [&] {
-    GearPair pair(scene.gear(scene.mesh.driver).design, scene.gear(scene.mesh.driven).design,
+  in("[[mesh]]", {"mesh", "gear." + scene.mesh.gear[1], "gear." + scene.mesh.gear[0]}, [&] {
+    GearPair pair(scene.gear(scene.mesh.gear[0]).design, scene.gear(scene.mesh.gear[1]).design,
                   scene.mesh.centre_distance);
   });
 }

@@ -62,8 +62,8 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
 
 System pair_system(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven) {
   System system;
-  add_input_gear(system, mesh.driver, driver, mesh.bearing[0]);
-  const int output = add_driven_gear(system, 0, driver, mesh.driven, driven, mesh.centre_distance, 0.5 * kPi,
+  add_input_gear(system, mesh.gear[0], driver, mesh.bearing[0]);
+  const int output = add_driven_gear(system, 0, driver, mesh.gear[1], driven, mesh.centre_distance, 0.5 * kPi,
                                      mesh.bearing[1]);
   system.drives.push_back({output, System::DriveKind::held, 0});
   return system;

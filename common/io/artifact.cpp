@@ -264,24 +264,11 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
   if (part != Part::mesh) return;
   if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
     parameters(section, values, Part::contact_plane);
-  // Gears as they are designed have no such section.
-  for (int g = 0; g < 2; ++g)
-    if (values.mesh.modification[g] != FlankModification{}) {
-      KeyValues own;
-      own.modification = values.mesh.modification[g];
-      parameters(kModificationOf[g], own, Part::modification);
-    }
-  for (int g = 0; g < 2; ++g)
-    if (!values.mesh.errors[g].none()) {
-      KeyValues own;
-      own.errors = values.mesh.errors[g];
-      parameters(kErrorOf[g], own, Part::error);
-    }
-  for (int g = 0; g < 2; ++g)
-    if (values.mesh.bearing[g].elastic()) {
-      KeyValues own;
-      own.bearing = values.mesh.bearing[g];
-      parameters(kBearingOf[g], own, Part::bearing);
+  for (const GearSection& own : kGearSections)
+    for (int g = 0; g < kSides; ++g) {
+      KeyValues of_gear;
+      take_gear(of_gear, values.mesh, g);
+      if (own.stands(of_gear)) parameters(own.of(g), of_gear, own.part);
     }
 }
 
@@ -398,17 +385,13 @@ void ArtifactReader::parameters(const std::string& section, KeyValues& values, P
   if (part != Part::mesh) return;
   const SectionSource mesh(*this, section);
   if (mesh.has("contact_plane")) set_parameters(values, Part::contact_plane, mesh);
-  for (int g = 0; g < 2; ++g) {
-    KeyValues own;
-    const SectionSource source(*this, kModificationOf[g]);
-    if (source.has("tip_relief")) set_parameters(own, Part::modification, source);
-    values.mesh.modification[g] = own.modification;
-    const SectionSource errors(*this, kErrorOf[g]);
-    if (errors.has("iso_class")) set_parameters(own, Part::error, errors);
-    values.mesh.errors[g] = own.errors;
-    const SectionSource bearing(*this, kBearingOf[g]);
-    if (bearing.has("stiffness")) set_parameters(own, Part::bearing, bearing);
-    values.mesh.bearing[g] = own.bearing;
+  for (int g = 0; g < kSides; ++g) {
+    KeyValues of_gear;
+    for (const GearSection& own : kGearSections) {
+      const SectionSource source(*this, own.of(g));
+      if (source.has(own.first)) set_parameters(of_gear, own.part, source);
+    }
+    put_gear(of_gear, values.mesh, g);
   }
 }
 

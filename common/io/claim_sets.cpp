@@ -3,20 +3,12 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/publish.h"
 #include "io/toml.h"
 
 namespace whine {
 namespace {
 
 using Words = std::vector<std::string>;
-
-Words words_of(const toml::node& node) {
-  Words out;
-  if (const toml::array* list = node.as_array())
-    for (const toml::node& item : *list) out.push_back(item.value<std::string>().value_or(""));
-  return out;
-}
 
 // Each alternative of one with each of the other.
 std::vector<Words> both(const std::vector<Words>& one, const std::vector<Words>& other) {
@@ -32,21 +24,9 @@ std::vector<Words> both(const std::vector<Words>& one, const std::vector<Words>&
 }  // namespace
 
 std::vector<ClaimSet> read_claim_sets(const std::string& path) {
-  toml::table root;
-  try {
-    root = parse_toml(read_bytes(path, "check the path of the sets of claims"));
-  } catch (const toml::parse_error& error) {
-    fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
-  }
-  const toml::array* rows = root.get_as<toml::array>("set");
-  if (!rows) fail(Failure::input, path, ":1: lacks [[set]]");
+  const toml::table root = read_toml(path, "the sets of claims");
   std::vector<ClaimSet> out;
-  for (const toml::node& node : *rows) {
-    const auto reject = [&](const std::string& what) {
-      fail(Failure::input, path, ":", node.source().begin.line, ": ", what);
-    };
-    const toml::table* row = node.as_table();
-    if (!row) reject("[[set]] must be tables");
+  for (const toml::table* row : rows_of(root, path, "set", {"name", "says", "claims", "any", "with"})) {
     ClaimSet set;
     set.alternatives = {{}};
     for (const auto& [label, value] : *row) {
@@ -66,15 +46,14 @@ std::vector<ClaimSet> read_claim_sets(const std::string& path) {
         for (const std::string& name : words_of(value)) {
           const auto earlier =
               std::find_if(out.begin(), out.end(), [&](const ClaimSet& s) { return s.name == name; });
-          if (earlier == out.end()) reject(text("'with' names '", name, "', which no earlier set is called"));
+          if (earlier == out.end())
+            reject_at(path, *row, text("'with' names '", name, "', which no earlier set is called"));
           set.alternatives = both(set.alternatives, earlier->alternatives);
         }
-      } else {
-        reject(text("unknown key '", key, "'; known are name, says, claims, any, with"));
       }
     }
     if (set.name.empty() || set.alternatives.empty() || set.alternatives.front().empty())
-      reject("a set needs a name and claims");
+      reject_at(path, *row, "a set needs a name and claims");
     out.push_back(set);
   }
   return out;

@@ -56,29 +56,34 @@ std::vector<Eigen::Index> shape_of(
     const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& values) {
   return {values.rows(), values.cols()};
 }
+// -1: an empty list does not say how large its matrices are.
 std::vector<Eigen::Index> shape_of(const std::vector<MatrixRM>& values) {
   const auto count = static_cast<Eigen::Index>(values.size());
-  if (values.empty()) return {0, 0, 0};
+  if (values.empty()) return {0, -1, -1};
   return {count, values[0].rows(), values[0].cols()};
 }
 std::vector<Eigen::Index> shape_of(const std::vector<std::string>& values) {
   return {static_cast<Eigen::Index>(values.size())};
 }
 
-// --- writing
+// --- writing; shape: what is known of it
+
+using Shape = std::vector<Eigen::Index>;
 
 template <class T>
-void put(ArtifactWriter& out, const Dataset& d, const T& value) {
+void put(ArtifactWriter& out, const Dataset& d, const Shape&, const T& value) {
   out.put(d.name, value, label(d));
 }
-void put(ArtifactWriter& out, const Dataset& d, const Eigen::Vector2d& value) {
+void put(ArtifactWriter& out, const Dataset& d, const Shape&, const Eigen::Vector2d& value) {
   out.put(d.name, Eigen::VectorXd(value), label(d));
 }
-void put(ArtifactWriter& out, const Dataset& d, const std::vector<std::string>& value) {
+void put(ArtifactWriter& out, const Dataset& d, const Shape&, const std::vector<std::string>& value) {
   out.file().put(d.name, value, label(d));
 }
-void put(ArtifactWriter& out, const Dataset& d, const std::vector<MatrixRM>& value) {
-  std::vector<Eigen::Index> shape = shape_of(value);
+void put(ArtifactWriter& out, const Dataset& d, const Shape& known, const std::vector<MatrixRM>& value) {
+  Shape shape = shape_of(value);
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    if (shape[i] < 0) shape[i] = std::max<Eigen::Index>(0, known[i]);
   std::vector<double> all;
   all.reserve(static_cast<std::size_t>(shape[0] * shape[1] * shape[2]));
   for (const MatrixRM& rows : value) {
@@ -90,9 +95,7 @@ void put(ArtifactWriter& out, const Dataset& d, const std::vector<MatrixRM>& val
   out.file().put(d.name, all.data(), sizes(shape), label(d));
 }
 
-// --- reading; shape: what is known of it
-
-using Shape = std::vector<Eigen::Index>;
+// --- reading
 
 void take(const ArtifactReader& in, const Dataset& d, const Shape&, double& value) {
   value = in.number(d.name, d.range);
@@ -149,6 +152,7 @@ void Codec::note_shape(const Dataset& d, const std::vector<Eigen::Index>& shape)
     fail(Failure::numerical, "result ", d.name, " has ", shape.size(), " axes, its description '", d.axes,
          "'");
   for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (shape[i] < 0) continue;
     if (known[i] >= 0 && shape[i] != known[i])
       fail(Failure::numerical, "result ", d.name, " has ", shape[i], i == 0 ? " rows" : " columns",
            ", expected ", known[i], " along ", axes[i]);
@@ -169,7 +173,7 @@ void Codec::dataset(const Dataset& d, const Member& member) {
       [&](auto* value) {
         if (in_) take(*in_, d, known_shape(d.axes), *value);
         note_shape(d, shape_of(*value));
-        if (out_) put(*out_, d, *value);
+        if (out_) put(*out_, d, known_shape(d.axes), *value);
       },
       member);
 }
@@ -223,19 +227,15 @@ void describe_crack(Codec& c, const std::string& section, KeyValues& values) {
 }
 
 // One gear of a pair: geometry, material and the discretisation of its body, under its role.
-void describe_gear(Codec& c, const std::string& role, GearDesign& design, Material& material,
-                   BodyDiscretisation& body) {
+void describe_gear(Codec& c, const std::string& role, BodyParameters& gear) {
   KeyValues values;
-  values.design = design;
-  values.material = material;
-  values.body = body;
+  values.design = gear.design;
+  values.material = gear.material;
+  values.body = gear.discretisation;
   for (const Part part : {Part::design, Part::material, Part::body, Part::near_field})
     c.parameters(role, values, part);
   describe_crack(c, role, values);
-  if (!c.in()) return;
-  design = values.design;
-  material = values.material;
-  body = values.body;
+  if (c.in()) gear = {values.design, values.material, values.body};
 }
 
 void describe_inertia(Codec& c, const std::string& role, double& inertia) {
@@ -256,8 +256,7 @@ void describe_design(Codec& c, const std::string& section, GearDesign& design) {
 }
 
 void describe_pair(Codec& c, PairParameters& a, bool fidelity) {
-  describe_gear(c, "driver", a.driver, a.driver_material, a.driver_body);
-  describe_gear(c, "driven", a.driven, a.driven_material, a.driven_body);
+  for (int g = 0; g < kSides; ++g) describe_gear(c, kRole[g], a.gear[g]);
   KeyValues values;
   values.mesh = a.mesh;
   values.fidelity = a.fidelity;
@@ -272,8 +271,7 @@ void describe_pair(Codec& c, PairParameters& a, bool fidelity) {
 }
 
 void describe_motion(Codec& c, MotionParameters& a, bool time) {
-  describe_inertia(c, "driver", a.driver_inertia);
-  describe_inertia(c, "driven", a.driven_inertia);
+  for (int g = 0; g < kSides; ++g) describe_inertia(c, kRole[g], a.inertia[g]);
   KeyValues values;
   values.damping = a.damping;
   values.fidelity = a.fidelity;
@@ -298,17 +296,15 @@ void describe_speeds(Codec& c, double& from, double& to, double& step) {
         value);
 }
 
-void describe_bearing_dampers(Codec& c, double& mean_stiffness, double& driver, double& driven) {
+void describe_bearing_dampers(Codec& c, double& mean_stiffness, std::array<double, kSides>& damper) {
   constexpr Range kDamper{0, 1e12};
   c.dataset({"/parameters/damping/mean_stiffness", "N m-1",
              "mean secant stiffness that sets the bearing dampers", "", kStiff},
             &mean_stiffness);
-  c.dataset({"/parameters/damping/driver_bearing_damper", "N m s", "torque damper at the axis of the driver",
-             "", kDamper, "c = 2 ratio I w"},
-            &driver);
-  c.dataset({"/parameters/damping/driven_bearing_damper", "N m s",
-             "torque damper at the axis of the driven gear", "", kDamper, "c = 2 ratio I w"},
-            &driven);
+  for (int g = 0; g < kSides; ++g)
+    c.dataset({text("/parameters/damping/", kRole[g], "_bearing_damper"), "N m s",
+               text("torque damper at the axis of the ", kGearName[g]), "", kDamper, "c = 2 ratio I w"},
+              &damper[g]);
 }
 
 void describe_backlash(Codec& c, double& margin) {
@@ -335,7 +331,7 @@ void describe_natural_frequency(Codec& c, double& frequency) {
 }
 
 std::string of_body(const Codec& c, const GearMeshSpec& mesh, int g, const std::string& dataset) {
-  return "/body/" + (c.lists() ? "<gear>" : mesh.gear(g)) + "/" + dataset;
+  return "/body/" + (c.lists() ? "<gear>" : mesh.gear[g]) + "/" + dataset;
 }
 
 std::string gear_title(const GearDesign& design) {
@@ -343,7 +339,7 @@ std::string gear_title(const GearDesign& design) {
 }
 
 std::string pair_title(const GearMeshSpec& mesh, double torque) {
-  return text(mesh.driver, " drives ", mesh.driven, " with ", torque, " N m");
+  return text(mesh.gear[0], " drives ", mesh.gear[1], " with ", torque, " N m");
 }
 
 void require_indices(const Codec& c, const std::string& name, const Eigen::Ref<const MatrixRMi>& index,

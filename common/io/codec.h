@@ -61,6 +61,19 @@ class Codec {
     choice = *found;
   }
 
+  // A list of choices is stored as one line of its words.
+  template <WordedChoice Choice>
+  void choices(const Dataset& dataset, std::vector<Choice>& list) {
+    std::string line = names_of(list);
+    this->dataset(dataset, &line);
+    if (!in_) return;
+    const auto found = choices_in<Choice>(line);
+    if (!found)
+      in_->file().reject(
+          text("dataset ", dataset.name, " is '", line, "', which is no list of: ", kWordsOf<Choice>));
+    list = *found;
+  }
+
   // One column of a matrix of `columns` columns, each of which is a dataset of its own.
   void column(const Dataset& dataset, MatrixRM& values, Eigen::Index column, Eigen::Index columns);
 
@@ -128,7 +141,7 @@ void describe_torque(Codec& codec, double& torque);
 // Speeds of sweeps, Hz.
 void describe_speeds(Codec& codec, double& from, double& to, double& step);
 // N m-1, N m s: bearing dampers and the mean stiffness that sets them.
-void describe_bearing_dampers(Codec& codec, double& mean_stiffness, double& driver, double& driven);
+void describe_bearing_dampers(Codec& codec, double& mean_stiffness, std::array<double, kSides>& damper);
 // Left out where back flanks are ignored: the margin (m) is then infinite.
 void describe_backlash(Codec& codec, double& margin);
 // Mesh periods of a hunting period; left out where all teeth are alike: 1.

@@ -57,7 +57,7 @@ void describe_dynamics(Codec& c, HarrisMapArtifact& a) {
 
 void describe(Codec& c, HarrisMapArtifact& a) {
   describe_pair(c, a);
-  c.dataset({"/parameters/relief/relieved", "1", "gears whose tips are relieved", ""}, &a.relieved);
+  c.choice({"/parameters/relief/relieved", "1", "gears whose tips are relieved", ""}, a.relieved);
   c.choice({"/parameters/relief/shape", "1", "how the relief grows with the roll angle", ""}, a.shape);
   c.dataset({"/parameters/operation/design_torque", "N m",
              "torque on the driver for which the optimum is sought", "", kDrive},
@@ -73,7 +73,7 @@ void describe(Codec& c, HarrisMapArtifact& a) {
 }
 
 void write(const std::string& path, const HarrisMapArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, text("Harris map: ", a.mesh.driver, " drives ", a.mesh.driven), a,
+  write_artifact(path, kSchema, text("Harris map: ", a.mesh.gear[0], " drives ", a.mesh.gear[1]), a,
                  provenance);
 }
 

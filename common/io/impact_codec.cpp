@@ -74,7 +74,7 @@ void describe_phases(Codec& c, ImpactArtifact& a) {
 void describe(Codec& c, ImpactArtifact& a) {
   describe_pair(c, a);
   describe_motion(c, a, false);
-  describe_bearing_dampers(c, a.mean_stiffness, a.driver_bearing_damper, a.driven_bearing_damper);
+  describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
   describe_torque(c, a.torque);
   c.dataset({"/parameters/operation/torque_step", "1",
              "torque that is let go at the start of a decay, over the torque", "", kShare},

@@ -193,10 +193,10 @@ std::vector<Key> make_keys() {
 
     {Part::mesh, "mesh", "driver", kNone, nullptr, 0, 0, false, "",
      "name of the driving gear",
-     [](V& v) -> Slot { return &v.mesh.driver; }},
+     [](V& v) -> Slot { return &v.mesh.gear[0]; }},
     {Part::mesh, "mesh", "driven", kNone, nullptr, 0, 0, false, "",
      "name of the driven gear",
-     [](V& v) -> Slot { return &v.mesh.driven; }},
+     [](V& v) -> Slot { return &v.mesh.gear[1]; }},
     {Part::mesh, "mesh", "centre_distance_mm", kMillimetre, nullptr, 0, 1e5, true, "",
      "distance of the two axes",
      [](V& v) -> Slot { return &v.mesh.centre_distance; }},
@@ -521,6 +521,24 @@ std::string scene_key_table() {
         << key.meaning << " |\n";
   }
   return out.str();
+}
+
+const std::array<GearSection, 3> kGearSections{
+    {{"modification", Part::modification, "tip_relief",
+      [](const KeyValues& v) { return v.modification != FlankModification{}; }},
+     {"error", Part::error, "iso_class", [](const KeyValues& v) { return !v.errors.none(); }},
+     {"bearing", Part::bearing, "stiffness", [](const KeyValues& v) { return v.bearing.elastic(); }}}};
+
+void take_gear(KeyValues& values, const GearMeshSpec& mesh, int g) {
+  values.modification = mesh.modification[g];
+  values.errors = mesh.errors[g];
+  values.bearing = mesh.bearing[g];
+}
+
+void put_gear(const KeyValues& values, GearMeshSpec& mesh, int g) {
+  mesh.modification[g] = values.modification;
+  mesh.errors[g] = values.errors;
+  mesh.bearing[g] = values.bearing;
 }
 
 }  // namespace whine

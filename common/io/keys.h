@@ -131,10 +131,19 @@ std::string exact_text(double value);
 std::string exact_text(const Points& points);
 std::string exact_text(const std::vector<double>& values);  // [1.0, 2.0]
 
-// Sections of /parameters and of stage parameters that hold what is taken off the driver's and the driven gear's flanks.
-inline constexpr const char* kModificationOf[2] = {"driver_modification", "driven_modification"};
-inline constexpr const char* kErrorOf[2] = {"driver_error", "driven_error"};
-inline constexpr const char* kBearingOf[2] = {"driver_bearing", "driven_bearing"};
+// What a mesh says of a gear beside the drawing: a section for each gear, which stands only where something is said.
+struct GearSection {
+  const char* name;  // as in a scene; that of a gear is "driver_modification"
+  Part part;
+  const char* first;                         // dataset that is there if the section is
+  bool (*stands)(const KeyValues& of_gear);  // not for gears as they are drawn, on rigid axes
+
+  std::string of(int g) const { return std::string(kRole[g]) + "_" + name; }
+};
+extern const std::array<GearSection, 3> kGearSections;
+// What such sections hold of gear g of a mesh, into the values and back.
+void take_gear(KeyValues& values, const GearMeshSpec& mesh, int g);
+void put_gear(const KeyValues& values, GearMeshSpec& mesh, int g);
 
 // Units of the two numbers of a point.
 extern const std::array<Unit, 2> kPointUnits;

@@ -40,7 +40,7 @@ LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& r
   as_outlined(settings, at_torque);
   require_contact(at_torque, settings.fidelity, statics);
   options.time = settings.time;
-  options.mass = reduced_mass(at_torque, settings.driver_inertia, settings.driven_inertia);
+  options.mass = reduced_mass(at_torque, settings.inertia);
   options.frequency_from = settings.frequency_from;
   options.frequency_to = settings.frequency_to;
   options.frequency_step = settings.frequency_step;

@@ -21,7 +21,7 @@ NamedFiles::NamedFiles(std::string option, const std::vector<std::string>& words
 }
 
 std::vector<std::string> NamedFiles::of(const GearMeshSpec& mesh) const {
-  const std::vector<std::string> gears{mesh.driver, mesh.driven};
+  const std::vector<std::string> gears(mesh.gear.begin(), mesh.gear.end());
   for (const auto& [name, path] : files_)
     if (std::find(gears.begin(), gears.end(), name) == gears.end()) {
       const std::string near = nearest(name, gears);

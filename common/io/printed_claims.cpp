@@ -5,7 +5,6 @@
 #include <map>
 
 #include "base/error.h"
-#include "io/publish.h"
 #include "io/toml.h"
 
 namespace whine {
@@ -20,24 +19,21 @@ const std::map<std::string, Scale> kKinds{{"number", Scale::number},
 // One [[claim]] of the file; what is wrong with it is said with its line.
 class Row {
  public:
-  Row(const std::string& path, const toml::node& node) : path_(path), node_(node), table_(node.as_table()) {
-    if (!table_) reject("[[claim]] must be tables");
-  }
+  Row(const std::string& path, const toml::table& table) : path_(path), table_(table) {}
   PrintedClaim claim() const;
 
  private:
-  [[noreturn]] void reject(const std::string& what) const { fail(Failure::input, where(node_), ": ", what); }
+  [[noreturn]] void reject(const std::string& what) const { reject_at(path_, table_, what); }
   std::string where(const toml::node& node) const { return text(path_, ":", node.source().begin.line); }
-  void require_known_keys() const;
-  bool has(const char* key) const { return table_->contains(key); }
+  bool has(const char* key) const { return table_.contains(key); }
 
   // The value of a key, `otherwise` if it is not there.
   template <class T>
   T get(const char* key, const char* type, T otherwise) const {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = table_.get(key);
     if (!node) return otherwise;
     const auto value = node->value<T>();
-    if (!value) fail(Failure::input, where(*node), ": '", key, "' must be ", type);
+    if (!value) reject_at(path_, *node, text("'", key, "' must be ", type));
     return *value;
   }
   std::string words(const char* key) const {
@@ -46,34 +42,17 @@ class Row {
   double number(const char* key, double otherwise) const {
     const double value = get<double>(key, "a number", otherwise);
     if (has(key) && !std::isfinite(value))
-      fail(Failure::input, where(*table_->get(key)), ": '", key, "' = ", value,
-           ": a finite number is needed");
+      reject_at(path_, *table_.get(key), text("'", key, "' = ", value, ": a finite number is needed"));
     return value;
   }
 
   std::string path_;
-  const toml::node& node_;
-  const toml::table* table_;
+  const toml::table& table_;
 };
 
-void Row::require_known_keys() const {
-  static const std::vector<std::string> known{"id",    "place",   "says",      "kind",
-                                              "unit",  "printed", "tolerance", "basis",
-                                              "given", "value",   "torque_Nm", "mesh_frequency_Hz",
-                                              "order", "contact"};
-  for (const auto& [label, value] : *table_) {
-    const std::string key(label.str());
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    std::string list;
-    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-    fail(Failure::input, where(value), ": unknown key '", key, "'; known are ", list);
-  }
-}
-
 PrintedClaim Row::claim() const {
-  require_known_keys();
   PrintedClaim c;
-  c.where = where(node_);
+  c.where = where(table_);
   for (const char* key : {"id", "place", "says", "kind", "basis"})
     if (words(key).empty()) reject(text("[[claim]] needs '", key, "'"));
   c.id = words("id");
@@ -110,21 +89,18 @@ PrintedClaim Row::claim() const {
 }  // namespace
 
 std::vector<PrintedClaim> read_printed_claims(const std::string& path) {
-  toml::table root;
-  try {
-    root = parse_toml(read_bytes(path, "check the path of the table of P2000's claims"));
-  } catch (const toml::parse_error& error) {
-    fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
-  }
+  const toml::table root = read_toml(path, "the table of P2000's claims");
   for (const auto& [label, value] : root)
     if (label.str() != "claim")
       fail(Failure::input, path, ":", value.source().begin.line, ": unknown key '", label.str(),
            "'; known is [[claim]]");
-  const toml::array* rows = root.get_as<toml::array>("claim");
-  if (!rows) fail(Failure::input, path, ":1: lacks [[claim]]");
+  const std::vector<std::string> known{"id",    "place",   "says",      "kind",
+                                       "unit",  "printed", "tolerance", "basis",
+                                       "given", "value",   "torque_Nm", "mesh_frequency_Hz",
+                                       "order", "contact"};
   std::vector<PrintedClaim> claims;
-  for (const toml::node& node : *rows) {
-    PrintedClaim claim = Row(path, node).claim();
+  for (const toml::table* row : rows_of(root, path, "claim", known)) {
+    PrintedClaim claim = Row(path, *row).claim();
     for (const PrintedClaim& other : claims)
       if (other.id == claim.id)
         fail(Failure::input, claim.where, ": a claim '", claim.id, "' stands at ", other.where, " already");

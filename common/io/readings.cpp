@@ -33,13 +33,7 @@ using Words = std::vector<std::string>;
 
 class PlanFile {
  public:
-  explicit PlanFile(const std::string& path) : path_(path) {
-    try {
-      root_ = parse_toml(read_bytes(path, "check the path of the plan of readings"));
-    } catch (const toml::parse_error& error) {
-      reject(error.source().begin.line, text("is not valid TOML: ", error.description()));
-    }
-  }
+  explicit PlanFile(const std::string& path) : path_(path), root_(read_toml(path, "the plan of readings")) {}
 
   const toml::table& root() const { return root_; }
 

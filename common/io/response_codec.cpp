@@ -28,8 +28,8 @@ void describe(Codec& c, ResponseArtifact& a) {
   describe_pair(c, a);
   describe_motion(c, a);
   describe_torque(c, a.torque);
-  c.dataset({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
-            &a.direction);
+  c.choice({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
+           a.direction);
   c.dataset({"/parameters/fidelity/model", "1", "finite elements, or the name of a lumped model", ""},
             &a.model);
   describe_natural_frequency(c, a.natural_frequency);

@@ -296,22 +296,22 @@ void read_mesh_section(const Source& source, Scene& scene) {
   reader.read(values, {Part::mesh, Part::contact_plane}, false);
   std::vector<std::string> names;
   for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
-  for (const char* role : {"driver", "driven"}) {
-    const std::string name = role == std::string("driver") ? values.mesh.driver : values.mesh.driven;
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-      source.reject(*table.get(role), text("'", role, "' in [mesh] = '", name,
-                                           "' names no [gear.<name>] section", advice_for(name, names)));
-    }
-  }
-  if (values.mesh.driver == values.mesh.driven) {
-    source.reject(*table.get("driven"), text("'driven' in [mesh] = '", values.mesh.driven,
+  for (int g = 0; g < kSides; ++g)
+    if (const std::string& name = values.mesh.gear[g];
+        std::find(names.begin(), names.end(), name) == names.end())
+      source.reject(*table.get(kRole[g]), text("'", kRole[g], "' in [mesh] = '", name,
+                                               "' names no [gear.<name>] section", advice_for(name, names)));
+  if (values.mesh.gear[0] == values.mesh.gear[1]) {
+    source.reject(*table.get("driven"), text("'driven' in [mesh] = '", values.mesh.gear[1],
                                              "' is the driver, too; a gear cannot mesh with itself"));
   }
   scene.mesh = values.mesh;
-  scene.mesh.modification = {scene.gear(values.mesh.driver).modification,
-                             scene.gear(values.mesh.driven).modification};
-  scene.mesh.errors = {scene.gear(values.mesh.driver).errors, scene.gear(values.mesh.driven).errors};
-  scene.mesh.bearing = {scene.gear(values.mesh.driver).bearing, scene.gear(values.mesh.driven).bearing};
+  for (int g = 0; g < kSides; ++g) {
+    const SceneGear& own = scene.gear(values.mesh.gear[g]);
+    scene.mesh.modification[g] = own.modification;
+    scene.mesh.errors[g] = own.errors;
+    scene.mesh.bearing[g] = own.bearing;
+  }
 }
 
 }  // namespace
@@ -359,9 +359,10 @@ Scene scene_of(const Source& source) {
     reader.read(values, rest, false);
     const toml::node* depth = table ? table->get("matching_depth_mm") : nullptr;
     if (depth && values.body.near_field != NearField::matching)
-      source.reject(*depth, text("'matching_depth_mm' in [", name, "] = ", as_written(*depth),
-                                 ": near_field is \"", values.body.near_field,
-                                 "\", which has no depth; set near_field = \"matching\" or take it out"));
+      source.reject_value("matching_depth_mm", *depth,
+                          text("'matching_depth_mm' in [", name, "] = ", as_written(*depth),
+                               ": near_field is \"", values.body.near_field,
+                               "\", which has no depth; set near_field = \"matching\" or take it out"));
   }
   scene.damping = values.damping;
   scene.operation = values.operation;

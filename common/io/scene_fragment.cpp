@@ -22,17 +22,19 @@ std::string scene_fragment(const Scene& scene, const std::string& path, const st
   std::ostringstream out;
   out << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\n" << name("GEARS") << " :=";
   for (const auto& [gear, hash] : bodies) out << " " << gear;
-  out << "\n" << name("DRIVER") << " := " << scene.mesh.driver << "\n";
-  out << name("DRIVEN") << " := " << scene.mesh.driven << "\n";
+  out << "\n" << name("DRIVER") << " := " << scene.mesh.gear[0] << "\n";
+  out << name("DRIVEN") << " := " << scene.mesh.gear[1] << "\n";
   for (const auto& [gear, hash] : bodies) out << name("BODY_" + gear) << " := " << hash << "\n";
   out << name("TORQUES") << " :=";
   for (double torque : scene.operation.torques) out << " " << torque;
   out << "\n" << name("REFERENCE_TORQUE") << " := " << scene.operation.torques.front() << "\n";
-  const SceneGear &driver = scene.gear(scene.mesh.driver), &driven = scene.gear(scene.mesh.driven);
-  const bool differ = !driver.errors.none() || !driven.errors.none();
-  const bool cracked = driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
-  const bool modified =
-      driver.modification != FlankModification{} || driven.modification != FlankModification{};
+  bool differ = false, cracked = false, modified = false;
+  for (const std::string& gear : scene.mesh.gear) {
+    const SceneGear& own = scene.gear(gear);
+    differ |= !own.errors.none();
+    cracked |= own.design.crack.depth > 0;
+    modified |= own.modification != FlankModification{};
+  }
   const bool rings_down = scene.fidelity.contact == ContactModel::strips &&
                           scene.fidelity.body != BodyModel::full && !differ && !cracked;
   out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";

@@ -12,7 +12,7 @@ namespace {
 
 // What an artifact of a pair says to the keys of a scene, from the side of one of its gears. It need not know of motion.
 template <class Artifact>
-KeyValues keys_of(const Artifact& a, bool driver) {
+KeyValues keys_of(const Artifact& a, int g) {
   KeyValues values;
   values.mesh = a.mesh;
   values.contact = a.contact;
@@ -21,13 +21,11 @@ KeyValues keys_of(const Artifact& a, bool driver) {
     values.time = a.time;
     values.damping = a.damping;
   }
-  values.design = driver ? a.driver : a.driven;
-  values.material = driver ? a.driver_material : a.driven_material;
-  values.body = driver ? a.driver_body : a.driven_body;
-  values.modification = a.mesh.modification[driver ? 0 : 1];
-  values.errors = a.mesh.errors[driver ? 0 : 1];
-  values.bearing = a.mesh.bearing[driver ? 0 : 1];
-  if constexpr (requires { a.damping; }) values.total_inertia = driver ? a.driver_inertia : a.driven_inertia;
+  values.design = a.gear[g].design;
+  values.material = a.gear[g].material;
+  values.body = a.gear[g].discretisation;
+  take_gear(values, a.mesh, g);
+  if constexpr (requires { a.damping; }) values.total_inertia = a.inertia[g];
   return values;
 }
 
@@ -67,7 +65,7 @@ bool of_operation(const Key& key) {
 
 template <class Artifact>
 std::vector<SceneKey> scene_keys_in(const Artifact& a) {
-  KeyValues driver = keys_of(a, true), driven = keys_of(a, false);
+  KeyValues driver = keys_of(a, 0), driven = keys_of(a, 1);
   const bool moves = requires {
     a.damping;
   };
@@ -80,15 +78,12 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
         return moves;
       case Part::crack:
         return driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
-      case Part::modification:
-        return driver.modification != FlankModification{} || driven.modification != FlankModification{};
-      case Part::error:
-        return !driver.errors.none() || !driven.errors.none();
-      case Part::bearing:
-        return a.mesh.on_bearings();
       default:
-        return true;
+        break;
     }
+    for (const GearSection& own : kGearSections)
+      if (own.part == part) return own.stands(driver) || own.stands(driven);
+    return true;
   };
   std::vector<SceneKey> out;
   for (const Key& key : scene_keys()) {
@@ -98,7 +93,7 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
     const bool of_gears =
         section != "mesh" && section != "damping" && section != "fidelity" && section != "discretisation";
     if (!first.empty() || !second.empty())
-      out.push_back({section, key.name, first, of_gears || first != second ? second : "", key.meaning});
+      out.push_back({section, key.name, {first, of_gears || first != second ? second : ""}, key.meaning});
   }
   return out;
 }
@@ -114,8 +109,8 @@ std::vector<SceneKey> scene_keys_of(const ResponseArtifact& a) {
 }
 
 std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to) {
-  const auto changes = [&](bool driver) {
-    KeyValues old = keys_of(from, driver), fresh = keys_of(to, driver);
+  const auto changes = [&](int g) {
+    KeyValues old = keys_of(from, g), fresh = keys_of(to, g);
     std::string out;
     for (const Key& key : scene_keys()) {
       if (of_operation(key)) continue;
@@ -124,7 +119,7 @@ std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to)
     }
     return out;
   };
-  const std::string driver = changes(true), driven = changes(false);
+  const std::string driver = changes(0), driven = changes(1);
   if (driver == driven) return driver;
   return text("driver: ", driver, "; driven: ", driven);
 }

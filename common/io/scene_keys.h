@@ -1,5 +1,6 @@
 // What an artifact was made from, in the keys and units of a scene.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,9 @@ namespace whine {
 // A key of a scene with its value as a scene would have it, in the unit of its name. Keys of gears and materials have a value
 // for driver and driven gear each, others one.
 struct SceneKey {
-  std::string section, name, driver, driven, meaning;
+  std::string section, name;
+  std::array<std::string, kSides> value;  // of driver and driven gear
+  std::string meaning;
 };
 
 // What an artifact was made from, but for torques and speeds; of a static.h5 without what concerns motion. Sections that

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include "base/key_error.h"
 #include "io/stage_parameters_text.h"
 #include "io/suggestion.h"
 
@@ -109,13 +110,24 @@ Source Source::table_of_teeth(const std::string& path) {
   return source;
 }
 
+std::string Source::place(toml::source_index line) const {
+  return lines_ ? text(path_, ":", line ? line : names_line_) : path_;
+}
+
+std::string Source::place(const toml::node& at) const {
+  return place(at.source().begin ? at.source().begin.line : line_in_column(at));
+}
+
 void Source::reject_line(toml::source_index line, const std::string& what) const {
-  if (!lines_) reject(what);
-  fail(Failure::input, path_, ":", line ? line : names_line_, ": ", what);
+  fail(Failure::input, place(line), ": ", what);
 }
 
 void Source::reject(const toml::node& at, const std::string& what) const {
-  reject_line(at.source().begin ? at.source().begin.line : line_in_column(at), what);
+  fail(Failure::input, place(at), ": ", what);
+}
+
+void Source::reject_value(const std::string& key, const toml::node& at, const std::string& what) const {
+  throw KeyError(Failure::input, key, text(place(at), ": ", what));
 }
 
 const toml::table* Source::section(const std::string& name) const {
@@ -175,9 +187,10 @@ void SectionReader::read(KeyValues& values, const std::set<Part>& parts, bool in
 }
 
 void SectionReader::reject(const Key& key, const toml::node& node, const std::string& what) const {
-  source_.reject(
-      node, text("'", name_in(key, dialect_), "'", label_.empty() ? "" : text(" in [", label_, "]"), " = ",
-                 as_written(node), ": ", what));
+  source_.reject_value(
+      key.name, node,
+      text("'", name_in(key, dialect_), "'", label_.empty() ? "" : text(" in [", label_, "]"), " = ",
+           as_written(node), ": ", what));
 }
 
 double SectionReader::finite_number(const Key& key, const toml::node& node, const std::string& item) const {

@@ -38,6 +38,8 @@ class Source {
   const std::string& stage_of() const { return stage_of_; }  // the stage that its first line names
 
   [[noreturn]] void reject(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
+  // KeyError, about a key's value at this place.
+  [[noreturn]] void reject_value(const std::string& key, const toml::node& at, const std::string& what) const;
   // Line 0 is of what has no place of its own: the name of a column.
   [[noreturn]] void reject_line(toml::source_index line, const std::string& what) const;
   [[noreturn]] void reject(const toml::node& at, const std::string& what) const;
@@ -47,6 +49,8 @@ class Source {
 
  private:
   Source(std::string path, toml::table root) : path_(std::move(path)), root_(std::move(root)) {}
+  std::string place(toml::source_index line) const;  // "scene.toml:12", or the path alone
+  std::string place(const toml::node& at) const;
 
   // Of a number in a table of teeth; 0 if it is none.
   toml::source_index line_in_column(const toml::node& at) const;

@@ -91,7 +91,7 @@ KeyValues static_values(const Scene& scene) {
   if (values.contact.positions == 0) {
     values.contact.positions = std::max(128, scene.time.steps_per_period);
     int periods = 1;  // after which the same teeth meet
-    for (const std::string& name : {scene.mesh.driver, scene.mesh.driven})
+    for (const std::string& name : scene.mesh.gear)
       if (!scene.gear(name).errors.none()) periods = std::lcm(periods, scene.gear(name).design.teeth);
     constexpr int kMostInAll = 16384, kLeast = 16;
     if (periods > 1)
@@ -106,20 +106,11 @@ void add_static(StageParametersText& out, const Scene& scene, KeyValues& values,
   // Left out where contact has the bodies' plane state, as all stage parameters had before there was a choice.
   if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
     out.add("mesh", "mesh", values, {Part::contact_plane});
-  // Left out for flanks as they are designed, whose stage parameters are what they were before flanks could be others.
-  for (int g = 0; g < 2; ++g) {
-    values.modification = scene.mesh.modification[g];
-    if (values.modification != FlankModification{})
-      out.add("modification", kModificationOf[g], values, {Part::modification});
-  }
-  for (int g = 0; g < 2; ++g) {
-    values.errors = scene.mesh.errors[g];
-    if (!values.errors.none()) out.add("error", kErrorOf[g], values, {Part::error});
-  }
-  for (int g = 0; g < 2; ++g) {
-    values.bearing = scene.mesh.bearing[g];
-    if (values.bearing.elastic()) out.add("bearing", kBearingOf[g], values, {Part::bearing});
-  }
+  for (const GearSection& own : kGearSections)
+    for (int g = 0; g < kSides; ++g) {
+      take_gear(values, scene.mesh, g);
+      if (own.stands(values)) out.add(own.name, own.of(g), values, {own.part});
+    }
   using Parts = std::set<Part>;
   out.add("fidelity", "fidelity", values,
           moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level});
@@ -127,8 +118,8 @@ void add_static(StageParametersText& out, const Scene& scene, KeyValues& values,
           moving ? Parts{Part::contact, Part::time} : Parts{Part::contact});
   // Going back to an earlier design finds its old body.h5, older than the static result of the design
   // between: only this text can tell make that the result is stale.
-  out.add_line("body", "driver", body_hash(body_parameters(scene, scene.mesh.driver)));
-  out.add_line("body", "driven", body_hash(body_parameters(scene, scene.mesh.driven)));
+  for (int g = 0; g < kSides; ++g)
+    out.add_line("body", kRole[g], body_hash(body_parameters(scene, scene.mesh.gear[g])));
 }
 
 }  // namespace
@@ -154,10 +145,9 @@ KeyValues motion_values(const Scene& scene) {
 }
 
 void add_inertia(StageParametersText& out, const Scene& scene, KeyValues& values) {
-  for (const auto& [label, name] :
-       {std::pair{"driver", scene.mesh.driver}, std::pair{"driven", scene.mesh.driven}}) {
-    values.total_inertia = scene.gear(name).total_inertia;
-    out.add("gear", label, values, {Part::inertia});
+  for (int g = 0; g < kSides; ++g) {
+    values.total_inertia = scene.gear(scene.mesh.gear[g]).total_inertia;
+    out.add("gear", kRole[g], values, {Part::inertia});
   }
 }
 
@@ -210,7 +200,7 @@ std::string lumped_parameters(const Scene& scene, bool speeds) {
 }
 
 std::string variant_stage_parameters(const Scene& scene, double torque,
-                                     const std::vector<std::string>& directions) {
+                                     const std::vector<Direction>& directions) {
   KeyValues values = static_values(scene);
   const KeyValues moving = motion_values(scene);
   values.damping = moving.damping;
@@ -224,7 +214,7 @@ std::string variant_stage_parameters(const Scene& scene, double torque,
   }
   values.operation.torques = {torque};
   out.add("operation", kVariant, values, {Part::load});
-  out.add_line(kVariant, "directions", joined(directions, " "));
+  out.add_line(kVariant, "directions", names_of(directions));
   return out.text();
 }
 
@@ -254,35 +244,24 @@ StaticParameters read_static(const Source& source) {
     read_parameter_section(source, "mesh", "mesh", {Part::contact_plane}, values);
   read_parameter_section(source, "fidelity", "fidelity", {Part::contact_level}, values);
   read_parameter_section(source, "discretisation", "discretisation", {Part::contact}, values);
-  for (int g = 0; g < 2; ++g) {
-    if (!source.section(kModificationOf[g])) continue;
-    read_parameter_section(source, "modification", kModificationOf[g], {Part::modification}, values);
-    values.mesh.modification[g] = values.modification;
-  }
-  for (int g = 0; g < 2; ++g) {
-    if (!source.section(kErrorOf[g])) continue;
-    read_parameter_section(source, "error", kErrorOf[g], {Part::error}, values);
-    values.mesh.errors[g] = values.errors;
-  }
-  for (int g = 0; g < 2; ++g) {
-    if (!source.section(kBearingOf[g])) continue;
-    read_parameter_section(source, "bearing", kBearingOf[g], {Part::bearing}, values);
-    values.mesh.bearing[g] = values.bearing;
-  }
-  StaticParameters out{values.mesh, values.fidelity, values.contact, "", ""};
-  if (const toml::table* bodies = source.section("body")) {
-    out.driver_body = (*bodies)["driver"].value_or(std::string());
-    out.driven_body = (*bodies)["driven"].value_or(std::string());
+  StaticParameters out{values.mesh, values.fidelity, values.contact};
+  const toml::table* bodies = source.section("body");
+  for (int g = 0; g < kSides; ++g) {
+    KeyValues of_gear;
+    for (const GearSection& own : kGearSections)
+      if (source.section(own.of(g))) read_parameter_section(source, own.name, own.of(g), {own.part}, of_gear);
+    put_gear(of_gear, out.mesh, g);
+    if (bodies) out.body[g] = (*bodies)[kRole[g]].value_or(std::string());
   }
   return out;
 }
 
 void read_inertia(const Source& source, ImpactParameters& out) {
-  KeyValues values;
-  read_parameter_section(source, "gear", "driver", {Part::inertia}, values);
-  out.driver_inertia = values.total_inertia;
-  read_parameter_section(source, "gear", "driven", {Part::inertia}, values);
-  out.driven_inertia = values.total_inertia;
+  for (int g = 0; g < kSides; ++g) {
+    KeyValues values;
+    read_parameter_section(source, "gear", kRole[g], {Part::inertia}, values);
+    out.inertia[g] = values.total_inertia;
+  }
 }
 
 ImpactParameters read_impact(const Source& source) {
@@ -328,12 +307,10 @@ VariantParameters read_variant_parameters(const std::string& path) {
   VariantParameters out;
   out.statics = read_static(source);
   out.torque = values.operation.torques.front();
-  std::istringstream words((*source.section(kVariant))["directions"].value_or(std::string()));
-  for (std::string word; words >> word;) {
-    if (word != "up" && word != "down")
-      source.reject(text("names the direction '", word, "'; there are up and down"));
-    out.directions.push_back(word);
-  }
+  const std::string words = (*source.section(kVariant))["directions"].value_or(std::string());
+  const auto directions = choices_in<Direction>(words);
+  if (!directions) source.reject(text("names the directions '", words, "'; there are up and down"));
+  out.directions = *directions;
   if (out.directions.empty()) return out;
   out.motion = read_motion(source);
   read_speeds(source, out.motion);

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/key_error.h"
 #include "io/keys.h"
 #include "io/publish.h"
 #include "io/suggestion.h"
@@ -82,14 +83,7 @@ constexpr int kMostKeys = 32;
 
 class StudyFile {
  public:
-  explicit StudyFile(const std::string& path) : path_(path) {
-    const std::string bytes = read_bytes(path, "check the path of the study");
-    try {
-      root_ = parse_toml(bytes);
-    } catch (const toml::parse_error& error) {
-      reject_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
-    }
-  }
+  explicit StudyFile(const std::string& path) : path_(path), root_(read_toml(path, "the study")) {}
 
   const toml::table& root() const { return root_; }
   [[noreturn]] void reject(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
@@ -451,7 +445,10 @@ Study read_study(const std::string& path) {
     file.reject(*root.get("directions"),
                 "'directions' are those of sweeps: say stage = \"sweep\" or leave them out");
   if (stage == "sweep")
-    study.directions = file.words(root, "directions", {"up", "down"}, {"up", "down"}, "direction");
+    study.directions =
+        choices_in<Direction>(
+            joined(file.words(root, "directions", {"up", "down"}, {"up", "down"}, "direction"), " "))
+            .value();
   study.random = file.choice(root, "plan", "grid", {"grid", "sample"}) == "sample";
   for (const char* key : {"samples", "seed"})
     if (!study.random && root.contains(key))
@@ -549,11 +546,11 @@ StudyVariant study_variant(const Study& study, long index, const std::vector<std
     const Scene scene = read_variant_of(study.scene, scene_variant(study.scene, changes));
     return {scene, torque > 0 ? torque : scene.operation.torques.front()};
   } catch (const Error& error) {
-    // The line of the key that the message is about, if it varies.
+    // The line of the key that the error is about, if it varies.
     std::string line;
+    const auto* about = dynamic_cast<const KeyError*>(&error);
     for (const VariedKey& key : study.keys)
-      if (text(error.what()).find("'" + key.name.substr(key.name.rfind('.') + 1) + "'") != std::string::npos)
-        line = text(":", key.line);
+      if (about && about->key() == key.name.substr(key.name.rfind('.') + 1)) line = text(":", key.line);
     fail(error.kind() == Failure::io ? Failure::io : Failure::input, study.path, line, ": ",
          variant_name(study, index, values), ": ", error.what());
   }

@@ -51,9 +51,9 @@ VariedKey varied_key(const std::string& name);
 
 // What all of a study's stages know of it.
 struct StudyPlan {
-  std::string title, scene;             // scene: its path
-  std::vector<std::string> directions;  // of sweeps; none: the pair at rest
-  bool random = false;                  // a sample, else a grid
+  std::string title, scene;           // scene: its path
+  std::vector<Direction> directions;  // of sweeps; none: the pair at rest
+  bool random = false;                // a sample, else a grid
   int seed = 1;
   bool marks_outside = false;  // else a variant outside the model's range is an error
   std::vector<VariedKey> keys;
@@ -113,7 +113,7 @@ std::string variant_file(const std::string& name);
 
 // As the stage parameters of scene.h.
 std::string variant_stage_parameters(const Scene& scene, double torque,
-                                     const std::vector<std::string>& directions);
+                                     const std::vector<Direction>& directions);
 VariantParameters read_variant_parameters(const std::string& path);
 
 }  // namespace whine

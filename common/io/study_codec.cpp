@@ -29,10 +29,7 @@ void describe_plan(Codec& c, StudyPlan& plan) {
   const std::string at = "/parameters/study/";
   c.dataset({at + "title", "1", "what the study is", ""}, &plan.title);
   c.dataset({at + "scene", "1", "scene whose variants these are", ""}, &plan.scene);
-  std::string directions;
-  for (const std::string& direction : plan.directions)
-    directions += (directions.empty() ? "" : " ") + direction;
-  c.dataset({at + "directions", "1", "directions of the sweeps; none: at rest", ""}, &directions);
+  c.choices({at + "directions", "1", "directions of the sweeps; none: at rest", ""}, plan.directions);
   std::string kind = plan.random ? "sample" : "grid";
   c.dataset({at + "plan", "1", "all combinations, or random ones", ""}, &kind);
   c.dataset({at + "seed", "1", "of the draws of a sample", "", {0, 2147483647.0}}, &plan.seed);
@@ -46,9 +43,6 @@ void describe_plan(Codec& c, StudyPlan& plan) {
   c.dataset({at + "figure_colour", "1", "key by which it colours them", ""}, &plan.figure_colour);
   if (!c.in()) return;
   plan.random = kind == "sample";
-  plan.directions.clear();
-  std::istringstream words(directions);
-  for (std::string word; words >> word;) plan.directions.push_back(word);
   plan.keys.clear();
   for (const std::string& name : keys) plan.keys.push_back(varied_key(name));
 }

@@ -51,13 +51,13 @@ ExpandedStudy expand_study(const std::string& path, const std::string& home) {
   for (long i = 0; i < study.variants; ++i) {
     const std::vector<std::string> values = variant_values(study, i);
     const StudyVariant variant = study_variant(study, i, values);
-    const std::string own = variant.scene.mesh.driver + " " + variant.scene.mesh.driven;
+    const std::string own = variant.scene.mesh.gear[0] + " " + variant.scene.mesh.gear[1];
     if (!plan.gears.empty() && own != plan.gears)
       fail(Failure::input, path, ": the study varies which gear drives which (", plan.gears, ", ", own,
            "); make a study of each");
     plan.gears = own;
     std::string pair;
-    for (const std::string& gear : {variant.scene.mesh.driver, variant.scene.mesh.driven}) {
+    for (const std::string& gear : variant.scene.mesh.gear) {
       const std::string body = body_parameters(variant.scene, gear);
       pair += (pair.empty() ? "" : "_") + plan.bodies.emplace(body_hash(body), body).first->first;
     }

@@ -52,10 +52,11 @@ std::vector<std::string> keys_without_effect(const StudyPlan& study,
 
 std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>& variants) {
   std::ostringstream out;
-  Words names;
+  Words names, directions;
   for (const VariedKey& key : study.keys) names.push_back(key.name);
+  for (const Direction direction : study.directions) directions.push_back(name_of(direction));
   out << kPlanStart << "\ntitle = " << quoted(study.title) << "\nscene = " << quoted(study.scene)
-      << "\ndirections = " << quoted(study.directions) << "\nrandom = " << (study.random ? "true" : "false")
+      << "\ndirections = " << quoted(directions) << "\nrandom = " << (study.random ? "true" : "false")
       << "\nseed = " << study.seed << "\nmarks_refusals = " << (study.marks_outside ? "true" : "false")
       << "\nanswers = " << quoted(study.quantities) << "\nkeys = " << quoted(names)
       << "\nfigure_answers = " << quoted(study.figure_quantities)
@@ -72,12 +73,7 @@ std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>
 
 std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& path) {
   constexpr std::size_t kMostOfVariants = 1 << 28;  // bytes: a line for each
-  toml::table root;
-  try {
-    root = parse_toml(read_bytes(path, "check the path of the study"), kMostOfVariants);
-  } catch (const toml::parse_error& error) {
-    fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
-  }
+  const toml::table root = read_toml(path, "the study", kMostOfVariants);
   const auto reject = [&]() {
     fail(Failure::input, path,
          ": is no plan of a study that gear-study has written; make it again: make study STUDY=<name>");
@@ -94,7 +90,9 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   StudyPlan plan;
   plan.title = root["title"].value_or(std::string());
   plan.scene = root["scene"].value_or(std::string());
-  plan.directions = words(root.get("directions"));
+  const auto directions = choices_in<Direction>(joined(words(root.get("directions")), " "));
+  if (!directions) reject();
+  plan.directions = *directions;
   plan.random = root["random"].value_or(false);
   plan.seed = root["seed"].value_or(0);
   plan.marks_outside = root["marks_refusals"].value_or(false);
@@ -110,7 +108,6 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
       return std::find(all.begin(), all.end(), word) != all.end();
     });
   };
-  if (!within(plan.directions, {"up", "down"})) reject();
   for (const ResponseQuantity& kind : response_quantities(plan.directions)) quantities.push_back(kind.name);
   for (const VariedKey& key : plan.keys) keys.push_back(key.name);
   if (!within(plan.quantities, quantities) || !within(plan.figure_quantities, plan.quantities) ||

@@ -64,16 +64,16 @@ std::string corner_rule(const GearMeshSpec& mesh) {
 
 // Nothing for flanks as they are designed.
 void show_modification(Lines& lines, const GearMeshSpec& mesh) {
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     if (mesh.modification[g] != FlankModification{})
-      add(lines, g == 0 ? "driver's flanks" : "driven gear's flanks", in_words(mesh.modification[g]));
+      add(lines, text(kGearName[g], "'s flanks"), in_words(mesh.modification[g]));
 }
 
 // Nothing for gears on rigid axes.
 void show_bearings(Lines& lines, const GearMeshSpec& mesh) {
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     if (const Bearing& b = mesh.bearing[g]; b.elastic())
-      add(lines, text("bearing of ", mesh.gear(g)), b.stiffness * 1e-6, " N/um, ", b.damping, " N s/m, ",
+      add(lines, text("bearing of ", mesh.gear[g]), b.stiffness * 1e-6, " N/um, ", b.damping, " N s/m, ",
           b.mass > 0 ? text(b.mass, " kg") : "mass as drawn");
 }
 
@@ -84,7 +84,7 @@ void show_errors(Lines& lines, const GearMeshSpec& mesh) {
     for (const double deviation : teeth) most = std::max(most, std::abs(deviation));
     return most * 1e6;
   };
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     const ToothErrors& e = mesh.errors[g];
     if (e.none()) continue;
     std::string words;
@@ -97,7 +97,7 @@ void show_errors(Lines& lines, const GearMeshSpec& mesh) {
          {std::pair{"single pitch", &e.single_pitch}, std::pair{"cumulative pitch", &e.cumulative_pitch},
           std::pair{"profile slope", &e.profile_slope}, std::pair{"profile form", &e.profile_form}})
       if (largest(*teeth) > 0) part(name, " up to ", largest(*teeth), " um");
-    add(lines, g == 0 ? "driver's teeth" : "driven gear's teeth", words);
+    add(lines, text(kGearName[g], "'s teeth"), words);
   }
 }
 
@@ -115,13 +115,14 @@ std::string near_field(const BodyDiscretisation& body) {
              : name_of(body.near_field);
 }
 
-void show_discretisation(Lines& lines, const BodyDiscretisation& driver, const BodyDiscretisation& driven) {
+void show_discretisation(Lines& lines, const PairParameters& a) {
   const auto elements = [](const BodyDiscretisation& b) {
     return text("order ", b.element_order, ", ", b.element_size * 1e3, " mm on the flank");
   };
   const auto both = [&](const char* name, const std::string& first, const std::string& second) {
     add(lines, name, first, first == second ? "" : "; driven gear: " + second);
   };
+  const BodyDiscretisation &driver = a.gear[0].discretisation, &driven = a.gear[1].discretisation;
   both("elements", elements(driver), elements(driven));
   both("near field", near_field(driver), near_field(driven));
 }
@@ -155,14 +156,14 @@ void show(Lines& lines, const BodyArtifact& a) {
 }
 
 void show(Lines& lines, const StaticArtifact& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", centre distance ",
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", centre distance ",
       a.mesh.centre_distance * 1e3, " mm");
   add(lines, "corner contact", corner_rule(a.mesh));
   add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
-  show_discretisation(lines, a.driver_body, a.driven_body);
+  show_discretisation(lines, a);
   add(lines, "contact", a.fidelity.contact,
       a.fidelity.contact == ContactModel::strips
           ? text(", ", a.contact.strips, " across the contact width at the mean load")
@@ -189,25 +190,24 @@ void show(Lines& lines, const StaticArtifact& a) {
 }
 
 void show(Lines& lines, const LoadedArtifact& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", mesh phase ", a.mesh_phase);
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", mesh phase ", a.mesh_phase);
   show_modification(lines, a.mesh);
-  show_discretisation(lines, a.driver_body, a.driven_body);
+  show_discretisation(lines, a);
   add(lines, "transmission error", a.transmission_error * 1e6, " um");
   for (Eigen::Index i = 0; i < a.pair.size(); ++i)
     add(lines, text("pair ", a.pair[i]), a.tooth_load[i], " N on tooth ", a.tooth(i, 0), " of the driver, ",
         a.tooth(i, 1), " of the driven gear; largest root stress ", a.root_stress(i, 0) * 1e-6, " MPa of ",
-        a.mesh.driver, ", ", a.root_stress(i, 1) * 1e-6, " MPa of ", a.mesh.driven);
+        a.mesh.gear[0], ", ", a.root_stress(i, 1) * 1e-6, " MPa of ", a.mesh.gear[1]);
   if (a.strip_pressure.size() > 0)
     add(lines, "contact", (a.strip_force.array() > 0).count(), " strips with force, largest pressure ",
         a.strip_pressure.maxCoeff() * 1e-6, " MPa");
-  for (int g = 0; g < 2; ++g)
-    add(lines, g == 0 ? "certificate, driver" : "certificate, driven gear", "hub holds ", a.hub_torque[g],
-        " N m of ", a.contact_torque[g], ", strain energy over work ",
-        a.strain_energy[g] / a.contact_work[g]);
+  for (int g = 0; g < kSides; ++g)
+    add(lines, text("certificate, ", kGearName[g]), "hub holds ", a.hub_torque[g], " N m of ",
+        a.contact_torque[g], ", strain energy over work ", a.strain_energy[g] / a.contact_work[g]);
 }
 
 void show(Lines& lines, const ErrorBudgetArtifact& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", contact ", a.fidelity.contact);
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", contact ", a.fidelity.contact);
   const auto rows = [&](const StaticChanges& changes, const std::string& before) {
     std::string rest = changes.entry;
     for (Eigen::Index i = 0; i < changes.mean_stiffness_change.size(); ++i) {
@@ -225,7 +225,7 @@ void show(Lines& lines, const ErrorBudgetArtifact& a) {
 }
 
 void show(Lines& lines, const ImpactArtifact& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.torque_step * 100, " % let go");
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.torque_step * 100, " % let go");
   show_damping(lines, a.damping);
   for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
     add(lines, i < a.state_phase.size() ? text("loaded pairs: ", a.contact_state[i]) : a.contact_state[i],
@@ -245,7 +245,7 @@ void show(Lines& lines, const ImpactArtifact& a) {
 }
 
 void show(Lines& lines, const SweepArtifact& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", a.direction, ", ",
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.direction, ", ",
       range_of(a.mesh_frequency));
   const LumpedParameters& l = a.lumped;
   const bool lumped = l.cell_end.size() > 0;
@@ -254,7 +254,7 @@ void show(Lines& lines, const SweepArtifact& a) {
         l.stiffness.cols(), l.stiffness.cols() == 1 ? " spring" : " springs", ", mean stiffness ",
         a.mean_stiffness * 1e-6, " N/um, mass ", l.mass, " kg, integrator ", a.fidelity.integrator);
     add(lines, "damping", "ratio ", l.damping_ratio * 100, " %, c = ", l.damper, " N s/m, acts ",
-        l.damper_acts == "contact" ? "in contact" : l.damper_acts);
+        l.damper_acts == DamperActs::contact ? "in contact" : "always");
   } else {
     add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
         a.fidelity.integrator);
@@ -299,7 +299,7 @@ void show(Lines& lines, const SweepArtifact& a) {
 }
 
 void show(Lines& lines, const BranchArtifact& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", ", range_of(a.mesh_frequency));
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", range_of(a.mesh_frequency));
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
       a.fidelity.integrator);
   show_damping(lines, a.damping);
@@ -336,9 +336,9 @@ void show(Lines& lines, const ResponseArtifact& a) {
     add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "largest tooth load", a.tooth_load_max.maxCoeff(), " N, all pairs ",
         a.mesh_force_max.maxCoeff(), " N");
-    for (int g = 0; g < 2; ++g)
+    for (int g = 0; g < kSides; ++g)
       if (a.bearing_force_max[g].size() > 0)
-        add(lines, text("bearing of ", a.mesh.gear(g)), "force at most ", a.bearing_force_max[g].maxCoeff(),
+        add(lines, text("bearing of ", a.mesh.gear[g]), "force at most ", a.bearing_force_max[g].maxCoeff(),
             " N, its oscillation at most ", a.bearing_force_rms[g].maxCoeff(), " N RMS");
     add(lines, "contact lost", (a.separation_fraction.array() > 0).count(), " speeds, at most ",
         a.separation_fraction.maxCoeff() * 100, " % of the period");
@@ -369,14 +369,14 @@ void show(Lines& lines, const JumpMapArtifact& a) {
 namespace {
 
 void show(Lines& lines, const HarrisMapArtifact& a) {
-  show_gear(lines, a.driver, a.driver_body);
+  show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
   add(lines, "torque", a.torque.size(), " from ", a.torque[0], " to ", a.torque[a.torque.size() - 1], " N m");
   add(lines, "tip relief", a.relief.size(), " from ", a.relief[0] * 1e6, " to ",
       a.relief[a.relief.size() - 1] * 1e6, " um, ", a.shape, ", on ",
-      a.relieved == "both" ? "both gears" : "the " + a.relieved + (a.relieved == "driven" ? " gear" : ""));
+      a.relieved == Relieved::both ? "both gears" : text("the ", kGearName[static_cast<size_t>(a.relieved)]));
   for (Eigen::Index s = 0; s < a.length.size(); ++s)
     add(lines, text("start ", a.start_roll(s, 0) * 180 / std::numbers::pi, " deg"), "at ", a.design_torque,
         " N m ", a.optimum_relief[s] * 1e6, " um leave ", a.optimum_peak_to_peak[s] * 1e6,
@@ -389,7 +389,7 @@ void show(Lines& lines, const HarrisMapArtifact& a) {
 }
 
 void show(Lines& lines, const VariantArtifact& a) {
-  show_gear(lines, a.driver, a.driver_body);
+  show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
   add(lines, "torque", a.torque, " N m");
   if (!a.directions.empty())

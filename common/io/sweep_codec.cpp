@@ -20,7 +20,7 @@ void describe_lumped(Codec& c, std::string& model, LumpedParameters& a) {
             &a.damping_ratio);
   c.dataset({at + "damper", "N s m-1", "viscous damper at the mesh", "", {0, 1e15}, "c of Eq. 23"},
             &a.damper);
-  c.dataset({at + "damper_acts", "1", "always (Eq. 23), or in contact only", ""}, &a.damper_acts);
+  c.choice({at + "damper_acts", "1", "always (Eq. 23), or in contact only", ""}, a.damper_acts);
   c.dataset({at + "cell_end", "1", "mesh phase at which a cell of constant springs ends", "cell", kShare},
             &a.cell_end);
   c.dataset({at + "stiffness", "N m-1", "stiffness of the springs", "cell spring", kStiff, "k(t) of Eq. 23"},
@@ -87,12 +87,12 @@ void describe_speed_by_speed(Codec& c, SweepArtifact& a) {
 void describe(Codec& c, SweepArtifact& a) {
   describe_pair(c, a);
   describe_motion(c, a);
-  describe_bearing_dampers(c, a.mean_stiffness, a.driver_bearing_damper, a.driven_bearing_damper);
+  describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
   const bool lumped = c.optional("/parameters/fidelity/model", a.lumped.cell_end.size() > 0);
   if (lumped) describe_lumped(c, a.model, a.lumped);
   describe_torque(c, a.torque);
-  c.dataset({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
-            &a.direction);
+  c.choice({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
+           a.direction);
   describe_motions(c, a, lumped);
   describe_speed_by_speed(c, a);
   describe_natural_frequency(c, a.natural_frequency);

@@ -1,7 +1,11 @@
 #include "io/toml.h"
 
+#include <algorithm>
 #include <cctype>
 
+#include "base/error.h"
+#include "io/publish.h"
+#include "io/section_reader.h"
 #include "io/suggestion.h"
 
 namespace whine {
@@ -94,6 +98,45 @@ toml::table parse_toml(const std::string& bytes, std::size_t most) {
     if (advice.empty()) throw;
     throw toml::parse_error((std::string(error.description()) + advice).c_str(), error.source().begin);
   }
+}
+
+toml::table toml_of(const std::string& path, const std::string& bytes, std::size_t most) {
+  try {
+    return parse_toml(bytes, most);
+  } catch (const toml::parse_error& error) {
+    fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
+  }
+}
+
+toml::table read_toml(const std::string& path, const std::string& what, std::size_t most) {
+  return toml_of(path, read_bytes(path, "check the path of " + what), most);
+}
+
+void reject_at(const std::string& path, const toml::node& at, const std::string& what) {
+  fail(Failure::input, path, ":", at.source().begin.line, ": ", what);
+}
+
+std::vector<const toml::table*> rows_of(const toml::table& root, const std::string& path,
+                                        const std::string& name, const std::vector<std::string>& known) {
+  const toml::array* list = root.get_as<toml::array>(name);
+  if (!list) fail(Failure::input, path, ":1: lacks [[", name, "]]");
+  std::vector<const toml::table*> rows;
+  for (const toml::node& node : *list) {
+    const toml::table* row = node.as_table();
+    if (!row) reject_at(path, node, text("[[", name, "]] must be tables"));
+    for (const auto& [label, value] : *row)
+      if (std::find(known.begin(), known.end(), label.str()) == known.end())
+        reject_at(path, value, text("unknown key '", label.str(), "'; known are ", joined(known)));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<std::string> words_of(const toml::node& list) {
+  std::vector<std::string> words;
+  if (const toml::array* items = list.as_array())
+    for (const toml::node& item : *items) words.push_back(item.value<std::string>().value_or(""));
+  return words;
 }
 
 }  // namespace whine

@@ -13,14 +13,6 @@
 namespace whine {
 namespace {
 
-toml::table parsed(const std::string& bytes, const std::string& path) {
-  try {
-    return parse_toml(bytes);
-  } catch (const toml::parse_error& error) {
-    fail(Failure::input, path, ":", error.source().begin.line, ": is not valid TOML: ", error.description());
-  }
-}
-
 // What the right side of "key=value" would be in a scene; a bare word is text.
 void set(toml::table& section, const std::string& key, const std::string& value) {
   try {
@@ -48,7 +40,7 @@ void require_member(const toml::table& members, const std::string& group, const 
 }  // namespace
 
 std::string scene_variant(const std::string& path, const std::vector<std::string>& changes) {
-  toml::table scene = parsed(read_bytes(path, "check the path of the scene"), path);
+  toml::table scene = read_toml(path, "the scene");
   for (const std::string& change : changes) {
     const size_t equals = change.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == change.size())

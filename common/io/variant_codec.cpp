@@ -1,7 +1,5 @@
 #include "io/variant_codec.h"
 
-#include <sstream>
-
 #include "base/error.h"
 #include "io/codec.h"
 #include "model/response_quantities.h"
@@ -13,26 +11,13 @@ using namespace ranges;
 
 constexpr Schema kSchema{"variant", 2};
 
-void describe_directions(Codec& c, std::vector<std::string>& directions) {
-  std::string line;
-  for (const std::string& direction : directions) line += (line.empty() ? "" : " ") + direction;
-  c.dataset({"/parameters/operation/directions", "1", "directions of the sweeps; none: at rest", ""}, &line);
-  if (!c.in()) return;
-  directions.clear();
-  std::istringstream words(line);
-  for (std::string word; words >> word;) {
-    if (word != "up" && word != "down")
-      c.in()->file().reject("names the direction '" + word + "'; there are up and down");
-    directions.push_back(word);
-  }
-}
-
 }  // namespace
 
 void describe(Codec& c, VariantArtifact& a) {
   describe_pair(c, a);
   describe_torque(c, a.torque);
-  describe_directions(c, a.directions);
+  c.choices({"/parameters/operation/directions", "1", "directions of the sweeps; none: at rest", ""},
+            a.directions);
   if (c.lists() || !a.directions.empty()) {
     describe_motion(c, a);
     c.dataset({"/parameters/operation/reference_torque", "N m",

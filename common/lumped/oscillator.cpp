@@ -46,10 +46,7 @@ LumpedOscillator::LumpedOscillator(const LumpedParameters& p, double force, int 
     fail(Failure::input, "lumped model: the damper is ", p.damper, " N s/m; it must be 0 or above");
   if (!(force > 0) || !std::isfinite(force))
     fail(Failure::input, "lumped model: the force is ", force, " N; it must be above 0");
-  if (p.damper_acts != "always" && p.damper_acts != "contact")
-    fail(Failure::input, "lumped model: the damper acts '", p.damper_acts,
-         "'; it may act always or in contact");
-  if (newmark_steps > 0 && p.damper_acts == "contact" && p.damper > 0)
+  if (newmark_steps > 0 && p.damper_acts == DamperActs::contact && p.damper > 0)
     fail(
         Failure::input,
         "lumped model: Newmark's method takes the damper of Eq. 23, which acts always; for one that acts in ",
@@ -117,7 +114,7 @@ LumpedOscillator::LumpedOscillator(const LumpedParameters& p, double force, int 
     for (std::size_t i = 0; i <= springs.size(); ++i) {
       const double high = i < springs.size() ? springs[i].first / length_ : kInfinite;
       if (high > low) {
-        Region r{k, k == 0 && p.damper_acts == "contact" ? 0 : damping, b, low, high, 0, kInfinite};
+        Region r{k, k == 0 && p.damper_acts == DamperActs::contact ? 0 : damping, b, low, high, 0, kInfinite};
         const double d = r.k - 0.25 * r.d * r.d;
         r.slope = std::sqrt(std::abs(d));
         if (d > 0) r.longest = 0.5 * std::numbers::pi / r.slope;

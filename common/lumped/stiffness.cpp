@@ -68,7 +68,7 @@ double RectangularWave::at(double phase) const {
 }
 
 RectangularWave rectangular_wave(const StaticArtifact& s) {
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair pair(s);
   // A pair j, which touches the pitch point at phase j, is in contact from j + start to j + end.
   const double start = pair.path_start() / pair.base_pitch(), end = pair.path_end() / pair.base_pitch();
   const double few = std::floor(end - start);  // pairs in contact where they are fewest
@@ -83,8 +83,8 @@ RectangularWave rectangular_wave(const StaticArtifact& s) {
 }
 
 RectangularWave stated_wave(const StaticArtifact& s, double fewer, double more, double duty) {
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
-  const double force = s.torque / pair.gear(0).base_radius(), module = s.driver.module;
+  const GearPair pair(s);
+  const double force = s.torque / pair.gear(0).base_radius(), module = s.gear[0].design.module;
   for (double level : {fewer, more})
     if (!(level > force / module) || !std::isfinite(level))
       fail(Failure::input, "lumped model: a stiffness level is ", level, " N/m; it must be above ",
@@ -256,14 +256,15 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
   if (chords < 0 || chords == 1)
     fail(Failure::input, "lumped model: ", chords,
          " chords of Hertz's law; 2 are the least, 0 make linear springs");
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair pair(s);
   const double force = s.torque / pair.gear(0).base_radius();
   const PairGap gap_at(s, pair);
   const std::vector<PairPoint> points = loaded_points(s, gap_at, force);
-  const auto surface = [&](const Material& m, const GearDesign& g) {
-    return HalfPlaneSurface(in_contact_plane(m, s.mesh.contact_plane), g.face_width).coefficient();
-  };
-  const double coefficient = surface(s.driver_material, s.driver) + surface(s.driven_material, s.driven);
+  double coefficient = 0;
+  for (const BodyParameters& gear : s.gear)
+    coefficient +=
+        HalfPlaneSurface(in_contact_plane(gear.material, s.mesh.contact_plane), gear.design.face_width)
+            .coefficient();
   const int springs = std::max(1, chords);
 
   // Pair n at mesh phase f in [0, 1] has the phase f + n of its own.

@@ -207,10 +207,10 @@ LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<do
   return out;
 }
 
-double reduced_mass(const StaticArtifact& statics, double driver_inertia, double driven_inertia) {
-  const double r1 = ToothGeometry(statics.driver).base_radius(),
-               r2 = ToothGeometry(statics.driven).base_radius();
-  return driver_inertia * driven_inertia / (driver_inertia * r2 * r2 + driven_inertia * r1 * r1);
+double reduced_mass(const StaticArtifact& statics, const std::array<double, kSides>& inertia) {
+  const double r1 = ToothGeometry(statics.gear[0].design).base_radius(),
+               r2 = ToothGeometry(statics.gear[1].design).base_radius();
+  return inertia[0] * inertia[1] / (inertia[0] * r2 * r2 + inertia[1] * r1 * r1);
 }
 
 namespace {
@@ -230,7 +230,7 @@ std::vector<double> checked_speeds(const LumpedOptions& o) {
          " Hz in steps of ", o.frequency_step, " Hz is empty");
   std::vector<double> speeds(count);
   for (int i = 0; i < count; ++i)
-    speeds[i] = o.frequency_from + (o.direction == "up" ? i : count - 1 - i) * o.frequency_step;
+    speeds[i] = o.frequency_from + (o.direction == Direction::up ? i : count - 1 - i) * o.frequency_step;
   return speeds;
 }
 
@@ -240,32 +240,23 @@ SweepArtifact described(const StaticArtifact& statics, const LumpedParameters& s
   SweepArtifact a;
   a.model = o.model;
   a.lumped = springs;
-  a.driver = statics.driver;
-  a.driven = statics.driven;
-  a.driver_material = statics.driver_material;
-  a.driven_material = statics.driven_material;
-  a.driver_body = statics.driver_body;
-  a.driven_body = statics.driven_body;
-  a.mesh = statics.mesh;
+  static_cast<PairParameters&>(a) = statics;
   a.fidelity.body = BodyModel::rigid;
-  a.fidelity.contact = statics.fidelity.contact;
   a.fidelity.integrator = o.integrator;
-  a.contact = statics.contact;
   a.time = o.time;
   a.time.min_sample_rate = 0;
   a.damping = {};
   a.damping.rayleigh_stiffness = a.damping.bearing_ratio = 0;
   a.torque = statics.torque;
   // m = I1 I2 / (I1 r2^2 + I2 r1^2) with equal shares.
-  for (int g = 0; g < kSides; ++g)
-    (g == 0 ? a.driver_inertia : a.driven_inertia) = 2 * o.mass * std::pow(pair.gear(g).base_radius(), 2);
+  for (int g = 0; g < kSides; ++g) a.inertia[g] = 2 * o.mass * std::pow(pair.gear(g).base_radius(), 2);
   a.direction = o.direction;
   return a;
 }
 
 // The motions of all speeds. m: the least transmission error.
-double store_motions(const LumpedSpeeds& integrate, const Eigen::VectorXi& numbers, SweepArtifact& a) {
-  const int count = static_cast<int>(integrate.orbits.size()), samples = a.time.steps_per_period;
+double store_motions(const LumpedSpeeds& run, const Eigen::VectorXi& numbers, SweepArtifact& a) {
+  const int count = static_cast<int>(run.orbits.size()), samples = a.time.steps_per_period;
   // Several springs may stand for one pair.
   std::vector<int> pairs(numbers.data(), numbers.data() + numbers.size());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -277,7 +268,7 @@ double store_motions(const LumpedSpeeds& integrate, const Eigen::VectorXi& numbe
   a.energy = MatrixRM::Zero(count, static_cast<Eigen::Index>(kEnergyLines.size()));
   a.drift_force = Eigen::VectorXd::Zero(count);
   std::size_t longest = 1;
-  for (const LumpedOrbit& orbit : integrate.orbits) longest = std::max(longest, orbit.record.size());
+  for (const LumpedOrbit& orbit : run.orbits) longest = std::max(longest, orbit.record.size());
   const auto width = static_cast<Eigen::Index>(longest) * samples;
   a.transmission_error.resize(count, width);
   a.mesh_force.resize(count, width);
@@ -288,7 +279,7 @@ double store_motions(const LumpedSpeeds& integrate, const Eigen::VectorXi& numbe
   };
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < count; ++i) {
-    const LumpedOrbit& orbit = integrate.orbits[i];
+    const LumpedOrbit& orbit = run.orbits[i];
     a.periods[i] = orbit.periods;
     a.residual[i] = orbit.residual;
     a.period_multiple[i] = orbit.multiple;
@@ -323,7 +314,7 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
                            const std::function<void(long, long, const std::string&)>& report,
                            std::vector<BranchPoint>* left_early) {
   const std::vector<double> speeds = checked_speeds(o);
-  const GearPair pair(statics.driver, statics.driven, statics.mesh.centre_distance);
+  const GearPair pair(statics);
   const double force = statics.torque / pair.gear(0).base_radius();
   const int samples = o.time.steps_per_period, steps = o.integrator == Integrator::newmark ? samples : 0;
   springs.mass = o.mass;
@@ -334,25 +325,24 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
   springs.damper = 2 * o.damping_ratio * std::sqrt(stiffness * o.mass);
   LumpedOscillator oscillator(springs, force, samples, steps);
 
-  const LumpedSpeeds integrate = integrate_speeds(oscillator, speeds, o.time.periodicity,
-                                                  o.time.steady_state == SteadyState::integrate, report);
+  const LumpedSpeeds run = integrate_speeds(oscillator, speeds, o.time.periodicity,
+                                            o.time.steady_state == SteadyState::integrate, report);
 
-  if (left_early) *left_early = integrate.left_early;
+  if (left_early) *left_early = run.left_early;
 
   SweepArtifact a = described(statics, springs, pair, o);
   a.mean_stiffness = stiffness;
   a.natural_frequency = oscillator.mean_frequency();
   a.mesh_frequency =
       Eigen::Map<const Eigen::VectorXd>(speeds.data(), static_cast<Eigen::Index>(speeds.size()));
-  const double least = store_motions(integrate, numbers, a);
-  a.backlash_margin = statics.driver.tooth_thinning + statics.driven.tooth_thinning > 0
-                          ? pair.backlash() + least
-                          : std::numeric_limits<double>::infinity();
-  a.jump_frequency.resize(static_cast<Eigen::Index>(integrate.jumps.size()));
+  const double least = store_motions(run, numbers, a);
+  a.backlash_margin =
+      statics.tooth_thinning() > 0 ? pair.backlash() + least : std::numeric_limits<double>::infinity();
+  a.jump_frequency.resize(static_cast<Eigen::Index>(run.jumps.size()));
   a.jump_width.resize(a.jump_frequency.size());
-  for (std::size_t j = 0; j < integrate.jumps.size(); ++j) {
-    a.jump_frequency[static_cast<Eigen::Index>(j)] = integrate.jumps[j].mesh_frequency;
-    a.jump_width[static_cast<Eigen::Index>(j)] = integrate.jumps[j].width;
+  for (std::size_t j = 0; j < run.jumps.size(); ++j) {
+    a.jump_frequency[static_cast<Eigen::Index>(j)] = run.jumps[j].mesh_frequency;
+    a.jump_width[static_cast<Eigen::Index>(j)] = run.jumps[j].width;
   }
   return a;
 }
@@ -368,7 +358,7 @@ JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters 
   springs.mass = options.mass;
   springs.damper = 0;
   springs.damper_acts = options.damper_acts;
-  const GearPair pair(statics.driver, statics.driven, statics.mesh.centre_distance);
+  const GearPair pair(statics);
   const LumpedOscillator at_rest(springs, statics.torque / pair.gear(0).base_radius(),
                                  options.time.steps_per_period);
   const Eigen::VectorXd speed = map_speeds(speeds, at_rest.natural_frequency());
@@ -377,15 +367,8 @@ JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters 
   options.frequency_step = speeds.step;
 
   JumpMapArtifact map;
-  map.model = options.model + (options.damper_acts == "contact" ? "-contact" : "");
-  map.driver = statics.driver;
-  map.driven = statics.driven;
-  map.driver_material = statics.driver_material;
-  map.driven_material = statics.driven_material;
-  map.driver_body = statics.driver_body;
-  map.driven_body = statics.driven_body;
-  map.mesh = statics.mesh;
-  map.contact = statics.contact;
+  map.model = options.model + (options.damper_acts == DamperActs::contact ? "-contact" : "");
+  static_cast<PairParameters&>(map) = statics;
   map.torque = statics.torque;
   map.mean_stiffness = at_rest.mean_stiffness();
   map.first_harmonic = at_rest.first_harmonic();
@@ -399,16 +382,12 @@ JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters 
   for (Eigen::Index c = 0; c < n; ++c) {
     options.damping_ratio = map.damping_ratio[c] = damping_ratio[c];
     map.excitation[c] = map.first_harmonic / map.mean_stiffness / (2 * damping_ratio[c]);
-    add_case(map, c, speeds.step, [&](const std::string& direction, std::vector<BranchPoint>& beyond) {
+    add_case(map, c, speeds.step, [&](Direction direction, std::vector<BranchPoint>& beyond) {
       options.direction = direction;
       const SweepArtifact swept = lumped_sweep(
           statics, springs, numbers, options, [](long, long, const std::string&) {}, &beyond);
-      map.driver_inertia = swept.driver_inertia;
-      map.driven_inertia = swept.driven_inertia;
-      map.fidelity = swept.fidelity;
-      map.time = swept.time;
-      map.damping = swept.damping;
-      report(2 * c + (direction == "up" ? 1 : 2), 2 * n, text("damping ratio ", damping_ratio[c]));
+      static_cast<MotionParameters&>(map) = swept;
+      report(2 * c + (direction == Direction::up ? 1 : 2), 2 * n, text("damping ratio ", damping_ratio[c]));
       return swept;
     });
   }

@@ -58,17 +58,17 @@ LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<do
 
 // kg, of the relative rotation of two gears on their line of action: I1 I2 / (I1 r2^2 + I2 r1^2), r base radii, inertias in
 // kg m2.
-double reduced_mass(const StaticArtifact& statics, double driver_inertia, double driven_inertia);
+double reduced_mass(const StaticArtifact& statics, const std::array<double, kSides>& inertia);
 
 struct LumpedOptions {
-  std::string model;                   // its name
-  double mass = 0;                     // kg
-  double damping_ratio = 0.08;         // 1: c = 2 ratio sqrt(k_avg m), k_avg the mean of k(t)
-  std::string damper_acts = "always";  // or "contact"
+  std::string model;            // its name
+  double mass = 0;              // kg
+  double damping_ratio = 0.08;  // 1: c = 2 ratio sqrt(k_avg m), k_avg the mean of k(t)
+  DamperActs damper_acts = DamperActs::always;
   Integrator integrator = Integrator::exact;
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
   TimeDiscretisation time;  // steps_per_period: stored samples, and least Newmark steps
-  std::string direction;    // "up" or "down"
+  Direction direction = Direction::up;
 };
 
 // springs: cells only (lumped/stiffness.h). numbers: of the tooth pairs that they stand for, several of one pair one after the

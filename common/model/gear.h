@@ -11,6 +11,8 @@
 namespace whine {
 
 inline constexpr int kSides = 2;  // of a mesh: first the one that pushes
+inline constexpr std::array<const char*, kSides> kRole{"driver", "driven"};  // in keys, datasets, figures
+inline constexpr std::array<const char*, kSides> kGearName{"driver", "driven gear"};  // in messages
 
 // A slit from the root of one tooth into it; see gear/crack.h.
 struct Crack {

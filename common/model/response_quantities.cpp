@@ -2,7 +2,7 @@
 
 namespace whine {
 
-std::vector<ResponseQuantity> response_quantities(const std::vector<std::string>& directions) {
+std::vector<ResponseQuantity> response_quantities(const std::vector<Direction>& directions) {
   std::vector<ResponseQuantity> kinds{
       {"contact_ratio", "1", "contact ratio of the unloaded pair"},
       {"mean_stiffness", "N m-1", "mean of the secant mesh stiffness"},
@@ -16,8 +16,9 @@ std::vector<ResponseQuantity> response_quantities(const std::vector<std::string>
   if (!directions.empty())
     kinds.push_back(
         {"natural_frequency", "Hz", "mean over the period, contact frozen under the static load"});
-  for (const std::string& d : directions) {
-    const std::string sweep = ", speed " + std::string(d == "up" ? "rising" : "falling");
+  for (const Direction direction : directions) {
+    const std::string d = name_of(direction),
+                      sweep = direction == Direction::up ? ", speed rising" : ", speed falling";
     kinds.push_back({"rms_max_" + d, "m", "largest RMS of the dynamic transmission error" + sweep});
     kinds.push_back({"rms_max_speed_" + d, "Hz", "mesh frequency at which it is largest" + sweep});
     kinds.push_back({"tooth_load_max_" + d, "N", "largest tooth load of all speeds" + sweep});

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "model/stages.h"
+
 namespace whine {
 
 // What is asked of each variant.
@@ -11,6 +13,6 @@ struct ResponseQuantity {
 };
 
 // At rest, then for each direction of a sweep, whose name ends with it.
-std::vector<ResponseQuantity> response_quantities(const std::vector<std::string>& directions);
+std::vector<ResponseQuantity> response_quantities(const std::vector<Direction>& directions);
 
 }  // namespace whine

@@ -12,17 +12,17 @@ const SceneGear& Scene::gear(const std::string& name) const {
 }
 
 void require_like_teeth(const GearMeshSpec& mesh, const std::string& stage) {
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     if (!mesh.errors[g].none())
-      fail(Failure::input, stage, " does not take teeth that differ: [gear.", g ? mesh.driven : mesh.driver,
+      fail(Failure::input, stage, " does not take teeth that differ: [gear.", mesh.gear[g],
            ".error] gives the ", g ? "driven gear" : "driver",
            " deviations tooth by tooth; use a scene without this section");
 }
 
 void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage) {
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     if (mesh.bearing[g].elastic())
-      fail(Failure::input, stage, " is of gears on rigid axes, and [gear.", mesh.gear(g),
+      fail(Failure::input, stage, " is of gears on rigid axes, and [gear.", mesh.gear[g],
            "] is on a bearing of ", mesh.bearing[g].stiffness * 1e-6,
            " N/um; take a scene without [[bearing]]");
 }

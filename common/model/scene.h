@@ -38,16 +38,15 @@ template <>
 inline constexpr const char* kWordsOf<ContactPlane> = "strain stress body";
 
 struct GearMeshSpec {
-  std::string driver, driven;  // names of gears
-  double centre_distance = 0;  // m
+  std::array<std::string, kSides> gear;  // names: driver, driven gear
+  double centre_distance = 0;            // m
   CornerRule corner;
   ContactPlane contact_plane = ContactPlane::body;
-  std::array<FlankModification, 2> modification = {};  // of driver and driven gear
-  std::array<ToothErrors, 2> errors = {};              // the same
-  std::array<Bearing, 2> bearing = {};                 // the same
+  std::array<FlankModification, kSides> modification = {};  // of each gear
+  std::array<ToothErrors, kSides> errors = {};
+  std::array<Bearing, kSides> bearing = {};
 
   bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
-  const std::string& gear(int g) const { return g == 0 ? driver : driven; }
 };
 
 // Of a scene that says nothing; it is that of the pair of P2000.

@@ -1,11 +1,18 @@
 // What each stage depends on of a scene, and what results say of it.
 #pragma once
+#include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
 #include "model/scene.h"
 
 namespace whine {
+
+// How the speed of a sweep goes.
+enum class Direction { up, down };
+template <>
+inline constexpr const char* kWordsOf<Direction> = "up down";
 
 // The parts of a scene that a stage depends on, and nothing else, so that `make` redoes a stage only if one of
 // its own numbers changed. SI units throughout.
@@ -22,13 +29,12 @@ struct StaticParameters {
   GearMeshSpec mesh;
   Fidelity fidelity;
   ContactDiscretisation contact;
-  std::string driver_body,
-      driven_body;  // hashes of the bodies' stage parameters; empty: the stage parameters name none
+  std::array<std::string, kSides> body = {};  // hashes of their stage parameters; empty: these name none
 };
 
 // For gear-impact.
 struct ImpactParameters {
-  double driver_inertia = 0, driven_inertia = 0;  // kg m2, total
+  std::array<double, kSides> inertia = {};  // kg m2, total
   Damping damping;
   double reference_torque = 0;  // N m: first torque listed, whose mean stiffness sets the bearing dampers
   Fidelity fidelity;
@@ -43,26 +49,37 @@ struct SweepParameters : ImpactParameters {
 // What gear-variant reads: the stage parameters of one variant.
 struct VariantParameters {
   StaticParameters statics;
-  double torque = 0;                    // N m on the driver
-  std::vector<std::string> directions;  // of sweeps: "up", "down"; none: the pair at rest, `motion` is empty
-  SweepParameters motion;               // its reference torque may be another than `torque`
+  double torque = 0;                  // N m on the driver
+  std::vector<Direction> directions;  // of sweeps; none: the pair at rest, `motion` is empty
+  SweepParameters motion;             // its reference torque may be another than `torque`
 };
 
 // What a result of a pair says of what it was computed from.
 struct PairParameters {
-  GearDesign driver, driven;
-  Material driver_material, driven_material;
-  BodyDiscretisation driver_body, driven_body;
+  std::array<BodyParameters, kSides> gear;  // driver, driven
   GearMeshSpec mesh;
   Fidelity fidelity;  // of a pair at rest the model level of the contact alone
   ContactDiscretisation contact;
+
+  double face_width() const {
+    return std::min(gear[0].design.face_width, gear[1].design.face_width);
+  }  // m, on which teeth meet
+  double tooth_thinning() const {
+    return gear[0].design.tooth_thinning + gear[1].design.tooth_thinning;
+  }  // m; 0: no backlash is counted
 };
 
 // The same of a pair in motion.
 struct MotionParameters : PairParameters {
   TimeDiscretisation time;
   Damping damping;
-  double driver_inertia = 0, driven_inertia = 0;  // kg m2
+  std::array<double, kSides> inertia = {};  // kg m2, total
 };
+
+// What a result of a pair of these bodies says of it, at rest and, but for `time`, in motion.
+void set_pair(PairParameters& pair, const std::array<BodyParameters, kSides>& gear,
+              const StaticParameters& settings);
+void set_motion(MotionParameters& motion, const std::array<BodyParameters, kSides>& gear,
+                const PairParameters& rest, const ImpactParameters& settings);
 
 }  // namespace whine

@@ -55,7 +55,7 @@ ClaimValue nothing() {
 // Of the model with the rectangular wave, whose parameters gear-lumped takes from P2000.
 ClaimValue of_lumped(const std::function<double(const SweepArtifact&)>& number) {
   return plain([=](const SceneResults& s) {
-    return Finding{number(s.sweep(kFigureTorque, "up", "rectangular")), ""};
+    return Finding{number(s.sweep(kFigureTorque, Direction::up, "rectangular")), ""};
   });
 }
 
@@ -78,9 +78,10 @@ Finding newmark(const SceneResults& s, const PrintedClaim& claim) {
 
 Finding base_radius(const SceneResults& s) {
   const StaticArtifact& a = s.at_rest(100);
-  const double r = a.driver.module * a.driver.teeth * std::cos(a.driver.pressure_angle) / 2;
-  return {1e3 * r, text(a.driver.teeth, " teeth of module ", digits(1e3 * a.driver.module), " mm have ",
-                        digits(1e3 * r, 5),
+  const double r =
+      a.gear[0].design.module * a.gear[0].design.teeth * std::cos(a.gear[0].design.pressure_angle) / 2;
+  return {1e3 * r, text(a.gear[0].design.teeth, " teeth of module ", digits(1e3 * a.gear[0].design.module),
+                        " mm have ", digits(1e3 * r, 5),
                         " mm, and only with it k = (T / r) / STE gives the printed mean stiffness")};
 }
 
@@ -92,16 +93,17 @@ Finding bearing_damping(const SceneResults& s) {
 Named of_the_gears() {
   return {{"other-periods", plain(other_periods)},
           {"newmark", {{}, newmark}},
-          {"teeth", at_rest([](const StaticArtifact& a) { return double(a.driver.teeth); })},
-          {"module", at_rest([](const StaticArtifact& a) { return 1e3 * a.driver.module; })},
-          {"pressure-angle",
-           at_rest([](const StaticArtifact& a) { return a.driver.pressure_angle * 180 / std::numbers::pi; })},
+          {"teeth", at_rest([](const StaticArtifact& a) { return double(a.gear[0].design.teeth); })},
+          {"module", at_rest([](const StaticArtifact& a) { return 1e3 * a.gear[0].design.module; })},
+          {"pressure-angle", at_rest([](const StaticArtifact& a) {
+             return a.gear[0].design.pressure_angle * 180 / std::numbers::pi;
+           })},
           {"base-radius", plain(base_radius)},
           {"contact-ratio", at_rest([](const StaticArtifact& a) { return a.contact_ratio; })},
-          {"face-width", at_rest([](const StaticArtifact& a) { return 1e3 * a.driver.face_width; })},
+          {"face-width", at_rest([](const StaticArtifact& a) { return 1e3 * a.gear[0].design.face_width; })},
           {"youngs-modulus",
-           at_rest([](const StaticArtifact& a) { return 1e-9 * a.driver_material.youngs_modulus; })},
-          {"density", at_rest([](const StaticArtifact& a) { return a.driver_material.density; })},
+           at_rest([](const StaticArtifact& a) { return 1e-9 * a.gear[0].material.youngs_modulus; })},
+          {"density", at_rest([](const StaticArtifact& a) { return a.gear[0].material.density; })},
           {"damping", plain(damping)},
           {"bearing-damping", plain(bearing_damping)},
           {"nothing", nothing()}};
@@ -243,7 +245,7 @@ Named of_branches_at_a_speed() {
 // ---- statics and models with one degree of freedom
 
 Finding lumped_natural_frequency(const SceneResults& s) {
-  const SweepArtifact& a = s.sweep(kFigureTorque, "up", "rectangular");
+  const SweepArtifact& a = s.sweep(kFigureTorque, Direction::up, "rectangular");
   return {std::sqrt(s.at_rest(100).mean_stiffness / a.lumped.mass) / (2 * std::numbers::pi),
           "secant stiffness at 100 N m"};
 }
@@ -310,7 +312,7 @@ Named of_lumped_models() {
           {"sdof-lower-keeps-contact",
            at_speed([](const SceneResults& s, double f) { return lumped_loss(s, f, false); })},
           {"sdof-force-step", at_speed([](const SceneResults& s, double f) {
-             return force_step(s.sweep(kFigureTorque, "up", "rectangular"), f, false, false);
+             return force_step(s.sweep(kFigureTorque, Direction::up, "rectangular"), f, false, false);
            })},
           {"secant-reduced", plain(secant_reduced)},
           {"secant-loses-contact", at_torque(secant_loses_contact)},

@@ -242,7 +242,7 @@ Finding softening(const SceneResults& s) {
     if (f < kSecondaryEnd * b.up.natural_frequency || f > b.up.jump_frequency.maxCoeff()) continue;
     any = true;
     const auto* larger = motions(b, f).upper.sweep;
-    all = all && larger && larger->direction == "down";
+    all = all && larger && larger->direction == Direction::down;
   }
   return {any && all ? 1.0 : 0.0, jumps_text(b)};
 }

@@ -104,7 +104,7 @@ double largest_rack_tip_radius(const GearDesign& d) {
 }
 
 BoreFamily::BoreFamily(const Scene& scene, const OpenChoices& choices)
-    : scene_(scene), gear_(scene.gear(scene.mesh.driver)) {
+    : scene_(scene), gear_(scene.gear(scene.mesh.gear[0])) {
   gear_.design.dedendum = choices.dedendum;
   gear_.design.tooth_thinning = choices.tooth_thinning;
   gear_.design.rack_tip_radius = choices.rack_tip_share * largest_rack_tip_radius(gear_.design);
@@ -184,11 +184,11 @@ void PaperPair::add_lumped(const Scene& scene) {
   o.time = scene.time;
   const Eigen::VectorXi numbers = Eigen::VectorXi::Zero(1);
   const auto run = [&](const std::string& model, int torque, const LumpedParameters& springs) {
-    for (const char* direction : {"up", "down"}) {
+    for (const Direction direction : {Direction::up, Direction::down}) {
       o.model = model;
       o.direction = direction;
       const SweepArtifact sweep = lumped_sweep(pair_.at_rest(torque), springs, numbers, o, kNoReport);
-      const std::string place = folder(torque, model + "/" + direction + "/");
+      const std::string place = folder(torque, text(model, "/", direction, "/"));
       pair_.responses[place + "response.h5"] = response(sweep);
       if (torque == kFigureTorque && model == "rectangular") pair_.sweeps[place + "sweep.h5"] = sweep;
     }
@@ -203,7 +203,7 @@ void PaperPair::add_lumped(const Scene& scene) {
 
 ImpactParameters PaperPair::impact_parameters(const OpenChoices& choices, double inertia) const {
   ImpactParameters settings;
-  settings.driver_inertia = settings.driven_inertia = inertia;
+  settings.inertia[0] = settings.inertia[1] = inertia;
   settings.damping.undamped_depth = choices.undamped_depth;
   settings.damping.rayleigh_stiffness = 0;
   settings.reference_torque = kTorques[0];
@@ -330,10 +330,10 @@ Reading PaperPair::judge(Reading out) const {
   settings.time.steps_per_period = choices.steps_per_period;
   if (choices.steps_per_period != time_.steps_per_period) settings.time.min_sample_rate = 1;
   for (int torque : kSweptTorques)
-    for (const char* direction : {"up", "down"}) {
+    for (const Direction direction : {Direction::up, Direction::down}) {
       SweepArtifact motion =
           sweep(body_, body_, rest_.at(torque), bearing_stiffness, settings, direction, kNoReport);
-      const std::string place = folder(torque, std::string(direction) + "/");
+      const std::string place = folder(torque, text(direction, "/"));
       results.responses[place + "response.h5"] = response(motion);
       if (torque == kFigureTorque) results.sweeps[place + "sweep.h5"] = std::move(motion);
     }

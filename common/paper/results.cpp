@@ -28,7 +28,7 @@ const Artifact& look_up(const std::map<std::string, Artifact>& from, const Scene
   return found->second;
 }
 
-std::string folder(int torque, const std::string& model, const std::string& direction) {
+std::string folder(int torque, const std::string& model, Direction direction) {
   return text("T", torque, "/", model.empty() ? "" : model + "/", direction, "/");
 }
 
@@ -42,31 +42,30 @@ const ImpactArtifact& SceneResults::ring_down(int torque) const {
   return look_up(impacts, *this, text("T", torque, "/impact.h5"));
 }
 
-const SweepArtifact& SceneResults::sweep(int torque, const std::string& direction,
-                                         const std::string& model) const {
+const SweepArtifact& SceneResults::sweep(int torque, Direction direction, const std::string& model) const {
   return look_up(sweeps, *this, folder(torque, model, direction) + "sweep.h5");
 }
 
 Branches SceneResults::branches(int torque, const std::string& model) const {
-  return {look_up(responses, *this, folder(torque, model, "up") + "response.h5"),
-          look_up(responses, *this, folder(torque, model, "down") + "response.h5")};
+  return {look_up(responses, *this, folder(torque, model, Direction::up) + "response.h5"),
+          look_up(responses, *this, folder(torque, model, Direction::down) + "response.h5")};
 }
 
 std::vector<std::string> scorecard_files() {
   std::vector<std::string> files;
   for (int torque : kSweptTorques) {
     files.push_back(text("T", torque, "/static.h5"));
-    for (const char* direction : {"up", "down"})
+    for (const Direction direction : {Direction::up, Direction::down})
       files.push_back(folder(torque, "", direction) + "response.h5");
   }
   for (int torque : {100, 150, 200, 300}) files.push_back(text("T", torque, "/impact.h5"));
-  for (const char* direction : {"up", "down"}) {
+  for (const Direction direction : {Direction::up, Direction::down}) {
     files.push_back(folder(kFigureTorque, "", direction) + "sweep.h5");
     for (int torque : {100, 150, 200, 300})
       files.push_back(folder(torque, "rectangular", direction) + "response.h5");
     for (int torque : kTorques) files.push_back(folder(torque, "secant", direction) + "response.h5");
   }
-  files.push_back(folder(kFigureTorque, "rectangular", "up") + "sweep.h5");
+  files.push_back(folder(kFigureTorque, "rectangular", Direction::up) + "sweep.h5");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -80,9 +79,9 @@ auto gears_of(const Artifact& a) {
     return std::tuple(g.teeth, g.module, g.pressure_angle, g.profile_shift, g.addendum, g.face_width,
                       g.bore_radius);
   };
-  return std::tuple(of(a.driver), of(a.driven), a.mesh.centre_distance, a.mesh.corner.enabled,
-                    a.mesh.corner.largest_angle, a.mesh.contact_plane, a.driver_material.youngs_modulus,
-                    a.driven_material.youngs_modulus);
+  return std::tuple(of(a.gear[0].design), of(a.gear[1].design), a.mesh.centre_distance, a.mesh.corner.enabled,
+                    a.mesh.corner.largest_angle, a.mesh.contact_plane, a.gear[0].material.youngs_modulus,
+                    a.gear[1].material.youngs_modulus);
 }
 
 struct SceneReader {

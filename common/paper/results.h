@@ -35,7 +35,7 @@ struct SceneResults {
 
   const StaticArtifact& at_rest(int torque) const;
   const ImpactArtifact& ring_down(int torque) const;
-  const SweepArtifact& sweep(int torque, const std::string& direction, const std::string& model = "") const;
+  const SweepArtifact& sweep(int torque, Direction direction, const std::string& model = "") const;
   Branches branches(int torque, const std::string& model = "") const;
 
   mutable std::set<std::string> asked = {};  // paths that these four were asked for

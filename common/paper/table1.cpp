@@ -32,7 +32,7 @@ Figure natural_frequency_table(std::vector<ImpactArtifact> impacts,
   const ImpactArtifact& first = impacts[0];
   table.notes.push_back("Rayleigh damping η = " + shown(first.damping.rayleigh_stiffness * kMicro, 6) +
                         " µs; " + corner_words(first.mesh.corner));
-  const double ratio = GearPair(first.driver, first.driven, first.mesh.centre_distance).contact_ratio();
+  const double ratio = GearPair(first).contact_ratio();
   const double share = ratio - std::floor(ratio);
   const std::vector<std::string> counts{"one", "two", "three", "four"};
   const size_t few = static_cast<size_t>(ratio) - 1;

@@ -111,7 +111,7 @@ std::string frame_name(int frame) {
 }
 
 double half_window_of(const SweepArtifact& s) {
-  return 1.75 * std::numbers::pi * s.driver.module;
+  return 1.75 * std::numbers::pi * s.gear[0].design.module;
 }
 
 void check_inputs(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& s,
@@ -123,15 +123,14 @@ void check_inputs(const MeshArtifact& driver, const MeshArtifact& driven, const 
   if (s.hunting_periods > 1)
     fail(Failure::input, "the teeth of this pair differ: its motion repeats after ", s.hunting_periods,
          " mesh periods; one mesh period does not show it");
-  const GearDesign* const wanted[2] = {&s.driver, &s.driven};
-  const MeshArtifact* const mesh[2] = {&driver, &driven};
-  for (int g = 0; g < 2; ++g)
-    if (mesh[g]->design.teeth != wanted[g]->teeth || mesh[g]->design.module != wanted[g]->module ||
-        mesh[g]->design.bore_radius != wanted[g]->bore_radius)
-      fail(Failure::input, "the mesh.h5 of the ", g == 0 ? "driver" : "driven gear", " (",
-           mesh[g]->design.teeth, " teeth, module ", mesh[g]->design.module * kMilli,
-           " mm) is not of the sweep's gear (", wanted[g]->teeth, " teeth, module ",
-           wanted[g]->module * kMilli, " mm)");
+  for (int g = 0; g < kSides; ++g) {
+    const GearDesign &found = (g == 0 ? driver : driven).design, &wanted = s.gear[g].design;
+    if (found.teeth != wanted.teeth || found.module != wanted.module ||
+        found.bore_radius != wanted.bore_radius)
+      fail(Failure::input, "the mesh.h5 of the ", kGearName[g], " (", found.teeth, " teeth, module ",
+           found.module * kMilli, " mm) is not of the sweep's gear (", wanted.teeth, " teeth, module ",
+           wanted.module * kMilli, " mm)");
+  }
 }
 
 // The motion that is shown: one orbit.
@@ -216,11 +215,11 @@ class Pictures {
            const ShownMotion& m, double magnified, double drawn_back)
       : s_(s),
         motion_(m),
-        pair_(s.driver, s.driven, s.mesh.centre_distance),
-        outline_{ElasticOutline(driver, s.driver_material), ElasticOutline(driven, s.driven_material)},
+        pair_(s),
+        outline_{ElasticOutline(driver, s.gear[0].material), ElasticOutline(driven, s.gear[1].material)},
         pitch_point_(0, pair_.gear(0).base_radius() / std::cos(pair_.working_pressure_angle())),
-        inverse_mass_{std::pow(pair_.gear(0).base_radius(), 2) / s.driver_inertia,
-                      std::pow(pair_.gear(1).base_radius(), 2) / s.driven_inertia},
+        inverse_mass_{std::pow(pair_.gear(0).base_radius(), 2) / s.inertia[0],
+                      std::pow(pair_.gear(1).base_radius(), 2) / s.inertia[1]},
         magnified_(magnified),
         drawn_back_(drawn_back) {}
 
@@ -266,7 +265,7 @@ FigureBlock Pictures::teeth(const std::string& name, int g, Index k, double phas
   // Tooth 0 stands at `upright`; the mesh is above the driver's centre and below the driven gear's.
   const double upright = std::remainder(at.angle - (g == 0 ? 0.0 : std::numbers::pi), 2 * std::numbers::pi);
   const int middle = static_cast<int>(std::lround(-upright / pitch));
-  FigureBlock block{name + (g == 0 ? " driver" : " driven"), {"x [mm]", "y [mm]"}, {}, "", "", true};
+  FigureBlock block{name + text(" ", kRole[g]), {"x [mm]", "y [mm]"}, {}, "", "", true};
   // A contour goes from the clockwise side of its sector to the other: so do the teeth, in one closed line.
   const auto add = [&](const Vec2& p) {
     // micrometres are enough for the eye and keep the file small
@@ -301,11 +300,11 @@ void Pictures::add(const std::string& name, Index k, Figure& figure) const {
     const int number = s_.pair[j];
     const PairContact contact = pair_.contact(phase + number);
     if (!contact.on_flank) continue;
-    for (int g = 0; g < 2; ++g)
+    for (int g = 0; g < kSides; ++g)
       presses[g].push_back(
           {g == 0 ? number : -number, contact.roll[static_cast<size_t>(g)], motion_.loads(k, j)});
   }
-  for (int g = 0; g < 2; ++g) figure.blocks.push_back(teeth(name, g, k, phase, presses[g], pressing));
+  for (int g = 0; g < kSides; ++g) figure.blocks.push_back(teeth(name, g, k, phase, presses[g], pressing));
   if (pressing.rows.empty()) pressing.rows.push_back({0, 0, 0, 0});
   figure.blocks.push_back(pressing);
 }
@@ -317,12 +316,12 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
   check_inputs(driver, driven, s, frames);
   // 1. The motion.
   const ShownMotion m = motion_of(s, mesh_frequency);
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair pair(s);
   const double static_force = s.torque / pair.gear(0).base_radius();
-  const double magnified = round_down(0.3 * s.driver.module / m.error.cwiseAbs().maxCoeff());
-  const double drawn_back = std::max(
-      0.0,
-      (1.1 * magnified * std::max(0.0, -m.error.minCoeff()) + 0.04 * s.driver.module - pair.backlash()) / 2);
+  const double magnified = round_down(0.3 * s.gear[0].design.module / m.error.cwiseAbs().maxCoeff());
+  const double drawn_back = std::max(0.0, (1.1 * magnified * std::max(0.0, -m.error.minCoeff()) +
+                                           0.04 * s.gear[0].design.module - pair.backlash()) /
+                                              2);
 
   Figure figure;
   figure.height = 1200;
@@ -341,7 +340,7 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
 
   const Vec2 along(-std::cos(pair.working_pressure_angle()), std::sin(pair.working_pressure_angle()));
   figure.title = text("Gears at ", m.speed, " Hz mesh frequency, ", s.torque, " N m, speed ",
-                      s.direction == "up" ? "rising" : "falling");
+                      s.direction == Direction::up ? "rising" : "falling");
   figure.notes = {text("Vibration and deflection magnified ", magnified,
                        " times; teeth bend as at rest under the loads of the moment; gaps are "
                        "drawn wider than at scale as far as teeth would overlap"),

@@ -44,9 +44,10 @@ std::string corner_words(const CornerRule& corner) {
 }
 
 std::string pair_words(const StaticArtifact& s) {
-  return text(s.driver.teeth, "/", s.driven.teeth, " teeth, module ", shown(s.driver.module * kMilli, 4),
-              " mm, centre distance ", shown(s.mesh.centre_distance * kMilli, 6), " mm, contact ratio ",
-              fixed(s.contact_ratio, 4), ", ", corner_words(s.mesh.corner));
+  return text(s.gear[0].design.teeth, "/", s.gear[1].design.teeth, " teeth, module ",
+              shown(s.gear[0].design.module * kMilli, 4), " mm, centre distance ",
+              shown(s.mesh.centre_distance * kMilli, 6), " mm, contact ratio ", fixed(s.contact_ratio, 4),
+              ", ", corner_words(s.mesh.corner));
 }
 
 std::string paper_figure(const std::string& name) {

@@ -44,21 +44,21 @@ Strokes tooth_elements(const MeshArtifact& mesh, const Placement& at, double sca
 }  // namespace
 
 Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s) {
-  require_same_gear("driver", driver.design, s.driver);
-  require_same_gear("driven gear", driven.design, s.driven);
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  require_same_gear("driver", driver.design, s.gear[0].design);
+  require_same_gear("driven gear", driven.design, s.gear[1].design);
+  const GearPair pair(s);
   const double alpha = pair.working_pressure_angle();
 
   const Vec2 pitch_point(0.0, pair.gear(0).base_radius() / std::cos(alpha));
-  const double pitch = std::numbers::pi * s.driver.module;
+  const double pitch = std::numbers::pi * s.gear[0].design.module;
   const double half_zone = 1.45 * pitch;
 
   Figure figure;
   figure.title = "Finite element mesh of the gear pair";
   long elements = 0, nodes = 0;
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     const MeshArtifact& mesh = g == 0 ? driver : driven;
-    const std::string name = g == 0 ? "driver" : "driven";
+    const std::string name = kRole[g];
     const Wireframe wire(mesh);
     const Placement at = placed(pair, g);
     const std::vector<std::string> columns{"x [mm]", "y [mm]"};
@@ -91,10 +91,10 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
   figure.notes.push_back(
       text(elements, driver.discretisation.element_order == 2 ? " nine" : " four", "-node elements, ", nodes,
            " nodes; ", shown(driver.discretisation.element_size * kMilli, 4),
-           " mm on the flank; rigid hub of ", shown(s.driver.bore_radius * kMilli, 4), " mm radius",
-           s.driven.bore_radius == s.driver.bore_radius
+           " mm on the flank; rigid hub of ", shown(s.gear[0].design.bore_radius * kMilli, 4), " mm radius",
+           s.gear[1].design.bore_radius == s.gear[0].design.bore_radius
                ? std::string()
-               : " (driven: " + shown(s.driven.bore_radius * kMilli, 4) + " mm)"));
+               : " (driven: " + shown(s.gear[1].design.bore_radius * kMilli, 4) + " mm)"));
   figure.notes.push_back("unloaded, mesh phase 0: the reference pair touches at the pitch point");
   figure.numbers = {{"pitch_y", pitch_point.y() * kMilli},
                     {"half_window", half_zone * kMilli},
@@ -109,14 +109,14 @@ namespace {
 // Outline, teeth in the window about `touch`, and the inner region of one gear.
 void add_body(const MeshArtifact& mesh, const StaticArtifact& s, const GearPair& pair, int g,
               const Vec2& touch, double half_zone, Figure& figure) {
-  const std::string name = g == 0 ? "driver" : "driven";
+  const std::string name = kRole[g];
   const Wireframe wire(mesh);
   const Placement at = placed(pair, g);
   const std::vector<std::string> columns{"x [mm]", "y [mm]"};
   figure.blocks.push_back({name + " outline", columns, wire.outline(at, kMilli), "", "", true});
   figure.blocks.push_back(
       {name + " teeth", columns, wire.window(at, kMilli, touch, half_zone), "", "", true});
-  const BodyDiscretisation& body = g == 0 ? s.driver_body : s.driven_body;
+  const BodyDiscretisation& body = s.gear[g].discretisation;
   FigureBlock inner{name + " inner region", columns, {}, "", "", true};
   if (body.near_field == NearField::matching) {
     const ToothGeometry& tooth = pair.gear(g);
@@ -140,7 +140,7 @@ HertzContact hertz_contact(const StaticArtifact& s, const GearPair& pair, double
   const auto coefficient = [&](const Material& material) {
     return HalfPlaneSurface(in_contact_plane(material, s.mesh.contact_plane), face_width).coefficient();
   };
-  const double compliance = coefficient(s.driver_material) + coefficient(s.driven_material);
+  const double compliance = coefficient(s.gear[0].material) + coefficient(s.gear[1].material);
   const double half_width = std::sqrt(2 * pair.relative_curvature_radius(0.0) * force * compliance);
   const double peak = 2 * force / (std::numbers::pi * half_width * face_width);
   return {half_width, peak};
@@ -160,19 +160,19 @@ FigureBlock hertz_block(const HertzContact& contact) {
 
 Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s,
                            const ContactZone& zone) {
-  require_same_gear("driver", driver.design, s.driver);
-  require_same_gear("driven gear", driven.design, s.driven);
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  require_same_gear("driver", driver.design, s.gear[0].design);
+  require_same_gear("driven gear", driven.design, s.gear[1].design);
+  const GearPair pair(s);
   const double alpha = pair.working_pressure_angle();
   const PairStrips& strips = zone.strips;
   const Vec2 touch(0.0, pair.gear(0).base_radius() / std::cos(alpha));
   // Out of the driver's flank along the line of action; along the flank to the driver's tip.
   const Vec2 normal(-std::cos(alpha), std::sin(alpha)), tangent(std::sin(alpha), std::cos(alpha));
-  const double half_zone = 2 * s.driver.module;
+  const double half_zone = 2 * s.gear[0].design.module;
 
   Figure figure;
   figure.title = text("Contact zone of the reference pair at the pitch point, ", torque_words(s.torque));
-  for (int g = 0; g < 2; ++g) add_body(g == 0 ? driver : driven, s, pair, g, touch, half_zone, figure);
+  for (int g = 0; g < kSides; ++g) add_body(g == 0 ? driver : driven, s, pair, g, touch, half_zone, figure);
   FigureBlock action{"line of action", {"x [mm]", "y [mm]"}, {}, "", "", true};
   for (double side : {-1.0, 1.0}) {
     const Vec2 p = (touch + side * half_zone * normal) * kMilli;
@@ -185,7 +185,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
   const auto on_flanks = [&](double x) {
     const FlankGap at = pair.gap_at(strips.contact, x);
     std::array<Vec2, 2> local;  // along the flank, out of the driver
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       const ToothGeometry& gear = pair.gear(g);
       const Vec2 place =
           gear.flank_point(at.roll[g]) - deviation[g].at(at.roll[g], 0) * gear.flank_normal(at.roll[g]);
@@ -207,7 +207,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
       {"along flank [mm]", "P on driver [µm]", "G on driven gear [µm]", "strip from [mm]", "strip to [mm]",
        "gap of strip [µm]", "separation under load [µm]", "pressure [MPa]"},
       {}};
-  const double face_width = std::min(s.driver.face_width, s.driven.face_width);
+  const double face_width = s.face_width();
   for (int i = 0; i < n; ++i) {
     const auto local = on_flanks(strips.middle(i));
     candidates.rows.push_back({strips.middle(i) * kMilli, local[0].y() * kMicro, local[1].y() * kMicro,
@@ -221,16 +221,16 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
 
   figure.notes.push_back(pair_words(s));
   const std::string inner =
-      s.driver_body.near_field == NearField::matching
-          ? "matched to the finite elements at " + shown(s.driver_body.matching_depth * kMilli, 4) +
-                " mm depth"
+      s.gear[0].discretisation.near_field == NearField::matching
+          ? "matched to the finite elements at " +
+                shown(s.gear[0].discretisation.matching_depth * kMilli, 4) + " mm depth"
           : "the half-plane's field is subtracted there, finite elements carry the smooth rest";
   figure.notes.push_back("inner region: " + inner + "; outer region: finite elements");
   figure.notes.push_back(text(n, " strips in the candidate zone; tooth force ", fixed(force, 0),
                               " N; approach of the gears ", shown(zone.approach * kMicro, 4),
                               " µm; Hertz: half-width ", shown(half_width * kMicro, 4), " µm, peak ",
                               shown(peak * 1e-6, 4), " MPa"));
-  figure.numbers = {{"matching", s.driver_body.near_field == NearField::matching},
+  figure.numbers = {{"matching", s.gear[0].discretisation.near_field == NearField::matching},
                     {"touch_y", touch.y() * kMilli},
                     {"half_window", half_zone * kMilli},
                     {"reach", 1.3 * reach * kMilli},
@@ -240,18 +240,17 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
 }
 
 Figure profile_figure(const StaticArtifact& s) {
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair pair(s);
   const double degree = std::numbers::pi / 180, pitch = pair.base_pitch(),
                tangent = std::tan(pair.working_pressure_angle());
   Figure figure;
   figure.title = "Profile charts of the driving flanks";
   double low = 0, high = 0;
-  for (int g = 0; g < 2; ++g) {
-    const std::string name = g == 0 ? "driver" : "driven";
+  for (int g = 0; g < kSides; ++g) {
+    const std::string name = kRole[g];
     const ToothGeometry& gear = pair.gear(g);
     const FlankDeviation deviation(gear, s.mesh.modification[g]);
-    figure.notes.push_back((g == 0 ? s.mesh.driver : s.mesh.driven) + ", " + name + ": " +
-                           in_words(s.mesh.modification[g]));
+    figure.notes.push_back(s.mesh.gear[g] + ", " + name + ": " + in_words(s.mesh.modification[g]));
     figure.words.emplace_back("title_" + name, figure.notes.back());
     FigureBlock trace{name, {"roll angle [deg]", "length of roll [mm]", "material [µm]"}, {}, "flanks", name};
     const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();

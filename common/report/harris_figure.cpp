@@ -40,9 +40,9 @@ Figure harris_map_figure(const HarrisMapArtifact& map) {
     return rounded(map.start_roll(s, 0) * 180 / std::numbers::pi, 2) + "°";
   };
   figure.title = text("Harris map: ", map.shape, " tip relief of ",
-                      map.relieved == "both"     ? "both gears"
-                      : map.relieved == "driver" ? "the driver"
-                                                 : "the driven gear");
+                      map.relieved == Relieved::both     ? "both gears"
+                      : map.relieved == Relieved::driver ? "the driver"
+                                                         : "the driven gear");
   figure.notes.push_back(text(
       "relief over ", rounded(map.length[best] * 1e3, 2), " mm of roll, from roll angle ", start_words(best),
       " of the driver; strips on a cached body, ", map.contact.positions, " mesh positions"));

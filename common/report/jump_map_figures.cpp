@@ -37,9 +37,9 @@ std::string panel_name(const JumpMapArtifact& a) {
 // P2000, section 2.1; the gears it leaves open are the scene's.
 bool pair_of_paper(const JumpMapArtifact& a) {
   const auto close = [](double x, double y) { return std::abs(x - y) < 1e-9; };
-  return a.driver.teeth == 50 && a.driven.teeth == 50 && close(a.driver.module, 3e-3) &&
-         close(a.driver.face_width, 25.4e-3) && close(a.mesh.centre_distance, 0.15) &&
-         close(a.driver_material.youngs_modulus, 207e9);
+  return a.gear[0].design.teeth == 50 && a.gear[1].design.teeth == 50 &&
+         close(a.gear[0].design.module, 3e-3) && close(a.gear[0].design.face_width, 25.4e-3) &&
+         close(a.mesh.centre_distance, 0.15) && close(a.gear[0].material.youngs_modulus, 207e9);
 }
 constexpr double kPaperRatio = 0.07, kPaperLumpedRatio = 0.08;
 const double kPaperTorques[] = {100, 150, 200, 300, 600};  // at which P2000 prints or draws jumps, N m

@@ -47,14 +47,14 @@ std::vector<LumpedParameters> lumped_of(const std::vector<SweepArtifact>& sweeps
 }
 
 std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double frequency,
-                               Background captions, Figure& figure) {
+                               Background background, Figure& figure) {
   constexpr double kSameBranch = 0.02;  // of the larger RMS: far above what periodicity leaves open
   if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; an up and a down sweep are the least");
   std::vector<Motion> motions;
-  captions.lumped = lumped_of(sweeps);
-  for (const auto& panel : panels_of(sweeps, captions)) {
+  background.lumped = lumped_of(sweeps);
+  for (const auto& panel : panels_of(sweeps, background)) {
     constexpr size_t kWidth = 170;  // characters that fit into a line
-    const std::string operating = operating_words(panel, captions);
+    const std::string operating = operating_words(panel, background);
     if (panel.scene.size() + operating.size() > kWidth) {
       figure.notes.push_back(panel.scene);
       figure.notes.push_back(operating);
@@ -103,7 +103,7 @@ void set_motion_title(Figure& figure, const std::string& what, const std::vector
 constexpr int kFirstPeriod = -1, kPeriods = 3, kFirstTooth = -2, kLastTooth = 3;
 
 double static_force(const SweepArtifact& s) {
-  return s.torque / ToothGeometry(s.driver).base_radius();
+  return s.torque / ToothGeometry(s.gear[0].design).base_radius();
 }
 
 // Panel `letter`: loads of successive teeth and of all of them, phases at which contact is lost, and the result in words. The
@@ -177,11 +177,11 @@ constexpr Eigen::Index kOrders = 5;  // that a waterfall shows
 // Of each `group` neighbouring speeds the spectrum of the one with the largest RMS, up to `end` (Hz).
 FigureBlock spectra_block(const SweepArtifact& sweep, const ResponseArtifact& r, Eigen::Index group,
                           double end) {
-  FigureBlock lines{"spectra " + sweep.direction,
+  FigureBlock lines{text("spectra ", sweep.direction),
                     {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"},
                     {},
                     "spectra",
-                    sweep.direction};
+                    name_of(sweep.direction)};
   const Eigen::Index speeds = r.mesh_frequency.size();
   for (Eigen::Index g = 0; g < speeds; g += group) {
     Eigen::Index row = 0;
@@ -199,7 +199,8 @@ FigureBlock spectra_block(const SweepArtifact& sweep, const ResponseArtifact& r,
 
 // Amplitudes of the first `known` orders of the mesh frequency at every speed.
 FigureBlock orders_block(const ResponseArtifact& r, Eigen::Index known) {
-  FigureBlock orders{"orders " + r.direction, {"mesh_frequency [Hz]"}, {}, "orders", r.direction};
+  FigureBlock orders{
+      text("orders ", r.direction), {"mesh_frequency [Hz]"}, {}, "orders", name_of(r.direction)};
   for (Eigen::Index k = 1; k <= known; ++k) orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
   const std::vector<bool> broken = broken_after(r);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
@@ -214,10 +215,10 @@ FigureBlock orders_block(const ResponseArtifact& r, Eigen::Index known) {
 }  // namespace
 
 Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
-                        const Background& captions) {
+                        const Background& background) {
   constexpr int kShownPeriods = 3;
   Figure figure;
-  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, captions, figure);
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, background, figure);
   set_motion_title(figure, "Oscillating dynamic transmission error (DTE)", motions, mesh_frequency);
   figure.height = 960 + 29 * static_cast<int>(figure.notes.size());
   double time_end = 0, largest = 0, largest_amplitude = 0;
@@ -264,9 +265,9 @@ Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_fr
 }
 
 Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
-                         const Background& captions) {
+                         const Background& background) {
   Figure figure;
-  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, captions, figure);
+  const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, background, figure);
   set_motion_title(figure, "Tooth loads", motions, mesh_frequency);
   figure.height = 150 + 29 * static_cast<int>(figure.notes.size()) + 330 * static_cast<int>(motions.size());
   double largest = 0;
@@ -278,9 +279,9 @@ Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_f
   return figure;
 }
 
-Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background captions) {
-  captions.lumped = lumped_of(sweeps);
-  const auto panels = panels_of(sweeps, captions);
+Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background background) {
+  background.lumped = lumped_of(sweeps);
+  const auto panels = panels_of(sweeps, background);
   if (panels.size() != 1 || panels[0].curves.size() != 1)
     fail(Failure::input, "figure: sweeps of ",
          panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
@@ -288,14 +289,14 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   const auto& curve = panels[0].curves[0];
   Figure figure;
   figure.title = "Tooth loads against mesh frequency, " + torque_words(curve.up->torque);
-  figure.notes = {operating_words(panels[0], captions), panels[0].choices};
+  figure.notes = {operating_words(panels[0], background), panels[0].choices};
   figure.height = 1240;
   Motion worst;
   double rms = -1, from = std::numeric_limits<double>::infinity(), to = 0, most = 0;
   bool lost = false;
   for (const SweepArtifact* sweep : {curve.up, curve.down}) {
     const ResponseArtifact r = response(*sweep);
-    figure.blocks.push_back(response_block(sweep->direction, r));
+    figure.blocks.push_back(response_block(name_of(sweep->direction), r));
     Eigen::Index row = 0;
     if (const double here = r.dte_rms.maxCoeff(&row); here > rms) {
       rms = here;
@@ -317,10 +318,10 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   const double speed = worst.sweep->mesh_frequency[worst.row];
   const double largest = add_tooth_loads(figure, "b", worst);
   add_load_axes(figure, *curve.up, largest);
-  figure.words.emplace_back(
-      "title_b",
-      text("at ", shown(speed, 6), " Hz, speed ", worst.sweep->direction == "up" ? "rising" : "falling",
-           ", where the RMS of the transmission error is largest (", shown(rms * kMicro, 3), " µm)"));
+  figure.words.emplace_back("title_b", text("at ", shown(speed, 6), " Hz, speed ",
+                                            worst.sweep->direction == Direction::up ? "rising" : "falling",
+                                            ", where the RMS of the transmission error is largest (",
+                                            shown(rms * kMicro, 3), " µm)"));
   figure.numbers.insert(figure.numbers.end(),
                         {{"frequency_from", from},
                          {"frequency_to", to},
@@ -339,18 +340,16 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
          " sweep.h5 given; a waterfall is of a sweep, or of those up and down");
   if (sweeps.size() == 2) panels_of(sweeps, Background{{}, lumped_of(sweeps), {}});
   std::vector<const SweepArtifact*> shown;
-  for (const char* direction : {"up", "down"})
+  for (const Direction direction : {Direction::up, Direction::down})
     for (const SweepArtifact& sweep : sweeps)
       if (sweep.direction == direction) shown.push_back(&sweep);
-  if (shown.empty())
-    fail(Failure::input, "figure: a sweep of direction '", sweeps[0].direction, "'; up and down are known");
   const SweepArtifact& first = *shown.front();
   Figure figure;
   figure.title = text("Spectra of the dynamic transmission error against mesh frequency, ",
                       torque_words(first.torque), ", ",
-                      shown.size() == 2         ? "speed rising and falling"
-                      : first.direction == "up" ? "speed rising"
-                                                : "speed falling");
+                      shown.size() == 2                  ? "speed rising and falling"
+                      : first.direction == Direction::up ? "speed rising"
+                                                         : "speed falling");
   figure.notes.push_back(elastic(first) ? choice_words(first)
                                         : choice_words(first) + "; " + lumped_words(first.lumped));
   figure.height = shown.size() == 1 ? 1000 : 1760;
@@ -371,7 +370,7 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
     FigureBlock lines = spectra_block(*sweep, r, group, end);
     for (const std::vector<double>& row : lines.rows) largest = std::max(largest, row[2]);
     figure.blocks.insert(figure.blocks.end(), {std::move(lines), orders_block(r, known)});
-    directions += (directions.empty() ? "" : " ") + sweep->direction;
+    directions += text(directions.empty() ? "" : " ", sweep->direction);
   }
   figure.notes.push_back(
       group == 1 ? "a spectrum at each speed"
@@ -419,7 +418,7 @@ Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
       fail(Failure::input, "figure: sweeps at ", torque, " and ", sweep.torque,
            " N m; give those of one torque");
     const double low = sweep.lumped.stiffness.minCoeff(), high = sweep.lumped.stiffness.maxCoeff();
-    const bool rising = sweep.direction == "up";
+    const bool rising = sweep.direction == Direction::up;
     std::string jumps;
     for (double f : sweep.jump_frequency) jumps += (jumps.empty() ? ", jump at " : ", ") + fixed(f, 1);
     figure.notes.push_back(text(dashes[s], ": ", sweep.model, " stiffness, ", fixed(low * kMega, 1), " to ",
@@ -458,7 +457,7 @@ Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
   figure.numbers = {{"curves", static_cast<double>(sweeps.size())},
                     {"panels", static_cast<double>(mesh_frequencies.size())},
                     {"force_max", largest},
-                    {"static_force", torque / ToothGeometry(sweeps[0].driver).base_radius()}};
+                    {"static_force", torque / ToothGeometry(sweeps[0].gear[0].design).base_radius()}};
   for (size_t k = 0; k < labels.size(); ++k) figure.words.emplace_back("labels_" + letter_of(k), labels[k]);
   return figure;
 }

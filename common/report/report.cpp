@@ -20,18 +20,19 @@ namespace {
 
 std::string introduction(const ReportContent& c) {
   const StaticArtifact& s = c.statics[0];
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair pair(s);
   std::vector<std::string> torques;
   for (const auto& a : c.statics) torques.push_back(shown(a.torque, 6));
   std::string out =
-      text(s.mesh.driver, " (", s.driver.teeth, " teeth) drives ", s.mesh.driven, " (", s.driven.teeth,
-           " teeth), module ", shown(s.driver.module * kMilli, 4), " mm, at a centre distance of ",
-           shown(pair.centre_distance() * kMilli, 7), " mm: contact ratio ", fixed(s.contact_ratio, 3),
-           ", working pressure angle ", fixed(pair.working_pressure_angle() * 180 / std::numbers::pi, 2),
+      text(s.mesh.gear[0], " (", s.gear[0].design.teeth, " teeth) drives ", s.mesh.gear[1], " (",
+           s.gear[1].design.teeth, " teeth), module ", shown(s.gear[0].design.module * kMilli, 4),
+           " mm, at a centre distance of ", shown(pair.centre_distance() * kMilli, 7), " mm: contact ratio ",
+           fixed(s.contact_ratio, 3), ", working pressure angle ",
+           fixed(pair.working_pressure_angle() * 180 / std::numbers::pi, 2),
            "°. Torque on the driver: ", listed(torques), " N m.");
   if (!c.sweeps.empty()) {
     const Eigen::VectorXd& f = c.sweeps[0].response.mesh_frequency;
-    const double rpm = 60.0 / s.driver.teeth;
+    const double rpm = 60.0 / s.gear[0].design.teeth;
     out += text(" Speeds: ", hertz(f.minCoeff()), " to ", hertz(f.maxCoeff()), " Hz mesh frequency, ",
                 fixed(f.minCoeff() * rpm, 0), " to ", fixed(f.maxCoeff() * rpm, 0), " 1/min of the driver.");
   } else {
@@ -45,7 +46,8 @@ void require_whole(const ReportContent& c) {
     fail(Failure::input, "report: no static.h5 given; that of the scene's first torque is the least");
   const StaticArtifact& first = c.statics[0];
   const auto same_pair = [&](const auto& a, const std::string& what) {
-    if (a.driver.teeth != first.driver.teeth || a.driven.teeth != first.driven.teeth ||
+    if (a.gear[0].design.teeth != first.gear[0].design.teeth ||
+        a.gear[1].design.teeth != first.gear[1].design.teeth ||
         a.mesh.centre_distance != first.mesh.centre_distance ||
         a.mesh.modification != first.mesh.modification)
       fail(Failure::input, "report: ", what, " at ", a.torque,

@@ -18,7 +18,7 @@ namespace whine {
 
 using Eigen::Index;
 
-const ReportSweep* sweep_of(const ReportContent& c, double torque, const std::string& direction) {
+const ReportSweep* sweep_of(const ReportContent& c, double torque, Direction direction) {
   for (const ReportSweep& s : c.sweeps)
     if (s.response.torque == torque && s.response.direction == direction) return &s;
   return nullptr;
@@ -31,11 +31,7 @@ const ImpactArtifact* impact_of(const ReportContent& c, double torque) {
 }
 
 double static_force(const StaticArtifact& s) {
-  return s.torque / ToothGeometry(s.driver).base_radius();
-}
-
-double face_width(const StaticArtifact& s) {
-  return std::min(s.driver.face_width, s.driven.face_width);
+  return s.torque / ToothGeometry(s.gear[0].design).base_radius();
 }
 
 double peak_to_peak(const Eigen::VectorXd& v) {
@@ -55,16 +51,16 @@ std::string jumps_of(const ResponseArtifact& r) {
 }
 
 double hertz_pressure(const StaticArtifact& s, double force) {
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair pair(s);
   const double tangent = std::tan(pair.working_pressure_angle());
   const double curvature = (1 / pair.gear(0).base_radius() + 1 / pair.gear(1).base_radius()) / tangent;
   const auto compliance = [&](const Material& material) {
     const Material m = in_contact_plane(material, s.mesh.contact_plane);
     return (m.plane_stress ? 1 : 1 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus;
   };
-  return std::sqrt(
-      force * curvature /
-      (face_width(s) * std::numbers::pi * (compliance(s.driver_material) + compliance(s.driven_material))));
+  return std::sqrt(force * curvature /
+                   (s.face_width() * std::numbers::pi *
+                    (compliance(s.gear[0].material) + compliance(s.gear[1].material))));
 }
 
 bool beyond_backlash(const ReportSweep& s, Index row) {
@@ -72,7 +68,7 @@ bool beyond_backlash(const ReportSweep& s, Index row) {
 }
 
 std::string way_words(const ReportSweep& s) {
-  return s.response.direction == "up" ? "speed rising" : "speed falling";
+  return s.response.direction == Direction::up ? "speed rising" : "speed falling";
 }
 
 std::string speeds_beyond_backlash(const ReportSweep& s) {

@@ -42,11 +42,10 @@ struct ReportContent {
 };
 
 // Of the content; nullptr if there is none.
-const ReportSweep* sweep_of(const ReportContent& c, double torque, const std::string& direction);
+const ReportSweep* sweep_of(const ReportContent& c, double torque, Direction direction);
 const ImpactArtifact* impact_of(const ReportContent& c, double torque);
 
 double static_force(const StaticArtifact& s);  // N: T / r_b
-double face_width(const StaticArtifact& s);    // m: that of the narrower gear
 double peak_to_peak(const Eigen::VectorXd& v);
 
 // Hertz's pressure (Pa) of a force (N) on one tooth pair at the pitch point.

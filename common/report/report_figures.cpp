@@ -73,7 +73,8 @@ std::string of_response(const ReportContent& c) {
       "over the "
       "mesh period. ";
   for (const StaticArtifact& s : c.statics) {
-    const ReportSweep *up = sweep_of(c, s.torque, "up"), *down = sweep_of(c, s.torque, "down");
+    const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
+                      *down = sweep_of(c, s.torque, Direction::down);
     if (!up || !down) continue;
     const ResponseArtifact &r = up->response, &f = down->response;
     std::vector<std::string> peaks;
@@ -99,7 +100,7 @@ std::string of_waterfall(const ReportContent& c) {
   const ReportSweep& s = c.sweeps[0];
   return text(
       "Spectra of the dynamic transmission error at ", torque_words(s.response.torque),
-      sweep_of(c, s.response.torque, "up") && sweep_of(c, s.response.torque, "down")
+      sweep_of(c, s.response.torque, Direction::up) && sweep_of(c, s.response.torque, Direction::down)
           ? ", speed rising (above) and falling (below)"
           : ", " + way_words(s),
       " as colours, one line for each speed (left), and the amplitudes of the first orders of the mesh "
@@ -107,13 +108,14 @@ std::string of_waterfall(const ReportContent& c) {
       "is strong where it crosses the natural frequency of ",
       hertz(s.response.natural_frequency),
       " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
-      s.response.driver.teeth, " times the speed of the driver: 1000 Hz are ",
-      fixed(60000.0 / s.response.driver.teeth, 0), " 1/min.", beyond_words(c, s.response.torque));
+      s.response.gear[0].design.teeth, " times the speed of the driver: 1000 Hz are ",
+      fixed(60000.0 / s.response.gear[0].design.teeth, 0), " 1/min.", beyond_words(c, s.response.torque));
 }
 
 std::string of_tooth_loads(const ReportContent& c) {
   const StaticArtifact& s = c.statics[0];
-  const ReportSweep *up = sweep_of(c, s.torque, "up"), *down = sweep_of(c, s.torque, "down");
+  const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
+                    *down = sweep_of(c, s.torque, Direction::down);
   std::string out =
       "Largest load of a tooth pair against mesh frequency (above), and the loads over the mesh period at "
       "the speed with the largest "
@@ -133,7 +135,7 @@ std::string of_bearings(const ReportContent& c) {
          at_torques(c,
                     [&](const StaticArtifact& s) {
                       double most = 0;
-                      for (const char* direction : {"up", "down"})
+                      for (const Direction direction : {Direction::up, Direction::down})
                         if (const ReportSweep* sweep = sweep_of(c, s.torque, direction))
                           for (const Eigen::VectorXd& rms : sweep->response.bearing_force_rms)
                             if (rms.size() > 0) most = std::max(most, rms.maxCoeff());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
 #include "gear/pair.h"
 #include "gear/path_points.h"
 #include "report/figures.h"
@@ -11,7 +12,7 @@
 namespace whine {
 
 std::vector<GeometryNumber> pair_geometry(const StaticArtifact& s) {
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair pair(s);
   std::vector<GeometryNumber> out;
   const auto add = [&](const std::string& quantity, const std::string& unit, const std::string& value) {
     out.push_back({quantity, unit, value});
@@ -26,9 +27,9 @@ std::vector<GeometryNumber> pair_geometry(const StaticArtifact& s) {
   add("path of contact before the pitch point", "mm", millimetres(-pair.path_start()));
   add("backlash along the line of action", "mm", millimetres(pair.backlash()));
   const auto points = path_points(pair);
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     const ToothGeometry& gear = pair.gear(g);
-    const std::string of = g == 0 ? ", " + s.mesh.driver + " (driver)" : ", " + s.mesh.driven + " (driven)";
+    const std::string of = text(", ", s.mesh.gear[g], " (", kRole[g], ")");
     const auto at = [&](int p) { return millimetres(points[static_cast<size_t>(p)].diameter[g]); };
     add("teeth" + of, "1", std::to_string(gear.design().teeth));
     add("base diameter" + of, "mm", millimetres(2 * gear.base_radius()));

@@ -31,7 +31,7 @@ struct Adder {
 
 void add_statics(const StaticArtifact& s, const Adder& add) {
   add("mean mesh stiffness", "N/µm", fixed(s.mean_stiffness * 1e-6, 1));
-  add("the same per face width", "N/(mm µm)", fixed(s.mean_stiffness * 1e-6 / (face_width(s) * kMilli), 2));
+  add("the same per face width", "N/(mm µm)", fixed(s.mean_stiffness * 1e-6 / (s.face_width() * kMilli), 2));
   add("static transmission error, mean", "µm", significant(s.transmission_error.mean() * kMicro, 4));
   add("static transmission error, peak to peak", "µm",
       significant(peak_to_peak(s.transmission_error) * kMicro, 4));
@@ -61,7 +61,7 @@ void add_ring_down(const ImpactArtifact& a, const Adder& add) {
 
 void add_motion(const StaticArtifact& s, const ReportSweep& sweep, const Adder& add) {
   const ResponseArtifact& r = sweep.response;
-  const std::string way = r.direction == "up" ? ", speed rising" : ", speed falling";
+  const std::string way = r.direction == Direction::up ? ", speed rising" : ", speed falling";
   Index at = 0;
   const double rms = r.dte_rms.maxCoeff(&at);
   std::string beyond = beyond_backlash(sweep, at) ? kBeyond : "";
@@ -73,13 +73,13 @@ void add_motion(const StaticArtifact& s, const ReportSweep& sweep, const Adder& 
   add("mesh frequency of that tooth load" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
   add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
   add(kNominalPressure + way, "MPa", fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     if (r.bearing_force_rms[g].size() > 0) {
-      const std::string of = "force on the bearing of " + s.mesh.gear(g);
+      const std::string of = "force on the bearing of " + s.mesh.gear[g];
       const double force = r.bearing_force_rms[g].maxCoeff(&at);
       beyond = beyond_backlash(sweep, at) ? kBeyond : "";
       add("largest RMS of the oscillating " + of + way, "N", fixed(force, 0), beyond);
-      add("mesh frequency of that RMS, " + s.mesh.gear(g) + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
+      add("mesh frequency of that RMS, " + s.mesh.gear[g] + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
       add("largest " + of + way, "N", fixed(r.bearing_force_max[g].maxCoeff(&at), 0),
           beyond_backlash(sweep, at) ? kBeyond : "");
     }
@@ -96,7 +96,8 @@ std::vector<ReportNumber> report_numbers(const ReportContent& c) {
     const Adder add{s.torque, out};
     add_statics(s, add);
     if (const ImpactArtifact* a = impact_of(c, s.torque)) add_ring_down(*a, add);
-    const ReportSweep *up = sweep_of(c, s.torque, "up"), *down = sweep_of(c, s.torque, "down");
+    const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
+                      *down = sweep_of(c, s.torque, Direction::down);
     for (const ReportSweep* sweep : {up, down})
       if (sweep) add_motion(s, *sweep, add);
     if (up && down) add("contact lost at", "Hz", loss_ranges(up->response, down->response));

@@ -44,7 +44,7 @@ std::string bearing_frequencies_table(const ReportContent& c) {
 std::string gears_table(const ReportContent& c) {
   const StaticArtifact& s = c.statics.front();
   constexpr double kNoBacklash = 1e-6;  // m: what a centre distance rounded to a micrometre leaves
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair pair(s);
   const auto degrees = [](double rad) { return fixed(rad * 180 / std::numbers::pi, 3); };
   html::Rows rows;
   const auto both = [&](const std::string& what, const std::string& unit, const auto& value) {
@@ -72,18 +72,16 @@ std::string gears_table(const ReportContent& c) {
   diameter("diameter at D, up to where it does", 3, 3);
   both("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
   rows.push_back({"inertia of the body as drawn, bore to tip, without fillets", "kg m²",
-                  shown(least_body_inertia(pair.gear(0), s.driver_material), 3),
-                  shown(least_body_inertia(pair.gear(1), s.driven_material), 3)});
+                  shown(least_body_inertia(pair.gear(0), s.gear[0].material), 3),
+                  shown(least_body_inertia(pair.gear(1), s.gear[1].material), 3)});
   if (!c.impacts.empty()) {
     constexpr double kFillets = 1.03;  // what fillets add to the outline at most
     const ImpactArtifact& a = c.impacts.front();
-    const auto total = [&](size_t g, const Material& material, double inertia) {
-      return shown(inertia, 4) +
-             (inertia < kFillets * least_body_inertia(pair.gear(g), material) ? ", as drawn" : "");
+    const auto total = [&](int g) {
+      const bool drawn = a.inertia[g] < kFillets * least_body_inertia(pair.gear(g), s.gear[g].material);
+      return shown(a.inertia[g], 4) + (drawn ? ", as drawn" : "");
     };
-    rows.push_back({"inertia in motion, with all that turns with the gear", "kg m²",
-                    total(0, s.driver_material, a.driver_inertia),
-                    total(1, s.driven_material, a.driven_inertia)});
+    rows.push_back({"inertia in motion, with all that turns with the gear", "kg m²", total(0), total(1)});
   }
   rows.push_back({"flanks", "", in_words(s.mesh.modification[0]), in_words(s.mesh.modification[1])});
   if (s.mesh.on_bearings()) {
@@ -98,8 +96,8 @@ std::string gears_table(const ReportContent& c) {
     of_bearing("radial damping of the bearing", "N s/m", 1, &Bearing::damping, "0");
     of_bearing("mass on the bearing", "kg", 1, &Bearing::mass, "as drawn");
   }
-  return html::table(text("The gears: ", s.mesh.driver, " drives ", s.mesh.driven, "."),
-                     {"", "unit", s.mesh.driver + " (driver)", s.mesh.driven + " (driven)"}, rows) +
+  return html::table(text("The gears: ", s.mesh.gear[0], " drives ", s.mesh.gear[1], "."),
+                     {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"}, rows) +
          html::table("Their mesh.", {"", "unit", "value"},
                      {{"centre distance", "mm", shown(pair.centre_distance() * kMilli, 7)},
                       {"working pressure angle", "deg", degrees(pair.working_pressure_angle())},
@@ -171,7 +169,7 @@ std::string parameters_table(const ReportContent& c) {
       c.sweeps.empty() ? scene_keys_of(c.statics[0]) : scene_keys_of(c.sweeps[0].response);
   html::Rows rows;
   for (const SceneKey& key : keys)
-    rows.push_back({key.section, key.name, key.driver, key.driven, key.meaning});
+    rows.push_back({key.section, key.name, key.value[0], key.value[1], key.meaning});
   std::string torques;
   for (const auto& s : c.statics) torques += (torques.empty() ? "" : ", ") + shown(s.torque, 6);
   rows.push_back(
@@ -184,7 +182,7 @@ std::string parameters_table(const ReportContent& c) {
   }
   return html::table(
       "Every value of the scene that went into the results, defaults included, in the scene's units.",
-      {"section", "key", c.statics[0].mesh.driver + ", or all", c.statics[0].mesh.driven, "meaning"}, rows,
+      {"section", "key", c.statics[0].mesh.gear[0] + ", or all", c.statics[0].mesh.gear[1], "meaning"}, rows,
       "small");
 }
 

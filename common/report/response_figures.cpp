@@ -116,7 +116,7 @@ struct Extent {
 // One torque or flank of a panel, number c from 1: both directions, the branch beside them, its natural frequency. "150 N m:
 // jumps rising 2645, falling 1819 Hz"
 std::string add_curve(Figure& figure, const std::string& letter, size_t c, const std::string& label,
-                      const ChoicePanel<ResponseArtifact>::Curve& curve, const Background& captions,
+                      const ChoicePanel<ResponseArtifact>::Curve& curve, const Background& background,
                       Extent& extent) {
   const auto number = [&](const std::string& name, double value) {
     figure.numbers.emplace_back(text(name, "_", letter, "_", c), value);
@@ -124,15 +124,16 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
   const std::string name = letter + " " + label + " ";
   std::string found;
   for (const ResponseArtifact* r : {curve.up, curve.down}) {
-    figure.blocks.push_back(response_block(name + r->direction, *r));
-    figure.blocks.push_back(jump_block(name + "jumps " + r->direction, *r));
+    figure.blocks.push_back(response_block(text(name, r->direction), *r));
+    figure.blocks.push_back(jump_block(text(name, "jumps ", r->direction), *r));
     const std::string at = listed(figure.blocks.back());
     if (!at.empty())
-      found += (found.empty() ? " " : ", ") + std::string(r->direction == "up" ? "rising" : "falling") + at;
-    number("jumps_" + r->direction, static_cast<double>(r->jump_frequency.size()));
+      found += (found.empty() ? " " : ", ") +
+               std::string(r->direction == Direction::up ? "rising" : "falling") + at;
+    number(text("jumps_", r->direction), static_cast<double>(r->jump_frequency.size()));
     extent.add(*r);
   }
-  if (const BranchArtifact* branch = branch_of(*curve.up, captions)) {
+  if (const BranchArtifact* branch = branch_of(*curve.up, background)) {
     figure.blocks.push_back(unstable_block(name + "unstable", *branch));
     number("unstable", static_cast<double>(figure.blocks.back().rows.size()));
     figure.blocks.push_back(fold_block(name + "folds", *branch));
@@ -144,7 +145,7 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
 }
 
 void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<ResponseArtifact>& panel,
-               const Background& captions) {
+               const Background& background) {
   const auto& curves = panel.curves;
   if (curves.size() > kMostCurves)
     fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
@@ -153,13 +154,13 @@ void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<Resp
   Extent extent;
   for (size_t c = 0; c < curves.size(); ++c) {
     const std::string label = curve_label(panel, *curves[c].up);
-    const std::string words = add_curve(figure, letter, c + 1, label, curves[c], captions, extent);
+    const std::string words = add_curve(figure, letter, c + 1, label, curves[c], background, extent);
     labels += "'" + label + "' ";
     jumps += "'" + words + "' ";
     found_jumps += (c ? "; " : "") + words;
   }
   // Scene, operating point, choices: lines above the panel.
-  std::vector<std::string> lines{operating_words(panel, captions), panel.choices};
+  std::vector<std::string> lines{operating_words(panel, background), panel.choices};
   if (!panel.scene.empty()) lines.insert(lines.begin(), panel.scene);
   std::string note, heading;
   for (size_t i = 0; i < lines.size(); ++i) {
@@ -227,10 +228,10 @@ std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down
   return parts.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too
 }
 
-Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& captions) {
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background) {
   if (sweeps.empty())
     fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
-  const std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps, captions);
+  const std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps, background);
   Figure figure;
   std::vector<double> torques;
   bool any_elastic = false, any_lumped = false;
@@ -250,7 +251,7 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
       (any_elastic && any_lumped ? "; one degree of freedom: " : "") +
       (any_lumped ? "natural frequency of the mass on the mean stiffness" : ""));
   figure.height = panels.size() == 1 ? 1060 : 240 + 660 * static_cast<int>(panels.size());
-  for (size_t p = 0; p < panels.size(); ++p) add_panel(figure, letter_of(p), panels[p], captions);
+  for (size_t p = 0; p < panels.size(); ++p) add_panel(figure, letter_of(p), panels[p], background);
   double from = std::numeric_limits<double>::infinity(), to = 0;
   Eigen::Index speeds = 0;
   for (const auto& r : sweeps) {
@@ -265,8 +266,8 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
   return figure;
 }
 
-Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& captions) {
-  const auto panels = panels_of(sweeps, captions);
+Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background) {
+  const auto panels = panels_of(sweeps, background);
   if (panels.size() != 1 || panels[0].curves.size() != 1)
     fail(Failure::input, "figure: sweeps of ",
          panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
@@ -278,22 +279,22 @@ Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const B
          "figure: no gear of this pair is on an elastic bearing; add [[bearing]] to the scene");
   Figure figure;
   figure.title = "Forces on the bearings against mesh frequency, " + torque_words(curve.up->torque);
-  figure.notes = {operating_words(panels[0], captions), panels[0].choices};
+  figure.notes = {operating_words(panels[0], background), panels[0].choices};
   std::string labels;
   double rms = 0, most = 0;
   int curves = 0;
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     const Bearing& bearing = mesh.bearing[g];
     if (!bearing.elastic()) continue;
     ++curves;
-    labels += text("'", mesh.gear(g), ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
+    labels += text("'", mesh.gear[g], ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
     for (const ResponseArtifact* r : {curve.up, curve.down}) {
       const std::string name = text(curves, " ", r->direction);
       FigureBlock block{name,
                         {"mesh_frequency [Hz]", "bearing_force_rms [N]", "bearing_force_max [N]"},
                         {},
                         "forces",
-                        mesh.gear(g) + " " + r->direction};
+                        text(mesh.gear[g], " ", r->direction)};
       const std::vector<bool> broken = broken_after(*r);
       for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
         block.rows.push_back({r->mesh_frequency[i], r->bearing_force_rms[g][i], r->bearing_force_max[g][i]});
@@ -305,7 +306,7 @@ Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const B
     }
   }
   figure.words.emplace_back("labels", labels);
-  const GearPair gears(curve.up->driver, curve.up->driven, mesh.centre_distance);
+  const GearPair gears(*curve.up);
   figure.numbers = {{"curves", curves},
                     {"rms_max", rms},
                     {"force_max", most},

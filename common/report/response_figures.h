@@ -8,12 +8,12 @@ namespace whine {
 // choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending) and
 // each modification of the flanks. With branches the orbits that no sweep finds, unstable ones, and the folds at which
 // branches turn. Throws Error(input) unless every sweep up has one sweep down of the same torque and choices.
-Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& captions = {});
+Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background = {});
 
 // Force of each gear on its elastic bearing against mesh frequency for both directions of the sweep: RMS of what of it
 // oscillates, and the largest. Throws Error(input) for gears on rigid bearings, for sweeps of two torques or sets of choices,
 // else as response_figure.
-Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& captions = {});
+Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background = {});
 
 // Ranges of neighbouring speeds at which either sweep loses contact, in Hz: "2820 to 2980, 3100", or "nowhere".
 std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down);

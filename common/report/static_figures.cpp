@@ -141,7 +141,7 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
 // is at phase f + j of its own.
 Figure load_sharing_figure(std::vector<StaticArtifact> statics) {
   const StaticArtifact first = sort_by_torque(statics);
-  const GearPair pair(first.driver, first.driven, first.mesh.centre_distance);
+  const GearPair pair(first);
   const Eigen::Index n = first.mesh_phase.size();
   // Pairs that carry load at any torque.
   int from = 0, to = 0;
@@ -234,7 +234,7 @@ Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
   figure.notes.push_back(text(pair_words(s), ", ", torque_words(s.torque)));
   figure.notes.push_back(text(
       "the same teeth meet after ", periods, " mesh periods; orders of the mesh frequency, of the shafts ",
-      shown(1.0 / s.driver.teeth, 4), " (driver) and ", shown(1.0 / s.driven.teeth, 4)));
+      shown(1.0 / s.gear[0].design.teeth, 4), " (driver) and ", shown(1.0 / s.gear[1].design.teeth, 4)));
   FigureBlock error{"transmission_error", {"mesh_phase [1]", "transmission_error [µm]"}, {}};
   for (Eigen::Index i = 0; i < s.mesh_phase.size(); ++i)
     error.rows.push_back({s.mesh_phase[i], s.transmission_error[i] * kMicro});
@@ -259,13 +259,11 @@ Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
 }
 
 Figure crack_figure(const StaticArtifact& s) {
-  const std::array<const GearDesign*, 2> gears{&s.driver, &s.driven};
   std::string cracks;
-  for (size_t g = 0; g < 2; ++g)
-    if (const Crack& crack = gears[g]->crack; crack.depth > 0)
-      cracks += text(cracks.empty() ? "" : "; ", "tooth ", crack.tooth,
-                     g ? " of the driven gear" : " of the driver", ": a slit of ",
-                     shown(crack.depth * 1e3, 4), " mm from the fillet, ",
+  for (size_t g = 0; g < kSides; ++g)
+    if (const Crack& crack = s.gear[g].design.crack; crack.depth > 0)
+      cracks += text(cracks.empty() ? "" : "; ", "tooth ", crack.tooth, " of the ", kGearName[g],
+                     ": a slit of ", shown(crack.depth * 1e3, 4), " mm from the fillet, ",
                      shown(crack.angle * 180 / std::numbers::pi, 4), "° to the tooth's centre line");
   if (cracks.empty())
     fail(Failure::input,
@@ -323,9 +321,9 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
   figure.notes.push_back(
       text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
            shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
-  figure.notes.push_back(
-      text("contact = ", budget.fidelity.contact, ", near field by ", budget.driver_body.near_field,
-           "; beyond the line what another choice changes, which is no error of this one"));
+  figure.notes.push_back(text(
+      "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
+      "; beyond the line what another choice changes, which is no error of this one"));
   for (const auto& [name, labels, count, changes] :
        {std::tuple{"changes", "labels", "entries", &budget.refinement},
         std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {

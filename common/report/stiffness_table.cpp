@@ -11,7 +11,7 @@ namespace whine {
 
 WordTable compliance_table(const StaticArtifact& s) {
   const ComplianceSplit split = compliance_split(s);
-  const double width = std::min(s.driver.face_width, s.driven.face_width);
+  const double width = s.face_width();
   WordTable out{
       "Where the compliance of the mesh comes from, mean over the period at " + torque_words(s.torque) + ".",
       {"", "µm mm/N", "share (%)", "mesh stiffness with a bore 10 % larger, at least"},
@@ -21,8 +21,8 @@ WordTable compliance_table(const StaticArtifact& s) {
         {what, fixed(compliance * width * 1e9, 5), fixed(compliance / split.whole * kPercent, 1), wider});
   };
   const auto wider = [&](size_t g) { return "+" + fixed(split.wider_bore[g] * kPercent, 1) + " %"; };
-  add("twist of " + s.mesh.driver + " between bore and root circle", split.body[0], wider(0));
-  add("twist of " + s.mesh.driven + " between bore and root circle", split.body[1], wider(1));
+  for (size_t g = 0; g < kSides; ++g)
+    add("twist of " + s.mesh.gear[g] + " between bore and root circle", split.body[g], wider(g));
   add("contact (Hertz)", split.contact, "");
   add("teeth, the rest", split.teeth, "");
   add("whole", split.whole, "");
@@ -31,7 +31,7 @@ WordTable compliance_table(const StaticArtifact& s) {
 
 WordTable iso_table(const StaticArtifact& s) {
   const ComplianceSplit split = compliance_split(s);
-  const double width = std::min(s.driver.face_width, s.driven.face_width);
+  const double width = s.face_width();
   const auto per_width = [&](double stiffness) {
     return stiffness > 0 ? fixed(stiffness / width * 1e-9, 2) : std::string("–");
   };

@@ -17,7 +17,7 @@ auto gears_of(const Artifact& s) {
   const auto of_gear = [](const GearDesign& g) {
     return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
   };
-  return std::tuple(of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
+  return std::tuple(of_gear(s.gear[0].design), of_gear(s.gear[1].design), s.inertia[0], s.inertia[1],
                     s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
                     s.mesh.contact_plane, s.damping.rayleigh_stiffness, s.damping.rayleigh_mass,
                     s.damping.bearing_ratio, s.damping.undamped_depth);
@@ -36,7 +36,7 @@ std::string lumped_words(const LumpedParameters& lumped) {
   if (!(lumped.mass > 0)) return "mass and damping ratio: see its sweep.h5";
   return text("mass ", shown(lumped.mass, 5), " kg, damping ratio ",
               shown(lumped.damping_ratio * kPercent, 4), " %, damper ",
-              lumped.damper_acts == "contact" ? "in contact only" : "always on");
+              lumped.damper_acts == DamperActs::contact ? "in contact only" : "always on");
 }
 
 template <class Sweep>
@@ -53,19 +53,18 @@ std::string choice_words(const Sweep& s) {
 }
 
 template <class Sweep>
-std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& captions) {
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& background) {
   std::vector<ChoicePanel<Sweep>> panels;
   std::vector<const Sweep*> first;  // of each panel
   for (size_t i = 0; i < sweeps.size(); ++i) {
     const Sweep& s = sweeps[i];
-    const LumpedParameters lumped = captions.lumped.empty() ? LumpedParameters{} : captions.lumped.at(i);
-    if (s.direction != "up" && s.direction != "down")
-      fail(Failure::input, "figure: a sweep of direction '", s.direction, "'; up and down are known");
+    const LumpedParameters lumped = background.lumped.empty() ? LumpedParameters{} : background.lumped.at(i);
     size_t p = 0;
     while (p < first.size() && choices_of(*first[p], panels[p].lumped) != choices_of(s, lumped)) ++p;
     if (p == first.size()) {
       first.push_back(&s);
-      panels.push_back({choice_words(s), captions.scenes.empty() ? "" : captions.scenes.at(i), lumped, {}});
+      panels.push_back(
+          {choice_words(s), background.scenes.empty() ? "" : background.scenes.at(i), lumped, {}});
     }
     auto& curves = panels[p].curves;
     const auto of = [](const auto& c) { return c.up ? c.up : c.down; };
@@ -76,7 +75,7 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, cons
     if (at == curves.end())
       at = curves.emplace(std::find_if(curves.begin(), curves.end(),
                                        [&](const auto& c) { return of(c)->torque > s.torque; }));
-    const Sweep*& place = s.direction == "up" ? at->up : at->down;
+    const Sweep*& place = s.direction == Direction::up ? at->up : at->down;
     if (place)
       fail(Failure::input, "figure: two sweeps ", s.direction, " at ", torque_words(s.torque), " with ",
            choice_words(s), "; give each once");
@@ -94,7 +93,7 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, cons
 }
 
 template <class Sweep>
-std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& captions) {
+std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& background) {
   std::vector<std::string> torques, at;
   std::string ratios, state, with_one;
   const auto once = [](std::vector<std::string>& list, const std::string& word) {
@@ -105,15 +104,14 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& c
     const Sweep& s = *curve.up;
     once(torques, shown(s.torque, 6));
     const auto found =
-        std::find_if(captions.impacts.begin(), captions.impacts.end(), [&](const ImpactArtifact& impact) {
+        std::find_if(background.impacts.begin(), background.impacts.end(), [&](const ImpactArtifact& impact) {
           return impact.torque == s.torque && gears_of(impact) == gears_of(s) &&
                  impact.mesh.modification == s.mesh.modification && impact.state_phase.size() > 0;
         });
-    if (!elastic(s) || found == captions.impacts.end()) continue;
+    if (!elastic(s) || found == background.impacts.end()) continue;
     // Many pairs as without load; with any load there may be more.
     static const std::array<std::string, 4> kCounts{"one", "two", "three", "four"};
-    const size_t many = static_cast<size_t>(
-        std::ceil(GearPair(s.driver, s.driven, s.mesh.centre_distance).contact_ratio() - 1e-9));
+    const size_t many = static_cast<size_t>(std::ceil(GearPair(s).contact_ratio() - 1e-9));
     const auto& states = found->contact_state;
     const auto wanted = std::find(states.begin(), states.end(), many <= 4 ? kCounts[many - 1] : "");
     const Eigen::Index i = wanted != states.end() ? wanted - states.begin() : found->state_phase.size() - 1;
@@ -151,15 +149,15 @@ std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
   return flanks + (torques ? ", " + torque_words(s.torque) : "");
 }
 
-const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& captions) {
+const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& background) {
   if (!elastic(r)) return nullptr;
   const auto found =
-      std::find_if(captions.branches.begin(), captions.branches.end(), [&](const BranchArtifact& b) {
+      std::find_if(background.branches.begin(), background.branches.end(), [&](const BranchArtifact& b) {
         return b.torque == r.torque && gears_of(b) == gears_of(r) &&
                b.mesh.modification == r.mesh.modification && b.fidelity.body == r.fidelity.body &&
                b.fidelity.contact == r.fidelity.contact && b.fidelity.integrator == r.fidelity.integrator;
       });
-  return found == captions.branches.end() ? nullptr : &*found;
+  return found == background.branches.end() ? nullptr : &*found;
 }
 
 template std::vector<ChoicePanel<ResponseArtifact>> panels_of(const std::vector<ResponseArtifact>&,

@@ -38,7 +38,7 @@ struct ChoicePanel {
 
 // In the order in which the choices come. Throws Error(input) where a direction is missing or given twice.
 template <class Sweep>
-std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& captions);
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& background);
 
 // Damping, corner rule and fidelity of elastic gears; stiffness and integrator of a lumped model.
 template <class Sweep>
@@ -50,13 +50,13 @@ std::string lumped_words(const LumpedParameters& lumped);
 // Torques and damping of a panel: "150 N m; damping ratio 5.81 % with one pair, 6.95 % with two pairs in contact, by
 // ring-down". Without the impact.h5 of its sweeps the torques alone.
 template <class Sweep>
-std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& captions);
+std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& background);
 
 // What tells the curves of a panel apart: their torques, or their flanks where those differ at one torque.
 template <class Sweep>
 std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s);
 
 // The branch of a sweep's pair at its torque; none if it is not among them.
-const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& captions);
+const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& background);
 
 }  // namespace whine

@@ -138,7 +138,7 @@ void start_cases(JumpMapArtifact& map, Eigen::Index cases, const VectorXd& speed
 }
 
 void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
-              const std::function<SweepArtifact(const std::string&, std::vector<BranchPoint>&)>& sweep) {
+              const std::function<SweepArtifact(Direction, std::vector<BranchPoint>&)>& sweep) {
   const VectorXd& speed = map.mesh_frequency;
   std::array<std::vector<End>, 2> jumps;
   const auto note_loss = [&](double f) {
@@ -147,7 +147,7 @@ void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
   };
   for (int d = 0; d < 2; ++d) {
     std::vector<BranchPoint> beyond;
-    const SweepArtifact swept = sweep(d == 0 ? "up" : "down", beyond);
+    const SweepArtifact swept = sweep(d == 0 ? Direction::up : Direction::down, beyond);
     const ResponseArtifact r = response(swept);
     VectorXd held(speed.size());
     for (Eigen::Index i = 0; i < speed.size(); ++i)

@@ -38,9 +38,9 @@ void start_cases(JumpMapArtifact& map, Eigen::Index cases, const Eigen::VectorXd
                  double load_frequency);
 
 // Fills in what the two sweeps of case c say: ends of branches, contact loss, loads, jumps, responses. sweep(direction, beyond)
-// goes through the speeds of the map, first "up", then "down", and adds to beyond the motions on branches past the speed
+// goes through the speeds of the map, first up, then down, and adds to beyond the motions on branches past the speed
 // at which it left them. step: Hz, between the speeds.
 void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
-              const std::function<SweepArtifact(const std::string&, std::vector<BranchPoint>&)>& sweep);
+              const std::function<SweepArtifact(Direction, std::vector<BranchPoint>&)>& sweep);
 
 }  // namespace whine

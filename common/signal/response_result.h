@@ -12,7 +12,8 @@ namespace whine {
 // response.h5: what a sweep says, per speed
 struct ResponseArtifact : MotionParameters {
   double torque = 0;
-  std::string direction, model;       // model: "finite elements" or a lumped model's name
+  Direction direction = Direction::up;
+  std::string model;                  // "finite elements" or a lumped model's name
   Eigen::VectorXd mesh_frequency;     // (speed) Hz
   Eigen::VectorXd dte_rms, dte_mean;  // (speed) m
   MatrixRM dte_harmonic;              // (speed, harmonic 1..) m, amplitude

@@ -29,13 +29,18 @@ inline constexpr std::array<EnergyLine, 12> kEnergyLines{
      {"averaging", "mean load times change of the relaxed load, less the exact work: of the scheme itself"},
      {"forgetting", "taken out with the relaxed loads of teeth that are no longer followed"}}};
 
+// When the damper of a lumped model acts: always as in Eq. 23, or while the teeth touch.
+enum class DamperActs { always, contact };
+template <>
+inline constexpr const char* kWordsOf<DamperActs> = "always contact";
+
 // What a lumped model (Eq. 23) is made of, in place of elastic bodies: m x'' + c x' + sum_i k_i max(x - g_i, 0) = T / r,
 // k_i and g_i constant in each cell of the mesh period.
 struct LumpedParameters {
   double mass = 0;           // kg
   double damping_ratio = 0;  // 1: c / 2 sqrt(mean stiffness x mass)
   double damper = 0;         // N s m-1
-  std::string damper_acts;   // "always" as in Eq. 23, or in "contact" only
+  DamperActs damper_acts = DamperActs::always;
   Eigen::VectorXd cell_end;  // (cell) mesh phase, ascending, last 1
   MatrixRM stiffness, gap;   // (cell, spring) N m-1, m; one spring for the whole mesh, or one per tooth pair
 };
@@ -46,12 +51,12 @@ struct SweepArtifact : MotionParameters {
       "finite elements";  // or a lumped model's name; then the fields of the bodies say where its
                           // stiffness comes from, and its damping is that of `lumped` alone
   LumpedParameters lumped;
-  double torque = 0;                                            // N m on the driver
-  double mean_stiffness = 0;                                    // N m-1 that sets the bearing dampers
-  double driver_bearing_damper = 0, driven_bearing_damper = 0;  // N m s
-  double natural_frequency = 0;    // Hz: mean over the period with the contact frozen under the static load
-  int hunting_periods = 1;         // mesh periods after which the same teeth meet, as far as teeth differ
-  std::string direction;           // "up" or "down"
+  double torque = 0;                               // N m on the driver
+  double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers
+  std::array<double, kSides> bearing_damper = {};  // N m s
+  double natural_frequency = 0;  // Hz: mean over the period with the contact frozen under the static load
+  int hunting_periods = 1;       // mesh periods after which the same teeth meet, as far as teeth differ
+  Direction direction = Direction::up;
   Eigen::VectorXd mesh_frequency;  // (speed) Hz
   // (speed, sample) m: the first period_multiple mesh periods are one orbit, repeated to fill the row
   MatrixRM transmission_error;

@@ -13,10 +13,7 @@ namespace whine {
 // body.h5: all that the contact of a rolling gear needs of its solid. Per real mode (doublets: two columns,
 // cosine then sine: on tooth j, counted counter-clockwise, the shape is Re and Im of exp(i n 2 pi j / teeth)
 // phi).
-struct BodyArtifact {
-  GearDesign design;
-  Material material;
-  BodyDiscretisation discretisation;
+struct BodyArtifact : BodyParameters {
   double inertia = 0;                // kg m2 of the meshed body about its axis (hub ring included)
   double mass = 0;                   // kg of the meshed body (hub ring included)
   Eigen::VectorXd eigenfrequency;    // (mode) Hz, hub fixed
@@ -52,15 +49,5 @@ struct BodyArtifact {
   MatrixRMi vtk_cell;                                            // (cell, 4 or 9), node order as element_node
   std::vector<std::pair<std::string, MatrixRM>> vtk_point_data;  // name, (point, 2)
 };
-
-// What a result of a pair says of its two gears.
-inline void set_gears(PairParameters& pair, const BodyArtifact& driver, const BodyArtifact& driven) {
-  pair.driver = driver.design;
-  pair.driven = driven.design;
-  pair.driver_material = driver.material;
-  pair.driven_material = driven.material;
-  pair.driver_body = driver.discretisation;
-  pair.driven_body = driven.discretisation;
-}
 
 }  // namespace whine

@@ -24,12 +24,14 @@ struct Outcome {
   VectorXd harmonic;
 };
 
+using NamedOutcomes = std::vector<std::pair<std::string, Outcome>>;
+
 Outcome outcome(const StaticArtifact& s) {
   return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
           flank_pressure(s).smooth, harmonics(s.transmission_error, kHarmonics).amplitude};
 }
 
-StaticChanges changes(const std::vector<std::pair<std::string, Outcome>>& others, const Outcome& reference) {
+StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
   const auto count = static_cast<Eigen::Index>(others.size());
   StaticChanges result;
   result.mean_stiffness_change.resize(count);
@@ -52,103 +54,95 @@ std::string from_to(const char* name, double from, double to, const char* unit =
   return text(name, " ", from, " to ", to, unit);
 }
 
-BodyArtifact reduced_again(const BodyArtifact& body, const BodyDiscretisation& discretisation,
-                           int flank_points) {
-  constexpr int kModes = 1;  // statics ask for none
-  return reduce(make_sector_mesh(body.design, discretisation), body.material, kModes, flank_points);
+// The pair at rest, solved in other ways than the settings say.
+struct Alternatives {
+  const BodyArtifact &driver, &driven;
+  const StaticParameters& settings;
+  double torque;  // N m
+
+  bool strips() const { return settings.fidelity.contact == ContactModel::strips; }
+  Outcome with(const StaticParameters& other, double zone_factor = 1) const {
+    return outcome(static_transmission(driver, driven, other, torque, zone_factor));
+  }
+  // Bodies of another discretisation, with `finer` times the points of the flank table.
+  Outcome of_bodies(const std::function<void(BodyDiscretisation&)>& change, int finer = 1) const {
+    constexpr int kModes = 1;  // statics ask for none
+    const auto again = [&](const BodyArtifact& body) {
+      BodyDiscretisation other = body.discretisation;
+      change(other);
+      return reduce(make_sector_mesh(body.design, other), body.material, kModes,
+                    finer * static_cast<int>(body.flank_position.size()));
+    };
+    const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
+    const BodyArtifact first = again(driver);
+    return outcome(static_transmission(first, alike ? first : again(driven), settings, torque));
+  }
+};
+
+NamedOutcomes refinements(const Alternatives& pair) {
+  NamedOutcomes refined;
+  if (pair.strips()) {
+    StaticParameters finer = pair.settings;
+    finer.contact.strips *= 2;
+    refined.emplace_back(from_to("strips", pair.settings.contact.strips, finer.contact.strips),
+                         pair.with(finer));
+  }
+  const auto flank_points = static_cast<int>(pair.driver.flank_position.size());
+  refined.emplace_back(from_to("flank table", flank_points, 2 * flank_points, " points"),
+                       pair.of_bodies([](BodyDiscretisation&) {}, 2));
+  const double element = pair.driver.discretisation.element_size * 1e3;
+  refined.emplace_back(from_to("elements", element, 0.5 * element, " mm"),
+                       pair.of_bodies([](BodyDiscretisation& body) { body.element_size *= 0.5; }));
+  if (pair.driver.discretisation.element_order == 1 || pair.driven.discretisation.element_order == 1)
+    refined.emplace_back(from_to("order", 1, 2),
+                         pair.of_bodies([](BodyDiscretisation& body) { body.element_order = 2; }));
+  if (pair.strips())
+    refined.emplace_back(from_to("search range", 1, 2, " times"), pair.with(pair.settings, 2));
+  StaticParameters denser = pair.settings;
+  denser.contact.positions *= 2;
+  refined.emplace_back(from_to("positions", pair.settings.contact.positions, denser.contact.positions),
+                       pair.with(denser));
+  return refined;
 }
 
-}  // namespace
-
-// NOLINTNEXTLINE(readability-function-size): one row of the table after the other
-ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
-                                 const StaticParameters& settings, double torque) {
-  const auto solve = [&](const BodyArtifact& a, const BodyArtifact& b, const StaticParameters& s,
-                         double zone_factor = 1) {
-    return outcome(static_transmission(a, b, s, torque, zone_factor));
-  };
-  const StaticArtifact base = static_transmission(driver, driven, settings, torque);
-  const Outcome reference = outcome(base);
-
-  std::vector<std::pair<std::string, Outcome>> refined;
-  const bool strips = settings.fidelity.contact == ContactModel::strips;
-  if (strips) {
-    StaticParameters finer = settings;
-    finer.contact.strips *= 2;
-    refined.emplace_back(from_to("strips", settings.contact.strips, finer.contact.strips),
-                         solve(driver, driven, finer));
-  }
-  const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
-  const auto of_bodies = [&](const std::function<BodyArtifact(const BodyArtifact&)>& change) {
-    const BodyArtifact first = change(driver);
-    return solve(first, alike ? first : change(driven), settings);
-  };
-  const auto with_bodies = [&](const std::string& name,
-                               const std::function<BodyArtifact(const BodyArtifact&)>& change) {
-    refined.emplace_back(name, of_bodies(change));
-  };
-  const auto flank_points = static_cast<int>(driver.flank_position.size());
-  with_bodies(
-      from_to("flank table", flank_points, 2 * flank_points, " points"), [](const BodyArtifact& body) {
-        return reduced_again(body, body.discretisation, 2 * static_cast<int>(body.flank_position.size()));
-      });
-  const double element = driver.discretisation.element_size * 1e3;
-  with_bodies(from_to("elements", element, 0.5 * element, " mm"), [](const BodyArtifact& body) {
-    BodyDiscretisation half = body.discretisation;
-    half.element_size *= 0.5;
-    return reduced_again(body, half, static_cast<int>(body.flank_position.size()));
-  });
-  if (driver.discretisation.element_order == 1 || driven.discretisation.element_order == 1)
-    with_bodies(from_to("order", 1, 2), [](const BodyArtifact& body) {
-      BodyDiscretisation second = body.discretisation;
-      second.element_order = 2;
-      return reduced_again(body, second, static_cast<int>(body.flank_position.size()));
-    });
-  if (strips)
-    refined.emplace_back(from_to("search range", 1, 2, " times"), solve(driver, driven, settings, 2));
-  StaticParameters denser = settings;
-  denser.contact.positions *= 2;
-  refined.emplace_back(from_to("positions", settings.contact.positions, denser.contact.positions),
-                       solve(driver, driven, denser));
-
-  ErrorBudgetArtifact budget;
-  set_gears(budget, driver, driven);
-  budget.mesh = base.mesh;
-  budget.fidelity = base.fidelity;
-  budget.contact = base.contact;
-  budget.torque = torque;
-  budget.refinement = changes(refined, reference);
-
-  // A choice has limits of its own; where it cannot be made the budget is still one.
-  std::vector<std::pair<std::string, Outcome>> chosen;
+// What is no refinement. A choice has limits of its own: `missing` says why one cannot be made.
+NamedOutcomes other_choices(const Alternatives& pair, std::string& missing) {
+  NamedOutcomes chosen;
   const auto choose = [&](const std::string& name, const std::function<Outcome()>& instead) {
     try {
       chosen.emplace_back(name, instead());
     } catch (const Error& error) {
-      budget.choice_missing += text(budget.choice_missing.empty() ? "" : "; ", name, ": ", error.what());
+      missing += text(missing.empty() ? "" : "; ", name, ": ", error.what());
     }
   };
-  const BodyDiscretisation& present = driver.discretisation;
+  const BodyDiscretisation& present = pair.driver.discretisation;
   const bool matched = present.near_field == NearField::matching;
   choose(matched ? "subtraction" : text("matching at ", present.matching_depth * 1e3, " mm"), [&] {
-    return of_bodies([&](const BodyArtifact& body) {
-      BodyDiscretisation other = body.discretisation;
-      other.near_field = matched ? NearField::subtraction : NearField::matching;
-      return reduced_again(body, other, static_cast<int>(body.flank_position.size()));
+    return pair.of_bodies([&](BodyDiscretisation& body) {
+      body.near_field = matched ? NearField::subtraction : NearField::matching;
     });
   });
   if (present.element_order == 2)  // there is no higher order to refine to
-    choose("order 1", [&] {
-      return of_bodies([&](const BodyArtifact& body) {
-        BodyDiscretisation first = body.discretisation;
-        first.element_order = 1;
-        return reduced_again(body, first, static_cast<int>(body.flank_position.size()));
-      });
-    });
-  StaticParameters other = settings;
-  other.fidelity.contact = strips ? ContactModel::line : ContactModel::strips;
-  choose(text("contact ", other.fidelity.contact), [&] { return solve(driver, driven, other); });
-  budget.choice = changes(chosen, reference);
+    choose("order 1",
+           [&] { return pair.of_bodies([](BodyDiscretisation& body) { body.element_order = 1; }); });
+  StaticParameters other = pair.settings;
+  other.fidelity.contact = pair.strips() ? ContactModel::line : ContactModel::strips;
+  choose(text("contact ", other.fidelity.contact), [&] { return pair.with(other); });
+  return chosen;
+}
+
+}  // namespace
+
+ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
+                                 const StaticParameters& settings, double torque) {
+  const Alternatives pair{driver, driven, settings, torque};
+  const StaticArtifact base = static_transmission(driver, driven, settings, torque);
+  const Outcome reference = outcome(base);
+  ErrorBudgetArtifact budget;
+  static_cast<PairParameters&>(budget) = base;
+  budget.torque = torque;
+  budget.refinement = changes(refinements(pair), reference);
+  budget.choice = changes(other_choices(pair, budget.choice_missing), reference);
   return budget;
 }
 

@@ -36,7 +36,7 @@ FlankModification with_tip(FlankModification m, double amount, double length, Re
 GearMeshSpec relieved_mesh(const HarrisMapArtifact& map, double relief, double length) {
   GearMeshSpec mesh = map.mesh;
   for (int g = 0; g < kSides; ++g)
-    if (map.relieved == "both" || map.relieved == (g == 0 ? "driver" : "driven"))
+    if (relieves(map.relieved, g))
       mesh.modification[g] = with_tip(mesh.modification[g], relief, length, map.shape);
   return mesh;
 }
@@ -222,11 +222,9 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
     return VectorXd(Eigen::Map<const VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
   };
   HarrisMapArtifact map;
-  set_gears(map, driver, driven);
-  map.mesh = statics.mesh;
+  set_pair(map, {driver, driven}, statics);
   for (FlankModification& m : map.mesh.modification) m.tip = {};
-  map.fidelity.contact = ContactModel::strips;
-  map.contact = statics.contact;
+  map.fidelity = {.contact = ContactModel::strips};
   map.contact.strips = plan.strips;
   map.contact.positions = plan.positions;
   map.relieved = plan.relieved;
@@ -261,7 +259,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
     for (int g = 0; g < kSides; ++g) {
       const ToothGeometry& gear = model.kinematics.gear(g);
       map.start_roll(s, g) = gear.tip_roll_angle() - map.length[s] / gear.base_radius();
-      if (map.relieved == "both" || map.relieved == (g == 0 ? "driver" : "driven"))
+      if (relieves(map.relieved, g))
         unit[g] = FlankDeviation(gear, with_tip({}, Range::kUnit, map.length[s], map.shape));
       // The largest must fit the tooth, together with what else is taken off.
       FlankDeviation(gear, relieved_mesh(map, map.relief[reliefs - 1], map.length[s]).modification[g]);
@@ -380,11 +378,8 @@ void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifac
 void add_dynamics(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifact& driven,
                   const SweepParameters& settings, double bearing_stiffness,
                   const std::function<void(long, long, const std::string&)>& report) {
-  map.fidelity = settings.fidelity;
+  set_motion(map, {driver, driven}, map, settings);
   map.time = settings.time;
-  map.damping = settings.damping;
-  map.driver_inertia = settings.driver_inertia;
-  map.driven_inertia = settings.driven_inertia;
   map.frequency_from = settings.frequency_from;
   map.frequency_to = settings.frequency_to;
   map.frequency_step = settings.frequency_step;
@@ -401,7 +396,7 @@ void add_dynamics(HarrisMapArtifact& map, const BodyArtifact& driver, const Body
       statics.mesh = relieved_mesh(map, map.relief[r], map.length[s]);
       for (Eigen::Index t = 0; t < torques; ++t) {
         const StaticArtifact rest = static_transmission(driver, driven, statics, map.torque[t]);
-        for (const std::string direction : {"up", "down"}) {
+        for (const Direction direction : {Direction::up, Direction::down}) {
           const SweepArtifact sweep = whine::sweep(driver, driven, rest, bearing_stiffness, settings,
                                                    direction, [](long, long, const std::string&) {});
           for (Eigen::Index f = 0; f < sweep.mesh_frequency.size(); ++f) {

@@ -15,10 +15,10 @@
 namespace whine {
 
 struct HarrisPlan {
-  std::vector<double> torque;     // N m, ascending, above 0
-  std::vector<double> relief;     // m, ascending, from 0 on
-  std::vector<double> length;     // m, of roll, from where the relief starts to the tip edge
-  std::string relieved = "both";  // or "driver", "driven"
+  std::vector<double> torque;  // N m, ascending, above 0
+  std::vector<double> relief;  // m, ascending, from 0 on
+  std::vector<double> length;  // m, of roll, from where the relief starts to the tip edge
+  Relieved relieved = Relieved::both;
   ReliefShape shape = ReliefShape::linear;
   double design_torque = 0;  // N m, within `torque`
   int positions = 256;       // in a mesh period

@@ -44,15 +44,15 @@ double default_relief_length(const BodyArtifact& driver, const BodyArtifact& dri
 }
 
 std::vector<double> lengths_of(const std::vector<double>& starts, const GearDesign& driver,
-                               const GearDesign& driven, const std::string& relieved) {
+                               const GearDesign& driven, Relieved relieved) {
   const double degree = std::numbers::pi / 180;
   const ToothGeometry gear(driver), other(driven);
   const auto involute = [](const ToothGeometry& g) {
     return g.base_radius() * (g.tip_roll_angle() - g.form_roll_angle());
   };
-  const double longest = relieved == "driver"   ? involute(gear)
-                         : relieved == "driven" ? involute(other)
-                                                : std::min(involute(gear), involute(other));
+  const double longest = relieved == Relieved::driver   ? involute(gear)
+                         : relieved == Relieved::driven ? involute(other)
+                                                        : std::min(involute(gear), involute(other));
   const double tip = gear.tip_roll_angle() / degree, least = tip - longest / gear.base_radius() / degree;
   std::vector<double> lengths;
   double before = tip;
@@ -72,7 +72,7 @@ std::vector<double> lengths_of(const std::vector<double>& starts, const GearDesi
 
 std::vector<double> relief_lengths(const std::vector<double>& starts, const std::vector<double>& millimetres,
                                    const BodyArtifact& first, const BodyArtifact& second,
-                                   const GearMeshSpec& mesh, const std::string& relieved) {
+                                   const GearMeshSpec& mesh, Relieved relieved) {
   if (!starts.empty()) return lengths_of(starts, first.design, second.design, relieved);
   if (millimetres.empty()) return {default_relief_length(first, second, mesh)};
   std::vector<double> lengths;

@@ -19,6 +19,6 @@ std::vector<double> default_reliefs(const BodyArtifact& driver, const BodyArtifa
 // Error(usage), in degrees, for a start that does not fit a flank that is relieved.
 std::vector<double> relief_lengths(const std::vector<double>& starts, const std::vector<double>& millimetres,
                                    const BodyArtifact& first, const BodyArtifact& second,
-                                   const GearMeshSpec& mesh, const std::string& relieved);
+                                   const GearMeshSpec& mesh, Relieved relieved);
 
 }  // namespace whine

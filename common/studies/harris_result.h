@@ -10,10 +10,19 @@
 
 namespace whine {
 
+// Whose tips are relieved.
+enum class Relieved { driver, driven, both };
+template <>
+inline constexpr const char* kWordsOf<Relieved> = "driver driven both";
+// Whether those of gear g are.
+inline bool relieves(Relieved relieved, int g) {
+  return relieved == Relieved::both || static_cast<int>(relieved) == g;
+}
+
 // harris_map.h5: transmission error of a pair at rest, or its motion at the worst speed, against torque and tip relief. What
 // else is taken off the flanks stands in `mesh`, whose tip reliefs are 0.
 struct HarrisMapArtifact : MotionParameters {
-  std::string relieved;  // "driver", "driven" or "both" gears
+  Relieved relieved = Relieved::both;
   ReliefShape shape = ReliefShape::linear;
   Eigen::VectorXd torque;    // (torque) N m, ascending
   Eigen::VectorXd relief;    // (relief) m, ascending

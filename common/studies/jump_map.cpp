@@ -59,8 +59,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
   const GearPair kinematics(driver.design, driven.design, statics.mesh.centre_distance);
   double inverse_mass = 0;  // kg-1
   for (int g = 0; g < kSides; ++g)
-    inverse_mass += std::pow(kinematics.gear(g).base_radius(), 2) /
-                    (g == 0 ? settings.driver_inertia : settings.driven_inertia);
+    inverse_mass += std::pow(kinematics.gear(g).base_radius(), 2) / settings.inertia[g];
   const VectorXd speed =
       map_speeds(plan, std::sqrt(rest.mean_stiffness * inverse_mass) / (2 * std::numbers::pi));
 
@@ -79,12 +78,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
     fail(Failure::input, "at ", torque,
          " N m no mesh phase has two pairs in contact, to which the damping ratio belongs");
   result.two_pair_frequency = two->undamped_frequency;
-  set_gears(result, driver, driven);
-  result.driver_inertia = settings.driver_inertia;
-  result.driven_inertia = settings.driven_inertia;
-  result.mesh = statics.mesh;
-  result.fidelity = settings.fidelity;
-  result.contact = statics.contact;
+  set_motion(result, {driver, driven}, rest, settings);
   result.time = settings.time;
   result.damping = fixed.damping;
   result.torque = torque;
@@ -110,11 +104,11 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
                              .damping_ratio;
     result.damping_ratio[c] = ratio;
     result.excitation[c] = result.first_harmonic / result.mean_stiffness / (2 * ratio);
-    add_case(result, c, plan.step, [&](const std::string& direction, std::vector<BranchPoint>& beyond) {
+    add_case(result, c, plan.step, [&](Direction direction, std::vector<BranchPoint>& beyond) {
       SweepArtifact swept = sweep(
           driver, driven, rest, bearing_stiffness, own, direction, [](long, long, const std::string&) {},
           &beyond);
-      report(2 * c + (direction == "up" ? 1 : 2), 2 * n, text("damping ratio ", ratio));
+      report(2 * c + (direction == Direction::up ? 1 : 2), 2 * n, text("damping ratio ", ratio));
       return swept;
     });
   }

@@ -45,7 +45,7 @@ std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifac
   std::string reasons;
   const Fidelity& from = settings.fidelity;
   const auto blank = [&](const char* key, const std::string& level) {
-    return NextSweep{key, level, "", driver, driven, statics, reference.mean_stiffness, settings, ""};
+    return NextSweep{key, level, "", {driver, driven}, statics, reference.mean_stiffness, settings, ""};
   };
   const auto give_reason = [&](const NextSweep& next, const std::string& reason) {
     reasons += text(reasons.empty() ? "" : "; ", next.key, " = \"", next.from, "\" ", reason);
@@ -68,8 +68,8 @@ std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifac
     by_body.settings.fidelity.body = *to;
     if (*to == BodyModel::full) {
       try {
-        by_body.driver = with_all_modes(driver);
-        by_body.driven = driver.compliance == driven.compliance ? by_body.driver : with_all_modes(driven);
+        by_body.body[0] = with_all_modes(driver);
+        by_body.body[1] = driver.compliance == driven.compliance ? by_body.body[0] : with_all_modes(driven);
       } catch (const Error& error) {
         if (error.kind() != Failure::input) throw;
         by_body.missing = error.what();

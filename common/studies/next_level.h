@@ -1,5 +1,6 @@
 // What the next model level of contact or body would change in a speed sweep.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace whine {
 // A sweep one model level up in one key of [fidelity], as sweep() wants it.
 struct NextSweep {
   std::string key, from, to;  // key "contact" or "body"; its model levels
-  BodyArtifact driver, driven;
+  std::array<BodyArtifact, kSides> body;
   StaticArtifact statics;
   double mean_stiffness = 0;  // N m-1
   SweepParameters settings;

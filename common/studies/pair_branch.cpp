@@ -128,17 +128,9 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   if (!(stage_settings.frequency_from > 0) || !(stage_settings.frequency_to > stage_settings.frequency_from))
     fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ",
          stage_settings.frequency_from, " to ", stage_settings.frequency_to, " Hz");
-  require_inertia(statics.mesh, {driver.inertia, driven.inertia},
-                  {stage_settings.driver_inertia, stage_settings.driven_inertia});
+  require_inertia(statics.mesh, {driver.inertia, driven.inertia}, stage_settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
-  DynamicParameters parameters;
-  parameters.torque = statics.torque;
-  parameters.inertia = {stage_settings.driver_inertia, stage_settings.driven_inertia};
-  parameters.mean_stiffness = mean_stiffness;
-  parameters.damping = stage_settings.damping;
-  parameters.fidelity = stage_settings.fidelity;
-
-  RollingDynamics dynamics(model, parameters);
+  RollingDynamics dynamics(model, dynamic_parameters(statics, mean_stiffness, stage_settings));
   const int finest = steps_at(stage_settings.time, stage_settings.frequency_from);
   std::optional<std::vector<Segment>> segments;
   std::vector<double> mismatch;
@@ -153,14 +145,8 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   }
 
   BranchArtifact a;
-  set_gears(a, driver, driven);
-  a.driver_inertia = stage_settings.driver_inertia;
-  a.driven_inertia = stage_settings.driven_inertia;
-  a.mesh = statics.mesh;
-  a.fidelity = stage_settings.fidelity;
-  a.contact = statics.contact;
+  set_motion(a, {driver, driven}, statics, stage_settings);
   a.time = stage_settings.time;
-  a.damping = stage_settings.damping;
   a.torque = statics.torque;
   a.end = segments->back().branch.end;
   Eigen::Index points = 0;

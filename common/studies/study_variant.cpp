@@ -43,7 +43,7 @@ void add_static(Quantities& quantities, const StaticArtifact& rest) {
 }
 
 void add_motion(Quantities& quantities, const ResponseArtifact& motion) {
-  const std::string& d = motion.direction;
+  const std::string d = name_of(motion.direction);
   Index worst = 0;
   quantities["natural_frequency"] = motion.natural_frequency;
   quantities["rms_max_" + d] = motion.dte_rms.maxCoeff(&worst);
@@ -69,17 +69,13 @@ void add_motion(Quantities& quantities, const ResponseArtifact& motion) {
 VariantArtifact variant_parameters(const BodyArtifact& driver, const BodyArtifact& driven,
                                    const VariantParameters& settings) {
   VariantArtifact out;
-  set_gears(out, driver, driven);
-  out.mesh = settings.statics.mesh;
-  out.fidelity = settings.directions.empty() ? settings.statics.fidelity : settings.motion.fidelity;
-  out.contact = settings.statics.contact;
+  set_pair(out, {driver, driven}, settings.statics);
+  set_motion(out, {driver, driven}, out, settings.motion);
+  if (settings.directions.empty()) out.fidelity = settings.statics.fidelity;
   out.torque = settings.torque;
   out.directions = settings.directions;
   out.time = settings.motion.time;
-  out.damping = settings.motion.damping;
   out.reference_torque = settings.motion.reference_torque;
-  out.driver_inertia = settings.motion.driver_inertia;
-  out.driven_inertia = settings.motion.driven_inertia;
   out.frequency_from = settings.motion.frequency_from;
   out.frequency_to = settings.motion.frequency_to;
   out.frequency_step = settings.motion.frequency_step;
@@ -105,11 +101,11 @@ VariantResponse variant_response(const BodyArtifact& driver, const BodyArtifact&
         alike ? rest.mean_stiffness
               : static_transmission(driver, driven, settings.statics, settings.motion.reference_torque)
                     .mean_stiffness;
-    for (const std::string& direction : settings.directions) {
+    for (Direction direction : settings.directions) {
       const SweepArtifact motion =
           sweep(driver, driven, rest, bearing_stiffness, settings.motion, direction, report);
       add_motion(quantities, response(motion));
-      add_remarks("speed " + direction, remarks(motion, rest));
+      add_remarks(text("speed ", direction), remarks(motion, rest));
     }
   }
   const std::vector<ResponseQuantity> kinds = response_quantities(settings.directions);

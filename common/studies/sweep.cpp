@@ -286,13 +286,12 @@ BranchFollower follow_branch(Sweeper& sweeper, const std::vector<BranchMotion>& 
 
 }  // namespace
 
-double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping, double driver_inertia,
-                               double driven_inertia) {
+double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping,
+                               const std::array<double, kSides>& inertia) {
   double inverse_mass = 0;
-  for (const auto& [design, inertia] :
-       {std::pair{&statics.driver, driver_inertia}, std::pair{&statics.driven, driven_inertia}}) {
-    const double r = ToothGeometry(*design).base_radius();
-    inverse_mass += r * r / inertia;
+  for (int g = 0; g < kSides; ++g) {
+    const double r = ToothGeometry(statics.gear[g].design).base_radius();
+    inverse_mass += r * r / inertia[g];
   }
   return 0.5 * damping.rayleigh_stiffness * std::sqrt(statics.mean_stiffness * inverse_mass);
 }
@@ -309,7 +308,7 @@ namespace {
 // bearings give way. Their dampers' forces are taken for those of their springs.
 VectorXd least_closing(const SweepArtifact& s) {
   if (!s.mesh.on_bearings()) return s.transmission_error.rowwise().minCoeff();
-  const GearPair gears(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair gears(s);
   VectorXd least(s.transmission_error.rows());
   for (Eigen::Index i = 0; i < least.size(); ++i) {
     VectorXd closing = s.transmission_error.row(i).transpose();
@@ -333,11 +332,14 @@ Eigen::VectorXd backlash_left(const SweepArtifact& s) {
 namespace {
 
 // The eta that a scene without [damping] gets is that of P2000's pair; others it damps by what nobody chose.
-std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::vector<double>& inertia,
+std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::array<double, kSides>& inertia,
                                      const Damping& damping) {
-  const auto of_paper = [](const GearDesign& g) { return g.teeth == 50 && std::abs(g.module - 3e-3) < 1e-9; };
-  const double ratio = stiffness_damping_ratio(statics, damping, inertia[0], inertia[1]);
-  const bool fits = of_paper(statics.driver) && of_paper(statics.driven) && ratio >= 0.01 && ratio <= 0.12;
+  const auto of_paper = [](const BodyParameters& gear) {
+    return gear.design.teeth == 50 && std::abs(gear.design.module - 3e-3) < 1e-9;
+  };
+  const double ratio = stiffness_damping_ratio(statics, damping, inertia);
+  const bool fits =
+      ratio >= 0.01 && ratio <= 0.12 && std::all_of(statics.gear.begin(), statics.gear.end(), of_paper);
   if (damping.rayleigh_stiffness != kDefaultRayleighStiffness || fits) return {};
   std::ostringstream percent;
   percent << std::setprecision(3) << ratio * 100;
@@ -350,20 +352,18 @@ std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::v
 
 }  // namespace
 
-std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::vector<double>& inertia,
+std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, kSides>& inertia,
                                   const Damping& damping, const Fidelity& fidelity) {
   constexpr double kFlywheel =
       100;  // times the inertia of the drawing: more than what shafts and couplings add
   std::vector<Remark> out;
   if (fidelity.body != BodyModel::rigid && fidelity.body != BodyModel::quasi_static)
     if (const auto damped = damping_remark(statics, inertia, damping)) out.push_back(*damped);
-  for (size_t g = 0; g < inertia.size(); ++g) {
-    const double own = least_body_inertia(ToothGeometry(g ? statics.driven : statics.driver),
-                                          g ? statics.driven_material : statics.driver_material);
+  for (int g = 0; g < kSides; ++g) {
+    const double own = least_body_inertia(ToothGeometry(statics.gear[g].design), statics.gear[g].material);
     if (inertia[g] > kFlywheel * own)
-      out.push_back(remark(true, "total_inertia_kgm2 = ", inertia[g], " of [gear.",
-                           g ? statics.mesh.driven : statics.mesh.driver, "] is ",
-                           std::round(inertia[g] / own), " times that of the gear as drawn, ",
+      out.push_back(remark(true, "total_inertia_kgm2 = ", inertia[g], " of [gear.", statics.mesh.gear[g],
+                           "] is ", std::round(inertia[g] / own), " times that of the gear as drawn, ",
                            shown_number(own), "; check its unit, kg m2"));
   }
   return out;
@@ -374,8 +374,8 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
   std::vector<Remark> out;
   const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
   // Said once of a pair of sweeps, by the one of rising speed.
-  if (s.direction == "up" && s.model == "finite elements")
-    out = setup_remarks(statics, {s.driver_inertia, s.driven_inertia}, s.damping, s.fidelity);
+  if (s.direction == Direction::up && s.model == "finite elements")
+    out = setup_remarks(statics, s.inertia, s.damping, s.fidelity);
   if (const double steps = steps_per_oscillation(s); steps < kFewestSteps)
     add(true, "a time step is too long for the contact: ", steps,
         " steps per oscillation at its natural frequency of ", s.natural_frequency, " Hz, ", kFewestSteps,
@@ -409,135 +409,141 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
   return out;
 }
 
-// NOLINTNEXTLINE(readability-function-size): speeds in their order, then the artifact of all of them
-SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
-                    double mean_stiffness, const SweepParameters& settings, const std::string& direction,
-                    const std::function<void(long, long, const std::string&)>& report,
-                    std::vector<BranchPoint>* left_early) {
-  const int speeds =
-      static_cast<int>(
-          std::floor((settings.frequency_to - settings.frequency_from) / settings.frequency_step + 1e-9)) +
-      1;
-  if (speeds < 1 || !(settings.frequency_from > 0))
+namespace {
+
+// What one speed shows but for its samples, into its row.
+void store_orbit(const Orbit& orbit, double mesh_frequency, Eigen::Index row, SweepArtifact& a) {
+  a.mesh_frequency[row] = mesh_frequency;
+  a.periods[row] = orbit.periods;
+  a.residual[row] = orbit.residual;
+  a.period_multiple[row] = orbit.multiple;
+  const EnergyBalance& l = orbit.energy_balance;
+  a.energy_imbalance[row] = l.imbalance / l.throughput;
+  a.energy.row(row) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
+      l.relaxation_damping, l.switching, l.cutting, l.averaging, l.dropped;  // kEnergyLines
+}
+
+// The samples of one speed, pairs up to `reach`; its orbit repeats to fill a row of `longest` mesh periods.
+void store_samples(const Orbit& orbit, size_t longest, int reach, Eigen::Index row, SweepArtifact& a) {
+  const int samples = a.time.steps_per_period;
+  const auto width = static_cast<Eigen::Index>(longest) * samples;
+  MatrixRM loads = MatrixRM::Zero(width, 2 * reach + 1);
+  for (size_t g = 0; g < kSides; ++g)
+    if (a.mesh.bearing[g].elastic()) a.bearing_force[g].emplace_back(width, 2);
+  for (size_t k = 0; k < longest; ++k) {
+    const RollingDynamics::Period& period = orbit.record[k % orbit.record.size()];
+    const int stride = static_cast<int>(period.transmission_error.size()) / samples;
+    const int own_reach = static_cast<int>(period.pair_load.rows()) / 2;
+    for (int n = 0; n < samples; ++n) {
+      const Eigen::Index at = static_cast<Eigen::Index>(k) * samples + n;
+      a.transmission_error(row, at) = period.transmission_error[n * stride];
+      loads.row(at).segment(reach - own_reach, 2 * own_reach + 1) =
+          period.pair_load.col(n * stride).transpose();
+      a.mesh_force(row, at) = loads.row(at).sum();
+      for (size_t g = 0; g < kSides; ++g)
+        if (a.mesh.bearing[g].elastic())
+          a.bearing_force[g].back().row(at) = period.bearing_force[g].col(n * stride).transpose();
+    }
+  }
+  a.tooth_load.push_back(std::move(loads));
+}
+
+// The motions of all speeds, in rows of one length. m: the least transmission error.
+double store_motions(const std::vector<Orbit>& steady, int reach, SweepArtifact& a) {
+  size_t longest = 1;
+  for (const Orbit& orbit : steady) longest = std::max(longest, orbit.record.size());
+  const auto speeds = static_cast<Eigen::Index>(steady.size()),
+             width = static_cast<Eigen::Index>(longest) * a.time.steps_per_period;
+  a.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
+  a.transmission_error.resize(speeds, width);
+  a.mesh_force.resize(speeds, width);
+  a.drift_force = VectorXd::Zero(speeds);
+  double least_error = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < speeds; ++i) {
+    const Orbit& orbit = steady[static_cast<size_t>(i)];
+    for (const RollingDynamics::Period& period : orbit.record) {
+      least_error = std::min(least_error, period.transmission_error.minCoeff());
+      a.drift_force[i] = std::max(a.drift_force[i], period.drift_force);
+      a.least_gap = std::min(a.least_gap, period.least_gap);
+      a.least_force = std::min(a.least_force, period.least_force);
+      a.fallbacks += period.fallbacks;
+    }
+    store_samples(orbit, longest, reach, i, a);
+  }
+  return least_error;
+}
+
+// Hz: the speeds in their order.
+std::vector<double> speeds_of(const SweepParameters& settings, Direction direction) {
+  const int count = static_cast<int>(std::floor(
+                        (settings.frequency_to - settings.frequency_from) / settings.frequency_step + 1e-9)) +
+                    1;
+  if (count < 1 || !(settings.frequency_from > 0))
     fail(Failure::input, "the speed range from ", settings.frequency_from, " to ", settings.frequency_to,
          " Hz in steps of ", settings.frequency_step, " Hz is empty");
+  std::vector<double> speeds(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const int step = direction == Direction::up ? i : count - 1 - i;
+    speeds[static_cast<size_t>(i)] = settings.frequency_from + step * settings.frequency_step;
+  }
+  return speeds;
+}
 
-  require_inertia(statics.mesh, {driver.inertia, driven.inertia},
-                  {settings.driver_inertia, settings.driven_inertia});
+}  // namespace
+
+SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+                    double mean_stiffness, const SweepParameters& settings, Direction direction,
+                    const std::function<void(long, long, const std::string&)>& report,
+                    std::vector<BranchPoint>* left_early) {
+  const std::vector<double> speed = speeds_of(settings, direction);
+  const auto speeds = static_cast<int>(speed.size());
+  require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
-  DynamicParameters parameters;
-  parameters.torque = statics.torque;
-  parameters.inertia = {settings.driver_inertia, settings.driven_inertia};
-  parameters.mean_stiffness = mean_stiffness;
-  parameters.damping = settings.damping;
-  parameters.fidelity = settings.fidelity;
-  Sweeper sweeper(model, parameters, statics, settings);
+  Sweeper sweeper(model, dynamic_parameters(statics, mean_stiffness, settings), statics, settings);
 
   SweepArtifact result;
-  set_gears(result, driver, driven);
-  result.mesh = statics.mesh;
-  result.fidelity = settings.fidelity;
-  result.contact = statics.contact;
+  set_motion(result, {driver, driven}, statics, settings);
   result.time = settings.time;
-  result.damping = settings.damping;
   result.torque = statics.torque;
-  result.driver_inertia = settings.driver_inertia;
-  result.driven_inertia = settings.driven_inertia;
   result.mean_stiffness = mean_stiffness;
-  result.driver_bearing_damper = sweeper.dynamics().bearing_damper(0);
-  result.driven_bearing_damper = sweeper.dynamics().bearing_damper(1);
+  for (int g = 0; g < kSides; ++g) result.bearing_damper[g] = sweeper.dynamics().bearing_damper(g);
   result.natural_frequency = sweeper.natural_frequency();
   result.hunting_periods = sweeper.hunting_periods();
   require_memory(result.hunting_periods, speeds, settings,
                  2 * sweeper.dynamics().reach() + 1 + (model.on_bearings() ? 4 : 0),
                  static_cast<double>(sweeper.dynamics().difference(sweeper.state(), sweeper.state()).size()));
   result.direction = direction;
-  result.mesh_frequency.resize(speeds);
-  result.periods.resize(speeds);
-  result.residual.resize(speeds);
-  result.period_multiple.resize(speeds);
-  result.energy_imbalance.resize(speeds);
+  for (VectorXd* v : {&result.mesh_frequency, &result.residual, &result.energy_imbalance}) v->resize(speeds);
+  for (Eigen::VectorXi* v : {&result.periods, &result.period_multiple}) v->resize(speeds);
   result.energy.resize(speeds, kEnergyLines.size());
-  result.drift_force = VectorXd::Zero(speeds);
 
-  const auto speed = [&](int i) { return settings.frequency_from + i * settings.frequency_step; };
+  const bool integrate = settings.time.steady_state == SteadyState::integrate;
   std::vector<Orbit> steady;
   std::vector<BranchMotion> motions;
   std::vector<RollingDynamics::State> reached;
-  for (int i = 0; i < speeds; ++i) {
-    const double f = speed(direction == "up" ? i : speeds - 1 - i);
-    steady.push_back(settings.time.steady_state == SteadyState::integrate
-                         ? sweeper.run(f)
-                         : run_on(sweeper, motions, reached, f));
+  for (const double f : speed) {
+    steady.push_back(integrate ? sweeper.run(f) : run_on(sweeper, motions, reached, f));
     motions.push_back(branch_motion(f, steady.back()));
     reached.push_back(sweeper.state());
-    const Orbit& s = steady.back();
-    result.mesh_frequency[i] = f;
-    result.periods[i] = s.periods;
-    result.residual[i] = s.residual;
-    result.period_multiple[i] = s.multiple;
-    const EnergyBalance& l = s.energy_balance;
-    result.energy_imbalance[i] = l.imbalance / l.throughput;
-    result.energy.row(i) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
-        l.relaxation_damping, l.switching, l.cutting, l.averaging, l.forgetting;  // kEnergyLines
-    report(i + 1, speeds, text(f, " Hz, ", s.periods, " periods"));
+    store_orbit(steady.back(), f, static_cast<Eigen::Index>(steady.size()) - 1, result);
+    report(static_cast<long>(steady.size()), speeds, text(f, " Hz, ", steady.back().periods, " periods"));
   }
-
   std::vector<BranchJump> jumps;
   for (size_t i = 1; i < motions.size(); ++i)
     if (may_break(motions, i)) {
-      const auto follower = [&] {
-        return follow_branch(sweeper, motions, i, reached,
-                             settings.time.steady_state == SteadyState::integrate);
-      };
+      const auto follower = [&] { return follow_branch(sweeper, motions, i, reached, integrate); };
       if (const auto jump = find_jump(motions, i, follower, left_early)) jumps.push_back(*jump);
     }
 
-  // Rows of one length: shorter orbits repeat to fill theirs.
-  size_t longest = 1;
-  for (const Orbit& s : steady) longest = std::max(longest, s.record.size());
-  const int samples = settings.time.steps_per_period, reach = sweeper.reach();
-  result.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
-  result.transmission_error.resize(speeds, longest * samples);
-  result.mesh_force.resize(speeds, longest * samples);
-  double least_error = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < speeds; ++i) {
-    MatrixRM loads = MatrixRM::Zero(longest * samples, 2 * reach + 1);
-    for (size_t g = 0; g < model.bearing.size(); ++g)
-      if (model.bearing[g].elastic()) result.bearing_force[g].emplace_back(longest * samples, 2);
-    for (const RollingDynamics::Period& period : steady[i].record) {
-      least_error = std::min(least_error, period.transmission_error.minCoeff());
-      result.drift_force[i] = std::max(result.drift_force[i], period.drift_force);
-      result.least_gap = std::min(result.least_gap, period.least_gap);
-      result.least_force = std::min(result.least_force, period.least_force);
-      result.fallbacks += period.fallbacks;
-    }
-    for (size_t k = 0; k < longest; ++k) {
-      const RollingDynamics::Period& period = steady[i].record[k % steady[i].record.size()];
-      const int stride = static_cast<int>(period.transmission_error.size()) / samples;
-      const int own_reach = static_cast<int>(period.pair_load.rows()) / 2;
-      for (int n = 0; n < samples; ++n) {
-        const int row = static_cast<int>(k) * samples + n;
-        result.transmission_error(i, row) = period.transmission_error[n * stride];
-        loads.row(row).segment(reach - own_reach, 2 * own_reach + 1) =
-            period.pair_load.col(n * stride).transpose();
-        result.mesh_force(i, row) = loads.row(row).sum();
-        for (size_t g = 0; g < model.bearing.size(); ++g)
-          if (model.bearing[g].elastic())
-            result.bearing_force[g].back().row(row) = period.bearing_force[g].col(n * stride).transpose();
-      }
-    }
-    result.tooth_load.push_back(std::move(loads));
-  }
+  double least_error = store_motions(steady, sweeper.reach(), result);
   if (model.on_bearings()) least_error = least_closing(result).minCoeff();
-  result.backlash_margin = driver.design.tooth_thinning + driven.design.tooth_thinning > 0
-                               ? model.kinematics.backlash() + least_error
-                               : std::numeric_limits<double>::infinity();
-  result.jump_frequency.resize(jumps.size());
-  result.jump_width.resize(jumps.size());
+  result.backlash_margin = result.tooth_thinning() > 0 ? model.kinematics.backlash() + least_error
+                                                       : std::numeric_limits<double>::infinity();
+  result.jump_frequency.resize(static_cast<Eigen::Index>(jumps.size()));
+  result.jump_width.resize(result.jump_frequency.size());
   for (size_t i = 0; i < jumps.size(); ++i) {
-    result.jump_frequency[i] = jumps[i].frequency;
-    result.jump_width[i] = jumps[i].width;
+    result.jump_frequency[static_cast<Eigen::Index>(i)] = jumps[i].frequency;
+    result.jump_width[static_cast<Eigen::Index>(i)] = jumps[i].width;
   }
   return result;
 }

@@ -20,7 +20,7 @@ namespace whine {
 // parameters that do not fit, Error(numerical), with speed and mesh phase, if contact leaves the flanks or has no certified
 // solution.
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
-                    double mean_stiffness, const SweepParameters& settings, const std::string& direction,
+                    double mean_stiffness, const SweepParameters& settings, Direction direction,
                     const std::function<void(long, long, const std::string&)>& report,
                     std::vector<BranchPoint>* left_early = nullptr);
 
@@ -30,12 +30,12 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency);
 
 // Damping ratio that eta of Eq. 21 alone gives the pair on its mean mesh stiffness k: eta w / 2 with w^2 = k (r1^2 / I1 +
 // r2^2 / I2). An estimate from above: flexibility that follows its load at once is not damped.
-double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping, double driver_inertia,
-                               double driven_inertia);
+double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping,
+                               const std::array<double, kSides>& inertia);
 
 // What is out of the ordinary in the numbers of a scene that only motions need: a damping that nobody chose for these gears,
 // inertias a hundred times those of the drawing. inertia: (gear) kg m2.
-std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::vector<double>& inertia,
+std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, kSides>& inertia,
                                   const Damping& damping, const Fidelity& fidelity);
 
 // What a reader of a sweep of elastic gears has to know beside its numbers, in words: a default damping that is not for these

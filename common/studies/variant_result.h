@@ -13,7 +13,7 @@ namespace whine {
 struct VariantArtifact : MotionParameters {
   double torque = 0, reference_torque = 0;  // N m on the driver; the second sets the bearing dampers
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // Hz
-  std::vector<std::string> directions;                              // of its sweeps; none: at rest
+  std::vector<Direction> directions;                                // of its sweeps; none: at rest
   Eigen::VectorXd
       quantity;  // SI, in the order of response_quantities(directions); empty: outside the model's range
   std::string rejection;  // why the variant lies outside the model's range, "" if it does not

@@ -18,25 +18,25 @@ double body_twist(const GearDesign& gear, const Material& material, double bore)
 }
 
 ComplianceSplit compliance_split(const StaticArtifact& s) {
-  const GearPair pair(s.driver, s.driven, s.mesh.centre_distance);
-  const std::array<const GearDesign*, 2> design{&s.driver, &s.driven};
-  const std::array<const Material*, 2> material{&s.driver_material, &s.driven_material};
+  const GearPair pair(s);
   ComplianceSplit out;
   out.whole = 1 / s.mean_stiffness;
   constexpr double kWider = 1.1;
   for (size_t g = 0; g < kSides; ++g) {
-    const double bore = design[g]->bore_radius;
-    out.body[g] = body_twist(*design[g], *material[g], bore);
+    const GearDesign& design = s.gear[g].design;
+    const double bore = design.bore_radius;
+    out.body[g] = body_twist(design, s.gear[g].material, bore);
     // A bore cannot grow beyond the root circle.
     const double wider = std::min(kWider * bore, pair.gear(static_cast<int>(g)).root_radius());
-    const double less = out.body[g] - body_twist(*design[g], *material[g], wider);
+    const double less = out.body[g] - body_twist(design, s.gear[g].material, wider);
     out.wider_bore[g] = out.whole / (out.whole - less) - 1;
   }
   const double force = s.torque / pair.gear(0).base_radius(), of_pair = force / pair.contact_ratio();
   const auto surface = [&](size_t g) {
-    return HalfPlaneSurface(in_contact_plane(*material[g], s.mesh.contact_plane), design[g]->face_width);
+    return HalfPlaneSurface(in_contact_plane(s.gear[g].material, s.mesh.contact_plane),
+                            s.gear[g].design.face_width);
   };
-  const double depth = 0.25 * std::numbers::pi * s.driver.module;
+  const double depth = 0.25 * std::numbers::pi * s.gear[0].design.module;
   out.contact =
       HertzLine(surface(0), surface(1), pair.relative_curvature_radius(0.0), depth).at(of_pair).indentation /
       force;
@@ -47,21 +47,20 @@ ComplianceSplit compliance_split(const StaticArtifact& s) {
       out.single = std::max(out.single, s.stiffness_secant[i]);
   if (out.single > 0) out.single_teeth = 1 / (1 / out.single - bodies);
   out.mean_teeth = 1 / (out.whole - bodies);
-  out.iso = iso_6336_stiffness(s.driver, s.driver_material, s.driven, s.driven_material, s.torque,
-                               pair.contact_ratio());
+  out.iso = iso_6336_stiffness(s.gear[0].design, s.gear[0].material, s.gear[1].design, s.gear[1].material,
+                               s.torque, pair.contact_ratio());
   return out;
 }
 
 std::vector<Remark> body_remarks(const StaticArtifact& s) {
   constexpr double kMuch = 0.2;
   std::vector<Remark> out;
-  for (const bool driven : {false, true}) {
-    const GearDesign& gear = driven ? s.driven : s.driver;
+  for (int g = 0; g < kSides; ++g) {
+    const GearDesign& gear = s.gear[g].design;
     const double rim = ToothGeometry(gear).root_radius() - gear.bore_radius;
     if (rim < gear.module)
       out.push_back(remark(
-          true, "between the bore and the root circle of [gear.", driven ? s.mesh.driven : s.mesh.driver,
-          "] are ", rim * 1e3,
+          true, "between the bore and the root circle of [gear.", s.mesh.gear[g], "] are ", rim * 1e3,
           " mm, less than a module: bore_radius_mm is the radius inside which the gear is "
           "rigid, so a thin rim makes the teeth stiffer here than on a real rim. Check bore_radius_mm"));
   }
@@ -70,8 +69,8 @@ std::vector<Remark> body_remarks(const StaticArtifact& s) {
   const auto percent = [](double share) { return std::round(share * 100); };
   out.push_back(
       remark(true, "the bodies between bore and root circle twist: ", percent(split.body_share()),
-             " % of the compliance of the mesh (", s.mesh.driver, " ", percent(split.body[0] / split.whole),
-             " %, ", s.mesh.driven, " ", percent(split.body[1] / split.whole),
+             " % of the compliance of the mesh (", s.mesh.gear[0], " ", percent(split.body[0] / split.whole),
+             " %, ", s.mesh.gear[1], " ", percent(split.body[1] / split.whole),
              " %), which bore_radius_mm decides: give the radius inside which the gear is as good as "
              "rigid (shaft, hub, "
              "web)"));

@@ -27,7 +27,7 @@ std::array<std::vector<Ridge>, 2> ridges_of(const GearPair& gears, const GearMes
   std::array<std::vector<Ridge>, 2> out;
   for (int g = 0; g < kSides; ++g)
     for (const FlankRidge& ridge : flank_ridges(gears.gear(g), mesh.modification[g]))
-      out[g].push_back({ridge.roll, ridge.bend, text("the ", ridge.cause, " of [gear.", mesh.gear(g), "]")});
+      out[g].push_back({ridge.roll, ridge.bend, text("the ", ridge.cause, " of [gear.", mesh.gear[g], "]")});
   return out;
 }
 
@@ -48,7 +48,7 @@ const Ridge* ridge_within(const GearPair& gears, const PairContact& contact, dou
 }  // namespace
 
 FlankPressure flank_pressure(const StaticArtifact& s) {
-  const GearPair gears(s.driver, s.driven, s.mesh.centre_distance);
+  const GearPair gears(s);
   const auto ridges = ridges_of(gears, s.mesh);
   const bool strips = s.fidelity.contact == ContactModel::strips,
              any = !ridges[0].empty() || !ridges[1].empty();
@@ -77,7 +77,7 @@ FlankPressure flank_pressure(const StaticArtifact& s) {
   if (worst) {
     out.ridge = worst->words;
     double compliance = 0;  // m N-1 times the face width: 2 / (pi E*)
-    for (const Material& material : {s.driver_material, s.driven_material})
+    for (const Material& material : {s.gear[0].material, s.gear[1].material})
       compliance += HalfPlaneSurface(in_contact_plane(material, s.mesh.contact_plane), 1.0).coefficient();
     out.per_doubling = worst->bend * std::numbers::ln2 / (std::numbers::pi * std::numbers::pi * compliance);
   }

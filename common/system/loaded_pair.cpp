@@ -58,36 +58,12 @@ struct GridPart {
   MatrixRM pressure;                      // (point, 2) Pa: along the outward normal of the strip, 0 at nodes
 };
 
-}  // namespace
-
-// NOLINTNEXTLINE(readability-function-size): one field after the other on the grid of both gears
-LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& driven_mesh,
-                           const BodyArtifact& driver, const BodyArtifact& driven,
-                           const StaticArtifact& statics, double phase, int period) {
-  require_rigid_bearings(statics.mesh, "the view of loaded gears");
-  const std::vector<ContactZone> zones = contact_zones(driver, driven, statics, phase, period);
-  const GearPair gears(statics.driver, statics.driven, statics.mesh.centre_distance);
-  const MeshArtifact* const mesh[2] = {&driver_mesh, &driven_mesh};
-  const BodyArtifact* const body[2] = {&driver, &driven};
-  const double face_width = std::min(statics.driver.face_width, statics.driven.face_width);
-
-  LoadedArtifact out;
-  set_gears(out, driver, driven);
-  out.mesh = statics.mesh;
-  out.contact = statics.contact;
-  out.torque = statics.torque;
-  out.mesh_phase = phase + period;
-  out.transmission_error = zones.empty() ? 0 : zones.front().approach;
-
-  // 1. Strips that carry force, pair after pair.
-  std::vector<const ContactZone*> loaded;
-  Index strips = 0;
-  for (const ContactZone& zone : zones)
-    if (zone.force.sum() > 0) {
-      loaded.push_back(&zone);
-      strips += zone.force.size();
-    }
+// The strips of the pairs that carry force, pair after pair. (strip, gear and end) rad: roll angles of their ends.
+MatrixRM take_strips(const std::vector<const ContactZone*>& loaded, const GearPair& gears, int period,
+                     LoadedArtifact& out) {
   const auto pairs = static_cast<Index>(loaded.size());
+  Index strips = 0;
+  for (const ContactZone* zone : loaded) strips += zone->force.size();
   out.pair.resize(pairs);
   out.tooth_load.resize(pairs);
   out.tooth.resize(pairs, 2);
@@ -111,7 +87,7 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
       out.strip_pair[at] = zone.strips.pair;
       out.strip_width[at] = zone.strips.width(i);
       out.strip_force[at] = zone.force[i];
-      out.strip_pressure[at] = zone.force[i] / (zone.strips.width(i) * face_width);
+      out.strip_pressure[at] = zone.force[i] / (zone.strips.width(i) * out.face_width());
       out.strip_separation[at] = zone.separation[i];
       const auto roll_at = [&](double x) { return gears.gap_at(zone.strips.contact, x).roll; };
       const auto middle = roll_at(zone.strips.middle(i)), low = roll_at(zone.strips.border[i]),
@@ -123,8 +99,34 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
       }
     }
   }
+  return border;
+}
 
-  // 2. Fields of both gears, in their places.
+}  // namespace
+
+// NOLINTNEXTLINE(readability-function-size): one field after the other on the grid of both gears
+LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& driven_mesh,
+                           const BodyArtifact& driver, const BodyArtifact& driven,
+                           const StaticArtifact& statics, double phase, int period) {
+  require_rigid_bearings(statics.mesh, "the view of loaded gears");
+  const std::vector<ContactZone> zones = contact_zones(driver, driven, statics, phase, period);
+  const GearPair gears(statics);
+  const MeshArtifact* const mesh[2] = {&driver_mesh, &driven_mesh};
+  const BodyArtifact* const body[2] = {&driver, &driven};
+
+  LoadedArtifact out;
+  static_cast<PairParameters&>(out) = statics;
+  out.torque = statics.torque;
+  out.mesh_phase = phase + period;
+  out.transmission_error = zones.empty() ? 0 : zones.front().approach;
+
+  std::vector<const ContactZone*> loaded;
+  for (const ContactZone& zone : zones)
+    if (zone.force.sum() > 0) loaded.push_back(&zone);
+  const MatrixRM border = take_strips(loaded, gears, period, out);
+  const auto pairs = static_cast<Index>(loaded.size()), strips = border.rows();
+
+  // Fields of both gears, in their places.
   MatrixRM measures[3];  // largest, least principal stress, von Mises
   GridPart grid;
   MatrixRM cell_gear, cell_tooth;  // (cell, 1)
@@ -135,7 +137,7 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
     const int teeth = tooth.design().teeth;
     std::vector<StripLoad> loads;
     std::vector<int> tooth_of;
-    at = 0;
+    Index at = 0;
     for (Index j = 0; j < pairs; ++j)
       for (int i = 0; i < loaded[static_cast<size_t>(j)]->strips.size(); ++i, ++at)
         loads.push_back({out.tooth(j, g), out.strip_roll(at, g), out.strip_width[at], out.strip_force[at]});

@@ -28,7 +28,7 @@ void thin_view(LoadedArtifact& a, int beside) {
   constexpr Index kCorners = 4;
   if (a.vtk_cell.cols() <= kCorners) return;
   const MatrixRM &gear = cell_field(a, "gear"), &tooth = cell_field(a, "tooth");
-  const int teeth[2] = {a.driver.teeth, a.driven.teeth};
+  const int teeth[2] = {a.gear[0].design.teeth, a.gear[1].design.teeth};
   for (Index e = 0; e < a.vtk_cell.rows(); ++e) {
     const int g = static_cast<int>(gear(e, 0)) - 1, here = static_cast<int>(tooth(e, 0));
     bool near = false;

@@ -47,10 +47,10 @@ std::string solve_period(const SystemModel& system, const std::vector<CandidateZ
     const int period = row % result.hunting_periods, position = row / result.hunting_periods,
               i = period * positions + position;
     const double phase = static_cast<double>(position) / positions;
-    const SystemAnswer& solution = statics.solve(phase, period, start[static_cast<size_t>(period)]);
+    const SystemSolution& solution = statics.solve(phase, period, start[static_cast<size_t>(period)]);
     const SystemEquilibrium& e = solution.equilibrium;
     start[static_cast<size_t>(period)] = e.x;
-    if (const std::string beyond = beyond_range(solution, phase); !beyond.empty()) return beyond;
+    if (const std::string beyond = outside_zone(solution, phase); !beyond.empty()) return beyond;
     const double deflection = solution.deflection[0];
     result.mesh_phase[i] = period + phase;
     result.transmission_error[i] = solution.transmission_error[0];
@@ -101,10 +101,7 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   const int positions = settings.contact.positions;
 
   StaticArtifact result;
-  set_gears(result, driver, driven);
-  result.mesh = settings.mesh;
-  result.fidelity = settings.fidelity;
-  result.contact = settings.contact;
+  set_pair(result, {driver, driven}, settings);
   result.torque = torque;
   result.contact_ratio = model.kinematics.contact_ratio();
   result.hunting_periods = hunting_periods(model);
@@ -124,7 +121,7 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   double widening = 1;
   for (int attempt = 0;; ++attempt) {
     const std::vector<CandidateZone> ranges =
-        static_ranges(system, settings.contact.strips, zone_factor, widening);
+        static_zones(system, settings.contact.strips, zone_factor, widening);
     const CandidateZone& range = ranges[0];
     const std::string beyond = solve_period(system, ranges, positions, result);
     if (beyond.empty()) break;
@@ -158,7 +155,7 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
         s.contact.positions, " positions each");
   if (!s.mesh.corner.enabled)
     add(false, "corner contact is off: only pairs on the line of action carry load");
-  if (s.driver.tooth_thinning + s.driven.tooth_thinning > 0 && s.backlash_margin <= 0)
+  if (s.tooth_thinning() > 0 && s.backlash_margin <= 0)
     add(true, "the backlash is used up by ", -s.backlash_margin * 1e6,
         " µm; back flanks would touch, which is not modelled");
   const double pressure = flank_pressure(s).smooth;
@@ -182,8 +179,8 @@ std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArt
   double widening = 1;
   for (int attempt = 0; attempt < kWidenings; ++attempt, widening *= kWidening) {
     SystemStatics solver(system, ContactModel::strips,
-                         static_ranges(system, statics.contact.strips, 1, widening));
-    const SystemAnswer& solution = solver.solve(phase, period, VectorXd::Zero(2));
+                         static_zones(system, statics.contact.strips, 1, widening));
+    const SystemSolution& solution = solver.solve(phase, period, VectorXd::Zero(2));
     if (!solution.leaves_zone && solution.deflection[0] <= solution.next_corner_gap[0])
       return solver.zones()[0];
   }

@@ -23,8 +23,7 @@ VectorXd loads_of_ranges(const SystemModel& system) {
 }
 }  // namespace
 
-std::vector<CandidateZone> static_ranges(const SystemModel& system, int strips, double zone,
-                                         double widening) {
+std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, double zone, double widening) {
   const VectorXd loads = loads_of_ranges(system);
   std::vector<CandidateZone> out;
   for (size_t m = 0; m < system.mesh.size(); ++m) {
@@ -41,37 +40,37 @@ std::vector<CandidateZone> static_ranges(const SystemModel& system, int strips, 
   return out;
 }
 
-std::string beyond_range(const SystemAnswer& answer, double phase) {
-  if (answer.leaves_zone)
+std::string outside_zone(const SystemSolution& solution, double phase) {
+  if (solution.leaves_zone)
     return text("at mesh phase ", phase, " the pressure reaches the candidate zone's end");
-  for (size_t m = 0; m < answer.deflection.size(); ++m) {
-    const double deflection = answer.deflection[m];
-    if (deflection > answer.lost_corner_gap[m])
+  for (size_t m = 0; m < solution.deflection.size(); ++m) {
+    const double deflection = solution.deflection[m];
+    if (deflection > solution.lost_corner_gap[m])
       fail_outside_range(
           Failure::numerical, "at mesh phase ", phase, " the deflection ", deflection * 1e6,
           " micrometres closes the gap of a tip edge that would touch below the involute (gap ",
-          answer.lost_corner_gap[m] * 1e6, " micrometres); lower the torque or set corner_contact = false");
-    if (deflection > answer.next_corner_gap[m])
+          solution.lost_corner_gap[m] * 1e6, " micrometres); lower the torque or set corner_contact = false");
+    if (deflection > solution.next_corner_gap[m])
       return text("at mesh phase ", phase, " the deflection ", deflection * 1e6,
-                  " micrometres closes a tip edge's gap of ", answer.next_corner_gap[m] * 1e6,
+                  " micrometres closes a tip edge's gap of ", solution.next_corner_gap[m] * 1e6,
                   " micrometres");
   }
   return "";
 }
 
-std::vector<SystemAnswer> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
-                                           int positions) {
+std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
+                                             int positions) {
   double widening = 1;
   for (int attempt = 0;; ++attempt, widening *= kWidening) {
-    SystemStatics statics(system, contact, static_ranges(system, strips, 1, widening));
-    std::vector<SystemAnswer> out;
+    SystemStatics statics(system, contact, static_zones(system, strips, 1, widening));
+    std::vector<SystemSolution> out;
     std::string beyond;
     VectorXd start = VectorXd::Zero(static_cast<Eigen::Index>(system.body.size()));
     for (int i = 0; i < positions && beyond.empty(); ++i) {
       const double phase = static_cast<double>(i) / positions;
       out.push_back(statics.solve(phase, 0, start));
       start = out.back().equilibrium.x;
-      beyond = beyond_range(out.back(), phase);
+      beyond = outside_zone(out.back(), phase);
     }
     if (beyond.empty()) return out;
     if (attempt == kWidenings)
@@ -121,55 +120,56 @@ void SystemStatics::take_position(double phase, int period) {
          " m/N; the body's table is wrong, rebuild body.h5");
 }
 
-const SystemAnswer& SystemStatics::solve(double phase, int period, const VectorXd& start) {
+const SystemSolution& SystemStatics::solve(double phase, int period, const VectorXd& start) {
   take_position(phase, period);
   const SystemPosition& position = *position_;
   // Cracked gears come in single pairs.
   const MatrixXd cracks =
       system_.mesh.size() == 1 ? crack_compliance(system_.mesh[0], position.mesh[0], period) : MatrixXd();
   cracked_here_ = cracks.size() > 0;
-  if (repeats_ && !cracked_here_) return answer_;
+  if (repeats_ && !cracked_here_) return solution_;
   if (cracked_here_) {
     with_cracks_ = compliance_;
     position.mesh[0].add_to_strips(cracks, with_cracks_);
   }
-  SystemAnswer answer;
-  answer.equilibrium =
+  SystemSolution solution;
+  solution.equilibrium =
       equilibrium(system_, position, cracked_here_ ? with_cracks_ : compliance_, start, solver_);
   for (size_t b = 0; b < system_.body.size(); ++b)
-    answer.bearing_force.push_back(system_.layout.bodies[b].bearing.elastic()
-                                       ? bearing_force(position, static_cast<int>(b), answer.equilibrium.p)
-                                       : Vec2(0, 0));
+    solution.bearing_force.push_back(
+        system_.layout.bodies[b].bearing.elastic()
+            ? bearing_force(position, static_cast<int>(b), solution.equilibrium.p)
+            : Vec2(0, 0));
   for (size_t m = 0; m < position.mesh.size(); ++m) {
     const int number = static_cast<int>(m);
-    answer.transmission_error.push_back(answer.equilibrium.transmission_error(system_, number));
-    answer.deflection.push_back(mesh_deflection(system_, position, answer.equilibrium, number));
-    answer.next_corner_gap.push_back(position.mesh[m].next_corner_gap);
-    answer.lost_corner_gap.push_back(position.mesh[m].lost_corner_gap);
+    solution.transmission_error.push_back(solution.equilibrium.transmission_error(system_, number));
+    solution.deflection.push_back(mesh_deflection(system_, position, solution.equilibrium, number));
+    solution.next_corner_gap.push_back(position.mesh[m].next_corner_gap);
+    solution.lost_corner_gap.push_back(position.mesh[m].lost_corner_gap);
   }
-  lines_ ? take_lines(answer) : take_strips(answer);
-  answer_ = std::move(answer);
+  lines_ ? take_lines(solution) : take_strips(solution);
+  solution_ = std::move(solution);
   repeats_ = alike_ && !cracked_here_ && !lines_;
-  return answer_;
+  return solution_;
 }
 
-void SystemStatics::take_strips(SystemAnswer& answer) const {
-  const VectorXd& p = answer.equilibrium.p;
+void SystemStatics::take_strips(SystemSolution& solution) const {
+  const VectorXd& p = solution.equilibrium.p;
   for (size_t m = 0; m < position_->mesh.size(); ++m)
-    answer.leaves_zone =
-        answer.leaves_zone || position_->mesh[m].reaches_zone_end(p(position_->strips_of(m)));
+    solution.leaves_zone =
+        solution.leaves_zone || position_->mesh[m].reaches_zone_end(p(position_->strips_of(m)));
   for (const ContactSegment& segment : position_->segment) {
     const auto own = p.segment(segment.first_strip, segment.strips);
     const MeshPosition& mesh = position_->mesh[static_cast<size_t>(segment.mesh)];
     const auto strips = std::find_if(mesh.pairs.begin(), mesh.pairs.end(),
                                      [&](const PairStrips& of) { return of.pair == segment.pair; });
-    answer.loads.push_back(
+    solution.loads.push_back(
         {segment.mesh, segment.pair, own.sum(), contact_patch(*strips, own, segment.width)});
   }
 }
 
-void SystemStatics::take_lines(SystemAnswer& answer) const {
-  const VectorXd& force = answer.equilibrium.p;
+void SystemStatics::take_lines(SystemSolution& solution) const {
+  const VectorXd& force = solution.equilibrium.p;
   for (size_t m = 0; m < position_->mesh.size(); ++m)
     require_line_range(position_->mesh[m], force(position_->strips_of(m)));
   for (const ContactSegment& segment : position_->segment) {
@@ -181,12 +181,12 @@ void SystemStatics::take_lines(SystemAnswer& answer) const {
     ContactPatch patch;
     if (force[strip] > 0 && !law.at_edge(force[strip]))
       patch = {4 * force[strip] / (std::numbers::pi * width * segment.width), 0.5 * width};
-    answer.loads.push_back({segment.mesh, segment.pair, force[strip], patch});
+    solution.loads.push_back({segment.mesh, segment.pair, force[strip], patch});
   }
 }
 
 std::vector<std::vector<ContactZone>> SystemStatics::zones() const {
-  const SystemEquilibrium& at = answer_.equilibrium;
+  const SystemEquilibrium& at = solution_.equilibrium;
   const MatrixXd& a = cracked_here_ ? with_cracks_ : compliance_;
   const VectorXd separation = a * at.p + position_->gap - position_->displacement.rotation * at.x;
   std::vector<std::vector<ContactZone>> out(position_->mesh.size());
@@ -194,7 +194,7 @@ std::vector<std::vector<ContactZone>> SystemStatics::zones() const {
     for (size_t j = 0; j < position_->mesh[m].pairs.size(); ++j) {
       const MeshPosition& mesh = position_->mesh[m];
       const auto own = Eigen::seqN(position_->first_strip[m] + mesh.first_strip[j], mesh.pairs[j].size());
-      out[m].push_back({mesh.pairs[j], at.p(own), separation(own), answer_.transmission_error[m]});
+      out[m].push_back({mesh.pairs[j], at.p(own), separation(own), solution_.transmission_error[m]});
     }
   return out;
 }

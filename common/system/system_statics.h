@@ -14,7 +14,7 @@ struct LoadedSegment {
   ContactPatch patch;
 };
 
-struct SystemAnswer {
+struct SystemSolution {
   SystemEquilibrium equilibrium;
   std::vector<LoadedSegment> loads;
   std::vector<Vec2> bearing_force;                       // [body] N, see bearing_force(); 0 of rigid bearings
@@ -37,16 +37,16 @@ inline constexpr double kWidening = 1.6;
 
 // [mesh] How far contact is looked for under the mesh loads; zone: that of the strips is this many times as
 // wide as the load alone asks for; widening: 1 unless contact has left it.
-std::vector<CandidateZone> static_ranges(const SystemModel& system, int strips, double zone, double widening);
+std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, double zone, double widening);
 
 // Where and how contact wants more than the range holds, in words; empty if it does not. Throws Error(numerical) where a tip
 // edge would leave the other's involute.
-std::string beyond_range(const SystemAnswer& answer, double phase);
+std::string outside_zone(const SystemSolution& solution, double phase);
 
 // (position) over one mesh period, from phase 0 on; strips: across the contact width, of contact "strips". Throws as
 // static_transmission.
-std::vector<SystemAnswer> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
-                                           int positions);
+std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
+                                             int positions);
 
 class SystemStatics {
  public:
@@ -55,14 +55,14 @@ class SystemStatics {
 
   // At a phase, 0 to 1, of a mesh period; start: (body) m. One phase after the other: what all mesh periods have in common
   // there is kept. Throws Error(numerical) where there is no equilibrium within the flanks.
-  const SystemAnswer& solve(double phase, int period, const Eigen::VectorXd& start);
+  const SystemSolution& solve(double phase, int period, const Eigen::VectorXd& start);
   // [mesh], of strips, of the position that was solved last.
   std::vector<std::vector<ContactZone>> zones() const;
 
  private:
   void take_position(double phase, int period);
-  void take_strips(SystemAnswer& answer) const;
-  void take_lines(SystemAnswer& answer) const;
+  void take_strips(SystemSolution& solution) const;
+  void take_lines(SystemSolution& solution) const;
   const SystemModel& system_;
   bool lines_, alike_;
   std::vector<CandidateZone> range_;
@@ -73,8 +73,8 @@ class SystemStatics {
   int period_ = 0;
   Eigen::MatrixXd compliance_, with_cracks_;
   bool cracked_here_ = false;
-  SystemAnswer answer_;
-  bool repeats_ = false;  // answer_ holds in all mesh periods
+  SystemSolution solution_;
+  bool repeats_ = false;  // solution_ holds in all mesh periods
   ComplementaritySolver solver_;
 };
 

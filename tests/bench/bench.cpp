@@ -417,7 +417,7 @@ void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact&
   double imbalance = 0;
   const double seconds = least_seconds(5, [&] {
     periods = 0;
-    for (const char* direction : {"up", "down"}) {
+    for (const Direction direction : {Direction::up, Direction::down}) {
       const SweepArtifact result = sweep(driver, driven, statics, mean_stiffness, settings, direction,
                                          [](long, long, const std::string&) {});
       periods += result.periods.sum();

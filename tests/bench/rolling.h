@@ -133,7 +133,7 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
 class RollingRig {
  public:
   RollingRig(const GearMeshModel& model, const StaticArtifact& statics, const SweepParameters& settings)
-      : dynamics_(model, parameters(statics, settings)), settings_(settings) {
+      : dynamics_(model, dynamic_parameters(statics, statics.mean_stiffness, settings)), settings_(settings) {
     finest_ = settings.time.steps_per_period;
     while (finest_ * settings.frequency_from < settings.time.min_sample_rate) finest_ *= 2;
     dynamics_.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), finest_);
@@ -159,15 +159,6 @@ class RollingRig {
   int steps = 0;
 
  private:
-  static DynamicParameters parameters(const StaticArtifact& statics, const SweepParameters& settings) {
-    DynamicParameters p;
-    p.torque = statics.torque;
-    p.inertia = {settings.driver_inertia, settings.driven_inertia};
-    p.mean_stiffness = statics.mean_stiffness;
-    p.damping = settings.damping;
-    p.fidelity = settings.fidelity;
-    return p;
-  }
   RollingDynamics dynamics_;
   const SweepParameters& settings_;
   int finest_ = 0;

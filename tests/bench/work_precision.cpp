@@ -254,7 +254,7 @@ class Bench {
     const StaticArtifact statics = static_transmission(bodies.driver, bodies.driven, settings, torque_);
     DynamicParameters parameters;
     parameters.torque = torque_;
-    parameters.inertia = {settings_.driver_inertia, settings_.driven_inertia};
+    parameters.inertia = {settings_.inertia.begin(), settings_.inertia.end()};
     parameters.mean_stiffness =
         static_transmission(bodies.driver, bodies.driven, settings, settings_.reference_torque)
             .mean_stiffness;

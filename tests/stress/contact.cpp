@@ -171,7 +171,7 @@ class Problems {
   void record() {
     const SweepParameters settings = paper_sweep(2900, 2900, 1);
     DynamicParameters parameters = paper_parameters(463e6);
-    parameters.inertia = {settings.driver_inertia, settings.driven_inertia};
+    parameters.inertia.assign(settings.inertia.begin(), settings.inertia.end());
     parameters.damping.rayleigh_stiffness = 5.5e-6;  // contact is lost
     const GearMeshModel model(paper_body(40e-3, 1.5e-3), paper_body(40e-3, 1.5e-3), paper_statics(128).mesh);
     RollingDynamics dynamics(model, parameters);

@@ -1,0 +1,51 @@
+#include "io/pair_inputs.h"
+
+#include "base/error.h"
+#include "gear/body_inertia.h"
+#include "io/body_codec.h"
+#include "io/fit.h"
+#include "io/provenance.h"
+#include "io/static_codec.h"
+
+namespace whine {
+namespace {
+
+// Gears that are alike share a file, which is read once.
+PairBodies read_bodies(const std::vector<std::string>& paths) {
+  PairBodies body{read_body(paths[0]), {}};
+  body[1] = paths[1] == paths[0] ? body[0] : read_body(paths[1]);
+  return body;
+}
+
+}  // namespace
+
+PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings) {
+  const std::vector<std::string> paths = files.of(settings.mesh);
+  PairBodies body = read_bodies(paths);
+  for (size_t g = 0; g < kSides; ++g)
+    require_body(body[g], settings.body[g], settings.mesh.gear[g], paths[g]);
+  return body;
+}
+
+PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,
+                            ImpactParameters& settings) {
+  PairInputs inputs;
+  inputs.at_torque = read_static(statics);
+  inputs.at_reference = read_static(reference);
+  const GearMeshSpec& mesh = inputs.at_torque.mesh;
+  const std::vector<std::string> paths = files.of(mesh);
+  for (size_t g = 0; g < kSides; ++g)
+    for (const std::string& file : {statics, reference})
+      require_made_from(file, files.role(mesh.gear[g]), paths[g]);
+  require_contact(inputs.at_torque, settings.fidelity, statics);
+  require_contact(inputs.at_reference, settings.fidelity, reference);
+  if (inputs.at_reference.torque != settings.reference_torque)
+    fail(Failure::input, reference, " is at ", inputs.at_reference.torque,
+         " N m, but the scene's first torque, which sets the bearing dampers, is ", settings.reference_torque,
+         " N m; give the static.h5 of that torque");
+  inputs.body = read_bodies(paths);
+  as_drawn(settings, {inputs.body[0].inertia, inputs.body[1].inertia});
+  return inputs;
+}
+
+}  // namespace whine

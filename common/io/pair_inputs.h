@@ -1,0 +1,30 @@
+// What the programs of a pair read in the same way: the bodies of its gears, and its results at rest.
+#pragma once
+#include <array>
+#include <string>
+
+#include "io/named_files.h"
+#include "signal/static_result.h"
+#include "solid/reduced_body.h"
+
+namespace whine {
+
+using PairBodies = std::array<BodyArtifact, kSides>;  // driver, driven
+
+// Bodies of the gears of stage parameters. Throws Error(input), with the make target, for a body of other ones; errors of
+// NamedFiles::of.
+PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings);
+
+// Of a pair in motion.
+struct PairInputs {
+  PairBodies body;
+  StaticArtifact at_torque,
+      at_reference;  // the second is of the torque whose mean stiffness sets the bearing dampers
+};
+
+// Inertias of `settings` that the scene leaves to the drawing become those of the bodies. Throws Error(input), with the make
+// target, unless both results at rest were made from these bodies with the contact and at the reference torque of `settings`.
+PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,
+                            ImpactParameters& settings);
+
+}  // namespace whine
