@@ -4,7 +4,7 @@
 // the
 //         torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of the dampers)
 // Writes  sweep.h5    transmission error and tooth loads over one orbit at every speed, energy, certificate, jumps
-// With --next-level: beside sweep.h5, in words, what the same sweep answers on the next model level of contact and on that of
+// With --next-level: beside sweep.h5, in words, what the same sweep gives on the next model level of contact and on that of
 // body. Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step.
 #include <optional>
 #include <sstream>

@@ -22,6 +22,10 @@ KeyValues keys_of(const Artifact& a, bool driver) {
     values.damping = a.damping;
   }
   values.design = driver ? a.driver : a.driven;
+  const GearDesign& gear = values.design;
+  const double middle = gear.teeth + 2 * gear.profile_shift;
+  values.tip_diameter = gear.module * (middle + 2 * gear.addendum);
+  values.root_diameter = gear.module * (middle - 2 * gear.dedendum);
   values.material = driver ? a.driver_material : a.driven_material;
   values.body = driver ? a.driver_body : a.driven_body;
   values.modification = a.mesh.modification[driver ? 0 : 1];
@@ -118,7 +122,7 @@ std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to)
     KeyValues old = keys_of(from, driver), fresh = keys_of(to, driver);
     std::string out;
     for (const Key& key : scene_keys()) {
-      if (of_operation(key)) continue;
+      if (of_operation(key) || key.part == Part::diameter) continue;
       const std::string a = in_scene_unit(old, key), b = in_scene_unit(fresh, key);
       if (a != b) out += text(out.empty() ? "" : ", ", key.name, " ", a, " → ", b);
     }

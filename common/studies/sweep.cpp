@@ -17,6 +17,7 @@
 #include "gear/body_inertia.h"
 #include "gear/numbers.h"
 #include "gear/pair.h"
+#include "gear/scene_geometry.h"
 #include "signal/branch_end.h"
 #include "signal/response.h"
 
@@ -352,19 +353,14 @@ std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::v
 
 std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::vector<double>& inertia,
                                   const Damping& damping, const Fidelity& fidelity) {
-  constexpr double kFlywheel =
-      100;  // times the inertia of the drawing: more than what shafts and couplings add
   std::vector<Remark> out;
   if (fidelity.body != BodyModel::rigid && fidelity.body != BodyModel::quasi_static)
     if (const auto damped = damping_remark(statics, inertia, damping)) out.push_back(*damped);
   for (size_t g = 0; g < inertia.size(); ++g) {
-    const double own = least_body_inertia(ToothGeometry(g ? statics.driven : statics.driver),
-                                          g ? statics.driven_material : statics.driver_material);
-    if (inertia[g] > kFlywheel * own)
-      out.push_back(remark(true, "total_inertia_kgm2 = ", inertia[g], " of [gear.",
-                           g ? statics.mesh.driven : statics.mesh.driver, "] is ",
-                           std::round(inertia[g] / own), " times that of the gear as drawn, ",
-                           shown_number(own), "; check its unit, kg m2"));
+    const std::string words =
+        flywheel(g ? statics.driven : statics.driver, g ? statics.driven_material : statics.driver_material,
+                 inertia[g], g ? statics.mesh.driven : statics.mesh.driver);
+    if (!words.empty()) out.push_back(remark(true, words));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "contact/hertz_line.h"
 #include "gear/pair.h"
+#include "gear/scene_geometry.h"
 
 namespace whine {
 
@@ -57,13 +58,8 @@ std::vector<Remark> body_remarks(const StaticArtifact& s) {
   std::vector<Remark> out;
   for (const bool driven : {false, true}) {
     const GearDesign& gear = driven ? s.driven : s.driver;
-    const double rim = ToothGeometry(gear).root_radius() - gear.bore_radius;
-    if (rim < gear.module)
-      out.push_back(remark(
-          true, "between the bore and the root circle of [gear.", driven ? s.mesh.driven : s.mesh.driver,
-          "] are ", rim * 1e3,
-          " mm, less than a module: bore_radius_mm is the radius inside which the gear is "
-          "rigid, so a thin rim makes the teeth stiffer here than on a real rim. Check bore_radius_mm"));
+    const std::string words = thin_rim(gear, driven ? s.mesh.driven : s.mesh.driver);
+    if (!words.empty()) out.push_back(remark(true, words));
   }
   const ComplianceSplit split = compliance_split(s);
   if (!(split.body_share() > kMuch)) return out;
