@@ -19,7 +19,7 @@ set xrange [phase_from:phase_to]
 set yrange [0 : 1.08 * largest]
 set ylabel "Force (N)" offset 0.5
 colour(t) = t == 0 ? "#0072b2" : (t == 1 ? "#d55e00" : "#7f9fbf")
-each = (height - 120 - foot_line * lines) / motions
+each = (height - 120 - 24 * lines) / motions
 do for [m = 1:motions] {
   letter = word(letters, m)
   set tmargin at screen (height - 55 - (m - 1) * each - 50) / height
