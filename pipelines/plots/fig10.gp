@@ -24,7 +24,7 @@ do for [m = 1:motions] {
   letter = word(letters, m)
   set tmargin at screen (height - 55 - (m - 1) * each - 50) / height
   set bmargin at screen (height - 55 - m * each + 45) / height
-  set label 1 "{/:Bold (" . letter . ")} " . value("title_" . letter) . "; " . value("result_" . letter) at graph 0, graph 1 offset 0, 0.9 font ",14" noenhanced
+  set label 1 "{/:Bold (" . letter . ")} " . value("title_" . letter) . "; " . value("result_" . letter) at graph 0, graph 1 offset 0, 0.9 font ",12" noenhanced
   set label 1 enhanced
   if (m == motions) { set xlabel "Phase of tooth i (mesh periods, 0: it touches at the pitch point)" } else { unset xlabel }
   set key at graph 1.02, graph 0.98 left top Left reverse samplen 2 spacing 1.2 font ",14"

@@ -3,10 +3,14 @@
 # percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1.., colour_mark1..
 set datafile separator whitespace
 set datafile commentschars "#"
-foot1 = subtitle
-foot2 = second_line
+# A long subtitle goes on in a second line.
+cut = 0
+do for [i = 1:strlen(subtitle)] { if (i < 150 && strlen(subtitle) > 150 && subtitle[i:i + 1] eq "; ") { cut = i } }
+foot1 = cut > 0 ? subtitle[1:cut] : subtitle
+foot2 = cut > 0 ? subtitle[cut + 2:*] : second_line
+foot3 = second_line
 foot_name = "foot%d"
-lift = room(strlen(second_line) > 0 ? 2 : 1)
+lift = room(1 + (cut > 0) + (strlen(second_line) > 0))
 set multiplot title heading
 set border 3 lw 1.4
 set tics out nomirror font ",13"
