@@ -143,6 +143,9 @@ class FixedPhasePair {
     for (int i = 0; i < plan_.phases; ++i) {
       meshes_.push_back(dynamics.hold(i));
       blank_.phase_undamped_frequency[i] = dynamics.frozen_frequency(i);
+      // Modes of a body that do not move the mesh lie below it.
+      if (blank_.phase_undamped_frequency[i] > 1.0001 * dynamics.frozen_frequencies(i)[0])
+        meshes_.back().near = blank_.phase_undamped_frequency[i];
       if (model.on_bearings()) {
         meshes_.back().near = blank_.phase_undamped_frequency[i];
         // The mesh, and each gear on a bearing along the line of action and across.
