@@ -493,7 +493,7 @@ found=$(for f in titled/fig12.tsv titled/fig12-harmonics.tsv; do awk -F '\t' -v 
 [ -z "$found" ] && [ "$(find titled -maxdepth 1 -name '*.tsv' | wc -l)" = 4 ] && ok "the numbers of a figure are one table a file, with one line of names" ||
   wrong "the numbers of a figure are one table a file, with one line of names" "$(head -n 1 <<< "$found") $(ls titled)"
 rm -r titled
-inspected "gear-inspect says its units first" 0 '^units: mm .gears., um .*N/um' out/scene/T100/static.h5
+inspected "gear-inspect says its units first" 0 '^units: mm .gears., µm .*N/µm' out/scene/T100/static.h5
 # On a terminal the search of a calibration shows that it is at work.
 if command -v script > /dev/null; then
   script -q -e -c "${ring_down[*]} --calibrate 0.05 --contact-state one" /dev/null > said 2>&1
