@@ -202,7 +202,7 @@ rm -f calibrated.*
 rejected "a ring-down without --output or --calibrate" 2 'calibrate is needed' "${ring_down[@]}"
 rejected "a ring-down with both" 2 'calibrate' "${stage_impact[@]}" --calibrate 0.05
 rejected "a torque step above a half" 3 'torque step of 0.6' "${stage_impact[@]}" --torque-step 0.6
-rejected "a ring-down so large that contact comes and goes" 1 'damped oscillations leave [0-9.e-]+ of the decay' "${stage_impact[@]}" --torque-step 0.5
+rejected "a ring-down so large that contact comes and goes" 1 'damped exponentials leave [0-9.e-]+ of the decay' "${stage_impact[@]}" --torque-step 0.5
 rejected "a damping ratio that no eta gives" 3 'the largest is near' "${ring_down[@]}" --calibrate 0.9
 rejected "a contact state that does not occur" 3 "'five' does not occur.*one, two, mean" "${ring_down[@]}" --calibrate 0.05 --contact-state five
 at_torque=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --output x.h5 --torque)
@@ -495,7 +495,7 @@ found=$(for f in titled/fig12.tsv titled/fig12-harmonics.tsv; do awk -F '\t' -v 
 [ -z "$found" ] && [ "$(find titled -maxdepth 1 -name '*.tsv' | wc -l)" = 4 ] && ok "the numbers of a figure are one table a file, with one line of names" ||
   wrong "the numbers of a figure are one table a file, with one line of names" "$(head -n 1 <<< "$found") $(ls titled)"
 rm -r titled
-inspected "gear-inspect says its units first" 0 '^units: mm .gears., um .*N/um' out/scene/T100/static.h5
+inspected "gear-inspect says its units first" 0 '^units: mm .gears., µm .*N/µm' out/scene/T100/static.h5
 # On a terminal the search of a calibration shows that it is at work.
 if command -v script > /dev/null; then
   script -q -e -c "${ring_down[*]} --calibrate 0.05 --contact-state one" /dev/null > said 2>&1

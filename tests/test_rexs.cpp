@@ -258,7 +258,7 @@ TEST_CASE("REXS: a model in XML, JSON and zip gives the gears of the scene that 
       CHECK(scene.gears[g].material.density == expected.gears[g].material.density);
     }
     CHECK(scene.gears[0].name == "pinion_a");
-    CHECK(scene.mesh.driver == "pinion_a");
+    CHECK(scene.mesh.gear[0] == "pinion_a");
     CHECK(scene.mesh.centre_distance == expected.mesh.centre_distance);
     CHECK(scene.operation.torques == std::vector<double>{60});
     // 6000 1/min of 30 teeth: 3000 Hz, from a fifth of it to half beyond
@@ -345,8 +345,8 @@ TEST_CASE(
         std::string::npos);
   for (const char* stage : {"62", "Second stage"}) {
     const Scene scene = imported(folder, path, stage);
-    CHECK(scene.mesh.driver == "fourth");
-    CHECK(scene.mesh.driven == "third");
+    CHECK(scene.mesh.gear[0] == "fourth");
+    CHECK(scene.mesh.gear[1] == "third");
     CHECK(scene.mesh.centre_distance == 76e-3);
     CHECK(scene.gears[0].design.dedendum == 1.25);
     CHECK(scene.gears[0].material.youngs_modulus == 206e9);

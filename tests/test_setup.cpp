@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "gear/body_inertia.h"
+#include "gear/scene_geometry.h"
+#include "io/scene_keys.h"
 #include "io/study.h"
 #include "paper_pair.h"
 #include "relative.h"
@@ -54,6 +56,44 @@ TEST_CASE("a rim thinner than a module is warned of") {
   CHECK_FALSE(says(body_remarks(s), "less than a module"));
   s.gear[1].design.bore_radius = ToothGeometry(s.gear[1].design).root_radius() - 0.5e-3;
   CHECK(says(body_remarks(s), "[gear.wheel] are 0.5 mm, less than a module"));
+}
+
+TEST_CASE(
+    "a thin rim and the inertia of a flywheel are warned of where the scene is read, with their places") {
+  Scene scene;
+  scene.gears.resize(2);
+  scene.gears[0].name = "pinion";
+  scene.gears[1].name = "wheel";
+  for (SceneGear& gear : scene.gears) {
+    gear.design = paper_gear();
+    gear.material = paper_steel();
+    gear.total_inertia = 0.0148;
+  }
+  std::string section, key;
+  const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
+    section = sections.front();
+    key = words;
+    return std::string("x.toml:7");
+  };
+  CHECK(scene_warnings(scene, where).empty());
+  scene.gears[1].total_inertia = 700;
+  scene.gears[0].design.bore_radius = ToothGeometry(paper_gear()).root_radius() - 0.5e-3;
+  const std::vector<std::string> said = scene_warnings(scene, where);
+  REQUIRE(said.size() == 2);
+  CHECK(said[0].find("x.toml:7: between the bore and the root circle of [gear.pinion] are 0.5 mm") == 0);
+  CHECK(said[1].find("x.toml:7: total_inertia_kgm2 = 700 of [gear.wheel] is ") == 0);
+  CHECK(section == "gear.wheel");
+  // 0: as drawn.
+  scene.gears[1].total_inertia = 0;
+  CHECK(scene_warnings(scene, where).size() == 1);
+}
+
+TEST_CASE("the keys of a result hold the tip and root diameters that addendum and dedendum gave") {
+  std::map<std::string, std::string> values;
+  for (const SceneKey& key : scene_keys_of(at_rest(40e-3))) values[key.name] = key.driver;
+  CHECK(values["tip_diameter_mm"] == "156");
+  CHECK(values["root_diameter_mm"] == "142.5");
+  CHECK(values["addendum"] == "1");
 }
 
 TEST_CASE(

@@ -56,8 +56,8 @@ void tell_results(const HarrisPlan& plan, const HarrisMapArtifact& map, double t
   for (Eigen::Index s = 0; s < map.length.size(); ++s) {
     const bool at_edge = plan.relief.size() > 1 && map.optimum_relief[s] >= plan.relief.back();
     tell("gear-harris: start ", map.start_roll(s, 0) * 180 / std::numbers::pi, " deg: at ", map.design_torque,
-         " N m ", map.optimum_relief[s] * 1e6, " um leave ", map.optimum_peak_to_peak[s] * 1e6,
-         " um peak to peak",
+         " N m ", map.optimum_relief[s] * 1e6, " µm leave ", map.optimum_peak_to_peak[s] * 1e6,
+         " µm peak to peak",
          at_edge ? "; that is the edge of the map: more relief may leave less, widen --relief-um" : "");
   }
   if (map.checked > 0)

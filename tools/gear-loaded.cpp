@@ -68,7 +68,7 @@ void body(int argc, char** argv) {
   const std::string& root_gear = result.mesh.gear[gear];
   whine::tell("gear-loaded: ", result.torque, " N m, mesh phase ", result.mesh_phase, ", ",
               result.pair.size(), " pairs, transmission error ", result.transmission_error * 1e6,
-              " um, largest pressure inside a flank ", pressure.inside * 1e-6, " MPa, root stress ",
+              " µm, largest pressure inside a flank ", pressure.inside * 1e-6, " MPa, root stress ",
               result.root_stress.maxCoeff() * 1e-6, " MPa of ", root_gear, "; hubs hold ",
               result.hub_torque[0], " and ", result.hub_torque[1], " N m, strain energy ",
               result.strain_energy.sum() / result.contact_work.sum(), " of the work -> ", output);

@@ -55,7 +55,7 @@ void body(int argc, char** argv) {
               ", asymmetry of the flexibility ", result.asymmetry, " -> ", output);
   if (settings.design.crack.depth > 0)
     whine::tell("gear-reduce: the crack in tooth ", settings.design.crack.tooth, " adds up to ",
-                result.crack_compliance.maxCoeff() * 1e9, " um/kN to ",
+                result.crack_compliance.maxCoeff() * 1e9, " µm/kN to ",
                 result.compliance[0].maxCoeff() * 1e9);
 }
 

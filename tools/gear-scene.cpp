@@ -115,6 +115,7 @@ void body(int argc, char** argv) {
 
   // 3. The fragment, always written.
   publish(output, scene_fragment(scene, path, stem, bodies));
+  for (const std::string& warning : scene_warnings(scene, where)) tell("gear-scene: warning: ", warning);
   for (const std::string& cost : costs(scene)) tell("gear-scene: ", path, ": ", cost);
   const size_t hashes = different(bodies).size();
   tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", hashes,

@@ -51,13 +51,13 @@ Heard heard_at(const std::string& path, double frequency, const std::string& bea
                     axis = colon == std::string::npos ? "" : bearing.substr(colon + 1);
   for (int g = 0; g < kSides; ++g) {
     const auto& force = sweep.bearing_force[static_cast<size_t>(g)];
-    if (gear != sweep.mesh.gear(g) || force.empty() || (axis != "x" && axis != "y")) continue;
+    if (gear != sweep.mesh.gear[static_cast<size_t>(g)] || force.empty() || (axis != "x" && axis != "y")) continue;
     out.record = force[static_cast<size_t>(row)].col(axis == "x" ? 0 : 1).head(samples);
     return out;
   }
   fail(Failure::usage, "--bearing ", printable(bearing, 80),
        ": wanted is <gear>:x or <gear>:y of a gear on an elastic bearing; ", path, " is of ",
-       sweep.mesh.driver, " and ", sweep.mesh.driven);
+       sweep.mesh.gear[0], " and ", sweep.mesh.gear[1]);
 }
 
 std::string tones(const std::vector<Heard>& branches, const std::vector<VectorXd>& sounds,

@@ -94,7 +94,7 @@ void body(int argc, char** argv) {
   const auto& te = result.transmission_error;
   whine::tell("gear-static: ", torque, " N m, contact ratio ", result.contact_ratio, ", mean stiffness ",
               result.mean_stiffness * 1e-6, "e6 N/m, transmission error ", te.minCoeff() * 1e6, " to ",
-              te.maxCoeff() * 1e6, " um -> ", output);
+              te.maxCoeff() * 1e6, " µm -> ", output);
   if (change) {
     tell_change("where a pair carries load off the line of action", change->corner, settings.contact.strips);
     tell_change("elsewhere", change->elsewhere, settings.contact.strips);

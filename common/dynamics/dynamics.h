@@ -132,9 +132,9 @@ class RollingDynamics {
     int teeth = 0;        // whose relaxed load is followed, per gear
   };
   StepSizes step_sizes(int i) const;
-  // Natural frequency of the mesh, Hz, with the contact frozen as the static load leaves it at phase i / (steps of
-  // the range) of a mesh period: undamped, the residual flexibility is instantaneous. The lowest one; of gears on bearings that
-  // which gives way most to a force between the flanks, statically. Throws Error(numerical) if there is none.
+  // Natural frequency of the mesh, Hz, contact frozen as the static load leaves it at phase i / (steps of the range) of a period: undamped,
+  // the residual flexibility is instantaneous. The lowest that holds a tenth of the strongest one's energy after a step of the torque; on
+  // bearings that which gives way most to a force between the flanks, statically. Throws Error(numerical) if there is none.
   double frozen_frequency(int i, int period = 0);
   // All of them (coordinate), ascending; not of body = "full".
   Eigen::VectorXd frozen_frequencies(int i, int period = 0);

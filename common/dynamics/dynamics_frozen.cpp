@@ -17,6 +17,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr double kCounts = 0.1;  // share of the largest energy that makes a mode count, as in fit_decay
 
 }  // namespace
 
@@ -73,10 +74,18 @@ SymmetricEigen RollingDynamics::frozen_modes(int i, const Frozen& contact, bool 
 double RollingDynamics::frozen_frequency(int i, int period) {
   const Frozen contact = frozen(i, period);
   if (full()) return std::sqrt(condensed_eigenvalue(contact.compliance, contact.participation)) / kTwoPi;
-  const SymmetricEigen eigen = frozen_modes(i, contact, floating_);
+  const SymmetricEigen eigen = frozen_modes(i, contact, true);
   Eigen::Index mode = 0;
-  if (floating_)
+  if (floating_) {
     (eigen.vectors.transpose() * closing_weight_).cwiseAbs2().cwiseQuotient(eigen.values).maxCoeff(&mode);
+  } else {
+    // What a step of the torque excites of the transmission error. A body has modes that no torque moves, and they may lie lowest.
+    const VectorXd amplitude = (eigen.vectors.transpose() * torque_force_)
+                                   .cwiseProduct(eigen.vectors.transpose() * error_weight_)
+                                   .cwiseQuotient(eigen.values);
+    const VectorXd energy = amplitude.cwiseAbs2();
+    for (const double most = energy.maxCoeff(); energy[mode] < kCounts * most;) ++mode;
+  }
   return std::sqrt(eigen.values[mode]) / kTwoPi;
 }
 

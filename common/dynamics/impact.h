@@ -25,6 +25,7 @@ struct ImpactPlan {
 struct RingDown {
   Eigen::VectorXd transmission_error;  // (sample 0..) m, less its static value
   double least_mesh_force = 0;         // 1: over the static one
+  int contact_changes = 0;             // steps at whose end other strips carry load than at their start
 };
 
 // Free motion after the pair was in equilibrium under (1 + torque_step) of its torque; steps of `step` s, of which

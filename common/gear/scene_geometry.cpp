@@ -1,5 +1,6 @@
 #include "gear/scene_geometry.h"
 
+#include <cmath>
 #include <vector>
 
 #include "base/error.h"
@@ -54,6 +55,33 @@ void check_inertia(const Scene& scene, const ScenePlace& where) {
         fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
     });
   }
+}
+
+std::string thin_rim(const GearDesign& design, const std::string& name) {
+  const double rim = ToothGeometry(design).root_radius() - design.bore_radius;
+  if (rim >= design.module) return "";
+  return text("between the bore and the root circle of [gear.", name, "] are ", rim * 1e3,
+              " mm, less than a module: bore_radius_mm is the radius inside which the gear is rigid, so a "
+              "thin rim makes the "
+              "teeth stiffer here than on a real rim. Check bore_radius_mm");
+}
+
+std::string flywheel(const GearDesign& design, const Material& material, double inertia,
+                     const std::string& name) {
+  constexpr double kMost = 100;  // times the inertia of the drawing: more than what shafts and couplings add
+  const double own = least_body_inertia(ToothGeometry(design), material);
+  if (inertia <= kMost * own) return "";
+  return text("total_inertia_kgm2 = ", inertia, " of [gear.", name, "] is ", std::round(inertia / own),
+              " times that of the gear as drawn, ", shown_number(own), "; check its unit, kg m2");
+}
+
+std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where) {
+  std::vector<std::string> out;
+  for (const SceneGear& gear : scene.gears)
+    for (const std::string& words : {thin_rim(gear.design, gear.name),
+                                     flywheel(gear.design, gear.material, gear.total_inertia, gear.name)})
+      if (!words.empty()) out.push_back(where({"gear." + gear.name}, words) + ": " + words);
+  return out;
 }
 
 }  // namespace whine

@@ -21,4 +21,14 @@ void check_geometry(const Scene& scene, const ScenePlace& where);
 // has passed. Statics do not depend on it.
 void check_inertia(const Scene& scene, const ScenePlace& where);
 
+// What a scene may mean but hardly does, each with its place before it: thin rims, inertias of flywheels. Nothing is computed for it.
+std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where);
+
+// Less than a module between the bore and the root circle of [gear.<name>], in words; "" if there is more.
+std::string thin_rim(const GearDesign& design, const std::string& name);
+
+// A total inertia (kg m2) above 100 times that of the gear as drawn, which no shaft or coupling adds, in words; "" below.
+std::string flywheel(const GearDesign& design, const Material& material, double inertia,
+                     const std::string& name);
+
 }  // namespace whine

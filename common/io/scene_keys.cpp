@@ -22,6 +22,10 @@ KeyValues keys_of(const Artifact& a, int g) {
     values.damping = a.damping;
   }
   values.design = a.gear[g].design;
+  const GearDesign& gear = values.design;
+  const double middle = gear.teeth + 2 * gear.profile_shift;
+  values.tip_diameter = gear.module * (middle + 2 * gear.addendum);
+  values.root_diameter = gear.module * (middle - 2 * gear.dedendum);
   values.material = a.gear[g].material;
   values.body = a.gear[g].discretisation;
   take_gear(values, a.mesh, g);
@@ -113,7 +117,7 @@ std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to)
     KeyValues old = keys_of(from, g), fresh = keys_of(to, g);
     std::string out;
     for (const Key& key : scene_keys()) {
-      if (of_operation(key)) continue;
+      if (of_operation(key) || key.part == Part::diameter) continue;
       const std::string a = in_scene_unit(old, key), b = in_scene_unit(fresh, key);
       if (a != b) out += text(out.empty() ? "" : ", ", key.name, " ", a, " → ", b);
     }

@@ -73,7 +73,7 @@ void show_modification(Lines& lines, const GearMeshSpec& mesh) {
 void show_bearings(Lines& lines, const GearMeshSpec& mesh) {
   for (int g = 0; g < kSides; ++g)
     if (const Bearing& b = mesh.bearing[g]; b.elastic())
-      add(lines, text("bearing of ", mesh.gear[g]), b.stiffness * 1e-6, " N/um, ", b.damping, " N s/m, ",
+      add(lines, text("bearing of ", mesh.gear[g]), b.stiffness * 1e-6, " N/µm, ", b.damping, " N s/m, ",
           b.mass > 0 ? text(b.mass, " kg") : "mass as drawn");
 }
 
@@ -92,11 +92,11 @@ void show_errors(Lines& lines, const GearMeshSpec& mesh) {
     if (e.iso_class > 0)
       part("class ", e.iso_class, " of ISO 1328-1, ", e.iso_share * 100, " % of its limits, seed ", e.seed);
     if (e.eccentricity != 0)
-      part("eccentricity ", e.eccentricity * 1e6, " um towards tooth ", e.eccentric_tooth);
+      part("eccentricity ", e.eccentricity * 1e6, " µm towards tooth ", e.eccentric_tooth);
     for (const auto& [name, teeth] :
          {std::pair{"single pitch", &e.single_pitch}, std::pair{"cumulative pitch", &e.cumulative_pitch},
           std::pair{"profile slope", &e.profile_slope}, std::pair{"profile form", &e.profile_form}})
-      if (largest(*teeth) > 0) part(name, " up to ", largest(*teeth), " um");
+      if (largest(*teeth) > 0) part(name, " up to ", largest(*teeth), " µm");
     add(lines, text(kGearName[g], "'s teeth"), words);
   }
 }
@@ -128,7 +128,7 @@ void show_discretisation(Lines& lines, const PairParameters& a) {
 }
 
 void show_damping(Lines& lines, const Damping& damping) {
-  add(lines, "damping", "eta ", damping.rayleigh_stiffness * 1e6, " us, bearing ratio ",
+  add(lines, "damping", "eta ", damping.rayleigh_stiffness * 1e6, " µs, bearing ratio ",
       damping.bearing_ratio * 100, " %");
 }
 
@@ -152,7 +152,7 @@ void show(Lines& lines, const BodyArtifact& a) {
   add(lines, "flank table", a.flank_position.size(), " points, tooth offsets 0 to ", a.offsets);
   add(lines, "asymmetry", a.asymmetry,
       " relative, made symmetric; flexibility that the modes leave out, least ", a.least_eigenvalue * 1e6,
-      " um/N (round-off of the log of the contact below 0)");
+      " µm/N (round-off of the log of the contact below 0)");
 }
 
 void show(Lines& lines, const StaticArtifact& a) {
@@ -169,11 +169,11 @@ void show(Lines& lines, const StaticArtifact& a) {
           ? text(", ", a.contact.strips, " across the contact width at the mean load")
           : "");
   add(lines, "contact ratio", a.contact_ratio);
-  add(lines, "mean stiffness", a.mean_stiffness * 1e-6, " N/um (secant)");
+  add(lines, "mean stiffness", a.mean_stiffness * 1e-6, " N/µm (secant)");
   if (a.transmission_error.size() > 0) {
     const auto& te = a.transmission_error;
-    add(lines, "transmission error", te.mean() * 1e6, " um mean, ", (te.maxCoeff() - te.minCoeff()) * 1e6,
-        " um peak to peak");
+    add(lines, "transmission error", te.mean() * 1e6, " µm mean, ", (te.maxCoeff() - te.minCoeff()) * 1e6,
+        " µm peak to peak");
     add(lines, "largest tooth load", a.tooth_load.size() ? a.tooth_load.maxCoeff() : 0.0, " N");
   }
   if (a.hunting_periods > 1)
@@ -185,15 +185,15 @@ void show(Lines& lines, const StaticArtifact& a) {
         a.contact_half_width(i, j) * 1e3, " mm, at mesh phase ", a.mesh_phase[i]);
   }
   add(lines, "certificate", a.mesh_phase.size(), " positions; least gap ", a.least_gap * 1e6,
-      " um, least force ", a.least_force, " N, torque residual ", a.torque_residual);
-  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " um");
+      " µm, least force ", a.least_force, " N, torque residual ", a.torque_residual);
+  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
 }
 
 void show(Lines& lines, const LoadedArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", mesh phase ", a.mesh_phase);
   show_modification(lines, a.mesh);
   show_discretisation(lines, a);
-  add(lines, "transmission error", a.transmission_error * 1e6, " um");
+  add(lines, "transmission error", a.transmission_error * 1e6, " µm");
   for (Eigen::Index i = 0; i < a.pair.size(); ++i)
     add(lines, text("pair ", a.pair[i]), a.tooth_load[i], " N on tooth ", a.tooth(i, 0), " of the driver, ",
         a.tooth(i, 1), " of the driven gear; largest root stress ", a.root_stress(i, 0) * 1e-6, " MPa of ",
@@ -252,7 +252,7 @@ void show(Lines& lines, const SweepArtifact& a) {
   if (lumped) {
     add(lines, "model", a.model, ", one degree of freedom, ", l.cell_end.size(), " cells of ",
         l.stiffness.cols(), l.stiffness.cols() == 1 ? " spring" : " springs", ", mean stiffness ",
-        a.mean_stiffness * 1e-6, " N/um, mass ", l.mass, " kg, integrator ", a.fidelity.integrator);
+        a.mean_stiffness * 1e-6, " N/µm, mass ", l.mass, " kg, integrator ", a.fidelity.integrator);
     add(lines, "damping", "ratio ", l.damping_ratio * 100, " %, c = ", l.damper, " N s/m, acts ",
         l.damper_acts == DamperActs::contact ? "in contact" : "always");
   } else {
@@ -272,7 +272,7 @@ void show(Lines& lines, const SweepArtifact& a) {
          static_cast<double>(std::max<Eigen::Index>(a.transmission_error.cols(), 1)))
             .cwiseSqrt();
     const double peak = rms.maxCoeff(&worst);
-    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
         ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
     if (!lumped) {
@@ -292,9 +292,9 @@ void show(Lines& lines, const SweepArtifact& a) {
     if (open > 0) add(lines, "not periodic", open, " of ", a.period_multiple.size(), " speeds");
     add(lines, "mean speed held by", "at most ", a.drift_force.maxCoeff(), " N from the output");
   }
-  add(lines, "certificate", "least gap ", a.least_gap * 1e6, " um, least force ", a.least_force, " N, ",
+  add(lines, "certificate", "least gap ", a.least_gap * 1e6, " µm, least force ", a.least_force, " N, ",
       a.fallbacks, " solutions by Lawson and Hanson");
-  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " um");
+  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
   add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
 }
 
@@ -307,7 +307,7 @@ void show(Lines& lines, const BranchArtifact& a) {
   if (points > 0) {
     Eigen::Index worst = 0;
     const double peak = a.dte_rms.maxCoeff(&worst);
-    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "orbits", points, ", of them ", points - a.stable.sum(), " unstable; largest residual ",
         a.residual.maxCoeff());
   }
@@ -333,7 +333,7 @@ void show(Lines& lines, const ResponseArtifact& a) {
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0;
     const double peak = a.dte_rms.maxCoeff(&worst);
-    add(lines, "largest DTE", peak * 1e6, " um RMS at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "largest tooth load", a.tooth_load_max.maxCoeff(), " N, all pairs ",
         a.mesh_force_max.maxCoeff(), " N");
     for (int g = 0; g < kSides; ++g)
@@ -351,7 +351,7 @@ void show(Lines& lines, const ResponseArtifact& a) {
 void show(Lines& lines, const JumpMapArtifact& a) {
   add(lines, "operating point", a.torque, " N m, ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
-  add(lines, "stiffness", "mean ", a.mean_stiffness * 1e-6, " N/um, first harmonic ",
+  add(lines, "stiffness", "mean ", a.mean_stiffness * 1e-6, " N/µm, first harmonic ",
       a.first_harmonic / a.mean_stiffness * 100, " % of it");
   for (Eigen::Index i = 0; i < a.damping_ratio.size(); ++i) {
     const bool two = a.two_branches[i], lost = a.loss_to[i] > 0;
@@ -375,17 +375,17 @@ void show(Lines& lines, const HarrisMapArtifact& a) {
   show_bearings(lines, a.mesh);
   add(lines, "torque", a.torque.size(), " from ", a.torque[0], " to ", a.torque[a.torque.size() - 1], " N m");
   add(lines, "tip relief", a.relief.size(), " from ", a.relief[0] * 1e6, " to ",
-      a.relief[a.relief.size() - 1] * 1e6, " um, ", a.shape, ", on ",
+      a.relief[a.relief.size() - 1] * 1e6, " µm, ", a.shape, ", on ",
       a.relieved == Relieved::both ? "both gears" : text("the ", kGearName[static_cast<size_t>(a.relieved)]));
   for (Eigen::Index s = 0; s < a.length.size(); ++s)
     add(lines, text("start ", a.start_roll(s, 0) * 180 / std::numbers::pi, " deg"), "at ", a.design_torque,
-        " N m ", a.optimum_relief[s] * 1e6, " um leave ", a.optimum_peak_to_peak[s] * 1e6,
-        " um peak to peak");
+        " N m ", a.optimum_relief[s] * 1e6, " µm leave ", a.optimum_peak_to_peak[s] * 1e6,
+        " µm peak to peak");
   if (a.checked > 0)
     add(lines, "finer solution", a.checked, " points differ by ", a.largest_error * 100, " % at most");
   for (Eigen::Index s = 0; s < static_cast<Eigen::Index>(a.dynamic_rms.size()); ++s)
     add(lines, "RMS at worst speed", a.dynamic_rms[s].minCoeff() * 1e6, " to ",
-        a.dynamic_rms[s].maxCoeff() * 1e6, " um");
+        a.dynamic_rms[s].maxCoeff() * 1e6, " µm");
 }
 
 void show(Lines& lines, const VariantArtifact& a) {
@@ -433,12 +433,12 @@ std::string in_words(const FlankModification& m) {
   for (const auto& [end, relief] : {std::pair{"tip", m.tip}, std::pair{"root", m.root}})
     if (relief.amount > 0)
       part(text(relief.shape == ReliefShape::linear ? "" : name_of(relief.shape) + " ", end, " relief ",
-                relief.amount * 1e6, " um ",
+                relief.amount * 1e6, " µm ",
                 relief.start_radius > 0 ? text("from radius ", relief.start_radius * 1e3, " mm")
                 : relief.length > 0     ? text("over ", relief.length * 1e3, " mm of roll")
                                         : text("from ", relief.start_roll / degree, " deg")));
-  if (m.crowning != 0) part(text("crowning ", m.crowning * 1e6, " um"));
-  if (m.slope != 0) part(text("slope ", m.slope * 1e6, " um"));
+  if (m.crowning != 0) part(text("crowning ", m.crowning * 1e6, " µm"));
+  if (m.slope != 0) part(text("slope ", m.slope * 1e6, " µm"));
   if (!m.points.empty()) part(text(m.points.size(), " points"));
   return out.empty() ? "as designed" : out;
 }

@@ -72,7 +72,9 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
     const double hair =
         1e-4 * (s.mesh.centre_distance + pair.gear(0).tip_radius() + pair.gear(1).tip_radius()) * kMilli;
     lines(" gear", simplified(wire.whole(at, kMilli), hair), true);
-    lines(" teeth", wire.window(at, kMilli, pitch_point, half_zone), true);
+    // The same of the teeth in mesh, whose window is 770 pixels wide.
+    lines(" teeth", simplified(wire.window(at, kMilli, pitch_point, half_zone), 1.3e-4 * half_zone * kMilli),
+          true);
     elements += static_cast<long>(mesh.element_node.rows()) * mesh.design.teeth;
     nodes += static_cast<long>(mesh.node_position.rows() - mesh.side_node.rows()) * mesh.design.teeth;
   }

@@ -21,6 +21,18 @@ std::string plain_path(const std::string& path) {
   return path.starts_with('/') ? path : "./" + path;
 }
 
+// Above a picture stand its title and its scene; notes stand below it, in lines of 24 pixels. A template writes `lift = room(2)`, adds
+// lift to each vertical place on the screen, and ends with eval(below), which draws note1 and note2 there (or what foot_name says), once,
+// in a plot of its own without axes; a template that is no multiplot takes eval(foot_labels) before its plot.
+constexpr const char* kFoot =
+    R"(foot_name = "note%d"; room(lines) = 24.0 * lines / height; )"
+    R"(foot_labels = 'do for [n = 1:int(lift * height / 24 + 0.5)] { set label 900 + n value(sprintf(foot_name, n)) )"
+    R"(at screen 0.5, screen lift + (2 - 24.0 * n + 12) / height center font ",12" }'; )"
+    R"(below = 'unset label; unset arrow; unset object; unset border; unset tics; unset grid; unset key; )"
+    R"(unset title; unset xlabel; unset ylabel; unset y2label; unset xzeroaxis; unset logscale; unset colorbox; )"
+    R"(set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 1; )"
+    R"(set xrange [0:1]; set yrange [0:1]; ' . foot_labels . '; plot NaN notitle'; )";
+
 std::string prelude(const Figure& figure, const std::string& tsv_path, Picture picture) {
   std::string script = "set encoding utf8; ";
   // A point of pngcairo is 4/3 of its pixels, one of svg is one pixel: the scale makes both pictures alike.
@@ -35,8 +47,11 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
   script += text("height = real(", figure.height, "); ");
   script +=
       text("tsv = ", gnuplot_string(plain_path(tsv_path)), "; title = ", gnuplot_string(figure.title), "; ");
-  std::string heading = without_markup(figure.title);
-  for (const std::string& scene : figure.scenes) heading += "\n{/*0.68 " + without_markup(scene) + "}";
+  script += kFoot;
+  std::string heading = without_markup(figure.title), scenes;
+  for (const std::string& scene : figure.scenes)
+    scenes += (scenes.empty() ? "" : "; ") + without_markup(scene);
+  if (!scenes.empty()) heading += "\n{/*0.68 " + scenes + "}";
   script += text("heading = ", gnuplot_string(heading), "; ");
   for (size_t i = 0; i < figure.notes.size(); ++i)
     script += text("note", i + 1, " = ", gnuplot_string(figure.notes[i]), "; ");

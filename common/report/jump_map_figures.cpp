@@ -399,7 +399,7 @@ std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
       "keeps it");
   if (beside)
     notes.push_back(
-        "(b) cells in which the model answers as the elastic pair at that damping ratio: contact lost or "
+        "(b) cells in which the model does as the elastic pair at that damping ratio: contact lost or "
         "kept / "
         "two branches or not");
   if (second_model)

@@ -1,6 +1,7 @@
 #include "report/report_figures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "base/error.h"
@@ -193,10 +194,16 @@ const std::vector<Explained>& explained() {
   return all;
 }
 
-// By its name, which is that of its files: numbers of the page would be taken for those of P2000's figures.
+bool of_paper(const GearDesign& g) {
+  return g.teeth == 50 && std::abs(g.module - 3e-3) < 1e-9;
+}
+
+// By its name, which is that of its files: numbers of the page would be taken for those of P2000's figures. Of P2000's own gears the
+// caption says which figure of it shows the same.
 std::string figure(const ReportContent& c, const ReportPicture& picture, const Explained& kind) {
   std::string words = html::escaped(kind.words(c));
-  if (const std::string paper = paper_figure(picture.name); !paper.empty())
+  if (const std::string paper = paper_figure(picture.name);
+      !paper.empty() && of_paper(c.statics[0].driver) && of_paper(c.statics[0].driven))
     words += text(" ", picture.name, " shows of this pair what ", paper, " of P2000 ",
                   paper.starts_with("Figures") ? "show" : "shows", " of its own.");
   return text("<figure id=\"", picture.name, "\">\n<img alt=\"", html::escaped(picture.name),

@@ -147,7 +147,10 @@ std::string budget_table(const ErrorBudgetArtifact& b) {
     std::string rest = changes.entry;
     for (Index i = 0; i < changes.mean_stiffness_change.size(); ++i) {
       const size_t comma = rest.find(", ");
-      const auto percent = [](double share) { return fixed(share * kPercent, 4); };
+      // Without the sign of a change that rounds to 0.
+      const auto percent = [](double share) {
+        return fixed(std::abs(share * kPercent) < 5e-5 ? 0 : share * kPercent, 4);
+      };
       rows.push_back({what, rest.substr(0, comma), percent(changes.mean_stiffness_change[i]),
                       percent(changes.peak_to_peak_change[i]), percent(changes.harmonic_change(i, 0)),
                       i < changes.pressure_change.size() ? percent(changes.pressure_change[i]) : "–"});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "base/error.h"
 #include "dynamics/impact_result.h"
@@ -17,16 +18,15 @@
 namespace whine {
 namespace {
 
-// Returns the one that came first, of the first torque of the scene.
-StaticArtifact sort_by_torque(std::vector<StaticArtifact>& statics) {
+// They stay in the order in which they are given, which is that of the scene.
+void require_like_pairs(const std::vector<StaticArtifact>& statics) {
   if (statics.empty()) fail(Failure::input, "figure: no static.h5 given; 1 is the least");
   if (statics.size() > kMostCurves)
     fail(Failure::input, "figure: ", statics.size(), " static.h5 given; ", kMostCurves,
          " curves can be told apart");
-  const StaticArtifact first = statics[0];
-  std::sort(statics.begin(), statics.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });
-  for (size_t i = 0; i + 1 < statics.size(); ++i)
-    if (statics[i].torque == statics[i + 1].torque)
+  std::set<double> torques;
+  for (size_t i = 0; i < statics.size(); ++i)
+    if (!torques.insert(statics[i].torque).second)
       fail(Failure::input, "figure: two static.h5 of the same torque, ", statics[i].torque,
            " N m; give each once");
   for (const auto& s : statics) {
@@ -37,7 +37,6 @@ StaticArtifact sort_by_torque(std::vector<StaticArtifact>& statics) {
       fail(Failure::input, "figure: the static.h5 of ", s.torque, " N m and of ", statics[0].torque,
            " N m have different mesh phases; make them with the same `positions`");
   }
-  return first;
 }
 
 std::string torque_label(const StaticArtifact& s) {
@@ -83,8 +82,8 @@ double wrapped(double phase) {
 
 }  // namespace
 
-Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
-  sort_by_torque(statics);
+Figure transmission_error_figure(const std::vector<StaticArtifact>& statics) {
+  require_like_pairs(statics);
   Figure figure;
   figure.title = "Static transmission error";
   figure.notes.push_back(pair_words(statics[0]));
@@ -99,8 +98,9 @@ Figure transmission_error_figure(std::vector<StaticArtifact> statics) {
   return figure;
 }
 
-Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
-  const StaticArtifact first = sort_by_torque(statics);
+Figure mesh_stiffness_figure(const std::vector<StaticArtifact>& statics) {
+  require_like_pairs(statics);
+  const StaticArtifact& first = statics[0];
   const RectangularWave wave = rectangular_wave(first);
   Figure figure;
   figure.title = "Mesh stiffness: torque / (base radius × (static − unloaded transmission error))";
@@ -139,8 +139,9 @@ Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics) {
 
 // What a pair of teeth carries on its way through the mesh. Pair j is j places ahead of the reference pair: at mesh phase f it
 // is at phase f + j of its own.
-Figure load_sharing_figure(std::vector<StaticArtifact> statics) {
-  const StaticArtifact first = sort_by_torque(statics);
+Figure load_sharing_figure(const std::vector<StaticArtifact>& statics) {
+  require_like_pairs(statics);
+  const StaticArtifact& first = statics[0];
   const GearPair pair(first);
   const Eigen::Index n = first.mesh_phase.size();
   // Pairs that carry load at any torque.

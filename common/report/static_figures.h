@@ -7,19 +7,18 @@
 
 namespace whine {
 
-// Static transmission error over a mesh period and its spectrum, one curve per torque (ascending). Throws
+// Static transmission error over a mesh period and its spectrum, one curve per torque in the order given. Throws
 // Error(input) for no input or two of the same torque.
-Figure transmission_error_figure(std::vector<StaticArtifact> statics);
+Figure transmission_error_figure(const std::vector<StaticArtifact>& statics);
 
 // Mesh stiffness k = (T / r_b1) / transmission error over a mesh period and its spectrum, with the
 // rectangular wave.
-// The rectangular wave is that of the first artifact given; curves stand in the order of the torques.
-Figure mesh_stiffness_figure(std::vector<StaticArtifact> statics);
+// The rectangular wave is that of the first artifact given.
+Figure mesh_stiffness_figure(const std::vector<StaticArtifact>& statics);
 
-// The share of the load that a tooth pair carries on its way through the mesh, one curve per torque (ascending), and the loads
-// of all pairs over a mesh period at the least torque. Throws Error(input) as transmission_error_figure.
-// The loads of all pairs are those of the first artifact given.
-Figure load_sharing_figure(std::vector<StaticArtifact> statics);
+// The share of the load that a tooth pair carries on its way through the mesh, one curve per torque in the order
+// given, and the loads of all pairs over a mesh period at the first torque given. Throws Error(input) as transmission_error_figure.
+Figure load_sharing_figure(const std::vector<StaticArtifact>& statics);
 
 // Teeth that differ: static transmission error over the hunting period, its spectrum in orders of the mesh frequency, and that
 // of the dynamic one at the speed of the sweep with the largest RMS. Orders 1 / teeth and their multiples are those of a shaft;

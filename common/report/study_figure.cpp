@@ -245,7 +245,7 @@ FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
   return table;
 }
 
-// Answers that are the same in all variants, as words; "" if there are none.
+// Response quantities that are the same in all variants, as words; "" if there are none.
 std::string constant_words(const StudyArtifact& a, const ShownQuantities& quantities) {
   std::string words;
   if (!quantities.constant.empty()) {
@@ -376,7 +376,7 @@ struct DrawnAnswer {
 // Row r and column c from 1: the answer against key k.
 void add_panel(const StudyArtifact& a, const Axis& axis, const Colours& colours, const DrawnAnswer& quantity,
                size_t k, size_t r, size_t c, Figure& figure) {
-  // What the pair answers at rest does not depend on how its motion ends.
+  // What the pair does at rest does not depend on how its motion ends.
   const bool of_motion = quantity.name.ends_with("_up") || quantity.name.ends_with("_down");
   FigureBlock panel{
       text("panel", r, "_", c),

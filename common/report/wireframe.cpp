@@ -134,20 +134,10 @@ Strokes Wireframe::strokes(const std::vector<bool>& used_edge, int tooth, const 
       at_corner.emplace(edge_[e][1], e);
     }
   const auto corner = [&](int n) { return Vec2(node_(n, 0), node_(n, 1)); };
-  Strokes rows;
-  const auto add = [&](int node) {
-    const Vec2 p = position(node, tooth, at) * scale;
-    // micrometres are enough for the eye and keep the file small
-    rows.push_back({std::round(p.x() * 1e3) / 1e3, std::round(p.y() * 1e3) / 1e3});
-  };
-  for (size_t first = 0; first < edge_.size(); ++first) {
-    if (!free[first]) continue;
-    int before = edge_[first][0], here = edge_[first][1];
-    add(before);
-    for (size_t e = first;;) {
-      free[e] = false;
-      if (with_mid && edge_[e][2] >= 0) add(edge_[e][2]);
-      add(here);
+  // From an edge on, beyond its end `here`, as long as a free edge goes on nearly straight: the nodes after `here`.
+  const auto walk = [&](int before, int here) {
+    std::vector<int> nodes;
+    while (true) {
       const Vec2 ahead = (corner(here) - corner(before)).normalized();
       double best = 0.5;  // cosine: turn by more than 60 degrees and it is another line
       size_t chosen = edge_.size();
@@ -159,10 +149,31 @@ Strokes Wireframe::strokes(const std::vector<bool>& used_edge, int tooth, const 
         const double cosine = ahead.dot((corner(there) - corner(here)).normalized());
         if (cosine > best) best = cosine, chosen = i->second;
       }
-      if (chosen == edge_.size()) break;
-      e = chosen;
+      if (chosen == edge_.size()) return nodes;
+      free[chosen] = false;
+      if (with_mid && edge_[chosen][2] >= 0) nodes.push_back(edge_[chosen][2]);
       before = here;
-      here = edge_[e][0] == here ? edge_[e][1] : edge_[e][0];
+      here = edge_[chosen][0] == here ? edge_[chosen][1] : edge_[chosen][0];
+      nodes.push_back(here);
+    }
+  };
+  Strokes rows;
+  for (size_t first = 0; first < edge_.size(); ++first) {
+    if (!free[first]) continue;
+    free[first] = false;
+    const auto& [from, to, mid] = edge_[first];
+    // Both ways, so that a line of the mesh is one stroke wherever its first edge lies.
+    std::vector<int> line = walk(to, from);
+    std::reverse(line.begin(), line.end());
+    line.push_back(from);
+    if (with_mid && mid >= 0) line.push_back(mid);
+    line.push_back(to);
+    const std::vector<int> after = walk(from, to);
+    line.insert(line.end(), after.begin(), after.end());
+    for (const int node : line) {
+      const Vec2 p = position(node, tooth, at) * scale;
+      // micrometres are enough for the eye and keep the file small
+      rows.push_back({std::round(p.x() * 1e3) / 1e3, std::round(p.y() * 1e3) / 1e3});
     }
     rows.emplace_back();
   }

@@ -16,14 +16,26 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 namespace {
-constexpr int kMostRoots = 12;
-constexpr double kNoise = 1e-9;  // singular values below this share of the largest are round-off
+constexpr double kRoundOff = 1e-9;  // singular values below this share of the largest are round-off
+// The largest singular value of noise over the smallest: (1 + q) / (1 - q) = 6 for independent entries, q^2 = 1/2 columns a row
+// (Marchenko and Pastur, 1967). Entries of a Hankel matrix repeat, which spreads them further.
+constexpr double kNoiseSpread = 20;
 constexpr double kStrong = 0.1;  // share of the strongest pair's energy that makes a pair count
 constexpr double kThere = 1e-6;  // the same where the frequency is known
 constexpr int kLeastSamples = 16;
 }  // namespace
 
-Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step, double near) {
+namespace {
+
+// As many exponentials as there are singular values (falling) above round-off and noise, whose level the smallest one shows.
+Eigen::Index exponentials(const VectorXd& sigma) {
+  const double noise = std::max(kRoundOff * sigma[0], kNoiseSpread * sigma[sigma.size() - 1]);
+  return std::max<Eigen::Index>((sigma.array() > noise).count(), 1);
+}
+
+}  // namespace
+
+Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step, double near, int most) {
   const Eigen::Index n = samples.size(), pencil = n / 3;
   if (n < kLeastSamples)
     fail(Failure::input, "a decay of ", n, " samples is too short, ", kLeastSamples, " are needed");
@@ -38,7 +50,7 @@ Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step, double n
   const VectorXd& sigma = svd.values;
   if (!svd.converged || !sigma.allFinite())
     fail(Failure::numerical, "the decay of ", n, " samples with a norm of ", norm, " has no singular values");
-  const auto roots = std::min<Eigen::Index>(kMostRoots, (sigma.array() > kNoise * sigma[0]).count());
+  const auto roots = std::min<Eigen::Index>(exponentials(sigma), most);
   const MatrixXd rows = svd.right.leftCols(roots);
   const MatrixXd shift = least_squares(MatrixXd(rows.topRows(pencil)), MatrixXd(rows.bottomRows(pencil)));
   const GeneralEigenvalues eigen = general_eigenvalues(shift);
@@ -61,6 +73,7 @@ Decay fit_decay(const Eigen::Ref<const VectorXd>& samples, double step, double n
   for (Eigen::Index k = 0; k < roots; ++k)
     if (swings(k)) strongest = std::max(strongest, energy[k]);
   Decay decay;
+  decay.exponentials = static_cast<int>(roots);
   double least = 0;
   for (Eigen::Index k = 0; k < roots; ++k) {
     if (!swings(k) || energy[k] < (near > 0 ? kThere : kStrong) * strongest) continue;

@@ -339,7 +339,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
         if (s == 0 && after < 0)
           fill(range, first, 0.0,
                [&](Eigen::Index t, const auto& error) { map.unrelieved[t] = peak_to_peak(error); });
-        report(++done + s * total, starts * total, text("relief to ", end * 1e6, " um"));
+        report(++done + s * total, starts * total, text("relief to ", end * 1e6, " µm"));
       }
       after = end;
     }
@@ -406,7 +406,7 @@ void add_dynamics(HarrisMapArtifact& map, const BodyArtifact& driver, const Body
             map.worst_frequency[s](t, r) = sweep.mesh_frequency[f];
           }
         }
-        report(++done, total, text(map.torque[t], " N m, ", map.relief[r] * 1e6, " um"));
+        report(++done, total, text(map.torque[t], " N m, ", map.relief[r] * 1e6, " µm"));
       }
     }
   }

@@ -17,6 +17,7 @@
 #include "gear/body_inertia.h"
 #include "gear/numbers.h"
 #include "gear/pair.h"
+#include "gear/scene_geometry.h"
 #include "signal/branch_end.h"
 #include "signal/response.h"
 
@@ -354,17 +355,13 @@ std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::a
 
 std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, kSides>& inertia,
                                   const Damping& damping, const Fidelity& fidelity) {
-  constexpr double kFlywheel =
-      100;  // times the inertia of the drawing: more than what shafts and couplings add
   std::vector<Remark> out;
   if (fidelity.body != BodyModel::rigid && fidelity.body != BodyModel::quasi_static)
     if (const auto damped = damping_remark(statics, inertia, damping)) out.push_back(*damped);
   for (int g = 0; g < kSides; ++g) {
-    const double own = least_body_inertia(ToothGeometry(statics.gear[g].design), statics.gear[g].material);
-    if (inertia[g] > kFlywheel * own)
-      out.push_back(remark(true, "total_inertia_kgm2 = ", inertia[g], " of [gear.", statics.mesh.gear[g],
-                           "] is ", std::round(inertia[g] / own), " times that of the gear as drawn, ",
-                           shown_number(own), "; check its unit, kg m2"));
+    const std::string words =
+        flywheel(statics.gear[g].design, statics.gear[g].material, inertia[g], statics.mesh.gear[g]);
+    if (!words.empty()) out.push_back(remark(true, words));
   }
   return out;
 }

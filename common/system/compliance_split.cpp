@@ -6,6 +6,7 @@
 
 #include "contact/hertz_line.h"
 #include "gear/pair.h"
+#include "gear/scene_geometry.h"
 
 namespace whine {
 
@@ -56,13 +57,8 @@ std::vector<Remark> body_remarks(const StaticArtifact& s) {
   constexpr double kMuch = 0.2;
   std::vector<Remark> out;
   for (int g = 0; g < kSides; ++g) {
-    const GearDesign& gear = s.gear[g].design;
-    const double rim = ToothGeometry(gear).root_radius() - gear.bore_radius;
-    if (rim < gear.module)
-      out.push_back(remark(
-          true, "between the bore and the root circle of [gear.", s.mesh.gear[g], "] are ", rim * 1e3,
-          " mm, less than a module: bore_radius_mm is the radius inside which the gear is "
-          "rigid, so a thin rim makes the teeth stiffer here than on a real rim. Check bore_radius_mm"));
+    const std::string words = thin_rim(s.gear[g].design, s.mesh.gear[g]);
+    if (!words.empty()) out.push_back(remark(true, words));
   }
   const ComplianceSplit split = compliance_split(s);
   if (!(split.body_share() > kMuch)) return out;

@@ -3,6 +3,7 @@
 # along_x, along_y, static_force, largest_force, least_error, largest_error, pairs, first_pair, losses.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(2)
 
 stats tsv index "[frames]" using 1 nooutput name "place"
 array at[int(frames)]; array error[int(frames)]; array force[int(frames)]
@@ -12,12 +13,12 @@ shade = losses > 0 ? 'tsv index "[contact lost]" using (0.5 * ($1 + $2)):(top):1
 do for [frame = int(first_frame):int(last_frame)] {
   now = at[frame + 1]
   name = sprintf("%03d", frame)
-  set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
+  set multiplot title heading offset 0, -0.3
 
   # the teeth
   unset xlabel; unset ylabel; unset xtics; unset ytics; unset border; unset key; unset grid
   set lmargin at screen 0.04; set rmargin at screen 0.96
-  set tmargin at screen 0.87; set bmargin at screen 0.42
+  set tmargin at screen 0.87 + lift; set bmargin at screen 0.42 + lift
   wide = half_window * 1.55
   set xrange [-wide : wide]; set yrange [-wide * (0.45 * height) / (0.92 * 1600) : wide * (0.45 * height) / (0.92 * 1600)]
   set object 1 rectangle from graph 0, 0 to graph 1, 1 behind fc rgb (force[frame + 1] > 0 ? "#ffffff" : "#fdf3df") fs solid border lc rgb "#bbbbbb"
@@ -38,7 +39,7 @@ do for [frame = int(first_frame):int(last_frame)] {
   set xrange [0 : periods]
   set lmargin at screen 0.1; set rmargin at screen 0.83
   set arrow 9 from now, graph 0 to now, graph 1 nohead front lw 2.5 lc rgb "#cc0000"
-  set tmargin at screen 0.39; set bmargin at screen 0.25
+  set tmargin at screen 0.39 + lift; set bmargin at screen 0.25 + lift
   set format x ""
   raw = (largest_error - least_error) / 3
   power = 10 ** floor(log10(raw > 0 ? raw : 1))
@@ -47,7 +48,7 @@ do for [frame = int(first_frame):int(last_frame)] {
   bottom = least_error - 0.08 * (largest_error - least_error); top = largest_error + 0.08 * (largest_error - least_error)
   set yrange [bottom : top]
   eval("plot " . shade . 'tsv index "[history]" using 1:2 with lines lw 3 lc rgb "#333333" notitle')
-  set tmargin at screen 0.23; set bmargin at screen 0.07
+  set tmargin at screen 0.23 + lift; set bmargin at screen 0.07 + lift
   set format x "%g"
   set xlabel "Mesh phase (mesh periods)" offset 0, 0.4
   set ytics autofreq
@@ -59,5 +60,6 @@ do for [frame = int(first_frame):int(last_frame)] {
     . 'title (int(first_pair) + p == 0 ? "pair 0" : sprintf("pair %+d", int(first_pair) + p)), tsv index "[history]" using 1:(1e-3 * $3) with lines lw 2 dt (5, 4) lc rgb "#000000" title "all pairs", ' \
     . '1e-3 * static_force with lines lw 1.4 dt (18, 8) lc rgb "#aaaaaa" title "T / r_b"')
   unset arrow 9
+  eval(below)
   unset multiplot
 }

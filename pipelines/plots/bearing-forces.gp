@@ -3,11 +3,12 @@
 # frequency_to, natural_frequency.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(2)
 
 array colour[2] = ["#0072b2", "#d55e00"]
 # The second stands on the first, and lets it show where both are alike.
 array width[2] = [4.4, 1.6]
-set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}" offset 0, -0.3
+set multiplot title heading offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
@@ -22,8 +23,8 @@ set ylabel "Force (N)"
 array panel_title[2] = ["{/:Bold (a)} RMS of the oscillating part", "{/:Bold (b)} largest force"]
 array high[2] = [rms_max, force_max > static_force ? force_max : static_force]
 do for [p = 1:2] {
-  set tmargin at screen (p == 1 ? 0.83 : 0.40)
-  set bmargin at screen (p == 1 ? 0.53 : 0.10)
+  set tmargin at screen (p == 1 ? 0.83 : 0.40) + lift
+  set bmargin at screen (p == 1 ? 0.53 : 0.10) + lift
   set yrange [0 : 1.08 * (high[p] > 0 ? high[p] : 1)]
   set label 1 panel_title[p] at graph 0, graph 1 offset 0, 0.8 font ",14"
   unset arrow
@@ -43,4 +44,5 @@ do for [p = 1:2] {
   drawn = drawn . 'keyentry with lines lt 1 lw 2.6 dt (10, 5) lc rgb "#505050" title "dashed: falling"'
   eval("plot " . drawn)
 }
+eval(below)
 unset multiplot

@@ -3,9 +3,10 @@
 # around, last_order, top.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(2)
 
-set multiplot layout 3, 1 title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.085, 0.985, 0.12, 0.825 spacing screen 0.12
+set multiplot layout 3, 1 title heading offset 0, -0.4 \
+  margins screen 0.085, 0.985, 0.12 + lift, 0.825 + lift spacing screen 0.12
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
@@ -36,4 +37,5 @@ set xlabel "Order of the mesh frequency {/:Bold (c)}"
 set ylabel "Amplitude (µm)"
 plot tsv index "[orders]" using 1:2 with impulses lw 1.8 lc rgb "#c8201e" title "with the crack", \
   tsv index "[orders without]" using 1:2 with points pt 6 ps 1.6 lw 2 lc rgb "#444444" title "without"
+eval(below)
 unset multiplot

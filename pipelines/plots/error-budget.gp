@@ -3,11 +3,12 @@
 # Variables from gear-plot: tsv, heading, note1, note2, labels, entries, choice_labels, choices, bars_each.
 set datafile separator tab
 set datafile commentschars "#"
-set title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.2
+lift = room(2)
+set title heading offset 0, -0.2
 set lmargin screen 0.1
 set rmargin screen 0.97
-set bmargin screen 0.2
-set tmargin screen 0.81
+set bmargin screen 0.2 + lift
+set tmargin screen 0.81 + lift
 set border 3 lw 1.6
 set tics out nomirror
 set grid ytics lt 1 dt solid lc rgb "#e4e4e4" lw 1
@@ -24,7 +25,7 @@ do for [i = 1:choices] { set xtics add (two_lines(word(choice_labels, i)) first_
 # The eighth bar is there only for budgets that know of pressure.
 array colour[8] = ["#0072b2", "#d55e00", "#333333", "#666666", "#8f8f8f", "#b5b5b5", "#d9d9d9", "#009e73"]
 array name[8] = ["mean stiffness", "peak to peak", "harmonic 1", "harmonic 2", "harmonic 3", "harmonic 4", "harmonic 5", "flank pressure"]
-set key at screen 0.9, screen 0.085 horizontal Left reverse samplen 1.5 maxrows 2
+set key at screen 0.9, screen 0.085 + lift horizontal Left reverse samplen 1.5 maxrows 2
 set style fill solid 0.9 noborder
 set boxwidth 0.1
 floor_value(x) = x < 1e-5 ? 1e-5 : x
@@ -37,4 +38,5 @@ if (choices > 0) {
   bars = bars . ', for [k = 1:bars_each] tsv index "[choices]" using (first_choice + $1 + 0.105 * (k - 4))' \
     . ':(floor_value(column(k + 1))) with boxes lc rgb colour[k] notitle'
 }
+eval(foot_labels)
 eval("plot " . bars)

@@ -2,13 +2,14 @@
 # Variables from gear-plot: tsv, heading, note1.., pitch_y, half_window, driver_tip, driven_tip, centre_distance.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(3)
 
 driver_line = "#0072b2"
 driven_line = "#b3401a"
 driver_fill = "#e9f0fa"
 driven_fill = "#fbeee6"
 
-set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}\n{/*0.68 " . note3 . "}" offset 0, -0.2
+set multiplot title heading offset 0, -0.2
 set border 15 lw 1.2
 set tics out nomirror
 unset key
@@ -19,8 +20,8 @@ tip = driver_tip > driven_tip ? driver_tip : driven_tip
 edge = 0.08 * tip
 set lmargin at screen 0.10
 set rmargin at screen 0.40
-set bmargin at screen 0.175
-set tmargin at screen 0.79
+set bmargin at screen 0.175 + lift
+set tmargin at screen 0.79 + lift
 set xlabel "x (mm)"
 set label 3 "{/:Bold (a)} both gears" at graph 0.5, graph 1.0 center offset 0, 0.7
 set ylabel "y (mm)"
@@ -46,7 +47,7 @@ plot tsv index "[driver outline]" using 1:2 with filledcurves closed fc rgb driv
 unset label 1
 unset label 2
 unset object 1
-set key at screen 0.72, screen 0.012 center bottom vertical maxrows 2 Left reverse samplen 2.5 spacing 1.1
+set key at screen 0.72, screen 0.012 + lift center bottom vertical maxrows 2 Left reverse samplen 2.5 spacing 1.1
 set lmargin at screen 0.48
 set rmargin at screen 0.96
 set label 3 "{/:Bold (b)} teeth in mesh" at graph 0.5, graph 1.0 center offset 0, 0.7
@@ -62,4 +63,5 @@ plot tsv index "[driver outline]" using 1:2 with filledcurves closed fc rgb driv
   tsv index "[driven outline]" using 1:2 with lines lt 1 lw 2 lc rgb driven_line title "driven", \
   tsv index "[path of contact]" using 1:2 with lines lt 1 lw 2.2 dt (14, 8) lc rgb "black" title "path of contact", \
   tsv index "[pitch point]" using 1:2 with points pt 7 ps 1.1 lc rgb "black" title "pitch point"
+eval(below)
 unset multiplot

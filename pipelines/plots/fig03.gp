@@ -3,6 +3,7 @@
 # Variables from gear-plot: tsv, heading, note1.., matching, touch_y, half_window, reach, peak, strips.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(3)
 
 driver_line = "#0072b2"
 driven_line = "#b3401a"
@@ -11,13 +12,13 @@ driven_fill = "#fdf7f2"
 driver_inner = "#c4d7f2"
 driven_inner = "#f6d6bd"
 
-set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}\n{/*0.68 " . note3 . "}" offset 0, -0.2
+set multiplot title heading offset 0, -0.2
 set border 15 lw 1.2
 set tics out nomirror
 set lmargin at screen 0.085
 set rmargin at screen 0.475
-set bmargin at screen 0.17
-set tmargin at screen 0.785
+set bmargin at screen 0.17 + lift
+set tmargin at screen 0.785 + lift
 set size ratio -1
 set xlabel "x (mm)"
 set ylabel "y (mm)"
@@ -26,7 +27,7 @@ set ytics 2
 set xrange [-half_window : half_window]
 set yrange [touch_y - half_window : touch_y + half_window]
 set label 1 "{/:Bold (a)} inner region (tinted) and outer region of the two teeth" at graph 0.5, graph 1.0 center offset 0, 0.7 font ",15"
-set key at screen 0.28, screen 0.012 center bottom vertical maxrows 2 Left reverse samplen 2.2 spacing 1.1 font ",14"
+set key at screen 0.28, screen 0.012 + lift center bottom vertical maxrows 2 Left reverse samplen 2.2 spacing 1.1 font ",14"
 region(gear, tone) = matching > 0 ? sprintf(', tsv index "[%s inner region]" using 1:2 with lines lt 1 lw 3 dt (8, 5) lc rgb %s_line notitle', gear, gear) \
   : sprintf(', tsv index "[%s inner region]" using 1:2 with filledcurves closed fc rgb "%s" notitle', gear, tone)
 eval('plot tsv index "[driver outline]" using 1:2 with filledcurves closed fc rgb driver_fill notitle, ' \
@@ -50,13 +51,13 @@ set border 3 lw 1.4
 set grid lt 1 lc rgb "#e8e8e8" lw 1
 
 # (b) heights are drawn far larger than lengths
-set tmargin at screen 0.785
-set bmargin at screen 0.535
+set tmargin at screen 0.785 + lift
+set bmargin at screen 0.535 + lift
 set xlabel
 set yrange [*:*]
-set offsets graph 0, graph 0, graph 0.1, graph 0.1
+set offsets graph 0, graph 0, graph 0.4, graph 0.1
 set ylabel "Height (µm)"
-set ytics 0.5
+set ytics auto
 set label 1 "{/:Bold (b)} unloaded flanks, candidate pairs P, G"
 set key at graph 0.5, graph 0.98 center top maxrows 2 samplen 2.2 opaque
 picked = int(0.8 * strips)
@@ -70,8 +71,8 @@ plot tsv index "[flanks]" using 1:3 with lines lt 1 lw 2.6 lc rgb driven_line ti
 
 # (c)
 set offsets 0, 0, 0, 0
-set tmargin at screen 0.44
-set bmargin at screen 0.17
+set tmargin at screen 0.44 + lift
+set bmargin at screen 0.17 + lift
 set border 11 lw 1.4
 set xlabel "Along the flank, to the driver's tip (mm)"
 set ylabel "Pressure (MPa)"
@@ -81,8 +82,9 @@ set y2tics
 set yrange [0 : 1.4 * peak]
 set y2range [0 : *]
 set label 1 "{/:Bold (c)} under load: a strip carries pressure or is apart"
-set key at screen 0.74, screen 0.012 center bottom vertical maxrows 2 opaque
+set key at screen 0.74, screen 0.012 + lift center bottom vertical maxrows 2 opaque
 plot tsv index "[candidate pairs]" using (0.5 * ($4 + $5)):8:($5 - $4) with boxes fs solid 0.6 border lc rgb "#7f9fbf" fc rgb "#c9d9ee" title "pressure on a strip", \
   tsv index "[Hertz]" using 1:2 with lines lt 1 lw 2 dt (10, 5) lc rgb "black" title "Hertz, same force", \
   tsv index "[candidate pairs]" using 1:7 axes x1y2 with points pt 6 ps 1.4 lw 2 lc rgb "#009e73" title "separation (right)"
+eval(below)
 unset multiplot

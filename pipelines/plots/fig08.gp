@@ -7,9 +7,9 @@ set datafile commentschars "#"
 
 line = "#0072b2"
 letters = "a b c d e f"
-notes = ""
-do for [i = 1:lines] { notes = notes . "\n{/*0.62 " . value(sprintf("line%d", i)) . "}" }
-set multiplot title title . notes offset 0, -0.3
+foot_name = "line%d"
+lift = room(lines)
+set multiplot title title offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror
 set grid lt 1 lc rgb "#e4e4e4" lw 1
@@ -18,8 +18,8 @@ left = 0.075
 right = 0.985
 gap = 0.06
 width = (right - left - (motions - 1) * gap) / motions
-set label 20 "Oscillating DTE (µm)" at screen 0.016, screen 0.62 rotate by 90 center
-set label 21 "Amplitude (µm)" at screen 0.016, screen 0.25 rotate by 90 center
+set label 20 "Oscillating DTE (µm)" at screen 0.016, screen 0.62 + lift rotate by 90 center
+set label 21 "Amplitude (µm)" at screen 0.016, screen 0.25 + lift rotate by 90 center
 do for [m = 1:motions] {
   letter = word(letters, m)
   x0 = left + (m - 1) * (width + gap)
@@ -32,20 +32,21 @@ do for [m = 1:motions] {
   second = strstrt(found, ", ")
   set label 1 "{/:Bold (" . letter . ")} " . head[1:cut] . "\n" . head[cut + 2:*] at graph 0, graph 1 offset 0, 2.2 font ",13"
   set label 2 found[1:second] . "\n" . found[second + 2:half - 1] . "\n" . found[half + 2:*] at graph 0.98, graph 0.97 right font ",13" tc rgb "#303030"
-  set tmargin at screen 1 - (128 + 29 * lines) / height
-  set bmargin at screen 0.485
+  set tmargin at screen 1 - 128.0 / height
+  set bmargin at screen 0.485 + lift
   set xlabel "Time (ms)"
   set xrange [0:time_end]
   set yrange [-1.06 * largest : 1.75 * largest]
   set xtics auto
   plot tsv index "[" . letter . " history]" using 1:2 with lines lt 1 lw 2.4 lc rgb line
   do for [n in "1 2 20 21"] { unset label int(n) }
-  set tmargin at screen 0.37
-  set bmargin at screen 0.1
+  set tmargin at screen 0.37 + lift
+  set bmargin at screen 0.1 + lift
   set xlabel "Frequency (Hz)"
   set xrange [0 : 1.03 * frequency_end]
   set yrange [0 : 1.1 * largest_amplitude]
   plot tsv index "[" . letter . " spectrum]" using 1:2 with impulses lt 1 lw 3 lc rgb line, \
     "" index "[" . letter . " spectrum]" using 1:2 with points pt 7 ps 0.9 lc rgb line
 }
+eval(below)
 unset multiplot

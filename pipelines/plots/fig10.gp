@@ -6,9 +6,9 @@ set datafile separator tab
 set datafile commentschars "#"
 
 letters = "a b c d e f"
-notes = ""
-do for [i = 1:lines] { notes = notes . "\n{/*0.62 " . value(sprintf("line%d", i)) . "}" }
-set multiplot title title . notes offset 0, -0.3
+foot_name = "line%d"
+lift = room(lines)
+set multiplot title title offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
@@ -19,12 +19,12 @@ set xrange [phase_from:phase_to]
 set yrange [0 : 1.08 * largest]
 set ylabel "Force (N)" offset 0.5
 colour(t) = t == 0 ? "#0072b2" : (t == 1 ? "#d55e00" : "#7f9fbf")
-each = (height - 120 - 29 * lines) / motions
+each = (height - 120 - 24 * lines) / motions
 do for [m = 1:motions] {
   letter = word(letters, m)
-  set tmargin at screen (height - 55 - 29 * lines - (m - 1) * each - 50) / height
-  set bmargin at screen (height - 55 - 29 * lines - m * each + 45) / height
-  set label 1 "{/:Bold (" . letter . ")} " . value("title_" . letter) . "; " . value("result_" . letter) at graph 0, graph 1 offset 0, 0.9 font ",14" noenhanced
+  set tmargin at screen (height - 55 - (m - 1) * each - 50) / height
+  set bmargin at screen (height - 55 - m * each + 45) / height
+  set label 1 "{/:Bold (" . letter . ")} " . value("title_" . letter) . "; " . value("result_" . letter) at graph 0, graph 1 offset 0, 0.9 font ",12" noenhanced
   set label 1 enhanced
   if (m == motions) { set xlabel "Phase of tooth i (mesh periods, 0: it touches at the pitch point)" } else { unset xlabel }
   set key at graph 1.02, graph 0.98 left top Left reverse samplen 2 spacing 1.2 font ",14"
@@ -39,4 +39,5 @@ do for [m = 1:motions] {
   eval("plot " . shade . 'tsv index "[' . letter . ' mesh force]" using 1:2 with lines lt 1 lw 1.6 dt (5, 4) lc rgb "#444444" title "all teeth", ' \
     . 'static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#009e73" title sprintf("T / r_b = %.0f N", static_force)' . teeth)
 }
+eval(below)
 unset multiplot

@@ -2,6 +2,7 @@
 # Variables from gear-plot: tsv, heading, note1, curves, labels.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(1)
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 array mark[6] = [1, 6, 4, 2, 8, 12]   # + o square x triangle diamond
@@ -10,14 +11,14 @@ set linetype 1 dt (3, 3)
 set linetype 2 dt (10, 5)
 set linetype 3 dt solid
 
-set multiplot layout 1, 2 title heading . "\n{/*0.68 " . note1 . "}" offset 0, -0.4 \
-  margins screen 0.085, 0.985, 0.20, 0.855 spacing screen 0.1
+set multiplot layout 1, 2 title heading offset 0, -0.4 \
+  margins screen 0.085, 0.985, 0.20 + lift, 0.855 + lift spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
 set key Left reverse vertical maxrows (curves > 4 ? 2 : 1) samplen 3 spacing 1.2 center bottom
 
-set key at screen 0.285, screen 0.02
+set key at screen 0.285, screen 0.02 + lift
 set xlabel "Mesh phase (mesh periods, 0: pitch point)\n{/:Bold (a)}"
 set ylabel "Static transmission error (µm)"
 set xrange [0:1]
@@ -27,7 +28,7 @@ plot for [i = 1:curves] tsv index "[transmission_error]" using 1:i + 1 with line
 
 # stems side by side, so that none hides another
 shift(i) = 0.16 * (i - 0.5 * (curves + 1))
-set key at screen 0.785, screen 0.02
+set key at screen 0.785, screen 0.02 + lift
 set xlabel "Harmonic of the mesh frequency\n{/:Bold (b)}"
 set ylabel "Amplitude (µm)"
 set xrange [0.4:10.6]
@@ -38,4 +39,5 @@ plot for [i = 1:curves] tsv index "[transmission_error harmonics]" using ($1 + s
     with impulses lt 1 dt solid lw 1.6 lc rgb colour[i] notitle, \
   for [i = 1:curves] tsv index "[transmission_error harmonics]" using ($1 + shift(i)):i + 1 \
     with points lt i dt solid lw 2.2 title word(labels, i)
+eval(below)
 unset multiplot

@@ -2,6 +2,7 @@
 # Variables from gear-plot: tsv, heading, note1, note2, curves, labels, rectangle_label.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(2)
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 array mark[6] = [1, 6, 4, 2, 8, 12]   # + o square x triangle diamond
@@ -10,14 +11,14 @@ set linetype 1 dt (3, 3)
 set linetype 2 dt (10, 5)
 set linetype 3 dt solid
 
-set multiplot layout 1, 2 title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.085, 0.985, (curves > 3 ? 0.28 : 0.245), 0.815 spacing screen 0.1
+set multiplot layout 1, 2 title heading offset 0, -0.4 \
+  margins screen 0.085, 0.985, (curves > 3 ? 0.28 : 0.245) + lift, 0.815 + lift spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
 set key Left reverse vertical maxrows (curves > 3 ? 3 : 2) samplen 2.5 spacing 1.2 font ",14" center bottom
 
-set key at screen 0.285, screen 0.012
+set key at screen 0.285, screen 0.012 + lift
 set xlabel "Mesh phase (mesh periods, 0: pitch point)\n{/:Bold (a)}"
 set ylabel "Mesh stiffness (10^6 N/m)"
 set xrange [0:1]
@@ -28,7 +29,7 @@ plot tsv index "[rectangular wave]" using 1:2 with lines lt 1 dt solid lw 3 lc r
 
 # stems side by side, so that none hides another
 shift(i) = 0.14 * (i - 0.5 * curves)
-set key at screen 0.785, screen 0.012
+set key at screen 0.785, screen 0.012 + lift
 set xlabel "Harmonic of the mesh frequency\n{/:Bold (b)}"
 set ylabel "Amplitude (10^6 N/m)"
 set offsets 0, 0, 0, 0
@@ -45,4 +46,5 @@ plot tsv index "[rectangular wave harmonics]" using ($1 + shift(0)):2 with impul
     title rectangle_label, \
   for [i = 1:curves] tsv index "[mesh_stiffness harmonics]" using ($1 + shift(i)):i + 1 \
     with points lt i dt solid lw 2.2 title word(labels, i)
+eval(below)
 unset multiplot

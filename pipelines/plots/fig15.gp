@@ -12,9 +12,8 @@ set linetype 4 dt (12, 4, 3, 4)
 set linetype 5 dt (20, 6)
 set linetype 6 dt (2, 5)
 
-notes = ""
-do for [i = 1:curves] { notes = notes . "\n{/*0.62 " . value(sprintf("note%d", i)) . "}" }
-set multiplot title heading . notes offset 0, -0.4
+lift = room(curves)
+set multiplot title heading offset 0, -0.4
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
@@ -26,15 +25,16 @@ set yrange [-0.03 * force_max : 1.1 * force_max]
 set arrow from graph 0, first static_force to graph 1, first static_force nohead back lt 1 lc rgb "#606060" lw 1.4 dt (18, 10)
 set key font ",13" samplen 3 spacing 1.2 Left reverse center bottom vertical
 letters = "a b"
-set tmargin at screen 0.87 - 0.023 * curves
-set bmargin at screen 0.2 + 0.025 * curves
+set tmargin at screen 0.87 - 0.023 * curves + lift
+set bmargin at screen 0.2 + 0.025 * curves + lift
 do for [p = 1:panels] {
   set lmargin at screen 0.095 + (p - 1) * 0.48
   set rmargin at screen panels == 1 ? 0.965 : 0.485 + (p - 1) * 0.48
-  set key at screen panels == 1 ? 0.535 : 0.29 + (p - 1) * 0.48, screen 0.012
+  set key at screen panels == 1 ? 0.535 : 0.29 + (p - 1) * 0.48, screen 0.012 + lift
   set xlabel "Time (mesh periods, 0: pitch point)\n{/:Bold (" . word(letters, p) . ")}"
   if (p == 1) { set ylabel "Net mesh force (N)" } else { unset ylabel }
   plot for [i = 1:curves] tsv index "[".word(letters, p)." ".i."]" using 1:2 with lines lt i title word(value("labels_".word(letters, p)), i), \
     keyentry with lines lt 1 lc rgb "#606060" lw 1.4 dt (18, 10) title sprintf("T / r_b = %.0f N", static_force)
 }
+eval(below)
 unset multiplot

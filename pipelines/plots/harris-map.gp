@@ -3,6 +3,7 @@
 # Variables from gear-plot: tsv, heading, note1, note2, labels, curves, design_torque, largest, moving, height.
 set datafile separator whitespace
 set datafile commentschars "#"
+lift = room(2)
 
 array colour[7] = ["#444444", "#c8201e", "#1f4e9c", "#1a7f37", "#8a4fbf", "#b06a00", "#0a7c86"]
 rows = moving > 0 ? 2 : 1
@@ -21,19 +22,19 @@ set surface
 stats tsv index "[peak to peak]" using 1:2 nooutput name "map"
 inside(x, low, high) = x > low + 0.04 * (high - low) && x < high - 0.04 * (high - low)
 whole(x, y) = inside(x, map_min_x, map_max_x) && inside(y, map_min_y, map_max_y)
-set multiplot title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.3
+set multiplot title heading offset 0, -0.3
 set border 15 lw 1.6 front
 set tics out nomirror front
 set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
-set tmargin at screen 1 - 195.0 / height
-set bmargin at screen (rows == 2 ? 0.56 : 0.155)
+set tmargin at screen 1 - 195.0 / height + lift
+set bmargin at screen (rows == 2 ? 0.56 : 0.155) + lift
 set lmargin at screen 0.085
 set rmargin at screen 0.42
 set xlabel "Tip relief (µm)\n{/:Bold (a)} peak-to-peak transmission error (µm)"
 set ylabel "Torque (N m)"
 set xrange [*:*] noextend
 set yrange [*:*] noextend
-set colorbox user origin screen 0.435, (rows == 2 ? 0.56 : 0.155) size screen 0.014, (rows == 2 ? 0.337 : 0.65)
+set colorbox user origin screen 0.435, (rows == 2 ? 0.56 : 0.155) + lift size screen 0.014, (rows == 2 ? 0.337 : 0.65)
 unset key
 plot tsv index "[peak to peak]" using 1:2:3 with image, \
   $level using 1:2 with lines lw 1.2 lc rgb "#ffffff", \
@@ -59,15 +60,16 @@ if (moving > 0) {
   unset grid
   unset key
   set border 15
-  set tmargin at screen 0.44
-  set bmargin at screen 0.085
+  set tmargin at screen 0.44 + lift
+  set bmargin at screen 0.085 + lift
   set lmargin at screen 0.085
   set rmargin at screen 0.42
   set xrange [*:*] noextend
   set yrange [*:*] noextend
-  set colorbox user origin screen 0.435, 0.085 size screen 0.014, 0.355
+  set colorbox user origin screen 0.435, 0.085 + lift size screen 0.014, 0.355
   set xlabel "Tip relief (µm)\n{/:Bold (c)} RMS at the worst speed (µm)"
   set ylabel "Torque (N m)"
   plot tsv index "[rms]" using 1:2:3 with image
 }
+eval(below)
 unset multiplot

@@ -3,8 +3,11 @@
 # pitch_g, hpstc_g, tip_g.
 set datafile separator tab
 set datafile commentschars "#"
+foot1 = "form: where the involute begins; SAP: start of the active profile; LPSTC, HPSTC: lowest and highest point of single tooth contact"
+foot_name = "foot%d"
+lift = room(1)
 
-set multiplot layout 2, 1 title heading . "\n{/*0.62 form: where the involute begins; SAP: start of the active profile; LPSTC, HPSTC: lowest and highest point of single tooth contact}" offset 0, -0.3 margins screen 0.11, 0.975, 0.1, 0.82 spacing screen 0.19
+set multiplot layout 2, 1 title heading offset 0, -0.3 margins screen 0.11, 0.975, 0.1 + lift, 0.82 + lift spacing screen 0.19
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
@@ -34,4 +37,5 @@ do for [g in "driver driven"] {
   set arrow 20 from from, 0 to to, 0 nohead back lw 1.6 lc rgb "#1a7f37"
   plot sprintf("%s", tsv) index "[" . g . "]" using 1:3 with lines lw 3 lc rgb "#1f4e9c"
 }
+eval(below)
 unset multiplot

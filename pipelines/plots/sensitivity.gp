@@ -2,7 +2,8 @@
 # Variables from gear-plot: tsv, heading, note1, note2, variants, label1.., reach1..6: largest change of each response quantity
 set datafile separator whitespace
 set datafile commentschars "#"
-set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}"
+lift = room(2)
+set multiplot title heading
 set border 3 lw 1.4
 set tics out nomirror
 set grid xtics lt 1 lc rgb "#e4e4e4" lw 1
@@ -13,8 +14,8 @@ array column_of[6] = [2, 3, 4, 5, 6, 7]
 array name[6] = ["mean stiffness (%)", "f, one pair (Hz)", "f, two pairs (Hz)", "branches from (Hz)", "branches to (Hz)", "tooth load (%)"]
 left = 0.33
 width = (0.99 - left) / 6
-set tmargin at screen 0.855
-set bmargin at screen 0.12
+set tmargin at screen 0.855 + lift
+set bmargin at screen 0.12 + lift
 do for [k = 1:6] {
   set lmargin at screen left + (k - 1) * width
   set rmargin at screen left + k * width - 0.02
@@ -33,4 +34,5 @@ do for [k = 1:6] {
     tsv index "[changes]" using ((v == 5 || v == 6) && $8 == 0 ? 0 : NaN):1 with points pt 2 ps 1.6 lw 2.4 lc rgb "#d55e00" notitle, \
     tsv index "[changes]" using (v == 5 && $8 > 0 && $9 > 0 ? column(v) : NaN):1 with points pt 8 ps 1.8 lw 2 lc rgb "#000000" notitle
 }
+eval(below)
 unset multiplot

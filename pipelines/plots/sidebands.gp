@@ -2,9 +2,10 @@
 # of the dynamic transmission error (c). Variables from gear-plot: tsv, heading, note1, note2, periods, last_order, top_at_rest, top_in_motion, speed.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(2)
 
-set multiplot layout 3, 1 title heading . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.4 \
-  margins screen 0.085, 0.985, 0.08, 0.835 spacing screen 0.1
+set multiplot layout 3, 1 title heading offset 0, -0.4 \
+  margins screen 0.085, 0.985, 0.1 + lift, 0.835 + lift spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
@@ -31,4 +32,5 @@ plot tsv index "[orders at rest]" using 1:2 with impulses lw 1.8 lc rgb "#1f4e9c
 set xlabel "Order of the mesh frequency, in motion at " . speed . " {/:Bold (c)}"
 set yrange [bottom(top_in_motion):top_in_motion]
 plot tsv index "[orders in motion]" using 1:2 with impulses lw 1.8 lc rgb "#c8201e"
+eval(below)
 unset multiplot

@@ -3,15 +3,23 @@
 # percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1.., colour_mark1..
 set datafile separator whitespace
 set datafile commentschars "#"
-set multiplot title heading . "\n{/*0.62 " . subtitle . "}\n{/*0.62 " . second_line . "}"
+# A long subtitle goes on in a second line.
+cut = 0
+do for [i = 1:strlen(subtitle)] { if (i < 150 && strlen(subtitle) > 150 && subtitle[i:i + 1] eq "; ") { cut = i } }
+foot1 = cut > 0 ? subtitle[1:cut] : subtitle
+foot2 = cut > 0 ? subtitle[cut + 2:*] : second_line
+foot3 = second_line
+foot_name = "foot%d"
+lift = room(1 + (cut > 0) + (strlen(second_line) > 0))
+set multiplot title heading
 set border 3 lw 1.4
 set tics out nomirror font ",13"
 set grid lt 1 lc rgb "#e4e4e4" lw 1
 all = columns + random
 left = 0.1
 width = (0.985 - left) / all
-top = 1 - 130.0 / height
-bottom = (colours > 0 ? 110.0 : 75.0) / height
+top = 1 - 82.0 / height
+bottom = (colours > 0 ? 110.0 : 75.0) / height + lift
 tall = (top - bottom) / rows
 set key off
 do for [r = 1:int(rows)] {
@@ -85,12 +93,13 @@ if (colours > 0) {
   set offsets 0, 0, 0, 0
   set xrange [0:1]
   set yrange [0:1]
-  set label 1 colour_label . ":" at left, 30.0 / height left font ",14"
+  set label 1 colour_label . ":" at left, 30.0 / height + lift left font ",14"
   do for [e = 1:int(colours)] {
     at = left + 0.29 + 0.1 * (e - 1)
-    set label 10 + e "" at at, 30.0 / height point pt int(value(sprintf("colour_mark%d", e))) ps 1.4 lc rgb int(value(sprintf("colour_rgb%d", e)))
-    set label 20 + e value(sprintf("colour_name%d", e)) at at + 0.012, 30.0 / height left font ",14"
+    set label 10 + e "" at at, 30.0 / height + lift point pt int(value(sprintf("colour_mark%d", e))) ps 1.4 lc rgb int(value(sprintf("colour_rgb%d", e)))
+    set label 20 + e value(sprintf("colour_name%d", e)) at at + 0.012, 30.0 / height + lift left font ",14"
   }
   plot NaN
 }
+eval(below)
 unset multiplot

@@ -4,8 +4,9 @@
 # largest, static_force, phase_from, phase_to, first_tooth, last_tooth, title_b, result_b, lost_b, shown_b_0 ..
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(2)
 
-set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}" offset 0, -0.3
+set multiplot title heading offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
@@ -16,8 +17,8 @@ set ylabel "Force (N)"
 
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
-set tmargin at screen 0.838
-set bmargin at screen 0.555
+set tmargin at screen 0.838 + lift
+set bmargin at screen 0.555 + lift
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
 high = load_max > static_force ? load_max : static_force
 set yrange [0 : 1.08 * (high > 0 ? high : 1)]
@@ -48,8 +49,8 @@ eval("plot " . drawn)
 
 unset arrow
 unset label 2
-set tmargin at screen 0.425
-set bmargin at screen 0.085
+set tmargin at screen 0.425 + lift
+set bmargin at screen 0.085 + lift
 set xrange [phase_from:phase_to]
 set yrange [0 : 1.08 * (largest > 0 ? largest : 1)]
 set xlabel "Phase of tooth i (mesh periods, 0: it touches at the pitch point)"
@@ -65,4 +66,5 @@ do for [t = first_tooth:last_tooth] {
 }
 eval("plot " . shade . 'tsv index "[b mesh force]" using 1:2 with lines lt 1 lw 1.6 dt (5, 4) lc rgb "#444444" title "all teeth", ' \
   . 'static_force with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#009e73" title sprintf("T / r_b = %.0f N", static_force)' . teeth)
+eval(below)
 unset multiplot

@@ -4,6 +4,7 @@
 # frequency_from, frequency_to.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(2)
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 span = frequency_to - frequency_from
@@ -16,15 +17,15 @@ half_tall = 0.5 * (speed_step > 0 ? speed_step : span)
 half_wide(order) = order * half_tall > 0.004 * frequency_end ? order * half_tall : 0.004 * frequency_end
 set palette defined (0 "#f4f1ea", 0.25 "#c9dcea", 0.5 "#6aaed6", 0.75 "#2166ac", 0.9 "#7a1f5c", 1 "#c8201e")
 
-set multiplot title heading . "\n{/*0.62 " . note1 . "}\n{/*0.62 " . note2 . "}" offset 0, -0.4
+set multiplot title heading offset 0, -0.4
 set border 3 lw 1.6
 set tics out nomirror
 # of a row of panels
 tall = (height - 175.0) / rows
 letter(n) = word("a b c d", int(n))
 do for [r = 1:int(rows)] {
-  set tmargin at screen 1 - (175.0 + (r - 1) * tall + (rows > 1 ? 30 : 0)) / height
-  set bmargin at screen 1 - (175.0 + r * tall - 115) / height
+  set tmargin at screen (1 - (175.0 + (r - 1) * tall + (rows > 1 ? 30 : 0)) / height) + lift
+  set bmargin at screen 1 - (175.0 + r * tall - 115) / height + lift
   set lmargin at screen 0.09
   set rmargin at screen 0.5
   unset key
@@ -59,7 +60,7 @@ do for [r = 1:int(rows)] {
   set cblabel "Amplitude (µm)" offset -0.6
   x0 = 0.515
   foot = 1 - (175.0 + r * tall - 115) / height
-  set colorbox user origin screen x0, foot size screen 0.012, (tall - 115.0 - (rows > 1 ? 30 : 0)) / height
+  set colorbox user origin screen x0, foot + lift size screen 0.012, (tall - 115.0 - (rows > 1 ? 30 : 0)) / height
   plot tsv index sprintf("[spectra %s]", word(directions, r)) using 2:1:(half_wide($2 / $1)):(half_tall):(log10($3) > low ? log10($3) : NaN) \
     with boxxyerror fs solid 1 noborder lc palette notitle
   unset colorbox
@@ -83,4 +84,5 @@ do for [r = 1:int(rows)] {
   plot for [k = 1:int(orders)] tsv index sprintf("[orders %s]", word(directions, r)) using 1:(column(k + 1) > 0 ? column(k + 1) : NaN) with lines lt 1 lw 2 lc rgb colour[k] title sprintf("order %d", k)
   unset label
 }
+eval(below)
 unset multiplot

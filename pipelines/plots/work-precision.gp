@@ -2,12 +2,13 @@
 # Variables from whine-work-precision: tsv, title, note1, note2, labels, axes, fold_width.
 set datafile separator tab
 set datafile commentschars "#"
+lift = room(2)
 
 array colour[9] = ["#0072b2", "#6fa8dc", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#444444", "#d147a3", "#00a0a0"]
 array mark[9] = [7, 6, 5, 9, 11, 13, 4, 8, 2]
 
-set multiplot layout 2, 3 title title . "\n{/*0.68 " . note1 . "}\n{/*0.68 " . note2 . "}" offset 0, -0.2 \
-  margins screen 0.075, 0.985, 0.09, 0.82 spacing screen 0.085, 0.125
+set multiplot layout 2, 3 title title offset 0, -0.2 \
+  margins screen 0.075, 0.985, 0.09 + lift, 0.82 + lift spacing screen 0.085, 0.125
 set border 3 lw 1.6
 set tics out nomirror font ",15"
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
@@ -42,4 +43,5 @@ set xrange [0:1]
 set yrange [0:1]
 plot for [i = 1:axes] NaN with linespoints lt 1 lw 2 lc rgb colour[i] pt mark[i] ps 1.3 title word(labels, i), \
   NaN with points pt 6 ps 2.4 lw 1.5 lc rgb "black" title "the scene's settings"
+eval(below)
 unset multiplot
