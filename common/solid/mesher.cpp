@@ -128,7 +128,7 @@ double exact_sector_area(const GearDesign& design) {
                 tooth.form_roll_angle(), 20);
   // The root curve has a corner in its curvature where the trochoid meets the root circle.
   auto root = [&](double t) { return tooth.root_point(t); };
-  half += swept(root, 0, tooth.root_corner(), 40);
+  if (tooth.root_corner() > 0) half += swept(root, 0, tooth.root_corner(), 40);
   if (tooth.root_corner() < 1) half += swept(root, tooth.root_corner(), 1, 1);
   half -= 0.5 * kPi / design.teeth * design.held_radius() * design.held_radius();
   return tooth.outwards() * 2 * half;
