@@ -124,6 +124,7 @@ void check_inputs(const MeshArtifact& driver, const MeshArtifact& driven, const 
     fail(Failure::input, "the teeth of this pair differ: its motion repeats after ", s.hunting_periods,
          " mesh periods; one mesh period does not show it");
   const GearDesign* const wanted[2] = {&s.driver, &s.driven};
+  require_external(s.mesh, s.driver, s.driven, "an animation");
   const MeshArtifact* const mesh[2] = {&driver, &driven};
   for (int g = 0; g < 2; ++g)
     if (mesh[g]->design.teeth != wanted[g]->teeth || mesh[g]->design.module != wanted[g]->module ||

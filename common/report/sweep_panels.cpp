@@ -15,7 +15,7 @@ namespace {
 template <class Artifact>
 auto gears_of(const Artifact& s) {
   const auto of_gear = [](const GearDesign& g) {
-    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
+    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.held_radius());
   };
   return std::tuple(of_gear(s.driver), of_gear(s.driven), s.driver_inertia, s.driven_inertia,
                     s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,

@@ -14,7 +14,7 @@ double body_twist(const GearDesign& gear, const Material& material, double bore)
   const double shear = material.youngs_modulus / (2 * (1 + material.poisson_ratio)),
                root = tooth.root_radius();
   return std::pow(tooth.base_radius(), 2) / (4 * std::numbers::pi * shear * gear.face_width) *
-         (1 / (bore * bore) - 1 / (root * root));
+         std::abs(1 / (bore * bore) - 1 / (root * root));
 }
 
 ComplianceSplit compliance_split(const StaticArtifact& s) {
@@ -25,10 +25,10 @@ ComplianceSplit compliance_split(const StaticArtifact& s) {
   out.whole = 1 / s.mean_stiffness;
   constexpr double kWider = 1.1;
   for (size_t g = 0; g < kSides; ++g) {
-    const double bore = design[g]->bore_radius;
+    const double bore = design[g]->held_radius(), root = pair.gear(static_cast<int>(g)).root_radius();
     out.body[g] = body_twist(*design[g], *material[g], bore);
-    // A bore cannot grow beyond the root circle.
-    const double wider = std::min(kWider * bore, pair.gear(static_cast<int>(g)).root_radius());
+    // A bore cannot grow beyond the root circle, nor can the outside of a rim shrink.
+    const double wider = design[g]->internal ? std::max(bore / kWider, root) : std::min(kWider * bore, root);
     const double less = out.body[g] - body_twist(*design[g], *material[g], wider);
     out.wider_bore[g] = out.whole / (out.whole - less) - 1;
   }
@@ -57,13 +57,16 @@ std::vector<Remark> body_remarks(const StaticArtifact& s) {
   std::vector<Remark> out;
   for (const bool driven : {false, true}) {
     const GearDesign& gear = driven ? s.driven : s.driver;
-    const double rim = ToothGeometry(gear).root_radius() - gear.bore_radius;
+    const double rim = std::abs(ToothGeometry(gear).root_radius() - gear.held_radius());
+    const char* const key = gear.internal ? "rim_outer_radius_mm" : "bore_radius_mm";
     if (rim < gear.module)
-      out.push_back(remark(
-          true, "between the bore and the root circle of [gear.", driven ? s.mesh.driven : s.mesh.driver,
-          "] are ", rim * 1e3,
-          " mm, less than a module: bore_radius_mm is the radius inside which the gear is "
-          "rigid, so a thin rim makes the teeth stiffer here than on a real rim. Check bore_radius_mm"));
+      out.push_back(remark(true, "between the ", gear.internal ? "outside of the rim" : "bore",
+                           " and the root circle of [gear.", driven ? s.mesh.driven : s.mesh.driver, "] are ",
+                           rim * 1e3, " mm, less than a module: ", key, " is the radius ",
+                           gear.internal ? "outside" : "inside",
+                           " which the gear is "
+                           "rigid, so a thin rim makes the teeth stiffer here than on a real rim. Check ",
+                           key));
   }
   const ComplianceSplit split = compliance_split(s);
   if (!(split.body_share() > kMuch)) return out;

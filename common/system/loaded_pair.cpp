@@ -65,6 +65,7 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
                            const BodyArtifact& driver, const BodyArtifact& driven,
                            const StaticArtifact& statics, double phase, int period) {
   require_rigid_bearings(statics.mesh, "the view of loaded gears");
+  require_external(statics.mesh, statics.driver, statics.driven, "the view of loaded gears");
   const std::vector<ContactZone> zones = contact_zones(driver, driven, statics, phase, period);
   const GearPair gears(statics.driver, statics.driven, statics.mesh.centre_distance);
   const MeshArtifact* const mesh[2] = {&driver_mesh, &driven_mesh};
