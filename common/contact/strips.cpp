@@ -141,11 +141,7 @@ CandidateZone candidate_zone(const GearPair& gears, const HalfPlaneSurface& driv
                              double largest_force, double corner_gap, const PairDeviation& deviation) {
   // Hertz, line contact: a^2 = 4 W R / (pi E*), in terms of the half-planes' log coefficient C = 2 W / (pi E*
   // F).
-  // rho1 rho2 / (rho1 + rho2) is a parabola along the path, highest midway between the tangent points.
-  const double midway = 0.5 * std::tan(gears.working_pressure_angle()) *
-                        (gears.gear(1).base_radius() - gears.gear(0).base_radius());
-  const double radius =
-      gears.relative_curvature_radius(std::clamp(midway, gears.path_start(), gears.path_end()));
+  const double radius = gears.largest_relative_curvature_radius();
   const auto half_width = [&](double force) {
     return std::sqrt(2 * radius * force * (driver.coefficient() + driven.coefficient()));
   };

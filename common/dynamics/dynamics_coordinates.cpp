@@ -205,6 +205,9 @@ void RollingDynamics::add_sway(int g, const std::vector<int>& columns) {
   const ElasticGear& gear = model_.gear[g];
   const BodyArtifact& body = gear.body();
   const Bearing& bearing = model_.bearing[g];
+  if (model_.kinematics.internal())
+    fail(Failure::input, "motion on elastic bearings is of external gears, and the ",
+         model_.kinematics.ring() ? "driven gear" : "driver", " is internal; take the [[bearing]] out");
   const Damping& damping = parameters_.damping;
   std::vector<int> cosine;
   for (const int column : columns)

@@ -21,21 +21,21 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material) 
   // Chords of a coarse mesh cut off less.
   constexpr double kSafe = 0.995;
   const GearDesign& design = tooth.design();
-  const double root = tooth.root_radius(), tip = tooth.tip_radius(), bore = design.bore_radius;
+  const double root = tooth.root_radius(), tip = tooth.tip_radius(), held = design.held_radius();
   const double form = tooth.base_radius() * std::hypot(1.0, tooth.form_roll_angle());
-  // Below the involute a tooth only widens.
+  // Towards the root a tooth only widens from the involute on.
   const auto angle = [&](double r) {
-    const double within = std::max(r, form);
+    const double within = tooth.internal() ? std::min(r, form) : std::max(r, form);
     return tooth.thickness_at_radius(within) / within;
   };
   double teeth = 0;
   const double step = (tip - root) / kSteps;
   for (int i = 0; i < kSteps; ++i) {
     const double r = root + (i + 0.5) * step;
-    teeth += design.teeth * angle(r) * r * r * r * step;
+    teeth += design.teeth * angle(r) * r * r * r * std::abs(step);
   }
   return kSafe * material.density * design.face_width *
-         (0.5 * std::numbers::pi * (std::pow(root, 4) - std::pow(bore, 4)) + teeth);
+         (0.5 * std::numbers::pi * std::abs(std::pow(root, 4) - std::pow(held, 4)) + teeth);
 }
 
 void as_drawn(ImpactParameters& settings, const std::array<double, 2>& body_inertia) {

@@ -26,19 +26,20 @@ double start_of(const ToothGeometry& gear, const Relief& relief, const std::stri
                                 degrees(tip), " (radius ", gear.tip_radius() * 1e3, " mm)");
   if (relief.start_radius > 0) {
     const double foot = rb * std::hypot(1, form);
-    if (!(relief.start_radius >= foot && relief.start_radius <= gear.tip_radius()))
+    if (!(relief.start_radius >= std::min(foot, gear.tip_radius()) &&
+          relief.start_radius <= std::max(foot, gear.tip_radius())))
       fail(Failure::input, end, "_relief_start_radius_mm = ", relief.start_radius * 1e3,
            " does not lie on the involute, which goes from roll angle ", from, "; start the relief on it");
     return gear.roll_angle_at_radius(relief.start_radius);
   }
   if (relief.length > 0) {
-    if (!(relief.length <= rb * (tip - form)))
+    if (!(relief.length <= rb * std::abs(tip - form)))
       fail(Failure::input, end, "_relief_length_mm = ", relief.length * 1e3,
-           " is longer than the involute, whose length of roll is ", rb * (tip - form) * 1e3,
+           " is longer than the involute, whose length of roll is ", rb * std::abs(tip - form) * 1e3,
            " mm; shorten it");
-    return towards + (towards == tip ? -1 : 1) * relief.length / rb;
+    return towards + (towards == gear.largest_roll_angle() ? -1 : 1) * relief.length / rb;
   }
-  if (!(relief.start_roll >= form && relief.start_roll <= tip))
+  if (!(relief.start_roll >= gear.least_roll_angle() && relief.start_roll <= gear.largest_roll_angle()))
     fail(Failure::input, end, "_relief_start_deg = ", relief.start_roll / kDegree,
          " does not lie on the involute, which goes from roll angle ", from, "; start the relief on it");
   return relief.start_roll;
@@ -110,7 +111,7 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
   if (!m.points.empty()) {
     constexpr double kRounding = 0.01 * kDegree;  // of tables that are printed
     for (const auto& [roll, removed] : m.points)
-      if (roll < form_ - kRounding || roll > tip_ + kRounding)
+      if (roll < gear.least_roll_angle() - kRounding || roll > gear.largest_roll_angle() + kRounding)
         fail(Failure::input, "points: the roll angle ", degrees(roll),
              " lies beyond the involute, which goes from ", degrees(form_), " to ", degrees(tip_),
              "; leave such points out");
@@ -122,6 +123,8 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
   modified_ = !none_;
   if (!errors.none()) {
     const GearDesign& design = gear.design();
+    if (design.internal)
+      fail(Failure::input, "errors of the teeth of an internal gear are not modelled; take the section out");
     repeats_ = design.teeth;
     none_ = false;
     base_radius_ = gear.base_radius();
@@ -141,7 +144,7 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
   std::vector<double> places{form_, tip_};
   constexpr int kPlaces = 400;
   for (int i = 1; i < kPlaces; ++i) places.push_back(form_ + (tip_ - form_) * i / kPlaces);
-  for (const auto& point : m.points) places.push_back(std::clamp(point[0], form_, tip_));
+  for (const auto& point : m.points) places.push_back(within(point[0]));
   least_ = largest_ = at(form_, 0);
   std::vector<double> low(places.size()), high(places.size());  // of all teeth
   for (int tooth = -1; tooth < (repeats_ > 1 ? repeats_ : 0); ++tooth) {
@@ -188,7 +191,7 @@ Vector2d FlankDeviation::of_tooth(double roll, int tooth) const {
 
 Vector2d FlankDeviation::value_and_slope(double roll, int tooth) const {
   if (none_) return {0, 0};
-  const double on = std::clamp(roll, form_, tip_), span = tip_ - form_;
+  const double on = within(roll), span = tip_ - form_;
   Vector2d sum = points_.at(on);
   for (const Part& part : parts_) {
     const double t = (on - part.start) / (part.end - part.start),
@@ -212,11 +215,11 @@ std::vector<FlankRidge> flank_ridges(const ToothGeometry& gear, const FlankModif
   const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
   if (m.tip.amount > 0 && m.tip.shape == ReliefShape::linear) {
     const double start = start_of(gear, m.tip, "tip", tip);
-    add(start, m.tip.amount / (tip - start), "linear tip relief");
+    add(start, m.tip.amount / std::abs(tip - start), "linear tip relief");
   }
   if (m.root.amount > 0 && m.root.shape == ReliefShape::linear) {
     const double start = start_of(gear, m.root, "root", form);
-    add(start, m.root.amount / (start - form), "linear root relief");
+    add(start, m.root.amount / std::abs(start - form), "linear root relief");
   }
   if (!m.points.empty()) {
     const MonotoneCubic points(m.points);

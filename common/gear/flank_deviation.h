@@ -7,6 +7,7 @@
 // candidate zone of strips), and the turn of the normal by the deviation's own slope (3 mrad for 10 micrometres over 3 mm).
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
@@ -67,6 +68,9 @@ class FlankDeviation {
     bool parabolic;
   };
   std::vector<Part> parts_;
+  double within(double roll) const {  // the involute; a ring's begins at the tip
+    return std::clamp(roll, std::min(form_, tip_), std::max(form_, tip_));
+  }
   double form_ = 0, tip_ = 1, middle_ = 0, crowning_ = 0, slope_ = 0;  // rad, m
   MonotoneCubic points_;
   bool none_ = true, modified_ = false;

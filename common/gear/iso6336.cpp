@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace whine {
@@ -10,7 +11,9 @@ IsoStiffness iso_6336_stiffness(const GearDesign& a, const Material& of_a, const
                                 const Material& of_b, double torque, double contact_ratio) {
   // The pinion is gear 1.
   const GearDesign &pinion = a.teeth <= b.teeth ? a : b, &wheel = a.teeth <= b.teeth ? b : a;
-  const double z1 = pinion.teeth, z2 = wheel.teeth, x1 = pinion.profile_shift, x2 = wheel.profile_shift;
+  // Of an internal gear the standard takes a rack in its place.
+  const double z1 = pinion.teeth, z2 = wheel.internal ? std::numeric_limits<double>::infinity() : wheel.teeth,
+               x1 = pinion.profile_shift, x2 = wheel.profile_shift;
   const double q = 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1 - 0.00193 * x2 -
                    0.24188 * x2 / z2 + 0.00529 * x1 * x1 + 0.00182 * x2 * x2;
   constexpr double kMeasured = 0.8;                    // C_M
@@ -27,7 +30,8 @@ IsoStiffness iso_6336_stiffness(const GearDesign& a, const Material& of_a, const
   out.single =
       kMeasured * 0.5 * (rack(a) + rack(b)) / q * (modulus / kSteel) * load * kPerMillimetreMicrometre;
   out.mesh = out.single * (0.75 * contact_ratio + 0.25);
-  out.in_range = x1 + x2 >= -0.5 && x1 + x2 <= 2 && contact_ratio >= 1.2 && contact_ratio <= 1.9;
+  out.in_range =
+      x1 + x2 >= -0.5 && x1 + x2 <= 2 && contact_ratio >= 1.2 && contact_ratio <= 1.9 && !wheel.internal;
   return out;
 }
 

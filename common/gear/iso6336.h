@@ -18,7 +18,8 @@ struct IsoStiffness {
   double single = 0;     // N m-1 per m of face width: c', largest stiffness of one pair
   double mesh = 0;       // N m-1 per m: c_gamma_alpha, mean over a mesh period
   double line_load = 0;  // N m-1: tangential force at the pitch circle over the face width, K_A = 1
-  bool in_range = true;  // the formula is for -0.5 <= x1 + x2 <= 2, contact ratio 1.2 to 1.9 (5 % there)
+  bool in_range =
+      true;  // the formula is for -0.5 <= x1 + x2 <= 2, contact ratio 1.2 to 1.9 (5 % there), external gears
 };
 
 // torque: N m on the driver, > 0; contact_ratio: 1.

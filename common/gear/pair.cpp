@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/internal_mesh.h"
 #include "gear/numbers.h"
 
 namespace whine {
@@ -33,25 +34,22 @@ Vec2 own_frame(double base_radius, double at, double roll) {
 }  // namespace
 
 GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double centre_distance)
-    : gear_{ToothGeometry(driver), ToothGeometry(driven)}, centre_distance_(centre_distance) {
+    : gear_{ToothGeometry(driver), ToothGeometry(driven)},
+      ring_(driver.internal   ? 0
+            : driven.internal ? 1
+                              : -1),
+      along_{1, -1},
+      centre_distance_(centre_distance) {
+  if (internal()) along_ = {ring_ == 1 ? 1 : -1, ring_ == 1 ? 1 : -1};
+  require_reach();
   const auto& [a, b] = gear_;
   const double rb1 = a.base_radius(), rb2 = b.base_radius();
-  if (std::abs(a.base_pitch() - b.base_pitch()) > 1e-9 * a.base_pitch())
-    fail(Failure::input, "base pitches differ: driver ", millimetres(a.base_pitch()), ", driven gear ",
-         millimetres(b.base_pitch()), "; give both gears the same module_mm and pressure_angle_deg");
-  if (a.tip_radius() + b.tip_radius() <= centre_distance)
-    fail(Failure::input, "the gears do not reach each other: tip radii add up to ",
-         millimetres(a.tip_radius() + b.tip_radius()), ", centre_distance_mm is ",
-         shown_number(centre_distance * 1e3), "; lower centre_distance_mm");
-  const double cosine = (rb1 + rb2) / centre_distance;
-  if (cosine >= 1)
-    fail(Failure::input, "the gears jam: centre_distance_mm = ", shown_number(centre_distance * 1e3),
-         " is not above the sum of the base radii ", millimetres(rb1 + rb2), "; raise centre_distance_mm");
+  const double cosine = (internal() ? std::abs(rb1 - rb2) : rb1 + rb2) / centre_distance;
   alpha_ = std::acos(cosine);
 
   const double tangent = std::tan(alpha_);
-  path_end_ = rb1 * (a.tip_roll_angle() - tangent);
-  path_start_ = -rb2 * (b.tip_roll_angle() - tangent);
+  path_end_ = along_[0] * rb1 * (a.tip_roll_angle() - tangent);
+  path_start_ = along_[1] * rb2 * (b.tip_roll_angle() - tangent);
 
   // Backlash on the working pitch circles, whose arcs and pitch share the ratio of the teeth.
   const double rw1 = rb1 / cosine, rw2 = rb2 / cosine;
@@ -59,9 +57,53 @@ GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double ce
       cosine * (2 * kPi * rw1 / driver.teeth - a.thickness_at_radius(rw1) - b.thickness_at_radius(rw2));
   if (backlash_ < -1e-6)
     fail(Failure::input, "the gears jam: backlash on the line of action is ", shown_number(backlash_ * 1e6),
-         " micrometres (limit -1); raise centre_distance_mm or tooth_thinning_mm, or lower profile_shift");
+         " micrometres (limit -1); ", internal() ? "lower" : "raise",
+         " centre_distance_mm or raise tooth_thinning_mm, or lower profile_shift");
+  require_no_interference();
+}
+
+void GearPair::require_reach() const {
+  const auto& [a, b] = gear_;
+  const double rb1 = a.base_radius(), rb2 = b.base_radius();
+  if (a.internal() && b.internal())
+    fail(Failure::input, "both gears are internal; an internal gear meshes with an external one");
+  if (std::abs(a.base_pitch() - b.base_pitch()) > 1e-9 * a.base_pitch())
+    fail(Failure::input, "base pitches differ: driver ", millimetres(a.base_pitch()), ", driven gear ",
+         millimetres(b.base_pitch()), "; give both gears the same module_mm and pressure_angle_deg");
+  const std::string distance = text("centre_distance_mm = ", shown_number(centre_distance_ * 1e3));
+  if (internal()) {
+    const ToothGeometry &ring = gear_[static_cast<size_t>(ring_)],
+                        &pinion = gear_[static_cast<size_t>(1 - ring_)];
+    if (ring.design().teeth <= pinion.design().teeth)
+      fail(Failure::input, "the internal gear has ", ring.design().teeth, " teeth and the gear in it ",
+           pinion.design().teeth, ": it needs more than that");
+    if (centre_distance_ + pinion.tip_radius() <= ring.tip_radius())
+      fail(Failure::input, "the gears do not reach each other: with ", distance, " the tips of the ",
+           kGearName[1 - ring_], " come to ", millimetres(centre_distance_ + pinion.tip_radius()),
+           " from the axis of the internal gear, whose tip "
+           "radius is ",
+           millimetres(ring.tip_radius()), "; raise centre_distance_mm");
+    if (ring.base_radius() - pinion.base_radius() >= centre_distance_)
+      fail(Failure::input, "the gears jam: ", distance, " is not above the difference of the base radii ",
+           millimetres(ring.base_radius() - pinion.base_radius()), "; raise centre_distance_mm");
+    return;
+  }
+  if (a.tip_radius() + b.tip_radius() <= centre_distance_)
+    fail(Failure::input, "the gears do not reach each other: tip radii add up to ",
+         millimetres(a.tip_radius() + b.tip_radius()), ", centre_distance_mm is ",
+         shown_number(centre_distance_ * 1e3), "; lower centre_distance_mm");
+  if ((rb1 + rb2) / centre_distance_ >= 1)
+    fail(Failure::input, "the gears jam: ", distance, " is not above the sum of the base radii ",
+         millimetres(rb1 + rb2), "; raise centre_distance_mm");
+}
+
+void GearPair::require_no_interference() const {
+  const auto& [a, b] = gear_;
   for (int g = 0; g < kSides; ++g) {
-    const double clearance = centre_distance - gear_[g].tip_radius() - gear_[1 - g].root_radius();
+    const ToothGeometry &own = gear_[g], &other = gear_[1 - g];
+    const double clearance = !internal()  ? centre_distance_ - own.tip_radius() - other.root_radius()
+                             : g == ring_ ? own.tip_radius() - centre_distance_ - other.root_radius()
+                                          : other.root_radius() - centre_distance_ - own.tip_radius();
     if (clearance < 0)
       fail(Failure::input, "the gears jam: the tip of the ", kGearName[g], " stands ",
            millimetres(-clearance), " inside the root of the ", kGearName[1 - g],
@@ -69,21 +111,54 @@ GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double ce
   }
   if (contact_ratio() < 1)
     fail(Failure::input, "the contact ratio is ", shown_number(contact_ratio()),
-         ", below 1: teeth would leave before the next ones touch; raise addendum or lower "
-         "centre_distance_mm");
-  const double lowest[2] = {tangent + path_start_ / rb1, tangent - path_end_ / rb2};
-  for (int g = 0; g < kSides; ++g)
-    if (lowest[g] < gear_[g].form_roll_angle())
-      fail(Failure::input, "the gears jam: the tip of the ", kGearName[1 - g], " reaches roll angle ",
-           shown_number(lowest[g] * 180 / kPi), " deg of the ", kGearName[g],
-           ", below its involute, which begins at ", shown_number(gear_[g].form_roll_angle() * 180 / kPi),
-           " deg; lower the addendum or raise the dedendum");
+         ", below 1: teeth would leave before the next ones touch; raise addendum or ",
+         internal() ? "raise" : "lower", " centre_distance_mm");
+  for (int g = 0; g < kSides; ++g) {
+    const double roll = nominal_roll(g, g == 0 ? path_start_ : path_end_), form = gear_[g].form_roll_angle();
+    const bool ring = gear_[g].internal();
+    if (ring ? roll <= form : roll >= form) continue;
+    fail(Failure::input, "the gears jam",
+         !internal() ? ""
+         : roll <= 0 ? " (involute interference)"
+                     : " (fillet interference)",
+         ": the tip of the ", kGearName[1 - g], " reaches roll angle ", shown_number(roll * 180 / kPi),
+         " deg of the ", kGearName[g],
+         ring ? ", beyond its involute, which ends at " : ", below its involute, which begins at ",
+         shown_number(form * 180 / kPi), " deg; lower the addendum or raise the dedendum");
+  }
+  if (!internal()) return;
+  if (const double clearance = tip_clearance(*this); clearance < 0)
+    fail(Failure::input, "trochoid interference: the tips of the ", kGearName[1 - ring_], " run ",
+         millimetres(-clearance), " into those of the ", kGearName[ring_],
+         " beside the mesh; raise the difference of the numbers of teeth (now ",
+         std::abs(a.design().teeth - b.design().teeth), ") or lower an addendum");
+}
+
+double GearPair::nominal_roll(int g, double path) const {
+  return std::tan(alpha_) +
+         along_[static_cast<size_t>(g)] * path / gear_[static_cast<size_t>(g)].base_radius();
+}
+
+double GearPair::signed_curvature(int g, double radius) const {
+  return gear_[static_cast<size_t>(g)].outwards() / radius;
 }
 
 double GearPair::relative_curvature_radius(double path) const {
-  const double rho1 = gear_[0].base_radius() * std::tan(alpha_) + path;
-  const double rho2 = gear_[1].base_radius() * std::tan(alpha_) - path;
-  return rho1 * rho2 / (rho1 + rho2);
+  const double rho1 = gear_[0].base_radius() * std::tan(alpha_) + along_[0] * path;
+  const double rho2 = gear_[1].base_radius() * std::tan(alpha_) + along_[1] * path;
+  return internal() ? rho1 * rho2 / std::abs(rho1 - rho2) : rho1 * rho2 / (rho1 + rho2);
+}
+
+double GearPair::largest_relative_curvature_radius() const {
+  // External: a parabola along the path, highest midway between the tangent points. Internal: it grows with both radii.
+  if (internal()) return relative_curvature_radius(along_[0] > 0 ? path_end_ : path_start_);
+  const double midway = 0.5 * std::tan(alpha_) * (gear_[1].base_radius() - gear_[0].base_radius());
+  return relative_curvature_radius(std::clamp(midway, path_start_, path_end_));
+}
+
+double GearPair::sliding(double path) const {
+  const double ratio = static_cast<double>(gear_[0].design().teeth) / gear_[1].design().teeth;
+  return path * (internal() ? std::abs(1 - ratio) : 1 + ratio);
 }
 
 double GearPair::relative_curvature_radius(const PairContact& c) const {
@@ -91,19 +166,20 @@ double GearPair::relative_curvature_radius(const PairContact& c) const {
   const double cosine = std::cos(c.normal_angle);
   const double rho_tip = gear_[tip].base_radius() * c.roll[tip] * cosine * cosine * cosine;
   const double rho_flank = gear_[flank].base_radius() * c.roll[flank];
+  if (internal()) return 1 / (signed_curvature(tip, rho_tip) + signed_curvature(flank, rho_flank));
   return rho_tip * rho_flank / (rho_tip + rho_flank);
 }
 
 Vec2 GearPair::flank_in_nominal_frame(int g, double nominal, double roll) const {
   const Vec2 own = own_frame(gear_[g].base_radius(), nominal, roll);
-  return g == 0 ? own : Vec2(-own);  // the driven gear looks the other way
+  return along_[static_cast<size_t>(g)] > 0 ? own : Vec2(-own);  // looks the other way
 }
 
 PairContact GearPair::contact(double phase) const {
   PairContact c;
-  const double path = phase * base_pitch(), tangent = std::tan(alpha_);
+  const double path = phase * base_pitch();
   const double rb[2] = {gear_[0].base_radius(), gear_[1].base_radius()};
-  c.nominal = {tangent + path / rb[0], tangent - path / rb[1]};
+  c.nominal = {nominal_roll(0, path), nominal_roll(1, path)};
   if (c.nominal[0] <= 0 || c.nominal[1] <= 0)
     fail(Failure::numerical, "a contact ", millimetres(path),
          " from the pitch point lies beyond the base circles");
@@ -117,7 +193,8 @@ PairContact GearPair::contact(double phase) const {
     const int tip = c.tip_gear, flank = 1 - tip;
     c.roll[tip] = gear_[tip].tip_roll_angle();
     // Tip edge as the touched gear sees it: radial and string coordinates about its centre, its own frame.
-    const Vec2 edge = -own_frame(rb[tip], c.nominal[tip], c.roll[tip]);
+    const Vec2 own = own_frame(rb[tip], c.nominal[tip], c.roll[tip]);
+    const Vec2 edge = internal() ? own : Vec2(-own);
     const double radial = rb[flank] + edge.x(), along = rb[flank] * c.nominal[flank] + edge.y();
     // The flank's normal through the edge is the tangent from it to the base circle: closed form, no
     // iteration. With the touched gear's frame turned by d: t = string length from the base circle to the
@@ -132,14 +209,14 @@ PairContact GearPair::contact(double phase) const {
     // d = atan(t / r_b) - atan(along / radial), as one arctangent: the two are nearly equal.
     const double d = std::atan2(string * radial - along * rb[flank], rb[flank] * radial + string * along);
     c.roll[flank] = c.nominal[flank] + d;
-    c.gap = string - rb[flank] * c.roll[flank];
-    c.on_flank =
-        c.roll[flank] >= gear_[flank].form_roll_angle() && c.roll[flank] <= gear_[flank].tip_roll_angle();
+    c.gap = gear_[flank].outwards() * (string - rb[flank] * c.roll[flank]);
+    c.on_flank = c.roll[flank] >= gear_[flank].least_roll_angle() &&
+                 c.roll[flank] <= gear_[flank].largest_roll_angle();
     c.tilt = d;  // the same sign for either gear: both look along their own outward normal
     c.origin = flank_in_nominal_frame(flank, c.nominal[flank], c.roll[flank]);
     c.normal_angle = std::abs((c.roll[tip] - c.nominal[tip]) - d);
     // Lever arm of the tip gear: its centre stands at (-r_b, -r_b xi) of its own nominal frame.
-    const Vec2 arm = -edge + Vec2(rb[tip], rb[tip] * c.nominal[tip]);
+    const Vec2 arm = own + Vec2(rb[tip], rb[tip] * c.nominal[tip]);
     c.lever[tip] = arm.x() * std::cos(d) - arm.y() * std::sin(d);
   }
 
@@ -152,7 +229,7 @@ PairContact GearPair::contact(double phase) const {
 }
 
 double GearPair::roll_at(int g, const PairContact& c, double x) const {
-  const double rb = gear_[g].base_radius(), sign = g == 0 ? 1 : -1;
+  const double rb = gear_[g].base_radius(), sign = along_[static_cast<size_t>(g)];
   double roll = c.roll[g] + sign * x / (rb * c.roll[g]);
   for (int i = 0; i < 50; ++i) {
     const double d = roll - c.nominal[g];
@@ -239,21 +316,22 @@ Vec2 Placement::operator()(const Vec2& p) const {
   return centre + Eigen::Rotation2Dd(angle) * p;
 }
 
-// At phase 0 the flank point of roll angle tan(alpha_w) stands on the line of centres. Seen from its own centre the driven
-// gear is the same construction, turned by half a turn.
+// At phase 0 the flank point of roll angle tan(alpha_w) stands on the line of centres. Seen from its own centre an external
+// driven gear is the same construction, turned by half a turn; a driven gear of an internal pair is its mirror image.
 Placement placed(const GearPair& pair, int g, double phase) {
   const Vec2 p = pair.gear(g).flank_point(std::tan(pair.working_pressure_angle()));
   const double pitch = 2 * std::numbers::pi / pair.gear(g).design().teeth;
+  const bool mirrored = pair.internal() && g == 1, turned = !pair.internal() && g == 1;
   Placement at;
-  at.angle = 0.5 * std::numbers::pi - std::atan2(p.y(), p.x()) + (g == 1 ? std::numbers::pi : 0.0) +
-             (g == 0 ? phase : -phase) * pitch;
-  at.centre = Vec2(0.0, g == 1 ? pair.centre_distance() : 0.0);
+  at.angle = 0.5 * std::numbers::pi - std::atan2(p.y(), mirrored ? -p.x() : p.x()) +
+             (turned ? std::numbers::pi : 0.0) + (turned ? -phase : phase) * pitch;
+  at.centre = Vec2(0.0, g == 1 ? pair.driven_centre_offset() : 0.0);
   return at;
 }
 
 Vec2 contact_normal(const GearPair& pair, const PairContact& contact) {
-  const double a = pair.working_pressure_angle();
-  const Vec2 along(-std::cos(a), std::sin(a)), to_tip(std::sin(a), std::cos(a));
+  const double a = pair.working_pressure_angle(), up = pair.ring() == 0 ? -1 : 1;
+  const Vec2 along(-std::cos(a), up * std::sin(a)), to_tip(std::sin(a), up * std::cos(a));
   return std::cos(contact.tilt) * along + std::sin(contact.tilt) * to_tip;
 }
 

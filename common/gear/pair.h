@@ -4,6 +4,12 @@
 // along the line of action are counted from the pitch point in the direction of motion; a pair at phase f (in
 // mesh periods from the pitch point) touches at f base pitches. Off the path of contact the tip edge of one
 // gear can still touch the flank of the other ("corner contact").
+//
+// One of the two may be an internal gear, the ring; the other one, the pinion, then lies in it. Both turn counter-clockwise, the
+// ring works with its leading flanks where it drives and with its trailing ones where it is driven, and as its teeth are their
+// own mirror images all that is said of a flank holds for either. With rho = r_b tan(alpha_w) +- path of each gear
+//   cos(alpha_w) = |r_b1 - r_b2| / a,   1 / R = |1 / rho_1 - 1 / rho_2|,
+//   contact ratio = (sqrt(r_a1^2 - r_b1^2) - sqrt(r_a2^2 - r_b2^2) + a sin(alpha_w)) / p_b, 1 the pinion, 2 the ring.
 #pragma once
 #include <array>
 
@@ -39,20 +45,36 @@ struct FlankGap {
 class GearPair {
  public:
   // Throws Error(input) if the pair does not reach, jams (backlash below -1 micrometre, tip in root, tip
-  // beyond the other's involute), has unequal base pitches or a contact ratio below 1.
+  // beyond the other's involute), has unequal base pitches or a contact ratio below 1; of an internal pair also for two rings,
+  // a ring that has no more teeth than its pinion, and tips that run into each other beside the mesh (trochoid
+  // interference).
   GearPair(const GearDesign& driver, const GearDesign& driven, double centre_distance);
   explicit GearPair(const PairParameters& pair)
       : GearPair(pair.gear[0].design, pair.gear[1].design, pair.mesh.centre_distance) {}
 
   const ToothGeometry& gear(int g) const { return gear_[g]; }
   double centre_distance() const { return centre_distance_; }  // m
+  bool internal() const { return ring_ >= 0; }
+  int ring() const { return ring_; }  // which gear is internal; -1: none
+  // 1 if the flank of gear g is touched farther from its base circle as the gears move on, -1 if nearer to it.
+  int rolls_outwards(int g) const { return along_[static_cast<size_t>(g)]; }
+  // rad: of the flank point of gear g that stands on the line of action `path` (m) from the pitch point.
+  double nominal_roll(int g, double path) const;
+  // m: from the driver's centre towards the pitch point: place of the driven gear's centre. Below 0 where a pinion drives a
+  // ring.
+  double driven_centre_offset() const { return ring_ == 1 ? -centre_distance_ : centre_distance_; }
   double working_pressure_angle() const { return alpha_; }     // rad
   double base_pitch() const { return gear_[0].base_pitch(); }  // m
   double contact_ratio() const { return (path_end_ - path_start_) / base_pitch(); }
-  double path_start() const { return path_start_; }     // m, driven gear's tip comes into contact (negative)
-  double path_end() const { return path_end_; }         // m, driver's tip leaves
-  double backlash() const { return backlash_; }         // m along the line of action, both gears unloaded
-  double relative_curvature_radius(double path) const;  // m, rho1 rho2 / (rho1 + rho2)
+  double path_start() const { return path_start_; }  // m, driven gear's tip comes into contact (negative)
+  double path_end() const { return path_end_; }      // m, driver's tip leaves
+  double backlash() const { return backlash_; }      // m along the line of action, both gears unloaded
+  double relative_curvature_radius(
+      double path) const;  // m, rho1 rho2 / (rho1 + rho2), of a ring / (rho2 - rho1)
+  double largest_relative_curvature_radius() const;  // m, on the path of contact
+  // m rad-1: sliding of the driven gear's flank over the driver's, towards the driver's tip, per angle by which the driver turns:
+  // path (1 + z1 / z2), of an internal pair path |1 - z1 / z2|.
+  double sliding(double path) const;
   // m: 1 / second derivative of the gap along x at the touching point. At a corner the derivative is the one from
   // the side where both flanks exist: 1 / rho_flank + 1 / (rho_tip cos^3 psi), psi the angle between the normals,
   // by which the tip's flank runs off the other's tangent (curvature kappa at slope tan psi: y'' = kappa /
@@ -63,7 +85,7 @@ class GearPair {
   // circles' tangent points (throws Error(numerical) beyond).
   PairContact contact(double phase) const;
 
-  // x: m, tangential coordinate of the contact frame, growing to the driver's tip, 0 at the nominal touching
+  // x: m, tangential coordinate of the contact frame, growing to the driver's tip (of a ring: inwards), 0 at the nominal touching
   // point, in [x_min, x_max]. Exact: both involutes are intersected with the line parallel to the contact
   // normal.
   FlankGap gap_at(const PairContact& contact, double x) const;
@@ -83,9 +105,14 @@ class GearPair {
   double tip_distance(const PairContact& contact, int g) const;
 
  private:
+  void require_reach() const;
+  void require_no_interference() const;
+  double signed_curvature(int g, double radius) const;  // m-1: of a flank with this radius of curvature (m)
   Vec2 flank_in_nominal_frame(int g, double nominal, double roll) const;
   double roll_at(int g, const PairContact& contact, double x) const;
   std::array<ToothGeometry, 2> gear_;
+  int ring_;                  // -1: none
+  std::array<int, 2> along_;  // see rolls_outwards()
   double centre_distance_, alpha_, path_start_, path_end_, backlash_;
 };
 
@@ -97,12 +124,14 @@ struct Placement {
   Vec2 operator()(const Vec2& p) const;
 };
 
-// The unloaded gears of a pair with the driver's centre at the origin, the driven gear's above it, `phase` mesh periods after
-// tooth 0 of both met at the pitch point; the driver turns counter-clockwise.
+// The unloaded gears of a pair with the driver's centre at the origin and the pitch point above it, `phase` mesh periods after
+// tooth 0 of both met at the pitch point; the driver turns counter-clockwise. The driven gear's centre lies above, too, but for
+// that of a ring, which lies below.
 Placement placed(const GearPair& pair, int g, double phase = 0);
 
 // Unit vector from the driver's flank to the driven gear's along the normal of a contact of gears placed so. On the line of
-// action it is (-cos a, sin a), a the working pressure angle, at every phase; a corner's normal is tilted against that.
+// action it is (-cos a, sin a), of a ring that drives (-cos a, -sin a), a the working pressure angle, at every phase; a corner's
+// normal is tilted against that.
 Vec2 contact_normal(const GearPair& pair, const PairContact& contact = {});
 
 }  // namespace whine

@@ -58,12 +58,13 @@ void check_inertia(const Scene& scene, const ScenePlace& where) {
 }
 
 std::string thin_rim(const GearDesign& design, const std::string& name) {
-  const double rim = ToothGeometry(design).root_radius() - design.bore_radius;
+  const double rim = std::abs(ToothGeometry(design).root_radius() - design.held_radius());
   if (rim >= design.module) return "";
-  return text("between the bore and the root circle of [gear.", name, "] are ", rim * 1e3,
-              " mm, less than a module: bore_radius_mm is the radius inside which the gear is rigid, so a "
-              "thin rim makes the "
-              "teeth stiffer here than on a real rim. Check bore_radius_mm");
+  const char* const key = design.internal ? "rim_outer_radius_mm" : "bore_radius_mm";
+  return text("between the ", design.internal ? "outside of the rim" : "bore", " and the root circle of [gear.",
+              name, "] are ", rim * 1e3, " mm, less than a module: ", key, " is the radius ",
+              design.internal ? "outside" : "inside",
+              " which the gear is rigid, so a thin rim makes the teeth stiffer here than on a real rim. Check ", key);
 }
 
 std::string flywheel(const GearDesign& design, const Material& material, double inertia,

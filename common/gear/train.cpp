@@ -35,6 +35,10 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
   const GearPair pair(driver, gear, centre_distance);
   System::Body& first = system.bodies[static_cast<size_t>(on)];
   const FlankSide flank = first.sense > 0 ? FlankSide::leading : FlankSide::trailing;
+  // A ring and its pinion turn in the same sense, so that one pushes with what leads and the other is pushed at what trails.
+  const bool leads = (first.sense > 0) != pair.internal();
+  const FlankSide second_flank = leads ? FlankSide::leading : FlankSide::trailing;
+  const int second_sense = pair.internal() ? first.sense : -first.sense;
   const double from_tooth = flank_angle(pair, 0, flank);
   // Angles stand from +y, directions from +x.
   const double towards = direction - 0.5 * kPi;
@@ -42,7 +46,7 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
   mesh.centre_distance = centre_distance;
   mesh.direction = direction;
   const int number = static_cast<int>(system.bodies.size());
-  mesh.side = {System::Side{on, flank, first.sense, 0}, System::Side{number, flank, -first.sense, 0}};
+  mesh.side = {System::Side{on, flank, first.sense, 0}, System::Side{number, second_flank, second_sense, 0}};
   if (!in_mesh(system, on)) {
     first.angle = towards - from_tooth;
   } else {
@@ -50,11 +54,11 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
     mesh.phase = ahead - std::floor(ahead);
     mesh.side[0].first_tooth = -first.sense * static_cast<int>(std::floor(ahead));
   }
-  System::Body second{name, gear.teeth, -first.sense, 0, first.centre, bearing};
-  second.centre[0] += centre_distance * std::cos(direction);
-  second.centre[1] += centre_distance * std::sin(direction);
-  second.angle =
-      towards + kPi - flank_angle(pair, 1, flank) + second.sense * mesh.phase * 2 * kPi / second.teeth;
+  System::Body second{name, gear.teeth, second_sense, 0, first.centre, bearing};
+  second.centre[0] += pair.driven_centre_offset() * std::cos(direction);
+  second.centre[1] += pair.driven_centre_offset() * std::sin(direction);
+  second.angle = towards + (pair.internal() ? 0 : kPi) - flank_angle(pair, 1, second_flank) +
+                 second.sense * mesh.phase * 2 * kPi / second.teeth;
   system.bodies.push_back(second);
   system.meshes.push_back(mesh);
   return number;

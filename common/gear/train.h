@@ -5,7 +5,8 @@
 // beta in each mesh period, first at
 //   f = -s (A + phi - beta) z / (2 pi)   modulo 1,
 // so that the mesh is ahead of the system by the negative of that. Its first side turns towards the second one's flank: both
-// work with their leading flanks where the first side turns counter-clockwise, else with their trailing ones.
+// work with their leading flanks where the first side turns counter-clockwise, else with their trailing ones. A ring and its
+// pinion turn in the same sense: the second side then works with the other kind of flank than the first.
 #pragma once
 #include <string>
 
@@ -18,8 +19,9 @@ namespace whine {
 int add_input_gear(System& system, const std::string& name, const GearDesign& gear,
                    const Bearing& bearing = {});
 
-// A gear that body `on` drives, `centre_distance` (m) away from it in the direction `direction` (rad, counter-clockwise from
-// +x). Adds the body and the mesh; returns the number of the body. Throws what GearPair throws.
+// A gear that body `on` drives, its axis `centre_distance` (m) away; `direction` (rad, counter-clockwise from +x): from the
+// centre of `on` to the pitch point, in which the driven gear's centre lies, too, but for that of a ring around `on`, which lies
+// in the opposite one. Adds the body and the mesh; returns the number of the body. Throws what GearPair throws.
 int add_driven_gear(System& system, int on, const GearDesign& driver, const std::string& name,
                     const GearDesign& gear, double centre_distance, double direction,
                     const Bearing& bearing = {});

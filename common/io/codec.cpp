@@ -226,14 +226,23 @@ void describe_crack(Codec& c, const std::string& section, KeyValues& values) {
     c.parameters(section + "_crack", values, Part::crack);
 }
 
+// The bore of an external gear or, in a section of its own, the rim of an internal one.
+void describe_blank(Codec& c, const std::string& section, KeyValues& values) {
+  if (!c.lists() && c.optional("/parameters/" + section + "_rim/rim_outer_radius", values.design.internal))
+    c.parameters(section + "_rim", values, Part::rim);
+  else
+    c.parameters(section, values, Part::bore);
+}
+
 // One gear of a pair: geometry, material and the discretisation of its body, under its role.
 void describe_gear(Codec& c, const std::string& role, BodyParameters& gear) {
   KeyValues values;
   values.design = gear.design;
   values.material = gear.material;
   values.body = gear.discretisation;
-  for (const Part part : {Part::design, Part::material, Part::body, Part::near_field})
-    c.parameters(role, values, part);
+  c.parameters(role, values, Part::design);
+  describe_blank(c, role, values);
+  for (const Part part : {Part::material, Part::body, Part::near_field}) c.parameters(role, values, part);
   describe_crack(c, role, values);
   if (c.in()) gear = {values.design, values.material, values.body};
 }
@@ -251,6 +260,7 @@ void describe_design(Codec& c, const std::string& section, GearDesign& design) {
   KeyValues values;
   values.design = design;
   c.parameters(section, values, Part::design);
+  describe_blank(c, section, values);
   describe_crack(c, section, values);
   if (c.in()) design = values.design;
 }

@@ -56,7 +56,7 @@ std::vector<Key> make_keys() {
      "pressure angle of the generating rack",
      [](V& v) -> Slot { return &v.design.pressure_angle; }},
     {Part::design, "gear", "profile_shift", kNone, "0.0", -3, 3, false, "",
-     "profile shift, in modules",
+     "profile shift, in modules; of an internal gear towards its tips, that is inwards, with teeth that become thicker as those of an external gear do (ISO 21771)",
      [](V& v) -> Slot { return &v.design.profile_shift; }},
     {Part::design, "gear", "addendum", kNone, "1.0", 0, 3, true, "",
      "addendum, in modules",
@@ -65,13 +65,13 @@ std::vector<Key> make_keys() {
      "dedendum, in modules",
      [](V& v) -> Slot { return &v.design.dedendum; }},
     {Part::diameter, "gear", "tip_diameter_mm", kMillimetre, "", 0, 1e6, true, "",
-     "diameter of the tip circle, in place of addendum: module (teeth + 2 profile_shift + 2 addendum)",
+     "diameter of the tip circle, in place of addendum: module (teeth + 2 profile_shift + 2 addendum), of an internal gear with - in place of +",
      [](V& v) -> Slot { return &v.tip_diameter; }},
     {Part::diameter, "gear", "root_diameter_mm", kMillimetre, "", 0, 1e6, true, "",
-     "diameter of the root circle, in place of dedendum: module (teeth + 2 profile_shift - 2 dedendum)",
+     "diameter of the root circle, in place of dedendum: module (teeth + 2 profile_shift - 2 dedendum), of an internal gear module (teeth - 2 profile_shift + 2 dedendum)",
      [](V& v) -> Slot { return &v.root_diameter; }},
     {Part::design, "gear", "rack_tip_radius", kNone, "0.38", 0, 1, false, "",
-     "tip radius of the rack, in modules; the root is the trochoid that this rack cuts",
+     "tip radius of the rack, in modules; the root is the trochoid that this rack cuts; of an internal gear the radius of the fillet, an arc",
      [](V& v) -> Slot { return &v.design.rack_tip_radius; }},
     {Part::design, "gear", "tooth_thinning_mm", kMillimetre, "0.0", 0, 50, false, "",
      "arc taken off the tooth at the pitch circle, for backlash",
@@ -80,9 +80,15 @@ std::vector<Key> make_keys() {
      "face width",
      [](V& v) -> Slot { return &v.design.face_width; },
      "0.025 would be 25 mm in metres"},
-    {Part::design, "gear", "bore_radius_mm", kMillimetre, nullptr, 0, 1e5, true, "",
-     "radius inside which the gear is as good as rigid: its shaft, hub or web. The body between it and the root circle twists, which all pairs in mesh share: often a fifth of the compliance, with a shaft's radius up to half",
+    {Part::bore, "gear", "bore_radius_mm", kMillimetre, nullptr, 0, 1e5, true, "",
+     "not of an internal gear: radius inside which the gear is as good as rigid: its shaft, hub or web. The body between it and the root circle twists, which all pairs in mesh share: often a fifth of the compliance, with a shaft's radius up to half",
      [](V& v) -> Slot { return &v.design.bore_radius; }},
+    {Part::rim, "gear", "internal", kNone, "false", 0, 0, false, "",
+     "true: teeth on the inside of a ring, which meshes with an external gear of fewer teeth",
+     [](V& v) -> Slot { return &v.design.internal; }},
+    {Part::rim, "gear", "rim_outer_radius_mm", kMillimetre, "", 0, 1e5, true, "",
+     "of an internal gear, which needs it: radius outside which the ring is as good as rigid, its housing; what lies between it and the root circle bends and twists",
+     [](V& v) -> Slot { return &v.design.rim_outer_radius; }},
     {Part::inertia, "gear", "total_inertia_kgm2", kInertia, "0.0", 0, 1e9, false, "",
      "inertia of the whole gear about its axis; what the body lacks is lumped on the hub. 0: as drawn, the body between bore and tip alone",
      [](V& v) -> Slot { return &v.total_inertia; }},
@@ -385,6 +391,8 @@ std::vector<Parameter> parameters_of(const KeyValues& values, Part part) {
       add(name, **number);
     } else if (const auto* whole = std::get_if<int*>(&slot)) {
       add(name, **whole);
+    } else if (const auto* flag = std::get_if<bool*>(&slot)) {
+      add(name, **flag ? 1 : 0);
     } else if (const auto* word = std::get_if<std::string*>(&slot)) {
       add(name, **word);
     } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
@@ -467,6 +475,8 @@ void set_parameters(KeyValues& values, Part part, const ParameterSource& source)
       **number = in_range(key, source, name, source.number(name));
     } else if (const auto* whole = std::get_if<int*>(&slot)) {
       **whole = static_cast<int>(in_range(key, source, name, source.whole(name)));
+    } else if (const auto* flag = std::get_if<bool*>(&slot)) {
+      **flag = source.whole(name) != 0;
     } else if (const auto* word = std::get_if<std::string*>(&slot)) {
       **word = one_of(key.choices, source, name);
     } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
@@ -509,7 +519,10 @@ std::string scene_key_table() {
       label = "[gear.<name>." + section + "]";
     if (section == "mesh" || section == "bearing") label = "[[" + section + "]]";
     std::string range = "text";
-    if (*key.choices) {
+    KeyValues values;
+    if (std::holds_alternative<bool*>(key.slot(values))) {
+      range = "true/false";
+    } else if (*key.choices) {
       range = key.choices;
       std::replace(range.begin(), range.end(), ' ', '/');
     } else if (key.most > key.least) {

@@ -39,6 +39,8 @@ enum class Part {
   title,
   reference,  // like, material: names of other sections
   design,
+  bore,      // of an external gear's design
+  rim,       // of an internal gear's design; stage parameters or an artifact hold it in place of the bore
   diameter,  // other words for parts of a design, in a scene alone
   crack,     // of a design; stage parameters or an artifact hold it only where there is one
   inertia,
@@ -82,7 +84,7 @@ ChoiceSlot choice_slot(Choice& choice) {
           [](void* at, int place) { *static_cast<Choice*>(at) = static_cast<Choice>(place); }};
 }
 // Where a key's value lives, and thereby its type.
-using Slot = std::variant<double*, int*, std::string*, ChoiceSlot, CornerRule*, PlaneSlot,
+using Slot = std::variant<double*, int*, bool*, std::string*, ChoiceSlot, CornerRule*, PlaneSlot,
                           std::vector<double>*, RangeSlot, Points*, ToothList>;
 
 // SI = value * multiply / divide; two factors because 3.0 / 1000 is the double nearest to 0.003 and 3.0 *

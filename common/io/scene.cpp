@@ -148,14 +148,49 @@ void read_crack(const Source& source, const toml::table& gear, const std::string
   if (values.design.crack.depth > 0) design.crack = values.design.crack;
 }
 
-const std::set<Part> kGearParts = {Part::reference, Part::design, Part::diameter, Part::inertia};
+// internal: of the gear whose keys these are; it has a rim and no bore.
+std::set<Part> gear_parts(bool internal) {
+  std::set<Part> parts{Part::reference, Part::design, Part::rim, Part::diameter, Part::inertia};
+  if (!internal) parts.insert(Part::bore);
+  return parts;
+}
+
+// Whether [gear.<name>] says so; what it says otherwise is rejected when it is read.
+bool says_internal(const toml::table& table, bool inherited) {
+  const toml::node* node = table.get("internal");
+  return node && node->is_boolean() ? node->value<bool>().value_or(false) : inherited;
+}
+
+// What holds a gear: an internal one its rim, an external one its bore; neither takes over the other's.
+void require_blank(const Source& source, const toml::table& table, const std::string& label, GearDesign& d) {
+  if (d.internal) {
+    if (const toml::node* bore = table.get("bore_radius_mm"))
+      source.reject(*bore, text("[", label,
+                                "] is internal and gives 'bore_radius_mm'; its ring is held outside: give "
+                                "'rim_outer_radius_mm' in its place"));
+    d.bore_radius = 0;
+    if (d.rim_outer_radius == 0)
+      source.reject(table,
+                    text("[", label,
+                         "] lacks 'rim_outer_radius_mm' (no default), the radius outside which the ring "
+                         "is as good as rigid"));
+  } else {
+    if (const toml::node* rim = table.get("rim_outer_radius_mm"))
+      source.reject(*rim,
+                    text("[", label,
+                         "] gives 'rim_outer_radius_mm', which only an internal gear has; write internal = "
+                         "true, or take the line out"));
+    d.rim_outer_radius = 0;
+    if (d.bore_radius == 0) source.reject(table, text("[", label, "] lacks 'bore_radius_mm' (no default)"));
+  }
+}
 
 // Turns the diameters of tip and root into addendum and dedendum. `like`: the gear whose keys `values` began with, nullptr:
 // none.
 void take_diameters(const Source& source, const toml::table& table, const std::string& label,
                     const GearDesign* like, KeyValues& values) {
   GearDesign& d = values.design;
-  // Of one end, in modules beyond the reference circle, outwards +1.
+  // Of one end, in modules beyond the reference circle; the tip +1, the root -1.
   const auto take = [&](const char* diameter_key, const char* height_key, double& diameter, double& height,
                         int outwards) {
     const toml::node *own = table.get(diameter_key), *own_height = table.get(height_key);
@@ -166,18 +201,20 @@ void take_diameters(const Source& source, const toml::table& table, const std::s
     if (diameter == 0) return;
     const toml::node& at = own ? *own : static_cast<const toml::node&>(table);
     if (!own && like &&
-        (like->teeth != d.teeth || like->module != d.module || like->profile_shift != d.profile_shift))
+        (like->teeth != d.teeth || like->module != d.module || like->profile_shift != d.profile_shift ||
+         like->internal != d.internal))
       source.reject(at, text("[", label, "] takes '", diameter_key, "' = ", diameter * 1e3,
-                             " over from a gear of other teeth, module or profile_shift; give '",
+                             " over from a gear of other teeth, module, profile_shift or kind; give '",
                              diameter_key, "' or '", height_key, "' here"));
-    const double exact = outwards * (diameter / (2 * d.module) - d.teeth / 2.0 - d.profile_shift);
+    const int out = d.internal ? -1 : 1;  // from root to tip
+    const double exact = outwards * out * (diameter / (2 * d.module) - d.teeth / 2.0 - out * d.profile_shift);
     // A drawing has fewer digits than round-off leaves: 1, not 1 + 4e-15, makes the body of addendum = 1.
     constexpr double kDigits = 1e12;
     height = std::round(exact * kDigits) / kDigits;
     constexpr double kMost = 3;  // the range of addendum and dedendum
     if (height > 0 && height <= kMost) return;
-    const double pitch = d.module * (d.teeth + 2 * d.profile_shift),
-                 limit = pitch + outwards * 2 * kMost * d.module;
+    const double pitch = d.module * (d.teeth + 2 * out * d.profile_shift),
+                 limit = pitch + outwards * out * 2 * kMost * d.module;
     source.reject(at, text("'", diameter_key, "' in [", label, "] = ", diameter * 1e3, ": with ", d.teeth,
                            " teeth, module_mm = ", d.module * 1e3, " and profile_shift = ", d.profile_shift,
                            " it must be between ", std::min(pitch, limit) * 1e3, " and ",
@@ -230,12 +267,14 @@ void read_gears(const Source& source, Scene& scene) {
         source.reject(*like, text("[gear.", name, "] is like [gear.", base, "], which is like ",
                                   as_written(*chain), " itself; name the first gear"));
       }
-      SectionReader(source, Dialect::scene, *model, "gear", "gear." + base).read(values, kGearParts, false);
+      SectionReader(source, Dialect::scene, *model, "gear", "gear." + base)
+          .read(values, gear_parts(says_internal(*model, false)), false);
       take_diameters(source, *model, "gear." + base, nullptr, values);
       base_design = values.design;
       read_modification(source, *model, "gear." + base, values);
     }
-    reader.read(values, kGearParts, like != nullptr);
+    reader.read(values, gear_parts(says_internal(*table, values.design.internal)), like != nullptr);
+    require_blank(source, *table, "gear." + name, values.design);
     take_diameters(source, *table, "gear." + name, like ? &base_design : nullptr, values);
     read_modification(source, *table, "gear." + name, values);
     read_errors(source, *table, "gear." + name, values);

@@ -46,6 +46,7 @@ std::string in_scene_unit(KeyValues& values, const Key& key) {
   if (const auto* whole = std::get_if<int*>(&slot)) return text(**whole);
   if (const auto* word = std::get_if<std::string*>(&slot)) return **word;
   if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) return key.word_in(*choice);
+  if (const auto* flag = std::get_if<bool*>(&slot)) return **flag ? "true" : "false";
   if (const auto* plane = std::get_if<PlaneSlot>(&slot)) return *plane->stress ? "stress" : "strain";
   if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
     if (!(*corner)->enabled) return "false";
@@ -80,6 +81,10 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
       case Part::level:
       case Part::time:
         return moves;
+      case Part::bore:
+        return !driver.design.internal || !driven.design.internal;
+      case Part::rim:
+        return driver.design.internal || driven.design.internal;
       case Part::crack:
         return driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
       default:

@@ -241,6 +241,9 @@ void SectionReader::assign(const Key& key, const toml::node& node, const Slot& s
     if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
       reject(key, node, "must be a whole number");
     **whole = static_cast<int>(value);
+  } else if (const auto* flag = std::get_if<bool*>(&slot)) {
+    if (!node.is_boolean()) reject(key, node, "must be true or false");
+    **flag = node.value<bool>().value_or(false);
   } else if (const auto* word = std::get_if<std::string*>(&slot)) {
     **word = checked_word(key, node);
   } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
@@ -353,6 +356,8 @@ void SectionReader::assign_fallback(const Key& key, const Slot& slot) const {
     **number = key.to_si(std::strtod(key.fallback, nullptr));
   } else if (const auto* whole = std::get_if<int*>(&slot)) {
     **whole = static_cast<int>(std::strtol(key.fallback, nullptr, 10));
+  } else if (const auto* flag = std::get_if<bool*>(&slot)) {
+    **flag = word == "true";
   } else if (const auto* target = std::get_if<std::string*>(&slot)) {
     **target = word;
   } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {

@@ -71,7 +71,9 @@ std::string body_parameters(const BodyParameters& chosen) {
   values.material = chosen.material;
   values.body = chosen.discretisation;
   StageParametersText out(kBodyStage);
-  out.add("gear", "gear", values, {Part::design});
+  out.add("gear", "gear", values,
+          values.design.internal ? std::set{Part::design} : std::set{Part::design, Part::bore});
+  if (values.design.internal) out.add("gear", "rim", values, {Part::rim});
   if (values.design.crack.depth > 0) out.add("crack", "crack", values, {Part::crack});
   out.add("material", "material", values, {Part::material});
   out.add("fidelity", "fidelity", values, {Part::body});
@@ -225,7 +227,10 @@ std::string body_hash(const std::string& settings) {
 BodyParameters read_body_parameters(const std::string& path) {
   const Source source = stage_parameters_source(path, "<gear>/body.toml", kBodyStage);
   KeyValues values;
-  read_parameter_section(source, "gear", "gear", {Part::design}, values);
+  const bool internal = source.section("rim") != nullptr;
+  read_parameter_section(source, "gear", "gear",
+                         internal ? std::set{Part::design} : std::set{Part::design, Part::bore}, values);
+  if (internal) read_parameter_section(source, "gear", "rim", {Part::rim}, values);
   if (source.section("crack")) read_parameter_section(source, "crack", "crack", {Part::crack}, values);
   read_parameter_section(source, "material", "material", {Part::material}, values);
   read_parameter_section(source, "fidelity", "fidelity", {Part::body}, values);

@@ -17,6 +17,7 @@ std::string quoted_text(const std::string& word) {
 std::string value_of(const Key& key, const Slot& slot) {
   if (const auto* number = std::get_if<double*>(&slot)) return exact_text(**number);
   if (const auto* whole = std::get_if<int*>(&slot)) return std::to_string(**whole);
+  if (const auto* flag = std::get_if<bool*>(&slot)) return **flag ? "true" : "false";
   if (const auto* word = std::get_if<std::string*>(&slot)) return quoted_text(**word);
   if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) return quoted_text(key.word_in(*choice));
   if (const auto* plane = std::get_if<PlaneSlot>(&slot)) return *plane->stress ? "\"stress\"" : "\"strain\"";

@@ -103,7 +103,8 @@ void show_errors(Lines& lines, const GearMeshSpec& mesh) {
 
 void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& body) {
   add(lines, "gear", gear.teeth, " teeth, module ", gear.module * 1e3, " mm, face width ",
-      gear.face_width * 1e3, " mm, bore radius ", gear.bore_radius * 1e3, " mm");
+      gear.face_width * 1e3, " mm, ", gear.internal ? "internal, rim held at " : "bore radius ",
+      gear.held_radius() * 1e3, gear.internal ? " mm radius" : " mm");
   if (gear.crack.depth > 0)
     add(lines, "crack", "tooth ", gear.crack.tooth, ", a slit of ", gear.crack.depth * 1e3, " mm");
   add(lines, "elements", "order ", body.element_order, ", ", body.element_size * 1e3, " mm on the flank");

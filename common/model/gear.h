@@ -25,16 +25,22 @@ struct Crack {
 // One gear's geometry; what is true of the tooth and the blank, nothing of load or motion.
 struct GearDesign {
   int teeth = 0;
-  double module = 0;              // m
-  double pressure_angle = 0;      // rad
-  double profile_shift = 0;       // in modules
-  double addendum = 1.0;          // in modules
-  double dedendum = 1.25;         // in modules
-  double rack_tip_radius = 0.38;  // in modules; the root is the trochoid that this rack cuts
-  double tooth_thinning = 0;      // m at the pitch circle
-  double face_width = 0;          // m
-  double bore_radius = 0;         // m; rigid hub
-  Crack crack;                    // of one tooth
+  double module = 0;          // m
+  double pressure_angle = 0;  // rad
+  double profile_shift = 0;   // in modules
+  double addendum = 1.0;      // in modules
+  double dedendum = 1.25;     // in modules
+  // In modules. External: of the rack that cuts the root, a trochoid. Internal: of the circular fillet at the root.
+  double rack_tip_radius = 0.38;
+  double tooth_thinning = 0;    // m at the pitch circle
+  double face_width = 0;        // m
+  double bore_radius = 0;       // m; rigid hub of an external gear; 0: none
+  bool internal = false;        // teeth on the inside of a ring; see gear/involute.h
+  double rim_outer_radius = 0;  // m; of an internal gear, where its rim is rigid; 0: none
+  Crack crack;                  // of one tooth
+
+  // m: of the circle on which the body is as good as rigid, the bore or, of an internal gear, the outside of the rim.
+  double held_radius() const { return internal ? rim_outer_radius : bore_radius; }
 };
 
 // How a relief grows with the roll angle.

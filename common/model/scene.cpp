@@ -27,4 +27,12 @@ void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage) 
            " N/um; take a scene without [[bearing]]");
 }
 
+void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
+                      const std::string& stage) {
+  for (int g = 0; g < 2; ++g)
+    if ((g ? driven : driver).internal)
+      fail(Failure::input, stage, " is of external gears, and [gear.", mesh.gear(g),
+           "] is internal; take a scene without internal gears");
+}
+
 }  // namespace whine

@@ -120,6 +120,8 @@ struct Scene {
 // Throw Error(input) that names the gear and `stage` ("a Harris map"), which knows nothing of ...
 void require_like_teeth(const GearMeshSpec& mesh,
                         const std::string& stage);  // ... teeth that differ from each other,
-void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage);  // ... elastic bearings.
+void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage);  // ... elastic bearings,
+void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
+                      const std::string& stage);  // ... internal gears.
 
 }  // namespace whine

@@ -39,7 +39,7 @@ struct System {
   struct Mesh {
     std::array<Side, 2> side;
     double centre_distance = 0;  // m
-    double direction = 0;  // rad, counter-clockwise from +x: from the first side's centre to the second's
+    double direction = 0;  // rad, counter-clockwise from +x: from the first side's centre to the pitch point
     double phase = 0;      // 0 to 1, mesh periods: what this mesh is ahead of the first one
   };
   enum class DriveKind { torque, held };

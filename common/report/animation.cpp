@@ -123,6 +123,7 @@ void check_inputs(const MeshArtifact& driver, const MeshArtifact& driven, const 
   if (s.hunting_periods > 1)
     fail(Failure::input, "the teeth of this pair differ: its motion repeats after ", s.hunting_periods,
          " mesh periods; one mesh period does not show it");
+  require_external(s.mesh, s.gear[0].design, s.gear[1].design, "an animation");
   for (int g = 0; g < kSides; ++g) {
     const GearDesign &found = (g == 0 ? driver : driven).design, &wanted = s.gear[g].design;
     if (found.teeth != wanted.teeth || found.module != wanted.module ||

@@ -18,10 +18,10 @@ namespace {
 
 void require_same_gear(const char* role, const GearDesign& mesh, const GearDesign& pair) {
   if (mesh.teeth != pair.teeth || mesh.module != pair.module || mesh.profile_shift != pair.profile_shift ||
-      mesh.bore_radius != pair.bore_radius)
+      mesh.internal != pair.internal || mesh.held_radius() != pair.held_radius())
     fail(Failure::input, "figure: the mesh.h5 of the ", role, " (", mesh.teeth, " teeth, module ",
-         mesh.module, " m, bore ", mesh.bore_radius, " m) is not that of the static.h5 (", pair.teeth,
-         " teeth, module ", pair.module, " m, bore ", pair.bore_radius,
+         mesh.module, " m, bore ", mesh.held_radius(), " m) is not that of the static.h5 (", pair.teeth,
+         " teeth, module ", pair.module, " m, bore ", pair.held_radius(),
          " m); give driver, driven, static in this order");
 }
 
@@ -39,6 +39,11 @@ Strokes tooth_elements(const MeshArtifact& mesh, const Placement& at, double sca
     rows.emplace_back();
   }
   return rows;
+}
+
+// m: of the whole gear, its tips or its rim.
+double outer_radius(const ToothGeometry& gear) {
+  return gear.internal() ? gear.design().rim_outer_radius : gear.tip_radius();
 }
 
 }  // namespace
@@ -79,7 +84,7 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
     nodes += static_cast<long>(mesh.node_position.rows() - mesh.side_node.rows()) * mesh.design.teeth;
   }
   // The driver turns counter-clockwise: contact moves along the outward normal of its flank.
-  const Vec2 along(-std::cos(alpha), std::sin(alpha));
+  const Vec2 along = contact_normal(pair);
   FigureBlock path{"path of contact", {"x [mm]", "y [mm]"}, {}, "lines", "path of contact"};
   for (double x : {pair.path_start(), 0.0, pair.path_end()}) {
     const Vec2 p = (pitch_point + x * along) * kMilli;
@@ -90,19 +95,22 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
       {"pitch point", {"x [mm]", "y [mm]"}, {{0.0, pitch_point.y() * kMilli}}, "lines", "pitch point"});
 
   figure.notes.push_back(pair_words(s));
+  const GearDesign &first = s.gear[0].design, &second = s.gear[1].design;
   figure.notes.push_back(
       text(elements, driver.discretisation.element_order == 2 ? " nine" : " four", "-node elements, ", nodes,
-           " nodes; ", shown(driver.discretisation.element_size * kMilli, 4),
-           " mm on the flank; rigid hub of ", shown(s.gear[0].design.bore_radius * kMilli, 4), " mm radius",
-           s.gear[1].design.bore_radius == s.gear[0].design.bore_radius
+           " nodes; ", shown(driver.discretisation.element_size * kMilli, 4), " mm on the flank; rigid ",
+           first.internal ? "rim" : "hub", " of ", shown(first.held_radius() * kMilli, 4), " mm radius",
+           second.held_radius() == first.held_radius()
                ? std::string()
-               : " (driven: " + shown(s.gear[1].design.bore_radius * kMilli, 4) + " mm)"));
+               : text(" (driven: ", second.internal ? "rim, " : "", shown(second.held_radius() * kMilli, 4),
+                      " mm)")));
   figure.notes.push_back("unloaded, mesh phase 0: the reference pair touches at the pitch point");
   figure.numbers = {{"pitch_y", pitch_point.y() * kMilli},
                     {"half_window", half_zone * kMilli},
-                    {"driver_tip", pair.gear(0).tip_radius() * kMilli},
-                    {"driven_tip", pair.gear(1).tip_radius() * kMilli},
-                    {"centre_distance", s.mesh.centre_distance * kMilli}};
+                    {"driver_radius", outer_radius(pair.gear(0)) * kMilli},
+                    {"driven_radius", outer_radius(pair.gear(1)) * kMilli},
+                    {"driven_y", pair.driven_centre_offset() * kMilli},
+                    {"ring", pair.ring() + 1.0}};
   return figure;
 }
 
@@ -169,7 +177,9 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
   const PairStrips& strips = zone.strips;
   const Vec2 touch(0.0, pair.gear(0).base_radius() / std::cos(alpha));
   // Out of the driver's flank along the line of action; along the flank to the driver's tip.
-  const Vec2 normal(-std::cos(alpha), std::sin(alpha)), tangent(std::sin(alpha), std::cos(alpha));
+  const Vec2 normal = contact_normal(pair);
+  const double up = pair.ring() == 0 ? -1 : 1;
+  const Vec2 tangent = up * Vec2(normal.y(), -normal.x());  // to the driver's tip
   const double half_zone = 2 * s.gear[0].design.module;
 
   Figure figure;
@@ -243,8 +253,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
 
 Figure profile_figure(const StaticArtifact& s) {
   const GearPair pair(s);
-  const double degree = std::numbers::pi / 180, pitch = pair.base_pitch(),
-               tangent = std::tan(pair.working_pressure_angle());
+  const double degree = std::numbers::pi / 180, pitch = pair.base_pitch();
   Figure figure;
   figure.title = "Profile charts of the driving flanks";
   double low = 0, high = 0;
@@ -265,12 +274,12 @@ Figure profile_figure(const StaticArtifact& s) {
     }
     figure.blocks.push_back(trace);
     // Start of the active profile, lowest and highest point of single-pair contact: where along the path of contact.
-    const double first = g == 0 ? pair.path_start() : -pair.path_end(),
-                 last = g == 0 ? pair.path_end() : -pair.path_start();
-    for (const auto& [mark, path] : {std::pair{"sap", first}, std::pair{"lpstc", last - pitch},
-                                     std::pair{"pitch", 0.0}, std::pair{"hpstc", first + pitch}})
-      figure.numbers.emplace_back(std::string(mark) + "_" + name,
-                                  (tangent + path / gear.base_radius()) / degree);
+    const double first = pair.path_start(), last = pair.path_end();
+    const std::pair<const char*, double>
+        driver_marks[] = {{"sap", first}, {"lpstc", last - pitch}, {"pitch", 0}, {"hpstc", first + pitch}},
+        driven_marks[] = {{"sap", last}, {"lpstc", first + pitch}, {"pitch", 0}, {"hpstc", last - pitch}};
+    for (const auto& [mark, path] : g == 0 ? driver_marks : driven_marks)
+      figure.numbers.emplace_back(std::string(mark) + "_" + name, pair.nominal_roll(g, path) / degree);
     figure.numbers.emplace_back("form_" + name, form / degree);
     figure.numbers.emplace_back("tip_" + name, tip / degree);
   }

@@ -15,7 +15,7 @@ namespace {
 template <class Artifact>
 auto gears_of(const Artifact& s) {
   const auto of_gear = [](const GearDesign& g) {
-    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.bore_radius);
+    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.held_radius());
   };
   return std::tuple(of_gear(s.gear[0].design), of_gear(s.gear[1].design), s.inertia[0], s.inertia[1],
                     s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,

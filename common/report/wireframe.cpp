@@ -61,7 +61,7 @@ Strokes simplified(const Strokes& strokes, double tolerance) {
 }
 
 Wireframe::Wireframe(const MeshArtifact& mesh)
-    : node_(mesh.node_position), teeth_(mesh.design.teeth), bore_radius_(mesh.design.bore_radius) {
+    : node_(mesh.node_position), teeth_(mesh.design.teeth), bore_radius_(mesh.design.held_radius()) {
   const Eigen::Index per_element = mesh.element_node.cols();
   if (per_element != 4 && per_element != 9)
     fail(Failure::input, "mesh: elements of ", per_element, " nodes; 4 or 9 are known");

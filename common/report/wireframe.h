@@ -26,8 +26,9 @@ class Wireframe {
   // Edges of the elements that reach into the square of half width `half` about `point`, through their mid
   // nodes.
   Strokes window(const Placement& at, double scale, const Vec2& point, double half) const;
-  Strokes outline(const Placement& at, double scale) const;  // closed outer contour
-  Strokes bore(const Placement& at, double scale) const;     // closed circle
+  Strokes outline(const Placement& at, double scale) const;  // closed contour of the teeth
+  Strokes bore(const Placement& at,
+               double scale) const;  // closed circle; of an internal gear the outside of its rim
   // Nodes of the sector's outer edge, from its clockwise side to its counter-clockwise one.
   const std::vector<int>& contour() const { return contour_; }
 

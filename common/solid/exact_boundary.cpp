@@ -54,7 +54,7 @@ ExactBoundary::ExactBoundary(const ToothGeometry& tooth) : tooth_(tooth) {
 
 double ExactBoundary::roll_angle(const Vec2& p) const {
   const double r = std::max(p.norm(), tooth_.base_radius());
-  return std::clamp(tooth_.roll_angle_at_radius(r), tooth_.form_roll_angle(), tooth_.tip_roll_angle());
+  return std::clamp(tooth_.roll_angle_at_radius(r), tooth_.least_roll_angle(), tooth_.largest_roll_angle());
 }
 
 Vec2 ExactBoundary::put(Curve kind, const Vec2& p) const {
@@ -62,7 +62,7 @@ Vec2 ExactBoundary::put(Curve kind, const Vec2& p) const {
     case Curve::top_land:
       return p * (tooth_.tip_radius() / p.norm());
     case Curve::bore:
-      return p * (tooth_.design().bore_radius / p.norm());
+      return p * (tooth_.design().held_radius() / p.norm());
     case Curve::flank:
       return tooth_.flank_point(roll_angle(p));
     case Curve::root:
@@ -100,7 +100,7 @@ void make_exact(HalfMesh& half, const ToothGeometry& tooth, const ExactBoundary&
       p = exact.put(Curve::sector_edge, tooth.root_point(1));
     else if (has(Curve::centre_line))
       p = {0, has(Curve::top_land) ? tooth.tip_radius()
-              : has(Curve::bore)   ? tooth.design().bore_radius
+              : has(Curve::bore)   ? tooth.design().held_radius()
                                    : p.y()};
     else if (has(Curve::bore) && has(Curve::sector_edge))
       p = exact.put(Curve::bore, exact.put(Curve::sector_edge, p));

@@ -206,7 +206,7 @@ SparseReal FlankReader::outward_below(const Eigen::VectorXd& xi, double depth) c
       }
       fail(Failure::input, "matching_depth_mm = ", depth * 1e3, " leaves the tooth: ", inside * 1e3,
            " mm below the flank at roll angle ", xi[i] * 180 / kPi, " deg (",
-           (tooth_.arc_length(tooth_.tip_roll_angle()) - tooth_.arc_length(xi[i])) * 1e3,
+           std::abs(tooth_.arc_length(tooth_.tip_roll_angle()) - tooth_.arc_length(xi[i])) * 1e3,
            " mm from the tip edge) the material ends; lower it, or use near_field = \"subtraction\"");
     }
     const int nodes = static_cast<int>(mesh_.element_node.cols());

@@ -8,6 +8,7 @@
 // symmetric and semidefinite.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "gear/involute.h"
 
@@ -18,13 +19,14 @@ class FlankTable {
   // The table of a tooth's driving flank, from the form point to the tip edge; points: number of points, 2 or
   // more.
   FlankTable(const ToothGeometry& tooth, int points);
-  // base_radius, tip_scale (delta0): m; roll angles: rad, 0 <= form < tip. Throws Error(input) otherwise.
+  // base_radius, tip_scale (delta0): m; roll angles: rad, different and not below 0; that of the tip is the larger one, of an
+  // internal gear the smaller. Throws Error(input) otherwise.
   FlankTable(double base_radius, double form_roll_angle, double tip_roll_angle, double tip_scale, int points);
 
   int size() const { return static_cast<int>(points_.size()); }
   const Eigen::VectorXd& points() const { return points_; }  // (point) rad: roll angles, ascending
-  double lowest() const { return form_; }                    // rad: form point
-  double highest() const { return tip_; }                    // rad: tip edge
+  double lowest() const { return std::min(form_, tip_); }    // rad
+  double highest() const { return std::max(form_, tip_); }   // rad
 
   // (point) 1: value(xi) = weights(xi) . values at the points. Between the outermost point and the end of the
   // flank the polynomial goes on; more than 1e-9 rad beyond the flank throws Error(numerical) with the numbers.

@@ -93,7 +93,7 @@ class HalfSector {
 
 void HalfSector::build() {
   const SectorPlan& p = plan_;
-  const double edge = 0.5 * kPi + kPi / tooth_.design().teeth, bore = tooth_.design().bore_radius;
+  const double edge = 0.5 * kPi + kPi / tooth_.design().teeth, bore = tooth_.design().held_radius();
   auto polar = [](double r, double angle) { return Vec2(r * std::cos(angle), r * std::sin(angle)); };
   auto flank = [this](double xi) { return tooth_.flank_point(xi); };
   auto root = [this](double t) { return tooth_.root_point(t); };

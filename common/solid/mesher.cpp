@@ -128,10 +128,10 @@ double exact_sector_area(const GearDesign& design) {
                 tooth.form_roll_angle(), 20);
   // The root curve has a corner in its curvature where the trochoid meets the root circle.
   auto root = [&](double t) { return tooth.root_point(t); };
-  half += swept(root, 0, tooth.root_corner(), 40);
+  if (tooth.root_corner() > 0) half += swept(root, 0, tooth.root_corner(), 40);
   if (tooth.root_corner() < 1) half += swept(root, tooth.root_corner(), 1, 1);
-  half -= 0.5 * kPi / design.teeth * design.bore_radius * design.bore_radius;
-  return 2 * half;
+  half -= 0.5 * kPi / design.teeth * design.held_radius() * design.held_radius();
+  return tooth.outwards() * 2 * half;
 }
 
 void check_sector_mesh(const MeshArtifact& mesh) {
@@ -171,7 +171,7 @@ MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation
   if (!(h >= (0.01 - kRoundOff) * design.module && h <= (2 + kRoundOff) * design.module))
     fail(Failure::input, "element_mm = ", h * 1e3, " is not between 0.01 and 2 modules (",
          1e1 * design.module, " to ", 2e3 * design.module, " mm)");
-  if (!(design.bore_radius > 0))
+  if (!design.internal && !(design.bore_radius > 0))
     fail(Failure::input, "bore_radius_mm = ", design.bore_radius * 1e3,
          " is not above 0: the hub on which the gear turns needs a radius");
 

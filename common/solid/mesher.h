@@ -5,7 +5,7 @@
 // exact curve (involute, trochoid, circle, sector edge), because the splines that gmsh meshes lie micrometres
 // off. Nine-node elements get mid-side nodes on the same exact curves and centre nodes from the transfinite
 // map of the eight others. Elements are finest at the tip corner, where the stress of a load near the edge is
-// steepest.
+// steepest. The sector of an internal gear is the same with its tips inside and its rim outside.
 #pragma once
 #include "solid/sector_mesh.h"
 

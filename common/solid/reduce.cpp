@@ -38,9 +38,9 @@ struct KeptMode {
 };
 
 // Turns the phase so that the outward displacement of the tip-most table point is real and positive.
-void fix_phase(Eigen::VectorXcd& shape, const SparseReal& outward) {
+void fix_phase(Eigen::VectorXcd& shape, const SparseReal& outward, bool tip_first) {
   const Eigen::VectorXcd flank = outward.cast<Complex>() * shape;
-  Complex value = flank[flank.size() - 1];
+  Complex value = flank[tip_first ? 0 : flank.size() - 1];
   if (std::abs(value) < 1e-6 * shape.cwiseAbs().maxCoeff()) {  // the flank does not move in this mode
     Eigen::Index largest = 0;
     shape.cwiseAbs().maxCoeff(&largest);
@@ -151,7 +151,7 @@ void add_modes(const Reduction& r, int n, const SparseComplex& stiffness, const 
     mode.omega_squared = lowest.omega_squared[k];
     mode.sector =
         r.sector.expand(n, lowest.shape.col(k)) * std::sqrt((r.sector.single(n) ? 1.0 : 2.0) / r.teeth);
-    fix_phase(mode.sector, r.outward);
+    fix_phase(mode.sector, r.outward, r.mesh.design.internal);
     if (r.sector.single(n)) mode.sector = mode.sector.real().cast<Complex>().eval();
     mode.flank = r.outward.cast<Complex>() * mode.sector;
     mode.back = r.back_outward.cast<Complex>() * mode.sector;

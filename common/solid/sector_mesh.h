@@ -16,10 +16,10 @@ struct MeshArtifact {
   MatrixRM node_position;             // (node, 2) m
   MatrixRMi element_node;             // (element, 4 or 9): corners counter-clockwise, mid-sides, centre
   Eigen::VectorXi element_region;     // (element): 0 rim, 1 tooth (where the half-plane field is subtracted)
-  Eigen::VectorXi bore_node;          // nodes on the rigid hub
+  Eigen::VectorXi bore_node;          // nodes on the rigid hub; of an internal gear on the outside of its rim
   MatrixRMi side_node;  // (pair, 2): node on the clockwise edge (angle 90 deg - 180/teeth), its image on the
                         // counter-clockwise edge
-  Eigen::VectorXi flank_node;        // nodes of the driving flank, root to tip
+  Eigen::VectorXi flank_node;  // nodes of the driving flank, root to tip, of an internal gear tip to root
   Eigen::VectorXd flank_roll_angle;  // rad, of flank_node
   // None, or the sector of the cracked tooth, with the same node sets and sector edges. Nodes on the slit stand twice in
   // it, but for the tip; triangles are elements whose first corner stands also as fourth.

@@ -56,7 +56,8 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h) {
   const GearDesign& design = tooth.design();
   SectorPlan plan{};
   const double tip = tooth.tip_roll_angle(), form = tooth.form_roll_angle();
-  const double flank = tooth.arc_length(tip) - tooth.arc_length(form);
+  const double flank = std::abs(tooth.arc_length(tip) - tooth.arc_length(form));
+  const int out = tooth.outwards();
   const double half_top = 0.5 * tooth.thickness_at_radius(tooth.tip_radius());
   plan.tip_size = std::min({design.module / 600, h / 80, half_top / 3, flank / 8});
 
@@ -66,7 +67,7 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h) {
   const double q = std::pow(h / plan.tip_size, 1.0 / plan.n_tip);
   const double graded = std::min(plan.tip_size * (std::pow(q, plan.n_tip) - 1) / (q - 1), 0.6 * flank);
   plan.tip_ratio = growth_ratio(plan.tip_size, graded, plan.n_tip);
-  plan.xi_split = std::sqrt(tip * tip - 2 * graded / tooth.base_radius());
+  plan.xi_split = std::sqrt(tip * tip - out * 2 * graded / tooth.base_radius());
   plan.n_flank = std::max(2, static_cast<int>(std::ceil((flank - graded) / h - 0.2)));
   plan.split = tooth.flank_point(plan.xi_split);
 
@@ -76,12 +77,12 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h) {
   plan.n_root = std::max(3, static_cast<int>(std::ceil(root_length(tooth, plan.t_split, 1) / h)));
 
   // The tooth region ends on a ring one module below the root, or half way to the bore on a thin rim.
-  const double rim = tooth.root_radius() - design.bore_radius;
+  const double rim = out * (tooth.root_radius() - design.held_radius());
   const double depth = std::min(design.module, 0.5 * rim);
-  plan.ring_radius = tooth.root_radius() - depth;
+  plan.ring_radius = tooth.root_radius() - out * depth;
   plan.n_under = std::max(2, static_cast<int>(std::ceil(depth / (1.25 * h))));
   const double drop = std::min(-plan.fillet_corner.x() * std::tan(kPi / 9), 0.4 * depth);
-  plan.chord_centre = {0, plan.fillet_corner.y() - drop};
+  plan.chord_centre = {0, plan.fillet_corner.y() - out * drop};
   const double half_pitch = kPi / design.teeth;
   const double corner_angle = std::atan2(plan.fillet_corner.y(), plan.fillet_corner.x()) - 0.5 * kPi;
   plan.ring_angle = 0.5 * kPi + std::clamp(corner_angle - 0.2 * depth / plan.ring_radius, 0.3 * half_pitch,
@@ -98,7 +99,8 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h) {
   }
 
   // Towards the bore: growth from the ring.
-  const double rim_length = plan.ring_radius - design.bore_radius, rim_first = std::min(2 * h, rim_length);
+  const double rim_length = out * (plan.ring_radius - design.held_radius()),
+               rim_first = std::min(2 * h, rim_length);
   for (plan.n_rim = 1; plan.n_rim < 1000; ++plan.n_rim) {
     plan.rim_ratio = growth_ratio(rim_first, rim_length, plan.n_rim);
     if (plan.rim_ratio < 1.35) break;

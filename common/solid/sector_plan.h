@@ -4,14 +4,15 @@
 
 namespace whine {
 
-// Sizes and corner points of the six blocks of the half sector x <= 0.
+// Sizes and corner points of the six blocks of the half sector x <= 0. Of an internal gear they stand the other way round: the
+// tips inside, the rim, which takes the place of the bore, outside.
 struct SectorPlan {
   double tip_size, tip_ratio;  // m, 1: along the flank from the corner
   double across_ratio;         // 1: growth from the flank to the centre line
   int n_tip, n_flank, n_fillet, n_root, n_across, n_under, n_rim;
   double rim_ratio;
   double xi_split, t_split;  // flank: end of the graded part; root curve: corner of three blocks
-  double ring_radius;        // m: lower end of the tooth region
+  double ring_radius;        // m: where the tooth region ends
   double ring_angle;         // rad: polar angle of the foot under the corner of three blocks
   Vec2 split, fillet_corner, chord_centre;
 };

@@ -214,6 +214,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
   require_plan(plan);
   require_like_teeth(statics.mesh, "a Harris map");
   require_rigid_bearings(statics.mesh, "a Harris map");
+  require_external(statics.mesh, driver.design, driven.design, "a Harris map");
   if (hunting_periods(GearMeshModel(driver, driven, statics.mesh)) > 1)
     fail(Failure::input,
          "a Harris map is of teeth that are alike, and a gear of this pair has a cracked one; take a scene "

@@ -73,6 +73,7 @@ std::vector<double> lengths_of(const std::vector<double>& starts, const GearDesi
 std::vector<double> relief_lengths(const std::vector<double>& starts, const std::vector<double>& millimetres,
                                    const BodyArtifact& first, const BodyArtifact& second,
                                    const GearMeshSpec& mesh, Relieved relieved) {
+  require_external(mesh, first.design, second.design, "a Harris map");
   if (!starts.empty()) return lengths_of(starts, first.design, second.design, relieved);
   if (millimetres.empty()) return {default_relief_length(first, second, mesh)};
   std::vector<double> lengths;

@@ -15,7 +15,7 @@ double body_twist(const GearDesign& gear, const Material& material, double bore)
   const double shear = material.youngs_modulus / (2 * (1 + material.poisson_ratio)),
                root = tooth.root_radius();
   return std::pow(tooth.base_radius(), 2) / (4 * std::numbers::pi * shear * gear.face_width) *
-         (1 / (bore * bore) - 1 / (root * root));
+         std::abs(1 / (bore * bore) - 1 / (root * root));
 }
 
 ComplianceSplit compliance_split(const StaticArtifact& s) {
@@ -25,10 +25,10 @@ ComplianceSplit compliance_split(const StaticArtifact& s) {
   constexpr double kWider = 1.1;
   for (size_t g = 0; g < kSides; ++g) {
     const GearDesign& design = s.gear[g].design;
-    const double bore = design.bore_radius;
+    const double bore = design.held_radius(), root = pair.gear(static_cast<int>(g)).root_radius();
     out.body[g] = body_twist(design, s.gear[g].material, bore);
-    // A bore cannot grow beyond the root circle.
-    const double wider = std::min(kWider * bore, pair.gear(static_cast<int>(g)).root_radius());
+    // A bore cannot grow beyond the root circle, nor can the outside of a rim shrink.
+    const double wider = design.internal ? std::max(bore / kWider, root) : std::min(kWider * bore, root);
     const double less = out.body[g] - body_twist(design, s.gear[g].material, wider);
     out.wider_bore[g] = out.whole / (out.whole - less) - 1;
   }

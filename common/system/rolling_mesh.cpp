@@ -100,13 +100,12 @@ int hunting_periods(const GearMeshModel& model) {
 PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double corner_gap) {
   PairsInReach reach;
   const GearPair& gears = model.kinematics;
-  const double tangent = std::tan(gears.working_pressure_angle()), pitch = gears.base_pitch();
-  for (int pair = -3; pair <= 3; ++pair) {  // more than a contact ratio of 4 and corners could need
-    const double path = (phase + pair) * pitch;
+  // More than a contact ratio of 4 and corners could need; the tips of a pinion in a ring stay near its flanks for longer.
+  const int farthest = gears.internal() ? 5 : 3;
+  for (int pair = -farthest; pair <= farthest; ++pair) {
+    const double path = (phase + pair) * gears.base_pitch();
     // Beyond the tangent points of the base circles there is no contact of these flanks.
-    if (gears.gear(0).base_radius() * tangent + path <= 0 ||
-        gears.gear(1).base_radius() * tangent - path <= 0)
-      continue;
+    if (gears.nominal_roll(0, path) <= 0 || gears.nominal_roll(1, path) <= 0) continue;
     const PairContact contact = gears.contact(phase + pair);
     if (contact.corner) {
       if (!model.corner.enabled || contact.normal_angle > model.corner.largest_angle) continue;

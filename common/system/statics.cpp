@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "base/progress.h"
+#include "gear/internal_mesh.h"
 #include "system/compliance_split.h"
 #include "system/flank_pressure.h"
 
@@ -155,6 +156,12 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
         s.contact.positions, " positions each");
   if (!s.mesh.corner.enabled)
     add(false, "corner contact is off: only pairs on the line of action carry load");
+  if (s.gear[0].design.internal || s.gear[1].design.internal) {
+    const double radial = radial_assembly_clearance(GearPair(s));
+    if (radial < 0)
+      add(true, "trimming interference: the tips overlap by ", -radial * 1e3,
+          " mm when the pinion is put into the ring by a radial movement; it has to come in along its axis");
+  }
   if (s.tooth_thinning() > 0 && s.backlash_margin <= 0)
     add(true, "the backlash is used up by ", -s.backlash_margin * 1e6,
         " µm; back flanks would touch, which is not modelled");

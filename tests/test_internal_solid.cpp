@@ -1,0 +1,269 @@
+// The elastic ring: its mesh, its reduction, and a pinion at rest in it.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "base/dense.h"
+#include "base/error.h"
+#include "internal_pair.h"
+#include "relative.h"
+#include "solid/flank_loads.h"
+#include "solid/flank_table.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+#include "solid/sector.h"
+#include "system/statics.h"
+
+using namespace whine;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+using Complex = std::complex<double>;
+
+const Material kSteel{206e9, 0.3, 7850, true};
+
+BodyDiscretisation elements(double size, int order = 2) {
+  BodyDiscretisation d;
+  d.element_size = size;
+  d.element_order = order;
+  return d;
+}
+
+GearDesign ring_of(int teeth, double module, double rim, double fillet = 0.3) {
+  GearDesign d = ring_gear();
+  d.teeth = teeth;
+  d.module = module;
+  d.tooth_thinning = 0;
+  d.rack_tip_radius = fillet;
+  d.rim_outer_radius = rim;
+  return d;
+}
+
+PlaneSystem system_of(const MeshArtifact& mesh) {
+  return assemble(mesh.node_position, mesh.element_node, kSteel, mesh.design.face_width);
+}
+
+}  // namespace
+
+TEST_CASE("sector of a ring: exact boundary, images, orientation and area for many rings") {
+  for (const GearDesign& design : {ring_gear(), ring_of(60, 3e-3, 110e-3), ring_of(200, 1e-3, 104e-3, 0.2),
+                                   ring_of(99, 3e-3, 300e-3), ring_of(40, 5e-3, 108.5e-3, 0.1)})
+    for (const int order : {1, 2}) {
+      CAPTURE(design.teeth);
+      CAPTURE(order);
+      const MeshArtifact mesh = make_sector_mesh(design, elements(0.2 * design.module, order));
+      const ToothGeometry tooth(design);
+      CHECK(least_jacobian(mesh.node_position, mesh.element_node) > 0.05);
+      double off = 0, image = 0;
+      for (int i = 0; i < mesh.flank_node.size(); ++i)
+        off = std::max(off, (mesh.node_position.row(mesh.flank_node[i]).transpose() -
+                             tooth.flank_point(mesh.flank_roll_angle[i]))
+                                .norm());
+      CHECK(off < 1e-15);
+      CHECK(mesh.flank_roll_angle[0] == relative(tooth.tip_roll_angle(), 1e-13));
+      CHECK(mesh.flank_roll_angle[mesh.flank_roll_angle.size() - 1] ==
+            relative(tooth.form_roll_angle(), 1e-14));
+      const Eigen::Rotation2D<double> turn(2 * kPi / design.teeth);
+      for (int i = 0; i < mesh.side_node.rows(); ++i)
+        image = std::max(image, (turn * Vec2(mesh.node_position.row(mesh.side_node(i, 0))) -
+                                 Vec2(mesh.node_position.row(mesh.side_node(i, 1))))
+                                    .norm());
+      CHECK(image < 2e-15 * design.rim_outer_radius);
+      for (int i : mesh.bore_node)
+        CHECK(mesh.node_position.row(i).norm() == relative(design.rim_outer_radius, 1e-14));
+      CHECK(std::abs(mesh_area(mesh.node_position, mesh.element_node) / exact_sector_area(design) - 1) <
+            (order == 1 ? 2e-3 : 1e-5));
+    }
+}
+
+TEST_CASE(
+    "area of a ring's sector: a sector of the rim less half of an external tooth's space and less its "
+    "fillets") {
+  // Without fillet the space is bounded by two involutes, whose area has a closed form: from the centre, the involute from
+  // roll angle 0 to xi sweeps r_b^2 xi^3 / 6.
+  GearDesign design = ring_gear();
+  design.rack_tip_radius = 0;
+  const ToothGeometry ring(design);
+  const double rb = ring.base_radius(), ra = ring.tip_radius(), rf = ring.root_radius();
+  const auto swept = [&](double xi) { return rb * rb * xi * xi * xi / 6; };
+  const double pitch = 2 * kPi / design.teeth, top = ring.thickness_at_radius(ra) / ra,
+               root = pitch - ring.thickness_at_radius(rf) / rf;
+  const double hollow = 0.5 * ra * ra * top + 0.5 * rf * rf * root +
+                        2 * (swept(ring.form_roll_angle()) - swept(ring.tip_roll_angle()));
+  const double rim = 0.5 * pitch * std::pow(design.rim_outer_radius, 2);
+  CHECK(exact_sector_area(design) == relative(rim - hollow, 1e-9));
+}
+
+TEST_CASE("all modes of a ring together: its rigid rotation about the rim moves every flank point by r_b") {
+  const MeshArtifact mesh = make_sector_mesh(ring_of(99, 3e-3, 165e-3), elements(1.2e-3, 1));
+  const ToothGeometry tooth(mesh.design);
+  const PlaneSystem system = system_of(mesh);
+  const CyclicSector sector(mesh, system);
+  const Eigen::MatrixXd k = Eigen::MatrixXcd(sector.stiffness(0)).real(),
+                        m = Eigen::MatrixXcd(sector.mass(0)).real();
+  const SymmetricEigen dense = symmetric_eigen(k, m);
+  const double teeth = mesh.design.teeth;
+  const Eigen::MatrixXd shape = sector.expand(0, dense.vectors.cast<Complex>()).real() / std::sqrt(teeth);
+  const Eigen::VectorXd rotation = rotation_field(mesh.node_position);
+  const Eigen::VectorXd gamma = teeth * shape.transpose() * (system.mass * rotation);
+  const Eigen::VectorXd arm = FlankReader(mesh).outward(FlankTable(tooth, 10).points()) * (shape * gamma);
+  for (double r : arm) CHECK(r == relative(tooth.base_radius(), 1e-3));  // sag of chords
+}
+
+TEST_CASE(
+    "reduced ring: compliance positive and symmetric, both flanks reciprocal, inertia of its drawing, "
+    "refined") {
+  const GearDesign design = ring_gear();
+  const BodyArtifact body = reduce(make_sector_mesh(design, elements(1.6e-3)), kSteel, 4);
+  const ToothGeometry ring(design);
+  for (Eigen::Index i = 1; i < body.flank_position.size(); ++i)
+    CHECK(body.flank_position[i] > body.flank_position[i - 1]);
+  CHECK(body.asymmetry < 1e-3);
+  CHECK(body.least_eigenvalue > -0.02 * body.compliance[0].cwiseAbs().maxCoeff());
+  const double disc = kSteel.density * design.face_width * kPi;
+  CHECK(body.mass < disc * (std::pow(design.rim_outer_radius, 2) - std::pow(ring.tip_radius(), 2)));
+  CHECK(body.mass > disc * (std::pow(design.rim_outer_radius, 2) - std::pow(ring.root_radius(), 2)));
+  // The tip gives way more than the root.
+  CHECK(body.compliance[0](0, 0) > body.compliance[0](23, 23));
+  // A force on one tooth turns all others in its own sense: a rigid rim alone would leave them still.
+  const BodyArtifact finer = reduce(make_sector_mesh(design, elements(0.8e-3)), kSteel, 4);
+  const double change = (body.compliance[0] - finer.compliance[0]).norm() / finer.compliance[0].norm();
+  CHECK(change < 1.5e-3);
+  for (int i = 0; i < 4; ++i) CHECK(body.eigenfrequency[i] == relative(finer.eigenfrequency[i], 1e-3));
+}
+
+TEST_CASE(
+    "a ring whose teeth are all loaded alike: between two rim radii it is a thick ring under torsion and "
+    "pressure") {
+  // Equal unit forces on all teeth are harmonic 0, the sum of the tables of all offsets. From a narrow rim to a wider one the
+  // teeth cancel. Per unit normal force, of which cos(alpha) turns the rim and sin(alpha) presses on it (alpha: pressure angle
+  // at the flank point), remain
+  //   r_b^2 / (4 pi G b) (1 / r_1^2 - 1 / r_2^2)   and   sin^2(alpha) (U(r_2) - U(r_1)) / (2 pi r_f b),
+  // U(r) = u / p of Lame's ring with pressure p at the root circle r_f and its outside r held.
+  const auto all_teeth = [](const BodyArtifact& body) {
+    const Eigen::Index n = body.flank_position.size();
+    Eigen::MatrixXd sum = body.compliance[0];
+    for (int d = 1; d <= body.offsets; ++d) sum += body.compliance[d] + body.compliance[d].transpose();
+    const int teeth = body.design.teeth;  // odd
+    for (int d = body.offsets + 1; d <= teeth / 2; ++d) {
+      const Eigen::MatrixXd r = body.far_compliance.middleRows((d - body.offsets - 1) * n, n);
+      sum += r + r.transpose();
+    }
+    return sum;
+  };
+  const double narrow = 152e-3, wide = 180e-3, nu = kSteel.poisson_ratio, e = kSteel.youngs_modulus;
+  const BodyArtifact a = reduce(make_sector_mesh(ring_of(99, 2.778e-3, narrow), elements(1.6e-3)), kSteel, 1),
+                     b = reduce(make_sector_mesh(ring_of(99, 2.778e-3, wide), elements(1.6e-3)), kSteel, 1);
+  const ToothGeometry ring(a.design);
+  const double rb = ring.base_radius(), rf = ring.root_radius(), width = a.design.face_width;
+  const double twist =
+      99 * rb * rb * (1 + nu) / (2 * kPi * e * width) * (1 / (narrow * narrow) - 1 / (wide * wide));
+  // u = B (r / r_2^2 - 1 / r), sigma_r = E B / (1 - nu^2) ((1 + nu) / r_2^2 + (1 - nu) / r^2) = -p at r_f.
+  const auto lame = [&](double outer) {
+    const double inner2 = rf * rf, outer2 = outer * outer;
+    return (1 - nu * nu) / e * (1 / rf - rf / outer2) / ((1 + nu) / outer2 + (1 - nu) / inner2);
+  };
+  const double pressed = 99 * (lame(wide) - lame(narrow)) / (2 * kPi * rf * width);
+  const Eigen::MatrixXd more = all_teeth(b) - all_teeth(a);
+  for (const int i : {2, 7, 12, 17, 22}) {
+    const double sine = std::sin(std::atan(a.flank_position[i]));
+    CAPTURE(i);
+    CHECK(more(i, i) == relative(twist + sine * sine * pressed, 0.01));
+  }
+}
+
+namespace {
+
+const BodyArtifact& planet_body() {
+  static const BodyArtifact body = reduce(make_sector_mesh(planet_gear(), elements(1.2e-3)), kSteel, 1);
+  return body;
+}
+const BodyArtifact& ring_body() {
+  static const BodyArtifact body = reduce(make_sector_mesh(ring_gear(), elements(1.2e-3)), kSteel, 1);
+  return body;
+}
+
+StaticParameters at_rest(int positions, ContactModel contact = ContactModel::strips) {
+  StaticParameters settings;
+  settings.mesh.driver = "a";
+  settings.mesh.driven = "b";
+  settings.mesh.centre_distance = kInternalDistance;
+  settings.contact.positions = positions;
+  settings.fidelity.contact = contact;
+  return settings;
+}
+
+constexpr double kTorque = 200;  // N m on the planet
+
+}  // namespace
+
+TEST_CASE(
+    "a planet in its ring with hardly any load: no transmission error, as many pairs as the contact ratio") {
+  for (const bool ring_drives : {false, true}) {
+    CAPTURE(ring_drives);
+    const int positions = 64;
+    const StaticArtifact s =
+        static_transmission(ring_drives ? ring_body() : planet_body(),
+                            ring_drives ? planet_body() : ring_body(), at_rest(positions), 1e-6);
+    CHECK(s.transmission_error.cwiseAbs().maxCoeff() < 1e-12);
+    CHECK(s.unloaded_error.cwiseAbs().maxCoeff() == 0);
+    const double pairs = static_cast<double>((s.tooth_load.array() > 0).count()) / positions;
+    CHECK(std::abs(pairs - s.contact_ratio) <= 2.0 / positions);
+    CHECK(s.contact_ratio ==
+          relative(GearPair(planet_gear(), ring_gear(), kInternalDistance).contact_ratio(), 1e-12));
+  }
+}
+
+TEST_CASE(
+    "a planet in its ring: Hertz with the difference of curvatures, shares of the load, torque balance") {
+  StaticParameters settings = at_rest(32);
+  settings.contact.strips = 16;
+  const StaticArtifact s = static_transmission(planet_body(), ring_body(), settings, kTorque);
+  const GearPair pair(planet_gear(), ring_gear(), kInternalDistance);
+  const double force = kTorque / pair.gear(0).base_radius();
+  int inside = 0;
+  for (Eigen::Index i = 0; i < s.tooth_load.rows(); ++i) {
+    const double carried = s.tooth_load.row(i).sum();
+    CHECK(carried == relative(force, 0.02));  // tip edges have other lever arms
+    for (Eigen::Index j = 0; j < s.pair.size(); ++j) {
+      if (!(s.contact_half_width(i, j) > 0) || s.tooth_load(i, j) < 0.2 * force) continue;
+      const double path = (s.mesh_phase[i] + s.pair[j]) * pair.base_pitch();
+      const double rho1 = pair.gear(0).base_radius() * pair.nominal_roll(0, path),
+                   rho2 = pair.gear(1).base_radius() * pair.nominal_roll(1, path);
+      const double radius = 1 / (1 / rho1 - 1 / rho2), width = planet_gear().face_width;
+      const double modulus = 0.5 * kSteel.youngs_modulus;  // plane stress, as the bodies
+      const double load = s.tooth_load(i, j) / width,
+                   half_width = std::sqrt(4 * load * radius / (kPi * modulus));
+      const double edge = std::min(pair.tip_distance(pair.contact(s.mesh_phase[i] + s.pair[j]), 0),
+                                   pair.tip_distance(pair.contact(s.mesh_phase[i] + s.pair[j]), 1));
+      if (edge < 3 * half_width) continue;
+      ++inside;
+      CHECK(s.contact_half_width(i, j) == relative(half_width, 0.02));
+      CHECK(s.contact_pressure(i, j) == relative(2 * load / (kPi * half_width), 0.02));
+    }
+  }
+  CHECK(inside > 20);
+  CHECK(s.torque_residual < 1e-10);
+  CHECK(s.least_gap > -1e-15);
+  CHECK(s.least_force >= 0);
+  // Teeth that bend bring in the next pair at its tip edge, so that no pair ever carries all.
+  CHECK(s.tooth_load.maxCoeff() < force);
+  CHECK(s.tooth_load.maxCoeff() > 0.75 * force);
+  CHECK(s.transmission_error.minCoeff() > 0);
+  CHECK(s.stiffness_secant.minCoeff() > 100e6);
+  CHECK(s.stiffness_secant.maxCoeff() < 1000e6);
+}
+
+TEST_CASE("a ring that drives its planet is the planet that drives the ring, backwards") {
+  const double ratio = 99.0 / 35;
+  StaticParameters settings = at_rest(32, ContactModel::line);
+  settings.mesh.corner.enabled = false;  // at a tip edge the lever arms of the two gears differ
+  const StaticArtifact forward = static_transmission(planet_body(), ring_body(), settings, kTorque),
+                       backward = static_transmission(ring_body(), planet_body(), settings, kTorque * ratio);
+  const Eigen::Index n = forward.transmission_error.size();
+  for (Eigen::Index i = 0; i < n; ++i)
+    CHECK(backward.transmission_error[i] == relative(forward.transmission_error[(n - i) % n], 1e-9));
+}
