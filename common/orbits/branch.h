@@ -59,6 +59,7 @@ struct BranchSettings {
   int most_points = 5000;
   OrbitSettings orbit;
   double location = 1e-12;  // of the arc step: to what special points are located
+  double grazing_location = 1e-12;  // the same of grazing orbits
 };
 
 struct OrbitBranch {
@@ -66,6 +67,7 @@ struct OrbitBranch {
   std::vector<SpecialPoint> special;  // in the order of the arc
   std::string end;                    // why it was followed no further
   bool reached_limit = false;         // the parameter left [low, high]
+  SlowTangent last;                   // of the last point, if it did
 };
 
 // From an orbit at its parameter, first towards a rising parameter (direction 1) or a falling one (-1). report(point) is called
