@@ -162,15 +162,21 @@ MatrixXd RollingPeriodMap::node_forces(int sample) const {
   }
   const std::vector<int>& active = step.active.strips;
   if (active.empty()) return result;
+  const int strips = mesh.strips() / static_cast<int>(mesh.pairs.size());
+  MatrixXd weights = MatrixXd::Zero(static_cast<Eigen::Index>(active.size()), nodes);
+  for (size_t k = 0; k < active.size(); ++k) {
+    const int j = active[k] / strips, i = active[k] % strips;
+    weights.row(static_cast<Eigen::Index>(k))(mesh.nodes_of(j)) = mesh.pairs[j].interpolation.row(i);
+  }
+  // The step solved with this inverse.
+  if (step.active.known && !step.active.shifted) {
+    result = weights.transpose() * (step.active.inverse.block() * weights);
+    return result;
+  }
   const StripCompliance compliance = dynamics_.kernel_.compliance(sample);
   MatrixXd whole(compliance.size(), compliance.size());
   compliance.assemble_columns(active, active, whole.data());
   const MatrixXd a = whole(active, active);
-  MatrixXd weights = MatrixXd::Zero(static_cast<Eigen::Index>(active.size()), nodes);
-  for (size_t k = 0; k < active.size(); ++k) {
-    const int j = active[k] / compliance.strips, i = active[k] % compliance.strips;
-    weights.row(static_cast<Eigen::Index>(k))(mesh.nodes_of(j)) = mesh.pairs[j].interpolation.row(i);
-  }
   const Eigen::LLT<MatrixXd> factor(a);
   if (factor.info() != Eigen::Success)
     fail(Failure::numerical, "at mesh phase ", mesh.phase, " the compliance of the ", active.size(),

@@ -54,13 +54,24 @@ void orient(const CurvePoint& from, CurvePoint& next) {
   next.orientation = -next.orientation;
 }
 
-std::optional<CurvePoint> corrected_step(Curve& curve, const CurvePoint& from, double length) {
-  return curve.correct(from.u + length * from.tangent, from.tangent, &from);
+// On to the curve from beside it, in the plane across `across`; with the parameter kept where the branch goes on evenly, because
+// periods cost the least at one parameter, unless that leads further away than `far`.
+std::optional<CurvePoint> onto(Curve& curve, const VectorXd& predicted, const VectorXd& across,
+                               const CurvePoint& from, bool even, double far) {
+  if (even) {
+    auto p = curve.correct(predicted, VectorXd::Unit(curve.size(), curve.size() - 1), &from);
+    if (p && (p->u - predicted).norm() < far) return p;
+  }
+  return curve.correct(predicted, across, &from);
 }
 
 // The next point, a step along the branch; oriented as `from`.
 std::optional<CurvePoint> step(Curve& curve, const CurvePoint& from, double length) {
-  auto next = corrected_step(curve, from, length);
+  constexpr double kEven = 0.5;  // of the tangent's parameter component may change
+  const double turn = std::abs(from.tangent[curve.size() - 1]);
+  const bool even = !from.slow.whole() && 2 * length * std::abs(from.bend) < kEven * turn;
+  auto next =
+      onto(curve, from.u + length * from.tangent, from.tangent, from, even, 0.5 * length);
   if (!next || !curve.linearise(*next, from.tangent)) return std::nullopt;
   orient(from, *next);
   return next;
@@ -137,65 +148,55 @@ ContactEvent additional(const std::vector<ContactEvent>& a, const std::vector<Co
   return i < longer.size() ? longer[i] : ContactEvent{};
 }
 
+// A point between two neighbours of a branch.
+struct Between {
+  CurvePoint point;
+  BranchPosition position;
+  double share = 0;  // of the arc from one neighbour to the other
+};
+
 // Two points on the arc between which a test changes its sign, brought together.
 class Locator {
  public:
-  // length: of the step from `from`, to whose planes all points between belong.
-  Locator(Curve& curve, const CurvePoint& from, double length, double precision)
-      : curve_(curve), from_(from), length_(length), precision_(precision) {}
+  Locator(Curve& curve, const BranchSettings& settings) : curve_(curve), settings_(settings) {}
 
   using Test = std::function<double(const BranchPosition&)>;
   struct Bracket {
-    BranchPosition low, high;
+    Between low, high;
     double value_low, value_high;
-    double share_high;    // of the step, at which `high` stands
     bool smooth = false;  // the test passes through zero
     bool low_is_nearer() const { return std::abs(value_low) < std::abs(value_high); }
   };
-  // Between the shares a and c of the step. Regula falsi (Illinois), bisection where that does not halve the interval in two
-  // steps, or of a test that only has a sign.
-  Bracket between(const BranchPosition& low, const BranchPosition& high, double a, double c, const Test& test,
-                  bool sign_only = false) {
-    Bracket b{low, high, test(low), test(high), c};
-    const double whole = std::abs(b.value_high - b.value_low);
-    double fa = b.value_low, fc = b.value_high, two_before = c - a, before = c - a;
+  // Regula falsi (Illinois), bisection where that does not halve the interval in two steps. turns: the test is the turn of the
+  // branch, so that what it leaves of the parameter is bounded.
+  Bracket between(const Between& low, const Between& high, const Test& test, bool turns) {
+    Bracket b{low, high, test(low.position), test(high.position)};
+    const double whole = std::abs(b.value_high - b.value_low), width = high.share - low.share;
+    double fa = b.value_low, fc = b.value_high, two_before = width, before = width;
     int last_side = 0;
     constexpr int kMost = 100;
-    for (int i = 0; i < kMost && c - a > precision_; ++i) {
-      const bool halve = sign_only || (i > 1 && c - a > 0.5 * two_before);
+    for (int i = 0; i < kMost && b.high.share - b.low.share > settings_.location; ++i) {
+      const double a = b.low.share, c = b.high.share;
+      if (turns && std::max(std::abs(b.value_low), std::abs(b.value_high)) *
+                           (b.high.point.u - b.low.point.u).norm() <
+                       settings_.fold_location * b.low.point.u[curve_.size() - 1])
+        break;
+      const bool halve = i > 1 && c - a > 0.5 * two_before;
       const double at = halve ? 0.5 * (a + c) : a + (c - a) * fa / (fa - fc);
       two_before = before;
       before = c - a;
       if (!(at > a && at < c)) break;
-      const double arc = low.arc + (high.arc - low.arc) * at;
-      BranchPosition here;
-      // The sequence of contacts needs no tangent.
-      if (const auto point =
-              sign_only ? corrected_step(curve_, from_, at * length_) : step(curve_, from_, at * length_)) {
-        if (sign_only) {
-          here.parameter = curve_.parameter(point->u);
-          here.arc = arc;
-          here.start = curve_.state(point->u);
-          here.events = point->passed.events;
-        } else {
-          here = position(curve_, *point, arc);
-        }
-      } else {
-        break;
-      }
-      const double value = test(here);
+      auto here = find(b.low, b.high, at, true);
+      if (!here) break;
+      const double value = test(here->position);
       if ((value < 0) == (b.value_low < 0)) {
-        a = at;
-        fa = value;
-        b.low = here;
-        b.value_low = value;
+        b.low = std::move(*here);
+        fa = b.value_low = value;
         if (last_side < 0) fc *= 0.5;
         last_side = -1;
       } else {
-        c = b.share_high = at;
-        fc = value;
-        b.high = here;
-        b.value_high = value;
+        b.high = std::move(*here);
+        fc = b.value_high = value;
         if (last_side > 0) fa *= 0.5;
         last_side = 1;
       }
@@ -206,11 +207,53 @@ class Locator {
                std::abs(b.value_high - b.value_low) < 1e-3 * whole;
     return b;
   }
+  // Where the sequence of contacts of `low` ends, by bisection.
+  Bracket change(const Between& low, const Between& high) {
+    Bracket b{low, high, -1, 1};
+    while (b.high.share - b.low.share > settings_.grazing_location) {
+      auto here = find(b.low, b.high, 0.5 * (b.low.share + b.high.share), false);
+      if (!here) break;
+      const bool as_low = same_sequence(here->position.events, b.low.position.events);
+      (as_low ? b.low : b.high) = std::move(*here);
+    }
+    return b;
+  }
 
  private:
+  // On the arc between two points. The sequence of contacts needs no tangent.
+  std::optional<Between> find(const Between& low, const Between& high, double share, bool tangent) {
+    constexpr double kEven = 0.5;  // ratio of the tangents' parameter components
+    const auto last = curve_.size() - 1;
+    const double part = (share - low.share) / (high.share - low.share);
+    const CurvePoint &a = low.point, &c = high.point, &near = part < 0.5 ? a : c;
+    const VectorXd chord = c.u - a.u;
+    const double ta = a.tangent[last], tc = c.tangent[last];
+    const bool even = !a.slow.whole() && ta * tc > 0 && std::min(ta / tc, tc / ta) > kEven;
+    auto point = onto(curve_, a.u + part * chord, chord.normalized(), near, even, chord.norm());
+    if (!point) return std::nullopt;
+    Between b;
+    b.share = share;
+    const double arc = low.position.arc + (high.position.arc - low.position.arc) * part;
+    if (tangent) {
+      // The tangent across the chord, oriented along the branch.
+      if (!curve_.linearise(*point, chord.normalized())) return std::nullopt;
+      orient(a, *point);
+      b.position = position(curve_, *point, arc);
+    } else {
+      point->tangent = near.tangent;
+      point->slow = near.slow;
+      point->jacobian = near.jacobian;
+      b.position.parameter = curve_.parameter(point->u);
+      b.position.arc = arc;
+      b.position.start = curve_.state(point->u);
+      b.position.events = point->passed.events;
+    }
+    b.point = std::move(*point);
+    return b;
+  }
+
   Curve& curve_;
-  const CurvePoint& from_;
-  double length_, precision_;
+  const BranchSettings& settings_;
 };
 
 SpecialPoint special_at(Special kind, const BranchPosition& at, const BranchPosition& low,
@@ -233,15 +276,17 @@ SpecialPoint special_at(Special kind, const BranchPosition& at, const BranchPosi
 }
 
 // What happens between two neighbouring points of a branch.
-void look_between(Curve& curve, const CurvePoint& from, const BranchPosition& a, const BranchPosition& b,
-                  double length, const BranchSettings& settings, std::vector<SpecialPoint>& found,
+void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, const BranchPosition& a,
+                  const BranchPosition& b, const BranchSettings& settings, std::vector<SpecialPoint>& found,
                   size_t after_point) {
-  Locator locator(curve, from, length, settings.location);
+  Locator locator(curve, settings);
+  Between low{from, a, 0};
+  const Between high{to, b, 1};
   const auto crosses = [&](const Locator::Test& test) { return (test(a) < 0) != (test(b) < 0); };
   const auto add = [&](Special kind, const Locator::Test& test) {
-    const Locator::Bracket bracket = locator.between(a, b, 0, 1, test);
-    found.push_back(special_at(kind, bracket.low_is_nearer() ? bracket.low : bracket.high, bracket.low,
-                               bracket.high, after_point));
+    const Locator::Bracket bracket = locator.between(low, high, test, kind == Special::fold);
+    const BranchPosition &l = bracket.low.position, &h = bracket.high.position;
+    found.push_back(special_at(kind, bracket.low_is_nearer() ? l : h, l, h, after_point));
     found.back().smooth = bracket.smooth;
   };
   const Locator::Test turn = [](const BranchPosition&p) { return p.turn; },
@@ -257,17 +302,11 @@ void look_between(Curve& curve, const CurvePoint& from, const BranchPosition& a,
     add(Special::torus, torus);
   // Several contacts may come or go in a step, one after the other.
   constexpr int kMostChanges = 6;
-  Locator grazing(curve, from, length, settings.grazing_location);
-  BranchPosition low = a;
-  double share = 0;
-  for (int i = 0; i < kMostChanges && !same_sequence(low.events, b.events); ++i) {
-    const std::vector<ContactEvent> events = low.events;
-    const Locator::Bracket bracket = grazing.between(
-        low, b, share, 1,
-        [&](const BranchPosition& p) { return same_sequence(p.events, events) ? -1.0 : 1.0; }, true);
-    found.push_back(special_at(Special::grazing, bracket.low, bracket.low, bracket.high, after_point));
+  for (int i = 0; i < kMostChanges && !same_sequence(low.position.events, b.events); ++i) {
+    const Locator::Bracket bracket = locator.change(low, high);
+    const BranchPosition& at = bracket.low.position;
+    found.push_back(special_at(Special::grazing, at, at, bracket.high.position, after_point));
     low = bracket.high;
-    share = bracket.share_high;
   }
 }
 
@@ -280,7 +319,7 @@ void add_special_points(Curve& curve, const CurvePoint& here, const CurvePoint& 
   // The plane across the tangent at `here` in which the point lies.
   const double ahead = (next.u - here.u).dot(here.tangent);
   if (ahead > 0) {
-    look_between(curve, here, a, b, ahead, settings, found, index);
+    look_between(curve, here, next, a, b, settings, found, index);
   } else if ((a.turn < 0) != (b.turn < 0)) {  // back from a kink
     found.push_back(special_at(Special::fold, a, a, b, index));
     found.back().smooth = false;
@@ -359,6 +398,7 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
       }
       if (at_limit) next = at_limit;
     }
+    next->bend = (next->tangent[n] - here->tangent[n]) / passed;
     take(*next, last.arc + passed);
     add_special_points(curve, *here, *next, settings, branch);
     if (beyond) {

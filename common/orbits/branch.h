@@ -58,7 +58,8 @@ struct BranchSettings {
   double first_step = 0.02, least_step = 1e-7, largest_step = 0.1;  // of the arc
   int most_points = 5000;
   OrbitSettings orbit;
-  double location = 1e-12;  // of the arc step: to what special points are located
+  double location = 1e-12;          // of the arc step: to what special points are located
+  double fold_location = 1e-15;     // the same of folds, relative to their parameter
   double grazing_location = 1e-12;  // the same of grazing orbits
 };
 

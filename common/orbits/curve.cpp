@@ -126,7 +126,6 @@ CurveJacobian Curve::jacobian(const VectorXd& u, const SlowTangent& nearby, Slow
   } else {
     minus = u;
   }
-  place(u);
   return {slow, (above - below) / (plus[n] - minus[n])};
 }
 

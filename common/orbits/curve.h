@@ -5,6 +5,7 @@
 // columns. Where all directions are kept it is computed anew at each iterate, and this is Newton's method.
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -36,6 +37,7 @@ class CurveJacobian {
 struct CurvePoint {
   Eigen::VectorXd u, tangent;
   int orientation = 1;  // of det [dF; tangent^T]
+  double bend = std::numeric_limits<double>::infinity();  // of the tangent's parameter component, per arc
   SlowTangent slow;
   CurveJacobian jacobian;
   PeriodicOrbit passed;  // events and observable

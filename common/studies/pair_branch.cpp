@@ -85,7 +85,8 @@ std::optional<std::vector<Segment>> follow(
     settings.first_step = 0.01;
     settings.largest_step = 0.04;
     settings.location = 1e-6;
-    settings.grazing_location = 1e-3;
+    settings.fold_location = 1e-8;
+    settings.grazing_location = 1e-2;
     settings.orbit.tolerance = 1e-10;
     segments.push_back({follow_branch(*map, search.orbit, direction, settings,
                                       [&](const BranchPosition& p) {
