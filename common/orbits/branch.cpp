@@ -360,9 +360,13 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
   while (static_cast<int>(branch.points.size()) < settings.most_points) {
     auto next = step(curve, *here, length);
     const bool sharp = next && next->tangent.dot(here->tangent) < kSharp;
-    if ((!next || sharp) && length > settings.least_step &&
+    // A model does not hold further by a shorter step, but a long one may lead away.
+    constexpr double kLeavesRange = 0.02;
+    const double least =
+        !next && curve.left_range() ? kLeavesRange * settings.first_step : settings.least_step;
+    if ((!next || sharp) && length > least &&
         (!next || length > 1e-2 * settings.first_step)) {
-      length = std::max(0.5 * length, settings.least_step);
+      length = std::max(0.5 * length, least);
       continue;
     }
     if (!next) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/model_range.h"
 
 namespace whine {
 
@@ -142,6 +143,7 @@ std::optional<CurvePoint> Curve::correct(const VectorXd& predicted, const Vector
   const double tolerance = settings_.tolerance;
   double last = std::numeric_limits<double>::infinity();
   VectorXd before, step;
+  left_range_ = false;
   try {
     for (;; ++p.corrections) {
       const VectorXd value = residual(p.u, &p.passed);
@@ -176,6 +178,7 @@ std::optional<CurvePoint> Curve::correct(const VectorXd& predicted, const Vector
   } catch (const Error& error) {
     if (error.kind() != Failure::numerical) throw;
     failure_ = error.what();
+    left_range_ = dynamic_cast<const ModelRangeError*>(&error) != nullptr;
     return std::nullopt;
   }
 }

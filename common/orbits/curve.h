@@ -67,6 +67,7 @@ class Curve {
                          PeriodicOrbit& passed, const Eigen::VectorXd& also = {});
   Eigen::VectorXd residual(const Eigen::VectorXd& u, PeriodicOrbit* passed = nullptr);
   const std::string& failure() const { return failure_; }
+  bool left_range() const { return left_range_; }  // the model did not hold where the last correction went
 
  private:
   void place(const Eigen::VectorXd& u);
@@ -75,6 +76,7 @@ class Curve {
   double scale_;
   OrbitSettings settings_;
   std::string failure_;
+  bool left_range_ = false;
 };
 
 bool same_sequence(const std::vector<ContactEvent>& a, const std::vector<ContactEvent>& b);

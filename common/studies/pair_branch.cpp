@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/error.h"
@@ -45,74 +44,134 @@ struct Segment {
   int steps;
 };
 
-// The branch with one contact zone, in segments of one number of steps; nothing if contact leaves the zone.
-std::optional<std::vector<Segment>> follow(
-    RollingDynamics& dynamics, const SweepParameters& stage_settings, std::vector<double>& mismatch,
-    const std::function<void(long, long, const std::string&)>& report) {
-  std::vector<Segment> segments;
-  const double low = stage_settings.frequency_from, high = stage_settings.frequency_to;
-  int steps = steps_at(stage_settings.time, high);
-  auto map = std::make_unique<RollingPeriodMap>(dynamics, steps);
-  map->set_parameter(high);
-  RollingDynamics::State state = dynamics.rest();
-  const auto periodic =
-      find_periodic_orbit(dynamics, state, stage_settings.time.periodicity, SteadyState::extrapolate);
-  if (!periodic) return std::nullopt;
-  if (periodic->multiple != 1)
-    fail(Failure::numerical, "at ", high, " Hz, where the branch begins, the motion ",
-         periodic->multiple == 0 ? text("does not repeat within ", periodic->periods, " mesh periods")
-                                 : text("repeats after ", periodic->multiple, " mesh periods"),
-         "; give mesh_frequency_Hz another upper end");
-  OrbitSearch search = find_orbit(*map, map->flat(state));
-  double at = high;
-  int direction = -1;
-  const long total = std::max(1l, std::lround((high - low) / stage_settings.frequency_step));
-  double lowest = high;
-  for (;;) {
-    if (!search.found() && map->take_left_zone()) return std::nullopt;
-    if (!search.found())
-      fail(Failure::numerical, "at ", at, " Hz no orbit of ", steps,
-           " steps is found from that at hand: ", search.failure);
-    BranchSettings settings;
-    settings.low = low;
-    settings.high = high;
-    // Speeds at which the number of steps changes.
-    if (steps > stage_settings.time.steps_per_period)
-      settings.high = std::min(high, 2 * stage_settings.time.min_sample_rate / steps);
-    if (stage_settings.time.min_sample_rate > 0)
-      settings.low = std::max(low, stage_settings.time.min_sample_rate / steps);
-    settings.scale = 0.5 * (low + high);
-    settings.first_step = 0.01;
-    settings.largest_step = 0.04;
-    settings.location = 1e-6;
-    settings.fold_location = 1e-8;
-    settings.grazing_location = 1e-2;
-    settings.orbit.tolerance = 1e-10;
-    segments.push_back({follow_branch(*map, search.orbit, direction, settings,
-                                      [&](const BranchPosition& p) {
-                                        map->take_left_zone();  // beside the orbit
-                                        lowest = std::min(lowest, p.parameter);
-                                        report(std::lround((high - lowest) / (high - low) * total), total,
-                                               text(p.parameter, " Hz"));
-                                      }),
-                        steps});
-    const OrbitBranch& branch = segments.back().branch;
-    if (!branch.reached_limit) {
-      if (map->take_left_zone()) return std::nullopt;
-      return segments;
-    }
-    const BranchPosition& last = branch.points.back();
-    at = last.parameter;
-    direction = last.turn > 0 ? 1 : -1;
-    if ((direction > 0 ? at >= high : at <= low) || static_cast<int>(segments.size()) == kMostSegments)
-      return segments;
-    steps = direction > 0 ? steps / 2 : steps * 2;
-    map = std::make_unique<RollingPeriodMap>(dynamics, steps);
-    map->set_parameter(at);
-    search = find_orbit(*map, last.start);
-    mismatch.push_back((search.orbit.start - last.start).norm() / last.start.norm());
-  }
+BranchSettings branch_settings(const SweepParameters& stage_settings, int steps) {
+  BranchSettings settings;
+  settings.low = stage_settings.frequency_from;
+  settings.high = stage_settings.frequency_to;
+  settings.scale = 0.5 * (settings.low + settings.high);
+  // Speeds at which the number of steps changes.
+  const TimeDiscretisation& time = stage_settings.time;
+  if (steps > time.steps_per_period)
+    settings.high = std::min(settings.high, 2 * time.min_sample_rate / steps);
+  if (time.min_sample_rate > 0) settings.low = std::max(settings.low, time.min_sample_rate / steps);
+  settings.first_step = 0.02;
+  settings.largest_step = 0.1;
+  settings.location = 1e-6;
+  settings.fold_location = 1e-8;
+  settings.grazing_location = 0.05;
+  settings.orbit.tolerance = 1e-9;
+  return settings;
 }
+
+// The branch of one pair, in segments of one number of steps and one candidate contact zone.
+class PairBranch {
+ public:
+  PairBranch(RollingDynamics& dynamics, const SweepParameters& settings,
+             std::function<CandidateZone(int level)> zone, double largest_force)
+      : dynamics_(dynamics),
+        settings_(settings),
+        zone_(std::move(zone)),
+        largest_force_(largest_force),
+        finest_(steps_at(settings.time, settings.frequency_from)) {}
+
+  std::vector<Segment> follow(const std::function<void(long, long, const std::string&)>& report) {
+    const double low = settings_.frequency_from, high = settings_.frequency_to;
+    int steps = steps_at(settings_.time, high), direction = -1;
+    begin(high, steps);
+    const long total = std::max(1l, std::lround((high - low) / settings_.frequency_step));
+    double lowest = high;
+    std::vector<Segment> segments;
+    for (;;) {
+      segments.push_back({follow_branch(*map_, orbit_, direction, branch_settings(settings_, steps),
+                                        [&](const BranchPosition& p) {
+                                          map_->take_left_zone();  // beside the orbit
+                                          lowest = std::min(lowest, p.parameter);
+                                          report(std::lround((high - lowest) / (high - low) * total), total,
+                                                 text(p.parameter, " Hz"));
+                                        }),
+                          steps});
+      const OrbitBranch& branch = segments.back().branch;
+      const BranchPosition& last = branch.points.back();
+      const double at = last.parameter;
+      direction = last.turn > 0 ? 1 : -1;
+      if (static_cast<int>(segments.size()) == kMostSegments) return segments;
+      if (!branch.reached_limit) {
+        if (!map_->take_left_zone()) return segments;
+        widen();
+      } else {
+        if (direction > 0 ? at >= high : at <= low) return segments;
+        steps = direction > 0 ? steps / 2 : steps * 2;
+      }
+      resume(last.start, at, steps);
+    }
+  }
+  const std::vector<double>& mismatch() const { return mismatch_; }
+
+ private:
+  void widen() {
+    if (++level_ > kMostLevel)
+      fail_outside_range(Failure::numerical, "contact leaves the flanks: forces above ", largest_force_,
+                         " N; lower the torque");
+    dynamics_.set_zone(zone_(level_), finest_);
+  }
+  // The orbit into which the pair settles.
+  void begin(double at, int steps) {
+    for (level_ = -1; !map_;) {
+      widen();
+      map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
+      map_->set_parameter(at);
+      RollingDynamics::State state = dynamics_.rest();
+      const auto periodic =
+          find_periodic_orbit(dynamics_, state, settings_.time.periodicity, SteadyState::extrapolate);
+      if (!periodic) {
+        map_.reset();
+        continue;
+      }
+      if (periodic->multiple != 1)
+        fail(Failure::numerical, "at ", at, " Hz, where the branch begins, the motion ",
+             periodic->multiple == 0 ? text("does not repeat within ", periodic->periods, " mesh periods")
+                                     : text("repeats after ", periodic->multiple, " mesh periods"),
+             "; give mesh_frequency_Hz another upper end");
+      if (!found(map_->flat(state), at, steps)) map_.reset();
+    }
+  }
+  // With other steps or another zone: the orbit near that of before.
+  void resume(const VectorXd& start, double at, int steps) {
+    RollingDynamics::State state = map_->state(start);
+    for (;;) {
+      map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
+      map_->set_parameter(at);
+      RollingDynamics::State near = state;
+      RollingDynamics::Period period;
+      // A period puts the contact forces where this zone has its strips.
+      if (dynamics_.integrate(near, period) && found(map_->flat(near), at, steps)) break;
+      widen();
+    }
+    if (orbit_.start.size() == start.size())
+      mismatch_.push_back((orbit_.start - start).norm() / start.norm());
+  }
+  bool found(const VectorXd& start, double at, int steps) {
+    OrbitSettings settings;
+    settings.tolerance = 1e-9;
+    const OrbitSearch search = find_orbit(*map_, start, 1, settings);
+    if (search.found()) {
+      orbit_ = search.orbit;
+      return true;
+    }
+    if (map_->take_left_zone()) return false;
+    fail(Failure::numerical, "at ", at, " Hz no orbit of ", steps,
+         " steps is found from that at hand: ", search.failure);
+  }
+
+  RollingDynamics& dynamics_;
+  const SweepParameters& settings_;
+  std::function<CandidateZone(int)> zone_;
+  double largest_force_;
+  int finest_, level_ = 0;
+  std::unique_ptr<RollingPeriodMap> map_;
+  PeriodicOrbit orbit_;
+  std::vector<double> mismatch_;
+};
 
 Eigen::VectorXd frequencies(const std::vector<SpecialPoint>& all, Special kind) {
   std::vector<double> found;
@@ -142,18 +201,11 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   parameters.fidelity = stage_settings.fidelity;
 
   RollingDynamics dynamics(model, parameters);
-  const int finest = steps_at(stage_settings.time, stage_settings.frequency_from);
-  std::optional<std::vector<Segment>> segments;
-  std::vector<double> mismatch;
-  for (int level = 0; !segments; ++level) {
-    if (level > kMostLevel)
-      fail_outside_range(Failure::numerical, "contact leaves the flanks: forces above ",
-                         MotionBounds(model, statics, std::pow(kWidening, kMostLevel)).force,
-                         " N; lower the torque");
-    mismatch.clear();
-    dynamics.set_zone(zone(model, statics, level), finest);
-    segments = follow(dynamics, stage_settings, mismatch, report);
-  }
+  PairBranch pair(
+      dynamics, stage_settings, [&](int level) { return zone(model, statics, level); },
+      MotionBounds(model, statics, std::pow(kWidening, kMostLevel)).force);
+  const std::vector<Segment> followed = pair.follow(report), *segments = &followed;
+  const std::vector<double>& mismatch = pair.mismatch();
 
   BranchArtifact a;
   set_gears(a, driver, driven);
