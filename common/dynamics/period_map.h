@@ -99,7 +99,7 @@ class RollingPeriodMap : public PeriodMap {
   int steps_, coordinates_ = 0, fields_ = 0;  // fields of all gears; 0 without relaxation
   double mesh_frequency_ = 0;
   bool left_zone_ = false, prepared_ = false;  // prepared: replay_ is of the period applied last
-  Eigen::VectorXd unit_;  // (size) of phase 0
+  Eigen::VectorXd unit_;                       // (size) of phase 0
   RollingDynamics::Period period_;
   std::vector<double> coefficients_;  // (coordinate, kCoefficients)
   std::vector<Replay> replay_;        // (sample)

@@ -70,8 +70,7 @@ std::optional<CurvePoint> step(Curve& curve, const CurvePoint& from, double leng
   constexpr double kEven = 0.5;  // of the tangent's parameter component may change
   const double turn = std::abs(from.tangent[curve.size() - 1]);
   const bool even = !from.slow.whole() && 2 * length * std::abs(from.bend) < kEven * turn;
-  auto next =
-      onto(curve, from.u + length * from.tangent, from.tangent, from, even, 0.5 * length);
+  auto next = onto(curve, from.u + length * from.tangent, from.tangent, from, even, 0.5 * length);
   if (!next || !curve.linearise(*next, from.tangent)) return std::nullopt;
   orient(from, *next);
   return next;
@@ -177,9 +176,9 @@ class Locator {
     constexpr int kMost = 100;
     for (int i = 0; i < kMost && b.high.share - b.low.share > settings_.location; ++i) {
       const double a = b.low.share, c = b.high.share;
-      if (turns && std::max(std::abs(b.value_low), std::abs(b.value_high)) *
-                           (b.high.point.u - b.low.point.u).norm() <
-                       settings_.fold_location * b.low.point.u[curve_.size() - 1])
+      if (turns &&
+          std::max(std::abs(b.value_low), std::abs(b.value_high)) * (b.high.point.u - b.low.point.u).norm() <
+              settings_.fold_location * b.low.point.u[curve_.size() - 1])
         break;
       const bool halve = i > 1 && c - a > 0.5 * two_before;
       const double at = halve ? 0.5 * (a + c) : a + (c - a) * fa / (fa - fc);
@@ -364,8 +363,7 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
     constexpr double kLeavesRange = 0.02;
     const double least =
         !next && curve.left_range() ? kLeavesRange * settings.first_step : settings.least_step;
-    if ((!next || sharp) && length > least &&
-        (!next || length > 1e-2 * settings.first_step)) {
+    if ((!next || sharp) && length > least && (!next || length > 1e-2 * settings.first_step)) {
       length = std::max(0.5 * length, least);
       continue;
     }
@@ -434,9 +432,7 @@ FoldSearch locate_fold(PeriodMap& map, const VectorXd& start, int multiple, doub
   const int n = map.size();
   VectorXd u = curve.point(start, map.parameter());
   VectorXd across = VectorXd::Constant(n + 1, 1 / std::sqrt(n + 1.0));
-  const auto tangent_at = [&](const VectorXd& at) {
-    return jacobian_at(at).tangent(across);
-  };
+  const auto tangent_at = [&](const VectorXd& at) { return jacobian_at(at).tangent(across); };
   try {
     across = tangent_at(u);
     double last = std::numeric_limits<double>::infinity();

@@ -36,7 +36,7 @@ class CurveJacobian {
 
 struct CurvePoint {
   Eigen::VectorXd u, tangent;
-  int orientation = 1;  // of det [dF; tangent^T]
+  int orientation = 1;                                    // of det [dF; tangent^T]
   double bend = std::numeric_limits<double>::infinity();  // of the tangent's parameter component, per arc
   SlowTangent slow;
   CurveJacobian jacobian;

@@ -19,10 +19,10 @@ namespace whine {
 struct PeriodicOrbit {
   Eigen::VectorXd start;
   double parameter = 0;
-  int multiple = 1;     // periods after which it repeats
-  double residual = 0;  // |P^m(y) - y| / max(1, |y|)
-  int iterations = 0;   // tangents that were needed
-  SlowTangent slow;     // of P^m
+  int multiple = 1;                  // periods after which it repeats
+  double residual = 0;               // |P^m(y) - y| / max(1, |y|)
+  int iterations = 0;                // tangents that were needed
+  SlowTangent slow;                  // of P^m
   std::vector<ContactEvent> events;  // of its periods in turn, phases from 0 to `multiple`
   Eigen::VectorXd observable;        // of its periods in turn
 

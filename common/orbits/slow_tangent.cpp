@@ -15,8 +15,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kWholeState = 8;      // numbers of a state, up to which all directions are kept
-constexpr int kSlowDirections = 8;  // kept of longer states at first; more as long as the least is not forgotten
+constexpr int kWholeState = 8;  // numbers of a state, up to which all directions are kept
+constexpr int kSlowDirections =
+    8;  // kept of longer states at first; more as long as the least is not forgotten
 constexpr double kForgotten = 0.2;  // multiplier that is left to Picard's iteration
 
 // Orthonormal (size, count): `first` unless it is empty, then the largest columns of m, by Gram and Schmidt with column pivots,
@@ -46,9 +47,8 @@ MatrixXd orthonormal(const VectorXd& first, MatrixXd m, Index size, Index count)
     }
   }
   for (int which = 0; rank < count; ++which)
-    take(VectorXd::NullaryExpr(size, [&](Index i) {
-      return std::sin(1.0 + 2.3 * static_cast<double>(i) * (which + 1) + which);
-    }));
+    take(VectorXd::NullaryExpr(
+        size, [&](Index i) { return std::sin(1.0 + 2.3 * static_cast<double>(i) * (which + 1) + which); }));
   return q;
 }
 

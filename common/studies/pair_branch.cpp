@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "base/error.h"
-#include "base/model_range.h"
-#include "contact/lanes.h"
-#include "dynamics/period_map.h"
-#include "dynamics/steady_state.h"
 #include "gear/body_inertia.h"
-#include "orbits/branch.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
-#include "studies/sweep.h"
+#include "studies/branch_follower.h"
 
 namespace whine {
 
@@ -22,156 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kMostLevel = 8;
 constexpr int kMultipliers = 8;  // that are kept of each orbit
-constexpr int kMostSegments = 64;
-
-CandidateZone zone(const GearMeshModel& model, const StaticArtifact& statics, int level) {
-  const auto at = [&](int l) {
-    return candidate_zone(model, statics, MotionBounds(model, statics, std::pow(kWidening, l)));
-  };
-  CandidateZone range = at(level);
-  if (level == 0) return range;
-  // Strips as wide as those of the narrowest zone.
-  const CandidateZone lowest = at(0);
-  range.strips = padded(static_cast<int>(std::ceil(range.half_zone / lowest.half_zone * lowest.strips)));
-  range.half_zone = lowest.half_zone * range.strips / lowest.strips;
-  return range;
-}
-
-struct Segment {
-  OrbitBranch branch;
-  int steps;
-};
-
-BranchSettings branch_settings(const SweepParameters& stage_settings, int steps) {
-  BranchSettings settings;
-  settings.low = stage_settings.frequency_from;
-  settings.high = stage_settings.frequency_to;
-  settings.scale = 0.5 * (settings.low + settings.high);
-  // Speeds at which the number of steps changes.
-  const TimeDiscretisation& time = stage_settings.time;
-  if (steps > time.steps_per_period)
-    settings.high = std::min(settings.high, 2 * time.min_sample_rate / steps);
-  if (time.min_sample_rate > 0) settings.low = std::max(settings.low, time.min_sample_rate / steps);
-  settings.first_step = 0.02;
-  settings.largest_step = 0.1;
-  settings.location = 1e-6;
-  settings.fold_location = 1e-8;
-  settings.grazing_location = 0.05;
-  settings.orbit.tolerance = 1e-9;
-  return settings;
-}
-
-// The branch of one pair, in segments of one number of steps and one candidate contact zone.
-class PairBranch {
- public:
-  PairBranch(RollingDynamics& dynamics, const SweepParameters& settings,
-             std::function<CandidateZone(int level)> zone, double largest_force)
-      : dynamics_(dynamics),
-        settings_(settings),
-        zone_(std::move(zone)),
-        largest_force_(largest_force),
-        finest_(steps_at(settings.time, settings.frequency_from)) {}
-
-  std::vector<Segment> follow(const std::function<void(long, long, const std::string&)>& report) {
-    const double low = settings_.frequency_from, high = settings_.frequency_to;
-    int steps = steps_at(settings_.time, high), direction = -1;
-    begin(high, steps);
-    const long total = std::max(1l, std::lround((high - low) / settings_.frequency_step));
-    double lowest = high;
-    std::vector<Segment> segments;
-    for (;;) {
-      segments.push_back({follow_branch(*map_, orbit_, direction, branch_settings(settings_, steps),
-                                        [&](const BranchPosition& p) {
-                                          map_->take_left_zone();  // beside the orbit
-                                          lowest = std::min(lowest, p.parameter);
-                                          report(std::lround((high - lowest) / (high - low) * total), total,
-                                                 text(p.parameter, " Hz"));
-                                        }),
-                          steps});
-      const OrbitBranch& branch = segments.back().branch;
-      const BranchPosition& last = branch.points.back();
-      const double at = last.parameter;
-      direction = last.turn > 0 ? 1 : -1;
-      if (static_cast<int>(segments.size()) == kMostSegments) return segments;
-      if (!branch.reached_limit) {
-        if (!map_->take_left_zone()) return segments;
-        widen();
-      } else {
-        if (direction > 0 ? at >= high : at <= low) return segments;
-        steps = direction > 0 ? steps / 2 : steps * 2;
-      }
-      resume(last.start, at, steps);
-    }
-  }
-  const std::vector<double>& mismatch() const { return mismatch_; }
-
- private:
-  void widen() {
-    if (++level_ > kMostLevel)
-      fail_outside_range(Failure::numerical, "contact leaves the flanks: forces above ", largest_force_,
-                         " N; lower the torque");
-    dynamics_.set_zone(zone_(level_), finest_);
-  }
-  // The orbit into which the pair settles.
-  void begin(double at, int steps) {
-    for (level_ = -1; !map_;) {
-      widen();
-      map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
-      map_->set_parameter(at);
-      RollingDynamics::State state = dynamics_.rest();
-      const auto periodic =
-          find_periodic_orbit(dynamics_, state, settings_.time.periodicity, SteadyState::extrapolate);
-      if (!periodic) {
-        map_.reset();
-        continue;
-      }
-      if (periodic->multiple != 1)
-        fail(Failure::numerical, "at ", at, " Hz, where the branch begins, the motion ",
-             periodic->multiple == 0 ? text("does not repeat within ", periodic->periods, " mesh periods")
-                                     : text("repeats after ", periodic->multiple, " mesh periods"),
-             "; give mesh_frequency_Hz another upper end");
-      if (!found(map_->flat(state), at, steps)) map_.reset();
-    }
-  }
-  // With other steps or another zone: the orbit near that of before.
-  void resume(const VectorXd& start, double at, int steps) {
-    RollingDynamics::State state = map_->state(start);
-    for (;;) {
-      map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
-      map_->set_parameter(at);
-      RollingDynamics::State near = state;
-      RollingDynamics::Period period;
-      // A period puts the contact forces where this zone has its strips.
-      if (dynamics_.integrate(near, period) && found(map_->flat(near), at, steps)) break;
-      widen();
-    }
-    if (orbit_.start.size() == start.size())
-      mismatch_.push_back((orbit_.start - start).norm() / start.norm());
-  }
-  bool found(const VectorXd& start, double at, int steps) {
-    OrbitSettings settings;
-    settings.tolerance = 1e-9;
-    const OrbitSearch search = find_orbit(*map_, start, 1, settings);
-    if (search.found()) {
-      orbit_ = search.orbit;
-      return true;
-    }
-    if (map_->take_left_zone()) return false;
-    fail(Failure::numerical, "at ", at, " Hz no orbit of ", steps,
-         " steps is found from that at hand: ", search.failure);
-  }
-
-  RollingDynamics& dynamics_;
-  const SweepParameters& settings_;
-  std::function<CandidateZone(int)> zone_;
-  double largest_force_;
-  int finest_, level_ = 0;
-  std::unique_ptr<RollingPeriodMap> map_;
-  PeriodicOrbit orbit_;
-  std::vector<double> mismatch_;
-};
 
 Eigen::VectorXd frequencies(const std::vector<SpecialPoint>& all, Special kind) {
   std::vector<double> found;
@@ -201,11 +46,9 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   parameters.fidelity = stage_settings.fidelity;
 
   RollingDynamics dynamics(model, parameters);
-  PairBranch pair(
-      dynamics, stage_settings, [&](int level) { return zone(model, statics, level); },
-      MotionBounds(model, statics, std::pow(kWidening, kMostLevel)).force);
-  const std::vector<Segment> followed = pair.follow(report), *segments = &followed;
-  const std::vector<double>& mismatch = pair.mismatch();
+  BranchFollower follower(dynamics, model, statics, stage_settings);
+  const std::vector<BranchSegment> segments = follower.follow(report);
+  const std::vector<double>& mismatch = follower.mismatch();
 
   BranchArtifact a;
   set_gears(a, driver, driven);
@@ -217,9 +60,9 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   a.time = stage_settings.time;
   a.damping = stage_settings.damping;
   a.torque = statics.torque;
-  a.end = segments->back().branch.end;
+  a.end = segments.back().branch.end;
   Eigen::Index points = 0;
-  for (const Segment& s : *segments) points += static_cast<Eigen::Index>(s.branch.points.size());
+  for (const BranchSegment& s : segments) points += static_cast<Eigen::Index>(s.branch.points.size());
   for (VectorXd* x : {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual}) x->resize(points);
   a.stable.resize(points);
   a.steps.resize(points);
@@ -228,7 +71,7 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   std::vector<SpecialPoint> special;
   std::vector<double> fold_rms;
   Eigen::Index i = 0;
-  for (const Segment& s : *segments) {
+  for (const BranchSegment& s : segments) {
     const auto& own = s.branch.points;
     const Eigen::Index first = i;
     for (const BranchPosition& p : own) {
