@@ -44,8 +44,11 @@ double squared_distance(const Fold& a, const Fold& b) {
 
 std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurveSettings& settings,
                               std::string& failure) {
-  constexpr int kMost = 20;
-  constexpr double kTrial = 0.02;  // arc of the first step without a bend, share of which a bend is read off
+  constexpr int kMost = 60;
+  constexpr double kTrial = 0.02;     // arc of the first step without a bend
+  constexpr double kBeyond = 1.3;     // of the way to the fold, so that the next point brackets it
+  constexpr double kEdge = 0.02;      // of a bracket that is kept away from
+  constexpr double kReadable = 1e-2;  // arc over which a bend is read off
   Curve curve(map, settings.multiple, settings.scale, settings.orbit);
   const int n = map.size();
   VectorXd across = guess.tangent;
@@ -64,34 +67,51 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
     failure = curve.failure();
     return std::nullopt;
   }
-  Fold fold;
-  fold.value = guess.value;
   double bend = guess.bend;
-  bool rising = false, falling = false;
+  std::optional<CurvePoint> rising, falling;  // nearest to the fold on either side
+  const auto size = [&](const CurvePoint& p) { return std::abs(p.tangent[n]); };
+  bool halve = false;
   for (int i = 0; i < kMost; ++i) {
     const double turn = here->tangent[n];
-    (turn > 0 ? fold.before : fold.after) = nearest_to_one(here->slow.multipliers());
-    (turn > 0 ? rising : falling) = true;
-    if (bend != 0 && turn * turn < 2 * std::abs(bend) * settings.tolerance * here->u[n] && rising &&
-        falling) {
-      fold.parameter = curve.parameter(here->u);
-      fold.start = curve.state(here->u);
-      fold.tangent = here->tangent;
-      fold.bend = bend;
-      return fold;
+    if (i > 0 && (turn > 0 ? rising : falling))
+      halve = !halve && size(*here) > 0.5 * size(*(turn > 0 ? rising : falling));
+    (turn > 0 ? rising : falling) = *here;
+    VectorXd next_from, direction;
+    const CurvePoint* near = &*here;
+    if (rising && falling) {
+      const VectorXd chord = falling->u - rising->u;
+      const bool first = size(*rising) < size(*falling);
+      near = first ? &*rising : &*falling;
+      // The parameter is extremal: what is left of it is at most the turn times the arc.
+      if (std::max(size(*rising), size(*falling)) * chord.norm() < settings.tolerance * here->u[n]) {
+        Fold fold;
+        fold.value = guess.value;
+        fold.parameter = curve.parameter(near->u);
+        fold.start = curve.state(near->u);
+        fold.tangent = near->tangent;
+        fold.bend = bend;
+        fold.before = nearest_to_one(rising->slow.multipliers());
+        fold.after = nearest_to_one(falling->slow.multipliers());
+        return fold;
+      }
+      const double share = halve ? 0.5 : size(*rising) / (size(*rising) + size(*falling));
+      next_from = rising->u + std::clamp(share, kEdge, 1 - kEdge) * chord;
+      direction = chord.normalized();
+      if (direction.dot(here->tangent) < 0) direction = -direction;
+    } else {
+      // A little beyond the fold that the bend foretells.
+      const double length = bend == 0 ? kTrial : -kBeyond * turn / bend;
+      next_from = here->u + std::clamp(length, -settings.farthest, settings.farthest) * here->tangent;
+      direction = here->tangent;
     }
-    // Beyond the fold, so that multipliers of both sides are seen.
-    double length = bend == 0 ? kTrial : -turn / bend;
-    if (bend != 0 && turn * turn < 2 * std::abs(bend) * settings.tolerance * here->u[n]) length *= 2;
-    length = std::clamp(length, -settings.farthest, settings.farthest);
-    auto next = curve.correct(here->u + length * here->tangent, here->tangent, &*here);
-    if (!next || !curve.linearise(*next, here->tangent)) {
+    const CurvePoint before = *here;
+    auto next = curve.correct(next_from, direction, near);
+    if (!next || !curve.linearise(*next, direction)) {
       failure = curve.failure();
       return std::nullopt;
     }
-    const double arc = (next->u - here->u).dot(here->tangent), change = (next->tangent[n] - turn) / arc;
+    const double arc = (next->u - before.u).dot(before.tangent), change = (next->tangent[n] - turn) / arc;
     // Between neighbouring pieces the turn steps: its bend shows over longer arcs.
-    constexpr double kReadable = 1e-3;
     if (std::isfinite(change) && change != 0 && (bend == 0 || std::abs(arc) > kReadable)) {
       if (guess.bend != 0 && change * guess.bend < 0) {
         failure = text("at ", curve.parameter(next->u), " the branch bends the other way");

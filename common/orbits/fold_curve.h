@@ -1,8 +1,8 @@
 // Folds of a branch over a second parameter, and the cusps in which two of them meet.
 //
 // A fold is where the parameter component of the unit tangent, the turn, changes its sign. Near one the turn is linear in the
-// arc, so a secant method on it finds the fold, of a smooth map to round-off, of a piecewise affine one to the piece in which the
-// branch turns: the parameter is extremal there, and an error of the arc goes into it by its square. From one value of the second
+// arc: a secant method brackets the fold, regula falsi and halvings narrow the bracket, also where a piecewise affine map turns at
+// a kink. The parameter is extremal there, and an error of the arc goes into it by its square, at a kink times the turn. From one value of the second
 // parameter to the next orbits are predicted along the secant. Two folds that meet in a cusp at value c stand apart by an arc
 // that goes as the square root of c - value (Kuznetsov, Elements of Applied Bifurcation Theory, 2004, chapter 9).
 #pragma once
@@ -29,7 +29,7 @@ struct Fold {
 struct FoldCurveSettings {
   int multiple = 1;
   double scale = 1;         // of the parameter in the arc length
-  double tolerance = 1e-8;  // of the parameter, relative
+  double tolerance = 1e-7;  // of the parameter, relative
   double farthest = 0.1;    // arc on which a fold is looked for at once
   OrbitSettings orbit{};
 };
