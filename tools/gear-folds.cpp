@@ -89,8 +89,8 @@ void body(int argc, char** argv) {
   whine::write(output, result, provenance);
   std::string cusps;
   for (Eigen::Index i = 0; i < result.cusp_value.size(); ++i)
-    cusps += whine::text(", cusp at ", result.cusp_value[i], " (damping ratio ",
-                         result.cusp_damping_ratio[i], ") and ", result.cusp_frequency[i], " Hz");
+    cusps += whine::text(", cusp at ", result.cusp_value[i], " (damping ratio ", result.cusp_damping_ratio[i],
+                         ") and ", result.cusp_frequency[i], " Hz");
   whine::tell("gear-folds: ", result.torque, " N m, ", result.value.size(), " folds over ", result.quantity,
               cusps.empty() ? ", no cusp" : cusps, " (", result.end, ") -> ", output);
 }

@@ -126,16 +126,19 @@ int complex_outside(const VectorXcd& multipliers) {
   return count;
 }
 
+// Of the real ones, or of the complex ones, that nearest to `at`, or to the unit circle; of all if there is none of them.
 std::complex<double> nearest(const VectorXcd& multipliers, double at, bool real) {
-  std::complex<double> best(std::numeric_limits<double>::infinity(), 0);
-  for (const auto& x : multipliers)
-    if (is_real(x) == real) {
-      const auto away = [&](const std::complex<double>& m) {
-        return real ? std::abs(m - at) : std::abs(std::abs(m) - 1);
-      };
-      if (!std::isfinite(best.real()) || away(x) < away(best)) best = x;
-    }
-  return best;
+  const auto away = [&](const std::complex<double>& m) {
+    return real ? std::abs(m - at) : std::abs(std::abs(m) - 1);
+  };
+  const auto best_of = [&](bool all) {
+    std::complex<double> best(std::numeric_limits<double>::infinity(), 0);
+    for (const auto& x : multipliers)
+      if ((all || is_real(x) == real) && (!std::isfinite(best.real()) || away(x) < away(best))) best = x;
+    return best;
+  };
+  const std::complex<double> best = best_of(false);
+  return std::isfinite(best.real()) ? best : best_of(true);
 }
 
 // The first event of the longer sequence that the other does not have.
@@ -157,7 +160,8 @@ struct Between {
 // Two points on the arc between which a test changes its sign, brought together.
 class Locator {
  public:
-  Locator(Curve& curve, const BranchSettings& settings) : curve_(curve), settings_(settings) {}
+  Locator(Curve& curve, const BranchSettings& settings, const CurvePoint& from, const CurvePoint& to)
+      : curve_(curve), settings_(settings), from_(from), across_((to.u - from.u).normalized()) {}
 
   using Test = std::function<double(const BranchPosition&)>;
   struct Bracket {
@@ -176,10 +180,14 @@ class Locator {
     constexpr int kMost = 100;
     for (int i = 0; i < kMost && b.high.share - b.low.share > settings_.location; ++i) {
       const double a = b.low.share, c = b.high.share;
+      const double arc = (b.high.point.u - b.low.point.u).norm(),
+                   parameter = b.low.point.u[curve_.size() - 1];
       if (turns &&
-          std::max(std::abs(b.value_low), std::abs(b.value_high)) * (b.high.point.u - b.low.point.u).norm() <
-              settings_.fold_location * b.low.point.u[curve_.size() - 1])
+          std::max(std::abs(b.value_low), std::abs(b.value_high)) * arc < settings_.fold_location * parameter)
         break;
+      // No nearer to a kink than tangents are of one side.
+      constexpr double kClear = 4;
+      if (!b.low.point.slow.whole() && arc < kClear * Curve::kParameterStep * parameter) break;
       const bool halve = i > 1 && c - a > 0.5 * two_before;
       const double at = halve ? 0.5 * (a + c) : a + (c - a) * fa / (fa - fc);
       two_before = before;
@@ -225,18 +233,17 @@ class Locator {
     const auto last = curve_.size() - 1;
     const double part = (share - low.share) / (high.share - low.share);
     const CurvePoint &a = low.point, &c = high.point, &near = part < 0.5 ? a : c;
-    const VectorXd chord = c.u - a.u;
+    const VectorXd chord = c.u - a.u;  // of a short bracket its direction is round-off
     const double ta = a.tangent[last], tc = c.tangent[last];
     const bool even = !a.slow.whole() && ta * tc > 0 && std::min(ta / tc, tc / ta) > kEven;
-    auto point = onto(curve_, a.u + part * chord, chord.normalized(), near, even, chord.norm());
+    auto point = onto(curve_, a.u + part * chord, across_, near, even, chord.norm());
     if (!point) return std::nullopt;
     Between b;
     b.share = share;
     const double arc = low.position.arc + (high.position.arc - low.position.arc) * part;
     if (tangent) {
-      // The tangent across the chord, oriented along the branch.
-      if (!curve_.linearise(*point, chord.normalized())) return std::nullopt;
-      orient(a, *point);
+      if (!curve_.linearise(*point, across_)) return std::nullopt;
+      orient(from_, *point);
       b.position = position(curve_, *point, arc);
     } else {
       point->tangent = near.tangent;
@@ -253,6 +260,8 @@ class Locator {
 
   Curve& curve_;
   const BranchSettings& settings_;
+  const CurvePoint& from_;
+  VectorXd across_;  // the chord between the neighbours
 };
 
 SpecialPoint special_at(Special kind, const BranchPosition& at, const BranchPosition& low,
@@ -278,7 +287,7 @@ SpecialPoint special_at(Special kind, const BranchPosition& at, const BranchPosi
 void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, const BranchPosition& a,
                   const BranchPosition& b, const BranchSettings& settings, std::vector<SpecialPoint>& found,
                   size_t after_point) {
-  Locator locator(curve, settings);
+  Locator locator(curve, settings, from, to);
   Between low{from, a, 0};
   const Between high{to, b, 1};
   const auto crosses = [&](const Locator::Test& test) { return (test(a) < 0) != (test(b) < 0); };
@@ -301,7 +310,9 @@ void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, co
     add(Special::torus, torus);
   // Several contacts may come or go in a step, one after the other.
   constexpr int kMostChanges = 6;
-  for (int i = 0; i < kMostChanges && !same_sequence(low.position.events, b.events); ++i) {
+  for (int i = 0;
+       i < kMostChanges && settings.grazing_location < 1 && !same_sequence(low.position.events, b.events);
+       ++i) {
     const Locator::Bracket bracket = locator.change(low, high);
     const BranchPosition& at = bracket.low.position;
     found.push_back(special_at(Special::grazing, at, at, bracket.high.position, after_point));
@@ -409,8 +420,10 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
       branch.last = next->slow;
       return branch;
     }
-    if (!sharp && next->corrections <= kFew && next->tangent.dot(here->tangent) > 0.97) length *= 1.4;
-    if (next->corrections > kMany || next->tangent.dot(here->tangent) < 0.92) length *= 0.7;
+    if (!sharp && next->corrections <= kFew && next->tangent.dot(here->tangent) > settings.straight)
+      length *= 1.4;
+    if (next->corrections > kMany || 1 - next->tangent.dot(here->tangent) > 2.7 * (1 - settings.straight))
+      length *= 0.7;
     length = std::clamp(length, settings.least_step, settings.largest_step);
     here = next;
   }

@@ -56,11 +56,12 @@ struct BranchSettings {
   double low = 0, high = 0;  // of the parameter: the branch is followed as long as it lies between
   double scale = 1;          // of the parameter in the arc length
   double first_step = 0.02, least_step = 1e-7, largest_step = 0.1;  // of the arc
+  double straight = 0.97;  // cosine between the tangents of a step above which the next one may be longer
   int most_points = 5000;
   OrbitSettings orbit;
   double location = 1e-12;          // of the arc step: to what special points are located
   double fold_location = 1e-15;     // the same of folds, relative to their parameter
-  double grazing_location = 1e-12;  // the same of grazing orbits
+  double grazing_location = 1e-12;  // the same of grazing orbits; 1: they are not looked for
 };
 
 struct OrbitBranch {

@@ -106,10 +106,9 @@ CurveJacobian Curve::jacobian(const VectorXd& u, const SlowTangent& nearby, Slow
     return moved;
   });
   here -= state(u);
-  constexpr double kStep = 1e-6;  // of the parameter; the third derivative leaves its square
   VectorXd plus = u, minus = u;
-  plus[n] *= 1 + kStep;
-  minus[n] *= 1 - kStep;
+  plus[n] *= 1 + kParameterStep;
+  minus[n] *= 1 - kParameterStep;
   PeriodicOrbit of_plus, of_minus;
   VectorXd above = residual(plus, &of_plus), below = here;
   const bool of_above = same_sequence(passed.events, of_plus.events);

@@ -50,6 +50,9 @@ class Curve {
   Curve(PeriodMap& map, int multiple, double scale, const OrbitSettings& settings)
       : map_(map), multiple_(multiple), scale_(scale), settings_(settings) {}
 
+  // Relative step of the parameter by which its derivative is taken: nearer to a kink than that a tangent is of neither side.
+  static constexpr double kParameterStep = 1e-6;
+
   int size() const { return map_.size() + 1; }
   double parameter(const Eigen::VectorXd& u) const { return u[map_.size()] * scale_; }
   Eigen::VectorXd point(const Eigen::VectorXd& y, double parameter) const;

@@ -30,7 +30,7 @@ namespace {
 
 constexpr int kMostSegments = 64;
 
-BranchSettings branch_settings(const SweepParameters& stage_settings, int steps) {
+BranchSettings branch_settings(const SweepParameters& stage_settings, int steps, bool at_folds) {
   BranchSettings settings;
   settings.low = stage_settings.frequency_from;
   settings.high = stage_settings.frequency_to;
@@ -41,10 +41,11 @@ BranchSettings branch_settings(const SweepParameters& stage_settings, int steps)
     settings.high = std::min(settings.high, 2 * time.min_sample_rate / steps);
   if (time.min_sample_rate > 0) settings.low = std::max(settings.low, time.min_sample_rate / steps);
   settings.first_step = 0.02;
-  settings.largest_step = 0.1;
+  settings.largest_step = at_folds ? 0.25 : 0.06;
+  settings.straight = at_folds ? 0.95 : 0.99;
   settings.location = 1e-6;
-  settings.fold_location = 1e-8;
-  settings.grazing_location = 0.05;
+  settings.fold_location = at_folds ? 1e-5 : 1e-8;
+  settings.grazing_location = at_folds ? 1 : 0.05;
   settings.orbit.tolerance = 1e-9;
   return settings;
 }
@@ -52,11 +53,12 @@ BranchSettings branch_settings(const SweepParameters& stage_settings, int steps)
 }  // namespace
 
 BranchFollower::BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model,
-                               const StaticArtifact& statics, const SweepParameters& settings)
+                               const StaticArtifact& statics, const SweepParameters& settings, Look look)
     : dynamics_(dynamics),
       model_(model),
       statics_(statics),
       settings_(settings),
+      look_(look),
       finest_(steps_at(settings.time, settings.frequency_from)) {}
 
 std::vector<BranchSegment> BranchFollower::follow(
@@ -68,14 +70,15 @@ std::vector<BranchSegment> BranchFollower::follow(
   double lowest = high;
   std::vector<BranchSegment> segments;
   for (;;) {
-    segments.push_back({follow_branch(*map_, orbit_, direction, branch_settings(settings_, steps),
-                                      [&](const BranchPosition& p) {
-                                        map_->take_left_zone();  // beside the orbit
-                                        lowest = std::min(lowest, p.parameter);
-                                        report(std::lround((high - lowest) / (high - low) * total), total,
-                                               text(p.parameter, " Hz"));
-                                      }),
-                        steps});
+    segments.push_back(
+        {follow_branch(*map_, orbit_, direction, branch_settings(settings_, steps, look_ == Look::at_folds),
+                       [&](const BranchPosition& p) {
+                         map_->take_left_zone();  // beside the orbit
+                         lowest = std::min(lowest, p.parameter);
+                         report(std::lround((high - lowest) / (high - low) * total), total,
+                                text(p.parameter, " Hz"));
+                       }),
+         steps});
     const OrbitBranch& branch = segments.back().branch;
     const BranchPosition& last = branch.points.back();
     const double at = last.parameter;
@@ -88,7 +91,7 @@ std::vector<BranchSegment> BranchFollower::follow(
       if (direction > 0 ? at >= high : at <= low) return segments;
       steps = direction > 0 ? steps / 2 : steps * 2;
     }
-    resume(last.start, at, steps);
+    resume(last.start, at, steps, !branch.reached_limit);
   }
 }
 
@@ -123,7 +126,7 @@ void BranchFollower::begin(double at, int steps) {
 }
 
 // With other steps or another zone: the orbit near that of before.
-void BranchFollower::resume(const VectorXd& start, double at, int steps) {
+void BranchFollower::resume(const VectorXd& start, double at, int steps, bool wider) {
   RollingDynamics::State state = map_->state(start);
   for (;;) {
     map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
@@ -133,8 +136,10 @@ void BranchFollower::resume(const VectorXd& start, double at, int steps) {
     // A period puts the contact forces where this zone has its strips.
     if (dynamics_.integrate(near, period) && found(map_->flat(near), at, steps)) break;
     widen();
+    wider = true;
   }
-  if (orbit_.start.size() == start.size()) mismatch_.push_back((orbit_.start - start).norm() / start.norm());
+  // In another zone the contact forces stand elsewhere.
+  if (!wider) mismatch_.push_back((orbit_.start - start).norm() / start.norm());
 }
 
 // Newton's method; false where contact leaves the zone.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -36,7 +37,7 @@ const char* name(FoldQuantity quantity) {
 namespace {
 
 constexpr int kStatePhases = 128;
-constexpr int kWiderZones = 2;  // than the branch needed, for folds with larger motions
+constexpr int kWiderZones = 1;  // than the branch needed, for folds with larger motions
 
 // The pair with one value of the quantity.
 struct PairAt {
@@ -79,8 +80,7 @@ class Family {
                : value;
   }
   double damping_ratio(double raw) const {
-    const double eta =
-        plan_.quantity == FoldQuantity::damping ? raw : settings_.damping.rayleigh_stiffness;
+    const double eta = plan_.quantity == FoldQuantity::damping ? raw : settings_.damping.rayleigh_stiffness;
     return frozen_root(with_rayleigh_stiffness(two_->mesh, eta, settings_.fidelity.body)).damping_ratio;
   }
   double bearing_stiffness() const { return bearing_stiffness_; }
@@ -105,9 +105,8 @@ class Family {
       current_->dynamics.set_zone(zone_of_level(current_->model, current_->statics, level),
                                   steps_at(settings_.time, plan_.from));
     }
-    return std::make_unique<RollingPeriodMap>(current_->dynamics,
-                                              std::min(steps_at(settings_.time, speed),
-                                                       steps_at(settings_.time, plan_.from)));
+    return std::make_unique<RollingPeriodMap>(
+        current_->dynamics, std::min(steps_at(settings_.time, speed), steps_at(settings_.time, plan_.from)));
   }
 
  private:
@@ -135,6 +134,7 @@ class Family {
   const FoldCurvesPlan& plan_;
   double bearing_stiffness_;
   std::unique_ptr<FixedPhaseState> two_;
+  std::map<double, double> ratio_;  // by eta
   StaticArtifact own_statics_;
   double own_raw_ = 0, current_raw_ = 0;
   bool own_known_ = false;
@@ -168,7 +168,7 @@ struct Rows {
 };
 
 // Both directions of a curve as one, the values ascending.
-void add_curves(const FoldPair& up, const FoldPair& down, const Family& family, int number, Rows& rows) {
+void add_curves(const FoldPair& up, const FoldPair& down, Family& family, int number, Rows& rows) {
   for (int side = 0; side < 2; ++side) {
     std::vector<Fold> all(side == 0 ? down.low : down.high);
     std::reverse(all.begin(), all.end());
@@ -231,11 +231,11 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
 
   const double first = family.raw(plan.first);
   const std::unique_ptr<PairAt> pair = family.at(first);
-  BranchFollower follower(pair->dynamics, pair->model, pair->statics, settings);
+  BranchFollower follower(pair->dynamics, pair->model, pair->statics, settings,
+                          BranchFollower::Look::at_folds);
   const auto values = static_cast<long>(plan.values.size());
-  const auto segments = follower.follow([&](long done, long total, const std::string& note) {
-    report(done, total * (1 + 2 * values), note);
-  });
+  const auto segments = follower.follow(
+      [&](long done, long total, const std::string& note) { report(done, total * (1 + 2 * values), note); });
   std::vector<double> above, below;
   for (const double value : plan.values) {
     if (value > plan.first) above.push_back(family.raw(value));
@@ -245,7 +245,8 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
 
   FoldCurveSettings fold_settings;
   fold_settings.scale = 0.5 * (plan.from + plan.to);
-  fold_settings.orbit.tolerance = 1e-9;
+  fold_settings.tolerance = 1e-5;
+  fold_settings.orbit.tolerance = 1e-8;
   const int level = std::min(follower.level() + kWiderZones, kMostZoneLevel);
   const MapFamily maps = [&](double raw, double speed) { return family.map(raw, speed, level); };
   const auto wanted = [&](const Fold& fold) {

@@ -16,7 +16,8 @@ struct FoldCurvesPlan {
   FoldQuantity quantity = FoldQuantity::damping;
   double first = 0;            // value of the branch: damping ratio with two pairs in contact, N m, or m
   std::vector<double> values;  // the same, ascending, to go through on either side of `first`
-  double from = 0, to = 0;     // Hz, of the branch and of the folds; 0: 0.57 and 1.2 of the rigid gears' natural frequency
+  double from = 0,
+         to = 0;  // Hz, of the branch and of the folds; 0: 0.57 and 1.2 of the rigid gears' natural frequency
 };
 
 // statics, settings: as of jump_map(). torque: N m; where it varies `first` counts. A tip relief is linear on both gears, from
