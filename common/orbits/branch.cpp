@@ -178,7 +178,8 @@ class Locator {
     double fa = b.value_low, fc = b.value_high, two_before = width, before = width;
     int last_side = 0;
     constexpr int kMost = 100;
-    for (int i = 0; i < kMost && b.high.share - b.low.share > settings_.location; ++i) {
+    const double arc_before = (high.point.u - low.point.u).norm();
+    for (int i = 0; i < kMost; ++i) {
       const double a = b.low.share, c = b.high.share;
       const double arc = (b.high.point.u - b.low.point.u).norm(),
                    parameter = b.low.point.u[curve_.size() - 1];
@@ -186,8 +187,9 @@ class Locator {
           std::max(std::abs(b.value_low), std::abs(b.value_high)) * arc < settings_.fold_location * parameter)
         break;
       // No nearer to a kink than tangents are of one side.
-      constexpr double kClear = 4;
-      if (!b.low.point.slow.whole() && arc < kClear * Curve::kParameterStep * parameter) break;
+      constexpr double kClear = 100;
+      if (arc < settings_.location * arc_before) break;
+      if (!b.low.point.slow.whole() && arc < kClear * Curve::kParameterSideStep * parameter) break;
       const bool halve = i > 1 && c - a > 0.5 * two_before;
       const double at = halve ? 0.5 * (a + c) : a + (c - a) * fa / (fa - fc);
       two_before = before;
@@ -233,7 +235,10 @@ class Locator {
     const auto last = curve_.size() - 1;
     const double part = (share - low.share) / (high.share - low.share);
     const CurvePoint &a = low.point, &c = high.point, &near = part < 0.5 ? a : c;
-    const VectorXd chord = c.u - a.u;  // of a short bracket its direction is round-off
+    const VectorXd chord = c.u - a.u;
+    // Of a short bracket its direction is round-off.
+    constexpr double kShort = 1e-5;
+    if (chord.norm() > kShort) across_ = chord.normalized();
     const double ta = a.tangent[last], tc = c.tangent[last];
     const bool even = !a.slow.whole() && ta * tc > 0 && std::min(ta / tc, tc / ta) > kEven;
     auto point = onto(curve_, a.u + part * chord, across_, near, even, chord.norm());

@@ -106,9 +106,10 @@ CurveJacobian Curve::jacobian(const VectorXd& u, const SlowTangent& nearby, Slow
     return moved;
   });
   here -= state(u);
+  const double step = slow.whole() ? kParameterStep : kParameterSideStep;
   VectorXd plus = u, minus = u;
-  plus[n] *= 1 + kParameterStep;
-  minus[n] *= 1 - kParameterStep;
+  plus[n] *= 1 + step;
+  minus[n] *= 1 - step;
   PeriodicOrbit of_plus, of_minus;
   VectorXd above = residual(plus, &of_plus), below = here;
   const bool of_above = same_sequence(passed.events, of_plus.events);

@@ -50,8 +50,9 @@ class Curve {
   Curve(PeriodMap& map, int multiple, double scale, const OrbitSettings& settings)
       : map_(map), multiple_(multiple), scale_(scale), settings_(settings) {}
 
-  // Relative step of the parameter by which its derivative is taken: nearer to a kink than that a tangent is of neither side.
-  static constexpr double kParameterStep = 1e-6;
+  // Relative step of the parameter by which its derivative is taken: of short states central, of long ones, whose maps are
+  // piecewise affine, one-sided. Nearer to a kink than some of these a tangent is of neither side.
+  static constexpr double kParameterStep = 1e-6, kParameterSideStep = 1e-8;
 
   int size() const { return map_.size() + 1; }
   double parameter(const Eigen::VectorXd& u) const { return u[map_.size()] * scale_; }

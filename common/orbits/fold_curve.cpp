@@ -71,7 +71,7 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
   std::optional<CurvePoint> rising, falling;  // nearest to the fold on either side
   const auto size = [&](const CurvePoint& p) { return std::abs(p.tangent[n]); };
   bool halve = false;
-  VectorXd bracketed;  // direction of the first bracket
+  VectorXd bracketed;  // direction of the bracket
   for (int i = 0; i < kMost; ++i) {
     const double turn = here->tangent[n];
     if (i > 0 && (turn > 0 ? rising : falling))
@@ -97,8 +97,9 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
       }
       const double share = halve ? 0.5 : size(*rising) / (size(*rising) + size(*falling));
       next_from = rising->u + std::clamp(share, kEdge, 1 - kEdge) * chord;
-      // That of the first bracket: the direction of a short one is round-off.
-      if (bracketed.size() == 0) bracketed = chord.normalized();
+      // The direction of a short bracket is round-off.
+      constexpr double kShort = 1e-5;
+      if (bracketed.size() == 0 || chord.norm() > kShort) bracketed = chord.normalized();
       if (bracketed.dot(here->tangent) < 0) bracketed = -bracketed;
       direction = bracketed;
     } else {
