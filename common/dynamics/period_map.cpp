@@ -105,6 +105,7 @@ State RollingPeriodMap::state(const VectorXd& y) const {
 
 VectorXd RollingPeriodMap::apply(const VectorXd& y) {
   State state = this->state(y);
+  prepared_ = false;
   if (!dynamics_.integrate(state, period_)) {
     left_zone_ = true;
     fail_outside_range(Failure::numerical, "at ", mesh_frequency_,
@@ -161,15 +162,21 @@ MatrixXd RollingPeriodMap::node_forces(int sample) const {
   }
   const std::vector<int>& active = step.active.strips;
   if (active.empty()) return result;
+  const int strips = mesh.strips() / static_cast<int>(mesh.pairs.size());
+  MatrixXd weights = MatrixXd::Zero(static_cast<Eigen::Index>(active.size()), nodes);
+  for (size_t k = 0; k < active.size(); ++k) {
+    const int j = active[k] / strips, i = active[k] % strips;
+    weights.row(static_cast<Eigen::Index>(k))(mesh.nodes_of(j)) = mesh.pairs[j].interpolation.row(i);
+  }
+  // The step solved with this inverse.
+  if (step.active.known && !step.active.shifted) {
+    result = weights.transpose() * (step.active.inverse.block() * weights);
+    return result;
+  }
   const StripCompliance compliance = dynamics_.kernel_.compliance(sample);
   MatrixXd whole(compliance.size(), compliance.size());
   compliance.assemble_columns(active, active, whole.data());
   const MatrixXd a = whole(active, active);
-  MatrixXd weights = MatrixXd::Zero(static_cast<Eigen::Index>(active.size()), nodes);
-  for (size_t k = 0; k < active.size(); ++k) {
-    const int j = active[k] / compliance.strips, i = active[k] % compliance.strips;
-    weights.row(static_cast<Eigen::Index>(k))(mesh.nodes_of(j)) = mesh.pairs[j].interpolation.row(i);
-  }
   const Eigen::LLT<MatrixXd> factor(a);
   if (factor.info() != Eigen::Success)
     fail(Failure::numerical, "at mesh phase ", mesh.phase, " the compliance of the ", active.size(),
@@ -436,9 +443,10 @@ void RollingPeriodMap::rename() {
   }
 }
 
-// Columns first to first + kWide - 1 of the tangent. The state of a replay is that before its node forces act: z, v and
-// relaxed loads go without them, and are pushed in the pass that takes them to the next step.
-void RollingPeriodMap::replay(int cut, int first, const VectorXd& unit, MatrixXd& result) {
+// Takes kWide directions or fewer, (size, direction) in units, through the period. The state of a replay is that before its
+// node forces act: z, v and relaxed loads go without them, and are pushed in the pass that takes them to the next step.
+void RollingPeriodMap::replay(int cut, const Eigen::Ref<const MatrixXd>& directions, const VectorXd& unit,
+                              Eigen::Ref<MatrixXd> result) {
   const int n = coordinates_, size = static_cast<int>(unit.size()), end = 2 * n + fields_;
   const Relaxation relaxed = dynamics_.kernel_.relaxed();
   for (std::vector<double>* x : {&z_, &v_, &moved_, &nodes_}) std::fill(x->begin(), x->end(), 0.0);
@@ -448,13 +456,17 @@ void RollingPeriodMap::replay(int cut, int first, const VectorXd& unit, MatrixXd
            : i < end   ? &moved_[(i - 2 * n) * kWide]
                        : &nodes_[(i - end) * kWide];
   };
-  const int count = std::min(kWide, size - first);
+  const int count = static_cast<int>(directions.cols());
   live_first_ = 2 * dynamics_.reach_ + 1;
   live_last_ = 0;
-  for (int k = 0; k < count; ++k) {
-    row(first + k)[k] = unit[first + k];
-    if (first + k < 2 * n || first + k >= end) continue;
-    const int tooth = (first + k - 2 * n) % (of_gear()) / StepKernel::kFields;
+  for (int i = 0; i < size; ++i) {
+    bool moves = false;
+    for (int k = 0; k < count; ++k) {
+      row(i)[k] = unit[i] * directions(i, k);
+      moves |= directions(i, k) != 0;
+    }
+    if (!moves || i < 2 * n || i >= end) continue;
+    const int tooth = (i - 2 * n) % of_gear() / StepKernel::kFields;
     live_first_ = std::min(live_first_, tooth);
     live_last_ = std::max(live_last_, tooth + 1);
   }
@@ -476,10 +488,12 @@ void RollingPeriodMap::replay(int cut, int first, const VectorXd& unit, MatrixXd
   push(replay_[cut], 1);
   relax(replay_[cut], 1, relaxed.from_new);
   for (int i = 0; i < size; ++i)
-    for (int k = 0; k < count; ++k) result(i, first + k) = row(i)[k] / unit[i];
+    for (int k = 0; k < count; ++k) result(i, k) = row(i)[k] / unit[i];
 }
 
-MatrixXd RollingPeriodMap::tangent_from(int cut) {
+// What the steps of the period applied last do to perturbations.
+void RollingPeriodMap::prepare_replay() {
+  if (prepared_) return;
   numbers_.clear();
   replay_.clear();
   size_t rows = 0, nodes = 0;
@@ -494,10 +508,23 @@ MatrixXd RollingPeriodMap::tangent_from(int cut) {
   moved_.resize((fields + rows) * kWide);
   nodes_.resize(nodes * kWide);
   half_.resize(rows * kWide);
+  prepared_ = true;
+}
+
+MatrixXd RollingPeriodMap::replayed(int cut, const MatrixXd& directions) {
+  prepare_replay();
   const VectorXd unit = units(cut);
-  MatrixXd result(unit.size(), unit.size());
-  for (int first = 0; first < unit.size(); first += kWide) replay(cut, first, unit, result);
+  MatrixXd result(unit.size(), directions.cols());
+  for (Eigen::Index first = 0; first < directions.cols(); first += kWide) {
+    const Eigen::Index count = std::min<Eigen::Index>(kWide, directions.cols() - first);
+    replay(cut, directions.middleCols(first, count), unit, result.middleCols(first, count));
+  }
   return result;
+}
+
+MatrixXd RollingPeriodMap::tangent_from(int cut) {
+  const int all = 2 * coordinates_ + fields_ + channels(cut);
+  return replayed(cut, MatrixXd::Identity(all, all));
 }
 
 }  // namespace whine

@@ -41,6 +41,9 @@ class RollingPeriodMap : public PeriodMap {
   // RollingDynamics::integrate.
   Eigen::VectorXd apply(const Eigen::VectorXd& y) override;
   Eigen::MatrixXd tangent() override { return tangent_from(0); }
+  Eigen::MatrixXd tangent_times(const Eigen::MatrixXd& directions) override {
+    return replayed(0, directions);
+  }
   std::vector<ContactEvent> events() const override;
   Eigen::VectorXd observable() const override { return period_.transmission_error; }
 
@@ -78,7 +81,10 @@ class RollingPeriodMap : public PeriodMap {
   Eigen::VectorXd units(int cut) const;
   Eigen::MatrixXd node_forces(int sample) const;  // (node, node) N m-1: W^T A_FF^-1 W
   Replay prepare(int sample);
-  void replay(int cut, int first, const Eigen::VectorXd& unit, Eigen::MatrixXd& result);
+  void prepare_replay();
+  Eigen::MatrixXd replayed(int cut, const Eigen::MatrixXd& directions);
+  void replay(int cut, const Eigen::Ref<const Eigen::MatrixXd>& directions, const Eigen::VectorXd& unit,
+              Eigen::Ref<Eigen::MatrixXd> result);
   template <int kBefore, int kNext>
   void pass(const Replay& before, const Replay& next, int rows_next);
   void pass(const Replay& before, const Replay& next, bool reads);
@@ -92,8 +98,8 @@ class RollingPeriodMap : public PeriodMap {
   RollingDynamics& dynamics_;
   int steps_, coordinates_ = 0, fields_ = 0;  // fields of all gears; 0 without relaxation
   double mesh_frequency_ = 0;
-  bool left_zone_ = false;
-  Eigen::VectorXd unit_;  // (size) of phase 0
+  bool left_zone_ = false, prepared_ = false;  // prepared: replay_ is of the period applied last
+  Eigen::VectorXd unit_;                       // (size) of phase 0
   RollingDynamics::Period period_;
   std::vector<double> coefficients_;  // (coordinate, kCoefficients)
   std::vector<Replay> replay_;        // (sample)

@@ -50,7 +50,7 @@ bool solve_orbit(LumpedOscillator& oscillator, LumpedOrbit& orbit, int multiple)
   orbit.start = map.state(search.orbit.start);
   orbit.residual = search.orbit.residual;
   const State unit = oscillator.unit();
-  orbit.monodromy = unit.asDiagonal() * search.orbit.monodromy * unit.cwiseInverse().asDiagonal();
+  orbit.monodromy = unit.asDiagonal() * search.orbit.slow.matrix() * unit.cwiseInverse().asDiagonal();
   orbit.multiple = multiple;
   return true;
 }

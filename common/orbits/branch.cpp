@@ -1,16 +1,15 @@
 #include "orbits/branch.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "base/error.h"
+#include "orbits/curve.h"
 
 namespace whine {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
@@ -32,224 +31,76 @@ const char* name(Special kind) {
 
 namespace {
 
-bool same_sequence(const std::vector<ContactEvent>& a, const std::vector<ContactEvent>& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) {
-           return x.contact == y.contact && x.closes == y.closes;
-         });
+// What is written of a point.
+BranchPosition position(const Curve& curve, const CurvePoint& p, double arc) {
+  BranchPosition b;
+  b.parameter = curve.parameter(p.u);
+  b.arc = arc;
+  b.start = curve.state(p.u);
+  b.residual = p.residual;
+  b.turn = p.tangent[curve.size() - 1];
+  b.multipliers = p.slow.multipliers();
+  b.events = p.passed.events;
+  b.observable = p.passed.observable;
+  return b;
 }
 
-// The curve F(u) = P^m(y) - y = 0 in u = (y, parameter / scale).
-class Curve {
- public:
-  Curve(PeriodMap& map, int multiple, double scale) : map_(map), multiple_(multiple), scale_(scale) {}
+// Along the branch the sign of det [dF; t^T] stays. Where it does not although the tangent goes straight on, a branch
+// crosses; at a sharp kink the tangent that fits points the other way.
+void orient(const CurvePoint& from, CurvePoint& next) {
+  constexpr double kStraight = 0.7;
+  if (next.orientation == from.orientation || next.tangent.dot(from.tangent) > kStraight) return;
+  next.tangent = -next.tangent;
+  next.orientation = -next.orientation;
+}
 
-  int size() const { return map_.size() + 1; }
-  VectorXd residual(const VectorXd& u, PeriodicOrbit* passed = nullptr) {
-    place(u);
-    return image(map_, u.head(map_.size()), multiple_, nullptr, passed) - u.head(map_.size());
+// On to the curve from beside it, in the plane across `across`; with the parameter kept where the branch goes on evenly, because
+// periods cost the least at one parameter, unless that leads further away than `far`.
+std::optional<CurvePoint> onto(Curve& curve, const VectorXd& predicted, const VectorXd& across,
+                               const CurvePoint& from, bool even, double far) {
+  if (even) {
+    auto p = curve.correct(predicted, VectorXd::Unit(curve.size(), curve.size() - 1), &from);
+    if (p && (p->u - predicted).norm() < far) return p;
   }
-  // (size - 1, size); passed: what the period does there.
-  MatrixXd jacobian(const VectorXd& u, PeriodicOrbit* passed = nullptr) {
-    constexpr double kStep = 1e-6;  // of the parameter; the third derivative leaves its square
-    const int n = map_.size();
-    MatrixXd j(n, n + 1);
-    VectorXd plus = u, minus = u;
-    plus[n] *= 1 + kStep;
-    minus[n] *= 1 - kStep;
-    PeriodicOrbit of_plus, of_minus, own;
-    VectorXd above = residual(plus, &of_plus), below = residual(minus, &of_minus);
-    place(u);
-    MatrixXd tangent;
-    if (!passed) passed = &own;
-    const VectorXd here = image(map_, u.head(n), multiple_, &tangent, passed) - u.head(n);
-    // From one side only where a contact comes or goes on the other.
-    const bool of_above = same_sequence(passed->events, of_plus.events),
-               of_below = same_sequence(passed->events, of_minus.events);
-    if (of_above && !of_below) {
-      minus = u;
-      below = here;
-    } else if (of_below && !of_above) {
-      plus = u;
-      above = here;
-    }
-    j.col(n) = (above - below) / (plus[n] - minus[n]);
-    j.leftCols(n) = tangent - MatrixXd::Identity(n, n);
-    return j;
-  }
-  double parameter(const VectorXd& u) const { return u[map_.size()] * scale_; }
-  VectorXd point(const VectorXd& y, double parameter) const {
-    VectorXd u(y.size() + 1);
-    u << y, parameter / scale_;
-    return u;
-  }
+  return curve.correct(predicted, across, &from);
+}
 
- private:
-  void place(const VectorXd& u) {
-    const double parameter = this->parameter(u);
-    if (parameter != map_.parameter()) map_.set_parameter(parameter);
-  }
-  PeriodMap& map_;
-  int multiple_;
-  double scale_;
-};
+// The next point, a step along the branch; oriented as `from`.
+std::optional<CurvePoint> step(Curve& curve, const CurvePoint& from, double length) {
+  constexpr double kEven = 0.5;  // of the tangent's parameter component may change
+  const double turn = std::abs(from.tangent[curve.size() - 1]);
+  const bool even = !from.slow.whole() && 2 * length * std::abs(from.bend) < kEven * turn;
+  auto next = onto(curve, from.u + length * from.tangent, from.tangent, from, even, 0.5 * length);
+  if (!next || !curve.linearise(*next, from.tangent)) return std::nullopt;
+  orient(from, *next);
+  return next;
+}
 
-// [jacobian; across^T], factorised.
-class Bordered {
- public:
-  Bordered(const MatrixXd& jacobian, const VectorXd& across) {
-    MatrixXd b(jacobian.cols(), jacobian.cols());
-    b << jacobian, across.transpose();
-    lu_.compute(b);
-  }
-  VectorXd solve(const VectorXd& right, double last) const {
-    VectorXd r(right.size() + 1);
-    r << right, last;
-    return lu_.solve(r);
-  }
-  VectorXd tangent() const {
-    const auto n = lu_.rows();
-    const VectorXd t = lu_.solve(VectorXd::Unit(n, n - 1));
-    return t / t.norm();
-  }
-  // Sign of its determinant.
-  int sign() const {
-    int sign = static_cast<int>(lu_.permutationP().determinant());
-    for (Eigen::Index i = 0; i < lu_.rows(); ++i)
-      if (lu_.matrixLU()(i, i) < 0) sign = -sign;
-    return sign;
-  }
+// Beyond a kink at which the branch turns back: along the tangent of the piece that begins there.
+std::optional<CurvePoint> around(Curve& curve, const CurvePoint& from, double length) {
+  constexpr double kClear = 4;  // steps away from the kink
+  CurvePoint ahead = from;
+  ahead.u = from.u + length * from.tangent;
+  if (!curve.linearise(ahead, from.tangent)) return std::nullopt;
+  if (ahead.orientation != from.orientation) ahead.tangent = -ahead.tangent;
+  auto next = curve.correct(ahead.u + kClear * length * ahead.tangent, ahead.tangent, &ahead);
+  if (!next || !curve.linearise(*next, ahead.tangent)) return std::nullopt;
+  if (next->orientation != from.orientation) return std::nullopt;
+  return next;
+}
 
- private:
-  Eigen::PartialPivLU<MatrixXd> lu_;
-};
-
-struct Point {
-  VectorXd u, tangent;
-  int orientation = 1;  // of det [dF; tangent^T]
-  MatrixXd monodromy;
-  PeriodicOrbit passed;
-  double residual = 0;
-  int corrections = 0;
-};
-
-class Follower {
- public:
-  Follower(PeriodMap& map, const BranchSettings& settings)
-      : map_(map), settings_(settings), curve_(map, settings.multiple, settings.scale) {}
-
-  // On the curve, in the plane across `direction` through `predicted`. failure() says why there is none.
-  std::optional<Point> correct(const VectorXd& predicted, const VectorXd& direction) {
-    constexpr int kMost = 12;
-    Point p;
-    p.u = predicted;
-    const double tolerance = settings_.orbit.tolerance;
-    double last = std::numeric_limits<double>::infinity();
-    try {
-      for (;; ++p.corrections) {
-        const VectorXd value = curve_.residual(p.u);
-        p.residual = value.norm() / std::max(1.0, p.u.norm());
-        if (!std::isfinite(p.residual) || !(curve_.parameter(p.u) > 0)) {
-          failure_ = "the correction diverged";
-          return std::nullopt;
-        }
-        const bool met =
-            p.residual <= tolerance || (p.residual <= 1e3 * tolerance && !(p.residual < 0.5 * last));
-        if (!met && p.corrections == kMost) {
-          failure_ = text("no convergence in ", kMost, " corrections: residual ", p.residual);
-          return std::nullopt;
-        }
-        if (!met && p.corrections > 3 && p.residual > 10 * last) {
-          failure_ = text("the corrections diverge: residual ", p.residual);
-          return std::nullopt;
-        }
-        last = std::min(last, p.residual);
-        const MatrixXd jacobian = curve_.jacobian(p.u, &p.passed);
-        const Bordered bordered(jacobian, direction);
-        if (met) {
-          p.tangent = bordered.tangent();
-          p.orientation = bordered.sign();
-          const Eigen::Index n = map_.size();
-          p.monodromy = jacobian.leftCols(n) + MatrixXd::Identity(n, n);
-          return p;
-        }
-        p.u += bordered.solve(-value, 0);
-      }
-    } catch (const Error& error) {
-      if (error.kind() != Failure::numerical) throw;
-      failure_ = error.what();
-      return std::nullopt;
-    }
+// Of a period from a point that need not be an orbit. False where the model does not hold.
+bool events_at(Curve& curve, const VectorXd& u, std::vector<ContactEvent>& events) {
+  try {
+    PeriodicOrbit passed;
+    curve.residual(u, &passed);
+    events = passed.events;
+    return true;
+  } catch (const Error& error) {
+    if (error.kind() != Failure::numerical) throw;
+    return false;
   }
-
-  // The next point, a step along the branch; oriented as `from`.
-  std::optional<Point> step(const Point& from, double length) {
-    auto next = correct(from.u + length * from.tangent, from.tangent);
-    if (!next) return std::nullopt;
-    orient(from, *next);
-    return next;
-  }
-
-  // Beyond a kink at which the branch turns back: along the tangent of the piece that begins there.
-  std::optional<Point> around(const Point& from, double length) {
-    try {
-      constexpr double kClear = 4;  // steps away from the kink
-      const VectorXd ahead = from.u + length * from.tangent;
-      const Bordered beyond(curve_.jacobian(ahead), from.tangent);
-      VectorXd tangent = beyond.tangent();
-      if (beyond.sign() != from.orientation) tangent = -tangent;
-      auto next = correct(ahead + kClear * length * tangent, tangent);
-      if (!next) return std::nullopt;
-      if (next->orientation != from.orientation) return std::nullopt;
-      return next;
-    } catch (const Error& error) {
-      if (error.kind() != Failure::numerical) throw;
-      failure_ = error.what();
-      return std::nullopt;
-    }
-  }
-
-  BranchPosition position(const Point& p, double arc) const {
-    BranchPosition b;
-    b.parameter = curve_.parameter(p.u);
-    b.arc = arc;
-    b.start = p.u.head(map_.size());
-    b.residual = p.residual;
-    b.turn = p.tangent[map_.size()];
-    b.multipliers = sorted_multipliers(p.monodromy);
-    b.events = p.passed.events;
-    b.observable = p.passed.observable;
-    return b;
-  }
-  // Of a period from a point that need not be an orbit. False where the model does not hold.
-  bool events_at(const VectorXd& u, std::vector<ContactEvent>& events) {
-    try {
-      PeriodicOrbit passed;
-      curve_.residual(u, &passed);
-      events = passed.events;
-      return true;
-    } catch (const Error& error) {
-      if (error.kind() != Failure::numerical) throw;
-      return false;
-    }
-  }
-  Curve& curve() { return curve_; }
-  const std::string& failure() const { return failure_; }
-
- private:
-  // Along the branch the sign of det [dF; t^T] stays. Where it does not although the tangent goes straight on, a branch
-  // crosses; at a sharp kink the tangent that fits points the other way.
-  static void orient(const Point& from, Point& next) {
-    constexpr double kStraight = 0.7;
-    if (next.orientation == from.orientation || next.tangent.dot(from.tangent) > kStraight) return;
-    next.tangent = -next.tangent;
-    next.orientation = -next.orientation;
-  }
-
-  PeriodMap& map_;
-  const BranchSettings& settings_;
-  Curve curve_;
-  std::string failure_;
-};
+}
 
 bool is_real(const std::complex<double>& x) {
   return std::abs(x.imag()) <= 1e-10 * std::max(1e-3, std::abs(x));
@@ -275,16 +126,19 @@ int complex_outside(const VectorXcd& multipliers) {
   return count;
 }
 
+// Of the real ones, or of the complex ones, that nearest to `at`, or to the unit circle; of all if there is none of them.
 std::complex<double> nearest(const VectorXcd& multipliers, double at, bool real) {
-  std::complex<double> best(std::numeric_limits<double>::infinity(), 0);
-  for (const auto& x : multipliers)
-    if (is_real(x) == real) {
-      const auto away = [&](const std::complex<double>& m) {
-        return real ? std::abs(m - at) : std::abs(std::abs(m) - 1);
-      };
-      if (!std::isfinite(best.real()) || away(x) < away(best)) best = x;
-    }
-  return best;
+  const auto away = [&](const std::complex<double>& m) {
+    return real ? std::abs(m - at) : std::abs(std::abs(m) - 1);
+  };
+  const auto best_of = [&](bool all) {
+    std::complex<double> best(std::numeric_limits<double>::infinity(), 0);
+    for (const auto& x : multipliers)
+      if ((all || is_real(x) == real) && (!std::isfinite(best.real()) || away(x) < away(best))) best = x;
+    return best;
+  };
+  const std::complex<double> best = best_of(false);
+  return std::isfinite(best.real()) ? best : best_of(true);
 }
 
 // The first event of the longer sequence that the other does not have.
@@ -296,52 +150,62 @@ ContactEvent additional(const std::vector<ContactEvent>& a, const std::vector<Co
   return i < longer.size() ? longer[i] : ContactEvent{};
 }
 
+// A point between two neighbours of a branch.
+struct Between {
+  CurvePoint point;
+  BranchPosition position;
+  double share = 0;  // of the arc from one neighbour to the other
+};
+
 // Two points on the arc between which a test changes its sign, brought together.
 class Locator {
  public:
-  // length: of the step from `from`, to whose planes all points between belong.
-  Locator(Follower& follower, const Point& from, double length, double precision)
-      : follower_(follower), from_(from), length_(length), precision_(precision) {}
+  Locator(Curve& curve, const BranchSettings& settings, const CurvePoint& from, const CurvePoint& to)
+      : curve_(curve), settings_(settings), from_(from), across_((to.u - from.u).normalized()) {}
 
   using Test = std::function<double(const BranchPosition&)>;
   struct Bracket {
-    BranchPosition low, high;
+    Between low, high;
     double value_low, value_high;
-    double share_high;    // of the step, at which `high` stands
     bool smooth = false;  // the test passes through zero
     bool low_is_nearer() const { return std::abs(value_low) < std::abs(value_high); }
   };
-  // Between the shares a and c of the step. Regula falsi (Illinois), bisection where that does not halve the interval in two
-  // steps, or of a test that only has a sign.
-  Bracket between(const BranchPosition& low, const BranchPosition& high, double a, double c, const Test& test,
-                  bool sign_only = false) {
-    Bracket b{low, high, test(low), test(high), c};
-    const double whole = std::abs(b.value_high - b.value_low);
-    double fa = b.value_low, fc = b.value_high, two_before = c - a, before = c - a;
+  // Regula falsi (Illinois), bisection where that does not halve the interval in two steps. turns: the test is the turn of the
+  // branch, so that what it leaves of the parameter is bounded.
+  Bracket between(const Between& low, const Between& high, const Test& test, bool turns) {
+    Bracket b{low, high, test(low.position), test(high.position)};
+    const double whole = std::abs(b.value_high - b.value_low), width = high.share - low.share;
+    double fa = b.value_low, fc = b.value_high, two_before = width, before = width;
     int last_side = 0;
     constexpr int kMost = 100;
-    for (int i = 0; i < kMost && c - a > precision_; ++i) {
-      const bool halve = sign_only || (i > 1 && c - a > 0.5 * two_before);
+    const double arc_before = (high.point.u - low.point.u).norm();
+    for (int i = 0; i < kMost; ++i) {
+      const double a = b.low.share, c = b.high.share;
+      const double arc = (b.high.point.u - b.low.point.u).norm(),
+                   parameter = b.low.point.u[curve_.size() - 1];
+      if (turns &&
+          std::max(std::abs(b.value_low), std::abs(b.value_high)) * arc < settings_.fold_location * parameter)
+        break;
+      // No nearer to a kink than tangents are of one side.
+      constexpr double kClear = 100;
+      if (arc < settings_.location * arc_before) break;
+      if (!b.low.point.slow.whole() && arc < kClear * Curve::kParameterSideStep * parameter) break;
+      const bool halve = i > 1 && c - a > 0.5 * two_before;
       const double at = halve ? 0.5 * (a + c) : a + (c - a) * fa / (fa - fc);
       two_before = before;
       before = c - a;
       if (!(at > a && at < c)) break;
-      const auto point = follower_.step(from_, at * length_);
-      if (!point) break;
-      const BranchPosition here = follower_.position(*point, low.arc + (high.arc - low.arc) * at);
-      const double value = test(here);
+      auto here = find(b.low, b.high, at, true);
+      if (!here) break;
+      const double value = test(here->position);
       if ((value < 0) == (b.value_low < 0)) {
-        a = at;
-        fa = value;
-        b.low = here;
-        b.value_low = value;
+        b.low = std::move(*here);
+        fa = b.value_low = value;
         if (last_side < 0) fc *= 0.5;
         last_side = -1;
       } else {
-        c = b.share_high = at;
-        fc = value;
-        b.high = here;
-        b.value_high = value;
+        b.high = std::move(*here);
+        fc = b.value_high = value;
         if (last_side > 0) fa *= 0.5;
         last_side = 1;
       }
@@ -352,11 +216,57 @@ class Locator {
                std::abs(b.value_high - b.value_low) < 1e-3 * whole;
     return b;
   }
+  // Where the sequence of contacts of `low` ends, by bisection.
+  Bracket change(const Between& low, const Between& high) {
+    Bracket b{low, high, -1, 1};
+    while (b.high.share - b.low.share > settings_.grazing_location) {
+      auto here = find(b.low, b.high, 0.5 * (b.low.share + b.high.share), false);
+      if (!here) break;
+      const bool as_low = same_sequence(here->position.events, b.low.position.events);
+      (as_low ? b.low : b.high) = std::move(*here);
+    }
+    return b;
+  }
 
  private:
-  Follower& follower_;
-  const Point& from_;
-  double length_, precision_;
+  // On the arc between two points. The sequence of contacts needs no tangent.
+  std::optional<Between> find(const Between& low, const Between& high, double share, bool tangent) {
+    constexpr double kEven = 0.5;  // ratio of the tangents' parameter components
+    const auto last = curve_.size() - 1;
+    const double part = (share - low.share) / (high.share - low.share);
+    const CurvePoint &a = low.point, &c = high.point, &near = part < 0.5 ? a : c;
+    const VectorXd chord = c.u - a.u;
+    // Of a short bracket its direction is round-off.
+    constexpr double kShort = 1e-5;
+    if (chord.norm() > kShort) across_ = chord.normalized();
+    const double ta = a.tangent[last], tc = c.tangent[last];
+    const bool even = !a.slow.whole() && ta * tc > 0 && std::min(ta / tc, tc / ta) > kEven;
+    auto point = onto(curve_, a.u + part * chord, across_, near, even, chord.norm());
+    if (!point) return std::nullopt;
+    Between b;
+    b.share = share;
+    const double arc = low.position.arc + (high.position.arc - low.position.arc) * part;
+    if (tangent) {
+      if (!curve_.linearise(*point, across_)) return std::nullopt;
+      orient(from_, *point);
+      b.position = position(curve_, *point, arc);
+    } else {
+      point->tangent = near.tangent;
+      point->slow = near.slow;
+      point->jacobian = near.jacobian;
+      b.position.parameter = curve_.parameter(point->u);
+      b.position.arc = arc;
+      b.position.start = curve_.state(point->u);
+      b.position.events = point->passed.events;
+    }
+    b.point = std::move(*point);
+    return b;
+  }
+
+  Curve& curve_;
+  const BranchSettings& settings_;
+  const CurvePoint& from_;
+  VectorXd across_;  // the chord between the neighbours
 };
 
 SpecialPoint special_at(Special kind, const BranchPosition& at, const BranchPosition& low,
@@ -379,14 +289,17 @@ SpecialPoint special_at(Special kind, const BranchPosition& at, const BranchPosi
 }
 
 // What happens between two neighbouring points of a branch.
-void look_between(Follower& follower, const Point& from, const BranchPosition& a, const BranchPosition& b,
-                  double length, double precision, std::vector<SpecialPoint>& found, size_t after_point) {
-  Locator locator(follower, from, length, precision);
+void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, const BranchPosition& a,
+                  const BranchPosition& b, const BranchSettings& settings, std::vector<SpecialPoint>& found,
+                  size_t after_point) {
+  Locator locator(curve, settings, from, to);
+  Between low{from, a, 0};
+  const Between high{to, b, 1};
   const auto crosses = [&](const Locator::Test& test) { return (test(a) < 0) != (test(b) < 0); };
   const auto add = [&](Special kind, const Locator::Test& test) {
-    const Locator::Bracket bracket = locator.between(a, b, 0, 1, test);
-    found.push_back(special_at(kind, bracket.low_is_nearer() ? bracket.low : bracket.high, bracket.low,
-                               bracket.high, after_point));
+    const Locator::Bracket bracket = locator.between(low, high, test, kind == Special::fold);
+    const BranchPosition &l = bracket.low.position, &h = bracket.high.position;
+    found.push_back(special_at(kind, bracket.low_is_nearer() ? l : h, l, h, after_point));
     found.back().smooth = bracket.smooth;
   };
   const Locator::Test turn = [](const BranchPosition&p) { return p.turn; },
@@ -402,29 +315,26 @@ void look_between(Follower& follower, const Point& from, const BranchPosition& a
     add(Special::torus, torus);
   // Several contacts may come or go in a step, one after the other.
   constexpr int kMostChanges = 6;
-  BranchPosition low = a;
-  double share = 0;
-  for (int i = 0; i < kMostChanges && !same_sequence(low.events, b.events); ++i) {
-    const std::vector<ContactEvent> events = low.events;
-    const Locator::Bracket bracket = locator.between(
-        low, b, share, 1,
-        [&](const BranchPosition& p) { return same_sequence(p.events, events) ? -1.0 : 1.0; }, true);
-    found.push_back(special_at(Special::grazing, bracket.low, bracket.low, bracket.high, after_point));
+  for (int i = 0;
+       i < kMostChanges && settings.grazing_location < 1 && !same_sequence(low.position.events, b.events);
+       ++i) {
+    const Locator::Bracket bracket = locator.change(low, high);
+    const BranchPosition& at = bracket.low.position;
+    found.push_back(special_at(Special::grazing, at, at, bracket.high.position, after_point));
     low = bracket.high;
-    share = bracket.share_high;
   }
 }
 
 // Folds, flips and grazing orbits between the last two points of a branch, in the order of the arc.
-void add_special_points(Follower& follower, const Point& here, const Point& next, double location,
-                        OrbitBranch& branch) {
+void add_special_points(Curve& curve, const CurvePoint& here, const CurvePoint& next,
+                        const BranchSettings& settings, OrbitBranch& branch) {
   const size_t index = branch.points.size() - 2;
   const BranchPosition a = branch.points[index], b = branch.points[index + 1];
   std::vector<SpecialPoint> found;
   // The plane across the tangent at `here` in which the point lies.
   const double ahead = (next.u - here.u).dot(here.tangent);
   if (ahead > 0) {
-    look_between(follower, here, a, b, ahead, location, found, index);
+    look_between(curve, here, next, a, b, settings, found, index);
   } else if ((a.turn < 0) != (b.turn < 0)) {  // back from a kink
     found.push_back(special_at(Special::fold, a, a, b, index));
     found.back().smooth = false;
@@ -439,42 +349,49 @@ void add_special_points(Follower& follower, const Point& here, const Point& next
 OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int direction,
                           const BranchSettings& settings,
                           const std::function<void(const BranchPosition&)>& report) {
-  Follower follower(map, settings);
+  Curve curve(map, settings.multiple, settings.scale, settings.orbit);
   OrbitBranch branch;
   const int n = map.size();
   const VectorXd up = VectorXd::Unit(n + 1, n);
-  auto here = follower.correct(follower.curve().point(from.start, from.parameter), up);
-  if (!here)
-    fail(Failure::numerical, "no branch begins at ", from.parameter, ": ", follower.failure(),
+  CurvePoint first;
+  first.slow = from.slow;
+  auto here = curve.correct(curve.point(from.start, from.parameter), up, &first);
+  if (!here || !curve.linearise(*here, up))
+    fail(Failure::numerical, "no branch begins at ", from.parameter, ": ", curve.failure(),
          "; start from an orbit");
   if (here->tangent[n] * direction < 0) {
     here->tangent = -here->tangent;
     here->orientation = -here->orientation;
   }
-  const auto take = [&](const Point& p, double arc) {
-    branch.points.push_back(follower.position(p, arc));
+  const auto take = [&](const CurvePoint& p, double arc) {
+    branch.points.push_back(position(curve, p, arc));
     if (report) report(branch.points.back());
   };
   take(*here, 0);
-  double step = settings.first_step;
+  double length = settings.first_step;
+  constexpr int kFew = 6, kMany = 9;  // corrections
   constexpr double kSharp =
       0.8;  // cosine between tangents, below which the step is too long, unless there is a kink
   while (static_cast<int>(branch.points.size()) < settings.most_points) {
-    auto next = follower.step(*here, step);
+    auto next = step(curve, *here, length);
     const bool sharp = next && next->tangent.dot(here->tangent) < kSharp;
-    if ((!next || sharp) && step > settings.least_step && (!next || step > 1e-2 * settings.first_step)) {
-      step = std::max(0.5 * step, settings.least_step);
+    // A model does not hold further by a shorter step, but a long one may lead away.
+    constexpr double kLeavesRange = 0.02;
+    const double least =
+        !next && curve.left_range() ? kLeavesRange * settings.first_step : settings.least_step;
+    if ((!next || sharp) && length > least && (!next || length > 1e-2 * settings.first_step)) {
+      length = std::max(0.5 * length, least);
       continue;
     }
     if (!next) {
-      next = follower.around(*here, step);
+      next = around(curve, *here, length);
       if (!next) {
         const BranchPosition& last = branch.points.back();
-        branch.end = text("at ", last.parameter, " a step of ", step,
-                          " along the branch finds no orbit: ", follower.failure());
+        branch.end = text("at ", last.parameter, " a step of ", length,
+                          " along the branch finds no orbit: ", curve.failure());
         // A contact that comes there may end it.
         BranchPosition ahead = last;
-        if (follower.events_at(here->u + step * here->tangent, ahead.events) &&
+        if (events_at(curve, here->u + length * here->tangent, ahead.events) &&
             !same_sequence(last.events, ahead.events)) {
           branch.special.push_back(special_at(Special::grazing, last, last, ahead, branch.points.size() - 1));
           branch.special.back().smooth = false;
@@ -483,8 +400,7 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
       }
     }
     const BranchPosition& last = branch.points.back();
-    const double length = (next->u - here->u).norm();
-    double parameter = follower.curve().parameter(next->u);
+    const double passed = (next->u - here->u).norm(), parameter = curve.parameter(next->u);
     const bool beyond = parameter < settings.low || parameter > settings.high;
     if (beyond) {
       // The last point stands on the limit, where the branch has one there.
@@ -492,23 +408,28 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
                    share = (limit - last.parameter) / (parameter - last.parameter);
       VectorXd u = here->u + share * (next->u - here->u);
       u[n] = limit / settings.scale;
-      auto at_limit = follower.correct(u, up);
+      auto at_limit = curve.correct(u, up, &*here);
+      if (at_limit && !curve.linearise(*at_limit, up)) at_limit.reset();
       if (at_limit && at_limit->tangent.dot(next->tangent) < 0) {
         at_limit->tangent = -at_limit->tangent;
         at_limit->orientation = -at_limit->orientation;
       }
       if (at_limit) next = at_limit;
     }
-    take(*next, last.arc + length);
-    add_special_points(follower, *here, *next, settings.location, branch);
+    next->bend = (next->tangent[n] - here->tangent[n]) / passed;
+    take(*next, last.arc + passed);
+    add_special_points(curve, *here, *next, settings, branch);
     if (beyond) {
       branch.reached_limit = true;
       branch.end = text("the parameter reached ", branch.points.back().parameter);
+      branch.last = next->slow;
       return branch;
     }
-    if (!sharp && next->corrections <= 4 && next->tangent.dot(here->tangent) > 0.97) step *= 1.4;
-    if (next->corrections > 6 || next->tangent.dot(here->tangent) < 0.92) step *= 0.7;
-    step = std::clamp(step, settings.least_step, settings.largest_step);
+    if (!sharp && next->corrections <= kFew && next->tangent.dot(here->tangent) > settings.straight)
+      length *= 1.4;
+    if (next->corrections > kMany || 1 - next->tangent.dot(here->tangent) > 2.7 * (1 - settings.straight))
+      length *= 0.7;
+    length = std::clamp(length, settings.least_step, settings.largest_step);
     here = next;
   }
   branch.end = text(settings.most_points, " points were taken");
@@ -517,21 +438,25 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
 
 FoldSearch locate_fold(PeriodMap& map, const VectorXd& start, int multiple, double scale) {
   FoldSearch search;
-  Curve curve(map, multiple, scale);
+  Curve curve(map, multiple, scale, {});
+  SlowTangent slow;
+  PeriodicOrbit passed;
+  const auto jacobian_at = [&](const VectorXd& at) {
+    SlowTangent found;
+    CurveJacobian jacobian = curve.jacobian(at, slow, found, passed);
+    slow = std::move(found);
+    return jacobian;
+  };
   const int n = map.size();
   VectorXd u = curve.point(start, map.parameter());
   VectorXd across = VectorXd::Constant(n + 1, 1 / std::sqrt(n + 1.0));
-  const auto tangent_at = [&](const VectorXd& at) {
-    VectorXd t = Bordered(curve.jacobian(at), across).tangent();
-    if (t.dot(across) < 0) t = -t;
-    return t;
-  };
+  const auto tangent_at = [&](const VectorXd& at) { return jacobian_at(at).tangent(across); };
   try {
     across = tangent_at(u);
     double last = std::numeric_limits<double>::infinity();
     constexpr int kMost = 40;
     for (int i = 0; i < kMost; ++i) {
-      const VectorXd value = curve.residual(u), back = Bordered(curve.jacobian(u), across).solve(-value, 0);
+      const VectorXd value = curve.residual(u), back = jacobian_at(u).solve(across, -value, 0);
       u += back;
       const VectorXd t = tangent_at(u);
       across = t;

@@ -56,9 +56,12 @@ struct BranchSettings {
   double low = 0, high = 0;  // of the parameter: the branch is followed as long as it lies between
   double scale = 1;          // of the parameter in the arc length
   double first_step = 0.02, least_step = 1e-7, largest_step = 0.1;  // of the arc
+  double straight = 0.97;  // cosine between the tangents of a step above which the next one may be longer
   int most_points = 5000;
   OrbitSettings orbit;
-  double location = 1e-12;  // of the arc step: to what special points are located
+  double location = 1e-12;          // of the arc step: to what special points are located
+  double fold_location = 1e-15;     // the same of folds, relative to their parameter
+  double grazing_location = 1e-12;  // the same of grazing orbits; 1: they are not looked for
 };
 
 struct OrbitBranch {
@@ -66,6 +69,7 @@ struct OrbitBranch {
   std::vector<SpecialPoint> special;  // in the order of the arc
   std::string end;                    // why it was followed no further
   bool reached_limit = false;         // the parameter left [low, high]
+  SlowTangent last;                   // of the last point, if it did
 };
 
 // From an orbit at its parameter, first towards a rising parameter (direction 1) or a falling one (-1). report(point) is called

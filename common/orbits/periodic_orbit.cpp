@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/dense.h"
 #include "base/error.h"
 
 namespace whine {
@@ -14,61 +13,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-namespace {
-
-// Orthonormal columns that span those of m but for round-off, by Gram and Schmidt with column pivots, twice.
-MatrixXd range(MatrixXd m) {
-  constexpr double kNothing = 1e-15;  // of the largest column
-  VectorXd size = m.colwise().norm();
-  const double least = kNothing * size.maxCoeff();
-  MatrixXd q(m.rows(), m.cols());
-  Eigen::Index rank = 0;
-  for (; rank < m.cols(); ++rank) {
-    Eigen::Index pivot;
-    if (!(size.maxCoeff(&pivot) > least)) break;
-    VectorXd column = m.col(pivot);
-    column -= q.leftCols(rank) * (q.leftCols(rank).transpose() * column);
-    q.col(rank) = column / column.norm();
-    m -= q.col(rank) * (q.col(rank).transpose() * m).eval();
-    size = m.colwise().norm();
-    size[pivot] = 0;
-  }
-  return q.leftCols(rank);
-}
-
-}  // namespace
-
-// A motion forgets most of its state within a period: eigenvalues but 0 are those on the range.
-VectorXcd sorted_multipliers(const MatrixXd& monodromy) {
-  const MatrixXd q = range(monodromy);
-  VectorXcd values = VectorXcd::Zero(monodromy.rows());
-  if (q.cols() > 0) {
-    const GeneralEigenvalues found = general_eigenvalues(q.transpose() * (monodromy * q));
-    if (!found.converged)
-      fail(Failure::numerical, "the multipliers of an orbit of ", monodromy.rows(),
-           " numbers were not found");
-    values.head(q.cols()) = found.values;
-  }
-  std::stable_sort(values.begin(), values.end(),
-                   [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
-  return values;
-}
-
-VectorXcd PeriodicOrbit::multipliers() const {
-  return sorted_multipliers(monodromy);
-}
-
-VectorXd image(PeriodMap& map, const VectorXd& y, int multiple, MatrixXd* tangent, PeriodicOrbit* passed) {
+VectorXd image(PeriodMap& map, const VectorXd& y, int multiple, PeriodicOrbit* passed, MatrixXd* directions) {
   if (passed) passed->events.clear();
   VectorXd at = y;
   for (int k = 0; k < multiple; ++k) {
     at = map.apply(at);
-    if (tangent) {
-      if (k == 0)
-        *tangent = map.tangent();
-      else
-        *tangent = map.tangent() * *tangent;
-    }
+    if (directions) *directions = map.tangent_times(*directions);
     if (!passed) continue;
     for (ContactEvent event : map.events()) {
       event.phase += k;
@@ -80,6 +30,33 @@ VectorXd image(PeriodMap& map, const VectorXd& y, int multiple, MatrixXd* tangen
   }
   return at;
 }
+
+namespace {
+
+// The tangent of P^m at y, and what happens on the way.
+SlowTangent tangent_at(PeriodMap& map, const VectorXd& y, int multiple, const SlowTangent& nearby,
+                       PeriodicOrbit* passed) {
+  constexpr double kTolerance = 1e-8;  // of multipliers
+  bool applied = false;
+  return slow_tangent(map.size(), nearby, {}, kTolerance, [&](const MatrixXd& directions) {
+    MatrixXd moved = directions;
+    if (applied && multiple == 1)
+      moved = map.tangent_times(directions);
+    else
+      image(map, y, multiple, passed, &moved);
+    applied = true;
+    return moved;
+  });
+}
+
+// (1 - W V^T)^-1 change
+VectorXd newton_step(const SlowTangent& t, const VectorXd& change) {
+  const Eigen::Index p = t.basis.cols();
+  const MatrixXd small = MatrixXd::Identity(p, p) - t.basis.transpose() * t.image;
+  return change + t.image * small.partialPivLu().solve(t.basis.transpose() * change);
+}
+
+}  // namespace
 
 OrbitSearch find_orbit(PeriodMap& map, const VectorXd& start, int multiple, const OrbitSettings& settings) {
   OrbitSearch search;
@@ -104,17 +81,18 @@ OrbitSearch find_orbit(PeriodMap& map, const VectorXd& start, int multiple, cons
       const bool met = orbit.residual <= settings.tolerance,
                  stuck = orbit.residual <= 1e3 * settings.tolerance && !(orbit.residual < 0.5 * before);
       if (met || stuck) {
-        image(map, orbit.start, multiple, &orbit.monodromy, &orbit);
+        orbit.slow = tangent_at(map, orbit.start, multiple, orbit.slow, &orbit);
         return search;
       }
       if (orbit.iterations == settings.most_iterations) {
         search.failure = text("no convergence in ", orbit.iterations, " steps: residual ", orbit.residual);
         return search;
       }
+      constexpr double kSlow = 0.3;  // reduction of the residual, above which the tangent is computed anew
+      if (orbit.slow.empty() || orbit.slow.whole() || !(orbit.residual < kSlow * before))
+        orbit.slow = tangent_at(map, orbit.start, multiple, orbit.slow, nullptr);
       before = orbit.residual;
-      image(map, orbit.start, multiple, &orbit.monodromy);
-      const VectorXd step =
-          (MatrixXd::Identity(map.size(), map.size()) - orbit.monodromy).partialPivLu().solve(change);
+      const VectorXd step = newton_step(orbit.slow, change);
       double share = 1;
       for (int halving = 0;; ++halving, share *= 0.5) {
         const VectorXd tried = orbit.start + share * step;

@@ -1,7 +1,9 @@
 // Periodic orbits of a period map: y = P^m(y; parameter) by Newton's method with the exact tangent.
 //
 // P is piecewise smooth. Where the contacts on the way stay, the method converges quadratically; of a piecewise affine map it
-// ends within one step of the piece that holds the orbit. A step that does not bring the residual down is halved.
+// ends within one step of the piece that holds the orbit. A step that does not bring the residual down is halved. Of long
+// states the tangent is that on its slow directions (orbits/slow_tangent.h), kept as long as it brings the residual down, and the
+// method converges linearly.
 // Stability is read off the multipliers, the eigenvalues of dP^m/dy: all of them inside the unit circle.
 #pragma once
 #include <Eigen/Core>
@@ -10,21 +12,22 @@
 #include <vector>
 
 #include "orbits/period_map.h"
+#include "orbits/slow_tangent.h"
 
 namespace whine {
 
 struct PeriodicOrbit {
   Eigen::VectorXd start;
   double parameter = 0;
-  int multiple = 1;     // periods after which it repeats
-  double residual = 0;  // |P^m(y) - y| / max(1, |y|)
-  int iterations = 0;   // tangents that were needed
-  Eigen::MatrixXd monodromy;
+  int multiple = 1;                  // periods after which it repeats
+  double residual = 0;               // |P^m(y) - y| / max(1, |y|)
+  int iterations = 0;                // tangents that were needed
+  SlowTangent slow;                  // of P^m
   std::vector<ContactEvent> events;  // of its periods in turn, phases from 0 to `multiple`
   Eigen::VectorXd observable;        // of its periods in turn
 
-  // Descending modulus. Throws Error(numerical) if they cannot be found.
-  Eigen::VectorXcd multipliers() const;
+  // Descending modulus; of a long state the largest ones. Throws Error(numerical) if they cannot be found.
+  Eigen::VectorXcd multipliers() const { return slow.multipliers(); }
 };
 
 struct OrbitSettings {
@@ -32,9 +35,10 @@ struct OrbitSettings {
   int most_iterations = 25;
 };
 
-// P^m(y) at the map's parameter. The rest is filled if it is given: the tangent of P^m, what happened on the way.
-Eigen::VectorXd image(PeriodMap& map, const Eigen::VectorXd& y, int multiple,
-                      Eigen::MatrixXd* tangent = nullptr, PeriodicOrbit* passed = nullptr);
+// P^m(y) at the map's parameter. Given, `passed` takes what happened on the way, and `directions`, (size, direction), are
+// multiplied by the tangent of P^m.
+Eigen::VectorXd image(PeriodMap& map, const Eigen::VectorXd& y, int multiple, PeriodicOrbit* passed = nullptr,
+                      Eigen::MatrixXd* directions = nullptr);
 
 // What became of a search: the last iterate, and in words why it is no orbit; empty if it is one.
 struct OrbitSearch {
@@ -48,7 +52,5 @@ struct OrbitSearch {
 // says so.
 OrbitSearch find_orbit(PeriodMap& map, const Eigen::VectorXd& start, int multiple = 1,
                        const OrbitSettings& settings = {});
-
-Eigen::VectorXcd sorted_multipliers(const Eigen::MatrixXd& monodromy);
 
 }  // namespace whine

@@ -14,12 +14,7 @@ namespace whine {
 
 using Eigen::VectorXd;
 
-namespace {
-
-constexpr int kStatePhases = 128;
-
-// eta of Eq. 21 that gives the ratio to the pair at a fixed phase; the ratio is nearly linear in it.
-double eta_for(double ratio, const FixedPhaseMesh& mesh, BodyModel body, double frequency) {
+double rayleigh_stiffness_for(double ratio, const FixedPhaseMesh& mesh, BodyModel body, double frequency) {
   const double without = frozen_root(with_rayleigh_stiffness(mesh, 0, body)).damping_ratio;
   if (!(ratio > without))
     fail(Failure::input, "bearings and mass-proportional damping alone give a damping ratio of ", without,
@@ -34,6 +29,10 @@ double eta_for(double ratio, const FixedPhaseMesh& mesh, BodyModel body, double 
   fail(Failure::input, "no rayleigh_stiffness_s gives a damping ratio of ", ratio,
        " with two pairs in contact; ask for less, or lower undamped_depth_mm");
 }
+
+namespace {
+
+constexpr int kStatePhases = 128;
 
 }  // namespace
 
@@ -96,7 +95,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
   for (Eigen::Index c = 0; c < n; ++c) {
     const auto given = static_cast<Eigen::Index>(plan.rayleigh_stiffness.size());
     own.damping.rayleigh_stiffness = c < given ? plan.rayleigh_stiffness[c]
-                                               : eta_for(plan.damping_ratio[c - given], two->mesh,
+                                               : rayleigh_stiffness_for(plan.damping_ratio[c - given], two->mesh,
                                                          settings.fidelity.body, two->undamped_frequency);
     result.rayleigh_stiffness[c] = own.damping.rayleigh_stiffness;
     const double ratio = frozen_root(with_rayleigh_stiffness(two->mesh, own.damping.rayleigh_stiffness,

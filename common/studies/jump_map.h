@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/impact.h"
 #include "signal/branches.h"
 #include "signal/jump_map_result.h"
 #include "solid/reduced_body.h"
@@ -30,5 +31,9 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
                          const StaticParameters& statics, double torque, const SweepParameters& settings,
                          const JumpMapPlan& plan,
                          const std::function<void(long, long, const std::string&)>& report);
+
+// eta (s) of Eq. 21 that gives the damping ratio to the pair at a fixed phase, whose undamped frequency (Hz) this is. Throws
+// Error(input) if bearings and mass-proportional damping exceed the ratio or no factor gives it.
+double rayleigh_stiffness_for(double ratio, const FixedPhaseMesh& mesh, BodyModel body, double frequency);
 
 }  // namespace whine

@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/error.h"
-#include "base/model_range.h"
-#include "contact/lanes.h"
-#include "dynamics/period_map.h"
-#include "dynamics/steady_state.h"
 #include "gear/body_inertia.h"
-#include "orbits/branch.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
-#include "studies/sweep.h"
+#include "studies/branch_follower.h"
 
 namespace whine {
 
@@ -23,93 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kMostLevel = 8;
 constexpr int kMultipliers = 8;  // that are kept of each orbit
-constexpr int kMostSegments = 64;
-
-CandidateZone zone(const GearMeshModel& model, const StaticArtifact& statics, int level) {
-  const auto at = [&](int l) {
-    return candidate_zone(model, statics, MotionBounds(model, statics, std::pow(kWidening, l)));
-  };
-  CandidateZone range = at(level);
-  if (level == 0) return range;
-  // Strips as wide as those of the narrowest zone.
-  const CandidateZone lowest = at(0);
-  range.strips = padded(static_cast<int>(std::ceil(range.half_zone / lowest.half_zone * lowest.strips)));
-  range.half_zone = lowest.half_zone * range.strips / lowest.strips;
-  return range;
-}
-
-struct Segment {
-  OrbitBranch branch;
-  int steps;
-};
-
-// The branch with one contact zone, in segments of one number of steps; nothing if contact leaves the zone.
-std::optional<std::vector<Segment>> follow(
-    RollingDynamics& dynamics, const SweepParameters& stage_settings, std::vector<double>& mismatch,
-    const std::function<void(long, long, const std::string&)>& report) {
-  std::vector<Segment> segments;
-  const double low = stage_settings.frequency_from, high = stage_settings.frequency_to;
-  int steps = steps_at(stage_settings.time, high);
-  auto map = std::make_unique<RollingPeriodMap>(dynamics, steps);
-  map->set_parameter(high);
-  RollingDynamics::State state = dynamics.rest();
-  const auto periodic =
-      find_periodic_orbit(dynamics, state, stage_settings.time.periodicity, SteadyState::extrapolate);
-  if (!periodic) return std::nullopt;
-  if (periodic->multiple != 1)
-    fail(Failure::numerical, "at ", high, " Hz, where the branch begins, the motion ",
-         periodic->multiple == 0 ? text("does not repeat within ", periodic->periods, " mesh periods")
-                                 : text("repeats after ", periodic->multiple, " mesh periods"),
-         "; give mesh_frequency_Hz another upper end");
-  OrbitSearch search = find_orbit(*map, map->flat(state));
-  double at = high;
-  int direction = -1;
-  const long total = std::max(1l, std::lround((high - low) / stage_settings.frequency_step));
-  double lowest = high;
-  for (;;) {
-    if (!search.found() && map->take_left_zone()) return std::nullopt;
-    if (!search.found())
-      fail(Failure::numerical, "at ", at, " Hz no orbit of ", steps,
-           " steps is found from that at hand: ", search.failure);
-    BranchSettings settings;
-    settings.low = low;
-    settings.high = high;
-    // Speeds at which the number of steps changes.
-    if (steps > stage_settings.time.steps_per_period)
-      settings.high = std::min(high, 2 * stage_settings.time.min_sample_rate / steps);
-    if (stage_settings.time.min_sample_rate > 0)
-      settings.low = std::max(low, stage_settings.time.min_sample_rate / steps);
-    settings.scale = 0.5 * (low + high);
-    settings.first_step = 0.01;
-    settings.largest_step = 0.04;
-    settings.location = 1e-6;
-    segments.push_back({follow_branch(*map, search.orbit, direction, settings,
-                                      [&](const BranchPosition& p) {
-                                        map->take_left_zone();  // beside the orbit
-                                        lowest = std::min(lowest, p.parameter);
-                                        report(std::lround((high - lowest) / (high - low) * total), total,
-                                               text(p.parameter, " Hz"));
-                                      }),
-                        steps});
-    const OrbitBranch& branch = segments.back().branch;
-    if (!branch.reached_limit) {
-      if (map->take_left_zone()) return std::nullopt;
-      return segments;
-    }
-    const BranchPosition& last = branch.points.back();
-    at = last.parameter;
-    direction = last.turn > 0 ? 1 : -1;
-    if ((direction > 0 ? at >= high : at <= low) || static_cast<int>(segments.size()) == kMostSegments)
-      return segments;
-    steps = direction > 0 ? steps / 2 : steps * 2;
-    map = std::make_unique<RollingPeriodMap>(dynamics, steps);
-    map->set_parameter(at);
-    search = find_orbit(*map, last.start);
-    mismatch.push_back((search.orbit.start - last.start).norm() / last.start.norm());
-  }
-}
 
 Eigen::VectorXd frequencies(const std::vector<SpecialPoint>& all, Special kind) {
   std::vector<double> found;
@@ -131,26 +38,17 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, stage_settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
   RollingDynamics dynamics(model, dynamic_parameters(statics, mean_stiffness, stage_settings));
-  const int finest = steps_at(stage_settings.time, stage_settings.frequency_from);
-  std::optional<std::vector<Segment>> segments;
-  std::vector<double> mismatch;
-  for (int level = 0; !segments; ++level) {
-    if (level > kMostLevel)
-      fail_outside_range(Failure::numerical, "contact leaves the flanks: forces above ",
-                         MotionBounds(model, statics, std::pow(kWidening, kMostLevel)).force,
-                         " N; lower the torque");
-    mismatch.clear();
-    dynamics.set_zone(zone(model, statics, level), finest);
-    segments = follow(dynamics, stage_settings, mismatch, report);
-  }
+  BranchFollower follower(dynamics, model, statics, stage_settings);
+  const std::vector<BranchSegment> segments = follower.follow(report);
+  const std::vector<double>& mismatch = follower.mismatch();
 
   BranchArtifact a;
   set_motion(a, {driver, driven}, statics, stage_settings);
   a.time = stage_settings.time;
   a.torque = statics.torque;
-  a.end = segments->back().branch.end;
+  a.end = segments.back().branch.end;
   Eigen::Index points = 0;
-  for (const Segment& s : *segments) points += static_cast<Eigen::Index>(s.branch.points.size());
+  for (const BranchSegment& s : segments) points += static_cast<Eigen::Index>(s.branch.points.size());
   for (VectorXd* x : {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual}) x->resize(points);
   a.stable.resize(points);
   a.steps.resize(points);
@@ -159,7 +57,7 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   std::vector<SpecialPoint> special;
   std::vector<double> fold_rms;
   Eigen::Index i = 0;
-  for (const Segment& s : *segments) {
+  for (const BranchSegment& s : segments) {
     const auto& own = s.branch.points;
     const Eigen::Index first = i;
     for (const BranchPosition& p : own) {

@@ -2,8 +2,8 @@
 //
 // It begins with the orbit into which the pair settles at the highest speed and is followed towards lower ones, round its
 // folds, until it leaves the speeds of the scene or ends. Steps per period change with the speed, as in a sweep
-// (min_sample_rate_kHz): there the orbit is found anew with the other number of steps, and its change is measured. The
-// candidate contact zone is the same all along; where an orbit wants a wider one, the branch is followed again with that.
+// (min_sample_rate_kHz): there the orbit is found anew with the other number of steps, and its change is measured. Where an
+// orbit wants a wider candidate contact zone it is found anew with that, as in a sweep; zones only grow.
 #pragma once
 #include <functional>
 #include <string>

@@ -1,0 +1,313 @@
+#include "studies/fold_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+
+#include "base/error.h"
+#include "dynamics/period_map.h"
+#include "gear/pair.h"
+#include "orbits/fold_curve.h"
+#include "signal/branches.h"
+#include "studies/branch_follower.h"
+#include "studies/harris_map.h"
+#include "studies/jump_map.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+const char* name(FoldQuantity quantity) {
+  switch (quantity) {
+    case FoldQuantity::damping:
+      return "damping";
+    case FoldQuantity::torque:
+      return "torque";
+    case FoldQuantity::tip_relief:
+      return "tip_relief";
+  }
+  return "";
+}
+
+namespace {
+
+constexpr int kStatePhases = 128;
+constexpr int kWiderZones = 1;  // than the branch needed, for folds with larger motions
+
+// The pair with one value of the quantity.
+struct PairAt {
+  PairAt(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& at_rest,
+         const DynamicParameters& parameters)
+      : statics(at_rest), model(driver, driven, statics.mesh), dynamics(model, parameters) {}
+  StaticArtifact statics;
+  GearMeshModel model;
+  RollingDynamics dynamics;
+};
+
+class Family {
+ public:
+  Family(const BodyArtifact& driver, const BodyArtifact& driven, const StaticParameters& statics,
+         double torque, const SweepParameters& settings, const FoldCurvesPlan& plan)
+      : driver_(driver),
+        driven_(driven),
+        parameters_(statics),
+        torque_(torque),
+        settings_(settings),
+        plan_(plan),
+        bearing_stiffness_(
+            static_transmission(driver, driven, statics, settings.reference_torque).mean_stiffness) {
+    own(plan.first);
+    ImpactParameters fixed = settings;
+    fixed.fidelity.contact = ContactModel::strips;
+    fixed.damping.rayleigh_stiffness = 0;
+    for (FixedPhaseState& state :
+         fixed_phase_states(driver, driven, own_statics_, bearing_stiffness_, fixed, kStatePhases))
+      if (state.contact_state == "two") two_ = std::make_unique<FixedPhaseState>(std::move(state));
+    if (!two_)
+      fail(Failure::input, "at ", torque,
+           " N m no mesh phase has two pairs in contact, to which the damping ratio belongs");
+  }
+
+  // s, N m or m of a value of the plan.
+  double raw(double value) const {
+    return plan_.quantity == FoldQuantity::damping
+               ? rayleigh_stiffness_for(value, two_->mesh, settings_.fidelity.body, two_->undamped_frequency)
+               : value;
+  }
+  double damping_ratio(double raw) const {
+    const double eta = plan_.quantity == FoldQuantity::damping ? raw : settings_.damping.rayleigh_stiffness;
+    return frozen_root(with_rayleigh_stiffness(two_->mesh, eta, settings_.fidelity.body)).damping_ratio;
+  }
+  double bearing_stiffness() const { return bearing_stiffness_; }
+  const StaticArtifact& statics() const { return own_statics_; }
+  // The pair at a raw value; its zone is not set.
+  std::unique_ptr<PairAt> at(double raw) {
+    own(raw);
+    DynamicParameters p;
+    p.torque = own_statics_.torque;
+    p.inertia = {settings_.driver_inertia, settings_.driven_inertia};
+    p.mean_stiffness = bearing_stiffness_;
+    p.damping = settings_.damping;
+    if (plan_.quantity == FoldQuantity::damping) p.damping.rayleigh_stiffness = raw;
+    p.fidelity = settings_.fidelity;
+    return std::make_unique<PairAt>(driver_, driven_, own_statics_, p);
+  }
+  // For motions near a speed, with a zone of a level that holds them.
+  std::unique_ptr<PeriodMap> map(double raw, double speed, int level) {
+    if (!current_ || raw != current_raw_) {
+      current_ = at(raw);
+      current_raw_ = raw;
+      current_->dynamics.set_zone(zone_of_level(current_->model, current_->statics, level),
+                                  steps_at(settings_.time, plan_.from));
+    }
+    return std::make_unique<RollingPeriodMap>(
+        current_->dynamics, std::min(steps_at(settings_.time, speed), steps_at(settings_.time, plan_.from)));
+  }
+
+ private:
+  // Statics with the torque or the relief of a raw value.
+  void own(double raw) {
+    if (own_known_ && (plan_.quantity == FoldQuantity::damping || raw == own_raw_)) return;
+    double torque = torque_;
+    StaticParameters p = parameters_;
+    if (plan_.quantity == FoldQuantity::torque) torque = raw;
+    if (plan_.quantity == FoldQuantity::tip_relief)
+      for (FlankModification& flank : p.mesh.modification) {
+        flank.tip = {};
+        flank.tip.amount = raw;
+        if (raw > 0) flank.tip.length = single_pair_relief_length(driver_, driven_, parameters_.mesh);
+      }
+    own_statics_ = static_transmission(driver_, driven_, p, torque);
+    own_raw_ = raw;
+    own_known_ = true;
+  }
+
+  const BodyArtifact &driver_, &driven_;
+  const StaticParameters& parameters_;
+  double torque_;
+  const SweepParameters& settings_;
+  const FoldCurvesPlan& plan_;
+  double bearing_stiffness_;
+  std::unique_ptr<FixedPhaseState> two_;
+  std::map<double, double> ratio_;  // by eta
+  StaticArtifact own_statics_;
+  double own_raw_ = 0, current_raw_ = 0;
+  bool own_known_ = false;
+  std::unique_ptr<PairAt> current_;
+};
+
+// Of a branch: neighbours between which it is unstable, in the order of the arc.
+std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& segments, double value) {
+  std::vector<std::pair<Fold, Fold>> pairs;
+  std::vector<Fold> open;
+  for (const BranchSegment& segment : segments)
+    for (const SpecialPoint& p : segment.branch.special)
+      if (p.kind == Special::fold) {
+        Fold fold;
+        fold.value = value;
+        fold.parameter = p.parameter;
+        fold.start = p.start;
+        open.push_back(fold);
+        if (open.size() == 2) {
+          pairs.emplace_back(open[0], open[1]);
+          open.clear();
+        }
+      }
+  return pairs;
+}
+
+struct Rows {
+  std::vector<int> curve, highest, cusp_curve;
+  std::vector<double> value, ratio, frequency, before, after, cusp_value, cusp_ratio, cusp_frequency;
+  std::string end;
+};
+
+// Both directions of a curve as one, the values ascending.
+void add_curves(const FoldPair& up, const FoldPair& down, Family& family, int number, Rows& rows) {
+  for (int side = 0; side < 2; ++side) {
+    std::vector<Fold> all(side == 0 ? down.low : down.high);
+    std::reverse(all.begin(), all.end());
+    all.pop_back();  // the first one is in both
+    const auto& further = side == 0 ? up.low : up.high;
+    all.insert(all.end(), further.begin(), further.end());
+    for (const Fold& fold : all) {
+      rows.curve.push_back(number + side);
+      rows.highest.push_back(fold.bend < 0);
+      rows.value.push_back(fold.value);
+      rows.ratio.push_back(family.damping_ratio(fold.value));
+      rows.frequency.push_back(fold.parameter);
+      rows.before.push_back(fold.before);
+      rows.after.push_back(fold.after);
+    }
+  }
+  for (const FoldPair* pair : {&up, &down}) {
+    rows.end += text(rows.end.empty() ? "" : "; ", pair->end);
+    if (!pair->cusp) continue;
+    rows.cusp_curve.push_back(number);
+    rows.cusp_value.push_back(pair->cusp_value);
+    rows.cusp_ratio.push_back(family.damping_ratio(pair->cusp_value));
+    rows.cusp_frequency.push_back(pair->cusp_parameter);
+  }
+}
+
+VectorXd vector(const std::vector<double>& from) {
+  return Eigen::Map<const VectorXd>(from.data(), static_cast<Index>(from.size()));
+}
+Eigen::VectorXi vector(const std::vector<int>& from) {
+  return Eigen::Map<const Eigen::VectorXi>(from.data(), static_cast<Index>(from.size()));
+}
+
+}  // namespace
+
+FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& driven,
+                               const StaticParameters& statics, double torque,
+                               const SweepParameters& stage_settings, const FoldCurvesPlan& given,
+                               const std::function<void(long, long, const std::string&)>& report) {
+  if (given.values.empty()) fail(Failure::input, "no value of ", name(given.quantity), " to go through");
+  if (!(given.first > 0) && given.quantity != FoldQuantity::tip_relief)
+    fail(Failure::input, "the first value of ", name(given.quantity), " is ", given.first,
+         "; it must be above 0");
+  require_like_teeth(statics.mesh, "a fold curve");
+  FoldCurvesPlan plan = given;
+  SweepParameters settings = stage_settings;
+  if (plan.quantity == FoldQuantity::torque) torque = plan.first;
+  Family family(driver, driven, statics, torque, settings, plan);
+  const GearPair kinematics(driver.design, driven.design, statics.mesh.centre_distance);
+  double inverse_mass = 0;  // kg-1
+  for (int g = 0; g < kSides; ++g)
+    inverse_mass += std::pow(kinematics.gear(g).base_radius(), 2) /
+                    (g == 0 ? settings.driver_inertia : settings.driven_inertia);
+  const VectorXd speeds =
+      map_speeds({plan.from, plan.to, 50, 0},
+                 std::sqrt(family.statics().mean_stiffness * inverse_mass) / (2 * std::numbers::pi));
+  plan.from = settings.frequency_from = speeds[0];
+  plan.to = settings.frequency_to = speeds[speeds.size() - 1];
+  settings.frequency_step = 50;
+
+  const double first = family.raw(plan.first);
+  const std::unique_ptr<PairAt> pair = family.at(first);
+  BranchFollower follower(pair->dynamics, pair->model, pair->statics, settings,
+                          BranchFollower::Look::at_folds);
+  const auto values = static_cast<long>(plan.values.size());
+  const auto segments = follower.follow(
+      [&](long done, long total, const std::string& note) { report(done, total * (1 + 2 * values), note); });
+  std::vector<double> above, below;
+  for (const double value : plan.values) {
+    if (value > plan.first) above.push_back(family.raw(value));
+    if (value < plan.first) below.push_back(family.raw(value));
+  }
+  std::reverse(below.begin(), below.end());
+
+  FoldCurveSettings fold_settings;
+  fold_settings.scale = 0.5 * (plan.from + plan.to);
+  fold_settings.tolerance = 1e-5;
+  fold_settings.orbit.tolerance = 1e-8;
+  const int level = std::min(follower.level() + kWiderZones, kMostZoneLevel);
+  const MapFamily maps = [&](double raw, double speed) { return family.map(raw, speed, level); };
+  const auto wanted = [&](const Fold& fold) {
+    return fold.parameter >= plan.from && fold.parameter <= plan.to;
+  };
+  Rows rows;
+  int number = 0;
+  const auto pairs = pairs_of(segments, first);
+  long done = 0;
+  for (const auto& [one, other] : pairs) {
+    // The folds of the branch with this zone, with their tangents and bends.
+    std::string failure;
+    Fold own[2];
+    bool both = true;
+    for (int side = 0; side < 2; ++side) {
+      const Fold& guess = side == 0 ? one : other;
+      const auto map = maps(first, guess.parameter);
+      auto fold = find_turn(*map, guess, fold_settings, failure);
+      both = both && fold;
+      if (fold) own[side] = *fold;
+    }
+    if (!both) {
+      rows.end += text(rows.end.empty() ? "" : "; ", failure);
+      continue;
+    }
+    const auto followed = [&](const std::vector<double>& through) {
+      return follow_folds(maps, own[0], own[1], through, fold_settings, wanted, [&](double raw) {
+        report(std::min(++done, 2 * values), 2 * values, text(name(plan.quantity), " ", raw));
+      });
+    };
+    const FoldPair up = followed(above), down = followed(below);
+    add_curves(up, down, family, number, rows);
+    number += 2;
+  }
+
+  FoldCurvesArtifact a;
+  set_gears(a, driver, driven);
+  a.driver_inertia = settings.driver_inertia;
+  a.driven_inertia = settings.driven_inertia;
+  a.mesh = statics.mesh;
+  a.fidelity = settings.fidelity;
+  a.contact = statics.contact;
+  a.time = settings.time;
+  a.damping = settings.damping;
+  if (plan.quantity == FoldQuantity::damping) a.damping.rayleigh_stiffness = 0;
+  a.torque = torque;
+  a.quantity = name(plan.quantity);
+  a.first_value = first;
+  a.curve = vector(rows.curve);
+  a.value = vector(rows.value);
+  a.damping_ratio = vector(rows.ratio);
+  a.fold_frequency = vector(rows.frequency);
+  a.fold_multiplier.resize(a.value.size(), 2);
+  a.fold_multiplier << vector(rows.before), vector(rows.after);
+  a.highest = vector(rows.highest);
+  a.cusp_value = vector(rows.cusp_value);
+  a.cusp_damping_ratio = vector(rows.cusp_ratio);
+  a.cusp_frequency = vector(rows.cusp_frequency);
+  a.cusp_curve = vector(rows.cusp_curve);
+  a.end = pairs.empty() ? "the branch has no folds" : rows.end;
+  return a;
+}
+
+}  // namespace whine
