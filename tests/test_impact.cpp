@@ -78,13 +78,11 @@ struct UnequalPair {
       : pinion(body(pinion_teeth, shift, pinion_bore, element)),
         wheel(body(wheel_teeth, -shift, wheel_bore, element)) {
     StaticParameters parameters;
-    parameters.mesh.driver = "pinion";
-    parameters.mesh.driven = "wheel";
+    parameters.mesh.gear = {"pinion", "wheel"};
     parameters.mesh.centre_distance = 3e-3 * (pinion_teeth + wheel_teeth);
     parameters.contact.positions = 32;
     statics = static_transmission(pinion, wheel, parameters, torque);
-    settings.driver_inertia = 1.05 * pinion.inertia;
-    settings.driven_inertia = 1.05 * wheel.inertia;
+    settings.inertia = {1.05 * pinion.inertia, 1.05 * wheel.inertia};
     settings.damping.rayleigh_stiffness = 3.06e-6;
     settings.reference_torque = torque;
   }

@@ -188,8 +188,7 @@ const BodyArtifact& ring_body() {
 
 StaticParameters at_rest(int positions, ContactModel contact = ContactModel::strips) {
   StaticParameters settings;
-  settings.mesh.driver = "a";
-  settings.mesh.driven = "b";
+  settings.mesh.gear = {"a", "b"};
   settings.mesh.centre_distance = kInternalDistance;
   settings.contact.positions = positions;
   settings.fidelity.contact = contact;

@@ -13,10 +13,8 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
-#include "io/body_codec.h"
-#include "io/fit.h"
 #include "io/fold_curves_codec.h"
-#include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "studies/fold_curves.h"
@@ -72,11 +70,8 @@ void body(int argc, char** argv) {
       whine::made_by(argc, argv, files.and_inputs({"params=" + params, "static_params=" + static_params}));
   whine::SweepParameters settings = whine::read_sweep_parameters(params);
   const whine::StaticParameters statics = whine::read_static_parameters(static_params);
-  const std::vector<std::string> paths = files.of(statics.mesh);
-  const whine::BodyArtifact driver = whine::read_body(paths[0]), driven = whine::read_body(paths[1]);
+  const auto [driver, driven] = whine::read_bodies(files, statics);
   whine::as_drawn(settings, {driver.inertia, driven.inertia});
-  whine::require_body(driver, statics.driver_body, statics.mesh.driver, paths[0]);
-  whine::require_body(driven, statics.driven_body, statics.mesh.driven, paths[1]);
 
   std::optional<whine::Progress> progress;
   const whine::FoldCurvesArtifact result =

@@ -31,7 +31,7 @@ void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const 
                       const std::string& stage) {
   for (int g = 0; g < 2; ++g)
     if ((g ? driven : driver).internal)
-      fail(Failure::input, stage, " is of external gears, and [gear.", mesh.gear(g),
+      fail(Failure::input, stage, " is of external gears, and [gear.", mesh.gear[g],
            "] is internal; take a scene without internal gears");
 }
 

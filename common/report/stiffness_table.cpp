@@ -40,7 +40,7 @@ WordTable iso_table(const StaticArtifact& s) {
       text("Stiffness per face width at ", torque_words(s.torque), " (", fixed(split.iso.line_load * 1e-3, 0),
            " N/mm) beside ISO 6336-1, method B, which is for solid discs and knows of no bore",
            split.iso.in_range ? "."
-           : s.driver.internal || s.driven.internal
+           : s.gear[0].design.internal || s.gear[1].design.internal
                ? "; of the internal gear it makes a rack."
                : "; profile shifts or contact ratio lie outside what its formula is for."),
       {"", "N/(mm µm)", "bodies not twisting", "ISO 6336-1 B"},

@@ -88,13 +88,8 @@ class Family {
   // The pair at a raw value; its zone is not set.
   std::unique_ptr<PairAt> at(double raw) {
     own(raw);
-    DynamicParameters p;
-    p.torque = own_statics_.torque;
-    p.inertia = {settings_.driver_inertia, settings_.driven_inertia};
-    p.mean_stiffness = bearing_stiffness_;
-    p.damping = settings_.damping;
+    DynamicParameters p = dynamic_parameters(own_statics_, bearing_stiffness_, settings_);
     if (plan_.quantity == FoldQuantity::damping) p.damping.rayleigh_stiffness = raw;
-    p.fidelity = settings_.fidelity;
     return std::make_unique<PairAt>(driver_, driven_, own_statics_, p);
   }
   // For motions near a speed, with a zone of a level that holds them.
@@ -221,7 +216,7 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   double inverse_mass = 0;  // kg-1
   for (int g = 0; g < kSides; ++g)
     inverse_mass += std::pow(kinematics.gear(g).base_radius(), 2) /
-                    (g == 0 ? settings.driver_inertia : settings.driven_inertia);
+                    settings.inertia[g];
   const VectorXd speeds =
       map_speeds({plan.from, plan.to, 50, 0},
                  std::sqrt(family.statics().mean_stiffness * inverse_mass) / (2 * std::numbers::pi));
@@ -283,14 +278,10 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   }
 
   FoldCurvesArtifact a;
-  set_gears(a, driver, driven);
-  a.driver_inertia = settings.driver_inertia;
-  a.driven_inertia = settings.driven_inertia;
-  a.mesh = statics.mesh;
-  a.fidelity = settings.fidelity;
-  a.contact = statics.contact;
+  PairParameters rest;  // without what the curve varies
+  set_pair(rest, {driver, driven}, statics);
+  set_motion(a, rest.gear, rest, settings);
   a.time = settings.time;
-  a.damping = settings.damping;
   if (plan.quantity == FoldQuantity::damping) a.damping.rayleigh_stiffness = 0;
   a.torque = torque;
   a.quantity = name(plan.quantity);
