@@ -792,7 +792,7 @@ void perturbation(Table& table) {
     using Map = Eigen::Map<VectorXd>;
     std::vector<Map> all;
     for (VectorXd* v : {&s.z, &s.v, &s.force}) all.emplace_back(v->data(), v->size());
-    for (int g = 0; g < 2; ++g)
+    for (int g = 0; g < kSides; ++g)
       for (MatrixXd* m : {&s.relaxed[g], &s.load[g]}) all.emplace_back(m->data(), m->size());
     return all;
   };

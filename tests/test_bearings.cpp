@@ -76,7 +76,7 @@ VectorXd lumped_frequencies(const GearMeshModel& model, const std::vector<double
   MatrixXd m = MatrixXd::Zero(6, 6), stiffness = MatrixXd::Zero(6, 6);
   VectorXd row(6);
   const double a = model.kinematics.working_pressure_angle();
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     const double sign = g == 0 ? 1 : -1;
     row.segment<3>(3 * g) << model.kinematics.gear(g).base_radius(), -sign * std::cos(a), sign * std::sin(a);
     m.diagonal().segment<3>(3 * g) << inertia[g], mass[g], mass[g];
@@ -225,7 +225,7 @@ TEST_CASE(
   const SweepArtifact on = swept(BodyModel::modal, soft(4000));
   const double load = 150 / ToothGeometry(paper_gear()).base_radius();
   const ResponseArtifact heard = response(on);
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     for (int f = 0; f < 2; ++f) {
       const MatrixRM& force = on.bearing_force[g][f];
       REQUIRE(force.rows() == on.transmission_error.cols());

@@ -782,7 +782,7 @@ TEST_CASE(
   for (auto& force : moving.bearing_force) force = {odd_matrix(64, 2, 1e3), odd_matrix(64, 2, 2e3)};
   write("sweep.h5", moving, kMade);
   const SweepArtifact on = read_sweep("sweep.h5");
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     for (int f = 0; f < 2; ++f) CHECK(on.bearing_force[g][f] == moving.bearing_force[g][f]);
   moving.bearing_force[1].pop_back();
   CHECK_THROWS_WITH(write("other.h5", moving, kMade),
@@ -790,13 +790,13 @@ TEST_CASE(
 
   ResponseArtifact heard = small_response();
   heard.mesh = moving.mesh;
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     heard.bearing_force_max[g] = odd_vector(2, 3e3);
     heard.bearing_force_rms[g] = odd_vector(2, 1e3);
   }
   write("response.h5", heard, kMade);
   const ResponseArtifact back = read_response("response.h5");
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     CHECK(back.bearing_force_max[g] == heard.bearing_force_max[g]);
     CHECK(back.bearing_force_rms[g] == heard.bearing_force_rms[g]);
   }

@@ -121,7 +121,7 @@ TEST_CASE("unloaded conjugate flanks: gap below 1e-12 m along the path, curvatur
       // the cubic term is a fifth of the gap at 0.3 mm.)
       const auto rest = [&](double x) {
         double cubic = 0;
-        for (int g = 0; g < 2; ++g) {
+        for (int g = 0; g < kSides; ++g) {
           const double rb = pair.gear(g).base_radius();
           cubic += (g == 0 ? -1 : 1) * rb / std::pow(rb * c.roll[g], 3);
         }

@@ -105,7 +105,7 @@ TEST_CASE("loaded: hubs hold the torque, energy is the work, flanks give way as 
     CAPTURE(phase);
     const LoadedArtifact& at = loaded_at(phase);
     const double base_radius = ToothGeometry(paper_gear()).base_radius();
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       CAPTURE(g);
       CHECK(at.hub_torque[g] == relative(at.contact_torque[g], 1e-6));
       CHECK(at.strain_energy[g] == relative(at.contact_work[g], 0.01));

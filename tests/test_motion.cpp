@@ -300,7 +300,7 @@ TEST_CASE(
   const GearMeshModel model(body, body, settings.mesh);
   const double rb = model.kinematics.gear(0).base_radius(), load = 150 / rb, depth = 1e-3;
   std::array<std::vector<MatrixXd>, 2> tables;
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     for (int offset = -body.offsets; offset <= body.offsets; ++offset)
       tables[g].push_back(model.gear[g].compliance(offset, depth));
   // m: the gear's rotation over its base circle if 150 N m turn it and the other is held.

@@ -67,7 +67,7 @@ struct ClosedForm {
     const auto gap = [&](long double x) { return -height(at[0], x, 0) - height(at[1], -x, 1); };
     // Between the tips: x of each flank's end.
     long double end[2], y;
-    for (int g = 0; g < 2; ++g) point(at[g], tip, end[g], y);
+    for (int g = 0; g < kSides; ++g) point(at[g], tip, end[g], y);
     long double low = std::max(-end[1], -5e-4L), high = std::min(end[0], 5e-4L);
     for (int i = 0; i < 160; ++i) {
       const long double a = low + (high - low) / 3, b = high - (high - low) / 3;
@@ -88,7 +88,7 @@ ClosedForm closed_form(const GearPair& pair, const FlankModification& driver,
   c.pitch = pair.base_pitch();
   c.tip = pair.gear(0).tip_roll_angle();
   const FlankModification* m[2] = {&driver, &driven};
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     c.start[g] = m[g]->tip.start_roll;
     c.amount[g] = m[g]->tip.amount;
   }

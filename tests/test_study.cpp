@@ -154,7 +154,8 @@ TEST_CASE("a grid holds all combinations, the last key fastest") {
   CHECK(third.torque == 150);
   CHECK(third.scene.operation.torques.front() == 100);  // which sets the dampers
   // The wheel is like the pinion.
-  for (int g = 0; g < 2; ++g) CHECK(third.scene.mesh.modification[g].tip.amount == relative(0.3e-6, 1e-15));
+  for (int g = 0; g < kSides; ++g)
+    CHECK(third.scene.mesh.modification[g].tip.amount == relative(0.3e-6, 1e-15));
 }
 
 TEST_CASE("variants are the scene as if their keys were edited in it") {

@@ -337,7 +337,7 @@ TEST_CASE("one tooth that stands ahead takes load from its neighbour as two spri
   const MeshPosition position = make_line_position(model, 0.5, 1e-6, kDepth, shared_force(load), 1);
   REQUIRE(position.pairs.size() == 2);
   Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(2, 2);
-  for (int g = 0; g < 2; ++g) {
+  for (int g = 0; g < kSides; ++g) {
     std::vector<Eigen::MatrixXd> tables;
     for (int offset = -body.offsets; offset <= body.offsets; ++offset)
       tables.push_back(model.gear[g].compliance(offset, kDepth));

@@ -29,102 +29,149 @@ constexpr std::uint8_t kLine = 3, kQuad = 9, kBiquadraticQuad = 28;  // VTK cell
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-function-size): copies of one sector, whose numbering all parts share
-VtkGrid whole_gear(const MeshArtifact& sector) {
-  const int teeth = sector.design.teeth;
-  const Eigen::Index nodes = sector.node_position.rows(), elements = sector.element_node.rows();
-  if (teeth < 1 || nodes == 0) fail(Failure::numerical, "a sector without nodes or teeth cannot be a gear");
+namespace {
 
-  // A node on the clockwise edge of copy j is its image on the counter-clockwise edge of copy j - 1.
-  std::vector<Eigen::Index> image(static_cast<std::size_t>(nodes), -1),
-      own(static_cast<std::size_t>(nodes), -1);
-  for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k) {
-    image.at(static_cast<std::size_t>(sector.side_node(k, 0))) = sector.side_node(k, 1);
+Eigen::Vector2d turned(const MatrixRM& position, Eigen::Index node, int copy, int teeth) {
+  const double angle = 2.0 * std::numbers::pi * copy / teeth, c = std::cos(angle), s = std::sin(angle);
+  const double x = position(node, 0), y = position(node, 1);
+  return {c * x - s * y, s * x + c * y};
+}
+
+// Nodes of the copies of a sector: one on the clockwise edge of copy j is its image on the counter-clockwise edge of copy j - 1.
+class CopiedNodes {
+ public:
+  explicit CopiedNodes(const MeshArtifact& sector)
+      : teeth_(sector.design.teeth),
+        image_(static_cast<std::size_t>(sector.node_position.rows()), -1),
+        own_(image_.size(), -1) {
+    for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k)
+      image_.at(static_cast<std::size_t>(sector.side_node(k, 0))) = sector.side_node(k, 1);
+    for (std::size_t i = 0; i < image_.size(); ++i)
+      if (image_[i] < 0) own_[i] = per_copy_++;
   }
-  Eigen::Index per_copy = 0;
-  for (Eigen::Index i = 0; i < nodes; ++i) {
-    if (image[static_cast<std::size_t>(i)] < 0) own[static_cast<std::size_t>(i)] = per_copy++;
-  }
-  const auto number = [&](int copy, Eigen::Index node) {
-    const Eigen::Index partner = image[static_cast<std::size_t>(node)];
-    if (partner >= 0) {
-      copy = (copy + teeth - 1) % teeth;
+
+  Eigen::Index count() const { return per_copy_ * teeth_; }
+  bool is_own(Eigen::Index node) const { return own_[static_cast<std::size_t>(node)] >= 0; }
+  Eigen::Index number(int copy, Eigen::Index node) const {
+    if (const Eigen::Index partner = image_[static_cast<std::size_t>(node)]; partner >= 0) {
+      copy = (copy + teeth_ - 1) % teeth_;
       node = partner;
     }
-    if (own[static_cast<std::size_t>(node)] < 0) {
-      fail(Failure::numerical, "sector node ", node, " lies on both edges of the sector");
-    }
-    return copy * per_copy + own[static_cast<std::size_t>(node)];
-  };
-  const auto turned = [&](int copy, Eigen::Index node) {
-    const double angle = 2.0 * std::numbers::pi * copy / teeth, c = std::cos(angle), s = std::sin(angle);
-    const double x = sector.node_position(node, 0), y = sector.node_position(node, 1);
-    return Eigen::Vector2d(c * x - s * y, s * x + c * y);
-  };
-  for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k) {
-    const Eigen::Vector2d low = turned(1, sector.side_node(k, 0)), high = turned(0, sector.side_node(k, 1));
-    if ((low - high).norm() > 1e-9 * high.norm()) {
-      fail(Failure::numerical, "the sector does not close: nodes ", sector.side_node(k, 0), " and ",
-           sector.side_node(k, 1), " are ", (low - high).norm(), " m apart after a turn of one tooth");
-    }
+    if (!is_own(node)) fail(Failure::numerical, "sector node ", node, " lies on both edges of the sector");
+    return copy * per_copy_ + own_[static_cast<std::size_t>(node)];
   }
 
+ private:
+  int teeth_;
+  std::vector<Eigen::Index> image_, own_;
+  Eigen::Index per_copy_ = 0;
+};
+
+void require_closed(const MeshArtifact& sector) {
+  const int teeth = sector.design.teeth;
+  for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k) {
+    const Eigen::Vector2d low = turned(sector.node_position, sector.side_node(k, 0), 1, teeth),
+                          high = turned(sector.node_position, sector.side_node(k, 1), 0, teeth);
+    if ((low - high).norm() > 1e-9 * high.norm())
+      fail(Failure::numerical, "the sector does not close: nodes ", sector.side_node(k, 0), " and ",
+           sector.side_node(k, 1), " are ", (low - high).norm(), " m apart after a turn of one tooth");
+  }
+}
+
+// The cells of a cracked tooth in the place of the intact one's. Its nodes on the sector edges are those of its neighbours, all
+// others are added.
+void replace_tooth(const MeshArtifact& sector, const MeshArtifact& cracked, const CopiedNodes& nodes,
+                   VtkGrid& out, Eigen::VectorXi& region, Eigen::VectorXi& tooth) {
+  const int teeth = sector.design.teeth, copy = sector.design.crack.tooth;
+  const Eigen::Index elements = sector.element_node.rows();
+  std::vector<Eigen::Index> shown(static_cast<std::size_t>(cracked.node_position.rows()), -1);
+  for (Eigen::Index k = 0; k < sector.side_node.size(); ++k)
+    shown.at(static_cast<std::size_t>(cracked.side_node.data()[k])) =
+        nodes.number(copy, sector.side_node.data()[k]);
+  const Eigen::Index before = out.point.rows(), kept = elements * (teeth - 1),
+                     all = kept + cracked.element_node.rows();
+  Eigen::Index count = before;
+  for (Eigen::Index& at : shown)
+    if (at < 0) at = count++;
+  out.point.conservativeResize(count, 2);
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    if (shown[i] >= before)
+      out.point.row(shown[i]) =
+          turned(cracked.node_position, static_cast<Eigen::Index>(i), copy, teeth).transpose();
+  MatrixRMi cell(all, out.cell.cols());
+  Eigen::VectorXi own_region(all), own_tooth(all);
+  const Eigen::Index first = copy * elements, rest = kept - first;
+  cell << out.cell.topRows(first), out.cell.bottomRows(rest), cracked.element_node.unaryExpr([&shown](int i) {
+    return static_cast<int>(shown[static_cast<std::size_t>(i)]);
+  });
+  own_region << region.head(first), region.tail(rest), cracked.element_region;
+  own_tooth << tooth.head(first), tooth.tail(rest),
+      Eigen::VectorXi::Constant(cracked.element_node.rows(), copy);
+  out.cell = cell;
+  region = own_region;
+  tooth = own_tooth;
+}
+
+}  // namespace
+
+VtkGrid whole_gear(const MeshArtifact& sector) {
+  const int teeth = sector.design.teeth;
+  const Eigen::Index elements = sector.element_node.rows();
+  if (teeth < 1 || sector.node_position.rows() == 0)
+    fail(Failure::numerical, "a sector without nodes or teeth cannot be a gear");
+  const CopiedNodes nodes(sector);
+  require_closed(sector);
   VtkGrid out;
-  out.point.resize(per_copy * teeth, 2);
+  out.point.resize(nodes.count(), 2);
   out.cell.resize(elements * teeth, sector.element_node.cols());
   Eigen::VectorXi region(elements * teeth), tooth(elements * teeth);
   for (int copy = 0; copy < teeth; ++copy) {
-    for (Eigen::Index i = 0; i < nodes; ++i) {
-      if (own[static_cast<std::size_t>(i)] >= 0) out.point.row(number(copy, i)) = turned(copy, i).transpose();
-    }
+    for (Eigen::Index i = 0; i < sector.node_position.rows(); ++i)
+      if (nodes.is_own(i))
+        out.point.row(nodes.number(copy, i)) = turned(sector.node_position, i, copy, teeth).transpose();
     for (Eigen::Index e = 0; e < elements; ++e) {
-      for (Eigen::Index k = 0; k < sector.element_node.cols(); ++k) {
-        out.cell(copy * elements + e, k) = static_cast<int>(number(copy, sector.element_node(e, k)));
-      }
+      for (Eigen::Index k = 0; k < sector.element_node.cols(); ++k)
+        out.cell(copy * elements + e, k) = static_cast<int>(nodes.number(copy, sector.element_node(e, k)));
       region[copy * elements + e] = e < sector.element_region.size() ? sector.element_region[e] : 0;
       tooth[copy * elements + e] = copy;
     }
   }
-  for (const MeshArtifact& cracked : sector.cracked_tooth) {
-    // Its nodes on the sector edges are those of its neighbours, all others are added; the intact tooth's cells go.
-    const int copy = sector.design.crack.tooth;
-    std::vector<Eigen::Index> shown(static_cast<std::size_t>(cracked.node_position.rows()), -1);
-    for (Eigen::Index k = 0; k < sector.side_node.size(); ++k)
-      shown.at(static_cast<std::size_t>(cracked.side_node.data()[k])) =
-          number(copy, sector.side_node.data()[k]);
-    const Eigen::Index before = out.point.rows(), kept = elements * (teeth - 1),
-                       all = kept + cracked.element_node.rows();
-    Eigen::Index count = before;
-    for (Eigen::Index& at : shown)
-      if (at < 0) at = count++;
-    out.point.conservativeResize(count, 2);
-    const double angle = 2.0 * std::numbers::pi * copy / teeth, c = std::cos(angle), s = std::sin(angle);
-    for (std::size_t i = 0; i < shown.size(); ++i)
-      if (shown[i] >= before) {
-        const double x = cracked.node_position(static_cast<Eigen::Index>(i), 0),
-                     y = cracked.node_position(static_cast<Eigen::Index>(i), 1);
-        out.point.row(shown[i]) << c * x - s * y, s * x + c * y;
-      }
-    MatrixRMi cell(all, out.cell.cols());
-    Eigen::VectorXi own_region(all), own_tooth(all);
-    const Eigen::Index first = copy * elements, rest = kept - first;
-    cell << out.cell.topRows(first), out.cell.bottomRows(rest),
-        cracked.element_node.unaryExpr(
-            [&shown](int i) { return static_cast<int>(shown[static_cast<std::size_t>(i)]); });
-    own_region << region.head(first), region.tail(rest), cracked.element_region;
-    own_tooth << tooth.head(first), tooth.tail(rest),
-        Eigen::VectorXi::Constant(cracked.element_node.rows(), copy);
-    out.cell = cell;
-    region = own_region;
-    tooth = own_tooth;
-  }
+  for (const MeshArtifact& cracked : sector.cracked_tooth)
+    replace_tooth(sector, cracked, nodes, out, region, tooth);
   out.cell_numbers = {{"region", region}, {"tooth", tooth}};
   return out;
 }
 
-// NOLINTNEXTLINE(readability-function-size): the sequence of datasets that the format asks for
+namespace {
+
+const std::string kGroup = "/VTKHDF/";
+
+// Values of points or cells, which `of` names ("PointData"), as many rows as there are of them.
+void put_fields(h5::Writer& file, const std::vector<LoadedArtifact::Field>& fields, const std::string& of,
+                const std::string& axis, std::size_t rows, bool rounded) {
+  for (const auto& [name, units, values] : fields) {
+    const auto columns = static_cast<std::size_t>(values.cols());
+    if (values.rows() != static_cast<Eigen::Index>(rows) || columns < 1 || columns > 3) {
+      fail(Failure::numerical, of, " '", name, "' is ", values.rows(), " x ", values.cols(), ", expected ",
+           rows, " x 1, 2 or 3");
+    }
+    const std::size_t width = columns == 2 ? 3 : columns;
+    std::vector<float> data(rows * width, 0.0F);
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t k = 0; k < columns; ++k) {
+        const double value = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+        data[i * width + k] = rounded ? to_three_digits(value) : static_cast<float>(value);
+      }
+    const h5::Shape shape = width == 1 ? h5::Shape{rows} : h5::Shape{rows, width};
+    file.put(kGroup + of + "/" + name, data.data(), shape,
+             {units, name + (rounded ? ", for looking: three digits" : ", for looking: single precision"),
+              axis + (width == 1 ? "" : " component"), ""});
+  }
+}
+
+}  // namespace
+
 void put_vtk(h5::Writer& file, const VtkGrid& grid) {
-  const std::string group = "/VTKHDF/";
   const auto points = static_cast<std::size_t>(grid.point.rows());
   const auto lines = static_cast<std::size_t>(grid.line.rows());
   const auto cells = static_cast<std::size_t>(grid.cell.rows()) + lines;
@@ -138,7 +185,7 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
 
   const auto count = [&](const std::string& name, std::size_t value, const std::string& meaning) {
     const auto number = static_cast<std::int64_t>(value);
-    file.put(group + name, &number, {1}, {"1", meaning, "partition", ""});
+    file.put(kGroup + name, &number, {1}, {"1", meaning, "partition", ""});
   };
   count("NumberOfPoints", points, "number of points");
   count("NumberOfCells", cells, "number of cells");
@@ -161,7 +208,7 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   };
   MatrixRM place = grid.point;
   if (grid.rounded) place = place.unaryExpr([](double x) { return to_nanometre(x); });
-  file.put(group + "Points", in_space(place, 0.0).data(), {points, 3},
+  file.put(kGroup + "Points", in_space(place, 0.0).data(), {points, 3},
            {"m", "position of the points", "point xyz", ""});
 
   std::vector<std::int64_t> connectivity, offsets;
@@ -183,47 +230,25 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   for (Eigen::Index e = 0; e < grid.cell.rows(); ++e)
     if (corners_of(e) == 4) types[static_cast<std::size_t>(e)] = kQuad;
   std::fill(types.end() - static_cast<std::ptrdiff_t>(lines), types.end(), kLine);
-  file.put(group + "Connectivity", connectivity.data(), {connectivity.size()},
+  file.put(kGroup + "Connectivity", connectivity.data(), {connectivity.size()},
            {"1", "points of each cell", "connectivity", ""});
-  file.put(group + "Offsets", offsets.data(), {offsets.size()},
+  file.put(kGroup + "Offsets", offsets.data(), {offsets.size()},
            {"1", "where each cell begins in Connectivity", "cell", ""});
-  file.put(group + "Types", types.data(), {types.size()}, {"1", "VTK cell type: 3, 9 or 28", "cell", ""});
+  file.put(kGroup + "Types", types.data(), {types.size()}, {"1", "VTK cell type: 3, 9 or 28", "cell", ""});
 
   for (const auto& [name, values] : grid.vectors) {
     if (values.rows() != grid.point.rows() || values.cols() != 2) {
       fail(Failure::numerical, "point data '", name, "' is ", values.rows(), " x ", values.cols(),
            ", expected ", points, " x 2");
     }
-    file.put(group + "PointData/" + name, in_space(values, 0.0F).data(), {points, 3},
+    file.put(kGroup + "PointData/" + name, in_space(values, 0.0F).data(), {points, 3},
              {"1", name + ", for looking: single precision", "point xyz", ""});
   }
   for (const auto& [name, values] : grid.cell_numbers) {
-    file.put(group + "CellData/" + name, values.data(), {cells}, {"1", name + " of the cell", "cell", ""});
+    file.put(kGroup + "CellData/" + name, values.data(), {cells}, {"1", name + " of the cell", "cell", ""});
   }
-  const auto put_fields = [&](const std::vector<LoadedArtifact::Field>& fields, const std::string& of,
-                              const std::string& axis, std::size_t rows) {
-    for (const auto& [name, units, values] : fields) {
-      const auto columns = static_cast<std::size_t>(values.cols());
-      if (values.rows() != static_cast<Eigen::Index>(rows) || columns < 1 || columns > 3) {
-        fail(Failure::numerical, of, " '", name, "' is ", values.rows(), " x ", values.cols(), ", expected ",
-             rows, " x 1, 2 or 3");
-      }
-      const std::size_t width = columns == 2 ? 3 : columns;
-      std::vector<float> data(rows * width, 0.0F);
-      for (std::size_t i = 0; i < rows; ++i)
-        for (std::size_t k = 0; k < columns; ++k) {
-          const double value = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-          data[i * width + k] = grid.rounded ? to_three_digits(value) : static_cast<float>(value);
-        }
-      const h5::Shape shape = width == 1 ? h5::Shape{rows} : h5::Shape{rows, width};
-      file.put(
-          group + of + "/" + name, data.data(), shape,
-          {units, name + (grid.rounded ? ", for looking: three digits" : ", for looking: single precision"),
-           axis + (width == 1 ? "" : " component"), ""});
-    }
-  };
-  put_fields(grid.point_data, "PointData", "point", points);
-  put_fields(grid.cell_data, "CellData", "cell", cells);
+  put_fields(file, grid.point_data, "PointData", "point", points, grid.rounded);
+  put_fields(file, grid.cell_data, "CellData", "cell", cells, grid.rounded);
 }
 
 void link_for_paraview(const std::string& path) {

@@ -21,10 +21,6 @@ struct System {
     double angle = 0;                // rad, counter-clockwise from +y: of tooth 0 at phase 0
     std::array<double, 2> centre{};  // m
     Bearing bearing = {};
-
-    int rigid_freedoms() const {
-      return bearing.elastic() ? 3 : 1;
-    }  // rotation; and translation along x and y
   };
   struct Side {
     int body = 0;

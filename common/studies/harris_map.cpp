@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "base/error.h"
 #include "contact/load_path.h"
@@ -207,18 +208,32 @@ double single_pair_relief_length(const BodyArtifact& driver, const BodyArtifact&
   return (pair.contact_ratio() - 1) * pair.base_pitch();
 }
 
-// NOLINTNEXTLINE(readability-function-size): one sweep of torque and relief for each start, whose positions all points share
-HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& driven,
-                             const StaticParameters& statics, const HarrisPlan& plan,
-                             const std::function<void(long, long, const std::string&)>& report) {
-  require_plan(plan);
-  require_like_teeth(statics.mesh, "a Harris map");
-  require_rigid_bearings(statics.mesh, "a Harris map");
-  require_external(statics.mesh, driver.design, driven.design, "a Harris map");
-  if (hunting_periods(GearMeshModel(driver, driven, statics.mesh)) > 1)
-    fail(Failure::input,
-         "a Harris map is of teeth that are alike, and a gear of this pair has a cracked one; take a scene "
-         "without [gear.<name>.crack]");
+namespace {
+
+// The place between low and high where f is least, to within `close`, and its value there: golden section.
+std::pair<double, double> least_between(double low, double high, double close,
+                                        const std::function<double(double)>& f) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1);
+  double a = high - golden * (high - low), b = low + golden * (high - low), at_a = f(a), at_b = f(b);
+  while (high - low > close) {
+    if (at_a <= at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      at_a = f(a = high - golden * (high - low));
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      at_b = f(b = low + golden * (high - low));
+    }
+  }
+  return {at_a <= at_b ? a : b, std::min(at_a, at_b)};
+}
+
+// The axes of a map, its values all 0.
+HarrisMapArtifact blank_map(const BodyArtifact& driver, const BodyArtifact& driven,
+                            const StaticParameters& statics, const HarrisPlan& plan) {
   const auto as_vector = [](const std::vector<double>& v) {
     return VectorXd(Eigen::Map<const VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
   };
@@ -234,116 +249,150 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
   map.relief = as_vector(plan.relief);
   map.length = as_vector(plan.length);
   map.design_torque = plan.design_torque;
-  const Eigen::Index torques = map.torque.size(), reliefs = map.relief.size(), starts = map.length.size();
+  const Eigen::Index torques = map.torque.size(), starts = map.length.size();
   map.optimum_relief = map.optimum_peak_to_peak = VectorXd::Zero(starts);
   map.cusp = MatrixRM::Zero(starts, torques);
   map.unrelieved = VectorXd::Zero(torques);
   map.start_roll.resize(starts, 2);
+  return map;
+}
 
+// Fills in a map start by start, in ranges of torque and relief whose positions all their points share.
+class MapOfStarts {
+ public:
+  MapOfStarts(HarrisMapArtifact& map, const GearMeshModel& model, const HarrisPlan& plan)
+      : map_(map),
+        model_(model),
+        plan_(plan),
+        tables_{compliance_tables(model.gear[0], kDepth), compliance_tables(model.gear[1], kDepth)},
+        reliefs_(map.relief.size()) {
+    const Eigen::Index torques = map.torque.size();
+    for (Eigen::Index first = 0, t = 0; t <= torques; ++t)
+      if (t == torques || map.torque[t] > kTorqueRange * map.torque[first]) {
+        torque_ranges_.emplace_back(first, t - first);
+        first = t;
+      }
+    for (int r = kReliefRanges - 1; r >= 0; --r)
+      relief_ends_.push_back(map.relief[reliefs_ - 1] / std::pow(kReliefRange, r));
+    relief_ends_.back() = map.relief[reliefs_ - 1];
+  }
+
+  void begin(Eigen::Index start);
+  void find_optimum(Eigen::Index start);
+  void fill(Eigen::Index start, const std::function<void(long, long, const std::string&)>& report);
+
+ private:
+  double base_radius() const { return model_.kinematics.gear(0).base_radius(); }
+  size_t range_of(double relief) const {
+    return static_cast<size_t>(
+        std::lower_bound(relief_ends_.begin(), relief_ends_.end(), relief * (1 - 1e-12)) -
+        relief_ends_.begin());
+  }
+
+  HarrisMapArtifact& map_;
+  const GearMeshModel& model_;
+  const HarrisPlan& plan_;
+  std::array<std::vector<MatrixXd>, 2> tables_;
+  Eigen::Index reliefs_;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> torque_ranges_;  // first, count
+  std::vector<double> relief_ends_;     // ascending, the largest relief of each range
+  std::array<FlankDeviation, 2> unit_;  // of the start: a relief of Range::kUnit
+};
+
+void MapOfStarts::begin(Eigen::Index start) {
+  for (int g = 0; g < kSides; ++g) {
+    const ToothGeometry& gear = model_.kinematics.gear(g);
+    map_.start_roll(start, g) = gear.tip_roll_angle() - map_.length[start] / gear.base_radius();
+    unit_[g] = relieves(map_.relieved, g)
+                   ? FlankDeviation(gear, with_tip({}, Range::kUnit, map_.length[start], map_.shape))
+                   : FlankDeviation();
+    // The largest must fit the tooth, together with what else is taken off.
+    FlankDeviation(gear, relieved_mesh(map_, map_.relief[reliefs_ - 1], map_.length[start]).modification[g]);
+  }
+  map_.peak_to_peak.push_back(MatrixRM::Zero(map_.torque.size(), reliefs_));
+  for (auto& h : map_.harmonic) h.push_back(MatrixRM::Zero(map_.torque.size(), reliefs_));
+}
+
+void MapOfStarts::find_optimum(Eigen::Index start) {
+  const VectorXd load = VectorXd::Constant(1, plan_.design_torque / base_radius());
+  // A range of one load has no strips to spare, as the others have under their larger loads.
+  HarrisPlan finer = plan_;
+  finer.strips *= 2;
+  std::vector<Range> ranges;
+  ranges.reserve(relief_ends_.size());
+  for (const double end : relief_ends_) ranges.emplace_back(model_, unit_, end, tables_, load, finer);
+  const auto value = [&](double relief) {
+    return peak_to_peak(ranges[range_of(relief)].error(relief).col(0));
+  };
+  Eigen::Index best = 0;
+  VectorXd there(reliefs_);
+  for (Eigen::Index r = 0; r < reliefs_; ++r) {
+    there[r] = value(map_.relief[r]);
+    if (there[r] < there[best]) best = r;
+  }
+  // Between the neighbours of the best of the map.
+  std::tie(map_.optimum_relief[start], map_.optimum_peak_to_peak[start]) =
+      least_between(map_.relief[std::max<Eigen::Index>(0, best - 1)],
+                    map_.relief[std::min(reliefs_ - 1, best + 1)], 1e-3 * map_.relief[reliefs_ - 1], value);
+  if (there[best] <= map_.optimum_peak_to_peak[start]) {
+    map_.optimum_relief[start] = map_.relief[best];
+    map_.optimum_peak_to_peak[start] = there[best];
+  }
+}
+
+void MapOfStarts::fill(Eigen::Index start,
+                       const std::function<void(long, long, const std::string&)>& report) {
+  const auto fill_in = [&](Range& range, Eigen::Index first, double relief, const auto& take) {
+    const MatrixXd error = range.error(relief);
+    for (Eigen::Index t = 0; t < error.cols(); ++t) take(first + t, error.col(t));
+  };
+  long done = 0;
+  const long total = static_cast<long>(torque_ranges_.size() * relief_ends_.size());
+  double after = -1;
+  for (const double end : relief_ends_) {
+    for (const auto& [first, count] : torque_ranges_) {
+      Range range(model_, unit_, end, tables_, map_.torque.segment(first, count) / base_radius(), plan_);
+      for (Eigen::Index r = 0; r < reliefs_; ++r) {
+        if (relief_ends_[std::min(range_of(map_.relief[r]), relief_ends_.size() - 1)] != end) continue;
+        fill_in(range, first, map_.relief[r], [&](Eigen::Index t, const auto& error) {
+          map_.peak_to_peak[start](t, r) = peak_to_peak(error);
+          const Harmonics h = harmonics(error, kHarmonics);
+          for (int n = 0; n < kHarmonics; ++n) map_.harmonic[n][start](t, r) = h.amplitude[n];
+        });
+      }
+      const double optimum = map_.optimum_relief[start];  // it has a curve over all torques
+      if (optimum > after && optimum <= end)
+        fill_in(range, first, optimum,
+                [&](Eigen::Index t, const auto& error) { map_.cusp(start, t) = peak_to_peak(error); });
+      if (start == 0 && after < 0)
+        fill_in(range, first, 0.0,
+                [&](Eigen::Index t, const auto& error) { map_.unrelieved[t] = peak_to_peak(error); });
+      report(++done + start * total, map_.length.size() * total, text("relief to ", end * 1e6, " µm"));
+    }
+    after = end;
+  }
+}
+
+}  // namespace
+
+HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& driven,
+                             const StaticParameters& statics, const HarrisPlan& plan,
+                             const std::function<void(long, long, const std::string&)>& report) {
+  require_plan(plan);
+  require_like_teeth(statics.mesh, "a Harris map");
+  require_rigid_bearings(statics.mesh, "a Harris map");
+  require_external(statics.mesh, driver.design, driven.design, "a Harris map");
+  if (hunting_periods(GearMeshModel(driver, driven, statics.mesh)) > 1)
+    fail(Failure::input,
+         "a Harris map is of teeth that are alike, and a gear of this pair has a cracked one; take a scene "
+         "without [gear.<name>.crack]");
+  HarrisMapArtifact map = blank_map(driver, driven, statics, plan);
   const GearMeshModel model(driver, driven, map.mesh);
-  const std::array tables{compliance_tables(model.gear[0], kDepth), compliance_tables(model.gear[1], kDepth)};
-  const double rb = model.kinematics.gear(0).base_radius();
-  // Torques of a range, the design torque in a last one of its own.
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> torque_ranges;  // first, count
-  for (Eigen::Index first = 0, t = 0; t <= torques; ++t)
-    if (t == torques || map.torque[t] > kTorqueRange * map.torque[first]) {
-      torque_ranges.emplace_back(first, t - first);
-      first = t;
-    }
-  std::vector<double> relief_ends;  // ascending, the largest relief of each range
-  for (int r = kReliefRanges - 1; r >= 0; --r)
-    relief_ends.push_back(map.relief[reliefs - 1] / std::pow(kReliefRange, r));
-  relief_ends.back() = map.relief[reliefs - 1];
-
-  for (Eigen::Index s = 0; s < starts; ++s) {
-    std::array<FlankDeviation, 2> unit;
-    for (int g = 0; g < kSides; ++g) {
-      const ToothGeometry& gear = model.kinematics.gear(g);
-      map.start_roll(s, g) = gear.tip_roll_angle() - map.length[s] / gear.base_radius();
-      if (relieves(map.relieved, g))
-        unit[g] = FlankDeviation(gear, with_tip({}, Range::kUnit, map.length[s], map.shape));
-      // The largest must fit the tooth, together with what else is taken off.
-      FlankDeviation(gear, relieved_mesh(map, map.relief[reliefs - 1], map.length[s]).modification[g]);
-    }
-    map.peak_to_peak.push_back(MatrixRM::Zero(torques, reliefs));
-    for (auto& h : map.harmonic) h.push_back(MatrixRM::Zero(torques, reliefs));
-    const auto range_of = [&](double relief) {
-      return std::lower_bound(relief_ends.begin(), relief_ends.end(), relief * (1 - 1e-12));
-    };
-    const auto fill = [&](Range& range, Eigen::Index first, double relief, const auto& take) {
-      const MatrixXd error = range.error(relief);
-      for (Eigen::Index t = 0; t < error.cols(); ++t) take(first + t, error.col(t));
-    };
-    // The optimum first: its relief then has a curve over all torques.
-    {
-      const VectorXd load = VectorXd::Constant(1, plan.design_torque / rb);
-      // A range of one load has no strips to spare, as the others have under their larger loads.
-      HarrisPlan finer = plan;
-      finer.strips *= 2;
-      std::vector<Range> ranges;
-      ranges.reserve(relief_ends.size());
-      for (const double end : relief_ends) ranges.emplace_back(model, unit, end, tables, load, finer);
-      const auto value = [&](double relief) {
-        return peak_to_peak(ranges[range_of(relief) - relief_ends.begin()].error(relief).col(0));
-      };
-      Eigen::Index best = 0;
-      VectorXd there(reliefs);
-      for (Eigen::Index r = 0; r < reliefs; ++r) {
-        there[r] = value(map.relief[r]);
-        if (there[r] < there[best]) best = r;
-      }
-      // Golden section between the neighbours of the best of the map.
-      double low = map.relief[std::max<Eigen::Index>(0, best - 1)],
-             high = map.relief[std::min(reliefs - 1, best + 1)];
-      const double golden = 0.5 * (std::sqrt(5.0) - 1);
-      double a = high - golden * (high - low), b = low + golden * (high - low), at_a = value(a),
-             at_b = value(b);
-      while (high - low > 1e-3 * map.relief[reliefs - 1]) {
-        if (at_a <= at_b) {
-          high = b;
-          b = a;
-          at_b = at_a;
-          at_a = value(a = high - golden * (high - low));
-        } else {
-          low = a;
-          a = b;
-          at_a = at_b;
-          at_b = value(b = low + golden * (high - low));
-        }
-      }
-      map.optimum_relief[s] = at_a <= at_b ? a : b;
-      map.optimum_peak_to_peak[s] = std::min(at_a, at_b);
-      if (there[best] <= map.optimum_peak_to_peak[s]) {
-        map.optimum_relief[s] = map.relief[best];
-        map.optimum_peak_to_peak[s] = there[best];
-      }
-    }
-    long done = 0;
-    const long total = static_cast<long>(torque_ranges.size() * relief_ends.size());
-    double after = -1;
-    for (const double end : relief_ends) {
-      for (const auto& [first, count] : torque_ranges) {
-        Range range(model, unit, end, tables, map.torque.segment(first, count) / rb, plan);
-        for (Eigen::Index r = 0; r < reliefs; ++r) {
-          if (relief_ends[std::min<size_t>(range_of(map.relief[r]) - relief_ends.begin(),
-                                           relief_ends.size() - 1)] != end)
-            continue;
-          fill(range, first, map.relief[r], [&](Eigen::Index t, const auto& error) {
-            map.peak_to_peak[s](t, r) = peak_to_peak(error);
-            const Harmonics h = harmonics(error, kHarmonics);
-            for (int n = 0; n < kHarmonics; ++n) map.harmonic[n][s](t, r) = h.amplitude[n];
-          });
-        }
-        if (map.optimum_relief[s] > after && map.optimum_relief[s] <= end)
-          fill(range, first, map.optimum_relief[s],
-               [&](Eigen::Index t, const auto& error) { map.cusp(s, t) = peak_to_peak(error); });
-        if (s == 0 && after < 0)
-          fill(range, first, 0.0,
-               [&](Eigen::Index t, const auto& error) { map.unrelieved[t] = peak_to_peak(error); });
-        report(++done + s * total, starts * total, text("relief to ", end * 1e6, " µm"));
-      }
-      after = end;
-    }
+  MapOfStarts starts(map, model, plan);
+  for (Eigen::Index s = 0; s < map.length.size(); ++s) {
+    starts.begin(s);
+    starts.find_optimum(s);
+    starts.fill(s, report);
   }
   return map;
 }

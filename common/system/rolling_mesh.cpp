@@ -74,12 +74,6 @@ void MeshPosition::add_to_strips(const MatrixXd& at_nodes, MatrixXd& a) const {
     }
 }
 
-VectorXd MeshPosition::pair_loads(const Eigen::Ref<const VectorXd>& p) const {
-  VectorXd loads(pairs.size());
-  for (size_t j = 0; j < pairs.size(); ++j) loads[j] = p.segment(first_strip[j], pairs[j].size()).sum();
-  return loads;
-}
-
 bool MeshPosition::reaches_zone_end(const Eigen::Ref<const VectorXd>& p) const {
   for (size_t j = 0; j < pairs.size(); ++j) {
     if (!pairs[j].low_is_edge && p[first_strip[j]] > 0) return true;

@@ -177,8 +177,6 @@ struct MeshPosition {
   Eigen::VectorXd to_nodes(const Eigen::Ref<const Eigen::VectorXd>& on_strips) const;
   // a += L C L^T, C (node, node), a (strip, strip).
   void add_to_strips(const Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& a) const;
-  // (pair) N: sum of the strips' forces.
-  Eigen::VectorXd pair_loads(const Eigen::Ref<const Eigen::VectorXd>& p) const;
   // True if force stands on a candidate zone's end that is no tip edge: the candidate zone is too narrow.
   bool reaches_zone_end(const Eigen::Ref<const Eigen::VectorXd>& p) const;
 };

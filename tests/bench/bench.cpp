@@ -236,7 +236,7 @@ PositionTimes static_position(const whine::GearMeshModel& model, const whine::St
       model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(), settings.contact.strips,
       load / model.kinematics.contact_ratio(), 1.1 * load, 1e-6 + 8e-9 * load);
   std::vector<MatrixXd> tables[2];
-  for (int g = 0; g < 2; ++g)
+  for (int g = 0; g < kSides; ++g)
     for (int offset = -model.gear[g].body().offsets; offset <= model.gear[g].body().offsets; ++offset)
       tables[g].push_back(model.gear[g].compliance(offset, depth));
   ComplementaritySolver solver;

@@ -241,7 +241,7 @@ class CalculixPair {
     // Softer would add to the deflection, harder makes the number of iterations grow.
     const double penalty = 20 * material_.youngs_modulus * 1e-6 / (element_ * 1e3);  // N mm-3
     std::size_t offset = 0, elements = 0;
-    for (int g = 0; g < 2; ++g) {
+    for (int g = 0; g < kSides; ++g) {
       const Mesh& gear = meshes[g];
       out << "*NODE, NSET=N" << g << "\n";
       for (const auto& [tag, p] : gear.node)
@@ -270,7 +270,7 @@ class CalculixPair {
     }
     out << "*MATERIAL, NAME=STEEL\n*ELASTIC\n"
         << material_.youngs_modulus * 1e-6 << ", " << material_.poisson_ratio << "\n";
-    for (int g = 0; g < 2; ++g)
+    for (int g = 0; g < kSides; ++g)
       out << "*SOLID SECTION, ELSET=E" << g << ", MATERIAL=STEEL\n"
           << gears_.gear(g).design().face_width * 1e3 << "\n";
     out << "*SURFACE INTERACTION, NAME=TOUCH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
