@@ -1544,7 +1544,7 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   write("static.h5", a, kMade);
   std::string all;
   for (const auto& [name, words] : summary("static.h5", "whine/static")) all += name + ": " + words + "\n";
-  CHECK(all.find("463.5 N/um") != std::string::npos);
+  CHECK(all.find("463.5 N/µm") != std::string::npos);
   CHECK(all.find("5 µm mean, 2 µm peak to peak") != std::string::npos);
   ErrorBudgetArtifact budget = small_budget();
   budget.refinement.mean_stiffness_change = Eigen::VectorXd{{1e-4, -2e-4, 3e-4}};

@@ -36,7 +36,8 @@ void body(int argc, char** argv) {
   char peak_words[64];
   std::snprintf(peak_words, sizeof peak_words, "%.3f µm at %.0f Hz", rms * 1e6, result.mesh_frequency[peak]);
   whine::tell("gear-spectra: ", result.torque, " N m ", result.direction, ", ", result.mesh_frequency.size(),
-              " speeds, largest RMS ", peak_words, ", ", result.jump_frequency.size(), " jumps -> ", output);
+              " speeds, largest RMS ", peak_words, ", ", result.jump_frequency.size(),
+              result.jump_frequency.size() == 1 ? " jump -> " : " jumps -> ", output);
 }
 
 }  // namespace

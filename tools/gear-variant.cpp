@@ -79,7 +79,8 @@ void body(int argc, char** argv) {
   if (!result.rejection.empty())
     whine::tell("gear-variant: warning: outside the model's range: ", result.rejection, " -> ", output);
   else
-    whine::tell("gear-variant: ", result.torque, " N m, ", result.quantity.size(), " response quantities -> ", output);
+    whine::tell("gear-variant: ", result.torque, " N m, ", result.quantity.size(), " response quantities -> ",
+                output);
   const std::string name = remarks.empty() ? "" : name_in(plan, params);
   for (const whine::Remark& remark : remarks)
     whine::tell("gear-variant: ", remark.warning ? "warning: " : "", name.empty() ? params + ": " : name,
