@@ -251,7 +251,8 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
                     {"half_window", half_zone * kMilli},
                     {"reach", 1.3 * reach * kMilli},
                     {"peak", peak * 1e-6},
-                    {"strips", static_cast<double>(n)}};
+                    {"strips", static_cast<double>(n)},
+                    {"ring", pair.ring() + 1.0}};
   return figure;
 }
 
