@@ -354,3 +354,21 @@ TEST_CASE(
                                    surface.mean_over_strip(0, 0.5 * width, 0.5 * width, kReferenceDepth));
   CHECK(loaded.deflection[0] == relative(expected, 1e-3));
 }
+
+TEST_CASE("a result says where a pinion cannot be put into its ring by a radial movement") {
+  StaticArtifact s;
+  s.driven = ring_gear();
+  s.driver_material = s.driven_material = kSteel;
+  s.mean_stiffness = 5e8;
+  s.torque = 1;
+  for (const int teeth : {35, 88}) {
+    s.driver = planet_gear();
+    s.driver.teeth = teeth;
+    s.driver.addendum = 0.8;
+    s.mesh.centre_distance = 0.5 * (99 - teeth) * s.driver.module;
+    bool warned = false;
+    for (const Remark& remark : remarks(s))
+      warned |= remark.warning && remark.words.find("trimming interference") != std::string::npos;
+    CHECK(warned == (teeth == 88));
+  }
+}

@@ -59,7 +59,7 @@ set ylabel "Height (µm)"
 set ytics 0.5
 set label 1 "{/:Bold (b)} unloaded flanks, candidate pairs P, G"
 # Both flanks of an internal pair bend the same way, away from the bottom.
-set key at graph 0.5, graph (ring > 0 ? 0.14 : 0.98) center top maxrows 2 samplen 2.2 opaque
+set key at graph 0.5, graph (ring > 0 ? 0.24 : 0.98) center top maxrows 2 samplen 2.2 opaque
 picked = int(0.8 * strips)
 plot tsv index "[flanks]" using 1:3 with lines lt 1 lw 2.6 lc rgb driven_line title "driven", \
   tsv index "[flanks]" using 1:2 with lines lt 1 lw 2.6 lc rgb driver_line title "driver", \
