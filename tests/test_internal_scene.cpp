@@ -8,7 +8,6 @@
 #include "internal_pair.h"
 #include "io/body_codec.h"
 #include "io/mesh_codec.h"
-#include "io/stage_parameters.h"
 #include "relative.h"
 #include "scene_file.h"
 #include "solid/mesher.h"

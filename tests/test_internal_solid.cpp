@@ -7,14 +7,18 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "contact/half_plane_strip.h"
+#include "gear/train.h"
 #include "internal_pair.h"
 #include "relative.h"
 #include "solid/flank_loads.h"
 #include "solid/flank_table.h"
+#include "solid/loaded_gear.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "solid/sector.h"
 #include "system/statics.h"
+#include "system/system_statics.h"
 
 using namespace whine;
 
@@ -265,4 +269,105 @@ TEST_CASE("a ring that drives its planet is the planet that drives the ring, bac
   const Eigen::Index n = forward.transmission_error.size();
   for (Eigen::Index i = 0; i < n; ++i)
     CHECK(backward.transmission_error[i] == relative(forward.transmission_error[(n - i) % n], 1e-9));
+}
+
+namespace {
+
+GearDesign sun_gear() {
+  GearDesign d = planet_gear();
+  d.teeth = 27;
+  d.profile_shift =
+      1.05;  // at the planet's distance from the ring's axis, which is not that of unshifted teeth
+  d.addendum = 0.8;
+  d.bore_radius = 20e-3;
+  return d;
+}
+
+const BodyArtifact& sun_body() {
+  static const BodyArtifact body = reduce(make_sector_mesh(sun_gear(), elements(1.2e-3)), kSteel, 1);
+  return body;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "sun, planet, ring on fixed axes: forces and torques of every body balance at every phase, in both "
+    "senses") {
+  constexpr double kSunTorque = 120;
+  Bearing soft;
+  soft.stiffness = 300e6;
+  GearMeshSpec outer, inner;
+  outer.driver = "sun";
+  outer.driven = inner.driver = "planet";
+  inner.driven = "ring";
+  outer.centre_distance = inner.centre_distance = kInternalDistance;
+  outer.corner.enabled = inner.corner.enabled = false;
+  const GearPair at_sun(sun_gear(), planet_gear(), kInternalDistance),
+      at_ring(planet_gear(), ring_gear(), kInternalDistance);
+  const double force = kSunTorque / at_sun.gear(0).base_radius();
+  std::vector<double> error[2];
+  for (const int sense : {1, -1}) {
+    System layout;
+    add_input_gear(layout, "sun", sun_gear());
+    layout.bodies[0].sense = sense;
+    add_driven_gear(layout, 0, sun_gear(), "planet", planet_gear(), kInternalDistance, 0.5 * kPi, soft);
+    add_driven_gear(layout, 1, planet_gear(), "ring", ring_gear(), kInternalDistance, 0.5 * kPi);
+    CHECK(layout.bodies[1].sense == -sense);
+    CHECK(layout.bodies[2].sense == -sense);
+    CHECK(std::hypot(layout.bodies[2].centre[0], layout.bodies[2].centre[1]) < 1e-15);
+    layout.drives = {{0, System::DriveKind::torque, kSunTorque}, {2, System::DriveKind::held, 0}};
+    const SystemModel system(layout, {sun_body(), planet_body(), ring_body()}, {outer, inner});
+    for (const SystemAnswer& answer : rest_over_period(system, ContactModel::line, 8, 8)) {
+      double carried[2] = {0, 0};
+      for (const LoadedSegment& pair : answer.loads) carried[pair.mesh] += pair.force;
+      CHECK(carried[0] == relative(force, 1e-9));
+      CHECK(carried[1] == relative(force, 1e-9));  // on the planet's other flanks
+      // The tangential parts add up on the planet's bearing, the radial ones are the difference of two.
+      const double sun = at_sun.working_pressure_angle(), ring = at_ring.working_pressure_angle();
+      const Vec2 expected =
+          force * Vec2(-sense * (std::cos(sun) + std::cos(ring)), std::sin(sun) - std::sin(ring));
+      CHECK((answer.bearing_force[1] - expected).norm() < 1e-8 * force);
+      CHECK(answer.transmission_error[0] > 0);
+      CHECK(answer.transmission_error[1] > 0);
+      error[sense < 0].push_back(answer.transmission_error[0] + answer.transmission_error[1]);
+    }
+  }
+  // Turned backwards the train is its own mirror image, if its teeth stand so at phase 0.
+  for (size_t i = 0; i < error[0].size(); ++i) CHECK(error[1][i] == relative(error[0][i], 1e-8));
+}
+
+TEST_CASE(
+    "a ring under pressure on one tooth: its field, by another way, gives way as its tables say, and its rim "
+    "holds the torque") {
+  const MeshArtifact mesh = make_sector_mesh(ring_gear(), elements(1.2e-3));
+  const ToothGeometry ring(mesh.design);
+  const FlankTable table(ring, kFlankPoints);
+  const double roll = 0.5 * (ring.tip_roll_angle() + ring.form_roll_angle()), width = 0.1e-3, force = 1000;
+  const LoadedGear loaded = loaded_gear(mesh, kSteel, {{0, roll, width, force}});
+  CHECK(loaded.hub_torque == relative(force * ring.base_radius(), 2e-3));
+  CHECK(loaded.strain_energy == relative(0.5 * force * loaded.deflection[0], 0.02));
+  // The table is less the half-plane relative to the reference depth.
+  const HalfPlaneSurface surface(kSteel, mesh.design.face_width);
+  const Eigen::RowVectorXd weights = table.weights(roll);
+  const double expected = force * (weights.dot(ring_body().compliance[0] * weights.transpose()) +
+                                   surface.mean_over_strip(0, 0.5 * width, 0.5 * width, kReferenceDepth));
+  CHECK(loaded.deflection[0] == relative(expected, 1e-3));
+}
+
+TEST_CASE("a result says where a pinion cannot be put into its ring by a radial movement") {
+  StaticArtifact s;
+  s.driven = ring_gear();
+  s.driver_material = s.driven_material = kSteel;
+  s.mean_stiffness = 5e8;
+  s.torque = 1;
+  for (const int teeth : {35, 88}) {
+    s.driver = planet_gear();
+    s.driver.teeth = teeth;
+    s.driver.addendum = 0.8;
+    s.mesh.centre_distance = 0.5 * (99 - teeth) * s.driver.module;
+    bool warned = false;
+    for (const Remark& remark : remarks(s))
+      warned |= remark.warning && remark.words.find("trimming interference") != std::string::npos;
+    CHECK(warned == (teeth == 88));
+  }
 }

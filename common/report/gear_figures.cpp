@@ -116,6 +116,15 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
 
 namespace {
 
+// m: point of the working flank of tooth 0 of gear g in its body frame, `below` (m) under the surface. A driven gear of an
+// internal pair works with the flank that trails.
+Vec2 working_point(const GearPair& pair, int g, double roll, double below) {
+  const ToothGeometry& tooth = pair.gear(g);
+  Vec2 p = tooth.flank_point(roll) - below * tooth.flank_normal(roll);
+  if (pair.internal() && g == 1) p.x() = -p.x();
+  return p;
+}
+
 // Outline, teeth in the window about `touch`, and the inner region of one gear.
 void add_body(const MeshArtifact& mesh, const StaticArtifact& s, const GearPair& pair, int g,
               const Vec2& touch, double half_zone, Figure& figure) {
@@ -132,7 +141,7 @@ void add_body(const MeshArtifact& mesh, const StaticArtifact& s, const GearPair&
     const ToothGeometry& tooth = pair.gear(g);
     for (double t = 0; t <= 1.0001; t += 0.02) {
       const double roll = tooth.form_roll_angle() + t * (tooth.tip_roll_angle() - tooth.form_roll_angle());
-      const Vec2 p = at(tooth.flank_point(roll) - body.matching_depth * tooth.flank_normal(roll)) * kMilli;
+      const Vec2 p = at(working_point(pair, g, roll, body.matching_depth)) * kMilli;
       inner.rows.push_back({p.x(), p.y()});
     }
   } else {
@@ -198,10 +207,8 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
     const FlankGap at = pair.gap_at(strips.contact, x);
     std::array<Vec2, 2> local;  // along the flank, out of the driver
     for (int g = 0; g < kSides; ++g) {
-      const ToothGeometry& gear = pair.gear(g);
-      const Vec2 place =
-          gear.flank_point(at.roll[g]) - deviation[g].at(at.roll[g], 0) * gear.flank_normal(at.roll[g]);
-      const Vec2 p = placed(pair, g)(place) - touch;
+      const Vec2 p =
+          placed(pair, g)(working_point(pair, g, at.roll[g], deviation[g].at(at.roll[g], 0))) - touch;
       local[g] = Vec2(p.dot(tangent), p.dot(normal));
     }
     return local;
@@ -247,7 +254,8 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
                     {"half_window", half_zone * kMilli},
                     {"reach", 1.3 * reach * kMilli},
                     {"peak", peak * 1e-6},
-                    {"strips", static_cast<double>(n)}};
+                    {"strips", static_cast<double>(n)},
+                    {"ring", pair.ring() + 1.0}};
   return figure;
 }
 

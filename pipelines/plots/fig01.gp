@@ -43,8 +43,8 @@ nice(raw) = power(raw) * (raw / power(raw) > 5 ? 10 : raw / power(raw) > 2 ? 5 :
 step = nice((2 * tip + 2 * edge) / 4)
 set xtics step
 set ytics step
-set label 1 "driver" at 0, (ring == 1 ? -0.6 * driver_radius : 0) center tc rgb driver_line font ",16"
-set label 2 "driven" at 0, (ring == 2 ? driven_y - 0.6 * driven_radius : driven_y) center tc rgb driven_line font ",16"
+set label 1 "driver" at 0, (ring == 1 ? -0.6 * driver_radius : 0) center front tc rgb driver_line font ",16"
+set label 2 "driven" at 0, (ring == 2 ? driven_y - 0.6 * driven_radius : driven_y) center front tc rgb driven_line font ",16"
 set object 1 rectangle center 0, pitch_y size 2 * half_window, 2 * half_window front fs empty border lc rgb "black" lw 1.5
 plot tsv index filled(outer) using 1:2 with filledcurves closed fc rgb outer_fill notitle, \
   tsv index hollow(outer) using 1:2 with filledcurves closed fc rgb "white" notitle, \

@@ -1,6 +1,6 @@
 # Figure 3: the contact zone. (a) inner and outer region of the teeth in contact, (b) candidate pairs on the unloaded flanks,
 # (c) pressure and separation under load.
-# Variables from gear-plot: tsv, heading, note1.., matching, touch_y, half_window, reach, peak, strips.
+# Variables from gear-plot: tsv, heading, note1.., matching, touch_y, half_window, reach, peak, strips, ring (0: both gears are external).
 set datafile separator tab
 set datafile commentschars "#"
 lift = room(3)
@@ -59,7 +59,8 @@ set offsets graph 0, graph 0, graph 0.4, graph 0.1
 set ylabel "Height (µm)"
 set ytics auto
 set label 1 "{/:Bold (b)} unloaded flanks, candidate pairs P, G"
-set key at graph 0.5, graph 0.98 center top maxrows 2 samplen 2.2 opaque
+# Both flanks of an internal pair bend the same way, away from the bottom.
+set key at graph 0.5, graph (ring > 0 ? 0.24 : 0.98) center top maxrows 2 samplen 2.2 opaque
 picked = int(0.8 * strips)
 plot tsv index "[flanks]" using 1:3 with lines lt 1 lw 2.6 lc rgb driven_line title "driven", \
   tsv index "[flanks]" using 1:2 with lines lt 1 lw 2.6 lc rgb driver_line title "driver", \
