@@ -1,6 +1,6 @@
 # Map of jumps: torque against damping ratio, one panel per corner rule; cells by what happens in them, lines of the largest
 # tooth load.
-# Variables from gear-plot: tsv, heading, note1.., notes, panels, panel1.., printed, lines, largest, ratio_from, ratio_to,
+# Variables from gear-plot: tsv, heading, note1.., notes, panels, panel1.., cusps_1.. (rows), printed, lines, largest, ratio_from, ratio_to,
 # torque_from, torque_to, first_ratio, last_ratio.
 set datafile separator whitespace
 set datafile commentschars "#"
@@ -55,6 +55,8 @@ do for [p = 1:int(panels)] {
     drawn = drawn . sprintf(", $load%d using ($1 > last_ratio - 1e-6 ? $1 : NaN):(10**$2):(sprintf('%%g', $3)) with labels" \
       . " offset 0.9, 0.45 font ',13' tc rgb line_colour notitle", p)
   }
+  # To the left of the cusps there are two branches.
+  if (value(sprintf("cusps_%d", p)) > 0) { drawn = drawn . sprintf(", tsv index '[cusps%d]' using 1:2 with linespoints lw 3 pt 6 ps 1.6 lc rgb '#7a1f10' notitle", p) }
   if (printed > 0) { drawn = drawn . ", tsv index '[printed]' using 1:2 with points pt 13 ps 2.2 lc rgb '#000000' notitle" }
   eval("plot " . drawn)
 }
