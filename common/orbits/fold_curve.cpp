@@ -134,7 +134,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
                       const std::function<bool(const Fold&)>& wanted,
                       const std::function<void(double)>& report) {
   constexpr int kMostHalvings = 5;
-  constexpr double kAtCusp = 2e-3, kTowards = 0.7;
+  constexpr double kAtCusp = 2e-3, kNearCusp = 0.02, kTowards = 0.7;
   FoldPair pair;
   const bool ordered = one.parameter < other.parameter;
   pair.low.push_back(ordered ? one : other);
@@ -168,6 +168,16 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
     if (!(b < a) || !(b > 0)) return std::nullopt;
     return pair.low[k - 1].value + b / (a - b) * (pair.low[k - 1].value - pair.low[k - 2].value);
   };
+  const auto meet = [&](double cusp) {
+    const size_t k = pair.low.size();
+    const auto middle = [&](size_t i) { return 0.5 * (pair.low[i].parameter + pair.high[i].parameter); };
+    const double at = pair.low[k - 1].value;
+    pair.cusp = true;
+    pair.cusp_value = cusp;
+    pair.cusp_parameter =
+        middle(k - 1) + (cusp - at) / (at - pair.low[k - 2].value) * (middle(k - 1) - middle(k - 2));
+    pair.end = text("the folds meet at ", cusp);
+  };
   for (const double value : values) {
     double to = value;
     for (int halvings = 0;;) {
@@ -177,15 +187,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
       const double towards = value > at ? 1 : -1;
       if (cusp && (*cusp - at) * towards > 0 && (*cusp - to) * towards <= 0) {
         if (std::abs(*cusp - at) < kAtCusp * std::abs(*cusp)) {
-          pair.cusp = true;
-          pair.cusp_value = *cusp;
-          const size_t k = pair.low.size();
-          const auto middle = [&](size_t i) {
-            return 0.5 * (pair.low[i].parameter + pair.high[i].parameter);
-          };
-          pair.cusp_parameter =
-              middle(k - 1) + (*cusp - at) / (at - pair.low[k - 2].value) * (middle(k - 1) - middle(k - 2));
-          pair.end = text("the folds meet at ", *cusp);
+          meet(*cusp);
           return pair;
         }
         to = at + kTowards * (*cusp - at);
@@ -199,7 +201,12 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
         to = value;
         continue;
       }
-      if (++halvings > kMostHalvings) return pair;
+      if (++halvings > kMostHalvings) {
+        // Kinks part the last folds in front of a cusp.
+        if (cusp && (*cusp - at) * towards > 0 && std::abs(*cusp - at) < kNearCusp * std::abs(*cusp))
+          meet(*cusp);
+        return pair;
+      }
       to = at + 0.5 * (to - at);
     }
   }
