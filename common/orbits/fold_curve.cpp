@@ -45,9 +45,10 @@ double squared_distance(const Fold& a, const Fold& b) {
 std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurveSettings& settings,
                               std::string& failure) {
   constexpr int kMost = 60;
-  constexpr double kTrial = 0.02;     // arc of the first step without a bend
-  constexpr double kBeyond = 1.3;     // of the way to the fold, so that the next point brackets it
-  constexpr double kEdge = 0.02;      // of a bracket that is kept away from
+  constexpr double kTrial = 0.02;  // arc of the first step without a bend
+  constexpr double kBeyond = 1.3;  // of the way to the fold, so that the next point brackets it
+  constexpr double kEdge = 0.02;   // of a bracket that is kept away from
+  constexpr double kLeastBend = 1e-6;
   constexpr double kReadable = 1e-2;  // arc over which a bend is read off
   Curve curve(map, settings.multiple, settings.scale, settings.orbit);
   const int n = map.size();
@@ -85,12 +86,17 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
       near = first ? &*rising : &*falling;
       // The parameter is extremal: what is left of it is at most the turn times the arc.
       if (std::max(size(*rising), size(*falling)) * chord.norm() < settings.tolerance * here->u[n]) {
+        const double towards = chord.dot(rising->tangent) > 0 ? -1 : 1;
+        if (guess.bend * towards < 0) {
+          failure = text("at ", curve.parameter(near->u), " the branch bends the other way");
+          return std::nullopt;
+        }
         Fold fold;
         fold.value = guess.value;
         fold.parameter = curve.parameter(near->u);
         fold.start = curve.state(near->u);
         fold.tangent = near->tangent;
-        fold.bend = bend;
+        fold.bend = bend * towards > 0 ? bend : towards * (size(*rising) + size(*falling)) / kReadable;
         fold.before = nearest_to_one(rising->slow.multipliers());
         fold.after = nearest_to_one(falling->slow.multipliers());
         return fold;
@@ -115,14 +121,9 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
       return std::nullopt;
     }
     const double arc = (next->u - before.u).dot(before.tangent), change = (next->tangent[n] - turn) / arc;
-    // Between neighbouring pieces the turn steps: its bend shows over longer arcs.
-    if (std::isfinite(change) && change != 0 && (bend == 0 || std::abs(arc) > kReadable)) {
-      if (guess.bend != 0 && change * guess.bend < 0) {
-        failure = text("at ", curve.parameter(next->u), " the branch bends the other way");
-        return std::nullopt;
-      }
+    // Between neighbouring pieces the turn steps, on one it hardly changes: a bend shows over longer arcs.
+    if (std::isfinite(change) && std::abs(change) > kLeastBend && (bend == 0 || std::abs(arc) > kReadable))
       bend = change;
-    }
     here = std::move(next);
   }
   failure = text("the turn is ", here->tangent[n], " after ", kMost, " steps");

@@ -82,6 +82,7 @@ if (lines > 0) {
   set arrow 1 from 0.55, 0.301 to 0.575, 0.301 nohead lw 2 lc rgb line_colour
   set label 14 "largest tooth load, kN" at 0.582, 0.301 left font ",16"
 }
+if (value("cusps_1") > 0) { set label 17 "" at 0.075, 0.325 point pt 6 ps 1.6 lw 3 lc rgb "#7a1f10"; set label 18 "cusp of the folds: two branches to the left" at 0.097, 0.325 left font ",16" }
 if (printed > 0) {
   set label 15 "" at 0.785, 0.301 point pt 13 ps 2.2 lc rgb "#000000"
   set label 16 "P2000: jump printed at 7 %" at 0.797, 0.301 left font ",16"
