@@ -68,6 +68,31 @@ $(foreach m,$(JUMP_MAP_MODELS),$(foreach p,jump_map jump_map_fine,$(eval $(call 
 
 lumped_map_inputs = out/$1/params/lumped_map.toml out/$1/T$2/static.h5 $(if $(filter rectangular%,$3),$(reference_static)) $(call id,gear-lumped)
 
+# Folds of the branches over damping, torque and tip relief: curves in place of the cells, or over them.
+#   make fold-curves                 out/S/T150/fold_curves_damping.h5; FOLDS_OVER=torque, tip_relief: at TORQUE only
+# --first: where a branch gives the folds.
+FOLDS_OVER ?= damping
+FOLD_RATIOS ?= 0.055 0.06 0.065 0.07 0.075 0.08 0.085 0.09 0.10
+FOLD_TORQUES ?= 50 75 100 125 150 175 200 250 300 450 600
+FOLD_RELIEFS ?= 0 0.5 1 1.5 2 2.5 3 4 5 6
+FOLD_FIRST ?= 0.07
+FOLD_CURVE_TORQUES ?= $(if $(SCENE),$(SCENE_$(own_scene)_TORQUES),100 150 200 300 600)
+$(if $(filter-out damping torque tip_relief,$(FOLDS_OVER)),$(error FOLDS_OVER=$(FOLDS_OVER): it is damping, torque or tip_relief))
+plan_fold_curves_damping := --over damping --first $(FOLD_FIRST) --values $(call comma_list,$(FOLD_RATIOS))
+plan_fold_curves_torque := --over torque --first $(TORQUE) --values $(call comma_list,$(FOLD_TORQUES))
+plan_fold_curves_tip_relief := --over tip_relief --first 0 --values $(call comma_list,$(FOLD_RELIEFS))
+$(foreach q,damping torque tip_relief,$(eval $(call plan_rule,$(B)/plans/$(own_scene)/fold_curves_$q,$(plan_fold_curves_$q))))
+
+fold_curves_inputs = out/$1/params/sweep.toml out/$1/params/static.toml $(pair_bodies) $(call id,gear-folds)
+define fold_curves_rules # scene, torque, quantity
+out/$1/T$2/fold_curves_$3.h5: $(fold_curves_inputs) $(B)/plans/$(own_scene)/fold_curves_$3 | $(B)/bin/gear-folds
+	$$(call run,folds) --params out/$1/params/sweep.toml --static-params out/$1/params/static.toml $(pair_options) --torque $2 $(plan_fold_curves_$3) --output $$@ $$(call landed,folds)
+endef
+fold_torques := $(if $(filter damping,$(FOLDS_OVER)),$(FOLD_CURVE_TORQUES),$(TORQUE))
+$(if $(SCENE_$(own_scene)_GEARS),$(foreach t,$(sort $(FOLD_CURVE_TORQUES) $(TORQUE)),$(foreach q,damping torque tip_relief,\
+  $(eval $(call fold_curves_rules,$(own_scene),$t,$q)))))
+fold_curves_artifacts := $(fold_torques:%=out/$(own_scene)/T%/fold_curves_$(FOLDS_OVER).h5)
+
 define lumped_map_rules # scene, torque, model, plan
 out/$1/T$2/$(subst jump_map,jump_map_$3,$4).h5: $(lumped_map_inputs) $(call lumped_map_plan,$1,$3,$4) | $(B)/bin/gear-lumped
 	$$(call run,lumped) --map $(call lumped_map_options,$1,$3) --params $$< --static out/$1/T$2/static.h5 $(plan_$4) --output $$@ $$(call landed,lumped)
@@ -121,12 +146,18 @@ $2.tsv $2.svg $2.png &: $3 out/$(own_scene)/params/title.txt pipelines/plots/$1.
 	@mkdir -p $(map_folder)
 	$(B)/bin/gear-plot $1 --output $2 $3
 endef
-$(eval $(call map_figure_rules,jump-map,$(map_figure),$(map_artifacts)))
+fold_figure := $(map_folder)/fold-curves$(if $(filter-out damping,$(FOLDS_OVER)),-$(subst _,-,$(FOLDS_OVER)))
+# The cells are there if they are asked for: JUMP_MAP_CELLS=no draws the curves alone, which cost a part of them.
+JUMP_MAP_CELLS ?= yes
+damping_curves := $(FOLD_CURVE_TORQUES:%=out/$(own_scene)/T%/fold_curves_damping.h5)
+$(eval $(call map_figure_rules,jump-map,$(map_figure),$(map_artifacts) $(damping_curves)))
+$(eval $(call map_figure_rules,fold-curves,$(fold_figure),$(fold_curves_artifacts)))
 $(if $(JUMP_MAP_MODELS),$(eval $(call map_figure_rules,jump-map-lumped,$(lumped_map_figure),$(map_artifacts) $(lumped_map_artifacts))))
 $(eval $(call map_figure_rules,harris-map,$(harris_figure),out/$(own_scene)/$(harris_map).h5))
 $(eval $(call map_figure_rules,sensitivity,$(sensitivity_figure),$(sensitivity_artifacts)))
 
-.PHONY: jump-map sensitivity harris-map
+.PHONY: jump-map fold-curves sensitivity harris-map
+fold-curves: $(foreach e,tsv svg png,$(fold_figure).$e) ## folds of the branches against damping, with their cusps; FOLDS_OVER=torque, tip_relief
 harris-map: $(foreach e,tsv svg png,$(harris_figure).$e) ## peak-to-peak transmission error against torque and tip relief, the optimum for TORQUE, the Harris cusp; HARRIS_DYNAMIC=yes
-jump-map: $(foreach f,$(map_figure) $(if $(JUMP_MAP_MODELS),$(lumped_map_figure)),$(foreach e,tsv svg png,$f.$e)) ## two branches, contact loss, tooth loads against torque, damping, corner rule, lumped model; JUMP_MAP=fine
+jump-map: $(foreach f,$(if $(filter no,$(JUMP_MAP_CELLS)),$(fold_figure),$(map_figure) $(if $(JUMP_MAP_MODELS),$(lumped_map_figure))),$(foreach e,tsv svg png,$f.$e)) ## two branches, contact loss, tooth loads against torque, damping, corner rule, lumped model; JUMP_MAP=fine, JUMP_MAP_CELLS=no
 sensitivity: $(foreach e,tsv svg png,$(sensitivity_figure).$e) ## what each input that the paper does not state changes; SENSITIVITY=fine

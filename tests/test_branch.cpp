@@ -23,6 +23,7 @@
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/response.h"
+#include "studies/jump_cause.h"
 #include "studies/pair_branch.h"
 #include "studies/sweep.h"
 
@@ -363,6 +364,13 @@ TEST_CASE("orbits: the branch of the rectangular lumped pair through its exact f
       CHECK(fold.smooth);
       const PeriodicOrbit at = orbit_at(map, fold.start, fold.parameter);
       CHECK(at.multipliers()[0].real() == relative(1, 1e-4));
+      // By bordering the orbit is that of the fold to round-off, and so is its multiplier.
+      map.set_parameter(fold.parameter);
+      const FoldSearch exact = locate_fold(map, fold.start, 1, 2900);
+      REQUIRE(exact.found());
+      map.apply(exact.start);
+      const SlowTangent tangent{MatrixXd::Identity(2, 2), map.tangent()};
+      CHECK(tangent.multipliers()[0].real() == relative(1, 1e-8));
     }
     // The part between the folds is unstable, and it alone.
     for (const BranchPosition& p : branch.points) CHECK(p.stable() == (p.turn < 0));
@@ -524,6 +532,10 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
     const double fold = branch.fold_frequency[direction == Direction::down ? 0 : 1];
     MESSAGE(direction << ": jump at " << swept.jump_frequency[0] << " Hz, fold at " << fold << " Hz");
     CHECK(std::abs(swept.jump_frequency[0] - fold) < 1 + swept.jump_width[0]);
+    const CausedJump cause = cause_of_jump(branch, swept.jump_frequency[0], swept.jump_width[0]);
+    CHECK(cause.cause == JumpCause::fold);
+    CHECK(cause.frequency == fold);
+    CHECK(cause_of_jump(branch, fold + 50, 1).cause == JumpCause::basin);
     // Stable orbits are the sweep's.
     const ResponseArtifact response = whine::response(swept);
     double apart = 0;

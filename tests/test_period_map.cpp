@@ -14,6 +14,7 @@
 #include "failure_of.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
+#include "orbits/periodic_orbit.h"
 #include "paper_pair.h"
 #include "relative.h"
 
@@ -195,6 +196,50 @@ TEST_CASE("period map: multipliers of an orbit do not depend on where its period
         CHECK(std::abs(other[k] - whole[k]) < 1e-8);
       }
     }
+  }
+}
+
+TEST_CASE("period map: the verdict is that of any cut, and of products of cuts, at 50 orbits") {
+  Rig rig(kKinds[0], 4e-6);
+  RollingPeriodMap map(rig.dynamics, 128);
+  VectorXd y = map.flat(rig.after(40));
+  int stable = 0, compared = 0;
+  for (int k = 0; k < 50; ++k) {
+    map.set_parameter(3300 - 30.0 * k);
+    const OrbitSearch search = find_orbit(map, y);
+    if (!search.found()) {  // the branch ended: on from rest
+      y = map.flat(rig.after(40));
+      continue;
+    }
+    y = search.orbit.start;
+    map.apply(y);
+    const std::complex<double> own = search.orbit.multipliers()[0];
+    const bool verdict = std::abs(own) < 1;
+    // As far from the whole period's start as cuts of it in 2, 3 and 5 begin.
+    for (const int cut : {64, 43, 85, 26, 77}) {
+      const MatrixXd tangent = map.tangent_from(cut);
+      // Power iteration on its square: the largest modulus of a real multiplier or of a pair.
+      const auto other = largest(tangent, 1)[0];
+      CHECK(std::abs(std::abs(other) - std::abs(own)) < 1e-6);
+      CHECK((std::abs(other) < 1) == verdict);
+    }
+    stable += verdict;
+    ++compared;
+  }
+  CHECK(compared >= 40);
+  MESSAGE(stable << " of " << compared << " orbits are stable");
+}
+
+TEST_CASE("period map: the tangent times directions is the tangent's product") {
+  for (const Kind& kind : kKinds) {
+    Rig rig(kind);
+    RollingPeriodMap map(rig.dynamics, 128);
+    map.set_parameter(2400);
+    map.apply(map.flat(rig.after(4)));
+    MatrixXd directions(map.size(), 11);
+    for (int k = 0; k < 11; ++k) directions.col(k) = direction(map.size(), k);
+    const MatrixXd product = map.tangent() * directions;
+    CHECK((map.tangent_times(directions) - product).norm() < 1e-12 * product.norm());
   }
 }
 

@@ -6,6 +6,7 @@
 #include "io/branch_codec.h"
 #include "io/codec.h"
 #include "io/error_budget_codec.h"
+#include "io/fold_curves_codec.h"
 #include "io/harris_map_codec.h"
 #include "io/impact_codec.h"
 #include "io/jump_map_codec.h"
@@ -44,9 +45,9 @@ std::string dataset_table() {
          row<ErrorBudgetArtifact>("error_budget.h5") + row<LoadedArtifact>("loaded_<phase>.h5") +
          row<ImpactArtifact>("impact.h5") + row<SweepArtifact>("sweep.h5") +
          row<ResponseArtifact>("response.h5") + row<BranchArtifact>("branch.h5") +
-         row<JumpMapArtifact>("jump_map_*.h5") + row<HarrisMapArtifact>("harris_map.h5") +
-         row<VariantArtifact>("ab12....h5") + row<StudyArtifact>("study.h5") +
-         row<ReadingsArtifact>("readings.h5");
+         row<FoldCurvesArtifact>("fold_curves_*.h5") + row<JumpMapArtifact>("jump_map_*.h5") +
+         row<HarrisMapArtifact>("harris_map.h5") + row<VariantArtifact>("ab12....h5") +
+         row<StudyArtifact>("study.h5") + row<ReadingsArtifact>("readings.h5");
 }
 
 }  // namespace whine

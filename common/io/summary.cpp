@@ -11,6 +11,7 @@
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
 #include "io/error_budget_codec.h"
+#include "io/fold_curves_codec.h"
 #include "io/harris_map_codec.h"
 #include "io/impact_codec.h"
 #include "io/jump_map_codec.h"
@@ -328,6 +329,19 @@ void show(Lines& lines, const BranchArtifact& a) {
   add(lines, "end", a.end);
 }
 
+void show(Lines& lines, const FoldCurvesArtifact& a) {
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", over ", a.quantity);
+  add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
+      a.fidelity.integrator);
+  if (a.value.size() > 0)
+    add(lines, "folds", a.value.size(), " on ", a.curve.maxCoeff() + 1, " curves, ",
+        a.fold_frequency.minCoeff(), " to ", a.fold_frequency.maxCoeff(), " Hz");
+  for (Eigen::Index i = 0; i < a.cusp_value.size(); ++i)
+    add(lines, "cusp", "value ", a.cusp_value[i], ", damping ratio ", a.cusp_damping_ratio[i], ", ",
+        a.cusp_frequency[i], " Hz");
+  add(lines, "end", a.end);
+}
+
 void show(Lines& lines, const ResponseArtifact& a) {
   add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
@@ -462,6 +476,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_sweep(path));
   } else if (schema == "whine/response") {
     show(lines, read_response(path));
+  } else if (schema == "whine/fold_curves") {
+    show(lines, read_fold_curves(path));
   } else if (schema == "whine/branch") {
     show(lines, read_branch(path));
   } else if (schema == "whine/jump_map") {

@@ -45,9 +45,10 @@ double squared_distance(const Fold& a, const Fold& b) {
 std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurveSettings& settings,
                               std::string& failure) {
   constexpr int kMost = 60;
-  constexpr double kTrial = 0.02;     // arc of the first step without a bend
-  constexpr double kBeyond = 1.3;     // of the way to the fold, so that the next point brackets it
-  constexpr double kEdge = 0.02;      // of a bracket that is kept away from
+  constexpr double kTrial = 0.02;  // arc of the first step without a bend
+  constexpr double kBeyond = 1.3;  // of the way to the fold, so that the next point brackets it
+  constexpr double kEdge = 0.02;   // of a bracket that is kept away from
+  constexpr double kLeastBend = 1e-6;
   constexpr double kReadable = 1e-2;  // arc over which a bend is read off
   Curve curve(map, settings.multiple, settings.scale, settings.orbit);
   const int n = map.size();
@@ -85,12 +86,17 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
       near = first ? &*rising : &*falling;
       // The parameter is extremal: what is left of it is at most the turn times the arc.
       if (std::max(size(*rising), size(*falling)) * chord.norm() < settings.tolerance * here->u[n]) {
+        const double towards = chord.dot(rising->tangent) > 0 ? -1 : 1;
+        if (guess.bend * towards < 0) {
+          failure = text("at ", curve.parameter(near->u), " the branch bends the other way");
+          return std::nullopt;
+        }
         Fold fold;
         fold.value = guess.value;
         fold.parameter = curve.parameter(near->u);
         fold.start = curve.state(near->u);
         fold.tangent = near->tangent;
-        fold.bend = bend;
+        fold.bend = bend * towards > 0 ? bend : towards * (size(*rising) + size(*falling)) / kReadable;
         fold.before = nearest_to_one(rising->slow.multipliers());
         fold.after = nearest_to_one(falling->slow.multipliers());
         return fold;
@@ -115,14 +121,9 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
       return std::nullopt;
     }
     const double arc = (next->u - before.u).dot(before.tangent), change = (next->tangent[n] - turn) / arc;
-    // Between neighbouring pieces the turn steps: its bend shows over longer arcs.
-    if (std::isfinite(change) && change != 0 && (bend == 0 || std::abs(arc) > kReadable)) {
-      if (guess.bend != 0 && change * guess.bend < 0) {
-        failure = text("at ", curve.parameter(next->u), " the branch bends the other way");
-        return std::nullopt;
-      }
+    // Between neighbouring pieces the turn steps, on one it hardly changes: a bend shows over longer arcs.
+    if (std::isfinite(change) && std::abs(change) > kLeastBend && (bend == 0 || std::abs(arc) > kReadable))
       bend = change;
-    }
     here = std::move(next);
   }
   failure = text("the turn is ", here->tangent[n], " after ", kMost, " steps");
@@ -134,7 +135,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
                       const std::function<bool(const Fold&)>& wanted,
                       const std::function<void(double)>& report) {
   constexpr int kMostHalvings = 5;
-  constexpr double kAtCusp = 2e-3, kTowards = 0.7;
+  constexpr double kAtCusp = 2e-3, kNearCusp = 0.02, kTowards = 0.7;
   FoldPair pair;
   const bool ordered = one.parameter < other.parameter;
   pair.low.push_back(ordered ? one : other);
@@ -168,6 +169,16 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
     if (!(b < a) || !(b > 0)) return std::nullopt;
     return pair.low[k - 1].value + b / (a - b) * (pair.low[k - 1].value - pair.low[k - 2].value);
   };
+  const auto meet = [&](double cusp) {
+    const size_t k = pair.low.size();
+    const auto middle = [&](size_t i) { return 0.5 * (pair.low[i].parameter + pair.high[i].parameter); };
+    const double at = pair.low[k - 1].value;
+    pair.cusp = true;
+    pair.cusp_value = cusp;
+    pair.cusp_parameter =
+        middle(k - 1) + (cusp - at) / (at - pair.low[k - 2].value) * (middle(k - 1) - middle(k - 2));
+    pair.end = text("the folds meet at ", cusp);
+  };
   for (const double value : values) {
     double to = value;
     for (int halvings = 0;;) {
@@ -177,15 +188,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
       const double towards = value > at ? 1 : -1;
       if (cusp && (*cusp - at) * towards > 0 && (*cusp - to) * towards <= 0) {
         if (std::abs(*cusp - at) < kAtCusp * std::abs(*cusp)) {
-          pair.cusp = true;
-          pair.cusp_value = *cusp;
-          const size_t k = pair.low.size();
-          const auto middle = [&](size_t i) {
-            return 0.5 * (pair.low[i].parameter + pair.high[i].parameter);
-          };
-          pair.cusp_parameter =
-              middle(k - 1) + (*cusp - at) / (at - pair.low[k - 2].value) * (middle(k - 1) - middle(k - 2));
-          pair.end = text("the folds meet at ", *cusp);
+          meet(*cusp);
           return pair;
         }
         to = at + kTowards * (*cusp - at);
@@ -199,7 +202,12 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
         to = value;
         continue;
       }
-      if (++halvings > kMostHalvings) return pair;
+      if (++halvings > kMostHalvings) {
+        // Kinks part the last folds in front of a cusp.
+        if (cusp && (*cusp - at) * towards > 0 && std::abs(*cusp - at) < kNearCusp * std::abs(*cusp))
+          meet(*cusp);
+        return pair;
+      }
       to = at + 0.5 * (to - at);
     }
   }

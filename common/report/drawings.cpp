@@ -7,6 +7,7 @@
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
 #include "io/error_budget_codec.h"
+#include "io/fold_curves_codec.h"
 #include "io/harris_map_codec.h"
 #include "io/impact_codec.h"
 #include "io/jump_map_codec.h"
@@ -17,6 +18,7 @@
 #include "io/study_codec.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
+#include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
 #include "report/jump_map_figures.h"
@@ -195,6 +197,16 @@ Drawings drawings_of_motions() {
   };
 }
 
+std::pair<std::vector<FoldCurvesArtifact>, std::vector<JumpMapArtifact>> folds_and_maps(const Paths& in) {
+  std::pair<std::vector<FoldCurvesArtifact>, std::vector<JumpMapArtifact>> read;
+  for (const std::string& path : in)
+    if (is_a("whine/fold_curves", path))
+      read.first.push_back(read_fold_curves(path));
+    else
+      read.second.push_back(read_jump_map(path));
+  return read;
+}
+
 Drawings drawings_of_maps() {
   return {
       {"harris-map",
@@ -202,8 +214,19 @@ Drawings drawings_of_maps() {
         1, 0, [](const Paths& in, const Frequencies&) { return harris_map_figure(read_harris_map(in[0])); }}},
       {"jump-map",
        {"two branches, contact loss and tooth loads against torque, damping and corner rule",
-        "jump_map.h5, one per torque and corner rule", 0, 0,
-        [](const Paths& in, const Frequencies&) { return jump_map_figure(read_all(in, read_jump_map)); }}},
+        "jump_map.h5, one per torque and corner rule; fold_curves.h5 over damping, for the cusps", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto [curves, maps] = folds_and_maps(in);
+          return jump_map_figure(maps, curves);
+        }}},
+      {"fold-curves",
+       {"mesh frequencies of folds against damping, torque or tip relief, with their cusps",
+        "fold_curves.h5 of one quantity, one per torque; jump_map.h5 beside them, for the jumps of sweeps", 0,
+        0,
+        [](const Paths& in, const Frequencies&) {
+          const auto [curves, maps] = folds_and_maps(in);
+          return fold_curve_figure(curves, maps);
+        }}},
       {"jump-map-lumped",
        {"the same of lumped models, and in how much they agree with the elastic pair",
         "jump_map.h5 of lumped models and of the elastic pair, one per torque and model or corner rule", 0, 0,

@@ -418,9 +418,24 @@ std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
   return notes;
 }
 
+// The highest cusps over damping of a panel's corner rule, torques ascending.
+FigureBlock cusps_of(const std::string& block_name, const JumpMapArtifact& panel,
+                     const std::vector<FoldCurvesArtifact>& curves) {
+  FigureBlock block{block_name, {"damping_ratio [%]", "torque [N m]"}, {}};
+  block.table = "cusps";
+  block.curve = panel_name(panel);
+  for (const FoldCurvesArtifact& a : curves)
+    if (a.quantity == name(FoldQuantity::damping) && a.cusp_value.size() > 0 &&
+        a.mesh.corner.enabled == panel.mesh.corner.enabled &&
+        a.mesh.corner.largest_angle == panel.mesh.corner.largest_angle)
+      block.rows.push_back({a.cusp_damping_ratio.maxCoeff() * kPercent, a.torque});
+  std::sort(block.rows.begin(), block.rows.end(), [](const auto& x, const auto& y) { return x[1] < y[1]; });
+  return block;
+}
+
 }  // namespace
 
-Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
+Figure jump_map_figure(std::vector<JumpMapArtifact> maps, const std::vector<FoldCurvesArtifact>& curves) {
   if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
   require_ascending(maps);
   const std::vector<Panel> panels = panels_of(maps);
@@ -435,6 +450,9 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
     figure.blocks.push_back(cells(text("panel", p + 1), panels[p].second));
     figure.blocks.back().curve = panels[p].first;
     figure.words.emplace_back(text("panel", p + 1), panels[p].first);
+    FigureBlock cusps = cusps_of(text("cusps", p + 1), *panels[p].second[0], curves);
+    figure.numbers.emplace_back(text("cusps_", p + 1), static_cast<double>(cusps.rows.size()));
+    figure.blocks.push_back(std::move(cusps));
     for (const JumpMapArtifact* a : panels[p].second)
       largest = std::max(largest, a->held_tooth_load.maxCoeff() * 1e-3);
   }
@@ -444,17 +462,15 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps) {
     figure.blocks.push_back(printed);
   }
   const auto& extent = figure.blocks[0].rows;
-  figure.numbers = {{"panels", static_cast<double>(panels.size())},
-                    {"printed", paper ? 1.0 : 0.0},
-                    {"ratio_from", extent.front()[2]},
-                    {"ratio_to", extent.back()[3]},
-                    {"torque_from", extent.front()[4]},
-                    {"torque_to", extent.back()[5]},
-                    {"first_ratio", extent.front()[0]},
-                    {"last_ratio", extent.back()[0]},
-                    {"notes", static_cast<double>(figure.notes.size())},
-                    {"lines", panels[0].second.size() > 1 && maps[0].damping_ratio.size() > 1 ? 1.0 : 0.0},
-                    {"largest", largest}};
+  for (const auto& [name, value] :
+       {std::pair{"panels", static_cast<double>(panels.size())}, std::pair{"printed", paper ? 1.0 : 0.0},
+        std::pair{"ratio_from", extent.front()[2]}, std::pair{"ratio_to", extent.back()[3]},
+        std::pair{"torque_from", extent.front()[4]}, std::pair{"torque_to", extent.back()[5]},
+        std::pair{"first_ratio", extent.front()[0]}, std::pair{"last_ratio", extent.back()[0]},
+        std::pair{"notes", static_cast<double>(figure.notes.size())},
+        std::pair{"lines", panels[0].second.size() > 1 && maps[0].damping_ratio.size() > 1 ? 1.0 : 0.0},
+        std::pair{"largest", largest}})
+    figure.numbers.emplace_back(name, value);
   return figure;
 }
 

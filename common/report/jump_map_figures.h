@@ -4,6 +4,7 @@
 
 #include "report/figures.h"
 #include "signal/jump_map_result.h"
+#include "studies/fold_curves_result.h"
 
 namespace whine {
 
@@ -11,7 +12,9 @@ namespace whine {
 // contact, and lines of the largest tooth load (held for 1/64 of a mesh period). For the pair of P2000 its printed
 // statements stand beside. Throws Error(input) for no map, for two of the same torque and panel, and unless all have
 // the same damping ratios and gears and each panel the same torques.
-Figure jump_map_figure(std::vector<JumpMapArtifact> maps);
+// curves: over damping, whose last cusps are drawn over the cells of the panel with their corner rule: to the left of them
+// there are two branches.
+Figure jump_map_figure(std::vector<JumpMapArtifact> maps, const std::vector<FoldCurvesArtifact>& curves = {});
 
 // The same of lumped models, a column each, with the damper always on above and in contact only below; beside them the elastic
 // pair, of whose maps those with the corner rule of the lumped models' statics are taken. In words: which models jump at every

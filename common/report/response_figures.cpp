@@ -9,6 +9,7 @@
 #include "gear/pair.h"
 #include "io/summary.h"
 #include "signal/response.h"
+#include "studies/jump_cause.h"
 
 namespace whine {
 namespace {
@@ -113,6 +114,19 @@ struct Extent {
   }
 };
 
+// "rising 1326.41 Hz: fold at 1326.46; ..." of both sweeps beside their branch; "" without a jump.
+std::string cause_words(const ChoicePanel<ResponseArtifact>::Curve& curve, const BranchArtifact& branch) {
+  std::string words;
+  for (const ResponseArtifact* r : {curve.up, curve.down})
+    for (Eigen::Index j = 0; j < r->jump_frequency.size(); ++j) {
+      const CausedJump cause = cause_of_jump(branch, r->jump_frequency[j], r->jump_width[j]);
+      words += (words.empty() ? "" : "; ") + std::string(r->direction == "up" ? "rising " : "falling ") +
+               fixed(r->jump_frequency[j], 2) + " Hz: " + name(cause.cause);
+      if (cause.cause != JumpCause::basin) words += " at " + fixed(cause.frequency, 2);
+    }
+  return words;
+}
+
 // One torque or flank of a panel, number c from 1: both directions, the branch beside them, its natural frequency. "150 N m:
 // jumps rising 2645, falling 1819 Hz"
 std::string add_curve(Figure& figure, const std::string& letter, size_t c, const std::string& label,
@@ -139,6 +153,8 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
     figure.blocks.push_back(fold_block(name + "folds", *branch));
     number("folds", static_cast<double>(branch->fold_frequency.size()));
     extent.rms = std::max(extent.rms, branch->dte_rms.maxCoeff());
+    const std::string causes = cause_words(curve, *branch);
+    if (!causes.empty()) figure.notes.push_back("(" + letter + ") " + label + ", jumps " + causes);
   }
   number("natural_frequency", curve.up->natural_frequency);
   return label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz");

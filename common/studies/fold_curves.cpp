@@ -22,18 +22,6 @@ namespace whine {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-const char* name(FoldQuantity quantity) {
-  switch (quantity) {
-    case FoldQuantity::damping:
-      return "damping";
-    case FoldQuantity::torque:
-      return "torque";
-    case FoldQuantity::tip_relief:
-      return "tip_relief";
-  }
-  return "";
-}
-
 namespace {
 
 constexpr int kStatePhases = 128;

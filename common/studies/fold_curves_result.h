@@ -10,7 +10,17 @@ namespace whine {
 
 // What a fold curve goes over, beside the mesh frequency.
 enum class FoldQuantity { damping, torque, tip_relief };
-const char* name(FoldQuantity quantity);
+inline const char* name(FoldQuantity quantity) {
+  switch (quantity) {
+    case FoldQuantity::damping:
+      return "damping";
+    case FoldQuantity::torque:
+      return "torque";
+    case FoldQuantity::tip_relief:
+      return "tip_relief";
+  }
+  return "";
+}
 
 // fold_curves.h5: points in the order of their curves, along each in the order of `value`; two curves that meet in a cusp are
 // neighbours.

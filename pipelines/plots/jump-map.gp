@@ -1,6 +1,6 @@
 # Map of jumps: torque against damping ratio, one panel per corner rule; cells by what happens in them, lines of the largest
 # tooth load.
-# Variables from gear-plot: tsv, heading, note1.., notes, panels, panel1.., printed, lines, largest, ratio_from, ratio_to,
+# Variables from gear-plot: tsv, heading, note1.., notes, panels, panel1.., cusps_1.. (rows), printed, lines, largest, ratio_from, ratio_to,
 # torque_from, torque_to, first_ratio, last_ratio.
 set datafile separator whitespace
 set datafile commentschars "#"
@@ -55,6 +55,8 @@ do for [p = 1:int(panels)] {
     drawn = drawn . sprintf(", $load%d using ($1 > last_ratio - 1e-6 ? $1 : NaN):(10**$2):(sprintf('%%g', $3)) with labels" \
       . " offset 0.9, 0.45 font ',13' tc rgb line_colour notitle", p)
   }
+  # To the left of the cusps there are two branches.
+  if (value(sprintf("cusps_%d", p)) > 0) { drawn = drawn . sprintf(", tsv index '[cusps%d]' using 1:2 with linespoints lw 3 pt 6 ps 1.6 lc rgb '#7a1f10' notitle", p) }
   if (printed > 0) { drawn = drawn . ", tsv index '[printed]' using 1:2 with points pt 13 ps 2.2 lc rgb '#000000' notitle" }
   eval("plot " . drawn)
 }
@@ -80,6 +82,7 @@ if (lines > 0) {
   set arrow 1 from 0.55, 0.301 to 0.575, 0.301 nohead lw 2 lc rgb line_colour
   set label 14 "largest tooth load, kN" at 0.582, 0.301 left font ",16"
 }
+if (value("cusps_1") > 0) { set label 17 "" at 0.075, 0.325 point pt 6 ps 1.6 lw 3 lc rgb "#7a1f10"; set label 18 "cusp of the folds: two branches to the left" at 0.097, 0.325 left font ",16" }
 if (printed > 0) {
   set label 15 "" at 0.785, 0.301 point pt 13 ps 2.2 lc rgb "#000000"
   set label 16 "P2000: jump printed at 7 %" at 0.797, 0.301 left font ",16"

@@ -1,0 +1,182 @@
+// Folds over a second parameter: of the lumped pair against its exact folds and its own maps, of a kinked map in closed form.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "lumped/period_map.h"
+#include "lumped/stiffness.h"
+#include "orbits/branch.h"
+#include "orbits/fold_curve.h"
+#include "orbits/slow_tangent.h"
+#include "relative.h"
+
+using namespace whine;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+LumpedParameters wave(double ratio) {
+  LumpedParameters p = cells_of(RectangularWave{335596523.71, 504267825.43, 0, 0.75});
+  p.mass = 1.4;
+  p.damping_ratio = ratio;
+  p.damper = 2 * ratio * std::sqrt(462.1e6 * 1.4);
+  p.damper_acts = "always";
+  return p;
+}
+constexpr double kForce = 150 / 0.0704769466;
+
+// The lumped pair of a damping ratio, alive as long as its map.
+class LumpedPair : public PeriodMap {
+ public:
+  explicit LumpedPair(double ratio) : oscillator_(wave(ratio), kForce, 64), map_(oscillator_) {}
+  int size() const override { return map_.size(); }
+  void set_parameter(double value) override { map_.set_parameter(value); }
+  double parameter() const override { return map_.parameter(); }
+  VectorXd apply(const VectorXd& y) override { return map_.apply(y); }
+  MatrixXd tangent() override { return map_.tangent(); }
+  std::vector<ContactEvent> events() const override { return map_.events(); }
+  VectorXd observable() const override { return map_.observable(); }
+  VectorXd rest() const { return map_.flat(oscillator_.rest()); }
+
+ private:
+  LumpedOscillator oscillator_;
+  LumpedPeriodMap map_;
+};
+
+std::vector<SpecialPoint> folds_at(double ratio) {
+  LumpedPair pair(ratio);
+  pair.set_parameter(3400);
+  VectorXd y = pair.rest();
+  for (int i = 0; i < 100; ++i) y = pair.apply(y);
+  BranchSettings settings;
+  settings.low = 2000;
+  settings.high = 3500;
+  settings.scale = 2900;
+  const OrbitSearch search = find_orbit(pair, y);
+  REQUIRE(search.found());
+  std::vector<SpecialPoint> folds;
+  for (const SpecialPoint& p : follow_branch(pair, search.orbit, -1, settings).special)
+    if (p.kind == Special::fold) folds.push_back(p);
+  return folds;
+}
+
+// y -> 0.5 y below 0, 1.5 y above, and p - 1 + q: fixed points for p < 1 - q, which turn at the kink.
+class Kinked : public PeriodMap {
+ public:
+  explicit Kinked(double q) : q_(q) {}
+  int size() const override { return 1; }
+  void set_parameter(double value) override { p_ = value; }
+  double parameter() const override { return p_; }
+  VectorXd apply(const VectorXd& y) override {
+    slope_ = y[0] < 0 ? 0.5 : 1.5;
+    return VectorXd::Constant(1, slope_ * y[0] + p_ - 1 + q_);
+  }
+  MatrixXd tangent() override { return MatrixXd::Constant(1, 1, slope_); }
+  std::vector<ContactEvent> events() const override { return {}; }
+  VectorXd observable() const override { return VectorXd::Zero(1); }
+
+ private:
+  double q_, p_ = 0, slope_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("fold curves: of the lumped pair over damping, through its exact folds, to the cusp") {
+  const std::vector<SpecialPoint> begin = folds_at(0.07);
+  REQUIRE(begin.size() == 2);
+  Fold folds[2];
+  for (int side = 0; side < 2; ++side) {
+    folds[side].value = 0.07;
+    folds[side].parameter = begin[side].parameter;
+    folds[side].start = begin[side].start;
+  }
+  FoldCurveSettings settings;
+  settings.scale = 2900;
+  settings.tolerance = 1e-11;
+  const MapFamily family = [](double ratio, double) { return std::make_unique<LumpedPair>(ratio); };
+  for (Fold& fold : folds) {
+    std::string failure;
+    const auto found = find_turn(*family(0.07, 0), fold, settings, failure);
+    INFO(failure);
+    REQUIRE(found);
+    fold = *found;
+  }
+  CHECK(std::min(folds[0].parameter, folds[1].parameter) == relative(2464.654182, 1e-9));
+  CHECK(std::max(folds[0].parameter, folds[1].parameter) == relative(2638.199272, 1e-9));
+  const FoldPair pair = follow_folds(family, folds[0], folds[1], {0.072, 0.074, 0.076, 0.078, 0.08, 0.09},
+                                     settings, [](const Fold&) { return true; });
+  INFO(pair.end);
+  REQUIRE(pair.cusp);
+  int at_eight = -1;
+  for (size_t i = 0; i < pair.low.size(); ++i) {
+    if (std::abs(pair.low[i].value - 0.08) < 1e-12) at_eight = static_cast<int>(i);
+    // Multipliers of both folds pass 1, and between them there is room.
+    for (const Fold* fold : {&pair.low[i], &pair.high[i]}) {
+      CHECK(fold->before == relative(1, 1e-4));
+      CHECK(fold->after == relative(1, 1e-4));
+    }
+    CHECK(pair.low[i].parameter < pair.high[i].parameter);
+  }
+  REQUIRE(at_eight > 0);
+  CHECK(pair.low[at_eight].parameter == relative(2662.046924, 1e-9));
+  CHECK(pair.high[at_eight].parameter == relative(2679.466389, 1e-9));
+  // Independent of the curves: branches on either side of the cusp.
+  MESSAGE("cusp at a damping ratio of " << pair.cusp_value << " and " << pair.cusp_parameter << " Hz");
+  CHECK(folds_at(pair.cusp_value * 0.999).size() == 2);
+  CHECK(folds_at(pair.cusp_value * 1.001).empty());
+}
+
+TEST_CASE("fold curves: at a kink, where no multiplier is 1") {
+  FoldCurveSettings settings;
+  settings.tolerance = 1e-10;
+  std::string failure;
+  Fold fold;
+  fold.start = VectorXd::Constant(1, -0.05);
+  fold.parameter = 0.95;
+  for (const double q : {0.0, 0.1, 0.2, -0.3}) {
+    Kinked map(q);
+    fold.value = q;
+    const auto found = find_turn(map, fold, settings, failure);
+    INFO(q << ": " << failure);
+    REQUIRE(found);
+    CHECK(found->parameter == relative(1 - q, 1e-9));
+    CHECK(found->before == relative(0.5, 1e-12));
+    CHECK(found->after == relative(1.5, 1e-12));
+    CHECK(found->bend < 0);
+    fold = *found;
+    fold.parameter -= 0.02;
+  }
+}
+
+TEST_CASE("slow tangent: the largest multipliers of a long state are those of its tangent") {
+  // A tangent without symmetry, of known eigenvalues: a shear of a diagonal with one pair that turns.
+  constexpr int kSize = 60;
+  MatrixXd diagonal = MatrixXd::Zero(kSize, kSize), shear = MatrixXd::Identity(kSize, kSize);
+  for (int i = 0; i < kSize; ++i) {
+    diagonal(i, i) = (i % 3 == 1 ? -1 : 1) * 1.2 * std::pow(0.8, i);
+    for (int j = i + 1; j < kSize; ++j) shear(i, j) = 0.3 * std::sin(1.7 * i + 0.4 * j) / (1 + j - i);
+  }
+  diagonal.block(0, 0, 2, 2) << 0.9, -0.8, 0.8, 0.9;
+  const MatrixXd tangent = shear * diagonal * shear.inverse();
+  int products = 0;
+  const auto times = [&](const MatrixXd& directions) {
+    ++products;
+    return MatrixXd(tangent * directions);
+  };
+  const SlowTangent first = slow_tangent(kSize, {}, {}, 1e-9, times);
+  const Eigen::VectorXcd multipliers = first.multipliers();
+  CHECK(std::abs(multipliers[0]) == relative(std::hypot(0.9, 0.8), 1e-8));
+  CHECK(multipliers[2].real() == relative(1.2 * 0.64, 1e-3));
+  CHECK((first.basis.transpose() * first.basis - MatrixXd::Identity(first.basis.cols(), first.basis.cols()))
+            .norm() < 1e-12);
+  // As many directions as leave none out above 0.2.
+  CHECK(first.basis.cols() >= 9);
+  CHECK(first.basis.cols() <= 24);
+  const int before = products;
+  const SlowTangent again = slow_tangent(kSize, first, {}, 1e-9, times);
+  CHECK(products - before <= 2);
+}
