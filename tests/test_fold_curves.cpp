@@ -24,7 +24,7 @@ LumpedParameters wave(double ratio) {
   p.mass = 1.4;
   p.damping_ratio = ratio;
   p.damper = 2 * ratio * std::sqrt(462.1e6 * 1.4);
-  p.damper_acts = "always";
+  p.damper_acts = DamperActs::always;
   return p;
 }
 constexpr double kForce = 150 / 0.0704769466;

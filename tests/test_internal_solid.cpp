@@ -297,9 +297,8 @@ TEST_CASE(
   Bearing soft;
   soft.stiffness = 300e6;
   GearMeshSpec outer, inner;
-  outer.driver = "sun";
-  outer.driven = inner.driver = "planet";
-  inner.driven = "ring";
+  outer.gear = {"sun", "planet"};
+  inner.gear = {"planet", "ring"};
   outer.centre_distance = inner.centre_distance = kInternalDistance;
   outer.corner.enabled = inner.corner.enabled = false;
   const GearPair at_sun(sun_gear(), planet_gear(), kInternalDistance),
@@ -317,7 +316,7 @@ TEST_CASE(
     CHECK(std::hypot(layout.bodies[2].centre[0], layout.bodies[2].centre[1]) < 1e-15);
     layout.drives = {{0, System::DriveKind::torque, kSunTorque}, {2, System::DriveKind::held, 0}};
     const SystemModel system(layout, {sun_body(), planet_body(), ring_body()}, {outer, inner});
-    for (const SystemAnswer& answer : rest_over_period(system, ContactModel::line, 8, 8)) {
+    for (const SystemSolution& answer : rest_over_period(system, ContactModel::line, 8, 8)) {
       double carried[2] = {0, 0};
       for (const LoadedSegment& pair : answer.loads) carried[pair.mesh] += pair.force;
       CHECK(carried[0] == relative(force, 1e-9));
@@ -356,15 +355,16 @@ TEST_CASE(
 
 TEST_CASE("a result says where a pinion cannot be put into its ring by a radial movement") {
   StaticArtifact s;
-  s.driven = ring_gear();
-  s.driver_material = s.driven_material = kSteel;
+  s.gear[1].design = ring_gear();
+  for (BodyParameters& gear : s.gear) gear.material = kSteel;
   s.mean_stiffness = 5e8;
   s.torque = 1;
   for (const int teeth : {35, 88}) {
-    s.driver = planet_gear();
-    s.driver.teeth = teeth;
-    s.driver.addendum = 0.8;
-    s.mesh.centre_distance = 0.5 * (99 - teeth) * s.driver.module;
+    GearDesign& pinion = s.gear[0].design;
+    pinion = planet_gear();
+    pinion.teeth = teeth;
+    pinion.addendum = 0.8;
+    s.mesh.centre_distance = 0.5 * (99 - teeth) * pinion.module;
     bool warned = false;
     for (const Remark& remark : remarks(s))
       warned |= remark.warning && remark.words.find("trimming interference") != std::string::npos;

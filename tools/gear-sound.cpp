@@ -44,7 +44,7 @@ Heard heard_at(const std::string& path, double frequency, const std::string& bea
   // One orbit; behind it the row repeats.
   const int periods = sweep.period_multiple[row];
   const Index samples = Index{periods} * sweep.time.steps_per_period;
-  Heard out{sweep.direction, sweep.mesh_frequency[row] / periods, sweep.mesh_force.row(row).head(samples)};
+  Heard out{name_of(sweep.direction), sweep.mesh_frequency[row] / periods, sweep.mesh_force.row(row).head(samples)};
   if (bearing.empty()) return out;
   const auto colon = bearing.rfind(':');
   const std::string gear = bearing.substr(0, colon),

@@ -330,7 +330,7 @@ void show(Lines& lines, const BranchArtifact& a) {
 }
 
 void show(Lines& lines, const FoldCurvesArtifact& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.driver, ", over ", a.quantity);
+  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
       a.fidelity.integrator);
   if (a.value.size() > 0)

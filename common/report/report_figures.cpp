@@ -203,7 +203,7 @@ bool of_paper(const GearDesign& g) {
 std::string figure(const ReportContent& c, const ReportPicture& picture, const Explained& kind) {
   std::string words = html::escaped(kind.words(c));
   if (const std::string paper = paper_figure(picture.name);
-      !paper.empty() && of_paper(c.statics[0].driver) && of_paper(c.statics[0].driven))
+      !paper.empty() && of_paper(c.statics[0].gear[0].design) && of_paper(c.statics[0].gear[1].design))
     words += text(" ", picture.name, " shows of this pair what ", paper, " of P2000 ",
                   paper.starts_with("Figures") ? "show" : "shows", " of its own.");
   return text("<figure id=\"", picture.name, "\">\n<img alt=\"", html::escaped(picture.name),
