@@ -110,7 +110,7 @@ scorecard_files := $(foreach t,100 150 200 300 600,T$t/static.h5 T$t/up/response
   T150/up/sweep.h5 T150/down/sweep.h5 T150/rectangular/up/sweep.h5
 inputs_scorecard := $(foreach s,$(paper_scenes),$(scorecard_files:%=out/$s/%))
 
-figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inputs_scorecard)
+figure_inputs = $(if $(filter bifurcations,$(goals)),$(bifurcation_branches)) $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inputs_scorecard)
 
 $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
   $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) $(other_figures) table1)))
