@@ -19,7 +19,7 @@ set xrange [-reach:reach]
 set yrange [-reach:reach]
 set xlabel "Real part" offset 0, 0.4
 set ylabel "Imaginary part" offset 1, 0
-set cblabel "Mesh frequency (Hz)" offset 1, 0
+set cblabel "Mesh frequency (Hz)" offset 0.5, 0
 set palette defined (0 "#1f4e9c", 0.5 "#1a9d8f", 1 "#e6a817")
 set colorbox vertical user origin screen 0.085 + (top - bottom) * height / 1600.0, screen bottom size screen 0.012, screen top - bottom
 set parametric
@@ -32,9 +32,10 @@ plot cos(t), sin(t) with lines lw 2 lc rgb "#444444" notitle, \
 unset parametric
 do for [n = 1:int(notes)] { unset label 20 + n }
 unset colorbox
-set lmargin at screen 0.66
+set lmargin at screen 0.73
 set rmargin at screen 0.98
 set autoscale x
+set xtics 1000
 set yrange [0:reach]
 set xlabel "Mesh frequency (Hz)"
 set ylabel "Largest modulus"
