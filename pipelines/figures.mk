@@ -40,6 +40,7 @@ inputs_fig07-600 = $(inputs_fig07)
 # The same with the orbits that no sweep finds.
 inputs_fig05-branches = $(inputs_fig05) $(foreach s,$1,out/$s/T$(firstword $2)/branch.h5)
 inputs_fig07-branches = $(inputs_fig07) $(foreach s,$1,$(foreach t,$(call each,$2),out/$s/T$t/branch.h5))
+inputs_multipliers = out/$1/T$(firstword $2)/branch.h5
 inputs_fig08 = $(call both_ways,$1,$(firstword $2),sweep) $(call impacts,$1,$(firstword $2))
 inputs_fig09 = $(inputs_fig08)
 inputs_fig10 = $(inputs_fig08)
@@ -89,7 +90,7 @@ paper_scenes_crack := $(cracked_scene)
 paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-$(foreach f,profile-chart relief-jumps waterfall tooth-loads bearing-forces fig03 fig05 fig05-branches fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
+$(foreach f,profile-chart relief-jumps waterfall tooth-loads bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig07-branches fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
 
@@ -98,7 +99,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches load-sharing waterfall tooth-loads bearing-forces error-budget profile-chart sidebands crack
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall tooth-loads bearing-forces error-budget profile-chart sidebands crack
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
@@ -110,7 +111,7 @@ scorecard_files := $(foreach t,100 150 200 300 600,T$t/static.h5 T$t/up/response
   T150/up/sweep.h5 T150/down/sweep.h5 T150/rectangular/up/sweep.h5
 inputs_scorecard := $(foreach s,$(paper_scenes),$(scorecard_files:%=out/$s/%))
 
-figure_inputs = $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inputs_scorecard)
+figure_inputs = $(if $(filter bifurcations,$(goals)),$(bifurcation_branches)) $(foreach f,$(figures) table1,$(call inputs_of_paper,$f)) $(inputs_scorecard)
 
 $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
   $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) $(other_figures) table1)))
@@ -192,6 +193,7 @@ fig05: ## RMS of the dynamic transmission error against mesh frequency, speed up
 fig07: ## the same at 100, 200 and 300 N m (SCENE: its torques)
 fig05-branches: ## fig05 with the unstable orbits, dashed, and the folds at which branches end
 fig07-branches: ## fig07 with the same
+multipliers: ## Floquet multipliers of the branch in the complex plane, 150 N m (SCENE: its first torque)
 fig07-600: ## RMS of the dynamic transmission error against mesh frequency at 300 and 600 N m
 fig08: ## dynamic transmission error over time and its spectrum, both branches at 2400 Hz, 150 N m
 fig09: ## the same at 1300 Hz

@@ -31,14 +31,18 @@ VARIANTS ?= bore35:bore_radius_mm=35 bore45:bore_radius_mm=45 dedendum140:dedend
   mass955:rayleigh_mass_per_s=955 depth025:undamped_depth_mm=0.25 depth100:undamped_depth_mm=1.0 \
   corner_1deg:corner_contact=1 corner_off:corner_contact=false corner_off_mass955:corner_contact=false,rayleigh_mass_per_s=955
 variant_scenes := $(foreach v,$(VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v)))
+# Finer than the paper's scene, for `bifurcations`.
+BIFURCATION_VARIANTS := halfstep:steps_per_period=512,min_sample_rate_kHz=1000 strips16:strips=16 modes122:modes=122
+bifurcation_scenes := $(if $(SCENE),,$(foreach v,$(BIFURCATION_VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v))))
 variant_file = out/$(own_scene)/variants/$1.toml
 
-scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes)),$(variant_file),data/scenes/$1.toml))
+scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))
 
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
   $(if $(filter mesh reduce static loaded impact calibrate sweep histories sound lumped branches jump-map fold-curves sensitivity harris-map report out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
+  $(if $(filter bifurcations,$(goals)),$(paper_scene) $(bifurcation_scenes)) \
   $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(shown_scenes))) \
   $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
@@ -49,7 +53,7 @@ scenes := $(sort \
   $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
-$(foreach s,$(filter-out $(variant_scenes),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\
+$(foreach s,$(filter-out $(variant_scenes) $(bifurcation_scenes),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\
   $(error out/$s: there is no data/scenes/$s.toml; for a scene elsewhere say SCENE=path/to/$s.toml)))
 
 scene_fragments := $(scenes:%=$(B)/scenes/%.mk)
@@ -66,7 +70,7 @@ $(B)/scenes/$(own_scene)-$1.mk: $(call variant_file,$(own_scene)-$1)
 $(call variant_file,$(own_scene)-$1): $(call scene_file,$(own_scene)) $(B)/bin/gear-scene FORCE
 	+@mkdir -p $$(@D); $(B)/bin/gear-scene --scene '$$<' $(patsubst %,--set %,$(subst $(,), ,$2)) --variant $$@
 endef
-$(foreach v,$(VARIANTS),$(if $(filter $(own_scene)-$(firstword $(subst :, ,$v)),$(scenes)),\
+$(foreach v,$(VARIANTS) $(BIFURCATION_VARIANTS),$(if $(filter $(own_scene)-$(firstword $(subst :, ,$v)),$(scenes)),\
   $(eval $(call variant_rules,$(firstword $(subst :, ,$v)),$(lastword $(subst :, ,$v))))))
 
 include $(scene_fragments)

@@ -224,6 +224,56 @@ TEST_CASE("orbits: Lur'e's oscillator doubles its period where its multiplier is
   CHECK((map.apply(twice.start) - twice.start).norm() > 1e-2);
 }
 
+TEST_CASE(
+    "orbits: at a flip the branch of twice the periods is switched to, and at its flip that of four times") {
+  // The logistic map y -> p y (1 - y): flips at 3 and at 1 + sqrt(6); orbits of two periods in closed form.
+  SmallMap map(1, [](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>&) {
+    tangent = MatrixXd::Constant(1, 1, p * (1 - 2 * y[0]));
+    return VectorXd(VectorXd::Constant(1, p * y[0] * (1 - y[0])));
+  });
+  BranchSettings settings;
+  settings.low = 2.5;
+  settings.high = 3.5;
+  const OrbitBranch once = follow_branch(map, orbit_at(map, VectorXd::Constant(1, 0.6), 2.5), 1, settings);
+  const auto first = of_kind(once, Special::flip);
+  REQUIRE(first.size() == 1);
+  CHECK(first[0].parameter == relative(3, 1e-9));
+  const OrbitSearch two = orbit_beyond_flip(map, first[0], 1, 1);
+  INFO(two.failure);
+  REQUIRE(two.found());
+  settings.multiple = 2;
+  const OrbitBranch twice = follow_branch(map, two.orbit, 1, settings);
+  for (const BranchPosition& at : twice.points) {
+    const double p = at.parameter, y = at.start[0];
+    CHECK(std::abs(p * p * y * y - p * (p + 1) * y + p + 1) < 1e-8);
+    // The product of both slopes.
+    CHECK(at.multipliers[0].real() == relative(4 + 2 * p - p * p, 1e-6));
+  }
+  const auto second = of_kind(twice, Special::flip);
+  REQUIRE(second.size() == 1);
+  CHECK(second[0].parameter == relative(1 + std::sqrt(6.0), 1e-8));
+  const OrbitSearch four = orbit_beyond_flip(map, second[0], 2, 1);
+  INFO(four.failure);
+  REQUIRE(four.found());
+  CHECK(four.orbit.multiple == 4);
+  CHECK(std::abs(four.orbit.multipliers()[0]) < 1);
+  CHECK((image(map, four.orbit.start, 2) - four.orbit.start).norm() > 1e-3);
+  // Lur'e's oscillator: the orbit of two turns is the one that integration settles into.
+  SmallMap oscillator = lure();
+  BranchSettings turns;
+  turns.low = 0.6;
+  turns.high = 0.7;
+  const OrbitBranch turn = follow_branch(
+      oscillator, orbit_at(oscillator, Eigen::Vector2d(-0.3744950861, 0.5887162919), 0.66), -1, turns);
+  const auto flips = of_kind(turn, Special::flip);
+  REQUIRE(flips.size() == 1);
+  const OrbitSearch doubled = orbit_beyond_flip(oscillator, flips[0], 1, 1);
+  INFO(doubled.failure);
+  REQUIRE(doubled.found());
+  CHECK(doubled.orbit.parameter < flips[0].parameter);
+  CHECK(std::abs(doubled.orbit.multipliers()[0]) < 1);
+}
+
 TEST_CASE("orbits: an oscillator grazes its wall where its free motion reaches it") {
   SmallMap map = impact_oscillator(0.1);
   const PeriodicOrbit orbit = orbit_at(map, Eigen::Vector2d(0, 0.5), 0.05);

@@ -314,8 +314,9 @@ void show(Lines& lines, const BranchArtifact& a) {
         a.residual.maxCoeff());
   }
   for (Eigen::Index i = 0; i < a.fold_frequency.size(); ++i)
-    add(lines, "fold", a.fold_frequency[i], " Hz, ", a.fold_smooth[i] ? "smooth" : "at a kink",
-        ", multiplier ", a.fold_multiplier(i, 0), " before and ", a.fold_multiplier(i, 1), " after");
+    add(lines, "fold", text(a.fold_frequency[i]), " Hz, ", a.fold_smooth[i] ? "smooth" : "at a kink",
+        ", multiplier ", text(a.fold_multiplier(i, 0)), " before and ", text(a.fold_multiplier(i, 1)),
+        " after");
   const auto list = [&](const char* name, const Eigen::VectorXd& frequencies) {
     std::string all;
     for (double f : frequencies) all += (all.empty() ? "" : ", ") + text(f);

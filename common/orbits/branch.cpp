@@ -1,5 +1,6 @@
 #include "orbits/branch.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -434,6 +435,46 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
   }
   branch.end = text(settings.most_points, " points were taken");
   return branch;
+}
+
+OrbitSearch orbit_beyond_flip(PeriodMap& map, const SpecialPoint& flip, int multiple, double scale,
+                              double distance) {
+  OrbitSearch search;
+  const int n = map.size();
+  try {
+    map.set_parameter(flip.parameter);
+    const OrbitSearch at = find_orbit(map, flip.start, multiple);
+    if (!at.found()) {
+      search.failure = "at the flip: " + at.failure;
+      return search;
+    }
+    // The eigenvector W c of -1, (V^T W + 1) c = 0, by inverse iteration.
+    const SlowTangent& slow = at.orbit.slow;
+    const auto p = slow.basis.cols();
+    constexpr double kBeside = 1e-7;  // of the eigenvalue, so that the matrix can be solved with
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(slow.basis.transpose() * slow.image +
+                                                  (1 + kBeside) * Eigen::MatrixXd::Identity(p, p));
+    VectorXd c = VectorXd::Ones(p);
+    for (int i = 0; i < 4; ++i) c = lu.solve(c).normalized();
+    VectorXd across = VectorXd::Zero(n + 1);
+    across.head(n) = (slow.image * c).normalized();
+    Curve curve(map, 2 * multiple, scale, {});
+    const VectorXd from = curve.point(at.orbit.start, flip.parameter);
+    auto point = curve.correct(from + distance * across, across, nullptr);
+    if (!point) {
+      search.failure = "no orbit of twice the periods beside the flip: " + curve.failure();
+      return search;
+    }
+    map.set_parameter(curve.parameter(point->u));
+    search = find_orbit(map, curve.state(point->u), 2 * multiple);
+    if (search.found() &&
+        (image(map, search.orbit.start, multiple) - search.orbit.start).norm() < 0.1 * distance)
+      search.failure = "beside the flip only the orbit itself is found";
+  } catch (const Error& error) {
+    if (error.kind() != Failure::numerical) throw;
+    search.failure = error.what();
+  }
+  return search;
 }
 
 FoldSearch locate_fold(PeriodMap& map, const VectorXd& start, int multiple, double scale) {

@@ -78,6 +78,13 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
                           const BranchSettings& settings,
                           const std::function<void(const BranchPosition&)>& report = {});
 
+// Branch switching at a flip of orbits of `multiple` periods: an orbit of twice as many beside it, about `distance` away along the
+// eigenvector of -1 and across that (Kuznetsov, Elements of Applied Bifurcation Theory, 2004, section 10.4). scale: of the
+// parameter. From it follow_branch() goes on with settings.multiple doubled; at a flip of that branch again to four times, and so
+// on. Leaves the map at the orbit's parameter.
+OrbitSearch orbit_beyond_flip(PeriodMap& map, const SpecialPoint& flip, int multiple, double scale,
+                              double distance = 0.02);
+
 // The fold of a smooth map near a point that need not be an orbit: P^m(y) = y and no parameter component of the tangent, by
 // Newton's method along the arc. scale: of the parameter. Leaves the map at the fold's parameter.
 struct FoldSearch {

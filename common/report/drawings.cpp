@@ -23,6 +23,7 @@
 #include "report/harris_figure.h"
 #include "report/jump_map_figures.h"
 #include "report/motion_figures.h"
+#include "report/multiplier_figure.h"
 #include "report/response_figures.h"
 #include "report/sensitivity_figure.h"
 #include "report/static_figures.h"
@@ -219,6 +220,9 @@ Drawings drawings_of_maps() {
           const auto [curves, maps] = folds_and_maps(in);
           return jump_map_figure(maps, curves);
         }}},
+      {"multipliers",
+       {"Floquet multipliers of a branch in the complex plane, and their largest modulus", "branch.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return multiplier_figure(read_branch(in[0])); }}},
       {"fold-curves",
        {"mesh frequencies of folds against damping, torque or tip relief, with their cusps",
         "fold_curves.h5 of one quantity, one per torque; jump_map.h5 beside them, for the jumps of sweeps", 0,

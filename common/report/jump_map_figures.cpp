@@ -452,7 +452,7 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps, const std::vector<Fold
     figure.words.emplace_back(text("panel", p + 1), panels[p].first);
     FigureBlock cusps = cusps_of(text("cusps", p + 1), *panels[p].second[0], curves);
     figure.numbers.emplace_back(text("cusps_", p + 1), static_cast<double>(cusps.rows.size()));
-    figure.blocks.push_back(std::move(cusps));
+    if (!cusps.rows.empty()) figure.blocks.push_back(std::move(cusps));
     for (const JumpMapArtifact* a : panels[p].second)
       largest = std::max(largest, a->held_tooth_load.maxCoeff() * 1e-3);
   }

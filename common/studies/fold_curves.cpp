@@ -279,7 +279,8 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   a.damping_ratio = vector(rows.ratio);
   a.fold_frequency = vector(rows.frequency);
   a.fold_multiplier.resize(a.value.size(), 2);
-  a.fold_multiplier << vector(rows.before), vector(rows.after);
+  a.fold_multiplier.col(0) = vector(rows.before);
+  a.fold_multiplier.col(1) = vector(rows.after);
   a.highest = vector(rows.highest);
   a.cusp_value = vector(rows.cusp_value);
   a.cusp_damping_ratio = vector(rows.cusp_ratio);

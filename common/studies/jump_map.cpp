@@ -94,9 +94,10 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
   own.frequency_step = plan.step;
   for (Eigen::Index c = 0; c < n; ++c) {
     const auto given = static_cast<Eigen::Index>(plan.rayleigh_stiffness.size());
-    own.damping.rayleigh_stiffness = c < given ? plan.rayleigh_stiffness[c]
-                                               : rayleigh_stiffness_for(plan.damping_ratio[c - given], two->mesh,
-                                                         settings.fidelity.body, two->undamped_frequency);
+    own.damping.rayleigh_stiffness =
+        c < given ? plan.rayleigh_stiffness[c]
+                  : rayleigh_stiffness_for(plan.damping_ratio[c - given], two->mesh, settings.fidelity.body,
+                                           two->undamped_frequency);
     result.rayleigh_stiffness[c] = own.damping.rayleigh_stiffness;
     const double ratio = frozen_root(with_rayleigh_stiffness(two->mesh, own.damping.rayleigh_stiffness,
                                                              settings.fidelity.body))

@@ -8,6 +8,7 @@
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
 #include "io/error_budget_codec.h"
+#include "io/fold_curves_codec.h"
 #include "io/harris_map_codec.h"
 #include "io/impact_codec.h"
 #include "io/jump_map_codec.h"
@@ -48,6 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] { read_sweep(path); });
   rejected_or_read([&] { read_response(path); });
   rejected_or_read([&] { read_branch(path); });
+  rejected_or_read([&] { read_fold_curves(path); });
   rejected_or_read([&] { read_jump_map(path); });
   rejected_or_read([&] { read_harris_map(path); });
   rejected_or_read([&] { read_variant(path); });
