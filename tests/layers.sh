@@ -1,5 +1,6 @@
 # The layers of common/: a layer includes only layers below it, heavy libraries stay behind their walls.
 set -uo pipefail
+B=${B:-build}
 
 declare -A below=(
   [base]="base"

@@ -1138,8 +1138,8 @@ TEST_CASE("the number of an option is decimal, finite and the whole word") {
 }
 
 TEST_CASE("only what lies below out/ has a make target") {
-  CHECK(rebuild_advice("out/parker2000/T150/static.h5") ==
-        "rebuild it with: make out/parker2000/T150/static.h5");
+  CHECK(rebuild_advice("out/parker2000/T0.75/static.h5") ==
+        "rebuild it with: make out/parker2000/T0.75/static.h5");
   CHECK(rebuild_advice("out/bodies/0123/body.h5") == "rebuild it with: make out/bodies/0123/body.h5");
   // Of a scene that is none of the project's.
   CHECK(rebuild_advice("out/s/T150/static.h5") ==

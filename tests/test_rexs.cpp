@@ -17,6 +17,7 @@
 #include "io/rexs.h"
 #include "io/rexs_scene.h"
 #include "io/scene.h"
+#include "relative.h"
 
 using namespace whine;
 
@@ -304,15 +305,14 @@ TEST_CASE("REXS: units, reliefs, the generating shift and the flank that works")
   const Scene scene = imported(folder, folder.file("pair.rexs", xml(box)));
   const SceneGear& pinion = scene.gears[0];
   CHECK(pinion.design.module == 2.5e-3);
-  CHECK(pinion.design.pressure_angle == doctest::Approx(std::numbers::pi / 9).epsilon(1e-14));
+  CHECK(pinion.design.pressure_angle == relative(std::numbers::pi / 9, 1e-14));
   CHECK(pinion.material.youngs_modulus == 206e9);
-  CHECK(pinion.design.addendum == doctest::Approx(1.0).epsilon(1e-12));
-  CHECK(pinion.modification.tip.amount == doctest::Approx(7e-6).epsilon(1e-14));  // of the right flank
-  CHECK(pinion.modification.tip.start_radius == doctest::Approx(39.75e-3).epsilon(1e-14));
+  CHECK(pinion.design.addendum == relative(1.0, 1e-12));
+  CHECK(pinion.modification.tip.amount == relative(7e-6, 1e-14));  // of the right flank
+  CHECK(pinion.modification.tip.start_radius == relative(39.75e-3, 1e-14));
   CHECK(pinion.modification.tip.shape == ReliefShape::linear);
-  CHECK(pinion.modification.crowning == doctest::Approx(3e-6).epsilon(1e-14));
-  CHECK(pinion.design.tooth_thinning ==
-        doctest::Approx(2 * 2.5e-3 * 0.02 * std::tan(std::numbers::pi / 9)).epsilon(1e-12));
+  CHECK(pinion.modification.crowning == relative(3e-6, 1e-14));
+  CHECK(pinion.design.tooth_thinning == relative(2 * 2.5e-3 * 0.02 * std::tan(std::numbers::pi / 9), 1e-12));
   CHECK(scene.gears[1].modification == FlankModification{});
 }
 

@@ -101,7 +101,8 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
 
     const size_t at = column + 1;
     check(row("contact ratio")[at], 0, s.contact_ratio);
-    check(row("mean mesh stiffness per face width")[at], 0, s.mean_stiffness / s.gear[0].design.face_width * 1e-9);
+    check(row("mean mesh stiffness per face width")[at], 0,
+          s.mean_stiffness / s.gear[0].design.face_width * 1e-9);
     check(row("mean mesh stiffness per face width")[3], column, compliance_split(s).iso.mesh * 1e-9);
     for (size_t state = 0; state < 3; ++state)
       check(row("natural frequency")[at], state, rung.natural_frequency[static_cast<Eigen::Index>(state)]);

@@ -44,14 +44,16 @@ Heard heard_at(const std::string& path, double frequency, const std::string& bea
   // One orbit; behind it the row repeats.
   const int periods = sweep.period_multiple[row];
   const Index samples = Index{periods} * sweep.time.steps_per_period;
-  Heard out{name_of(sweep.direction), sweep.mesh_frequency[row] / periods, sweep.mesh_force.row(row).head(samples)};
+  Heard out{name_of(sweep.direction), sweep.mesh_frequency[row] / periods,
+            sweep.mesh_force.row(row).head(samples)};
   if (bearing.empty()) return out;
   const auto colon = bearing.rfind(':');
   const std::string gear = bearing.substr(0, colon),
                     axis = colon == std::string::npos ? "" : bearing.substr(colon + 1);
   for (int g = 0; g < kSides; ++g) {
     const auto& force = sweep.bearing_force[static_cast<size_t>(g)];
-    if (gear != sweep.mesh.gear[static_cast<size_t>(g)] || force.empty() || (axis != "x" && axis != "y")) continue;
+    if (gear != sweep.mesh.gear[static_cast<size_t>(g)] || force.empty() || (axis != "x" && axis != "y"))
+      continue;
     out.record = force[static_cast<size_t>(row)].col(axis == "x" ? 0 : 1).head(samples);
     return out;
   }

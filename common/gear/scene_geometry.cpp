@@ -61,10 +61,11 @@ std::string thin_rim(const GearDesign& design, const std::string& name) {
   const double rim = std::abs(ToothGeometry(design).root_radius() - design.held_radius());
   if (rim >= design.module) return "";
   const char* const key = design.internal ? "rim_outer_radius_mm" : "bore_radius_mm";
-  return text("between the ", design.internal ? "outside of the rim" : "bore", " and the root circle of [gear.",
-              name, "] are ", rim * 1e3, " mm, less than a module: ", key, " is the radius ",
-              design.internal ? "outside" : "inside",
-              " which the gear is rigid, so a thin rim makes the teeth stiffer here than on a real rim. Check ", key);
+  return text(
+      "between the ", design.internal ? "outside of the rim" : "bore", " and the root circle of [gear.", name,
+      "] are ", rim * 1e3, " mm, less than a module: ", key, " is the radius ",
+      design.internal ? "outside" : "inside",
+      " which the gear is rigid, so a thin rim makes the teeth stiffer here than on a real rim. Check ", key);
 }
 
 std::string flywheel(const GearDesign& design, const Material& material, double inertia,

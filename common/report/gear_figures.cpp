@@ -96,14 +96,13 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
 
   figure.notes.push_back(pair_words(s));
   const GearDesign &first = s.gear[0].design, &second = s.gear[1].design;
-  figure.notes.push_back(
-      text(elements, driver.discretisation.element_order == 2 ? " nine" : " four", "-node elements, ", nodes,
-           " nodes; ", shown(driver.discretisation.element_size * kMilli, 4), " mm on the flank; rigid ",
-           first.internal ? "rim" : "hub", " of ", shown(first.held_radius() * kMilli, 4), " mm radius",
-           second.held_radius() == first.held_radius()
-               ? std::string()
-               : text(" (driven: ", second.internal ? "rim, " : "", shown(second.held_radius() * kMilli, 4),
-                      " mm)")));
+  figure.notes.push_back(text(
+      elements, driver.discretisation.element_order == 2 ? " nine" : " four", "-node elements, ", nodes,
+      " nodes; ", shown(driver.discretisation.element_size * kMilli, 4), " mm on the flank; rigid ",
+      first.internal ? "rim" : "hub", " of ", shown(first.held_radius() * kMilli, 4), " mm radius",
+      second.held_radius() == first.held_radius() ? std::string()
+                                                  : text(" (driven: ", second.internal ? "rim, " : "",
+                                                         shown(second.held_radius() * kMilli, 4), " mm)")));
   figure.notes.push_back("unloaded, mesh phase 0: the reference pair touches at the pitch point");
   figure.numbers = {{"pitch_y", pitch_point.y() * kMilli},
                     {"half_window", half_zone * kMilli},

@@ -120,7 +120,8 @@ std::string cause_words(const ChoicePanel<ResponseArtifact>::Curve& curve, const
   for (const ResponseArtifact* r : {curve.up, curve.down})
     for (Eigen::Index j = 0; j < r->jump_frequency.size(); ++j) {
       const CausedJump cause = cause_of_jump(branch, r->jump_frequency[j], r->jump_width[j]);
-      words += (words.empty() ? "" : "; ") + std::string(r->direction == Direction::up ? "rising " : "falling ") +
+      words += (words.empty() ? "" : "; ") +
+               std::string(r->direction == Direction::up ? "rising " : "falling ") +
                fixed(r->jump_frequency[j], 2) + " Hz: " + name(cause.cause);
       if (cause.cause != JumpCause::basin) words += " at " + fixed(cause.frequency, 2);
     }

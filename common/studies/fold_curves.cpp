@@ -203,8 +203,7 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   const GearPair kinematics(driver.design, driven.design, statics.mesh.centre_distance);
   double inverse_mass = 0;  // kg-1
   for (int g = 0; g < kSides; ++g)
-    inverse_mass += std::pow(kinematics.gear(g).base_radius(), 2) /
-                    settings.inertia[g];
+    inverse_mass += std::pow(kinematics.gear(g).base_radius(), 2) / settings.inertia[g];
   const VectorXd speeds =
       map_speeds({plan.from, plan.to, 50, 0},
                  std::sqrt(family.statics().mean_stiffness * inverse_mass) / (2 * std::numbers::pi));
