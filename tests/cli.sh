@@ -225,7 +225,8 @@ if "${budget[@]}" > said 2>&1 && "$bin/gear-inspect" budget.h5 > said 2>&1 && gr
   wrong "gear-static --error-budget, with the other choices apart, and its figure" "$(head -n 1 said)"; fi
 rm -f budget.*
 rejected "the next model level of the last one" 3 'last model level' "${at_torque[@]}" 100 --next-level
-rejected "a ring-down with one line per pair" 3 'not available in ring-downs' "${stage_impact[@]//out\/scene\/params/line}"
+rejected "a ring-down with one line per pair" 3 'not available in ring-downs' \
+  $(sed 's|out/scene/params|line|; s|out/scene/T100/static|line/static|g' <<< "${stage_impact[*]}")
 rejected "a sweep on a static result of another contact" 3 'was made with contact = "line", the parameters of this stage say "strips"' \
   $(sweep scene up | sed 's|--static out/scene/T100|--static line|')
 rejected "a sweep whose dampers come from another contact" 3 'line/static.h5: was made with contact = "line"' \
