@@ -292,7 +292,7 @@ ImpactArtifact small_impact() {
   a.mean_stiffness = 4e8 / 1.1;
   a.bearing_damper[0] = 1.0 / 3;
   a.bearing_damper[1] = 2.0 / 3;
-  a.contact_state = {"one", "two", "mean"};
+  a.contact_state = {ContactState::one, ContactState::two, ContactState::mean};
   a.natural_frequency = odd_vector(3, 3e3);
   a.damping_ratio = odd_vector(3, 0.07);
   a.undamped_frequency = odd_vector(3, 2.9e3);

@@ -242,7 +242,7 @@ TEST_CASE(
 
 TEST_CASE("pair at a fixed phase: one and two pairs, their mean, and no dependence on what is let go") {
   const ImpactArtifact a = ring(coarse_impact());
-  REQUIRE(a.contact_state == std::vector<std::string>{"one", "two", "mean"});
+  REQUIRE(a.contact_state == std::vector{ContactState::one, ContactState::two, ContactState::mean});
   CHECK(a.state_phase == Eigen::Vector2d(0, 0.5));
   CHECK(a.natural_frequency[0] < a.natural_frequency[2]);
   CHECK(a.natural_frequency[2] < a.natural_frequency[1]);
@@ -330,7 +330,7 @@ TEST_CASE(
   CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-4);
   CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 1e-3);
   const ImpactArtifact found =
-      calibrate(body, body, statics, 463e6, coarse_impact(), {1e-6, 8}, 0.07, "two", no_report);
+      calibrate(body, body, statics, 463e6, coarse_impact(), {1e-6, 8}, 0.07, ContactState::two, no_report);
   CHECK(found.damping_ratio[1] == relative(0.07, 1e-6));
   CHECK(found.damping.rayleigh_stiffness == relative(7.75e-6, 0.01));
 }
@@ -347,7 +347,7 @@ TEST_CASE(
     CHECK(a.fit_residual.maxCoeff() < 1e-6);
   }
   const ImpactArtifact found = calibrate(pair.pinion, pair.wheel, pair.statics, pair.statics.mean_stiffness,
-                                         pair.settings, {1e-6, 8}, 0.05, "two", no_report);
+                                         pair.settings, {1e-6, 8}, 0.05, ContactState::two, no_report);
   CHECK(found.damping_ratio[1] == relative(0.05, 1e-6));
   // Round-off of the static error stands in the samples of a decay this small.
   CHECK_THROWS_WITH_AS(pair.ring(1e-12), doctest::Contains("contact stays as it is"), Error);
@@ -365,11 +365,11 @@ TEST_CASE(
 
 TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is rejected") {
   const StaticArtifact statics = coarse_statics(150);
-  const auto calibrated = [&](const ImpactParameters& settings, double ratio, const std::string& state) {
+  const auto calibrated = [&](const ImpactParameters& settings, double ratio, ContactState state) {
     return calibrate(coarse_body(), coarse_body(), statics, 463e6, settings, {1e-6, 16}, ratio, state,
                      no_report);
   };
-  for (const auto& [state, row] : {std::pair{"one", 0}, std::pair{"two", 1}, std::pair{"mean", 2}}) {
+  for (const auto& [state, row] : {std::pair{ContactState::one, 0}, {ContactState::two, 1}, {ContactState::mean, 2}}) {
     ImpactParameters settings = coarse_impact();
     const ImpactArtifact found = calibrated(settings, 0.05, state);
     settings.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
@@ -379,13 +379,13 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
     CHECK(calibrated(settings, 0.05, state).damping.rayleigh_stiffness == found.damping.rayleigh_stiffness);
   }
   ImpactParameters settings = coarse_impact();
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, "three"),
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::three),
                        doctest::Contains("choose one of: one, two, mean"), Error);
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.9, "two"), doctest::Contains("the largest is near"), Error);
-  CHECK_THROWS_WITH_AS(calibrated(settings, 1.5, "two"), doctest::Contains("outside (0, 1)"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.9, ContactState::two), doctest::Contains("the largest is near"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 1.5, ContactState::two), doctest::Contains("outside (0, 1)"), Error);
   settings.damping.bearing_ratio = 0.1;
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, "two"), doctest::Contains("lower bearing_ratio"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::two), doctest::Contains("lower bearing_ratio"), Error);
   settings = coarse_impact();
   settings.fidelity.body = BodyModel::rigid;
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, "two"), doctest::Contains("the largest is near"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::two), doctest::Contains("the largest is near"), Error);
 }

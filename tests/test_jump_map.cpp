@@ -173,7 +173,7 @@ TEST_CASE(
     const ImpactArtifact decay =
         impact(coarse(), coarse(), fixed, map.bearing_stiffness, ring, impact_plan, [](long, long) {});
     for (size_t s = 0; s < decay.contact_state.size(); ++s)
-      if (decay.contact_state[s] == "two") {
+      if (decay.contact_state[s] == ContactState::two) {
         CHECK(map.damping_ratio[c] == relative(decay.damping_ratio[static_cast<Eigen::Index>(s)], 5e-3));
         CHECK(map.two_pair_frequency ==
               relative(decay.undamped_frequency[static_cast<Eigen::Index>(s)], 1e-3));

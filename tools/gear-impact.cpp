@@ -32,7 +32,7 @@ std::string states(const whine::ImpactArtifact& a) {
 }
 
 // A line for a scene, with all that the number belongs to.
-void print_calibration(const whine::ImpactArtifact& a, double ratio, const std::string& state) {
+void print_calibration(const whine::ImpactArtifact& a, double ratio, whine::ContactState state) {
   std::cout << "rayleigh_stiffness_s = " << std::setprecision(5) << a.damping.rayleigh_stiffness
             << "  # damping ratio " << ratio << " by ring-down, loaded pairs: " << state << ", at "
             << a.torque << " N m, bearing_ratio " << a.damping.bearing_ratio << ", rayleigh_mass_per_s "
@@ -45,7 +45,7 @@ void body(int argc, char** argv) {
                          "gear-impact"};
   whine::ImpactPlan plan;
   std::string params, statics, reference, output, step_word = whine::text(plan.torque_step), ratio_word,
-                                                  state = "two";
+                                                  state_word = "two";
   std::vector<std::string> bodies;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/impact.toml").required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
@@ -58,7 +58,7 @@ void body(int argc, char** argv) {
   whine::Option write = options.add("--output", output, "impact.h5 to write");
   whine::Option calibrate =
       options.add("--calibrate", ratio_word, "damping ratio to find the eta of Eq. 21 for; prints");
-  options.add("--contact-state", state, "where that ratio holds: loaded pairs in words, or mean")
+  options.add("--contact-state", state_word, "where that ratio holds: loaded pairs in words, or mean")
       .needs(calibrate)
       .show_default();
   write.excludes(calibrate);
@@ -87,10 +87,14 @@ void body(int argc, char** argv) {
   };
   if (!ratio_word.empty()) {
     const double ratio = whine::number_option("--calibrate", ratio_word);
+    const auto state = whine::choice_of<whine::ContactState>(state_word);
+    if (!state)
+      whine::fail(whine::Failure::usage, "--contact-state is '", state_word,
+                  "', which is none of: one, two, three, ..., mean");
     const whine::ImpactArtifact result = whine::calibrate(
-        driver, driven, at_torque, at_reference.mean_stiffness, settings, plan, ratio, state, report);
+        driver, driven, at_torque, at_reference.mean_stiffness, settings, plan, ratio, *state, report);
     progress.reset();
-    print_calibration(result, ratio, state);
+    print_calibration(result, ratio, *state);
     return;
   }
   const whine::ImpactArtifact result =

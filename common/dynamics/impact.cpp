@@ -89,9 +89,10 @@ int loaded_pairs(const FixedPhaseMesh& mesh, const VectorXd& p) {
   return loaded;
 }
 
-std::string in_words(int count) {
-  static const char* const kWords[] = {"no", "one", "two", "three", "four", "five", "six", "seven"};
-  return kWords[count];
+ContactState state_of(int pairs) {
+  if (pairs < 0 || pairs >= static_cast<int>(ContactState::mean))
+    fail(Failure::numerical, pairs, " tooth pairs carry load; ring-downs know up to seven");
+  return static_cast<ContactState>(pairs);
 }
 
 // The pair at all phases, for any Rayleigh stiffness factor.
@@ -149,14 +150,14 @@ class FixedPhasePair {
   }
 
   // The phases of a contact state; Error(input) if it does not occur.
-  std::vector<int> phases_of(const std::string& contact_state) const {
+  std::vector<int> phases_of(ContactState contact_state) const {
     std::vector<int> phases;
     std::string known;
     for (const auto& [pairs, phase] : state_phase_) {
-      known += in_words(pairs) + ", ";
-      if (in_words(pairs) == contact_state) return {phase};
+      known += name_of(state_of(pairs)) + ", ";
+      if (state_of(pairs) == contact_state) return {phase};
     }
-    if (contact_state != "mean")
+    if (contact_state != ContactState::mean)
       fail(Failure::input, "the contact state '", contact_state, "' does not occur at ", blank_.torque,
            " N m; choose one of: ", known, "mean");
     phases.resize(static_cast<size_t>(plan_.phases));
@@ -182,7 +183,7 @@ class FixedPhasePair {
   std::vector<FixedPhaseState> states() const {
     std::vector<FixedPhaseState> states;
     for (const auto& [pairs, phase] : state_phase_)
-      states.push_back({in_words(pairs), blank_.phase_undamped_frequency[phase], meshes_[phase]});
+      states.push_back({state_of(pairs), blank_.phase_undamped_frequency[phase], meshes_[phase]});
     return states;
   }
 
@@ -219,14 +220,14 @@ class FixedPhasePair {
     result.state_phase.resize(states);
     Eigen::Index row = 0;
     for (const auto& [pairs, phase] : state_phase_) {
-      result.contact_state.push_back(in_words(pairs));
+      result.contact_state.push_back(state_of(pairs));
       result.state_phase[row] = result.mesh_phase[phase];
       result.natural_frequency[row] = result.phase_natural_frequency[phase];
       result.damping_ratio[row] = result.phase_damping_ratio[phase];
       result.undamped_frequency[row] = result.phase_undamped_frequency[phase];
       ++row;
     }
-    result.contact_state.push_back("mean");
+    result.contact_state.push_back(ContactState::mean);
     result.natural_frequency[states] = result.phase_natural_frequency.mean();
     result.damping_ratio[states] = result.phase_damping_ratio.mean();
     result.undamped_frequency[states] = result.phase_undamped_frequency.mean();
@@ -246,7 +247,7 @@ class FixedPhasePair {
     Eigen::Index row = 0;
     std::map<int, double> change;
     for (const auto& [pairs, phase] : state_phase_) {
-      result.contact_state.push_back(in_words(pairs));
+      result.contact_state.push_back(state_of(pairs));
       result.state_phase[row] = result.mesh_phase[phase];
       result.natural_frequency[row] = roots[pairs].frequency;
       result.damping_ratio[row] = roots[pairs].damping_ratio;
@@ -254,7 +255,7 @@ class FixedPhasePair {
       change[pairs] = roots[pairs].frequency / result.phase_undamped_frequency[phase];
       ++row;
     }
-    result.contact_state.push_back("mean");
+    result.contact_state.push_back(ContactState::mean);
     for (int i = 0; i < plan_.phases; ++i) {
       const int pairs = result.loaded_pairs[i];
       result.natural_frequency[states] += result.phase_undamped_frequency[i] * change[pairs] / plan_.phases;
@@ -438,7 +439,7 @@ ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, co
 ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
                          const StaticArtifact& statics, double mean_stiffness,
                          const ImpactParameters& settings, const ImpactPlan& plan, double damping_ratio,
-                         const std::string& contact_state, const std::function<void(long, long)>& report) {
+                         ContactState contact_state, const std::function<void(long, long)>& report) {
   if (!(damping_ratio > 0 && damping_ratio < 1))
     fail(
         Failure::input, "a damping ratio of ", damping_ratio, " is outside (0, 1)",

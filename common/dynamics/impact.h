@@ -40,7 +40,7 @@ DampedRoot frozen_root(const FixedPhaseMesh& mesh);
 
 // The pair at the phase amid each contact state, fewest loaded pairs first, without Rayleigh stiffness damping.
 struct FixedPhaseState {
-  std::string contact_state;      // as in ImpactArtifact, without the mean
+  ContactState contact_state = ContactState::one;  // never the mean
   double undamped_frequency = 0;  // Hz, contact frozen
   FixedPhaseMesh mesh;
 };
@@ -67,11 +67,11 @@ ImpactArtifact frozen_impact(const BodyArtifact& driver, const BodyArtifact& dri
                              const ImpactParameters& settings, int phases);
 
 // The same at the Rayleigh stiffness factor (settings.damping.rayleigh_stiffness of the result) that gives a damping
-// ratio in one contact state ("one", "two", ... or "mean"), to 1e-7 of it. Throws Error(input) if the state does not
+// ratio in one contact state, to 1e-7 of it. Throws Error(input) if the state does not
 // occur, or if no factor gives the ratio.
 ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
                          const StaticArtifact& statics, double mean_stiffness,
                          const ImpactParameters& settings, const ImpactPlan& plan, double damping_ratio,
-                         const std::string& contact_state, const std::function<void(long, long)>& report);
+                         ContactState contact_state, const std::function<void(long, long)>& report);
 
 }  // namespace whine

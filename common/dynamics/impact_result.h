@@ -1,14 +1,21 @@
 // The free decay of the transmission error about the static equilibrium.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "base/choice.h"
 #include "base/matrix.h"
 #include "model/stages.h"
 
 namespace whine {
+
+// The number of tooth pairs that carry load, or the mean over the mesh period.
+enum class ContactState { none, one, two, three, four, five, six, seven, mean };
+template <>
+inline constexpr const char* kWordsOf<ContactState> = "no one two three four five six seven mean";
 
 // impact.h5: free decay of the transmission error about the static equilibrium, gears at a fixed mesh phase. A
 // natural frequency is Im s / 2 pi, that of the decaying oscillation, and a damping ratio -Re s / |s| of the lowest
@@ -18,9 +25,8 @@ struct ImpactArtifact : MotionParameters {
   double torque_step = 0;                          // 1: what is let go at the start, over the torque
   double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers
   std::array<double, kSides> bearing_damper = {};  // N m s
-  // (state) number of loaded pairs in words, fewest first, each amid the longest part of the period that has it;
-  // "mean" last: over the period
-  std::vector<std::string> contact_state;
+  // (state) fewest loaded pairs first, each amid the longest part of the period that has it; the mean last
+  std::vector<ContactState> contact_state;
   Eigen::VectorXd natural_frequency, damping_ratio;              // (state) Hz, 1
   Eigen::VectorXd undamped_frequency;                            // (state) Hz: contact frozen, no damping
   Eigen::VectorXd state_phase;                                   // (state but the mean) 1: mesh phase
@@ -36,6 +42,13 @@ struct ImpactArtifact : MotionParameters {
   // of the hubs on their bearings, and the mesh's, which is phase_undamped_frequency. Empty for rigid axes
   MatrixRM frozen_frequency;
   double least_mesh_force = 0;  // 1: least mesh force of all decays, over the static one
+
+  // The place of a state on the axis (state); nothing if no phase has it.
+  std::optional<Eigen::Index> row_of(ContactState state) const {
+    const auto found = std::find(contact_state.begin(), contact_state.end(), state);
+    if (found == contact_state.end()) return std::nullopt;
+    return found - contact_state.begin();
+  }
 };
 
 }  // namespace whine

@@ -61,6 +61,23 @@ class Codec {
     choice = *found;
   }
 
+  // A list of choices along an axis is stored as the words.
+  template <WordedChoice Choice>
+  void column_of_choices(const Dataset& dataset, std::vector<Choice>& list) {
+    std::vector<std::string> words;
+    for (const Choice choice : list) words.push_back(name_of(choice));
+    this->dataset(dataset, &words);
+    if (!in_) return;
+    list.clear();
+    for (const std::string& word : words) {
+      const auto found = choice_of<Choice>(word);
+      if (!found)
+        in_->file().reject(
+            text("dataset ", dataset.name, " holds '", word, "', which is none of: ", kWordsOf<Choice>));
+      list.push_back(*found);
+    }
+  }
+
   // A list of choices is stored as one line of its words.
   template <WordedChoice Choice>
   void choices(const Dataset& dataset, std::vector<Choice>& list) {

@@ -15,12 +15,12 @@ const char* const kDecayFrequency =
 const char* const kDecayRatio = "damping ratio -Re s / |s| of the decaying transmission error";
 
 void describe_states(Codec& c, ImpactArtifact& a) {
-  c.dataset(
+  c.column_of_choices(
       {"/contact_state", "1",
        "number of loaded tooth pairs, held amid the longest part of the period that has it; mean: over the "
        "whole period",
        "contact_state"},
-      &a.contact_state);
+      a.contact_state);
   if (c.in() && a.contact_state.size() < 2) c.in()->file().reject("/contact_state names no state");
   c.dataset({"/natural_frequency", "Hz", kDecayFrequency, "contact_state", kFrequency}, &a.natural_frequency);
   c.dataset({"/damping_ratio", "1", kDecayRatio, "contact_state", kSigned}, &a.damping_ratio);

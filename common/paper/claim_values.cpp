@@ -120,14 +120,14 @@ Finding impact_torque(const SceneResults& s) {
 // The natural frequency of the rig, whose gears are 20 mm wide, taken to the width of the model.
 Finding within_5_percent(const SceneResults& s, int torque) {
   const double scaled_rig = 2700 * std::sqrt(25.4 / 20);
-  const double off = table_frequency(s, torque, "mean").value / scaled_rig - 1;
+  const double off = table_frequency(s, torque, ContactState::mean).value / scaled_rig - 1;
   return yes_or_no(std::abs(off) <= 0.05, text(digits(100 * off, 2), " %"));
 }
 
 Finding weak_function_of_load(const SceneResults& s) {
   bool weak = true;
   std::string note;
-  for (const char* state : {"one", "two", "mean"}) {
+  for (const ContactState state : {ContactState::one, ContactState::two, ContactState::mean}) {
     double low = std::numeric_limits<double>::infinity(), high = 0;
     for (int torque : kTorques) {
       const double f = table_frequency(s, torque, state).value;
@@ -135,21 +135,21 @@ Finding weak_function_of_load(const SceneResults& s) {
       high = std::max(high, f);
     }
     weak = weak && high <= 1.05 * low;
-    note += text(note.empty() ? "" : ", ", state, " ", digits(100 * (high / low - 1), 2), " %");
+    note += text(note.empty() ? "" : ", ", name_of(state), " ", digits(100 * (high / low - 1), 2), " %");
   }
   return yes_or_no(weak, note);
 }
 
 Named of_impact_tests() {
   return {{"mean-natural-frequency", plain([](const SceneResults& s) {
-             return Finding{table_frequency(s, 100, "mean").value, "25.4 mm wide, 100 N m"};
+             return Finding{table_frequency(s, 100, ContactState::mean).value, "25.4 mm wide, 100 N m"};
            })},
           {"impact-torque", plain(impact_torque)},
           {"within-5-percent", at_torque(within_5_percent)},
           {kNaturalFrequency,
            {{.torque = true, .contact = true},
             [](const SceneResults& s, const PrintedClaim& c) {
-              return table_frequency(s, c.torque, c.contact);
+              return table_frequency(s, c.torque, choice_of<ContactState>(c.contact).value());
             }}},
           {"weak-function-of-load", plain(weak_function_of_load)}};
 }

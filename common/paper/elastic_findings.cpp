@@ -87,12 +87,13 @@ double largest_load(const SceneResults& s, const Motion& m, LoadOf what) {
   return held_load(sweep.tooth_load[static_cast<size_t>(m.row)], sweep.time.steps_per_period);
 }
 
-Finding table_frequency(const SceneResults& s, int torque, const std::string& state) {
+Finding table_frequency(const SceneResults& s, int torque, ContactState state) {
   const ImpactArtifact& i = s.ring_down(torque);
-  const Index k = state_of(i, state);
-  if (k < 0) return {kNone, "no part of the period has " + state + " loaded pairs"};
-  if (state != "mean")
-    return {i.natural_frequency[k], torque == kTorques[0]
+  const auto row = i.row_of(state);
+  if (!row) return {kNone, "no part of the period has " + name_of(state) + " loaded pairs"};
+  const double frequency = i.natural_frequency[*row];
+  if (state != ContactState::mean)
+    return {frequency, torque == kTorques[0]
                                         ? std::string()
                                         : text("mean stiffness ", digits(100 * stiffening(s, torque), 2),
                                                " % above that at ", kTorques[0], " N m")};
@@ -100,23 +101,21 @@ Finding table_frequency(const SceneResults& s, int torque, const std::string& st
       (i.loaded_pairs.array() >= 2).cast<double>().sum() / static_cast<double>(i.loaded_pairs.size());
   std::string note =
       text("two pairs loaded for ", digits(100 * loaded, 3), " % of the period, tip edges included");
-  const Index one = state_of(i, "one"), two = state_of(i, "two");
+  const auto one = i.row_of(ContactState::one), two = i.row_of(ContactState::two);
   const double share = s.at_rest(torque).contact_ratio - 1;
-  if (one >= 0 && two >= 0)
+  if (one && two)
     note += text("; weighted with the ", digits(100 * share, 3), " % of the contact ratio: ",
-                 digits((1 - share) * i.natural_frequency[one] + share * i.natural_frequency[two]), " Hz");
-  return {i.natural_frequency[k], note};
+                 digits((1 - share) * i.natural_frequency[*one] + share * i.natural_frequency[*two]), " Hz");
+  return {frequency, note};
 }
 
 Finding damping(const SceneResults& s) {
   const ImpactArtifact& i = s.ring_down(kFigureTorque);
   std::vector<Reading> readings;
-  for (const char* state : {"one", "two", "mean"})
-    if (const Index k = state_of(i, state); k >= 0)
-      readings.push_back({state == std::string("mean")  ? "mean over the cycle"
-                          : state == std::string("one") ? "one pair in mesh"
-                                                        : "two pairs in mesh",
-                          100 * i.damping_ratio[k]});
+  for (const auto& [state, words] : {std::pair{ContactState::one, "one pair in mesh"},
+                                     {ContactState::two, "two pairs in mesh"},
+                                     {ContactState::mean, "mean over the cycle"}})
+    if (const auto row = i.row_of(state)) readings.push_back({words, 100 * i.damping_ratio[*row]});
   return nearest_reading(readings, 7, "%",
                          text("rayleigh_stiffness_s = ", digits(i.damping.rayleigh_stiffness, 3),
                               ", ring-down at ", kFigureTorque, " N m"));

@@ -15,7 +15,7 @@ enum class Load { lower, upper, increase };
 Finding no_second_branch(const SceneResults& s, int torque, const Pair& at, double f);
 // Largest load of a motion, N.
 double largest_load(const SceneResults& s, const Motion& m, LoadOf what);
-Finding table_frequency(const SceneResults& s, int torque, const std::string& state);
+Finding table_frequency(const SceneResults& s, int torque, ContactState state);
 Finding damping(const SceneResults& s);
 Finding resonance(const SceneResults& s, int order, const std::string& model = "");
 Finding driven_by_harmonic(const SceneResults& s, int order);

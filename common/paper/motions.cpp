@@ -100,12 +100,6 @@ double first_harmonic_share(const StaticArtifact& s) {
   return s.stiffness_harmonic[1] / s.stiffness_harmonic[0];
 }
 
-Index state_of(const ImpactArtifact& i, const std::string& state) {
-  for (size_t k = 0; k < i.contact_state.size(); ++k)
-    if (i.contact_state[k] == state) return static_cast<Index>(k);
-  return -1;
-}
-
 std::string excitation(const SceneResults& s, int torque) {
   std::string words = text("first harmonic of k ", digits(100 * first_harmonic_share(s.at_rest(torque)), 3),
                            " % of its mean");

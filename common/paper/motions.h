@@ -78,7 +78,6 @@ double largest_rms(const Branches& b);
 bool jumps(const Branches& b);
 std::string jumps_text(const Branches& b);
 double first_harmonic_share(const StaticArtifact& s);
-Index state_of(const ImpactArtifact& i, const std::string& state);
 // What decides whether contact is lost: how strongly the stiffness varies, and the damping.
 std::string excitation(const SceneResults& s, int torque);
 std::string loss_text(const Branches& b);

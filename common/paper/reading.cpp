@@ -88,11 +88,11 @@ double root(const Function& excess, double low, double high, double tolerance) {
 const double kDamped = std::sqrt(1 - kPaperDampingRatio * kPaperDampingRatio);
 
 Index row_of(const ImpactArtifact& impact, const std::string& state) {
-  const auto& states = impact.contact_state;
-  const auto found = std::find(states.begin(), states.end(), state);
-  if (found == states.end())
+  const auto wanted = choice_of<ContactState>(state);
+  const auto row = wanted ? impact.row_of(*wanted) : std::nullopt;
+  if (!row)
     fail(Failure::input, "at ", impact.torque, " N m no mesh phase has the contact state '", state, "'");
-  return found - states.begin();
+  return *row;
 }
 
 }  // namespace
@@ -263,11 +263,11 @@ double PaperPair::tied_rayleigh_stiffness(const OpenChoices& choices, double ine
   const auto excess = [&](double eta) {
     double ratio = 0, weight = 0;
     for (const FixedPhaseState& s : states) {
-      const double share = choices.damped_state == s.contact_state ? 1
-                           : choices.damped_state != "mean"        ? 0
-                           : s.contact_state == "one"              ? 1 - two
-                           : s.contact_state == "two"              ? two
-                                                                   : 0;
+      const double share = choices.damped_state == name_of(s.contact_state) ? 1
+                           : choices.damped_state != "mean"                 ? 0
+                           : s.contact_state == ContactState::one           ? 1 - two
+                           : s.contact_state == ContactState::two           ? two
+                                                                            : 0;
       if (share == 0) continue;
       ratio +=
           share * frozen_root(with_rayleigh_stiffness(s.mesh, eta, settings.fidelity.body)).damping_ratio;

@@ -34,32 +34,30 @@ Figure natural_frequency_table(std::vector<ImpactArtifact> impacts,
                         " µs; " + corner_words(first.mesh.corner));
   const double ratio = GearPair(first).contact_ratio();
   const double share = ratio - std::floor(ratio);
-  const std::vector<std::string> counts{"one", "two", "three", "four"};
-  const size_t few = static_cast<size_t>(ratio) - 1;
-  if (few + 1 >= counts.size())
-    fail(Failure::input, "table: a contact ratio of ", ratio, "; below ", counts.size(), " is known");
+  if (ratio >= 4) fail(Failure::input, "table: a contact ratio of ", ratio, "; below 4 is known");
+  const auto few = static_cast<ContactState>(ratio), many = static_cast<ContactState>(ratio + 1);
   table.notes.push_back("phase mean: over the phases of a mesh period; contact ratio mean: " +
-                        fixed(1 - share, 4) + " of it with " + counts[few] + ", " + fixed(share, 4) +
-                        " with " + counts[few + 1] + " pairs, as without load");
+                        fixed(1 - share, 4) + " of it with " + name_of(few) + ", " + fixed(share, 4) +
+                        " with " + name_of(many) + " pairs, as without load");
   FigureBlock block{"natural frequencies", {"torque [N m]"}, {}};
   for (size_t i = 0; i < impacts.size(); ++i) {
     const ImpactArtifact& a = impacts[i];
     if (i > 0 && a.torque == impacts[i - 1].torque)
       fail(Failure::input, "table: two impact.h5 of the same torque, ", torque_words(a.torque),
            "; give each once");
-    const auto at = [&](const std::string& state) {
-      const auto found = std::find(a.contact_state.begin(), a.contact_state.end(), state);
-      if (found == a.contact_state.end())
+    const auto at = [&](ContactState state) {
+      const auto row = a.row_of(state);
+      if (!row)
         fail(Failure::input, "table: at ", torque_words(a.torque), " the impact.h5 holds no contact state '",
              state, "'; with this load no phase has it");
-      return a.natural_frequency[found - a.contact_state.begin()];
+      return a.natural_frequency[*row];
     };
-    const double low = at(counts[few]), high = at(counts[few + 1]);
+    const double low = at(few), high = at(many);
     std::vector<double> row{a.torque};
     for (const auto& [name, state, value] :
-         {std::tuple{counts[few] + (few == 0 ? " pair" : " pairs"), counts[few], low},
-          {counts[few + 1] + " pairs", counts[few + 1], high},
-          {std::string("phase mean"), std::string("mean"), at("mean")},
+         {std::tuple{name_of(few) + (few == ContactState::one ? " pair" : " pairs"), name_of(few), low},
+          {name_of(many) + " pairs", name_of(many), high},
+          {std::string("phase mean"), std::string("mean"), at(ContactState::mean)},
           {std::string("contact ratio mean"), std::string("mean"), (1 - share) * low + share * high}}) {
       if (i == 0) block.columns.push_back(name + " [Hz]");
       row.push_back(value);

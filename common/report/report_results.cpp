@@ -52,7 +52,7 @@ void add_ring_down(const ImpactArtifact& a, const Adder& add) {
     const Index at = static_cast<Index>(i);
     const std::string state =
         at < a.state_phase.size()
-            ? a.contact_state[i] + (i == 0 && a.contact_state[i] == "one" ? " pair" : " pairs")
+            ? name_of(a.contact_state[i]) + (a.contact_state[i] == ContactState::one ? " pair" : " pairs")
             : "mean over the period";
     add("natural frequency by ring-down, " + state, "Hz", hertz(a.natural_frequency[at]));
     add("damping ratio by ring-down, " + state, "%", fixed(a.damping_ratio[at] * kPercent, 2));

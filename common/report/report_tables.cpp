@@ -29,7 +29,7 @@ std::string bearing_frequencies_table(const ReportContent& c) {
       (a.mesh_phase.array() - a.state_phase[i]).abs().minCoeff(&phase);
       std::string all;
       for (const double f : a.frozen_frequency.row(phase)) all += (all.empty() ? "" : ", ") + fixed(f, 1);
-      rows.push_back({shown(a.torque, 6), a.contact_state[static_cast<size_t>(i)], all});
+      rows.push_back({shown(a.torque, 6), name_of(a.contact_state[static_cast<size_t>(i)]), all});
     }
   if (rows.empty()) return "";
   return html::table(
@@ -123,7 +123,7 @@ std::string natural_frequencies_table(const ReportContent& c) {
     for (Index i = 0; i < a.natural_frequency.size(); ++i)
       rows.push_back(
           {shown(a.torque, 6),
-           i < a.state_phase.size() ? a.contact_state[static_cast<size_t>(i)] : "mean over the mesh period",
+           i < a.state_phase.size() ? name_of(a.contact_state[static_cast<size_t>(i)]) : "mean over the mesh period",
            fixed(a.natural_frequency[i], 1), fixed(a.damping_ratio[i] * kPercent, 3),
            fixed(a.undamped_frequency[i], 1)});
   return html::table(
@@ -234,7 +234,7 @@ std::string remarks_list(const ReportContent& c) {
       if (const double ratio = a.damping_ratio[i]; ratio < 0.01 || ratio > 0.12)
         found.push_back(remark(true, "the damping ratio by ring-down with ",
                                a.contact_state[static_cast<size_t>(i)],
-                               a.contact_state[static_cast<size_t>(i)] == "one" ? " pair" : " pairs",
+                               a.contact_state[static_cast<size_t>(i)] == ContactState::one ? " pair" : " pairs",
                                " in contact is ", shown(ratio * kPercent, 3),
                                " %, outside 1 to 12 %; `make calibrate` finds the damping for a ratio"));
     add("ring-down, " + torque_words(a.torque), found);

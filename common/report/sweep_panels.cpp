@@ -110,14 +110,13 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& b
         });
     if (!elastic(s) || found == background.impacts.end()) continue;
     // Many pairs as without load; with any load there may be more.
-    static const std::array<std::string, 4> kCounts{"one", "two", "three", "four"};
-    const size_t many = static_cast<size_t>(std::ceil(GearPair(s).contact_ratio() - 1e-9));
+    const auto many = static_cast<ContactState>(std::ceil(GearPair(s).contact_ratio() - 1e-9));
     const auto& states = found->contact_state;
-    const auto wanted = std::find(states.begin(), states.end(), many <= 4 ? kCounts[many - 1] : "");
-    const Eigen::Index i = wanted != states.end() ? wanted - states.begin() : found->state_phase.size() - 1;
-    state = known++ == 0 || state == states[i] ? states[i] : "most";
+    const Eigen::Index i = found->row_of(many).value_or(found->state_phase.size() - 1);
+    const std::string own = name_of(states[static_cast<size_t>(i)]);
+    state = known++ == 0 || state == own ? own : "most";
     ratios += (ratios.empty() ? "" : ", ") + fixed(found->damping_ratio[i] * kPercent, 2);
-    if (i > 0 && states[0] == "one")
+    if (i > 0 && states[0] == ContactState::one)
       with_one += (with_one.empty() ? "" : ", ") + fixed(found->damping_ratio[0] * kPercent, 2);
     once(at, shown(s.torque, 6));
   }

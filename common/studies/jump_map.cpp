@@ -70,8 +70,8 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
   const std::vector<FixedPhaseState> states =
       fixed_phase_states(driver, driven, rest, bearing_stiffness, fixed, kStatePhases);
   for (const FixedPhaseState& state : states) {
-    if (state.contact_state == "one") result.one_pair_frequency = state.undamped_frequency;
-    if (state.contact_state == "two") two = &state;
+    if (state.contact_state == ContactState::one) result.one_pair_frequency = state.undamped_frequency;
+    if (state.contact_state == ContactState::two) two = &state;
   }
   if (!two)
     fail(Failure::input, "at ", torque,
