@@ -256,6 +256,32 @@ TEST_CASE("period map: contact that leaves its zone is rejected") {
   CHECK(!map.take_left_zone());
 }
 
+// With tip edges that touch at any angle, pairs beside the line of action come into a wider zone.
+TEST_CASE("period map: a state is of the zone of its map, and goes into a wider one decoded") {
+  StaticParameters at_rest = paper_statics(128);
+  at_rest.mesh.corner = {};
+  const StaticArtifact statics = static_transmission(paper_body(), paper_body(), at_rest, 50);
+  const GearMeshModel model(paper_body(), paper_body(), statics.mesh);
+  RollingDynamics dynamics(model, Rig::parameters(statics, kKinds[0], 5.5e-6));
+  const auto widen = [&](double by) {
+    dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics, by)), 128);
+  };
+  widen(1);
+  RollingPeriodMap map(dynamics, 128);
+  map.set_parameter(1000);
+  const VectorXd y = map.flat(dynamics.rest());
+  State state = map.state(y);
+  CHECK(failure_of([&] { map.state(y.head(y.size() - 1)); }) == Failure::numerical);
+  widen(6);
+  CHECK(failure_of([&] { map.state(y); }) == Failure::numerical);
+  RollingPeriodMap wider(dynamics, 128);
+  wider.set_parameter(1000);
+  CHECK(wider.size() > map.size());
+  RollingDynamics::Period period;
+  REQUIRE(dynamics.integrate(state, period));
+  CHECK(wider.flat(state).allFinite());
+}
+
 TEST_CASE("period map: of a lumped oscillator, its tangent and the borders that it crosses") {
   LumpedParameters p = cells_of(RectangularWave{335596523.71, 504267825.43, 0, 0.75});
   p.mass = 1.4;

@@ -83,6 +83,10 @@ VectorXd RollingPeriodMap::flat(const State& state) const {
 
 State RollingPeriodMap::state(const VectorXd& y) const {
   const int n = coordinates_, fields = dynamics_.kernel_.fields();
+  if (const Eigen::Index own = 2 * n + (fields_ > 0 ? dynamics_.gears() * fields : 0) + channels(0);
+      y.size() != size() || own != size())
+    fail(Failure::numerical, "a state of ", y.size(), " numbers does not fit a candidate zone with ", own,
+         ", of a map with ", size());
   const VectorXd own = y.cwiseProduct(unit_), nodes = own.tail(channels(0));
   const Position& position = this->position(0);
   State state;

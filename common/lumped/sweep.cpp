@@ -91,7 +91,7 @@ std::optional<LumpedJump> jump_from(LumpedOscillator& oscillator, const std::vec
                                     bool integrate_only, std::vector<BranchPoint>& left_early) {
   LumpedOrbit branch = kept;
   std::vector<std::pair<double, LumpedOrbit>> runs;  // by speed, Hz
-  BranchFollower follower;
+  BranchContinuation follower;
   follower.finest = kFinest;
   follower.run = [&](double mesh_frequency, double) {
     oscillator.set_speed(mesh_frequency);

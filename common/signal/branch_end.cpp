@@ -173,12 +173,12 @@ std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<Br
 }
 
 std::optional<BranchJump> find_jump(const std::vector<BranchMotion>& sweep, size_t i,
-                                    const std::function<BranchFollower()>& follower,
+                                    const std::function<BranchContinuation()>& follower,
                                     std::vector<BranchPoint>* left_early) {
   const double from = sweep[i - 1].mesh_frequency, to = sweep[i].mesh_frequency;
   const BranchJump whole{0.5 * (from + to), std::abs(to - from)};
   if (sweep[i - 1].multiple == 0) return whole;
-  const BranchFollower follow = follower();
+  const BranchContinuation follow = follower();
   std::vector<BranchPoint> points;
   BranchWalk walk;
   walk.step = to - from;

@@ -44,7 +44,7 @@ struct BranchEnd {
 std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<BranchMotion>& sweep, size_t i);
 
 // How a model goes on from the motion i - 1 of a sweep: as BranchWalk, `keep` with what a map of jumps takes of the motion.
-struct BranchFollower {
+struct BranchContinuation {
   std::function<BranchMotion(double mesh_frequency, double most)> run;
   std::function<BranchPoint(int n)> keep;
   double finest = 0;  // Hz: steps are halved down to that; 0: to 1/64 of the sweep's
@@ -58,7 +58,7 @@ struct BranchJump {
 // nothing if the branch leads from one to the other. follower: called for a motion i - 1 that is periodic. left_early: takes
 // the motions kept on the way, if given.
 std::optional<BranchJump> find_jump(const std::vector<BranchMotion>& sweep, size_t i,
-                                    const std::function<BranchFollower()>& follower,
+                                    const std::function<BranchContinuation()>& follower,
                                     std::vector<BranchPoint>* left_early);
 
 }  // namespace whine

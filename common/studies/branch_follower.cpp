@@ -83,6 +83,7 @@ std::vector<BranchSegment> BranchFollower::follow(
     const BranchPosition& last = branch.points.back();
     const double at = last.parameter;
     direction = last.turn > 0 ? 1 : -1;
+    const RollingDynamics::State state = map_->state(last.start);  // while the zone is the map's own
     if (static_cast<int>(segments.size()) == kMostSegments) return segments;
     if (!branch.reached_limit) {
       if (!map_->take_left_zone()) return segments;
@@ -91,7 +92,7 @@ std::vector<BranchSegment> BranchFollower::follow(
       if (direction > 0 ? at >= high : at <= low) return segments;
       steps = direction > 0 ? steps / 2 : steps * 2;
     }
-    resume(last.start, at, steps, !branch.reached_limit);
+    resume(state, last.start, at, steps, !branch.reached_limit);
   }
 }
 
@@ -126,8 +127,8 @@ void BranchFollower::begin(double at, int steps) {
 }
 
 // With other steps or another zone: the orbit near that of before.
-void BranchFollower::resume(const VectorXd& start, double at, int steps, bool wider) {
-  RollingDynamics::State state = map_->state(start);
+void BranchFollower::resume(const RollingDynamics::State& state, const VectorXd& start, double at, int steps,
+                            bool wider) {
   for (;;) {
     map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
     map_->set_parameter(at);

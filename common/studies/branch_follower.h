@@ -41,7 +41,8 @@ class BranchFollower {
  private:
   void widen();
   void begin(double at, int steps);
-  void resume(const Eigen::VectorXd& start, double at, int steps, bool wider);
+  void resume(const RollingDynamics::State& state, const Eigen::VectorXd& start, double at, int steps,
+              bool wider);
   bool found(const Eigen::VectorXd& start, double at, int steps);
 
   RollingDynamics& dynamics_;

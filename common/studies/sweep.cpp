@@ -241,7 +241,7 @@ Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
 }
 
 // How the branch of the motion i - 1 of a sweep is followed; reached: the states at the end of speeds.
-BranchFollower follow_branch(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
+BranchContinuation follow_branch(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
                              const std::vector<RollingDynamics::State>& reached, bool integrate) {
   struct Run {
     Orbit orbit;
@@ -264,7 +264,7 @@ BranchFollower follow_branch(Sweeper& sweeper, const std::vector<BranchMotion>& 
   while (branch->single && first > 0 && i - first < 3 && motions[first - 1].multiple == from.multiple)
     --first;
   for (size_t k = first; k < i; ++k) branch->known.push_back({motions[k].mesh_frequency, reached[k]});
-  BranchFollower follower;
+  BranchContinuation follower;
   follower.run = [&sweeper, branch, integrate](double mesh_frequency, double most) {
     sweeper.state() =
         integrate ? branch->known.back().state : predicted(sweeper.dynamics(), branch->known, mesh_frequency);
