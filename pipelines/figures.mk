@@ -147,9 +147,13 @@ endef
 
 # A report shows what there is of a pair: with teeth that differ no figure of one mesh period, with a crack no motion.
 teeth = $(filter $2,$(SCENE_$1_TEETH))
+# BRANCHES=yes: with the branch at the first torque, which takes about as long as four sweeps.
+BRANCHES ?= no
+$(if $(filter-out yes no,$(BRANCHES)),$(error BRANCHES=$(BRANCHES): it is yes or no))
 report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),fig12 fig13 load-sharing error-budget) \
-  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 waterfall tooth-loads \
+  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 \
+  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),fig05-branches multipliers)) waterfall tooth-loads \
   $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
   $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
@@ -183,7 +187,7 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
 .PHONY: figures $(figures) table1 scorecard animation report histories sound
-report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html
+report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE

@@ -62,6 +62,15 @@ out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)
 	$(B)/bin/gear-spectra --input $$< --output $$@
 endef
 
+# The sweep with its jumps enclosed to 0.05 Hz, for `jump-folds`: a quarter more CPU.
+jump_width := 0.05
+define jumps_rules # scene, torque, direction
+out/$1/T$2/$3/jumps.h5: out/$1/params/sweep.toml $(pair_bodies) \
+    out/$1/T$2/static.h5 $(reference_static) $(call id,gear-sweep) | $(B)/bin/gear-sweep
+	$$(call run,sweep) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
+	  --reference-static $(reference_static) --direction $3 --jump-width $(jump_width) --output $$@ $$(call landed,sweep)
+endef
+
 define branch_rules # scene, torque
 out/$1/T$2/branch.h5: out/$1/params/sweep.toml $(pair_bodies) \
     out/$1/T$2/static.h5 $(reference_static) $(call id,gear-orbit) | $(B)/bin/gear-orbit
@@ -138,7 +147,7 @@ $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
 $(foreach t,$(path_torques) $(calibrated_torque),$(call check_torque,$1,$t))
 $(foreach m,$(lumped_models),$(eval $(call plan_rule,$(call lumped_plan_file,$1,,$m),$(call lumped_plan,$1,,$m))))
 $(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))$(eval $(call loaded_rules,$1,$t))$(eval $(call branch_rules,$1,$t))\
-  $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))\
+  $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))$(eval $(call jumps_rules,$1,$t,$d))\
     $(foreach m,$(lumped_models),$(eval $(call lumped_rules,$1,$t,$m,$d)))))
 $(call figure_rules,$1)
 endef

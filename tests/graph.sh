@@ -228,6 +228,8 @@ mkdir -p mine
 sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/plain.toml
 make_ -n SCENE=mine/plain.toml report
 expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+make_ -n SCENE=mine/plain.toml BRANCHES=yes report
+expect "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/line.toml; make_ -n SCENE=mine/line.toml report
 expect "contact in lines: no ring-down" "gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; make_ -n SCENE=mine/relief.toml report

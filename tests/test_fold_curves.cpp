@@ -130,6 +130,42 @@ TEST_CASE("fold curves: of the lumped pair over damping, through its exact folds
   CHECK(folds_at(pair.cusp_value * 1.001).empty());
 }
 
+TEST_CASE("fold curves: a fold belongs to the map of its own parameter, not to that of the guess") {
+  // Below 2550 Hz a pair with other damping, as the elastic pair has other steps per period at other speeds.
+  const MapFamily family = [](double ratio, double at) {
+    return std::make_unique<LumpedPair>(at < 2550 ? ratio - 0.0005 : ratio);
+  };
+  const auto begin = folds_at(0.07);
+  REQUIRE(begin.size() == 2);
+  FoldCurveSettings settings;
+  settings.scale = 2900;
+  settings.tolerance = 1e-11;
+  Fold folds[2];
+  for (int side = 0; side < 2; ++side) {
+    folds[side].value = 0.07;
+    folds[side].parameter = begin[side].parameter;
+    folds[side].start = begin[side].start;
+    std::string failure;
+    LumpedPair pair(0.07);
+    const auto found = find_turn(pair, folds[side], settings, failure);
+    REQUIRE(found);
+    folds[side] = *found;
+  }
+  const auto low_at = [&](double value) {
+    const FoldPair pair =
+        follow_folds(family, folds[0], folds[1], {value}, settings, [](const Fold&) { return true; });
+    INFO(pair.end);
+    REQUIRE(!pair.low.empty());
+    CHECK(pair.low.back().value == relative(value, 1e-12));
+    return pair.low.back().parameter;
+  };
+  const double of_guess = low_at(0.076);
+  settings.one_map = [](double one, double other) { return (one < 2550) == (other < 2550); };
+  const double own = low_at(0.076);
+  CHECK(of_guess < own - 1);
+  CHECK(own == relative(std::min(folds_at(0.076)[0].parameter, folds_at(0.076)[1].parameter), 1e-9));
+}
+
 TEST_CASE("fold curves: at a kink, where no multiplier is 1") {
   FoldCurveSettings settings;
   settings.tolerance = 1e-10;

@@ -60,7 +60,8 @@ void body(int argc, char** argv) {
   whine::tell("gear-orbit: ", result.torque, " N m, ", result.mesh_frequency.size(), " orbits, ",
               result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
               folds.empty() ? ", no fold" : folds, " -> ", output);
-  if (result.mesh_frequency.minCoeff() > settings.frequency_from)
+  constexpr double kRoundOff = 1e-9;
+  if (result.mesh_frequency.minCoeff() > settings.frequency_from * (1 + kRoundOff))
     whine::tell("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);
 }
 

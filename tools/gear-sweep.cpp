@@ -55,6 +55,7 @@ void body(int argc, char** argv) {
   std::string params, statics, reference, way, output;
   std::vector<std::string> bodies;
   bool next_level = false;
+  double jump_width = 0;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--static", statics, "static.h5 of the torque to run").required();
@@ -62,6 +63,8 @@ void body(int argc, char** argv) {
       .required();
   options.add("--direction", way, "up or down").required().one_of({"up", "down"});
   options.add("--output", output, "sweep.h5 to write").required();
+  options.add("--jump-width", jump_width,
+              "enclose jumps to this width in Hz or less (default: 1/64 of the step of the speeds)");
   options.flag("--next-level", next_level,
                "sweep with the next level of [fidelity] contact and with that of body as well, and say what "
                "they change");
@@ -91,7 +94,8 @@ void body(int argc, char** argv) {
                         [&](long done, long total, const std::string& note) {
                           if (!progress) progress.emplace(whine::text("gear-sweep ", direction, name), total);
                           progress->update(done, note);
-                        });
+                        },
+                        nullptr, jump_width);
   };
   const whine::SweepArtifact result =
       run(driver, driven, at_torque, at_reference.mean_stiffness, settings, "");

@@ -146,8 +146,10 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
       const std::vector<Fold>& known = side == 0 ? pair.low : pair.high;
       const Fold guess = predicted(known, value);
       if (!(guess.parameter > 0)) return false;
-      const auto map = family(value, guess.parameter);
-      auto fold = find_turn(*map, guess, settings, pair.end);
+      auto fold = find_turn(*family(value, guess.parameter), guess, settings, pair.end);
+      // The fold may lie where the family has another map than at the guess.
+      if (fold && settings.one_map && !settings.one_map(guess.parameter, fold->parameter))
+        fold = find_turn(*family(value, fold->parameter), *fold, settings, pair.end);
       if (!fold) return false;
       found[side] = std::move(*fold);
     }

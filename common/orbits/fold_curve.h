@@ -32,6 +32,8 @@ struct FoldCurveSettings {
   double tolerance = 1e-7;  // of the parameter, relative
   double farthest = 0.1;    // arc on which a fold is looked for at once
   OrbitSettings orbit{};
+  // Whether a family has the same map near two parameters, such as one number of steps per period; empty: it always has.
+  std::function<bool(double one, double other)> one_map{};
 };
 
 // The fold of the map near a guess, by its turn. Nothing if there is none within some steps of `farthest`; `failure` says why.

@@ -185,6 +185,14 @@ const std::vector<Explained>& explained() {
        plain("The mark of the cracked tooth in the static transmission error, and its orders.")},
       {"fig05", "motion", "Vibration over speed", of_response},
       {"fig07", "motion", "Vibration over speed", of_response},
+      {"fig05-branches", "motion", "Branches of periodic motions",
+       plain("The same with the unstable orbits, dashed, that lead from one stable branch to the next, and "
+             "the folds at which branches end. A sweep jumps at a fold; where it jumps without one it has "
+             "left the basin of a branch that goes on.")},
+      {"multipliers", "motion", "Floquet multipliers",
+       plain("Floquet multipliers along the branch in the complex plane: a small disturbance of the motion "
+             "is multiplied by them in each mesh period. Inside the unit circle it decays. A branch folds "
+             "at 1; at -1 its period doubles.")},
       {"fig14-elastic", "motion", "RMS and mean over speed",
        plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
       {"waterfall", "motion", "Spectra over speed", of_waterfall},

@@ -64,7 +64,7 @@ constexpr Row kRows[] = {
      "1.4 times as high, and whether teeth lose contact may depend on it.",
      "Run the report with a low and a high ratio (make calibrate DAMPING=0.03, then 0.07), and believe what "
      "both say."},
-    {Needs::motion, "fig07 fig05 fig14-elastic", "RMS of the dynamic transmission error over speed",
+    {Needs::motion, "fig07 fig05 fig05-branches fig14-elastic", "RMS of the dynamic transmission error over speed",
      "The vibration at each mesh frequency, after it has settled, with speed rising and falling. Peaks stand "
      "near f_n (the natural frequency), f_n / 2 and f_n / 3. Where the two directions differ there are two "
      "motions at one speed, and jumps between them.",
@@ -79,6 +79,12 @@ constexpr Row kRows[] = {
      "Yes or no is sharp only away from the limit: contact is lost where the first harmonic of the stiffness "
      "over its mean is more than about 1.7 times the damping ratio.",
      "make jump-map shows both against torque and damping."},
+    {Needs::motion, "fig05-branches multipliers", "Branches, stable or not",
+     "All motions of one mesh period that hang together over speed. Between two folds there are two stable "
+     "ones at one speed and an unstable one, which parts their basins.",
+     "A fold to 4 Hz with the steps of the scene, as a jump. Motions that the branch is not joined to are "
+     "not seen.",
+     ""},
     {Needs::motion, "tooth-loads", "Largest tooth load, over T / r_b",
      "T / r_b is the load of one pair alone at rest; the ratio is the dynamic factor of this model.",
      "0.7 % of numerical error, else as the RMS. A number with a * is of a motion larger than the backlash: "

@@ -89,7 +89,8 @@ std::vector<BranchSegment> BranchFollower::follow(
       if (!map_->take_left_zone()) return segments;
       widen();
     } else {
-      if (direction > 0 ? at >= high : at <= low) return segments;
+      constexpr double kRoundOff = 1e-12;  // of a parameter that went through its scale
+      if (direction > 0 ? at >= high * (1 - kRoundOff) : at <= low * (1 + kRoundOff)) return segments;
       steps = direction > 0 ? steps / 2 : steps * 2;
     }
     resume(state, last.start, at, steps, !branch.reached_limit);

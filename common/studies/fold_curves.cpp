@@ -88,8 +88,10 @@ class Family {
       current_->dynamics.set_zone(zone_of_level(current_->model, current_->statics, level),
                                   steps_at(settings_.time, plan_.from));
     }
-    return std::make_unique<RollingPeriodMap>(
-        current_->dynamics, std::min(steps_at(settings_.time, speed), steps_at(settings_.time, plan_.from)));
+    return std::make_unique<RollingPeriodMap>(current_->dynamics, steps(speed));
+  }
+  int steps(double speed) const {  // per period
+    return std::min(steps_at(settings_.time, speed), steps_at(settings_.time, plan_.from));
   }
 
  private:
@@ -229,6 +231,7 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   fold_settings.scale = 0.5 * (plan.from + plan.to);
   fold_settings.tolerance = 1e-5;
   fold_settings.orbit.tolerance = 1e-8;
+  fold_settings.one_map = [&](double one, double other) { return family.steps(one) == family.steps(other); };
   const int level = std::min(follower.level() + kWiderZones, kMostZoneLevel);
   const MapFamily maps = [&](double raw, double speed) { return family.map(raw, speed, level); };
   const auto wanted = [&](const Fold& fold) {

@@ -491,9 +491,12 @@ std::vector<double> speeds_of(const SweepParameters& settings, Direction directi
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepParameters& settings, Direction direction,
                     const std::function<void(long, long, const std::string&)>& report,
-                    std::vector<BranchPoint>* left_early) {
+                    std::vector<BranchPoint>* left_early, double jump_width) {
   const std::vector<double> speed = speeds_of(settings, direction);
   const auto speeds = static_cast<int>(speed.size());
+  constexpr double kFinest = 1e-5;  // Hz: below, runs beside the end of a branch take thousands of periods
+  if (jump_width != 0 && !(jump_width >= kFinest && std::isfinite(jump_width)))
+    fail(Failure::input, "jumps cannot be located to ", jump_width, " Hz; give ", kFinest, " Hz or more");
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
   Sweeper sweeper(model, dynamic_parameters(statics, mean_stiffness, settings), statics, settings);
@@ -528,7 +531,11 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   std::vector<BranchJump> jumps;
   for (size_t i = 1; i < motions.size(); ++i)
     if (may_break(motions, i)) {
-      const auto follower = [&] { return follow_branch(sweeper, motions, i, reached, integrate); };
+      const auto follower = [&] {
+        BranchFollower follow = follow_branch(sweeper, motions, i, reached, integrate);
+        follow.finest = jump_width;
+        return follow;
+      };
       if (const auto jump = find_jump(motions, i, follower, left_early)) jumps.push_back(*jump);
     }
 

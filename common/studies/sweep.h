@@ -16,13 +16,14 @@ namespace whine {
 // statics: of the same torque and contact; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets
 // the bearing dampers. direction: "up" or "down". report(done, total, note) is called after each speed.
 // A speed at which the motion does not become periodic is kept with period_multiple 0. left_early: takes the motions on
-// branches between the speeds at which the sweep left them and their ends, if given. Throws Error(input) for
+// branches between the speeds at which the sweep left them and their ends, if given. jump_width: Hz, jumps are enclosed to that or
+// less; 0: to 1/64 of the step of the speeds. Throws Error(input) for
 // parameters that do not fit, Error(numerical), with speed and mesh phase, if contact leaves the flanks or has no certified
 // solution.
 SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
                     double mean_stiffness, const SweepParameters& settings, Direction direction,
                     const std::function<void(long, long, const std::string&)>& report,
-                    std::vector<BranchPoint>* left_early = nullptr);
+                    std::vector<BranchPoint>* left_early = nullptr, double jump_width = 0);
 
 // Time steps per mesh period at a mesh frequency (Hz): steps_per_period, doubled until the sampling rate is the least that is
 // asked for. Throws Error(input) if that is more than 65536.
