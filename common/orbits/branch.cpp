@@ -107,10 +107,11 @@ bool is_real(const std::complex<double>& x) {
   return std::abs(x.imag()) <= 1e-10 * std::max(1e-3, std::abs(x));
 }
 
-// det(M - at I), at = 1 or -1, scaled so that it does not overflow.
+// det(I - at M), at = 1 or -1, scaled so that it does not overflow. Multipliers near 0, of which more are known at one point than
+// at another, leave its sign as it is.
 double determinant_at(const VectorXcd& multipliers, double at) {
   std::complex<double> product = 1;
-  for (const auto& x : multipliers) product *= (x - at) / std::max(1.0, std::abs(x));
+  for (const auto& x : multipliers) product *= (1.0 - at * x) / std::max(1.0, std::abs(x));
   return product.real();
 }
 
@@ -302,6 +303,7 @@ void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, co
     const BranchPosition &l = bracket.low.position, &h = bracket.high.position;
     found.push_back(special_at(kind, bracket.low_is_nearer() ? l : h, l, h, after_point));
     found.back().smooth = bracket.smooth;
+    found.back().width = std::abs(h.parameter - l.parameter);
   };
   const Locator::Test turn = [](const BranchPosition&p) { return p.turn; },
                       flip = [](const BranchPosition&p) { return determinant_at(p.multipliers, -1); },
@@ -343,6 +345,34 @@ void add_special_points(Curve& curve, const CurvePoint& here, const CurvePoint& 
   }
   std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.arc < y.arc; });
   branch.special.insert(branch.special.end(), found.begin(), found.end());
+}
+
+// A branch that finds no orbit a step further may end at a contact that comes there.
+void note_contact_ahead(Curve& curve, const CurvePoint& here, double length, OrbitBranch& branch) {
+  const BranchPosition& last = branch.points.back();
+  BranchPosition ahead = last;
+  if (!events_at(curve, here.u + length * here.tangent, ahead.events) ||
+      same_sequence(last.events, ahead.events))
+    return;
+  branch.special.push_back(special_at(Special::grazing, last, last, ahead, branch.points.size() - 1));
+  branch.special.back().smooth = false;
+}
+
+// The point of the branch whose parameter is `limit`, between `here` and `next`; `next` if it has none there.
+CurvePoint at_limit(Curve& curve, const CurvePoint& here, const CurvePoint& next, double limit,
+                    double scale) {
+  const Eigen::Index n = curve.size() - 1;
+  const double share = (limit / scale - here.u[n]) / (next.u[n] - here.u[n]);
+  VectorXd u = here.u + share * (next.u - here.u);
+  u[n] = limit / scale;
+  const VectorXd up = VectorXd::Unit(n + 1, n);
+  auto point = curve.correct(u, up, &here);
+  if (!point || !curve.linearise(*point, up)) return next;
+  if (point->tangent.dot(next.tangent) < 0) {
+    point->tangent = -point->tangent;
+    point->orientation = -point->orientation;
+  }
+  return *point;
 }
 
 }  // namespace
@@ -387,43 +417,23 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
     if (!next) {
       next = around(curve, *here, length);
       if (!next) {
-        const BranchPosition& last = branch.points.back();
-        branch.end = text("at ", last.parameter, " a step of ", length,
+        branch.end = text("at ", branch.points.back().parameter, " a step of ", length,
                           " along the branch finds no orbit: ", curve.failure());
-        // A contact that comes there may end it.
-        BranchPosition ahead = last;
-        if (events_at(curve, here->u + length * here->tangent, ahead.events) &&
-            !same_sequence(last.events, ahead.events)) {
-          branch.special.push_back(special_at(Special::grazing, last, last, ahead, branch.points.size() - 1));
-          branch.special.back().smooth = false;
-        }
+        note_contact_ahead(curve, *here, length, branch);
         return branch;
       }
     }
-    const BranchPosition& last = branch.points.back();
-    const double passed = (next->u - here->u).norm(), parameter = curve.parameter(next->u);
-    const bool beyond = parameter < settings.low || parameter > settings.high;
-    if (beyond) {
-      // The last point stands on the limit, where the branch has one there.
-      const double limit = parameter < settings.low ? settings.low : settings.high,
-                   share = (limit - last.parameter) / (parameter - last.parameter);
-      VectorXd u = here->u + share * (next->u - here->u);
-      u[n] = limit / settings.scale;
-      auto at_limit = curve.correct(u, up, &*here);
-      if (at_limit && !curve.linearise(*at_limit, up)) at_limit.reset();
-      if (at_limit && at_limit->tangent.dot(next->tangent) < 0) {
-        at_limit->tangent = -at_limit->tangent;
-        at_limit->orientation = -at_limit->orientation;
-      }
-      if (at_limit) next = at_limit;
-    }
+    const double parameter = curve.parameter(next->u);
+    const bool below = parameter < settings.low, beyond = below || parameter > settings.high;
+    if (beyond)
+      next = at_limit(curve, *here, *next, below ? settings.low : settings.high, settings.scale);
+    const double passed = (next->u - here->u).norm();
     next->bend = (next->tangent[n] - here->tangent[n]) / passed;
-    take(*next, last.arc + passed);
+    take(*next, branch.points.back().arc + passed);
     add_special_points(curve, *here, *next, settings, branch);
     if (beyond) {
       branch.reached_limit = true;
       branch.end = text("the parameter reached ", branch.points.back().parameter);
-      branch.last = next->slow;
       return branch;
     }
     if (!sharp && next->corrections <= kFew && next->tangent.dot(here->tangent) > settings.straight)

@@ -44,6 +44,7 @@ struct SpecialPoint {
   double parameter = 0, arc = 0;
   Eigen::VectorXd start;
   bool smooth = true;  // false: at a kink of the map
+  double width = 0;    // of the parameter: of the interval in which it lies; 0 for grazing
   // The multiplier that makes it what it is, on either side; not of grazing.
   std::complex<double> before, after;
   ContactEvent event;      // of grazing: the contact that is about to come or go
@@ -69,7 +70,6 @@ struct OrbitBranch {
   std::vector<SpecialPoint> special;  // in the order of the arc
   std::string end;                    // why it was followed no further
   bool reached_limit = false;         // the parameter left [low, high]
-  SlowTangent last;                   // of the last point, if it did
 };
 
 // From an orbit at its parameter, first towards a rising parameter (direction 1) or a falling one (-1). report(point) is called

@@ -40,6 +40,31 @@ double squared_distance(const Fold& a, const Fold& b) {
   return a.start.size() == b.start.size() ? (a.start - b.start).squaredNorm() : 0;
 }
 
+// The point of the branch near a guess, across the guess's tangent where it has one. Nothing, with the reason, if there is none.
+std::optional<CurvePoint> point_near(Curve& curve, const Fold& guess, std::string& failure) {
+  const Eigen::Index all = curve.size();
+  if (guess.start.size() + 1 != all) {
+    failure = text("the guess has ", guess.start.size(), " numbers, a state of the map ", all - 1,
+                   ": it is of another candidate zone");
+    return std::nullopt;
+  }
+  const VectorXd begin = curve.point(guess.start, guess.parameter);
+  VectorXd across = guess.tangent;
+  if (across.size() != all) {
+    CurvePoint first;
+    first.u = begin;
+    if (!curve.linearise(first, VectorXd::Constant(all, 1 / std::sqrt(static_cast<double>(all))))) {
+      failure = curve.failure();
+      return std::nullopt;
+    }
+    across = first.tangent;
+  }
+  auto here = curve.correct(begin, across, nullptr);
+  if (here && curve.linearise(*here, across)) return here;
+  failure = curve.failure();
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurveSettings& settings,
@@ -52,22 +77,8 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
   constexpr double kReadable = 1e-2;  // arc over which a bend is read off
   Curve curve(map, settings.multiple, settings.scale, settings.orbit);
   const int n = map.size();
-  VectorXd across = guess.tangent;
-  const VectorXd begin = curve.point(guess.start, guess.parameter);
-  if (across.size() != n + 1) {
-    CurvePoint first;
-    first.u = begin;
-    if (!curve.linearise(first, VectorXd::Constant(n + 1, 1 / std::sqrt(n + 1.0)))) {
-      failure = curve.failure();
-      return std::nullopt;
-    }
-    across = first.tangent;
-  }
-  auto here = curve.correct(begin, across, nullptr);
-  if (!here || !curve.linearise(*here, across)) {
-    failure = curve.failure();
-    return std::nullopt;
-  }
+  auto here = point_near(curve, guess, failure);
+  if (!here) return std::nullopt;
   double bend = guess.bend;
   std::optional<CurvePoint> rising, falling;  // nearest to the fold on either side
   const auto size = [&](const CurvePoint& p) { return std::abs(p.tangent[n]); };
@@ -109,7 +120,7 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
       if (bracketed.dot(here->tangent) < 0) bracketed = -bracketed;
       direction = bracketed;
     } else {
-      // A little beyond the fold that the bend foretells.
+      // A little beyond the fold that the bend predicts.
       const double length = bend == 0 ? kTrial : -kBeyond * turn / bend;
       next_from = here->u + std::clamp(length, -settings.farthest, settings.farthest) * here->tangent;
       direction = here->tangent;

@@ -77,6 +77,9 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
     }
     for (const SpecialPoint& p : s.branch.special) {
       special.push_back(p);
+      constexpr double kLocated = 1e-4;
+      if (p.width > kLocated * p.parameter)
+        a.end += text("; what happens near ", p.parameter, " Hz is located to ", p.width, " Hz only");
       if (p.kind != Special::fold) continue;
       // Between two points the RMS goes with the arc.
       const BranchPosition& before = own[p.after_point];

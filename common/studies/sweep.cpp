@@ -532,7 +532,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   for (size_t i = 1; i < motions.size(); ++i)
     if (may_break(motions, i)) {
       const auto follower = [&] {
-        BranchFollower follow = follow_branch(sweeper, motions, i, reached, integrate);
+        BranchContinuation follow = follow_branch(sweeper, motions, i, reached, integrate);
         follow.finest = jump_width;
         return follow;
       };
