@@ -15,6 +15,7 @@
 #include "paper/table1.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/gnuplot.h"
 #include "report/motion_figures.h"
@@ -755,4 +756,36 @@ TEST_CASE("draw: spectra below the least decade of their axis are drawn, not an 
           std::string::npos);
   }
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("fold curves: jumps beyond all curves and cells on the wrong side of a cusp are counted as such") {
+  FoldCurvesArtifact a;
+  a.quantity = name(FoldQuantity::damping);
+  a.torque = 150;
+  a.curve = Eigen::Vector3i::Zero();
+  a.value = Eigen::Vector3d(4e-6, 5e-6, 6e-6);
+  a.damping_ratio = Eigen::Vector3d(0.05, 0.06, 0.07);
+  a.fold_frequency = Eigen::Vector3d(2400, 2500, 2600);
+  a.fold_multiplier = MatrixRM::Ones(3, 2);
+  a.highest = Eigen::Vector3i::Ones();
+  a.cusp_value = a.cusp_frequency = Eigen::VectorXd::Constant(1, 2600);
+  a.cusp_damping_ratio = Eigen::VectorXd::Constant(1, 0.07);
+  a.cusp_curve = Eigen::VectorXi::Zero(1);
+  JumpMapArtifact m;
+  static_cast<MotionParameters&>(m) = a;
+  m.torque = 150;
+  m.damping_ratio = Eigen::Vector3d(0.055, 0.065, 0.08);
+  m.two_branches = Eigen::Vector3i(1, 0, 0);
+  m.jump_case = Eigen::Vector3i(0, 1, 2);
+  m.jump_frequency = Eigen::Vector3d(2450.5, 2560, 2700);  // on the curve: 2450, 2550; no curve at 8 %
+  m.jump_width = Eigen::Vector3d::Zero();
+  const std::vector<std::string> notes = fold_curve_figure({a}, {m}).notes;
+  REQUIRE(notes.size() == 3);
+  CHECK(notes[1] == "cells of the jump maps: 2 of 3 on the right side of the cusps; not: 150 N m at 6.50 %");
+  CHECK(notes[2] ==
+        "jumps of the sweeps: 1 of 3 within 1 Hz and their width of a curve, the farthest 10.0 Hz; 1 at a "
+        "damping ratio without a curve");
+  a.cusp_damping_ratio.resize(0);
+  a.cusp_value.resize(0);
+  CHECK(fold_curve_figure({a}, {m}).notes[1] == "3 cells stand beside curves without a cusp");
 }

@@ -52,6 +52,62 @@ double last_cusp(const FoldCurvesArtifact& a) {
   return a.cusp_damping_ratio.size() > 0 ? a.cusp_damping_ratio.maxCoeff() : 0;
 }
 
+// Jumps and cells of the sweeps' maps beside the curves.
+class Comparison {
+ public:
+  // A jump at a damping ratio. One beyond all curves is near none.
+  void jump(const FoldCurvesArtifact& a, double ratio, double frequency, double width) {
+    const double distance = distance_to_folds(a, ratio, frequency);
+    ++jumps_;
+    near_ += distance < 1 + width;
+    if (std::isinf(distance))
+      ++beyond_;
+    else
+      farthest_ = std::max(farthest_, distance);
+  }
+  // Below the highest cusp there are two motions. Curves that end without a cusp say nothing of a cell.
+  void cell(const FoldCurvesArtifact& a, double ratio, bool two_branches) {
+    if (a.cusp_damping_ratio.size() == 0) {
+      ++without_cusp_;
+      return;
+    }
+    ++cells_;
+    if (two_branches == (ratio < last_cusp(a)))
+      ++right_;
+    else
+      wrong_ += text(wrong_.empty() ? "" : "; ", a.torque, " N m at ", fixed(ratio * kPercent, 2), " %");
+  }
+  std::vector<std::string> notes() const {
+    std::vector<std::string> notes;
+    if (cells_ > 0)
+      notes.push_back(text("cells of the jump maps: ", right_, " of ", cells_, " on the right side of the cusps",
+                           wrong_.empty() ? "" : "; not: ", wrong_));
+    if (without_cusp_ > 0) notes.push_back(text(without_cusp_, " cells stand beside curves without a cusp"));
+    if (jumps_ > 0)
+      notes.push_back(text("jumps of the sweeps: ", near_, " of ", jumps_,
+                           " within 1 Hz and their width of a curve, the farthest ", fixed(farthest_, 1), " Hz",
+                           beyond_ > 0 ? text("; ", beyond_, " at a damping ratio without a curve") : ""));
+    return notes;
+  }
+
+ private:
+  int jumps_ = 0, near_ = 0, beyond_ = 0, cells_ = 0, right_ = 0, without_cusp_ = 0;
+  double farthest_ = 0;  // Hz
+  std::string wrong_;
+};
+
+FigureBlock folds_block(const FoldCurvesArtifact& a, const std::string& number, const std::string& column) {
+  FigureBlock folds{
+      "folds" + number, {"mesh_frequency [Hz]", column, "multiplier_before", "multiplier_after"}, {}};
+  folds.table = "folds";
+  for (Index i = 0; i < a.value.size(); ++i) {
+    if (i > 0 && a.curve[i] != a.curve[i - 1]) folds.rows.emplace_back();
+    folds.rows.push_back(
+        {a.fold_frequency[i], shown_value(a, i), a.fold_multiplier(i, 0), a.fold_multiplier(i, 1)});
+  }
+  return folds;
+}
+
 }  // namespace
 
 Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
@@ -72,21 +128,12 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
                              : curves[0].quantity == name(FoldQuantity::torque) ? "torque [N m]"
                                                                                 : "tip_relief [um]";
   figure.title = "Folds of the branches: between a pair of curves there are two stable motions";
-  int compared = 0, near = 0, cells = 0, right = 0;
-  double farthest = 0;
-  std::string wrong;
+  Comparison comparison;
   for (size_t k = 0; k < curves.size(); ++k) {
     const FoldCurvesArtifact& a = curves[k];
     const std::string number = text(k + 1), label = torque_words(a.torque);
-    FigureBlock folds{
-        "folds" + number, {"mesh_frequency [Hz]", column, "multiplier_before", "multiplier_after"}, {}};
-    folds.table = "folds";
+    FigureBlock folds = folds_block(a, number, column);
     folds.curve = label;
-    for (Index i = 0; i < a.value.size(); ++i) {
-      if (i > 0 && a.curve[i] != a.curve[i - 1]) folds.rows.emplace_back();
-      folds.rows.push_back(
-          {a.fold_frequency[i], shown_value(a, i), a.fold_multiplier(i, 0), a.fold_multiplier(i, 1)});
-    }
     FigureBlock cusps{"cusps" + number, {"mesh_frequency [Hz]", column}, {}};
     cusps.table = "cusps";
     cusps.curve = label;
@@ -98,22 +145,12 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
     for (const JumpMapArtifact& m : maps) {
       if (!over_damping(a) || !same_pair(a, m)) continue;
       for (Index i = 0; i < m.jump_frequency.size(); ++i) {
-        const double ratio = m.damping_ratio[m.jump_case[i]],
-                     distance = distance_to_folds(a, ratio, m.jump_frequency[i]);
+        const double ratio = m.damping_ratio[m.jump_case[i]];
         jumps.rows.push_back({m.jump_frequency[i], ratio * kPercent});
-        if (std::isinf(distance)) continue;
-        ++compared;
-        near += distance < 1 + m.jump_width[i];
-        farthest = std::max(farthest, distance);
+        comparison.jump(a, ratio, m.jump_frequency[i], m.jump_width[i]);
       }
-      for (Index c = 0; c < m.damping_ratio.size(); ++c) {
-        ++cells;
-        const bool two = m.damping_ratio[c] < last_cusp(a);
-        right += (m.two_branches[c] != 0) == two;
-        if ((m.two_branches[c] != 0) != two)
-          wrong += text(wrong.empty() ? "" : "; ", a.torque, " N m at ",
-                        fixed(m.damping_ratio[c] * kPercent, 2), " %");
-      }
+      for (Index c = 0; c < m.damping_ratio.size(); ++c)
+        comparison.cell(a, m.damping_ratio[c], m.two_branches[c] != 0);
     }
     figure.numbers.emplace_back("cusps_" + number, static_cast<double>(cusps.rows.size()));
     figure.numbers.emplace_back("jumps_" + number, static_cast<double>(jumps.rows.size()));
@@ -126,13 +163,7 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
                     fixed(a.cusp_frequency[i], 1), " Hz");
     figure.notes.push_back(label + ": " + (words.empty() ? "no cusp" : "cusp " + words) + "; " + a.end);
   }
-  if (cells > 0)
-    figure.notes.push_back(text("cells of the jump maps: ", right, " of ", cells,
-                                " on the right side of the cusps", wrong.empty() ? "" : "; not: ", wrong));
-  if (compared > 0)
-    figure.notes.push_back(text("jumps of the sweeps: ", near, " of ", compared,
-                                " within 1 Hz and their width of a curve, the farthest ", fixed(farthest, 1),
-                                " Hz"));
+  for (const std::string& note : comparison.notes()) figure.notes.push_back(note);
   figure.words.emplace_back("axis", axis);
   figure.numbers.emplace_back("curves", static_cast<double>(curves.size()));
   figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
