@@ -44,7 +44,8 @@ std::string jumps(const Eigen::VectorXd& frequency, const Eigen::VectorXd& width
     const double half = 0.5 * width[j];
     const int digits = half > 0 && half < 0.1 ? static_cast<int>(std::ceil(-std::log10(half))) : 1;
     const double unit = std::pow(10, digits), own = digits > 1 ? 10 * unit : 1;
-    out += text(j ? ", " : "", std::round(frequency[j] * own) / own, " +- ", std::round(half * unit) / unit, " Hz");
+    out += text(j ? ", " : "", std::round(frequency[j] * own) / own, " +- ", std::round(half * unit) / unit,
+                " Hz");
   }
   return out.empty() ? "none" : out;
 }
@@ -234,7 +235,8 @@ void show(Lines& lines, const ImpactArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.torque_step * 100, " % let go");
   show_damping(lines, a.damping);
   for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
-    add(lines, i < a.state_phase.size() ? text("loaded pairs: ", a.contact_state[i]) : name_of(a.contact_state[i]),
+    add(lines,
+        i < a.state_phase.size() ? text("loaded pairs: ", a.contact_state[i]) : name_of(a.contact_state[i]),
         a.natural_frequency[i], " Hz, damping ratio ", a.damping_ratio[i] * 100, " %; undamped ",
         a.undamped_frequency[i], " Hz");
   add(lines, "fit", a.mesh_phase.size(), " phases; largest residual ", a.fit_residual.maxCoeff(),

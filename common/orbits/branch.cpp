@@ -425,8 +425,7 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
     }
     const double parameter = curve.parameter(next->u);
     const bool below = parameter < settings.low, beyond = below || parameter > settings.high;
-    if (beyond)
-      next = at_limit(curve, *here, *next, below ? settings.low : settings.high, settings.scale);
+    if (beyond) next = at_limit(curve, *here, *next, below ? settings.low : settings.high, settings.scale);
     const double passed = (next->u - here->u).norm();
     next->bend = (next->tangent[n] - here->tangent[n]) / passed;
     take(*next, branch.points.back().arc + passed);

@@ -156,7 +156,10 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
     for (int side = 0; side < 2; ++side) {
       const std::vector<Fold>& known = side == 0 ? pair.low : pair.high;
       const Fold guess = predicted(known, value);
-      if (!(guess.parameter > 0)) return false;
+      if (!(guess.parameter > 0)) {
+        pair.end = text("at ", value, " the folds before lead to a parameter of ", guess.parameter);
+        return false;
+      }
       auto fold = find_turn(*family(value, guess.parameter), guess, settings, pair.end);
       // The fold may lie where the family has another map than at the guess.
       if (fold && settings.one_map && !settings.one_map(guess.parameter, fold->parameter))
@@ -190,7 +193,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
     pair.cusp_value = cusp;
     pair.cusp_parameter =
         middle(k - 1) + (cusp - at) / (at - pair.low[k - 2].value) * (middle(k - 1) - middle(k - 2));
-    pair.end = text("the folds meet at ", cusp);
+    pair.end = text("the folds meet at ", cusp, ", followed to ", 100 * std::abs(cusp / at - 1), " % of it");
   };
   for (const double value : values) {
     double to = value;

@@ -52,7 +52,8 @@ struct FoldPair {
 };
 
 // From two folds at one value through `values`, in their order. A step at which a fold is not found is halved a few times; where
-// the arc between the two shows a cusp ahead they are followed up to 0.2 % of its value. limit(fold): whether one is still wanted.
+// the arc between the two shows a cusp ahead they are followed up to 0.2 % of its value, or up to 2 % where kinks part the last
+// folds in front of it: `end` says how far. wanted(fold): whether one is still of interest.
 FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& other,
                       const std::vector<double>& values, const FoldCurveSettings& settings,
                       const std::function<bool(const Fold&)>& wanted,

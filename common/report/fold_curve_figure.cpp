@@ -80,12 +80,13 @@ class Comparison {
   std::vector<std::string> notes() const {
     std::vector<std::string> notes;
     if (cells_ > 0)
-      notes.push_back(text("cells of the jump maps: ", right_, " of ", cells_, " on the right side of the cusps",
-                           wrong_.empty() ? "" : "; not: ", wrong_));
+      notes.push_back(text("cells of the jump maps: ", right_, " of ", cells_,
+                           " on the right side of the cusps", wrong_.empty() ? "" : "; not: ", wrong_));
     if (without_cusp_ > 0) notes.push_back(text(without_cusp_, " cells stand beside curves without a cusp"));
     if (jumps_ > 0)
       notes.push_back(text("jumps of the sweeps: ", near_, " of ", jumps_,
-                           " within 1 Hz and their width of a curve, the farthest ", fixed(farthest_, 1), " Hz",
+                           " within 1 Hz and their width of a curve, the farthest ", fixed(farthest_, 1),
+                           " Hz",
                            beyond_ > 0 ? text("; ", beyond_, " at a damping ratio without a curve") : ""));
     return notes;
   }

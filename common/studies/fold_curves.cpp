@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <numbers>
 
@@ -55,7 +54,8 @@ class Family {
     fixed.damping.rayleigh_stiffness = 0;
     for (FixedPhaseState& state :
          fixed_phase_states(driver, driven, own_statics_, bearing_stiffness_, fixed, kStatePhases))
-      if (state.contact_state == ContactState::two) two_ = std::make_unique<FixedPhaseState>(std::move(state));
+      if (state.contact_state == ContactState::two)
+        two_ = std::make_unique<FixedPhaseState>(std::move(state));
     if (!two_)
       fail(Failure::input, "at ", torque,
            " N m no mesh phase has two pairs in contact, to which the damping ratio belongs");
@@ -119,15 +119,15 @@ class Family {
   const FoldCurvesPlan& plan_;
   double bearing_stiffness_;
   std::unique_ptr<FixedPhaseState> two_;
-  std::map<double, double> ratio_;  // by eta
   StaticArtifact own_statics_;
   double own_raw_ = 0, current_raw_ = 0;
   bool own_known_ = false;
   std::unique_ptr<PairAt> current_;
 };
 
-// Of a branch: neighbours between which it is unstable, in the order of the arc.
-std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& segments, double value) {
+// Of a branch: neighbours between which it is unstable, in the order of the arc. `end` names a last fold without another.
+std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& segments, double value,
+                                            std::string& end) {
   std::vector<std::pair<Fold, Fold>> pairs;
   std::vector<Fold> open;
   for (const BranchSegment& segment : segments)
@@ -143,6 +143,11 @@ std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& se
           open.clear();
         }
       }
+  if (!open.empty())
+    end = text("the branch leaves the speeds beyond its fold at ", open[0].parameter,
+               " Hz, which is not followed");
+  else if (pairs.empty())
+    end = "the branch has no folds";
   return pairs;
 }
 
@@ -187,16 +192,53 @@ Eigen::VectorXi vector(const std::vector<int>& from) {
   return Eigen::Map<const Eigen::VectorXi>(from.data(), static_cast<Index>(from.size()));
 }
 
+void require_ascending(const FoldCurvesPlan& plan) {
+  if (plan.values.empty()) fail(Failure::input, "no value of ", name(plan.quantity), " to go through");
+  for (size_t i = 0; i + 1 < plan.values.size(); ++i)
+    if (!(plan.values[i] < plan.values[i + 1]))
+      fail(Failure::input, "values of ", name(plan.quantity), " ascend: ", plan.values[i + 1], " follows ",
+           plan.values[i]);
+  if (!(plan.first > 0) && plan.quantity != FoldQuantity::tip_relief)
+    fail(Failure::input, "the first value of ", name(plan.quantity), " is ", plan.first,
+         "; it must be above 0");
+}
+
+// The two folds of a branch as those of the maps of a family, with their tangents and bends. Nothing, with the reason, if one is
+// not found.
+std::optional<std::pair<Fold, Fold>> own_folds(const MapFamily& maps, double value,
+                                               const std::pair<Fold, Fold>& of_branch,
+                                               const FoldCurveSettings& settings, std::string& failure) {
+  const auto own = [&](const Fold& guess) {
+    return find_turn(*maps(value, guess.parameter), guess, settings, failure);
+  };
+  auto one = own(of_branch.first), other = own(of_branch.second);
+  if (!one || !other) return std::nullopt;
+  return std::pair{std::move(*one), std::move(*other)};
+}
+
+void fill(const Rows& rows, FoldCurvesArtifact& a) {
+  a.curve = vector(rows.curve);
+  a.value = vector(rows.value);
+  a.damping_ratio = vector(rows.ratio);
+  a.fold_frequency = vector(rows.frequency);
+  a.fold_multiplier.resize(a.value.size(), 2);
+  a.fold_multiplier.col(0) = vector(rows.before);
+  a.fold_multiplier.col(1) = vector(rows.after);
+  a.highest = vector(rows.highest);
+  a.cusp_value = vector(rows.cusp_value);
+  a.cusp_damping_ratio = vector(rows.cusp_ratio);
+  a.cusp_frequency = vector(rows.cusp_frequency);
+  a.cusp_curve = vector(rows.cusp_curve);
+  a.end = rows.end;
+}
+
 }  // namespace
 
 FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& driven,
                                const StaticParameters& statics, double torque,
                                const SweepParameters& stage_settings, const FoldCurvesPlan& given,
                                const std::function<void(long, long, const std::string&)>& report) {
-  if (given.values.empty()) fail(Failure::input, "no value of ", name(given.quantity), " to go through");
-  if (!(given.first > 0) && given.quantity != FoldQuantity::tip_relief)
-    fail(Failure::input, "the first value of ", name(given.quantity), " is ", given.first,
-         "; it must be above 0");
+  require_ascending(given);
   require_like_teeth(statics.mesh, "a fold curve");
   FoldCurvesPlan plan = given;
   SweepParameters settings = stage_settings;
@@ -239,26 +281,16 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   };
   Rows rows;
   int number = 0;
-  const auto pairs = pairs_of(segments, first);
   long done = 0;
-  for (const auto& [one, other] : pairs) {
-    // The folds of the branch with this zone, with their tangents and bends.
+  for (const auto& of_branch : pairs_of(segments, first, rows.end)) {
     std::string failure;
-    Fold own[2];
-    bool both = true;
-    for (int side = 0; side < 2; ++side) {
-      const Fold& guess = side == 0 ? one : other;
-      const auto map = maps(first, guess.parameter);
-      auto fold = find_turn(*map, guess, fold_settings, failure);
-      both = both && fold;
-      if (fold) own[side] = *fold;
-    }
-    if (!both) {
+    const auto own = own_folds(maps, first, of_branch, fold_settings, failure);
+    if (!own) {
       rows.end += text(rows.end.empty() ? "" : "; ", failure);
       continue;
     }
     const auto followed = [&](const std::vector<double>& through) {
-      return follow_folds(maps, own[0], own[1], through, fold_settings, wanted, [&](double raw) {
+      return follow_folds(maps, own->first, own->second, through, fold_settings, wanted, [&](double raw) {
         report(std::min(++done, 2 * values), 2 * values, text(name(plan.quantity), " ", raw));
       });
     };
@@ -276,19 +308,7 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   a.torque = torque;
   a.quantity = name(plan.quantity);
   a.first_value = first;
-  a.curve = vector(rows.curve);
-  a.value = vector(rows.value);
-  a.damping_ratio = vector(rows.ratio);
-  a.fold_frequency = vector(rows.frequency);
-  a.fold_multiplier.resize(a.value.size(), 2);
-  a.fold_multiplier.col(0) = vector(rows.before);
-  a.fold_multiplier.col(1) = vector(rows.after);
-  a.highest = vector(rows.highest);
-  a.cusp_value = vector(rows.cusp_value);
-  a.cusp_damping_ratio = vector(rows.cusp_ratio);
-  a.cusp_frequency = vector(rows.cusp_frequency);
-  a.cusp_curve = vector(rows.cusp_curve);
-  a.end = pairs.empty() ? "the branch has no folds" : rows.end;
+  fill(rows, a);
   return a;
 }
 

@@ -22,7 +22,8 @@ struct FoldCurvesPlan {
 
 // statics, settings: as of jump_map(). torque: N m; where it varies `first` counts. A tip relief is linear on both gears, from
 // the highest point of single-pair contact, in place of what the scene has. report(done, total, note) is called after each value.
-// Throws as jump_map() and pair_branch(), and Error(input) for no value or a first value that is not positive.
+// Throws as jump_map() and pair_branch(), and Error(input) for no value, values that do not
+// ascend, or a first damping ratio or torque that is not positive.
 FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& driven,
                                const StaticParameters& statics, double torque,
                                const SweepParameters& settings, const FoldCurvesPlan& plan,

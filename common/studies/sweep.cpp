@@ -242,7 +242,7 @@ Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
 
 // How the branch of the motion i - 1 of a sweep is followed; reached: the states at the end of speeds.
 BranchContinuation follow_branch(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
-                             const std::vector<RollingDynamics::State>& reached, bool integrate) {
+                                 const std::vector<RollingDynamics::State>& reached, bool integrate) {
   struct Run {
     Orbit orbit;
     KnownOrbit end;
