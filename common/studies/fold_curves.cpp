@@ -55,7 +55,8 @@ class Family {
     fixed.damping.rayleigh_stiffness = 0;
     for (FixedPhaseState& state :
          fixed_phase_states(driver, driven, own_statics_, bearing_stiffness_, fixed, kStatePhases))
-      if (state.contact_state == ContactState::two) two_ = std::make_unique<FixedPhaseState>(std::move(state));
+      if (state.contact_state == ContactState::two)
+        two_ = std::make_unique<FixedPhaseState>(std::move(state));
     if (!two_)
       fail(Failure::input, "at ", torque,
            " N m no mesh phase has two pairs in contact, to which the damping ratio belongs");
