@@ -61,6 +61,11 @@ if [ -x "$B/bin/whine-tests" ]; then
     [ "$("$B/bin/whine-tests" --no-colors=true -c -tc="$pattern" | sed -n 's/.*current filters: *//p')" = 1 ] || echo "$pattern"; done)
   if [ -z "$found" ]; then echo "ok: each line of tests/unsanitized is a case"; else echo "FAILED: tests/unsanitized: not one case: $found"; fi
 fi
+# An equation of P2000 is found by its number, `grep -rnw "Eq. 18" common`.
+found=$(grep -n -E 'Eqs?\. *$' common/*/*.h common/*/*.cpp tools/*.cpp | head -3)
+if [ -z "$found" ]; then echo "ok: no equation is parted from its number by the end of a line"; else echo "FAILED: put the number beside 'Eq.': $found"; fi
+found=$(for number in {1..23}; do grep -q -w "Eq\. $number" common/*/*.h common/*/*.cpp || echo "Eq. $number"; done)
+if [ -z "$found" ]; then echo "ok: each of the 23 equations of P2000 is named in a source"; else echo "FAILED: no source names ${found//$'\n'/, }"; fi
 found=$(grep -n -w Approx tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp | grep -v '^tests/relative\.h:' | head -3)
 if [ -z "$found" ]; then echo "ok: tests compare numbers by relative() only"; else echo "FAILED: Approx adds 1 to the scale, use relative(): $found"; fi
 if ! command -v clang-format > /dev/null; then

@@ -1,5 +1,5 @@
-# The pages (every README.md): links and anchors lead somewhere, paths, programs, options, keys, datasets, variables and targets that
-# they name exist, their make commands pass `make -n`, generated tables are up to date, and pages stay short.
+# The pages (every README.md): links and anchors lead somewhere, paths, programs, options, keys, datasets, variables, targets and
+# functions (`name()`) that they name exist, their make commands pass `make -n`, generated tables are up to date, and pages stay short.
 #
 # Of the text only code is read: spans in backticks and indented or fenced lines. tests/pages.exceptions lists what cannot be checked,
 # with a reason each. A page with planted faults shows that each check can fail.
@@ -46,6 +46,7 @@ while read -r name; do is_variable[$name]=1; done < <(grep -o -w '[A-Z][A-Z_]\+'
 while read -r name; do is_key[$name]=1; done < <("$bin/gear-scene" --keys | cut -d'|' -f3 | tr -d '` ')
 programs=$(set +f; cd tools && echo gear-*.cpp)
 for program in ${programs//.cpp/}; do help_of[$program]=$("$bin/$program" --help | tr -s ' \n,' '   '); done
+sources_of_functions=$(set +f; cat common/*/*.h common/*/*.cpp tools/*.cpp tests/*.cpp)
 sources_of_files=$(set +f; cat common/io/*.h common/io/*.cpp common/*/*_result.h common/model/*.cpp)
 while IFS= read -r line; do
   case $line in '#'* | '') continue ;; esac
@@ -107,6 +108,11 @@ faults_of() {
       name=${BASH_REMATCH[1]}
       [ -n "${is_key[$name]:-}" ] || [[ $sources_of_files == *"$name"* ]] || echo "$page:$line: $name: no such key"
     fi
+    # functions: `name()`, `Class::name()`
+    if [ "$kind" = code ] && [[ $text =~ ^([A-Za-z_]+::)*([A-Za-z_]+)\(\)$ ]]; then
+      name=${BASH_REMATCH[2]}
+      [[ $sources_of_functions == *"$name("* ]] || echo "$page:$line: $name(): no such function"
+    fi
     # commands of make: targets by name, the whole by a dry run
     if [[ $text =~ (^|[\ \'])make\ (.*) ]] && [[ $text != *...* && $text != *'<'* ]]; then
       text=${BASH_REMATCH[2]}
@@ -131,7 +137,8 @@ cat > "$work/planted.md" << 'PLANTED'
 # Planted
 
 A [link](no-such-file.md), one to [a heading](planted.md#no-such-heading), `common/motion/no_such_file.cpp`, `tests/no_such_*.cpp`,
-`gear-nosuch`, `gear-sweep --no-such-option`, `--no-such-option`, `NO_SUCH_VARIABLE=1`, `/no_such_dataset`, `no_such_key_mm`, `no_such_key = 1`.
+`gear-nosuch`, `gear-sweep --no-such-option`, `--no-such-option`, `NO_SUCH_VARIABLE=1`, `/no_such_dataset`, `no_such_key_mm`, `no_such_key = 1`,
+`no_such_function()`, `NoSuchClass::no_such_member()`.
 
     make no-such-target
     make SCENE=no-such.toml static
@@ -148,6 +155,8 @@ NO_SUCH_VARIABLE: no makefile has such a variable
 /no_such_dataset: no artifact has such a dataset
 no_such_key_mm: no such key
 no_such_key: no such key
+no_such_function(): no such function
+no_such_member(): no such function
 make no-such-target: no such target
 EXPECTED
 found=$(faults_of "$work/planted.md")

@@ -1,5 +1,4 @@
-// Linear complementarity: find p >= 0 with d = A p + e >= 0 and p . d = 0, A symmetric positive definite (Eq.
-// 18).
+// Linear complementarity (Eq. 18): find p >= 0 with d = A p + e >= 0 and p . d = 0, A symmetric positive definite.
 //
 // Block principal pivoting (Judice and Pires; Portugal, Judice and Vicente, Math. Comp. 63 (1994) 625) from a
 // guessed active set; when its block steps stop paying, least-index steps; if even they take too long, Lawson

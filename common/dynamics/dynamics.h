@@ -1,7 +1,7 @@
 // Two elastic gears that roll at constant mean speed: modes, relaxed residual flexibility, contact at every
 // step.
 //
-// Coordinates (unit modal mass, z'' + c z' + w^2 z = force):
+// The system of both gears (Eq. 4, Eq. 5, Eq. 6) in these coordinates (unit modal mass, z'' + c z' + w^2 z = force):
 // - one rigid rotation of the pair, along the line of action; the other, r1 theta1 - r2 theta2, is projected
 // out;
 // - per gear on a bearing two translations of its hub, and the one-diameter modes that couple with them through G, diagonalised

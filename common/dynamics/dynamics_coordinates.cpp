@@ -161,7 +161,7 @@ void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
 }
 
 double RollingDynamics::rayleigh_damping(double w) const {
-  return parameters_.damping.rayleigh_mass + parameters_.damping.rayleigh_stiffness * w * w;  // Eq. 21
+  return parameters_.damping.rayleigh_mass + parameters_.damping.rayleigh_stiffness * w * w;  // Eq. 2, Eq. 21
 }
 
 // Zero diameters: [[I, gamma^T], [gamma, 1]] z'' + diag(0, w^2) z, the hub rotation first.

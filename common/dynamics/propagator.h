@@ -21,7 +21,8 @@ struct Propagator {
 // Exact solution for the mean force, any damping.
 Propagator exact_propagator(double frequency, double damping, double step);
 
-// Newmark with gamma = 1/2, beta = 1/4 (Eq. 8 in one-step form; the three-point form has the same roots).
+// Newmark with gamma = 1/2, beta = 1/4 (Eq. 8 in one-step form, between the instants of Eq. 9; the three-point
+// form has the same roots).
 Propagator newmark_propagator(double frequency, double damping, double step);
 
 // First-order relaxation eta U' + U = g under a force that is linear in the step: U+ = decay U + from_old g +

@@ -1,6 +1,6 @@
 // The time step of two elastic bodies in mesh, on lanes: all that knows how the numbers of a step lie in memory.
 //
-// Modes z'' + c z' + w^2 z = force, relaxed loads g of each tooth (eta g' + g = l), contact at the end of the step. Per step
+// Modes z'' + c z' + w^2 z = force, relaxed loads g of each tooth (eta g' + g = l), contact (Eq. 18) at the end of the step. Per step
 // of length h, with the force f = t - h^T n of its start (t: torques, n: node forces, h: participation) and the propagator of
 // each coordinate:
 //   z* = a11 z + a12 v + (bq / 2) (f + t),  v* = a21 z + a22 v + (a12 / 2) (f + t),  g* = decay g + from_old l

@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// d = A p + e >= 0, p >= 0, p . d = 0 of a positive definite A: all strips of wrong sign change sides, after some rounds of
+// Eq. 18, d = A p + e >= 0, p >= 0, p . d = 0 of a positive definite A: all strips of wrong sign change sides, after some rounds of
 // that the first of them alone, with which no set comes back (Murty, Opsearch 5 (1968) 23).
 VectorXd strip_forces(const MatrixXd& a, const VectorXd& e) {
   constexpr int kRounds = 30, kMostPivots = 100000;

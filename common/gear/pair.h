@@ -86,8 +86,8 @@ class GearPair {
   PairContact contact(double phase) const;
 
   // x: m, tangential coordinate of the contact frame, growing to the driver's tip (of a ring: inwards), 0 at the nominal touching
-  // point, in [x_min, x_max]. Exact: both involutes are intersected with the line parallel to the contact
-  // normal.
+  // point, in [x_min, x_max]. The separation e of the unloaded flanks in d = e + delta (Eq. 13). Exact: both involutes are
+  // intersected with the line parallel to the contact normal.
   FlankGap gap_at(const PairContact& contact, double x) const;
   // m: the same with what the two flanks deviate by.
   double gap_at(const PairContact& contact, double x, const PairDeviation& deviation) const {

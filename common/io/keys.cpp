@@ -529,6 +529,8 @@ std::string scene_key_table() {
       range = key.open ? "> " + shown(key.least) + ", <= " + shown(key.most)
                        : shown(key.least) + " to " + shown(key.most);
     }
+    if (std::holds_alternative<CornerRule*>(key.slot(values)))
+      range = "true, false, or " + range + " (degrees)";
     const std::string fallback = !key.fallback ? "required" : *key.fallback ? key.fallback : "none";
     out << "| `" << label << "` | `" << key.name << "` | " << fallback << " | " << range << " | "
         << key.meaning << " |\n";

@@ -149,7 +149,7 @@ std::string consistency_markdown(const ReadingsArtifact& a, const Consistency& f
 std::string confirmed_markdown(const ReadingsArtifact& confirmed) {
   const Consistency found = consistency(confirmed, {});
   std::ostringstream out;
-  out << "\nThe best readings again with strips and speeds 20 Hz apart:\n\n"
+  out << "\nThe best readings again with strips and speeds 20 Hz apart, on the bodies of the search:\n\n"
       << "| agree | 150 N m: jump up; down, where above 0.575 f_n (Hz) | reading |\n|---|---|---|\n";
   for (const size_t i : found.order) {
     const Reading& r = confirmed.readings[i];

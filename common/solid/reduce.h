@@ -1,6 +1,10 @@
 // From a sector mesh to the body that contact needs: modes with the hub fixed and the flexibility between
 // flank points.
 //
+// P2000 splits the displacements by the eigenvectors of K (Eq. 10), which makes K diagonal (Eq. 11): elastic coordinates q_phi = K^-1 g
+// (Eq. 12) and rigid ones. Here the elastic ones are the modes with the hub fixed and the rigid one is the rotation of the hub. The
+// flexibility is q_phi under contact forces (Eq. 15), read on the flank.
+//
 // Flexibility by singularity subtraction: in the tooth region D the displacement under a unit normal force at
 // s_j is u = u_hs + w, u_hs the line-load field of the tangent half-plane at s_j. The unknowns are w inside D
 // and on its free sides, u on the cut between D and the rest and beyond it; with t_hs the traction of u_hs on

@@ -173,7 +173,9 @@ struct MeshPosition {
   auto nodes_of(size_t pair) const {  // as rows of a matrix
     return Eigen::seqN(static_cast<Eigen::Index>(pair) * nodes_per_pair, nodes_per_pair);
   }
+  // delta = G x (Eq. 16): (strip) m, of what the bodies move at the nodes.
   Eigen::VectorXd to_strips(const Eigen::Ref<const Eigen::VectorXd>& at_nodes) const;
+  // f = E p (Eq. 14): (node) N, of the forces on the strips.
   Eigen::VectorXd to_nodes(const Eigen::Ref<const Eigen::VectorXd>& on_strips) const;
   // a += L C L^T, C (node, node), a (strip, strip).
   void add_to_strips(const Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& a) const;
@@ -205,7 +207,8 @@ inline double shared_force(double load) {
 // each other.
 void require_line_range(const MeshPosition& position, const Eigen::Ref<const Eigen::VectorXd>& force);
 
-// (strip, strip) m N-1: half-planes of both gears, block diagonal; of lines 0, their laws are the half-planes.
+// A_local of Eq. 17. (strip, strip) m N-1: half-planes of both gears, block diagonal; of lines 0, their laws are the
+// half-planes.
 Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& position, double depth);
 
 // (node, node) m N-1: tables[offset + max] (flank, flank) of gear g between all nodes.
@@ -234,7 +237,7 @@ Eigen::MatrixXd contact_compliance(const GearMeshModel& model, const MeshPositio
 Eigen::MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period);
 
 // Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
-// approach . p = load (Eq. 18-20).
+// approach . p = load (Eq. 18, Eq. 19, Eq. 20).
 struct Equilibrium {
   double x = 0;          // m if approach is 1: the rigid freedom
   double stiffness = 0;  // d load / d x at this position, contact changes included

@@ -1,4 +1,4 @@
-// Static equilibrium over a mesh period: transmission error, stiffness and tooth loads (Eq. 7, 13-20).
+// Static equilibrium over a mesh period: transmission error, stiffness and tooth loads (Eq. 7).
 #pragma once
 #include <sstream>
 #include <string>

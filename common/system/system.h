@@ -2,7 +2,7 @@
 //
 // Contact forces p (N) and gaps d (m) of all meshes stand in one row of strips, mesh after mesh. With x_b = r_b theta_b (m),
 // the rotation of body b in its own sense times its base radius,
-//   d = e + A p - D x,   d >= 0, p >= 0, d . p = 0,   L^T p = f,
+//   d = e + A p - D x,   d >= 0, p >= 0, d . p = 0 (Eq. 18),   L^T p = f (Eq. 20),
 // e the gaps of the unloaded flanks, D the displacement map (by how much a motion closes them), L the load map (what forces do
 // to a motion), f_b = T_b / r_b. A holds the half-planes, the bodies (between all strips that touch one body, of whatever mesh
 // and flank) and the bearings. Without friction L = D.

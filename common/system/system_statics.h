@@ -31,12 +31,13 @@ struct ContactZone {
   double approach = 0;         // m: the transmission error at this phase
 };
 
-// A range that contact has left is tried again so many times, each this many times as wide.
+// A range that contact has left is tried again so many times, each for this many times the load and the gap of tip edges; its
+// half-width goes with the root of the load.
 inline constexpr int kWidenings = 6;
 inline constexpr double kWidening = 1.6;
 
 // [mesh] How far contact is looked for under the mesh loads; zone: that of the strips is this many times as
-// wide as the load alone asks for; widening: 1 unless contact has left it.
+// wide as the load alone asks for; widening: of the load that it is for, 1 unless contact has left it.
 std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, double zone, double widening);
 
 // Where and how contact wants more than the range holds, in words; empty if it does not. Throws Error(numerical) where a tip
