@@ -11,7 +11,10 @@
 #include "orbits/branch.h"
 #include "orbits/fold_curve.h"
 #include "orbits/slow_tangent.h"
+#include "paper_pair.h"
 #include "relative.h"
+#include "studies/fold_curves.h"
+#include "studies/pair_branch.h"
 
 using namespace whine;
 using Eigen::MatrixXd;
@@ -215,4 +218,47 @@ TEST_CASE("slow tangent: the largest multipliers of a long state are those of it
   const int before = products;
   const SlowTangent again = slow_tangent(kSize, first, {}, 1e-9, times);
   CHECK(products - before <= 2);
+}
+
+// Independent of the curve: the whole branch at each torque, from rest.
+TEST_CASE("fold curves: of an elastic pair over torque they are the folds of its branch at each torque") {
+  const BodyArtifact& body = paper_body();
+  StaticParameters at_rest = paper_statics(128);
+  at_rest.contact.strips = 8;
+  SweepParameters settings = paper_sweep(1700, 2950, 50);
+  settings.damping.rayleigh_stiffness = 5.5e-6;
+  settings.time.steps_per_period = 128;
+  settings.time.min_sample_rate = 0;
+  settings.reference_torque = 100;
+  FoldCurvesPlan plan;
+  plan.quantity = FoldQuantity::torque;
+  plan.first = 150;
+  plan.values = {140, 150, 165};
+  plan.from = 1700;
+  plan.to = 2950;
+  const FoldCurvesArtifact a = fold_curves(body, body, at_rest, 150, settings, plan, no_report);
+  INFO(a.end);
+  REQUIRE(a.value.size() == 6);  // two curves of three points
+  MESSAGE(a.fold_frequency.transpose() << a.end);
+  const double dampers = static_transmission(body, body, at_rest, 100).mean_stiffness;
+  for (const double torque : plan.values) {
+    const BranchArtifact branch = pair_branch(
+        body, body, static_transmission(body, body, at_rest, torque), dampers, settings, no_report);
+    REQUIRE(branch.fold_frequency.size() == 2);
+    for (Eigen::Index i = 0; i < a.value.size(); ++i) {
+      if (a.value[i] != torque) continue;
+      const double nearest = (branch.fold_frequency.array() - a.fold_frequency[i]).abs().minCoeff();
+      CAPTURE(torque);
+      CAPTURE(a.fold_frequency[i]);
+      CHECK(nearest < 2e-5 * a.fold_frequency[i]);
+    }
+  }
+  plan.values = {150, 150};
+  CHECK_THROWS_WITH_AS(fold_curves(body, body, at_rest, 150, settings, plan, no_report),
+                       doctest::Contains("values of torque ascend"), Error);
+  // Speeds that end between the two folds: the one that is left is named.
+  plan.values = {150};
+  plan.to = 0.5 * (a.fold_frequency.minCoeff() + a.fold_frequency.maxCoeff());
+  CHECK(fold_curves(body, body, at_rest, 150, settings, plan, no_report).end.find("which is not followed") !=
+        std::string::npos);
 }

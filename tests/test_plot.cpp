@@ -760,7 +760,7 @@ TEST_CASE("draw: spectra below the least decade of their axis are drawn, not an 
 
 TEST_CASE("fold curves: jumps beyond all curves and cells on the wrong side of a cusp are counted as such") {
   FoldCurvesArtifact a;
-  a.quantity = name(FoldQuantity::damping);
+  a.quantity = FoldQuantity::damping;
   a.torque = 150;
   a.curve = Eigen::Vector3i::Zero();
   a.value = Eigen::Vector3d(4e-6, 5e-6, 6e-6);

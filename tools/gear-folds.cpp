@@ -22,10 +22,10 @@
 namespace {
 
 whine::FoldQuantity quantity_of(const std::string& word) {
-  for (const auto quantity :
-       {whine::FoldQuantity::damping, whine::FoldQuantity::torque, whine::FoldQuantity::tip_relief})
-    if (word == name(quantity)) return quantity;
-  whine::fail(whine::Failure::usage, "--over is ", word, "; it must be damping, torque or tip_relief");
+  const auto quantity = whine::choice_of<whine::FoldQuantity>(word);
+  if (!quantity)
+    whine::fail(whine::Failure::usage, "--over is ", word, "; it must be damping, torque or tip_relief");
+  return *quantity;
 }
 
 void body(int argc, char** argv) {

@@ -22,7 +22,7 @@ double line_seconds() {
   return seconds;
 }
 
-constexpr double kForetellAfter = 5;  // s
+constexpr double kPredictAfter = 5;  // s
 
 StepsShown* shown = nullptr;
 
@@ -45,8 +45,8 @@ void Progress::update(long done, const std::string& note) {
   if (!terminal) {
     const double spent = now - began_,
                  left = done > 0 ? spent * static_cast<double>(total_ - done) / static_cast<double>(done) : 0;
-    const bool foretells = !predicted_ && spent > kForetellAfter && left > line_seconds();
-    if (!foretells && now - last_draw_ < line_seconds()) return;
+    const bool predicts = !predicted_ && spent > kPredictAfter && left > line_seconds();
+    if (!predicts && now - last_draw_ < line_seconds()) return;
     predicted_ = true;
     last_draw_ = now;
     char times[96];

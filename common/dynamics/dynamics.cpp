@@ -105,7 +105,7 @@ void RollingDynamics::set_zone(const CandidateZone& range, int steps, const Zone
     fail(Failure::numerical, range.strips, " strips in a candidate zone are no multiple of ",
          StepKernel::kStripsAtOnce);
   place_positions(range, steps);
-  require_window_memory(steps, beside);
+  require_zone_memory(steps, beside);
   StepSystem system;
   system.lines = lines();
   system.reach = reach_;
@@ -115,7 +115,7 @@ void RollingDynamics::set_zone(const CandidateZone& range, int steps, const Zone
   const auto tables = couple_fields(system);
   for (Position& position : positions_) fill_position(position, system, tables);
   set_hunting_gaps(beside.gaps);
-  share_windows(system);
+  share_zones(system);
   kernel_.set_zone(std::move(system), positions_);
   size_energy_balance();
 }
@@ -148,7 +148,7 @@ void RollingDynamics::place_positions(const CandidateZone& range, int steps) {
 }
 
 // Participation of every coordinate at the nodes of every position, once to look at and once packed for the steps.
-void RollingDynamics::require_window_memory(int steps, const ZoneMemory& beside) {
+void RollingDynamics::require_zone_memory(int steps, const ZoneMemory& beside) {
   constexpr double kMostMemory = 12e9;  // bytes
   memory_ = {};
   for (const Position& position : positions_)
@@ -229,7 +229,7 @@ void RollingDynamics::fill_position(Position& position, const StepSystem& system
 }
 
 // Candidate zones without an edge are alike if they are of one width; near a root they are narrower.
-void RollingDynamics::share_windows(StepSystem& system) {
+void RollingDynamics::share_zones(StepSystem& system) {
   if (lines()) return;
   constexpr double kSame = 1e-12;
   std::vector<std::pair<double, int>> inner;  // m: width; which

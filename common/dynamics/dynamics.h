@@ -257,11 +257,11 @@ class RollingDynamics {
   double rayleigh_damping(double frequency) const;  // s-1 of rad s-1
   // Of set_zone.
   void place_positions(const CandidateZone& range, int steps);
-  void require_window_memory(int steps, const ZoneMemory& beside);
+  void require_zone_memory(int steps, const ZoneMemory& beside);
   std::vector<std::vector<Eigen::MatrixXd>> couple_fields(StepSystem& system);
   void fill_position(Position& position, const StepSystem& system,
                      const std::vector<std::vector<Eigen::MatrixXd>>& tables) const;
-  void share_windows(StepSystem& system);
+  void share_zones(StepSystem& system);
   std::vector<StepSystem::Turn> turns() const;
   void add_modes(int g, const std::vector<int>& columns);
   void add_torsion(int g, const std::vector<int>& columns);

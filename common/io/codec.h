@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/choice.h"
+#include "base/error.h"
 #include "base/matrix.h"
 #include "io/artifact.h"
 #include "io/ranges.h"

@@ -15,8 +15,8 @@ void describe(Codec& c, FoldCurvesArtifact& a) {
   describe_pair(c, a);
   describe_motion(c, a);
   describe_torque(c, a.torque);
-  c.dataset({"/quantity", "1", "what varies beside the mesh frequency: damping, torque or tip_relief", ""},
-            &a.quantity);
+  c.choice({"/quantity", "1", "what varies beside the mesh frequency: damping, torque or tip_relief", ""},
+            a.quantity);
   c.dataset({"/first_value", "1", "value at which the folds come from a branch, in SI units", "", kPositive},
             &a.first_value);
   c.dataset({"/curve", "1", "curve of the point, counted from 0; 2 i and 2 i + 1 may meet in a cusp", "point",
@@ -48,7 +48,7 @@ void describe(Codec& c, FoldCurvesArtifact& a) {
 }
 
 void write(const std::string& path, const FoldCurvesArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Folds over " + a.quantity + ": " + pair_title(a.mesh, a.torque), a,
+  write_artifact(path, kSchema, "Folds over " + name_of(a.quantity) + ": " + pair_title(a.mesh, a.torque), a,
                  provenance);
 }
 

@@ -12,16 +12,16 @@ namespace {
 using Eigen::Index;
 
 bool over_damping(const FoldCurvesArtifact& a) {
-  return a.quantity == name(FoldQuantity::damping);
+  return a.quantity == FoldQuantity::damping;
 }
 
 double shown_value(const FoldCurvesArtifact& a, Index i) {
   if (over_damping(a)) return a.damping_ratio[i] * kPercent;
-  return a.quantity == name(FoldQuantity::torque) ? a.value[i] : a.value[i] * kMicro;
+  return a.quantity == FoldQuantity::torque ? a.value[i] : a.value[i] * kMicro;
 }
 double shown_cusp(const FoldCurvesArtifact& a, Index i) {
   if (over_damping(a)) return a.cusp_damping_ratio[i] * kPercent;
-  return a.quantity == name(FoldQuantity::torque) ? a.cusp_value[i] : a.cusp_value[i] * kMicro;
+  return a.quantity == FoldQuantity::torque ? a.cusp_value[i] : a.cusp_value[i] * kMicro;
 }
 
 bool same_pair(const FoldCurvesArtifact& a, const JumpMapArtifact& m) {
@@ -122,11 +122,11 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
            "; draw one figure of each");
   Figure figure;
   const std::string axis = over_damping(curves[0]) ? "Damping ratio, two pairs in contact (%)"
-                           : curves[0].quantity == name(FoldQuantity::torque)
+                           : curves[0].quantity == FoldQuantity::torque
                                ? "Torque (N m)"
                                : "Linear tip relief, both gears (µm)";
   const std::string column = over_damping(curves[0])                            ? "damping_ratio [%]"
-                             : curves[0].quantity == name(FoldQuantity::torque) ? "torque [N m]"
+                             : curves[0].quantity == FoldQuantity::torque ? "torque [N m]"
                                                                                 : "tip_relief [um]";
   figure.title = "Folds of the branches: between a pair of curves there are two stable motions";
   Comparison comparison;

@@ -425,7 +425,7 @@ FigureBlock cusps_of(const std::string& block_name, const JumpMapArtifact& panel
   block.table = "cusps";
   block.curve = panel_name(panel);
   for (const FoldCurvesArtifact& a : curves)
-    if (a.quantity == name(FoldQuantity::damping) && a.cusp_value.size() > 0 &&
+    if (a.quantity == FoldQuantity::damping && a.cusp_value.size() > 0 &&
         a.mesh.corner.enabled == panel.mesh.corner.enabled &&
         a.mesh.corner.largest_angle == panel.mesh.corner.largest_angle)
       block.rows.push_back({a.cusp_damping_ratio.maxCoeff() * kPercent, a.torque});

@@ -9,7 +9,7 @@ namespace whine {
 
 namespace {
 
-// Of the RMS. On the resonance flanks of P2000's pair at 7 % damping speeds 20 Hz apart foretell it within 4.3 %.
+// Of the RMS. On the resonance flanks of P2000's pair at 7 % damping extrapolation from speeds 20 Hz apart gives it within 4.3 %.
 constexpr double kBreak = 0.04;
 
 // Of a motion that did not settle the RMS alone tells: it may be a slow one of the same kind.
@@ -63,7 +63,7 @@ bool is_smooth(const std::vector<BranchMotion>& sweep, size_t i) {
   return std::abs(change[2] - 0.5 * (std::clamp(on, -most, most) + std::clamp(back, -most, most))) <= kBreak;
 }
 
-// Hz: where the branch of three motions folds back, if they foretell that: the speed as a quadratic of the level has its
+// Hz: where the branch of three motions folds back, if they point to one: the speed as a quadratic of the level has its
 // end ahead.
 std::optional<double> fold_ahead(const BranchMotion& a, const BranchMotion& b, const BranchMotion& c) {
   const double step = level(c) - level(b), before = level(b) - level(a);

@@ -1,6 +1,6 @@
 // Where a branch of periodic motions ends as the speed goes on.
 //
-// On a branch the RMS goes on as the speeds before foretell; where a branch ends it steps, and the step stays when that of
+// On a branch the RMS goes on as the speeds before lead one to expect; where a branch ends it steps, and the step stays when that of
 // the speed goes to zero. However small a jump is, it is told so from a steep flank, which only finer speeds can do.
 #pragma once
 #include <functional>
@@ -39,7 +39,7 @@ struct BranchEnd {
 
 // Follows the branch of motion i - 1 of a sweep, the motion kept first, with steps that are halved where they leave it, to
 // where it ends. Nothing if it leads to motion i, where the sweep has one; or beyond, since a sweep leaves a branch whose
-// basin has become narrower than its step. Steps shrink in time where three motions foretell a fold, at which speed is
+// basin has become narrower than its step. Steps shrink in time where three motions point to a fold, at which speed is
 // quadratic in the level of the motion.
 std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<BranchMotion>& sweep, size_t i);
 

@@ -193,13 +193,13 @@ Eigen::VectorXi vector(const std::vector<int>& from) {
 }
 
 void require_ascending(const FoldCurvesPlan& plan) {
-  if (plan.values.empty()) fail(Failure::input, "no value of ", name(plan.quantity), " to go through");
+  if (plan.values.empty()) fail(Failure::input, "no value of ", plan.quantity, " to go through");
   for (size_t i = 0; i + 1 < plan.values.size(); ++i)
     if (!(plan.values[i] < plan.values[i + 1]))
-      fail(Failure::input, "values of ", name(plan.quantity), " ascend: ", plan.values[i + 1], " follows ",
+      fail(Failure::input, "values of ", plan.quantity, " ascend: ", plan.values[i + 1], " follows ",
            plan.values[i]);
   if (!(plan.first > 0) && plan.quantity != FoldQuantity::tip_relief)
-    fail(Failure::input, "the first value of ", name(plan.quantity), " is ", plan.first,
+    fail(Failure::input, "the first value of ", plan.quantity, " is ", plan.first,
          "; it must be above 0");
 }
 
@@ -291,7 +291,7 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
     }
     const auto followed = [&](const std::vector<double>& through) {
       return follow_folds(maps, own->first, own->second, through, fold_settings, wanted, [&](double raw) {
-        report(std::min(++done, 2 * values), 2 * values, text(name(plan.quantity), " ", raw));
+        report(std::min(++done, 2 * values), 2 * values, text(plan.quantity, " ", raw));
       });
     };
     const FoldPair up = followed(above), down = followed(below);
@@ -306,7 +306,7 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   a.time = settings.time;
   if (plan.quantity == FoldQuantity::damping) a.damping.rayleigh_stiffness = 0;
   a.torque = torque;
-  a.quantity = name(plan.quantity);
+  a.quantity = plan.quantity;
   a.first_value = first;
   fill(rows, a);
   return a;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "base/choice.h"
 #include "base/matrix.h"
 #include "model/stages.h"
 
@@ -10,23 +11,14 @@ namespace whine {
 
 // What a fold curve goes over, beside the mesh frequency.
 enum class FoldQuantity { damping, torque, tip_relief };
-inline const char* name(FoldQuantity quantity) {
-  switch (quantity) {
-    case FoldQuantity::damping:
-      return "damping";
-    case FoldQuantity::torque:
-      return "torque";
-    case FoldQuantity::tip_relief:
-      return "tip_relief";
-  }
-  return "";
-}
+template <>
+inline constexpr const char* kWordsOf<FoldQuantity> = "damping torque tip_relief";
 
 // fold_curves.h5: points in the order of their curves, along each in the order of `value`; two curves that meet in a cusp are
 // neighbours.
 struct FoldCurvesArtifact : MotionParameters {
   double torque = 0;       // N m on the driver; where it varies that of the first folds
-  std::string quantity;    // name(FoldQuantity)
+  FoldQuantity quantity = FoldQuantity::damping;
   double first_value = 0;  // at which the folds were found along a branch
   Eigen::VectorXi curve;   // (point) 1: counted from 0
   Eigen::VectorXd
