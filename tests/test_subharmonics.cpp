@@ -56,9 +56,8 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
   CHECK(twice > 5);
   // A sweep in small steps through a part of the range settles into the orbit of two periods.
   const double at = 0.5 * (low + high);
-  const SweepArtifact swept =
-      sweep(paper_body(), paper_body(), coarse_statics(), 463e6, lightly_damped(at, at, 50), Direction::down,
-            no_report);
+  const SweepArtifact swept = sweep(paper_body(), paper_body(), coarse_statics(), 463e6,
+                                    lightly_damped(at, at, 50), Direction::down, no_report);
   REQUIRE(swept.period_multiple[0] == 2);
   const ResponseArtifact response = whine::response(swept);
   double nearest = 1;
@@ -73,7 +72,9 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
   CHECK(nearest < 0.01);
 }
 
-TEST_CASE("subharmonics: a branch from a sweep's motion is one that the branch from the highest speed is not joined to") {
+TEST_CASE(
+    "subharmonics: a branch from a sweep's motion is one that the branch from the highest speed is not "
+    "joined to") {
   SweepParameters settings = lightly_damped(2300, 3000, 50);
   settings.damping.rayleigh_stiffness = 5.5e-6;
   const auto follow = [&](const BranchPlan& plan) {
@@ -81,7 +82,7 @@ TEST_CASE("subharmonics: a branch from a sweep's motion is one that the branch f
   };
   // From the highest speed it leaves the range on the upper branch.
   CHECK(follow({}).fold_frequency.size() == 0);
-  const BranchArtifact lower = follow({Direction::up, 2500, 1});
+  const BranchArtifact lower = follow({.sweep = Direction::up, .at = 2500});
   CHECK(lower.mesh_frequency[0] == relative(2500, 1e-12));
   CHECK(lower.stable[0]);
   REQUIRE(lower.fold_frequency.size() == 1);
@@ -100,6 +101,6 @@ TEST_CASE("subharmonics: a branch from a sweep's motion is one that the branch f
       sweep(paper_body(), paper_body(), coarse_statics(), 463e6, up, Direction::up, no_report);
   CHECK(lower.dte_rms[0] == relative(whine::response(swept).dte_rms.tail(1)[0], 1e-4));
   // What cannot be done is said.
-  CHECK(failure_of([&] { follow({Direction::up, 1000, 1}); }) == Failure::input);
-  CHECK(failure_of([&] { follow({{}, 0, 3}); }) == Failure::input);
+  CHECK(failure_of([&] { follow({.sweep = Direction::up, .at = 1000}); }) == Failure::input);
+  CHECK(failure_of([&] { follow({.most_periods = 3}); }) == Failure::input);
 }

@@ -90,12 +90,13 @@ void body(int argc, char** argv) {
                        const whine::StaticArtifact& at, double mean_stiffness,
                        const whine::SweepParameters& s, const std::string& name) {
     std::optional<whine::Progress> progress;
-    return whine::sweep(a, b, at, mean_stiffness, s, direction,
-                        [&](long done, long total, const std::string& note) {
-                          if (!progress) progress.emplace(whine::text("gear-sweep ", direction, name), total);
-                          progress->update(done, note);
-                        },
-                        nullptr, jump_width);
+    return whine::sweep(
+        a, b, at, mean_stiffness, s, direction,
+        [&](long done, long total, const std::string& note) {
+          if (!progress) progress.emplace(whine::text("gear-sweep ", direction, name), total);
+          progress->update(done, note);
+        },
+        nullptr, jump_width);
   };
   const whine::SweepArtifact result =
       run(driver, driven, at_torque, at_reference.mean_stiffness, settings, "");

@@ -44,7 +44,8 @@ std::string jumps(const Eigen::VectorXd& frequency, const Eigen::VectorXd& width
     const double half = 0.5 * width[j];
     const int digits = half > 0 && half < 0.1 ? static_cast<int>(std::ceil(-std::log10(half))) : 1;
     const double unit = std::pow(10, digits), own = digits > 1 ? 10 * unit : 1;
-    out += text(j ? ", " : "", std::round(frequency[j] * own) / own, " +- ", std::round(half * unit) / unit, " Hz");
+    out += text(j ? ", " : "", std::round(frequency[j] * own) / own, " +- ", std::round(half * unit) / unit,
+                " Hz");
   }
   return out.empty() ? "none" : out;
 }

@@ -74,7 +74,6 @@ bool passes(const BranchPosition& last, const BranchPosition& next, const Eigen:
 // observable, whose halves change sides.
 bool becomes_half(const BranchPosition& last, const BranchPosition& next);
 
-
 struct OrbitBranch {
   std::vector<BranchPosition> points;
   std::vector<SpecialPoint> special;  // in the order of the arc

@@ -73,7 +73,7 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
   std::optional<CurvePoint> rising, falling;  // nearest to the fold on either side
   const auto size = [&](const CurvePoint& p) { return std::abs(p.tangent[n]); };
   bool halve = false;
-  int steady = 0;  // steps in which the turn hardly changed
+  int steady = 0;      // steps in which the turn hardly changed
   VectorXd bracketed;  // direction of the bracket
   for (int i = 0; i < kMost; ++i) {
     const double turn = here->tangent[n];

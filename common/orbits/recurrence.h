@@ -66,7 +66,7 @@ class Recurrence {
   }
 
  private:
-  static constexpr double kApart = 10;        // times periodicity
+  static constexpr double kApart = 10;                           // times periodicity
   static constexpr double kNoNearer = 0.999, kNoFarther = 1.01;  // times the change kWatched periods ago
   using Changes = std::array<double, kMostMultiple + 1>;
 

@@ -82,7 +82,8 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
   std::string wrong;
   for (size_t k = 0; k < curves.size(); ++k) {
     const FoldCurvesArtifact& a = curves[k];
-    const std::string number = text(k + 1), label = a.quantity == name(FoldQuantity::torque) ? "folds" : torque_words(a.torque);
+    const std::string number = text(k + 1),
+                      label = a.quantity == name(FoldQuantity::torque) ? "folds" : torque_words(a.torque);
     FigureBlock folds{
         "folds" + number, {"mesh_frequency [Hz]", column, "multiplier_before", "multiplier_after"}, {}};
     folds.table = "folds";

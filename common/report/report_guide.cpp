@@ -64,7 +64,8 @@ constexpr Row kRows[] = {
      "1.4 times as high, and whether teeth lose contact may depend on it.",
      "Run the report with a low and a high ratio (make calibrate DAMPING=0.03, then 0.07), and believe what "
      "both say."},
-    {Needs::motion, "fig07 fig05 fig05-branches fig14-elastic", "RMS of the dynamic transmission error over speed",
+    {Needs::motion, "fig07 fig05 fig05-branches fig14-elastic",
+     "RMS of the dynamic transmission error over speed",
      "The vibration at each mesh frequency, after it has settled, with speed rising and falling. Peaks stand "
      "near f_n (the natural frequency), f_n / 2 and f_n / 3. Where the two directions differ there are two "
      "motions at one speed, and jumps between them.",

@@ -31,7 +31,8 @@ namespace {
 
 constexpr int kMostSegments = 64;
 
-BranchSettings branch_settings(const SweepParameters& stage_settings, int steps, bool at_folds) {
+BranchSettings branch_settings(const SweepParameters& stage_settings, int steps, bool at_folds,
+                               double tolerance) {
   BranchSettings settings;
   settings.low = stage_settings.frequency_from;
   settings.high = stage_settings.frequency_to;
@@ -47,19 +48,21 @@ BranchSettings branch_settings(const SweepParameters& stage_settings, int steps,
   settings.location = 1e-6;
   settings.fold_location = at_folds ? 1e-5 : 1e-8;
   settings.grazing_location = at_folds ? 1 : 0.05;
-  settings.orbit.tolerance = 1e-9;
+  settings.orbit.tolerance = tolerance;
   return settings;
 }
 
 }  // namespace
 
 BranchFollower::BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model,
-                               const StaticArtifact& statics, const SweepParameters& settings, Look look)
+                               const StaticArtifact& statics, const SweepParameters& settings, Look look,
+                               double tolerance)
     : dynamics_(dynamics),
       model_(model),
       statics_(statics),
       settings_(settings),
       look_(look),
+      tolerance_(tolerance),
       finest_(steps_at(settings.time, settings.frequency_from)) {}
 
 std::vector<BranchSegment> BranchFollower::follow(const Report& report) {
@@ -98,7 +101,7 @@ void BranchFollower::run(int steps, int direction, int part, const Report& repor
   double lowest = high;
   closed_ = false;
   for (;;) {
-    BranchSettings settings = branch_settings(settings_, steps, look_ == Look::at_folds);
+    BranchSettings settings = branch_settings(settings_, steps, look_ == Look::at_folds, tolerance_);
     settings.multiple = multiple_;
     settings.stop = [&](const BranchPosition& last, const BranchPosition& next) -> std::string {
       closed_ = passes(last, next, first, first_at, scale);
@@ -258,7 +261,7 @@ void BranchFollower::resume(const VectorXd& start, double at, int steps, bool wi
 // Newton's method; false where contact leaves the zone.
 bool BranchFollower::found(const VectorXd& start, double at, int steps) {
   OrbitSettings settings;
-  settings.tolerance = 1e-9;
+  settings.tolerance = tolerance_;
   const OrbitSearch search = find_orbit(*map_, start, multiple_, settings);
   if (search.found()) {
     orbit_ = search.orbit;

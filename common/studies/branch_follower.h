@@ -31,7 +31,9 @@ class BranchFollower {
   enum class Look { close, at_folds };
   // All must live as long as this. settings: speeds, time discretisation. Nobody else may use the dynamics meanwhile.
   BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model, const StaticArtifact& statics,
-                 const SweepParameters& settings, Look look = Look::close);
+                 const SweepParameters& settings, Look look = Look::close,
+                 double tolerance = kOrbitTolerance);
+  static constexpr double kOrbitTolerance = 1e-9;  // of an orbit's residual
 
   // From the orbit into which the pair settles at the highest speed, towards lower ones and round the folds, until it leaves the
   // speeds or ends. report(done, total, note) is called after each point, in steps of the speeds. Throws Error(numerical) if the
@@ -65,6 +67,7 @@ class BranchFollower {
   const StaticArtifact& statics_;
   const SweepParameters& settings_;
   Look look_;
+  double tolerance_;
   int finest_, level_ = -1, multiple_ = 1;
   bool closed_ = false;  // the part followed last, on itself
   std::unique_ptr<RollingPeriodMap> map_;

@@ -35,13 +35,16 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
                            const BranchPlan& plan) {
   if (plan.most_periods != 1 && plan.most_periods != 2 && plan.most_periods != 4)
     fail(Failure::input, "orbits of ", plan.most_periods, " mesh periods are not followed; give 1, 2 or 4");
+  if (!(plan.tolerance >= 1e-12 && plan.tolerance <= 1e-3))
+    fail(Failure::input, "an orbit's tolerance of ", plan.tolerance, "; give 1e-12 to 1e-3");
   if (!(stage_settings.frequency_from > 0) || !(stage_settings.frequency_to > stage_settings.frequency_from))
     fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ",
          stage_settings.frequency_from, " to ", stage_settings.frequency_to, " Hz");
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, stage_settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
   RollingDynamics dynamics(model, dynamic_parameters(statics, mean_stiffness, stage_settings));
-  BranchFollower follower(dynamics, model, statics, stage_settings);
+  BranchFollower follower(dynamics, model, statics, stage_settings, BranchFollower::Look::close,
+                          plan.tolerance);
   std::vector<BranchSegment> segments =
       plan.sweep ? follower.follow_from_sweep(*plan.sweep, plan.at, report) : follower.follow(report);
   follower.follow_flips(segments, plan.most_periods, report);
