@@ -130,7 +130,8 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
     for (Index i = 0; i < a.cusp_value.size(); ++i)
       words += text(words.empty() ? "" : ", ", fixed(shown_cusp(a, i), 2), unit(a), " and ",
                     fixed(a.cusp_frequency[i], 1), " Hz");
-    figure.notes.push_back(label + ": " + (words.empty() ? "no cusp, " + a.end : "cusp at " + words));
+    figure.notes.push_back((label == "folds" ? "" : label + ": ") +
+                           (words.empty() ? "no cusp, " + a.end : "cusp at " + words));
   }
   if (cells > 0)
     figure.notes.push_back(text("cells of the jump maps: ", right, " of ", cells,

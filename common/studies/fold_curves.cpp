@@ -171,7 +171,7 @@ void add_curves(const FoldPair& up, const FoldPair& down, Family& family, int nu
     }
   }
   for (const FoldPair* pair : {&up, &down}) {
-    rows.end += text(rows.end.empty() ? "" : "; ", pair->end);
+    if (rows.end != pair->end) rows.end += text(rows.end.empty() ? "" : "; ", pair->end);
     if (!pair->cusp) continue;
     rows.cusp_curve.push_back(number);
     rows.cusp_value.push_back(pair->cusp_value);

@@ -12,7 +12,7 @@ set xlabel "Mesh frequency (Hz)"
 set ylabel axis offset 0.5, 0
 set key at graph 0.5, 0.98 center top vertical samplen 2 spacing 1.2 font ",15" noenhanced
 set lmargin at screen 0.085
-set rmargin at screen 0.975
+set rmargin at screen 0.965
 set bmargin at screen (110.0 + 28 * notes) / height
 set tmargin at screen 1 - 80.0 / height
 do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at screen 0.03, screen (28.0 * (notes - n) + 22) / height left noenhanced font ",13" }
