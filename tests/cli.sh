@@ -239,6 +239,13 @@ sed -i 's/^body = .*/body = "lagged"/' line/sweep.toml
 if ${line_sweep//out\/scene\/T100/line} --next-level > said 2>&1 && grep -q 'contact = "line" against "strips" at 3 speeds' said &&
   grep -q 'body = "lagged" against "modal": jumps none against none' said; then ok "gear-sweep --next-level"; else
   wrong "gear-sweep --next-level" "$(head -n 1 said)"; fi
+rejected "a branch from a sweep's motion without its speed" 2 'go together' "${stage_orbit[@]}" --from-sweep up
+rejected "a branch from a speed outside the scene's" 3 'cannot begin at 900 Hz: mesh_frequency_Hz is from 2000' "${stage_orbit[@]}" --from-sweep up --at 900
+rejected "a branch of three mesh periods" 3 'give 1, 2 or 4' "${stage_orbit[@]}" --periods 3
+if "${stage_orbit[@]/out\/scene\/T100\/branch.h5/line\/branch.h5}" --from-sweep up --at 2050 --periods 2 > said 2>&1 &&
+  "$bin/gear-inspect" line/branch.h5 | grep -q 'reached 2000; the parameter reached 2100'; then ok "gear-orbit --from-sweep goes both ways"; else
+  wrong "gear-orbit --from-sweep goes both ways" "$(head -n 1 said)"; fi
+rejected "jumps located to nothing" 3 'jumps cannot be located to -1 Hz' $(sweep scene up) --jump-width -1
 rejected "the next model level of a sweep on the last ones" 3 'contact = "strips" is the last model level of contact; body = "full" is the last model level of body' \
   $(sweep scene up | sed 's|out/scene/params|full|') --next-level
 rejected "every mode from a body with some" 3 'needs a body with every mode .* holds [0-9]+ modes' $(sweep scene up | sed 's|out/scene/params|full|')

@@ -44,17 +44,19 @@ class SmallMap : public PeriodMap {
   double parameter() const override { return parameter_; }
   VectorXd apply(const VectorXd& y) override {
     events_.clear();
+    observable_ = y.head(1);
     return image_(y, parameter_, tangent_, events_);
   }
   MatrixXd tangent() override { return tangent_; }
   std::vector<ContactEvent> events() const override { return events_; }
-  VectorXd observable() const override { return VectorXd::Zero(1); }
+  VectorXd observable() const override { return observable_; }
 
  private:
   int size_;
   Image image_;
   double parameter_ = 0;
   MatrixXd tangent_;
+  VectorXd observable_;
   std::vector<ContactEvent> events_;
 };
 
@@ -272,6 +274,63 @@ TEST_CASE(
   REQUIRE(doubled.found());
   CHECK(doubled.orbit.parameter < flips[0].parameter);
   CHECK(std::abs(doubled.orbit.multipliers()[0]) < 1);
+}
+
+TEST_CASE("orbits: a branch that closes on itself ends there, with both folds of the isola") {
+  // Fixed points y^2 + (p - 1)^2 = 0.04, stable below 0.
+  SmallMap map(1, [](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>&) {
+    tangent = MatrixXd::Constant(1, 1, 1 + 0.6 * y[0]);
+    return VectorXd(VectorXd::Constant(1, y[0] + 0.3 * (y[0] * y[0] + (p - 1) * (p - 1) - 0.04)));
+  });
+  const PeriodicOrbit from = orbit_at(map, VectorXd::Constant(1, -0.2), 1);
+  BranchSettings settings;
+  settings.low = 0.5;
+  settings.high = 1.5;
+  settings.stop = [&](const BranchPosition& last, const BranchPosition& next) {
+    return std::string(passes(last, next, from.start, from.parameter, settings.scale) ? "closed" : "");
+  };
+  const OrbitBranch branch = follow_branch(map, from, 1, settings);
+  CHECK(branch.stopped);
+  CHECK(branch.end == "closed");
+  // Once round, the last step beyond the start.
+  const double round = 2 * std::numbers::pi * 0.2;
+  CHECK(branch.points.back().arc > 0.97 * round);
+  CHECK(branch.points.back().arc < round + settings.largest_step);
+  const auto folds = of_kind(branch, Special::fold);
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0].parameter == relative(1.2, 1e-9));
+  CHECK(folds[1].parameter == relative(0.8, 1e-9));
+  for (const BranchPosition& p : branch.points) CHECK(p.stable() == (p.start[0] < 0));
+}
+
+TEST_CASE("orbits: the branch of twice the periods between two flips ends at the other one") {
+  // y -> m y + y^3 with m = (p - 1)^2 - 1.1: orbits +-y with y^2 + (p - 1)^2 = 0.1, whose multiplier is (3 + 2 m)^2.
+  SmallMap map(1, [](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>&) {
+    const double m = (p - 1) * (p - 1) - 1.1;
+    tangent = MatrixXd::Constant(1, 1, m + 3 * y[0] * y[0]);
+    return VectorXd(VectorXd::Constant(1, m * y[0] + std::pow(y[0], 3)));
+  });
+  BranchSettings settings;
+  settings.low = 0.5;
+  settings.high = 1.5;
+  const OrbitBranch once = follow_branch(map, orbit_at(map, VectorXd::Zero(1), 0.5), 1, settings);
+  const auto flips = of_kind(once, Special::flip);
+  REQUIRE(flips.size() == 2);
+  CHECK(flips[0].parameter == relative(1 - std::sqrt(0.1), 1e-9));
+  const OrbitSearch beside = orbit_beyond_flip(map, flips[0], 1, 1);
+  REQUIRE(beside.found());
+  settings.multiple = 2;
+  settings.stop = [](const BranchPosition& last, const BranchPosition& next) {
+    return std::string(becomes_half(last, next) ? "half" : "");
+  };
+  const OrbitBranch twice = follow_branch(map, beside.orbit, 1, settings);
+  CHECK(twice.end == "half");
+  CHECK(twice.points.back().parameter == relative(flips[1].parameter, 0.02));
+  for (const BranchPosition& p : twice.points) {
+    const double off = p.parameter - 1, m = off * off - 1.1;
+    CHECK(std::abs(p.start[0] * p.start[0] + off * off - 0.1) < 1e-8);
+    CHECK(p.multipliers[0].real() == relative(std::pow(3 + 2 * m, 2), 1e-5));
+  }
 }
 
 TEST_CASE("orbits: an oscillator grazes its wall where its free motion reaches it") {

@@ -490,7 +490,8 @@ BranchArtifact small_branch() {
   a.dte_rms = a.dte_mean = a.residual = odd_vector(2, 1e-6);
   a.dte_harmonic = odd_matrix(2, 3, 1e-6);
   a.floquet_multiplier = {odd_matrix(4, 2, 0.9), odd_matrix(4, 2, 0.7)};
-  a.stable = a.steps = Eigen::Vector2i(1, 1);
+  a.stable = a.steps = a.period_multiple = Eigen::Vector2i(1, 1);
+  a.part = Eigen::Vector2i(0, 1);
   a.fold_frequency = odd_vector(1, 2e3);
   a.fold_rms = odd_vector(1, 1e-6);
   a.fold_smooth = Eigen::VectorXi::Ones(1);
@@ -1592,8 +1593,7 @@ TEST_CASE("an empty list of matrices is given back as such: a branch without a p
     v->resize(0);
   a.dte_harmonic.resize(0, 3);
   a.floquet_multiplier.clear();
-  a.stable.resize(0);
-  a.steps.resize(0);
+  for (Eigen::VectorXi* v : {&a.stable, &a.steps, &a.period_multiple, &a.part}) v->resize(0);
   a.fold_smooth.resize(0);
   a.fold_multiplier.resize(0, 2);
   write("branch.h5", a, kMade);

@@ -26,11 +26,23 @@ void body(int argc, char** argv) {
                          "gear-orbit"};
   std::string params, statics, reference, output;
   std::vector<std::string> bodies;
+  std::string way;
+  whine::BranchPlan plan;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--static", statics, "static.h5 of the torque to run").required();
   options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
       .required();
+  options
+      .add("--from-sweep", way,
+           "begin with the motion that a sweep in this direction has at the speed --at, in place of the one "
+           "at rest at the highest speed")
+      .one_of({"up", "down"});
+  options.add("--at", plan.at, "mesh frequency of that motion in Hz");
+  options.add("--periods", plan.most_periods,
+              "1, 2 or 4: beyond period doublings follow orbits of up to so many mesh periods (default: 1)");
+  options.add("--tolerance", plan.tolerance,
+              "relative change of the state over an orbit, 1e-12 to 1e-3 (default: 1e-9)");
   options.add("--output", output, "branch.h5 to write").required();
   options.footer(
       "Example:\n"
@@ -38,6 +50,10 @@ void body(int argc, char** argv) {
       "--body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
       "--reference-static out/parker2000/T100/static.h5 --output branch.h5");
   options.parse(argc, argv);
+  if (way.empty() != (plan.at == 0))
+    whine::fail(whine::Failure::usage,
+                "--from-sweep and --at go together: the sweep and the speed of its motion");
+  if (!way.empty()) plan.sweep = whine::choice_of<whine::Direction>(way);
 
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(
@@ -48,12 +64,13 @@ void body(int argc, char** argv) {
   const auto& [driver, driven] = pair;
 
   std::optional<whine::Progress> progress;
-  const whine::BranchArtifact result =
-      whine::pair_branch(driver, driven, at_torque, at_reference.mean_stiffness, settings,
-                         [&](long done, long total, const std::string& note) {
-                           if (!progress) progress.emplace("gear-orbit", total);
-                           progress->update(done, note);
-                         });
+  const whine::BranchArtifact result = whine::pair_branch(
+      driver, driven, at_torque, at_reference.mean_stiffness, settings,
+      [&](long done, long total, const std::string& note) {
+        if (!progress) progress.emplace("gear-orbit", total);
+        progress->update(done, note);
+      },
+      plan);
   whine::write(output, result, provenance);
   std::string folds;
   for (double f : result.fold_frequency) folds += whine::text(folds.empty() ? ", folds at " : ", ", f, " Hz");

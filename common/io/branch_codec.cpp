@@ -7,7 +7,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"branch", 1};
+constexpr Schema kSchema{"branch", 2};
 
 void describe_points(Codec& c, BranchArtifact& a) {
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);
@@ -20,12 +20,19 @@ void describe_points(Codec& c, BranchArtifact& a) {
             &a.dte_harmonic);
   c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
   c.dataset({"/floquet_multiplier", "1",
-             "multipliers of the orbit over a mesh period, largest modulus first: real and imaginary part",
+             "multipliers over the orbit, largest modulus first: real and imaginary part",
              "point multiplier part", kMultiplier},
             &a.floquet_multiplier);
   c.dataset({"/stable", "1", "1: all multipliers lie inside the unit circle", "point", kFlag}, &a.stable);
   c.dataset({"/steps", "1", "time steps per mesh period", "point", kNumber}, &a.steps);
-  c.dataset({"/residual", "1", "relative change of the state over a mesh period", "point", {0, 1e300}},
+  c.dataset({"/period_multiple", "1", "mesh periods after which the orbit repeats", "point", kNumber},
+            &a.period_multiple);
+  c.dataset({"/branch", "1",
+             "number of the part: its points follow each other along the arc; parts begin at one orbit or "
+             "beside a period doubling",
+             "point", kNumber},
+            &a.part);
+  c.dataset({"/residual", "1", "relative change of the state over the orbit", "point", {0, 1e300}},
             &a.residual);
   c.dataset({"/segment_mismatch", "1", "relative change of the orbit where the number of steps changes",
              "segment", kPositive},

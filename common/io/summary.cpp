@@ -318,6 +318,9 @@ void show(Lines& lines, const BranchArtifact& a) {
     add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "orbits", points, ", of them ", points - a.stable.sum(), " unstable; largest residual ",
         a.residual.maxCoeff());
+    for (const int periods : {2, 4, 8})
+      if (const auto many = (a.period_multiple.array() == periods).count(); many > 0)
+        add(lines, "subharmonic", many, " orbits of ", periods, " mesh periods");
   }
   for (Eigen::Index i = 0; i < a.fold_frequency.size(); ++i)
     add(lines, "fold", text(a.fold_frequency[i]), " Hz, ", a.fold_smooth[i] ? "smooth" : "at a kink",

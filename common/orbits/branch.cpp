@@ -377,6 +377,28 @@ CurvePoint at_limit(Curve& curve, const CurvePoint& here, const CurvePoint& next
 
 }  // namespace
 
+bool passes(const BranchPosition& last, const BranchPosition& next, const VectorXd& start, double parameter,
+            double scale) {
+  constexpr double kBeside = 0.15;  // of the chord
+  if (start.size() != last.start.size() || start.size() != next.start.size()) return false;
+  const auto from_last = [&](const VectorXd& y, double at) {
+    VectorXd u(y.size() + 1);
+    u << y - last.start, (at - last.parameter) / scale;
+    return u;
+  };
+  const VectorXd chord = from_last(next.start, next.parameter), way = from_last(start, parameter);
+  const double share = way.dot(chord) / chord.squaredNorm();
+  return share > 0 && share <= 1 && (way - share * chord).norm() < kBeside * chord.norm();
+}
+
+bool becomes_half(const BranchPosition& last, const BranchPosition& next) {
+  const auto halves = [](const VectorXd& x) -> VectorXd {
+    return x.head(x.size() / 2) - x.tail(x.size() / 2);
+  };
+  return last.observable.size() == next.observable.size() &&
+         halves(last.observable).dot(halves(next.observable)) < 0;
+}
+
 OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int direction,
                           const BranchSettings& settings,
                           const std::function<void(const BranchPosition&)>& report) {
@@ -430,6 +452,12 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
     next->bend = (next->tangent[n] - here->tangent[n]) / passed;
     take(*next, branch.points.back().arc + passed);
     add_special_points(curve, *here, *next, settings, branch);
+    if (settings.stop)
+      branch.end = settings.stop(branch.points[branch.points.size() - 2], branch.points.back());
+    if (!branch.end.empty()) {
+      branch.stopped = true;
+      return branch;
+    }
     if (beyond) {
       branch.reached_limit = true;
       branch.end = text("the parameter reached ", branch.points.back().parameter);

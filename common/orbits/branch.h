@@ -63,13 +63,24 @@ struct BranchSettings {
   double location = 1e-12;          // of the arc step: to what special points are located
   double fold_location = 1e-15;     // the same of folds, relative to their parameter
   double grazing_location = 1e-12;  // the same of grazing orbits; 1: they are not looked for
+  // Asked after each step, of its two points: in words why the branch is followed no further; "": it goes on.
+  std::function<std::string(const BranchPosition& last, const BranchPosition& next)> stop{};
 };
+
+// Whether the branch comes through a point `start`, at a parameter, between two of its points that are neighbours: nearer to the
+// chord than a part of its length. scale: of the parameter. Of states of other lengths false.
+bool passes(const BranchPosition& last, const BranchPosition& next, const Eigen::VectorXd& start,
+            double parameter, double scale);
+// Whether orbits of an even number of periods become orbits of half as many between two points that are neighbours: by their
+// observable, whose halves change sides.
+bool becomes_half(const BranchPosition& last, const BranchPosition& next);
 
 struct OrbitBranch {
   std::vector<BranchPosition> points;
   std::vector<SpecialPoint> special;  // in the order of the arc
   std::string end;                    // why it was followed no further
   bool reached_limit = false;         // the parameter left [low, high]
+  bool stopped = false;               // by settings.stop
 };
 
 // From an orbit at its parameter, first towards a rising parameter (direction 1) or a falling one (-1). report(point) is called

@@ -72,6 +72,7 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
   constexpr int kMost = 60;
   constexpr double kTrial = 0.02;  // arc of the first step without a bend
   constexpr double kBeyond = 1.3;  // of the way to the fold, so that the next point brackets it
+  constexpr double kSteady = 0.9;  // share of a turn that is left where it hardly changes
   constexpr double kEdge = 0.02;   // of a bracket that is kept away from
   constexpr double kLeastBend = 1e-6;
   constexpr double kReadable = 1e-2;  // arc over which a bend is read off
@@ -83,6 +84,7 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
   std::optional<CurvePoint> rising, falling;  // nearest to the fold on either side
   const auto size = [&](const CurvePoint& p) { return std::abs(p.tangent[n]); };
   bool halve = false;
+  int steady = 0;      // steps in which the turn hardly changed
   VectorXd bracketed;  // direction of the bracket
   for (int i = 0; i < kMost; ++i) {
     const double turn = here->tangent[n];
@@ -120,8 +122,9 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
       if (bracketed.dot(here->tangent) < 0) bracketed = -bracketed;
       direction = bracketed;
     } else {
-      // A little beyond the fold that the bend predicts.
-      const double length = bend == 0 ? kTrial : -kBeyond * turn / bend;
+      // A little beyond the fold that the bend predicts; farther each time that the turn has hardly changed, as it does on one
+      // piece of a piecewise affine map.
+      const double length = bend == 0 ? kTrial : -kBeyond * std::exp2(steady) * turn / bend;
       next_from = here->u + std::clamp(length, -settings.farthest, settings.farthest) * here->tangent;
       direction = here->tangent;
     }
@@ -135,6 +138,7 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
     // Between neighbouring pieces the turn steps, on one it hardly changes: a bend shows over longer arcs.
     if (std::isfinite(change) && std::abs(change) > kLeastBend && (bend == 0 || std::abs(arc) > kReadable))
       bend = change;
+    if (turn * next->tangent[n] > kSteady * turn * turn) ++steady;
     here = std::move(next);
   }
   failure = text("the turn is ", here->tangent[n], " after ", kMost, " steps");
@@ -227,7 +231,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
       to = at + 0.5 * (to - at);
     }
   }
-  pair.end = "all values were gone through";
+  pair.end = "followed through all values";
   return pair;
 }
 

@@ -45,10 +45,11 @@ class Recurrence {
   bool repeats(int m) const { return change_[m] < periodicity_; }
   // Over m periods the state is not that of before, by more than a subharmonic's states may be alike.
   bool apart(int m) const { return change_[m] > kApart * periodicity_; }
-  // Nor does it come any nearer to it.
+  // Nor does it come any nearer to it, or go farther from it, as beside an unstable orbit whose multiplier is a little below -1.
   bool stagnates(int m) const {
-    return static_cast<int>(history_.size()) == kWatched && apart(m) &&
-           change_[m] > kNoNearer * history_.front()[m];
+    if (static_cast<int>(history_.size()) < kWatched || !apart(m)) return false;
+    const double before = history_.front()[m];
+    return change_[m] > kNoNearer * before && change_[m] < kNoFarther * before;
   }
   // Whether no divisor of m is a period: by what a subharmonic of order m does over each, if asked for for so long.
   bool primitive(int m, bool for_long) const {
@@ -65,8 +66,8 @@ class Recurrence {
   }
 
  private:
-  static constexpr double kApart = 10;        // times periodicity
-  static constexpr double kNoNearer = 0.999;  // times the change kWatched periods ago
+  static constexpr double kApart = 10;                           // times periodicity
+  static constexpr double kNoNearer = 0.999, kNoFarther = 1.01;  // times the change kWatched periods ago
   using Changes = std::array<double, kMostMultiple + 1>;
 
   double periodicity_;

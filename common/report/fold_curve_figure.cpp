@@ -24,6 +24,11 @@ double shown_cusp(const FoldCurvesArtifact& a, Index i) {
   return a.quantity == FoldQuantity::torque ? a.cusp_value[i] : a.cusp_value[i] * kMicro;
 }
 
+std::string unit(const FoldCurvesArtifact& a) {
+  if (over_damping(a)) return " %";
+  return a.quantity == FoldQuantity::torque ? " N m" : " µm";
+}
+
 bool same_pair(const FoldCurvesArtifact& a, const JumpMapArtifact& m) {
   return m.model == "finite elements" && m.torque == a.torque &&
          m.mesh.corner.enabled == a.mesh.corner.enabled &&
@@ -132,7 +137,8 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
   Comparison comparison;
   for (size_t k = 0; k < curves.size(); ++k) {
     const FoldCurvesArtifact& a = curves[k];
-    const std::string number = text(k + 1), label = torque_words(a.torque);
+    const std::string number = text(k + 1),
+                      label = a.quantity == FoldQuantity::torque ? "folds" : torque_words(a.torque);
     FigureBlock folds = folds_block(a, number, column);
     folds.curve = label;
     FigureBlock cusps{"cusps" + number, {"mesh_frequency [Hz]", column}, {}};
@@ -160,9 +166,10 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
     for (FigureBlock* block : {&folds, &cusps, &jumps}) figure.blocks.push_back(std::move(*block));
     std::string words;
     for (Index i = 0; i < a.cusp_value.size(); ++i)
-      words += text(words.empty() ? "" : "; ", fixed(shown_cusp(a, i), 2), " at ",
+      words += text(words.empty() ? "" : ", ", fixed(shown_cusp(a, i), 2), unit(a), " and ",
                     fixed(a.cusp_frequency[i], 1), " Hz");
-    figure.notes.push_back(label + ": " + (words.empty() ? "no cusp" : "cusp " + words) + "; " + a.end);
+    figure.notes.push_back((label == "folds" ? "" : label + ": ") +
+                           (words.empty() ? "no cusp, " + a.end : "cusp at " + words));
   }
   for (const std::string& note : comparison.notes()) figure.notes.push_back(note);
   figure.words.emplace_back("axis", axis);

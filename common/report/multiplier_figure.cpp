@@ -29,9 +29,9 @@ Figure multiplier_figure(const BranchArtifact& b) {
   figure.blocks = {std::move(plane), std::move(modulus)};
   for (Index i = 0; i < b.fold_frequency.size(); ++i)
     figure.notes.push_back(text("fold at ", fixed(b.fold_frequency[i], 2), " Hz, ",
-                                b.fold_smooth[i] ? "smooth" : "at a kink", ": real multiplier nearest to 1 ",
-                                fixed(b.fold_multiplier(i, 0), 5), " before and ",
-                                fixed(b.fold_multiplier(i, 1), 5), " after"));
+                                b.fold_smooth[i] ? "smooth" : "at a kink",
+                                ": real multiplier nearest to 1: ", fixed(b.fold_multiplier(i, 0), 5),
+                                " before the fold, ", fixed(b.fold_multiplier(i, 1), 5), " after it"));
   figure.notes.push_back(text(n, " orbits, ", n - b.stable.sum(), " unstable; ", b.flip_frequency.size(),
                               " period doublings, ", b.torus_frequency.size(), " tori"));
   figure.numbers = {{"largest", largest}, {"notes", static_cast<double>(figure.notes.size())}};

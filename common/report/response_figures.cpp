@@ -50,10 +50,11 @@ FigureBlock unstable_block(const std::string& name, const BranchArtifact& b) {
   const Eigen::Index n = b.mesh_frequency.size();
   for (Eigen::Index i = 0; i < n; ++i) {
     if (b.stable[i]) continue;
-    if (i > 0 && b.stable[i - 1]) add(i - 1);
+    const bool first = i == 0 || b.part[i - 1] != b.part[i], last = i + 1 == n || b.part[i + 1] != b.part[i];
+    if (!first && b.stable[i - 1]) add(i - 1);
     add(i);
-    if (i + 1 == n || !b.stable[i + 1]) continue;
-    add(i + 1);
+    if (!last && !b.stable[i + 1]) continue;
+    if (!last) add(i + 1);
     block.rows.emplace_back();
   }
   return block;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/period_map.h"
+#include "model/stages.h"
 #include "orbits/branch.h"
 
 namespace whine {
@@ -18,7 +19,11 @@ inline constexpr int kMostZoneLevel = 8;
 
 struct BranchSegment {
   OrbitBranch branch;
-  int steps = 0;  // per period
+  int steps = 0;     // per period
+  int multiple = 1;  // periods after which its orbits repeat
+  int part = 0;      // segments of one part follow each other along the arc
+  // (special) of branch.special: the state there, which any candidate zone can go on from
+  std::vector<RollingDynamics::State> special_state{};
 };
 
 class BranchFollower {
@@ -28,17 +33,32 @@ class BranchFollower {
   enum class Look { close, at_folds };
   // All must live as long as this. settings: speeds, time discretisation. Nobody else may use the dynamics meanwhile.
   BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model, const StaticArtifact& statics,
-                 const SweepParameters& settings, Look look = Look::close);
+                 const SweepParameters& settings, Look look = Look::close,
+                 double tolerance = kOrbitTolerance);
+  static constexpr double kOrbitTolerance = 1e-9;  // of an orbit's residual
 
   // From the orbit into which the pair settles at the highest speed, towards lower ones and round the folds, until it leaves the
   // speeds or ends. report(done, total, note) is called after each point, in steps of the speeds. Throws Error(numerical) if the
   // pair does not settle into an orbit of one mesh period, ModelRangeError if contact leaves the flanks.
   std::vector<BranchSegment> follow(const std::function<void(long, long, const std::string&)>& report);
+  // From the motion that a sweep in a direction has at a speed, which may repeat after several periods, both ways: two parts.
+  // The branch may close on itself; then it is one.
+  std::vector<BranchSegment> follow_from_sweep(
+      Direction direction, double at, const std::function<void(long, long, const std::string&)>& report);
+  // Branches that begin at the flips of these segments, and at their flips, up to orbits of `most` periods: a part each, added to
+  // them. Of a flip beside which no orbit of twice the periods is found a part without points says why.
+  void follow_flips(std::vector<BranchSegment>& segments, int most,
+                    const std::function<void(long, long, const std::string&)>& report);
   // (change of steps) relative change of the orbit there.
   const std::vector<double>& mismatch() const { return mismatch_; }
   int level() const { return level_; }  // of the zone, at last
 
  private:
+  using Report = std::function<void(long, long, const std::string&)>;
+  void run(int steps, int direction, int part, const Report& report, std::vector<BranchSegment>& segments);
+  void begin_swept(Direction direction, double at);
+  void follow_flip(const BranchSegment& from, size_t flip, const Report& report,
+                   std::vector<BranchSegment>& segments);
   void widen();
   void begin(double at, int steps);
   void resume(const RollingDynamics::State& state, const Eigen::VectorXd& start, double at, int steps,
@@ -50,7 +70,9 @@ class BranchFollower {
   const StaticArtifact& statics_;
   const SweepParameters& settings_;
   Look look_;
-  int finest_, level_ = -1;
+  double tolerance_;
+  int finest_, level_ = -1, multiple_ = 1;
+  bool closed_ = false;  // the part followed last, on itself
   std::unique_ptr<RollingPeriodMap> map_;
   PeriodicOrbit orbit_;
   std::vector<double> mismatch_;

@@ -9,16 +9,19 @@
 
 namespace whine {
 
-// branch.h5: periodic orbits of one mesh period along their branch, stable or not, points in the order of its arc
+// branch.h5: periodic orbits along their branch, stable or not, points in the order of its arc
 struct BranchArtifact : MotionParameters {
   double torque = 0;                                  // N m on the driver
   Eigen::VectorXd mesh_frequency, dte_rms, dte_mean;  // (point) Hz, m, m
   MatrixRM dte_harmonic;                              // (point, harmonic 1..) m, amplitude
   std::vector<MatrixRM>
-      floquet_multiplier;    // (point) (multiplier, 2) 1: real and imaginary part, largest modulus first
-  Eigen::VectorXi stable;    // (point) 1: all multipliers lie inside the unit circle
-  Eigen::VectorXi steps;     // (point) 1: time steps per mesh period
-  Eigen::VectorXd residual;  // (point) 1: change of the state over a period, relative
+      floquet_multiplier;  // (point) (multiplier, 2) 1: real and imaginary part, largest modulus first
+  Eigen::VectorXi stable;  // (point) 1: all multipliers lie inside the unit circle
+  Eigen::VectorXi steps;   // (point) 1: time steps per mesh period
+  // (point) 1: mesh periods after which the orbit repeats; number of its part, from 0: points of one part follow each other along
+  // the arc. Parts begin at one orbit, which is followed both ways, or beside a period doubling.
+  Eigen::VectorXi period_multiple, part;
+  Eigen::VectorXd residual;                  // (point) 1: change of the state over a period, relative
   Eigen::VectorXd segment_mismatch;          // (change of steps) 1: relative change of the orbit there
   Eigen::VectorXd fold_frequency, fold_rms;  // (fold) Hz, m: where the branch turns
   Eigen::VectorXi fold_smooth;               // (fold) 1: a multiplier is 1; 0: at a kink

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/model_range.h"
 #include "dynamics/period_map.h"
 #include "gear/pair.h"
 #include "orbits/fold_curve.h"
@@ -81,7 +82,7 @@ class Family {
     return std::make_unique<PairAt>(driver_, driven_, own_statics_, p);
   }
   // For motions near a speed, with a zone of a level that holds them.
-  std::unique_ptr<PeriodMap> map(double raw, double speed, int level) {
+  std::unique_ptr<RollingPeriodMap> map(double raw, double speed, int level) {
     if (!current_ || raw != current_raw_) {
       current_ = at(raw);
       current_raw_ = raw;
@@ -89,6 +90,15 @@ class Family {
                                   steps_at(settings_.time, plan_.from));
     }
     return std::make_unique<RollingPeriodMap>(current_->dynamics, steps(speed));
+  }
+  // A state of another zone in coordinates of that map: a period puts the contact forces where this zone has its strips.
+  VectorXd moved(double raw, double speed, int level, RollingDynamics::State state) {
+    const auto map = this->map(raw, speed, level);
+    map->set_parameter(speed);
+    RollingDynamics::Period period;
+    if (!current_->dynamics.integrate(state, period))
+      fail_outside_range(Failure::numerical, "at ", speed, " Hz contact leaves a zone wider than the branch needs");
+    return map->flat(state);
   }
   int steps(double speed) const {  // per period
     return std::min(steps_at(settings_.time, speed), steps_at(settings_.time, plan_.from));
@@ -125,18 +135,18 @@ class Family {
   std::unique_ptr<PairAt> current_;
 };
 
-// Of a branch: neighbours between which it is unstable, in the order of the arc. `end` names a last fold without another.
+// Of a branch: neighbours between which it is unstable, in the order of the arc, as states of a zone of a level. `end` names a last fold without another.
 std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& segments, double value,
-                                            std::string& end) {
+                                            int level, Family& family, std::string& end) {
   std::vector<std::pair<Fold, Fold>> pairs;
   std::vector<Fold> open;
   for (const BranchSegment& segment : segments)
-    for (const SpecialPoint& p : segment.branch.special)
-      if (p.kind == Special::fold) {
+    for (size_t k = 0; k < segment.branch.special.size(); ++k)
+      if (const SpecialPoint& p = segment.branch.special[k]; p.kind == Special::fold) {
         Fold fold;
         fold.value = value;
         fold.parameter = p.parameter;
-        fold.start = p.start;
+        fold.start = family.moved(value, p.parameter, level, segment.special_state[k]);
         open.push_back(fold);
         if (open.size() == 2) {
           pairs.emplace_back(open[0], open[1]);
@@ -176,7 +186,7 @@ void add_curves(const FoldPair& up, const FoldPair& down, Family& family, int nu
     }
   }
   for (const FoldPair* pair : {&up, &down}) {
-    rows.end += text(rows.end.empty() ? "" : "; ", pair->end);
+    if (rows.end != pair->end) rows.end += text(rows.end.empty() ? "" : "; ", pair->end);
     if (!pair->cusp) continue;
     rows.cusp_curve.push_back(number);
     rows.cusp_value.push_back(pair->cusp_value);
@@ -282,7 +292,7 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
   Rows rows;
   int number = 0;
   long done = 0;
-  for (const auto& of_branch : pairs_of(segments, first, rows.end)) {
+  for (const auto& of_branch : pairs_of(segments, first, level, family, rows.end)) {
     std::string failure;
     const auto own = own_folds(maps, first, of_branch, fold_settings, failure);
     if (!own) {

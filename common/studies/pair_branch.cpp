@@ -31,27 +31,37 @@ Eigen::VectorXd frequencies(const std::vector<SpecialPoint>& all, Special kind) 
 BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& driven,
                            const StaticArtifact& statics, double mean_stiffness,
                            const SweepParameters& stage_settings,
-                           const std::function<void(long, long, const std::string&)>& report) {
+                           const std::function<void(long, long, const std::string&)>& report,
+                           const BranchPlan& plan) {
+  if (plan.most_periods != 1 && plan.most_periods != 2 && plan.most_periods != 4)
+    fail(Failure::input, "orbits of ", plan.most_periods, " mesh periods are not followed; give 1, 2 or 4");
+  if (!(plan.tolerance >= 1e-12 && plan.tolerance <= 1e-3))
+    fail(Failure::input, "an orbit's tolerance of ", plan.tolerance, "; give 1e-12 to 1e-3");
   if (!(stage_settings.frequency_from > 0) || !(stage_settings.frequency_to > stage_settings.frequency_from))
     fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ",
          stage_settings.frequency_from, " to ", stage_settings.frequency_to, " Hz");
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, stage_settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
   RollingDynamics dynamics(model, dynamic_parameters(statics, mean_stiffness, stage_settings));
-  BranchFollower follower(dynamics, model, statics, stage_settings);
-  const std::vector<BranchSegment> segments = follower.follow(report);
+  BranchFollower follower(dynamics, model, statics, stage_settings, BranchFollower::Look::close,
+                          plan.tolerance);
+  std::vector<BranchSegment> segments =
+      plan.sweep ? follower.follow_from_sweep(*plan.sweep, plan.at, report) : follower.follow(report);
+  follower.follow_flips(segments, plan.most_periods, report);
   const std::vector<double>& mismatch = follower.mismatch();
 
   BranchArtifact a;
   set_motion(a, {driver, driven}, statics, stage_settings);
   a.time = stage_settings.time;
   a.torque = statics.torque;
-  a.end = segments.back().branch.end;
+  // Why each part ends.
+  for (size_t k = 0; k < segments.size(); ++k)
+    if (k + 1 == segments.size() || segments[k + 1].part != segments[k].part)
+      a.end += (a.end.empty() ? "" : "; ") + segments[k].branch.end;
   Eigen::Index points = 0;
   for (const BranchSegment& s : segments) points += static_cast<Eigen::Index>(s.branch.points.size());
   for (VectorXd* x : {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual}) x->resize(points);
-  a.stable.resize(points);
-  a.steps.resize(points);
+  for (Eigen::VectorXi* x : {&a.stable, &a.steps, &a.period_multiple, &a.part}) x->resize(points);
   const int harmonic_count = resolved_harmonics(stage_settings.time.steps_per_period, kResponseHarmonics);
   a.dte_harmonic.resize(points, harmonic_count);
   std::vector<SpecialPoint> special;
@@ -62,13 +72,15 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
     const Eigen::Index first = i;
     for (const BranchPosition& p : own) {
       a.mesh_frequency[i] = p.parameter;
-      const Harmonics h = harmonics(p.observable, harmonic_count);
+      const Harmonics h = harmonics(p.observable, harmonic_count, s.multiple);
       a.dte_rms[i] = h.rms;
       a.dte_mean[i] = h.mean;
       a.dte_harmonic.row(i) = h.amplitude.transpose();
       a.residual[i] = p.residual;
       a.stable[i] = p.stable();
       a.steps[i] = s.steps;
+      a.period_multiple[i] = s.multiple;
+      a.part[i] = s.part;
       MatrixRM rows = MatrixRM::Zero(kMultipliers, 2);
       for (Eigen::Index k = 0; k < std::min<Eigen::Index>(kMultipliers, p.multipliers.size()); ++k)
         rows.row(k) << p.multipliers[k].real(), p.multipliers[k].imag();
@@ -109,7 +121,7 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
       a.fold_smooth[fold] = p.smooth;
       a.fold_multiplier.row(fold++) << p.before.real(), p.after.real();
     } else if (p.kind == Special::grazing) {
-      a.grazing_phase[grazing] = p.event.phase;
+      a.grazing_phase[grazing] = p.event.phase - std::floor(p.event.phase);  // of the mesh period
       a.grazing_pair[grazing] = p.event.contact;
       a.grazing_closes[grazing++] = p.event.closes;
     }

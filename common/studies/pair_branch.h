@@ -1,11 +1,13 @@
 // The branch of periodic orbits of a pair of elastic gears over the mesh frequencies of a scene, stable or not.
 //
 // It begins with the orbit into which the pair settles at the highest speed and is followed towards lower ones, round its
-// folds, until it leaves the speeds of the scene or ends. Steps per period change with the speed, as in a sweep
+// folds, until it leaves the speeds of the scene or ends; or with the motion of a sweep at a speed, from which it is followed both
+// ways. Beyond period doublings branches of orbits of twice the periods are followed, if asked for. Steps per period change with the speed, as in a sweep
 // (min_sample_rate_kHz): there the orbit is found anew with the other number of steps, and its change is measured. Where an
 // orbit wants a wider candidate contact zone it is found anew with that, as in a sweep; zones only grow.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "signal/static_result.h"
@@ -14,6 +16,13 @@
 
 namespace whine {
 
+struct BranchPlan {
+  std::optional<Direction> sweep;  // begins with the motion of a sweep in this direction
+  double at = 0;                   // Hz, of that motion
+  double tolerance = 1e-9;         // of an orbit's residual, 1e-12 to 1e-3
+  int most_periods = 1;  // 2 or 4: branches beyond period doublings too, up to orbits of so many periods
+};
+
 // statics, mean_stiffness, settings: as of sweep(). report(done, total, note) is called after each point, in
 // steps of the scene's speeds. Throws Error(input) for teeth
 // that differ, Error(numerical) if the pair does not settle into an orbit of one mesh period at the highest speed or contact
@@ -21,6 +30,7 @@ namespace whine {
 BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& driven,
                            const StaticArtifact& statics, double mean_stiffness,
                            const SweepParameters& settings,
-                           const std::function<void(long, long, const std::string&)>& report);
+                           const std::function<void(long, long, const std::string&)>& report,
+                           const BranchPlan& plan = {});
 
 }  // namespace whine

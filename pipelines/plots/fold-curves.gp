@@ -10,9 +10,9 @@ set grid xtics ytics lt 1 lc rgb "#e4e4e4" lw 1
 set tics out nomirror
 set xlabel "Mesh frequency (Hz)"
 set ylabel axis offset 0.5, 0
-set key left top vertical samplen 2 spacing 1.2 font ",15" noenhanced
+set key at graph 0.5, 0.98 center top vertical samplen 2 spacing 1.2 font ",15" noenhanced
 set lmargin at screen 0.085
-set rmargin at screen 0.975
+set rmargin at screen 0.965
 set bmargin at screen (110.0 + 28 * notes) / height
 set tmargin at screen 1 - 80.0 / height
 do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at screen 0.03, screen (28.0 * (notes - n) + 22) / height left noenhanced font ",13" }
@@ -23,5 +23,7 @@ do for [k = 1:int(curves)] {
   if (rows("jumps", k) > 0) { drawn = drawn . sprintf('tsv index "[jumps%d]" using 1:2 with points pt 2 ps 1.6 lw 2 lc rgb tone[%d] notitle, ', k, k) }
   if (rows("cusps", k) > 0) { drawn = drawn . sprintf('tsv index "[cusps%d]" using 1:2 with points pt 6 ps 2.2 lw 2.4 lc rgb tone[%d] notitle, ', k, k) }
 }
-drawn = drawn . 'keyentry with points pt 6 ps 1.8 lw 2 lc rgb "black" title "cusp", keyentry with points pt 2 ps 1.5 lw 2 lc rgb "black" title "jump of a sweep"'
-eval("plot " . drawn)
+any(what) = sum [k = 1:int(curves)] rows(what, k)
+if (any("cusps") > 0) { drawn = drawn . 'keyentry with points pt 6 ps 1.8 lw 2 lc rgb "black" title "cusp", ' }
+if (any("jumps") > 0) { drawn = drawn . 'keyentry with points pt 2 ps 1.5 lw 2 lc rgb "black" title "jump of a sweep", ' }
+eval("plot " . drawn[1:strlen(drawn) - 2])

@@ -33,10 +33,11 @@ unset parametric
 do for [n = 1:int(notes)] { unset label 20 + n }
 unset colorbox
 set lmargin at screen 0.73
-set rmargin at screen 0.98
+set rmargin at screen 0.965
 set autoscale x
 set xtics 1000
-set yrange [0:reach]
+set yrange [0:1.15 * reach]
+set key top right
 set xlabel "Mesh frequency (Hz)"
 set ylabel "Largest modulus"
 set label 1 "{/:Bold (b)}" at graph 0.02, 0.96
