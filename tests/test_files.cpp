@@ -633,7 +633,8 @@ TEST_CASE("modes.h5 gives back every value bit by bit") {
   // The system as it is stored has the same modes.
   CHECK(natural_modes(b.layout).shape == a.shape);
   REQUIRE(b.layout.bodies.size() == a.layout.bodies.size());
-  for (size_t i = 0; i < a.layout.bodies.size(); ++i) CHECK(a.layout.bodies[i].name == b.layout.bodies[i].name);
+  for (size_t i = 0; i < a.layout.bodies.size(); ++i)
+    CHECK(a.layout.bodies[i].name == b.layout.bodies[i].name);
 }
 
 TEST_CASE("static.h5 gives back every value bit by bit") {

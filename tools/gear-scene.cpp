@@ -69,7 +69,8 @@ void body(int argc, char** argv) {
       "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
       "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant "
       "out/parker2000/variants/bore35.toml\n"
-      "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output build/scenes/lin-parker-planetary.mk --out out\n"
+      "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output "
+      "build/scenes/lin-parker-planetary.mk --out out\n"
       "  gear-scene --keys");
   options.parse(argc, argv);
   if (keys) {

@@ -350,10 +350,6 @@ void read_mesh_section(const Source& source, Scene& scene) {
   const toml::array* list = node->as_array();
   if (!list || !list->is_array_of_tables())
     source.reject(*node, "'mesh' must be a list of sections: write [[mesh]]");
-  if (list->size() != 1) {
-    source.reject(*list->get(1),
-                  text("there are ", list->size(), " [[mesh]] sections; a scene of an elastic pair has one"));
-  }
   const toml::table& table = *list->get(0)->as_table();
   KeyValues values;
   const SectionReader reader(source, Dialect::scene, table, "mesh", "mesh");
@@ -401,11 +397,14 @@ Scene scene_of(const Source& source) {
   if (source.is_stage_parameters())
     source.reject(
         "holds stage parameters, which gear-scene wrote from a scene for one stage; give the scene itself");
-  if (is_system(source))
+  if (is_system(source)) {
+    const toml::array* meshes = source.root()["mesh"].as_array();
+    const std::string why = meshes && meshes->size() > 1
+                                ? text("there are ", meshes->size(), " [[mesh]] sections, so it")
+                                : std::string("it has [[carrier]] or [[drive]], so it");
     source.reject(
-        "is the scene of a system (several meshes, carriers or drives), and this is for pairs; for systems "
-        "there "
-        "is make modes");
+        text(why, " is the scene of a system, and this stage is for pairs; for systems there is make modes"));
+  }
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
   top.reject_unknown(
       {"gear", "material", "bearing", "mesh", "damping", "operation", "fidelity", "discretisation"});

@@ -34,6 +34,10 @@ class Table {
                                  ": must be a number from ", least, " to ", most));
   }
   void whole(const char* name, int& value, int least, int most) {
+    if (out_) {
+      *out_ << name << " = " << value << "\n";
+      return;
+    }
     double number = value;
     this->number(name, number, least, most);
     value = static_cast<int>(number);
