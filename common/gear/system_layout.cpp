@@ -273,4 +273,37 @@ System layout_of(const SystemScene& scene) {
   return Layout(scene).make();
 }
 
+System on_fixed_carriers(const System& layout) {
+  System out;
+  std::vector<int> number;  // [body of layout] in `out`
+  for (size_t b = 0; b < layout.bodies.size(); ++b) {
+    const System::Body& body = layout.bodies[b];
+    number.push_back(static_cast<int>(out.bodies.size()));
+    if (body.kind == System::BodyKind::carrier) {
+      const bool held =
+          std::any_of(layout.drives.begin(), layout.drives.end(), [&](const System::Drive& drive) {
+            return drive.body == static_cast<int>(b) && drive.kind == System::DriveKind::held &&
+                   drive.stiffness == 0;
+          });
+      if (!held)
+        fail(Failure::input, "carrier '", body.name,
+             "' may turn; at rest it has to be held: give it a [[drive]] with kind = \"held\" and no "
+             "stiffness");
+      continue;
+    }
+    out.bodies.push_back(body);
+    out.bodies.back().on = System::kGround;
+  }
+  for (System::Mesh mesh : layout.meshes) {
+    for (System::Side& side : mesh.side) side.body = number[static_cast<size_t>(side.body)];
+    out.meshes.push_back(mesh);
+  }
+  for (System::Drive drive : layout.drives) {
+    if (layout.bodies[static_cast<size_t>(drive.body)].kind == System::BodyKind::carrier) continue;
+    drive.body = number[static_cast<size_t>(drive.body)];
+    out.drives.push_back(drive);
+  }
+  return out;
+}
+
 }  // namespace whine

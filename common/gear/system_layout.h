@@ -18,4 +18,9 @@ inline constexpr double kPositionDigits = 0.05;
 // assembled or run into each other, meshes that do not form one train.
 System layout_of(const SystemScene& scene);
 
+// The same with carriers that do not move: planets turn on axes, or on bearings, that stand on the ground, and carriers with their
+// drives are gone. At rest a train whose ring and carrier are held is this one; what holds the carrier is the sum of the planets'
+// bearing forces. Throws Error(input) for a carrier that no drive holds rigidly.
+System on_fixed_carriers(const System& layout);
+
 }  // namespace whine
