@@ -224,6 +224,21 @@ TEST_CASE(
   CHECK(split.planet_harmonic.maxCoeff() == -1);
 }
 
+TEST_CASE("the way that power flows does not change the modes: a ring that drives") {
+  SystemScene reversed = planetary_train(3);
+  std::swap(reversed.meshes[0], reversed.meshes[1]);
+  for (SystemScene::Mesh& mesh : reversed.meshes) std::swap(mesh.spec.gear[0], mesh.spec.gear[1]);
+  const System layout = layout_of(reversed);
+  CHECK(layout.bodies[0].name == "ring");
+  CHECK(layout.bodies.back().sense == layout.bodies[0].sense);
+  const ModesArtifact a = natural_modes(layout), b = natural_modes(layout_of(planetary_train(3)));
+  CHECK(a.natural_frequency[0] == 0);
+  for (Eigen::Index i = 1; i < a.natural_frequency.size(); ++i) {
+    CHECK(a.natural_frequency[i] == relative(b.natural_frequency[i], 1e-9));
+    CHECK(a.type[static_cast<size_t>(i)] == b.type[static_cast<size_t>(i)]);
+  }
+}
+
 TEST_CASE("a pair of rigid gears: the closed form of one degree of freedom; stiff bearings lead to it") {
   SystemScene scene;
   for (const int z : {28, 36}) {
@@ -267,6 +282,9 @@ TEST_CASE("what a system scene says wrong is named, with the section that says i
   scene = planetary_train(4);
   std::swap(scene.meshes[0], scene.meshes[1]);
   has(said(scene), "begin with the central gear");
+  scene = planetary_train(4);
+  scene.gears[2].name = "planet2";
+  has(said(scene), "is called like one of the planets");
   scene = planetary_train(4);
   scene.carriers[0].planet = "comet";
   has(said(scene), "names no [gear.<name>] section");

@@ -19,6 +19,7 @@ template <class... Parts>
 // rad, 0 to 2 pi, ascending.
 std::vector<double> wanted_positions(const SystemScene::Carrier& carrier, size_t number) {
   std::vector<double> out;
+  out.reserve(carrier.positions.size() + static_cast<size_t>(std::max(carrier.planets, 0)));
   if ((carrier.planets > 0) == !carrier.positions.empty())
     reject("carrier", number, "carrier '", carrier.name,
            "' needs either 'planets', their number at equal spacing, or 'positions_deg', a list");
@@ -71,6 +72,11 @@ class Layout {
     };
     if (std::any_of(scene_.gears.begin(), scene_.gears.end(), names_gear(carrier.name)))
       reject("carrier", c, "carrier '", carrier.name, "' is called like a gear; give it a name of its own");
+    for (const SystemScene::Gear& gear : scene_.gears)
+      if (gear.name.size() > carrier.planet.size() && gear.name.starts_with(carrier.planet) &&
+          gear.name.find_first_not_of("0123456789", carrier.planet.size()) == std::string::npos)
+        reject("carrier", c, "[gear.", gear.name, "] is called like one of the planets of carrier '",
+               carrier.name, "' (", carrier.planet, "1, ", carrier.planet, "2, ...); rename it");
     if (std::none_of(scene_.gears.begin(), scene_.gears.end(), names_gear(carrier.planet)))
       reject("carrier", c, "'planet' of carrier '", carrier.name, "' = '", carrier.planet,
              "' names no [gear.<name>] section");
@@ -237,7 +243,10 @@ class Layout {
             system_.bodies[static_cast<size_t>(placed(carrier.planet + std::to_string(n + 1)))];
         planet.on = number;
         if (n > 0) continue;
-        body.sense = -planet.sense;
+        // It follows the central gear that drives the planets.
+        for (const System::Mesh& mesh : system_.meshes)
+          if (mesh.side[1].body == placed(planet.name))
+            body.sense = system_.bodies[static_cast<size_t>(mesh.side[0].body)].sense;
         body.centre = {planet.centre[0] - radius * std::cos(positions_[c][0]),
                        planet.centre[1] - radius * std::sin(positions_[c][0])};
       }
