@@ -149,7 +149,7 @@ replace_if_changed = { cat > $(new); if cmp -s $(new) $1; then rm $(new); else m
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
 
-include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/bifurcations.mk pipelines/stages.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk pipelines/reading.mk
+include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/bifurcations.mk pipelines/stages.mk pipelines/systems.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk pipelines/reading.mk
 
 # Figures of P2000 that are none of ours, and what is of its scenes only.
 $(foreach f,$(filter-out figures $(figures),$(filter fig%,$(goals))),\

@@ -19,6 +19,8 @@ graded_scene := parker2000-grade5
 relief_scenes := $(foreach s,$(standard_scene) $(calibrated_scene),$(foreach r,20_9 22_2 23_6,$s-relief-$r))
 cracked_scene := parker2000-crack
 bearing_scene := parker2000-bearings
+# of rigid bodies; see systems.mk
+system_scene := lin-parker-planetary
 
 # $(call both_ways,scenes,torques,artifact): sweeps up and down
 both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))

@@ -47,6 +47,10 @@ stage_spectra=("$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output o
 stage_orbit=("$bin/gear-orbit" --params out/scene/params/sweep.toml $measured_pair --output out/scene/T100/branch.h5)
 stage_folds=("$bin/gear-folds" --params out/scene/params/sweep.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
   --over torque --first 100 --values 90,110 --from 2000 --to 2100 --output out/scene/T100/fold_curves_torque.h5)
+sed 's/^title = .*/title = "A planetary train"/' "$(dirname "$scene_of_paper")/lin-parker-planetary.toml" > scene-train.toml
+stage_train=("$bin/gear-scene" --scene scene-train.toml --output scene-train.mk --out out)
+stage_modes=("$bin/gear-modes" --params out/scene-train/params/system.toml --output out/scene-train/modes.h5)
+stage_modes_plot=("$bin/gear-plot" modes --plots "$plots" --output modes out/scene-train/modes.h5)
 lumped() { echo "$bin/gear-lumped --model $1 --static out/scene/T100/static.h5 --params out/scene/params/lumped.toml --direction up \
   --output out/scene/T100/$1/up/sweep.h5"; }
 stage_map=("$bin/gear-jump-map" --params out/scene/params/map.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
@@ -56,20 +60,21 @@ stage_loaded=("$bin/gear-loaded" --static out/scene/T100/static.h5 "${pair[@]}" 
   --mesh wheel=out/scene/wheel/mesh.h5 --mesh-phase 0.25 --output out/scene/T100/loaded_0.25.h5)
 chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
-    $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}"
+    $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
+    "${stage_train[@]}" && "${stage_modes[@]}" && "${stage_modes_plot[@]}"
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
   exit 1
 fi
 rm -f log
-first=$(contents); rm -rf out fig12.* fig12-*
+first=$(contents); rm -rf out fig12.* fig12-* modes.*
 chain > /dev/null 2>&1
 if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
   wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
 if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
   wrong "no artifact holds a path of the machine" "$found"; fi
-for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5; do
+for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5 out/scene-train/modes.h5; do
   if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
@@ -91,6 +96,7 @@ mkdir -p examples/data/scenes
 ln -s "$(dirname "$plots")" examples/pipelines
 cp -r "$(dirname "$scene_of_paper")"/../{studies,published,examples} examples/data/
 sed "$coarse; s/^torque_Nm = .*/torque_Nm = [100, 150]/; s/from = 2000, to = 2100/from = 2350, to = 2400/" "$scene_of_paper" > examples/data/scenes/parker2000.toml
+cp "$(dirname "$scene_of_paper")/lin-parker-planetary.toml" examples/data/scenes/
 flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard report study variant"
 examples_of() { "$bin/$1" --help | sed '1,/^Examples\{0,1\}:$/d; s/^ *//; /^$/d'; }
 run_example() { (cd examples && eval "timeout 120 $bin/$1") > said 2>&1 < /dev/null; }
@@ -145,7 +151,7 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-sound]="$bin/gear-sound --sweep out/scene/T100/up/sweep.h5 --mesh-frequency 2000 --output x"
   [gear-import]="$bin/gear-import --input $scene_of_paper --output x.toml"
-  [gear-loaded]="${stage_loaded[*]}"
+  [gear-loaded]="${stage_loaded[*]}" [gear-modes]="${stage_modes[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-study]="$bin/gear-study --study scene.toml --output study.mk"
   [gear-reading]="$bin/gear-reading --printed $claims --plan scene.toml --output x"
@@ -563,7 +569,7 @@ $(sweep scene up) > /dev/null 2>&1
 if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact and removes what killed runs left"; else
   wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi
 # A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
-for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-lumped gear-spectra gear-plot; do
+for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-lumped gear-spectra gear-modes gear-plot; do
   before=$(contents)
   (ulimit -f 8; trap '' XFSZ; exec ${whole[$name]}) > /dev/null 2> said
   status=$?

@@ -325,6 +325,20 @@ if [ $? != 0 ] && grep -q 'SCENE=other/parker2000.toml: out/parker2000 is of dat
 change 's/^title = .*/title = "Another title"/'; : > calls; make_ fig12; make_ -n fig12
 expect "figures with another title are up to date" ""
 grep -q 'Another title' out/parker2000/params/title.txt && grep -q 'gear-plot out/figures/fig12' calls && ok "another title redraws" || wrong "another title redraws" "$(tail -n 2 calls)"; cp scene.original $scene
+make_ -n modes
+expect "natural modes of a system that ships: one stage and its figure" "gear-modes*1 gear-plot*1"
+make_ modes; make_ -n modes
+expect "and they are up to date then" ""
+cp data/scenes/lin-parker-planetary.toml train.toml; make_ -n SCENE=train.toml modes
+expect "those of SCENE" "gear-modes*1 gear-plot*1"
+make_ SCENE=train.toml modes; sed -i 's/^# .*//' train.toml; make_ -n SCENE=train.toml modes
+expect "comments redo nothing" ""
+sed -i 's/^stiffness_N_um = 500.0/stiffness_N_um = 400.0/' train.toml; make_ -n SCENE=train.toml modes
+expect "stiffnesses redo them" "gear-modes*1 gear-plot*1"
+make_ -n SCENE=train.toml static
+grep -q 'SCENE=train.toml is a system of several meshes' "$log" && ok "stages of pairs reject a system" || wrong "stages of pairs reject a system" "$(tail -n 1 "$log")"
+make_ -n SCENE=data/scenes/nasa28.toml modes
+grep -q 'it is a pair; modes are of systems' "$log" && ok "modes reject a pair" || wrong "modes reject a pair" "$(tail -n 1 "$log")"
 make_ -n out/nowhere/T1/static.h5
 grep -q 'there is no data/scenes/nowhere.toml' "$log" && ok "a scene that does not exist is named" ||
   wrong "a scene that does not exist is named" "$(tail -n 1 "$log")"

@@ -18,6 +18,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "gear/system_layout.h"
 #include "io/artifact.h"
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
@@ -29,6 +30,7 @@
 #include "io/jump_map_codec.h"
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
+#include "io/modes_codec.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/publish.h"
@@ -42,7 +44,9 @@
 #include "io/sweep_codec.h"
 #include "io/variant_codec.h"
 #include "io/vtk.h"
+#include "planetary_train.h"
 #include "relative.h"
+#include "system/natural_modes.h"
 
 using namespace whine;
 namespace fs = std::filesystem;
@@ -611,6 +615,27 @@ TEST_CASE("body.h5 gives back every value bit by bit") {
                        static_cast<double>(static_cast<float>(field(i, 1))), 0.0});
   }
   CHECK(fs::read_symlink("body.hdf") == "body.h5");
+}
+
+TEST_CASE("modes.h5 gives back every value bit by bit") {
+  Folder folder;
+  const ModesArtifact a = natural_modes(layout_of(planetary_train(3)));
+  write("modes.h5", a, kMade);
+  const ModesArtifact b = read_modes("modes.h5");
+  CHECK(a.natural_frequency == b.natural_frequency);
+  CHECK(a.type == b.type);
+  CHECK(a.planet_harmonic == b.planet_harmonic);
+  CHECK(a.shape == b.shape);
+  CHECK(a.mesh_deflection == b.mesh_deflection);
+  CHECK(a.mesh_energy == b.mesh_energy);
+  CHECK(a.bearing_energy == b.bearing_energy);
+  CHECK(a.kinetic_energy == b.kinetic_energy);
+  CHECK(a.rigid_frequency == b.rigid_frequency);
+  // The system as it is stored has the same modes.
+  CHECK(natural_modes(b.layout).shape == a.shape);
+  REQUIRE(b.layout.bodies.size() == a.layout.bodies.size());
+  for (size_t i = 0; i < a.layout.bodies.size(); ++i)
+    CHECK(a.layout.bodies[i].name == b.layout.bodies[i].name);
 }
 
 TEST_CASE("static.h5 gives back every value bit by bit") {
@@ -1615,6 +1640,7 @@ TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of ha
   write("sweep.h5", small_sweep(), kMade);
   write("response.h5", small_response(), kMade);
   write("branch.h5", small_branch(), kMade);
+  write("modes.h5", natural_modes(layout_of(planetary_train(3))), kMade);
   write("jump_map.h5", small_jump_map(), kMade);
   write("harris_map.h5", small_harris_map(), kMade);
   write("variant.h5", small_variant(), kMade);

@@ -8,7 +8,7 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "contact/half_plane_strip.h"
-#include "gear/train.h"
+#include "gear/system_layout.h"
 #include "internal_pair.h"
 #include "relative.h"
 #include "solid/flank_loads.h"
@@ -379,5 +379,94 @@ TEST_CASE("a result says where a pinion cannot be put into its ring by a radial 
     for (const Remark& remark : remarks(s))
       warned |= remark.warning && remark.words.find("trimming interference") != std::string::npos;
     CHECK(warned == (teeth == 88));
+  }
+}
+
+namespace {
+
+constexpr double kPlanetTorque = 300;  // N m on the sun
+
+// Sun of 27, planets of 35 and ring of 99 teeth at rest; the sun carries the torque, ring and carrier are held. The sun floats on a
+// soft bearing, planets stand on elastic pins.
+SystemModel elastic_train(const std::vector<int>& steps) {
+  SystemScene scene;
+  for (const auto& [name, design, stiffness] :
+       {std::tuple{"sun", sun_gear(), 1e7}, std::tuple{"planet", planet_gear(), 3e8},
+        std::tuple{"ring", ring_gear(), 0.0}}) {
+    SystemScene::Gear gear;
+    gear.name = name;
+    gear.design = design;
+    gear.bearing.stiffness = stiffness;
+    scene.gears.push_back(gear);
+  }
+  SystemScene::Carrier carrier;
+  carrier.name = "carrier";
+  carrier.planet = "planet";
+  for (const int step : steps) carrier.positions.push_back(2 * kPi * step / 126);
+  scene.carriers = {carrier};
+  for (const auto& gears :
+       {std::array<std::string, 2>{"sun", "planet"}, std::array<std::string, 2>{"planet", "ring"}}) {
+    SystemScene::Mesh mesh;
+    mesh.spec.gear = gears;
+    mesh.spec.centre_distance = kInternalDistance;
+    mesh.spec.corner.enabled = false;
+    scene.meshes.push_back(mesh);
+  }
+  scene.drives = {{"sun", System::DriveKind::torque, kPlanetTorque, 0},
+                  {"ring", System::DriveKind::held, 0, 0},
+                  {"carrier", System::DriveKind::held, 0, 0}};
+  const System layout = on_fixed_carriers(layout_of(scene));
+  std::vector<BodyArtifact> bodies;
+  for (const System::Body& body : layout.bodies)
+    bodies.push_back(body.teeth == 27 ? sun_body() : body.teeth == 35 ? planet_body() : ring_body());
+  std::vector<GearMeshSpec> specs;
+  for (size_t m = 0; m < layout.meshes.size(); ++m) specs.push_back(scene.meshes[m / steps.size()].spec);
+  return {layout, bodies, specs};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "elastic planetary train: equal phases share the load equally, pins carry it, every body balances") {
+  for (const bool equal : {true, false}) {
+    CAPTURE(equal);
+    const SystemModel system = elastic_train(equal ? std::vector{0, 42, 84} : std::vector{0, 41, 84});
+    const size_t planets = 3;
+    for (size_t n = 1; n < planets && equal; ++n)
+      for (const size_t first : {size_t{0}, planets})
+        CHECK(std::abs(std::remainder(
+                  system.layout.meshes[first + n].phase - system.layout.meshes[first].phase, 1)) < 1e-9);
+    const double force = kPlanetTorque / system.base_radius(0);
+    double least = 1, most = 0;
+    for (const SystemSolution& at : rest_over_period(system, ContactModel::strips, 4, 4)) {
+      std::vector<double> carried(2 * planets, 0.0);
+      for (const LoadedSegment& load : at.loads) carried[static_cast<size_t>(load.mesh)] += load.force;
+      double sum = 0;
+      Vec2 pins = Vec2::Zero();
+      for (size_t n = 0; n < planets; ++n) {
+        sum += carried[n];
+        pins += at.bearing_force[1 + n];
+        CHECK(carried[planets + n] == relative(carried[n], 1e-8));  // torque of the planet
+        CHECK(at.transmission_error[n] > 0);
+        least = std::min(least, carried[n] / force);
+        most = std::max(most, carried[n] / force);
+        if (equal) {
+          CHECK(carried[n] == relative(force / 3, 1e-8));
+          CHECK(at.transmission_error[n] == relative(at.transmission_error[0], 1e-8));
+          CHECK(at.transmission_error[planets + n] == relative(at.transmission_error[planets], 1e-8));
+          CHECK(at.bearing_force[1 + n].norm() == relative(at.bearing_force[1].norm(), 1e-8));
+        }
+      }
+      CHECK(sum == relative(force, 1e-8));
+      if (equal) {
+        CHECK(pins.norm() < 1e-7 * force);
+        CHECK(at.bearing_force[0].norm() < 1e-7 * force);
+      }
+    }
+    // Planets that stand unequally pass through their mesh periods one after the other.
+    if (!equal) {
+      CHECK(most - least > 0.01);
+      CHECK(most < 0.5);
+    }
   }
 }

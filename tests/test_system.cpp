@@ -9,6 +9,7 @@
 #include "gear/train.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "system/rigid_system.h"
 #include "system/statics.h"
 #include "system/system_statics.h"
 
@@ -130,6 +131,8 @@ TEST_CASE(
           const PairContact contact = mesh.kinematics.contact(segment.phase);
           if (contact.corner) continue;
           ++seen;
+          // The spring of rigid gears acts along the same line.
+          CHECK((line_of_action(mesh.layout) - segment.normal).norm() < 1e-12);
           std::array<Vec2, 2> at;
           for (size_t s = 0; s < 2; ++s) {
             const int b = mesh.layout.side[s].body;

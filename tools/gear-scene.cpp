@@ -3,6 +3,7 @@
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml
 //                                                        stage parameters in SI, replaced only if they change
+//            <out>/<scene>/params/system.toml            of a scene of several meshes, in place of these
 //            <out>/<scene>/params/title.txt              what figures call it
 //            <out>/<scene>/params/scene.txt              path of the scene, from the working folder
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
@@ -24,25 +25,26 @@
 #include "io/scene.h"
 #include "io/scene_fragment.h"
 #include "io/scene_place.h"
+#include "io/system_scene.h"
 #include "io/variant.h"
+#include "system/rigid_system.h"
 
 namespace {
 
 using namespace whine;
 
-// The stem names a folder, a make variable and a goal.
-std::string checked_stem(const std::string& path) {
-  const std::string stem = std::filesystem::path(path).stem().string();
-  if (!plain_name(stem)) {
-    fail(Failure::input, path, ": the name '", stem,
-         "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the "
-         "file");
-  }
-  if (stem == "bodies" || stem == "figures" || stem == "studies") {
-    fail(Failure::input, path, ": a scene cannot be called '", stem,
-         "', a folder of results is; rename the file");
-  }
-  return stem;
+// A system (several meshes, carriers or drives): its stage parameters and its fragment.
+void cut_system(const std::string& path, const std::string& stem, const std::string& folder,
+                const std::string& output) {
+  const SystemScene scene = read_system_scene(path);
+  const System layout = layout_in(scene, path);
+  rigid_system(layout);
+  const std::string home = folder + "/" + stem;
+  record_scene(home, path);
+  publish_if_changed(home + "/params/system.toml", system_parameters(layout));
+  publish_if_changed(home + "/params/title.txt", scene.title + "\n");
+  publish(output, system_fragment(path, stem));
+  tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 
 void body(int argc, char** argv) {
@@ -67,6 +69,8 @@ void body(int argc, char** argv) {
       "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
       "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant "
       "out/parker2000/variants/bore35.toml\n"
+      "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output "
+      "build/scenes/lin-parker-planetary.mk --out out\n"
       "  gear-scene --keys");
   options.parse(argc, argv);
   if (keys) {
@@ -81,7 +85,11 @@ void body(int argc, char** argv) {
     fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
 
   // 1. The whole scene is checked before anything is written.
-  const std::string stem = checked_stem(path);
+  const std::string stem = checked_scene_stem(path);
+  if (is_system_scene(path)) {
+    cut_system(path, stem, folder, output);
+    return;
+  }
   const Scene scene = read_scene(path);
   const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
     return scene_place(path, sections, words);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
+
 namespace whine {
 namespace {
 
@@ -26,13 +28,15 @@ bool in_mesh(const System& system, int body) {
 
 int add_input_gear(System& system, const std::string& name, const GearDesign& gear, const Bearing& bearing) {
   system.bodies.push_back({name, gear.teeth, 1, 0, {}, bearing});
+  system.bodies.back().radius = ToothGeometry(gear).base_radius();
   return static_cast<int>(system.bodies.size()) - 1;
 }
 
-int add_driven_gear(System& system, int on, const GearDesign& driver, const std::string& name,
-                    const GearDesign& gear, double centre_distance, double direction,
-                    const Bearing& bearing) {
-  const GearPair pair(driver, gear, centre_distance);
+namespace {
+
+// The mesh of body `on`, which turns already, with one that is to have the number `second`. Sets the angle of `on` if this is its
+// first mesh.
+System::Mesh mesh_on(System& system, int on, const GearPair& pair, int second, double direction) {
   System::Body& first = system.bodies[static_cast<size_t>(on)];
   const FlankSide flank = first.sense > 0 ? FlankSide::leading : FlankSide::trailing;
   // A ring and its pinion turn in the same sense, so that one pushes with what leads and the other is pushed at what trails.
@@ -43,10 +47,11 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
   // Angles stand from +y, directions from +x.
   const double towards = direction - 0.5 * kPi;
   System::Mesh mesh;
-  mesh.centre_distance = centre_distance;
+  mesh.centre_distance = pair.centre_distance();
   mesh.direction = direction;
-  const int number = static_cast<int>(system.bodies.size());
-  mesh.side = {System::Side{on, flank, first.sense, 0}, System::Side{number, second_flank, second_sense, 0}};
+  mesh.pressure_angle = pair.working_pressure_angle();
+  mesh.ring_drives = pair.ring() == 0;
+  mesh.side = {System::Side{on, flank, first.sense, 0}, System::Side{second, second_flank, second_sense, 0}};
   if (!in_mesh(system, on)) {
     first.angle = towards - from_tooth;
   } else {
@@ -54,14 +59,48 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
     mesh.phase = ahead - std::floor(ahead);
     mesh.side[0].first_tooth = -first.sense * static_cast<int>(std::floor(ahead));
   }
-  System::Body second{name, gear.teeth, second_sense, 0, first.centre, bearing};
+  return mesh;
+}
+
+// rad: at which tooth 0 of the second side stands at phase 0 of the system.
+double second_angle(const GearPair& pair, const System::Mesh& mesh) {
+  const System::Side& side = mesh.side[1];
+  return mesh.direction - 0.5 * kPi + (pair.internal() ? 0 : kPi) - flank_angle(pair, 1, side.flank) +
+         side.sense * mesh.phase * 2 * kPi / pair.gear(1).design().teeth;
+}
+
+}  // namespace
+
+int add_driven_gear(System& system, int on, const GearDesign& driver, const std::string& name,
+                    const GearDesign& gear, double centre_distance, double direction,
+                    const Bearing& bearing) {
+  const GearPair pair(driver, gear, centre_distance);
+  const int number = static_cast<int>(system.bodies.size());
+  const System::Mesh mesh = mesh_on(system, on, pair, number, direction);
+  System::Body second{
+      name, gear.teeth, mesh.side[1].sense, 0, system.bodies[static_cast<size_t>(on)].centre, bearing};
   second.centre[0] += pair.driven_centre_offset() * std::cos(direction);
   second.centre[1] += pair.driven_centre_offset() * std::sin(direction);
-  second.angle = towards + (pair.internal() ? 0 : kPi) - flank_angle(pair, 1, second_flank) +
-                 second.sense * mesh.phase * 2 * kPi / second.teeth;
+  second.angle = second_angle(pair, mesh);
+  second.radius = pair.gear(1).base_radius();
   system.bodies.push_back(second);
   system.meshes.push_back(mesh);
   return number;
+}
+
+double add_mesh(System& system, int on, const GearDesign& driver, int to, const GearDesign& gear) {
+  const System::Body &first = system.bodies[static_cast<size_t>(on)],
+                     &second = system.bodies[static_cast<size_t>(to)];
+  const double x = second.centre[0] - first.centre[0], y = second.centre[1] - first.centre[1];
+  const GearPair pair(driver, gear, std::hypot(x, y));
+  const double away = pair.driven_centre_offset() > 0 ? 1 : -1;
+  System::Mesh mesh = mesh_on(system, on, pair, to, std::atan2(away * y, away * x));
+  if (mesh.side[1].sense != second.sense)
+    fail(Failure::input, "[gear.", second.name, "] would have to turn in both senses");
+  const double pitches = (second_angle(pair, mesh) - second.angle) * second.teeth / (2 * kPi);
+  mesh.side[1].first_tooth = static_cast<int>(std::lround(pitches));
+  system.meshes.push_back(mesh);
+  return pitches - std::round(pitches);
 }
 
 System pair_system(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven) {

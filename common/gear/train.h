@@ -26,6 +26,11 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
                     const GearDesign& gear, double centre_distance, double direction,
                     const Bearing& bearing = {});
 
+// A mesh in which body `on` drives body `to`, both of which stand already. Returns by how many pitches, -1/2 to 1/2, the teeth of `to`
+// miss the tooth spaces; 0 to round-off if the train can be assembled. Throws Error(input) if `to` would have to turn in
+// both senses, and what GearPair throws.
+double add_mesh(System& system, int on, const GearDesign& driver, int to, const GearDesign& gear);
+
 // The pair of a scene: the driver at the origin, the driven gear, which is held, above it. No torque.
 System pair_system(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven);
 

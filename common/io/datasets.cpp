@@ -12,6 +12,7 @@
 #include "io/jump_map_codec.h"
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
+#include "io/modes_codec.h"
 #include "io/readings_codec.h"
 #include "io/response_codec.h"
 #include "io/static_codec.h"
@@ -47,7 +48,8 @@ std::string dataset_table() {
          row<ResponseArtifact>("response.h5") + row<BranchArtifact>("branch.h5") +
          row<FoldCurvesArtifact>("fold_curves_*.h5") + row<JumpMapArtifact>("jump_map_*.h5") +
          row<HarrisMapArtifact>("harris_map.h5") + row<VariantArtifact>("ab12....h5") +
-         row<StudyArtifact>("study.h5") + row<ReadingsArtifact>("readings.h5");
+         row<StudyArtifact>("study.h5") + row<ModesArtifact>("modes.h5") +
+         row<ReadingsArtifact>("readings.h5");
 }
 
 }  // namespace whine

@@ -7,6 +7,7 @@
 #include "base/tool.h"
 #include "io/fit.h"
 #include "io/publish.h"
+#include "io/system_scene.h"
 
 namespace whine {
 namespace {
@@ -27,7 +28,11 @@ std::string scene_of(const std::string& settings) {
 std::string against_scene(const std::string& artifact, const InputRecord& input, std::string scene,
                           bool& fresh) {
   if (scene.empty()) scene = scene_of(input.path);
-  const std::string now = scene.empty() ? "" : parameters_for(read_scene(scene), input.path);
+  const auto today = [&] {
+    if (is_system_scene(scene)) return system_parameters(layout_in(read_system_scene(scene), scene));
+    return parameters_for(read_scene(scene), input.path);
+  };
+  const std::string now = scene.empty() ? "" : today();
   if (now.empty())
     return text("fresh: the stage parameters are what they were; not compared with a scene",
                 scene.empty() ? ", give --scene" : "");

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "io/ranges.h"
 #include "io/suggestion.h"
+#include "io/system_keys.h"
 
 namespace whine {
 namespace {
@@ -308,7 +309,12 @@ std::string Key::si_name() const {
 }
 
 const std::vector<Key>& scene_keys() {
-  static const std::vector<Key> keys = make_keys();
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all = make_keys();
+    const std::vector<Key> of_systems = system_keys();
+    all.insert(all.end(), of_systems.begin(), of_systems.end());
+    return all;
+  }();
   return keys;
 }
 
@@ -318,6 +324,8 @@ std::string scene_place_of(const Key& key, const std::string& owner) {
   const std::string section(key.section), name(key.name);
   if (section.empty()) return name;
   if (section == "gear" || section == "material") return section + "." + owner + "." + name;
+  if (section == "rigid_gear") return "gear." + owner + "." + name;
+  if (section == "train_mesh") return "mesh." + name;
   if (section == "modification" || section == "error" || section == "crack")
     return "gear." + owner + "." + section + "." + name;
   if (section == "bearing" && !owner.empty()) return section + "." + owner + "." + name;
@@ -515,9 +523,12 @@ std::string scene_key_table() {
     std::string label = "[" + section + "]";
     if (section.empty()) label = "(top)";
     if (section == "gear" || section == "material") label = "[" + section + ".<name>]";
+    if (section == "rigid_gear") label = "[gear.<name>]";
+    if (section == "train_mesh") label = "[[mesh]]";
     if (section == "modification" || section == "error" || section == "crack")
       label = "[gear.<name>." + section + "]";
-    if (section == "mesh" || section == "bearing") label = "[[" + section + "]]";
+    if (section == "mesh" || section == "bearing" || section == "carrier" || section == "drive")
+      label = "[[" + section + "]]";
     std::string range = "text";
     KeyValues values;
     if (std::holds_alternative<bool*>(key.slot(values))) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/scene.h"
+#include "model/system_scene.h"
 
 namespace whine {
 
@@ -24,6 +25,10 @@ struct KeyValues {
   std::string error_file;
   Bearing bearing;
   std::string bearing_gear;
+  double equivalent_mass = 0;  // kg, of a gear of a rigid system
+  SystemScene::Carrier carrier;
+  SystemScene::Drive drive;
+  SystemScene::Mesh train_mesh;  // what a mesh of a system has beside `mesh`
   Material material;
   GearMeshSpec mesh;
   Damping damping;
@@ -49,6 +54,10 @@ enum class Part {
   error_file,
   bearing,
   bearing_gear,  // whose it is, in a scene alone
+  rigid_gear,    // this and the next three: of systems, in a scene alone
+  carrier,
+  drive,
+  train_mesh,
   material,
   mesh,
   contact_plane,  // of a mesh; stage parameters or an artifact hold it only where it is not that of the bodies
@@ -72,6 +81,7 @@ struct RangeSlot {
 using Points = std::vector<std::array<double, 2>>;  // rad, m: in a scene degrees and micrometres
 struct ToothList {                                  // a number for each tooth, or none
   std::vector<double>* values;
+  const char* of = "tooth";  // or of what else there is one for each
 };
 struct ChoiceSlot {  // of an enumeration; a place counts from 0 in the key's choices
   void* value;
@@ -143,6 +153,12 @@ struct GearSection {
   std::string of(int g) const { return std::string(kRole[g]) + "_" + name; }
 };
 extern const std::array<GearSection, 3> kGearSections;
+
+// Whether keys of a part are those of systems, which pairs do not have.
+inline bool of_systems(Part part) {
+  return part == Part::rigid_gear || part == Part::carrier || part == Part::drive || part == Part::train_mesh;
+}
+
 // What such sections hold of gear g of a mesh, into the values and back.
 void take_gear(KeyValues& values, const GearMeshSpec& mesh, int g);
 void put_gear(const KeyValues& values, GearMeshSpec& mesh, int g);

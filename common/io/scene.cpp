@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "io/keys.h"
+#include "io/scene_sections.h"
 #include "io/section_reader.h"
 #include "io/suggestion.h"
 #include "io/variant.h"
@@ -52,10 +53,14 @@ std::vector<std::string> names_of(const std::vector<std::pair<std::string, const
   return names;
 }
 
+}  // namespace
+
 std::string advice_for(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = nearest(word, known);
   return near.empty() ? text("; known are: ", joined(known)) : text("; did you mean '", near, "'?");
 }
+
+namespace {
 
 // Fills what stands in [gear.<name>.modification], if that is there.
 void read_modification(const Source& source, const toml::table& gear, const std::string& label,
@@ -185,6 +190,13 @@ void require_blank(const Source& source, const toml::table& table, const std::st
   }
 }
 
+// A rigid gear's face and rim, where the scene does not say them; no result depends on them.
+void fill_blank(GearDesign& d) {
+  if (d.face_width == 0) d.face_width = 10 * d.module;
+  if (d.internal && d.rim_outer_radius == 0)
+    d.rim_outer_radius = d.module * (0.5 * d.teeth + std::abs(d.profile_shift) + d.dedendum + 2);
+}
+
 // Turns the diameters of tip and root into addendum and dedendum. `like`: the gear whose keys `values` began with, nullptr:
 // none.
 void take_diameters(const Source& source, const toml::table& table, const std::string& label,
@@ -224,7 +236,12 @@ void take_diameters(const Source& source, const toml::table& table, const std::s
   take("root_diameter_mm", "dedendum", values.root_diameter, d.dedendum, -1);
 }
 
-void read_gears(const Source& source, Scene& scene) {
+}  // namespace
+
+void read_gears(const Source& source, Scene& scene, bool rigid) {
+  // What a rigid gear does without: it is drawn, and its mesh checked, with a face and a rim of its own.
+  const std::set<std::string> optional =
+      rigid ? std::set<std::string>{"material", "face_width_mm", "bore_radius_mm"} : std::set<std::string>{};
   const auto materials = named_sections(source, "material");
   std::map<std::string, Material> material;
   for (const auto& [name, table] : materials) {
@@ -252,7 +269,9 @@ void read_gears(const Source& source, Scene& scene) {
                                  "', a folder of results is; choose another name"));
     }
     const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
-    reader.reject_unknown({"crack", "modification", "error"});
+    std::vector<std::string> others{"crack", "modification", "error"};
+    if (rigid) others.push_back("equivalent_mass_kg");
+    reader.reject_unknown(others);
     KeyValues values;
     GearDesign base_design;
     const toml::node* like = table->get("like");
@@ -268,18 +287,23 @@ void read_gears(const Source& source, Scene& scene) {
                                   as_written(*chain), " itself; name the first gear"));
       }
       SectionReader(source, Dialect::scene, *model, "gear", "gear." + base)
-          .read(values, gear_parts(says_internal(*model, false)), false);
+          .read(values, gear_parts(says_internal(*model, false)), false, optional);
       take_diameters(source, *model, "gear." + base, nullptr, values);
       base_design = values.design;
       read_modification(source, *model, "gear." + base, values);
     }
-    reader.read(values, gear_parts(says_internal(*table, values.design.internal)), like != nullptr);
-    require_blank(source, *table, "gear." + name, values.design);
+    reader.read(values, gear_parts(says_internal(*table, values.design.internal)), like != nullptr, optional);
+    if (rigid)
+      fill_blank(values.design);
+    else
+      require_blank(source, *table, "gear." + name, values.design);
     take_diameters(source, *table, "gear." + name, like ? &base_design : nullptr, values);
     read_modification(source, *table, "gear." + name, values);
     read_errors(source, *table, "gear." + name, values);
     read_crack(source, *table, "gear." + name, values.design);
-    if (!material.count(values.material_name)) {
+    if (rigid && values.material_name.empty()) {
+      material[""] = {};
+    } else if (!material.count(values.material_name)) {
       const toml::node* key = table->get("material");
       source.reject(key ? *key : static_cast<const toml::node&>(*table),
                     text("'material' in [gear.", name, "] = '", values.material_name,
@@ -290,6 +314,8 @@ void read_gears(const Source& source, Scene& scene) {
                            values.modification, values.errors});
   }
 }
+
+namespace {
 
 void read_bearings(const Source& source, Scene& scene) {
   const toml::node* node = source.root().get("bearing");
@@ -324,10 +350,6 @@ void read_mesh_section(const Source& source, Scene& scene) {
   const toml::array* list = node->as_array();
   if (!list || !list->is_array_of_tables())
     source.reject(*node, "'mesh' must be a list of sections: write [[mesh]]");
-  if (list->size() != 1) {
-    source.reject(*list->get(1),
-                  text("there are ", list->size(), " [[mesh]] sections; this version solves exactly one"));
-  }
   const toml::table& table = *list->get(0)->as_table();
   KeyValues values;
   const SectionReader reader(source, Dialect::scene, table, "mesh", "mesh");
@@ -355,6 +377,14 @@ void read_mesh_section(const Source& source, Scene& scene) {
 
 }  // namespace
 
+bool is_system(const Source& source) {
+  const toml::table& root = source.root();
+  const toml::node* mesh = root.get("mesh");
+  const toml::array* meshes = mesh ? mesh->as_array() : nullptr;
+  return root.contains("carrier") || root.contains("drive") ||
+         (meshes && meshes->is_array_of_tables() && meshes->size() > 1);
+}
+
 bool plain_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-';
@@ -367,6 +397,14 @@ Scene scene_of(const Source& source) {
   if (source.is_stage_parameters())
     source.reject(
         "holds stage parameters, which gear-scene wrote from a scene for one stage; give the scene itself");
+  if (is_system(source)) {
+    const toml::array* meshes = source.root()["mesh"].as_array();
+    const std::string why = meshes && meshes->size() > 1
+                                ? text("there are ", meshes->size(), " [[mesh]] sections, so it")
+                                : std::string("it has [[carrier]] or [[drive]], so it");
+    source.reject(
+        text(why, " is the scene of a system, and this stage is for pairs; for systems there is make modes"));
+  }
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
   top.reject_unknown(
       {"gear", "material", "bearing", "mesh", "damping", "operation", "fidelity", "discretisation"});
@@ -384,7 +422,7 @@ Scene scene_of(const Source& source) {
   KeyValues values;
   top.read(values, {Part::title}, false);
   scene.title = values.title.empty() ? std::filesystem::path(source.path()).stem().string() : values.title;
-  read_gears(source, scene);
+  read_gears(source, scene, false);
   read_bearings(source, scene);
   read_mesh_section(source, scene);
   const std::set<Part> rest = {Part::damping,    Part::load,          Part::operation,

@@ -1,11 +1,14 @@
 #include "io/scene_fragment.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
+#include "base/error.h"
 #include "base/tool.h"
 #include "io/fit.h"
 #include "io/publish.h"
+#include "io/variant.h"
 
 namespace whine {
 
@@ -14,6 +17,25 @@ std::vector<std::string> different(const BodyHashes& bodies) {
   for (const auto& [gear, hash] : bodies)
     if (std::find(hashes.begin(), hashes.end(), hash) == hashes.end()) hashes.push_back(hash);
   return hashes;
+}
+
+std::string checked_scene_stem(const std::string& path) {
+  const std::string stem = std::filesystem::path(path).stem().string();
+  if (!plain_name(stem)) {
+    fail(Failure::input, path, ": the name '", stem,
+         "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the "
+         "file");
+  }
+  if (stem == "bodies" || stem == "figures" || stem == "studies") {
+    fail(Failure::input, path, ": a scene cannot be called '", stem,
+         "', a folder of results is; rename the file");
+  }
+  return stem;
+}
+
+std::string system_fragment(const std::string& path, const std::string& stem) {
+  return "# Written by gear-scene from " + in_comment(recorded_path(path)) + "\nSCENE_" + stem +
+         "_SYSTEM := rigid\n";
 }
 
 std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,

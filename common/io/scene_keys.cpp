@@ -64,8 +64,9 @@ std::string in_scene_unit(KeyValues& values, const Key& key) {
 
 // Title, names of other sections, torques and speeds are no properties of what was computed.
 bool of_operation(const Key& key) {
-  return key.part == Part::title || key.part == Part::reference || key.part == Part::error_file ||
-         key.part == Part::bearing_gear || key.part == Part::load || key.part == Part::operation;
+  return of_systems(key.part) || key.part == Part::title || key.part == Part::reference ||
+         key.part == Part::error_file || key.part == Part::bearing_gear || key.part == Part::load ||
+         key.part == Part::operation;
 }
 
 template <class Artifact>

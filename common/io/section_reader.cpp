@@ -163,7 +163,8 @@ void SectionReader::reject_unknown(const std::vector<std::string>& others) const
   }
 }
 
-void SectionReader::read(KeyValues& values, const std::set<Part>& parts, bool inherit) const {
+void SectionReader::read(KeyValues& values, const std::set<Part>& parts, bool inherit,
+                         const std::set<std::string>& optional) const {
   std::vector<std::string> missing;
   for (const Key& key : scene_keys()) {
     if (key.section != section_ || !parts.count(key.part)) continue;
@@ -171,7 +172,7 @@ void SectionReader::read(KeyValues& values, const std::set<Part>& parts, bool in
     const toml::node* node = table_.get(name);
     if (node) {
       assign(key, *node, key.slot(values));
-    } else if (inherit && key.name != std::string("like")) {
+    } else if ((inherit && key.name != std::string("like")) || optional.count(name)) {
       continue;
     } else if (key.fallback && dialect_ == Dialect::scene) {
       assign_fallback(key, key.slot(values));
@@ -265,7 +266,7 @@ void SectionReader::assign(const Key& key, const toml::node& node, const Slot& s
     assign_points(key, node, **points);
   } else if (const auto* teeth = std::get_if<ToothList>(&slot)) {
     const toml::array* array = node.as_array();
-    if (!array) reject(key, node, "must be a list with a number for each tooth");
+    if (!array) reject(key, node, text("must be a list with a number for each ", teeth->of));
     teeth->values->clear();
     for (const toml::node& item : *array) teeth->values->push_back(checked_number(key, item));
   } else {

@@ -80,8 +80,10 @@ class SectionReader {
   void reject_unknown(const std::vector<std::string>& others = {}) const;
 
   // Fills the keys of this section that belong to one of `parts`. Keys left out keep what stands in `values`
-  // if `inherit`, else take their default; required ones are rejected together.
-  void read(KeyValues& values, const std::set<Part>& parts, bool inherit) const;
+  // if `inherit`, else take their default; required ones are rejected together, but for `optional` ones, which then keep what stands
+  // there, too.
+  void read(KeyValues& values, const std::set<Part>& parts, bool inherit,
+            const std::set<std::string>& optional = {}) const;
 
  private:
   [[noreturn]] void reject(const Key& key, const toml::node& node, const std::string& what) const;

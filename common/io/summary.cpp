@@ -17,6 +17,7 @@
 #include "io/jump_map_codec.h"
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
+#include "io/modes_codec.h"
 #include "io/response_codec.h"
 #include "io/static_codec.h"
 #include "io/study.h"
@@ -339,6 +340,15 @@ void show(Lines& lines, const BranchArtifact& a) {
   add(lines, "end", a.end);
 }
 
+void show(Lines& lines, const ModesArtifact& a) {
+  std::string bodies;
+  for (const System::Body& body : a.layout.bodies) bodies += (bodies.empty() ? "" : ", ") + body.name;
+  add(lines, "bodies", bodies);
+  add(lines, "meshes", a.layout.meshes.size());
+  for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
+    add(lines, "mode", a.natural_frequency[i], " Hz, ", a.type[static_cast<size_t>(i)]);
+}
+
 void show(Lines& lines, const FoldCurvesArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -488,6 +498,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_response(path));
   } else if (schema == "whine/fold_curves") {
     show(lines, read_fold_curves(path));
+  } else if (schema == "whine/modes") {
+    show(lines, read_modes(path));
   } else if (schema == "whine/branch") {
     show(lines, read_branch(path));
   } else if (schema == "whine/jump_map") {

@@ -1,4 +1,4 @@
-// A system: gears, the meshes that join them, drives. Lists; nothing knows how many there are.
+// A system: gears and carriers, the meshes and bearings that join them, drives. Lists; nothing knows how many there are.
 #pragma once
 #include <array>
 #include <string>
@@ -12,15 +12,22 @@ namespace whine {
 enum class FlankSide { leading, trailing };
 
 // The gears of a scene together: bodies that turn, meshes that join two of them each, drives. Gears stand in the order of the
-// flow of power, so that the first side of a mesh pushes the second one.
+// flow of power, so that the first side of a mesh pushes the second one. A planetary train is described in the frame of its
+// carrier, in which the axes of the planets stand still.
 struct System {
+  static constexpr int kGround = -1;
+  enum class BodyKind { gear, carrier };
   struct Body {
     std::string name;                // of its gear
     int teeth = 0;                   // which shift by one, in the sense of rotation, in a mesh period
     int sense = 1;                   // of its rotation: 1 counter-clockwise, -1 clockwise
     double angle = 0;                // rad, counter-clockwise from +y: of tooth 0 at phase 0
     std::array<double, 2> centre{};  // m
-    Bearing bearing = {};
+    Bearing bearing = {};            // on the ground or, of a planet, on its carrier
+    BodyKind kind = BodyKind::gear;
+    int on = kGround;    // carrier on which the axis stands
+    double radius = 0;   // m: base circle of a gear, circle of the pins of a carrier
+    double inertia = 0;  // kg m2; of rigid bodies only
   };
   struct Side {
     int body = 0;
@@ -37,16 +44,21 @@ struct System {
     double centre_distance = 0;  // m
     double direction = 0;  // rad, counter-clockwise from +x: from the first side's centre to the pitch point
     double phase = 0;      // 0 to 1, mesh periods: what this mesh is ahead of the first one
+    double pressure_angle = 0;  // rad, working
+    bool ring_drives = false;   // the first side is an internal gear
+    double stiffness = 0;       // N m-1 along the line of action, mean; of rigid bodies only
   };
-  enum class DriveKind { torque, held };
+  enum class DriveKind { torque, held, free };
   struct Drive {
     int body = 0;
     DriveKind kind = DriveKind::torque;
     double torque = 0;  // N m, in the sense of the body's rotation
+    double stiffness =
+        0;  // N m-1 at the body's radius: what holds a rotation; 0: rigid. Of rigid bodies only
   };
   std::vector<Body> bodies;
   std::vector<Mesh> meshes;
-  std::vector<Drive> drives;  // a body without one is free of torque
+  std::vector<Drive> drives;  // a body without one is free of torque, as one of kind free is
 
   bool held(int body) const {
     for (const Drive& drive : drives)
@@ -60,5 +72,8 @@ struct System {
     return sum;
   }
 };
+
+template <>
+inline constexpr const char* kWordsOf<System::DriveKind> = "torque held free";
 
 }  // namespace whine

@@ -12,6 +12,7 @@
 #include "io/impact_codec.h"
 #include "io/jump_map_codec.h"
 #include "io/mesh_codec.h"
+#include "io/modes_codec.h"
 #include "io/provenance.h"
 #include "io/response_codec.h"
 #include "io/static_codec.h"
@@ -22,6 +23,7 @@
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
 #include "report/jump_map_figures.h"
+#include "report/modes_figure.h"
 #include "report/motion_figures.h"
 #include "report/multiplier_figure.h"
 #include "report/response_figures.h"
@@ -223,6 +225,9 @@ Drawings drawings_of_maps() {
       {"multipliers",
        {"Floquet multipliers of a branch in the complex plane, and their largest modulus", "branch.h5", 1, 0,
         [](const Paths& in, const Frequencies&) { return multiplier_figure(read_branch(in[0])); }}},
+      {"modes",
+       {"natural frequencies of a system by type, and its mode shapes", "modes.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return modes_figure(read_modes(in[0])); }}},
       {"fold-curves",
        {"mesh frequencies of folds against damping, torque or tip relief, with their cusps",
         "fold_curves.h5 of one quantity, one per torque; jump_map.h5 beside them, for the jumps of sweeps", 0,

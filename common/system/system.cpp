@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "gear/train.h"
+#include "system/rigid_system.h"
 
 namespace whine {
 
@@ -15,10 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-double sign_of(int side) {
-  return side == 0 ? 1 : -1;
-}
 
 std::vector<int> free_bodies(const System& system) {
   std::vector<int> out;
@@ -104,8 +101,8 @@ SystemPosition join(const SystemModel& system, double phase, int period,
     out.gap(out.strips_of(m)) = position.gap;
     for (int s = 0; s < kSides; ++s) {
       const int b = model.layout.side[static_cast<size_t>(s)].body;
-      map.rotation(out.strips_of(m), b) = sign_of(s) * (position.strip_lever[static_cast<size_t>(s)] /
-                                                        model.kinematics.gear(s).base_radius());
+      map.rotation(out.strips_of(m), b) = closing_sign(s) * (position.strip_lever[static_cast<size_t>(s)] /
+                                                             model.kinematics.gear(s).base_radius());
     }
     map.flank.push_back({position.table_weights[0], position.table_weights[1]});
     const MeshInstant at = mesh_instant(system, static_cast<int>(m), phase, period);
@@ -129,7 +126,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
         MatrixXd& rows = map.translation[static_cast<size_t>(model.layout.side[static_cast<size_t>(s)].body)];
         if (rows.size() > 0)
           rows.middleRows(segment.first_strip, segment.strips).rowwise() =
-              sign_of(s) * segment.normal.transpose();
+              closing_sign(s) * segment.normal.transpose();
       }
       out.segment.push_back(segment);
     }
@@ -218,7 +215,7 @@ VectorXd mesh_loads(const SystemModel& system) {
     force[static_cast<Index>(i)] = system.layout.torque(free[i]) / system.base_radius(free[i]);
     for (Index m = 0; m < meshes; ++m)
       if (const int side = system.side_of(free[i], static_cast<int>(m)); side >= 0)
-        balance(static_cast<Index>(i), m) = sign_of(side);
+        balance(static_cast<Index>(i), m) = closing_sign(side);
   }
   const VectorXd loads = meshes == 1 && free.size() == 1
                              ? VectorXd(force / balance(0, 0))
@@ -305,7 +302,7 @@ VectorXd first_guess(const SystemModel& system, const SystemPosition& position, 
   for (Index m = 0; m < meshes; ++m) {
     for (size_t i = 0; i < free.size(); ++i)
       if (const int side = system.side_of(free[i], static_cast<int>(m)); side >= 0)
-        closing(m, static_cast<Index>(i)) = sign_of(side);
+        closing(m, static_cast<Index>(i)) = closing_sign(side);
     if (!(load[m] > 0)) continue;
     const auto own = position.strips_of(static_cast<size_t>(m));
     const MeshPosition& mesh = position.mesh[static_cast<size_t>(m)];

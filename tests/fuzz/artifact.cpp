@@ -14,6 +14,7 @@
 #include "io/jump_map_codec.h"
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
+#include "io/modes_codec.h"
 #include "io/provenance.h"
 #include "io/response_codec.h"
 #include "io/static_codec.h"
@@ -50,6 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] { read_response(path); });
   rejected_or_read([&] { read_branch(path); });
   rejected_or_read([&] { read_fold_curves(path); });
+  rejected_or_read([&] { read_modes(path); });
   rejected_or_read([&] { read_jump_map(path); });
   rejected_or_read([&] { read_harris_map(path); });
   rejected_or_read([&] { read_variant(path); });

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "file_of.h"
 #include "io/scene.h"
+#include "io/system_scene.h"
 #include "io/variant.h"
 
 namespace {
@@ -45,6 +46,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] { read_impact_parameters(path); });
   rejected_or_read([&] { read_sweep_parameters(path); });
   rejected_or_read([&] { read_map_parameters(path); });
+  rejected_or_read([&] { read_system_parameters(path); });
+  rejected_or_read([&] {
+    const std::string settings = system_parameters(layout_in(read_system_scene(path), path));
+    const FileOf again(reinterpret_cast<const std::uint8_t*>(settings.data()), settings.size());
+    if (system_parameters(read_system_parameters(again.path())) != settings) std::abort();
+  });
   rejected_or_read([&] { scene_variant(path, {"module_mm=2", "bore_radius_mm=35"}); });
   return 0;
 }

@@ -1,0 +1,318 @@
+#include "gear/system_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kDegrees = 180 / kPi;
+
+template <class... Parts>
+[[noreturn]] void reject(const char* section, size_t number, const Parts&... parts) {
+  throw SystemSceneError(section, number, text(parts...));
+}
+
+// rad, 0 to 2 pi, ascending.
+std::vector<double> wanted_positions(const SystemScene::Carrier& carrier, size_t number) {
+  std::vector<double> out;
+  out.reserve(carrier.positions.size() + static_cast<size_t>(std::max(carrier.planets, 0)));
+  if ((carrier.planets > 0) == !carrier.positions.empty())
+    reject("carrier", number, "carrier '", carrier.name,
+           "' needs either 'planets', their number at equal spacing, or 'positions_deg', a list");
+  for (int n = 0; n < carrier.planets; ++n) out.push_back(2 * kPi * n / carrier.planets);
+  for (const double angle : carrier.positions) out.push_back(angle - 2 * kPi * std::floor(angle / (2 * kPi)));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+class Layout {
+ public:
+  explicit Layout(const SystemScene& scene) : scene_(scene) {}
+
+  System make() {
+    if (scene_.meshes.empty()) reject("mesh", 0, "a system needs one [[mesh]] at least");
+    for (size_t c = 0; c < scene_.carriers.size(); ++c) check_carrier(c);
+    for (size_t m = 0; m < scene_.meshes.size(); ++m) {
+      try {
+        take_mesh(m);
+      } catch (const SystemSceneError&) {
+        throw;
+      } catch (const Error& error) {
+        const auto& gear = scene_.meshes[m].spec.gear;
+        reject("mesh", m, "[[mesh]] of '", gear[0], "' and '", gear[1], "': ", error.what());
+      }
+    }
+    take_carriers();
+    take_drives();
+    return std::move(system_);
+  }
+
+ private:
+  const SystemScene::Gear& gear_called(const std::string& name, size_t mesh) const {
+    for (const SystemScene::Gear& gear : scene_.gears)
+      if (gear.name == name) return gear;
+    reject("mesh", mesh, "[[mesh]] names '", name, "', and there is no [gear.", name, "] section");
+  }
+
+  // The carrier whose planets a gear is; -1: none.
+  int carrier_of(const std::string& gear) const {
+    for (size_t c = 0; c < scene_.carriers.size(); ++c)
+      if (scene_.carriers[c].planet == gear) return static_cast<int>(c);
+    return -1;
+  }
+
+  void check_carrier(size_t c) {
+    const SystemScene::Carrier& carrier = scene_.carriers[c];
+    const auto names_gear = [](const std::string& name) {
+      return [name](const SystemScene::Gear& gear) { return gear.name == name; };
+    };
+    if (std::any_of(scene_.gears.begin(), scene_.gears.end(), names_gear(carrier.name)))
+      reject("carrier", c, "carrier '", carrier.name, "' is called like a gear; give it a name of its own");
+    for (const SystemScene::Gear& gear : scene_.gears)
+      if (gear.name.size() > carrier.planet.size() && gear.name.starts_with(carrier.planet) &&
+          gear.name.find_first_not_of("0123456789", carrier.planet.size()) == std::string::npos)
+        reject("carrier", c, "[gear.", gear.name, "] is called like one of the planets of carrier '",
+               carrier.name, "' (", carrier.planet, "1, ", carrier.planet, "2, ...); rename it");
+    if (std::none_of(scene_.gears.begin(), scene_.gears.end(), names_gear(carrier.planet)))
+      reject("carrier", c, "'planet' of carrier '", carrier.name, "' = '", carrier.planet,
+             "' names no [gear.<name>] section");
+    if (carrier_of(carrier.planet) != static_cast<int>(c))
+      reject("carrier", c, "two carriers have the planet '", carrier.planet,
+             "'; give each a gear of its own");
+    positions_.push_back(wanted_positions(carrier, c));
+    take_assembly(c);
+  }
+
+  // Teeth of the sun and of the ring that mesh with the planets of a carrier; 0: there is none.
+  std::array<int, 2> central_teeth(size_t c) const {
+    std::array<int, 2> teeth{};
+    for (size_t m = 0; m < scene_.meshes.size(); ++m)
+      for (int s = 0; s < kSides; ++s)
+        if (scene_.meshes[m].spec.gear[static_cast<size_t>(s)] == scene_.carriers[c].planet) {
+          const GearDesign& other =
+              gear_called(scene_.meshes[m].spec.gear[static_cast<size_t>(1 - s)], m).design;
+          teeth[other.internal ? 1 : 0] = other.teeth;
+        }
+    return teeth;
+  }
+
+  void take_assembly(size_t c) {
+    const SystemScene::Carrier& carrier = scene_.carriers[c];
+    const auto [sun, ring] = central_teeth(c);
+    if (sun == 0 || ring == 0) return;
+    const int steps = sun + ring;
+    std::string nearest;
+    bool fits = true;
+    const double first = positions_[c][0];
+    for (double& position : positions_[c]) {
+      const double step = (position - first) * steps / (2 * kPi), whole = std::round(step);
+      const double assembled = first + whole * 2 * kPi / steps;
+      nearest += text(nearest.empty() ? "" : ", ", std::round(assembled * kDegrees * 1e4) / 1e4);
+      fits = fits && std::abs(step - whole) <= (carrier.planets > 0 ? 1e-9 : kPositionDigits);
+      position = assembled;
+    }
+    if (fits) return;
+    if (carrier.planets > 0)
+      reject("carrier", c, "'planets' of carrier '", carrier.name, "' = ", carrier.planets,
+             ": they cannot be assembled at equal spacing: sun and ring have ", sun, " + ", ring, " = ",
+             steps, " teeth, which ", carrier.planets, " does not divide. Nearest: positions_deg = [",
+             nearest, "]");
+    reject("carrier", c, "'positions_deg' of carrier '", carrier.name,
+           "': planets cannot be assembled there: sun and ring have ", sun, " + ", ring, " = ", steps,
+           " teeth, so that positions are ", 360.0 / steps, " degrees apart or multiples of it. Nearest: [",
+           nearest, "]");
+  }
+
+  // Number of the body that stands for a gear, or for its planet n; -1: not placed.
+  int placed(const std::string& name) const {
+    for (size_t b = 0; b < system_.bodies.size(); ++b)
+      if (system_.bodies[b].name == name) return static_cast<int>(b);
+    return -1;
+  }
+
+  void take_mesh(size_t m) {
+    const SystemScene::Mesh& mesh = scene_.meshes[m];
+    const SystemScene::Gear *first = &gear_called(mesh.spec.gear[0], m),
+                            *second = &gear_called(mesh.spec.gear[1], m);
+    const int c_first = carrier_of(first->name), c_second = carrier_of(second->name);
+    if (c_first >= 0 && c_second >= 0)
+      reject("mesh", m, "[[mesh]] of '", first->name, "' and '", second->name,
+             "': both are planets; meshes between planets are not in the model");
+    const int carrier = std::max(c_first, c_second);
+    if (system_.bodies.empty()) {
+      if (c_first >= 0)
+        reject("mesh", m, "the first [[mesh]] is driven by the planet '", first->name,
+               "'; begin with the central gear that drives the planets");
+      add_input_gear(system_, first->name, first->design, first->bearing);
+      system_.bodies.back().inertia = inertia_of(*first);
+    }
+    const size_t planets = carrier < 0 ? 1 : positions_[static_cast<size_t>(carrier)].size();
+    for (size_t n = 0; n < planets; ++n) {
+      const auto called = [&](const SystemScene::Gear& gear) {
+        return carrier_of(gear.name) >= 0 ? gear.name + std::to_string(n + 1) : gear.name;
+      };
+      double direction = mesh.direction;
+      if (c_second >= 0) direction = positions_[static_cast<size_t>(carrier)][n];
+      if (c_first >= 0)
+        direction = positions_[static_cast<size_t>(carrier)][n] + (second->design.internal ? 0 : kPi);
+      take_one(m, *first, called(*first), *second, called(*second), direction);
+    }
+    if (carrier >= 0) check_neighbours(static_cast<size_t>(carrier));
+  }
+
+  void take_one(size_t m, const SystemScene::Gear& first, const std::string& on,
+                const SystemScene::Gear& second, const std::string& to, double direction) {
+    const double distance = scene_.meshes[m].spec.centre_distance;
+    const int a = placed(on), b = placed(to);
+    if (a < 0)
+      reject("mesh", m, "[[mesh]] of '", first.name, "' and '", second.name, "': '", first.name,
+             "' is driven by no mesh before it; name the gears in the order of the flow of power");
+    if (b < 0) {
+      add_driven_gear(system_, a, first.design, to, second.design, distance, direction, second.bearing);
+      system_.bodies.back().inertia = inertia_of(second);
+    } else {
+      const auto &at = system_.bodies[static_cast<size_t>(a)].centre,
+                 &other = system_.bodies[static_cast<size_t>(b)].centre;
+      const double stands = std::hypot(other[0] - at[0], other[1] - at[1]);
+      if (!(std::abs(stands - distance) < 1e-6 * distance))
+        reject("mesh", m, "[[mesh]] of '", first.name, "' and '", second.name,
+               "': centre_distance_mm = ", distance * 1e3, ", but by the other meshes their axes stand ",
+               stands * 1e3, " mm apart; give both meshes of a planet one centre distance");
+      const double miss = add_mesh(system_, a, first.design, b, second.design);
+      if (!(std::abs(miss) < 1e-6))
+        reject("mesh", m, "[[mesh]] of '", first.name, "' and '", second.name,
+               "': cannot be assembled: the teeth of '", to, "' miss the spaces by ", miss, " of a pitch");
+    }
+    System::Mesh& made = system_.meshes.back();
+    made.stiffness = scene_.meshes[m].stiffness;
+  }
+
+  static double inertia_of(const SystemScene::Gear& gear) {
+    const double base = ToothGeometry(gear.design).base_radius();
+    return gear.equivalent_mass > 0 ? gear.equivalent_mass * base * base : gear.total_inertia;
+  }
+
+  // Planets run into each other where their tip circles overlap.
+  void check_neighbours(size_t c) {
+    const SystemScene::Carrier& carrier = scene_.carriers[c];
+    const std::vector<double>& at = positions_[c];
+    double tip = 0;
+    for (const SystemScene::Gear& gear : scene_.gears)
+      if (gear.name == carrier.planet) tip = ToothGeometry(gear.design).tip_radius();
+    const double radius = pin_radius(c);
+    for (size_t n = 0; n < at.size() && at.size() > 1; ++n) {
+      const double apart = n + 1 < at.size() ? at[n + 1] - at[n] : at[0] + 2 * kPi - at[n];
+      const double room = 2 * radius * std::sin(std::min(apart, 2 * kPi - apart) / 2);
+      if (room <= 2 * tip)
+        reject("carrier", c, "planets ", n + 1, " and ", (n + 1) % at.size() + 1, " of carrier '",
+               carrier.name, "' run into each other: their axes are ", room * 1e3,
+               " mm apart, their tip diameter is ", 2 * tip * 1e3, " mm; take fewer planets");
+    }
+  }
+
+  // m: from the axis of the carrier to those of the planets.
+  double pin_radius(size_t c) const {
+    const int planet = placed(scene_.carriers[c].planet + "1");
+    for (const System::Mesh& mesh : system_.meshes)
+      if (planet >= 0 && (mesh.side[0].body == planet || mesh.side[1].body == planet))
+        return mesh.centre_distance;
+    return 0;
+  }
+
+  void take_carriers() {
+    for (size_t c = 0; c < scene_.carriers.size(); ++c) {
+      const SystemScene::Carrier& carrier = scene_.carriers[c];
+      const double radius = pin_radius(c);
+      if (radius == 0)
+        reject("carrier", c, "the planets '", carrier.planet, "' of carrier '", carrier.name,
+               "' are in no [[mesh]]");
+      System::Body body;
+      body.name = carrier.name;
+      body.kind = System::BodyKind::carrier;
+      body.bearing = carrier.bearing;
+      body.radius = radius;
+      body.inertia =
+          carrier.equivalent_mass > 0 ? carrier.equivalent_mass * radius * radius : carrier.inertia;
+      const auto number = static_cast<int>(system_.bodies.size());
+      for (size_t n = 0; n < positions_[c].size(); ++n) {
+        System::Body& planet =
+            system_.bodies[static_cast<size_t>(placed(carrier.planet + std::to_string(n + 1)))];
+        planet.on = number;
+        if (n > 0) continue;
+        // It follows the central gear that drives the planets.
+        for (const System::Mesh& mesh : system_.meshes)
+          if (mesh.side[1].body == placed(planet.name))
+            body.sense = system_.bodies[static_cast<size_t>(mesh.side[0].body)].sense;
+        body.centre = {planet.centre[0] - radius * std::cos(positions_[c][0]),
+                       planet.centre[1] - radius * std::sin(positions_[c][0])};
+      }
+      system_.bodies.push_back(body);
+    }
+    for (const SystemScene::Gear& gear : scene_.gears)
+      if (placed(gear.name) < 0 && carrier_of(gear.name) < 0)
+        reject("mesh", 0, "[gear.", gear.name, "] is in no [[mesh]]; take it out, or give its mesh");
+  }
+
+  void take_drives() {
+    for (size_t d = 0; d < scene_.drives.size(); ++d) {
+      const SystemScene::Drive& drive = scene_.drives[d];
+      const int body = placed(drive.gear);
+      if (body < 0)
+        reject("drive", d, "'gear' in [drive] = '", drive.gear,
+               "' names no gear and no carrier that stands alone; planets have no drives");
+      for (const System::Drive& other : system_.drives)
+        if (other.body == body)
+          reject("drive", d, "'", drive.gear, "' has a drive already; give each body one");
+      system_.drives.push_back({body, drive.kind, drive.torque, drive.stiffness});
+    }
+  }
+
+  const SystemScene& scene_;
+  System system_;
+  std::vector<std::vector<double>> positions_;  // [carrier] rad
+};
+
+}  // namespace
+
+System layout_of(const SystemScene& scene) {
+  return Layout(scene).make();
+}
+
+System on_fixed_carriers(const System& layout) {
+  System out;
+  std::vector<int> number;  // [body of layout] in `out`
+  for (size_t b = 0; b < layout.bodies.size(); ++b) {
+    const System::Body& body = layout.bodies[b];
+    number.push_back(static_cast<int>(out.bodies.size()));
+    if (body.kind == System::BodyKind::carrier) {
+      const bool held =
+          std::any_of(layout.drives.begin(), layout.drives.end(), [&](const System::Drive& drive) {
+            return drive.body == static_cast<int>(b) && drive.kind == System::DriveKind::held &&
+                   drive.stiffness == 0;
+          });
+      if (!held)
+        fail(Failure::input, "carrier '", body.name,
+             "' may turn; at rest it has to be held: give it a [[drive]] with kind = \"held\" and no "
+             "stiffness");
+      continue;
+    }
+    out.bodies.push_back(body);
+    out.bodies.back().on = System::kGround;
+  }
+  for (System::Mesh mesh : layout.meshes) {
+    for (System::Side& side : mesh.side) side.body = number[static_cast<size_t>(side.body)];
+    out.meshes.push_back(mesh);
+  }
+  for (System::Drive drive : layout.drives) {
+    if (layout.bodies[static_cast<size_t>(drive.body)].kind == System::BodyKind::carrier) continue;
+    drive.body = number[static_cast<size_t>(drive.body)];
+    out.drives.push_back(drive);
+  }
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,26 @@
+// From the drawing of a train to its bodies and meshes: places, senses of rotation, phases, and whether it can be assembled.
+//
+// A carrier puts a planet at each position psi_n about the axis of the central gear that the planets mesh with. Sun and ring
+// meshes are ahead of each other by what tooth numbers and angles say (gear/train.h). N planets between a sun of z_s teeth and a
+// ring of z_r can be put in where (z_s + z_r) psi_n / (2 pi) is whole for all n, at equal spacing where (z_s + z_r) / N is.
+#pragma once
+#include "gear/train.h"
+#include "model/system_scene.h"
+
+namespace whine {
+
+// Positions of a carrier that lie within this share of a step 2 pi / (z_s + z_r) from one that can be assembled are taken for it:
+// a drawing has 91.43 degrees, not 91.428571...
+inline constexpr double kPositionDigits = 0.05;
+
+// Bodies stand in the order in which meshes name them, planets as <gear>1, <gear>2, ... in the order of their positions, carriers
+// last. Throws SystemSceneError with the section that is wrong: unknown names, gears that do not mesh, planets that cannot be
+// assembled or run into each other, meshes that do not form one train.
+System layout_of(const SystemScene& scene);
+
+// The same with carriers that do not move: planets turn on axes, or on bearings, that stand on the ground, and carriers with their
+// drives are gone. At rest a train whose ring and carrier are held is this one; what holds the carrier is the sum of the planets'
+// bearing forces. Throws Error(input) for a carrier that no drive holds rigidly.
+System on_fixed_carriers(const System& layout);
+
+}  // namespace whine

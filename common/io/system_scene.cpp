@@ -1,0 +1,197 @@
+#include "io/system_scene.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "gear/system_layout.h"
+#include "io/scene_sections.h"
+#include "io/variant.h"
+
+namespace whine {
+namespace {
+
+// The tables of [[name]]; none if there is no such section.
+std::vector<const toml::table*> list_of(const Source& source, const std::string& name) {
+  std::vector<const toml::table*> out;
+  const toml::node* node = source.root().get(name);
+  if (!node) return out;
+  const toml::array* list = node->as_array();
+  if (!list || !list->is_array_of_tables())
+    source.reject(*node, text("'", name, "' must be a list of sections: write [[", name, "]]"));
+  for (const toml::node& item : *list) out.push_back(item.as_table());
+  return out;
+}
+
+void take_gears(const Source& source, SystemScene& scene) {
+  Scene gears;
+  read_gears(source, gears, true);
+  for (const SceneGear& own : gears.gears) {
+    SystemScene::Gear gear;
+    static_cast<SceneGear&>(gear) = own;
+    const toml::table* table = source.section("gear")->get(own.name)->as_table();
+    const toml::table* owner = table;
+    if (const auto like = (*table)["like"].value<std::string>(); like && !table->get("equivalent_mass_kg"))
+      owner = source.section("gear")->get(*like)->as_table();
+    KeyValues values;
+    SectionReader(source, Dialect::scene, *owner, "rigid_gear", "gear." + own.name)
+        .read(values, {Part::rigid_gear}, false);
+    gear.equivalent_mass = values.equivalent_mass;
+    if (gear.equivalent_mass > 0 && gear.total_inertia > 0)
+      source.reject(*table, text("[gear.", own.name,
+                                 "] gives 'total_inertia_kgm2' and 'equivalent_mass_kg', which say the same; "
+                                 "give one of them"));
+    if (!(gear.equivalent_mass > 0 || gear.total_inertia > 0))
+      source.reject(*table, text("[gear.", own.name,
+                                 "] of a system with body = \"rigid\" lacks its inertia: give "
+                                 "'total_inertia_kgm2' or 'equivalent_mass_kg'"));
+    scene.gears.push_back(gear);
+  }
+}
+
+void take_carriers(const Source& source, SystemScene& scene) {
+  for (const toml::table* table : list_of(source, "carrier")) {
+    KeyValues values;
+    const SectionReader reader(source, Dialect::scene, *table, "carrier", "carrier");
+    reader.reject_unknown();
+    reader.read(values, {Part::carrier}, false);
+    if (!plain_name(values.carrier.name))
+      source.reject(*table->get("name"), text("'name' in [carrier] = '", values.carrier.name,
+                                              "': a name holds letters, digits, '_' and '-' only"));
+    if ((values.carrier.inertia > 0) == (values.carrier.equivalent_mass > 0))
+      source.reject(*table, text("[carrier] '", values.carrier.name,
+                                 "' needs its inertia, either 'inertia_kgm2' or 'equivalent_mass_kg'"));
+    scene.carriers.push_back(values.carrier);
+  }
+}
+
+void take_meshes(const Source& source, SystemScene& scene) {
+  for (const toml::table* table : list_of(source, "mesh")) {
+    KeyValues values;
+    const SectionReader reader(source, Dialect::scene, *table, "mesh", "mesh"),
+        train(source, Dialect::scene, *table, "train_mesh", "mesh");
+    reader.reject_unknown({"direction_deg", "stiffness_N_um"});
+    reader.read(values, {Part::mesh, Part::contact_plane}, false);
+    train.read(values, {Part::train_mesh}, false);
+    if (!(values.train_mesh.stiffness > 0))
+      source.reject(*table, text("[mesh] of '", values.mesh.gear[0], "' and '", values.mesh.gear[1],
+                                 "' lacks 'stiffness_N_um', which body = \"rigid\" needs"));
+    values.train_mesh.spec = values.mesh;
+    scene.meshes.push_back(values.train_mesh);
+  }
+}
+
+void take_bearings(const Source& source, SystemScene& scene) {
+  std::vector<std::string> names;
+  std::vector<Bearing*> own;
+  for (SystemScene::Gear& gear : scene.gears) {
+    names.push_back(gear.name);
+    own.push_back(&gear.bearing);
+  }
+  for (SystemScene::Carrier& carrier : scene.carriers) {
+    names.push_back(carrier.name);
+    own.push_back(&carrier.bearing);
+  }
+  for (const toml::table* table : list_of(source, "bearing")) {
+    KeyValues values;
+    const SectionReader reader(source, Dialect::scene, *table, "bearing", "bearing");
+    reader.reject_unknown();
+    reader.read(values, {Part::bearing, Part::bearing_gear}, false);
+    const auto at = std::find(names.begin(), names.end(), values.bearing_gear);
+    if (at == names.end())
+      source.reject(*table->get("gear"),
+                    text("'gear' in [bearing] = '", values.bearing_gear, "' names no gear and no carrier",
+                         advice_for(values.bearing_gear, names)));
+    Bearing& bearing = *own[static_cast<size_t>(at - names.begin())];
+    if (bearing.elastic())
+      source.reject(*table->get("gear"), text("'gear' in [bearing] = '", values.bearing_gear,
+                                              "' has a bearing already; give one section with what carries "
+                                              "it in all"));
+    if (!(values.bearing.mass > 0))
+      source.reject(*table, text("[bearing] of '", values.bearing_gear,
+                                 "' lacks 'mass_kg', which body = \"rigid\" needs"));
+    bearing = values.bearing;
+  }
+}
+
+void take_drives(const Source& source, SystemScene& scene) {
+  for (const toml::table* table : list_of(source, "drive")) {
+    KeyValues values;
+    const SectionReader reader(source, Dialect::scene, *table, "drive", "drive");
+    reader.reject_unknown();
+    reader.read(values, {Part::drive}, false);
+    const auto only = [&](const char* key, System::DriveKind kind) {
+      if (const toml::node* node = table->get(key); node && values.drive.kind != kind)
+        source.reject(*node, text("'", key, "' in [drive] belongs to kind = \"", name_of(kind),
+                                  "\", and this drive is of kind \"", name_of(values.drive.kind), "\""));
+    };
+    only("torque_Nm", System::DriveKind::torque);
+    only("stiffness_N_um", System::DriveKind::held);
+    scene.drives.push_back(values.drive);
+  }
+}
+
+}  // namespace
+
+bool is_system_scene(const std::string& path) {
+  try {
+    return is_system(Source(path));
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+SystemScene read_system_scene(const std::string& path) {
+  const Source source(path);
+  if (source.is_stage_parameters())
+    source.reject("holds stage parameters, which gear-scene wrote from a scene; give the scene itself");
+  const SectionReader top(source, Dialect::scene, source.root(), "", "");
+  for (const char* name : {"operation", "damping", "discretisation"})
+    if (const toml::node* node = source.root().get(name))
+      source.reject(*node, text("[", name,
+                                "] stands in a scene of a system (several meshes, carriers or drives), of "
+                                "which natural modes are computed so far; take the section out"));
+  top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "drive", "fidelity"});
+  for (const char* name : {"gear", "mesh"})
+    if (!source.root().get(name))
+      source.reject(text("the scene of a system lacks ",
+                         name == std::string("gear") ? "[gear.<name>]" : "[[mesh]]",
+                         "; data/scenes/lin-parker-planetary.toml is an example"));
+  SystemScene scene;
+  KeyValues values;
+  top.read(values, {Part::title}, false);
+  scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
+  static const toml::table kNothing;
+  const toml::table* fidelity = source.section("fidelity");
+  const SectionReader reader(source, Dialect::scene, fidelity ? *fidelity : kNothing, "fidelity", "fidelity");
+  reader.reject_unknown();
+  reader.read(values, {Part::level, Part::contact_level}, false);
+  scene.fidelity = values.fidelity;
+  if (scene.fidelity.body != BodyModel::rigid) {
+    const toml::node* body = fidelity ? fidelity->get("body") : nullptr;
+    const std::string what = text(
+        "body = \"", scene.fidelity.body,
+        "\" of a system (several meshes, carriers or drives): systems are computed as rigid bodies so far; "
+        "write [fidelity] body = \"rigid\"");
+    if (body) source.reject(*body, what);
+    source.reject(what);
+  }
+  take_gears(source, scene);
+  take_carriers(source, scene);
+  take_meshes(source, scene);
+  take_bearings(source, scene);
+  take_drives(source, scene);
+  return scene;
+}
+
+System layout_in(const SystemScene& scene, const std::string& path) {
+  try {
+    return layout_of(scene);
+  } catch (const SystemSceneError& error) {
+    const Source source(path);
+    const auto tables = list_of(source, error.section());
+    if (error.number() < tables.size()) source.reject(*tables[error.number()], error.what());
+    source.reject(error.what());
+  }
+}
+
+}  // namespace whine

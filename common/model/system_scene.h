@@ -1,0 +1,56 @@
+// What a scene of several meshes says, in SI: gears, carriers, meshes, drives. Which body stands where follows from it
+// (gear/system_layout.h).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "model/system.h"
+
+namespace whine {
+
+struct SystemScene {
+  struct Gear : SceneGear {
+    double equivalent_mass = 0;  // kg: I / r_b^2, in place of total_inertia; 0: not given
+  };
+  struct Carrier {
+    std::string name, planet;       // planet: the gear that stands at each position
+    int planets = 0;                // at equal spacing; 0: at `positions`
+    std::vector<double> positions;  // (planet) rad, counter-clockwise from +x
+    double inertia = 0;             // kg m2, planets not included
+    double equivalent_mass = 0;     // kg: I / r^2, r the radius of the pins, in place of it; 0: not given
+    Bearing bearing = {};
+  };
+  struct Mesh {
+    GearMeshSpec spec;  // a planet's stands for those of all planets
+    double direction =
+        0;  // rad, counter-clockwise from +x: to the pitch point; of planets their positions say it
+    double stiffness = 0;  // N m-1 along the line of action, mean; of rigid bodies
+  };
+  struct Drive {
+    std::string gear;  // or carrier
+    System::DriveKind kind = System::DriveKind::free;
+    double torque = 0, stiffness = 0;  // as System::Drive
+  };
+  std::string title;
+  std::vector<Gear> gears;
+  std::vector<Carrier> carriers;
+  std::vector<Mesh> meshes;
+  std::vector<Drive> drives;
+  Fidelity fidelity;
+};
+
+// An error about one section of a list ([[mesh]], [[carrier]], [[drive]]), which who reads the file gives its line.
+class SystemSceneError : public Error {
+ public:
+  SystemSceneError(const char* section, size_t number, const std::string& message)
+      : Error(Failure::input, message), section_(section), number_(number) {}
+  const char* section() const { return section_; }
+  size_t number() const { return number_; }  // from 0, in the order of the file
+
+ private:
+  const char* section_;
+  size_t number_;
+};
+
+}  // namespace whine

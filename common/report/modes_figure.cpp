@@ -1,0 +1,171 @@
+#include "report/modes_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace whine {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kPoints = 72, kColumns = 5;
+
+// m: of the circle that a gear is drawn as, the working pitch circle of its first mesh; of a carrier that of its pins.
+double drawn_radius(const System& s, int b) {
+  for (const System::Mesh& mesh : s.meshes)
+    for (const System::Side& side : mesh.side)
+      if (side.body == b) return s.bodies[static_cast<size_t>(b)].radius / std::cos(mesh.pressure_angle);
+  return s.bodies[static_cast<size_t>(b)].radius;
+}
+
+// Colours of the template: 0 central gears, 1 planets, 2 carriers.
+double colour_of(const System::Body& body) {
+  return body.kind == System::BodyKind::carrier ? 2 : body.on == System::kGround ? 0 : 1;
+}
+
+// Adds the body, moved by (u, x, y) times scale, to a drawing in mm.
+void draw_body(const System& s, int b, const Eigen::RowVector3d& motion, double scale,
+               std::vector<std::vector<double>>& rows) {
+  const System::Body& body = s.bodies[static_cast<size_t>(b)];
+  const double turn = body.sense * scale * motion[0] / body.radius, radius = drawn_radius(s, b);
+  const double x = body.centre[0] + scale * motion[1], y = body.centre[1] + scale * motion[2];
+  const auto point = [&](double px, double py) {
+    rows.push_back({(x + px) * kMilli, (y + py) * kMilli, colour_of(body)});
+  };
+  if (body.kind == System::BodyKind::carrier) {
+    for (const System::Body& planet : s.bodies) {
+      if (planet.on != b) continue;
+      const double px = planet.centre[0] - body.centre[0], py = planet.centre[1] - body.centre[1];
+      point(0, 0);
+      // A small turn moves a pin along its tangent.
+      point(px - turn * py, py + turn * px);
+      rows.emplace_back();
+    }
+    return;
+  }
+  for (int i = 0; i <= kPoints; ++i)
+    point(radius * std::cos(2 * kPi * i / kPoints), radius * std::sin(2 * kPi * i / kPoints));
+  rows.emplace_back();
+  // Of a gear with teeth inside the mark stands outside of the others.
+  const bool ring = std::any_of(s.bodies.begin(), s.bodies.end(), [&](const System::Body& other) {
+    return std::hypot(other.centre[0] - body.centre[0], other.centre[1] - body.centre[1]) > 1e-6 * radius &&
+           std::hypot(other.centre[0] - body.centre[0], other.centre[1] - body.centre[1]) < radius &&
+           body.on == System::kGround;
+  });
+  const double from = ring ? radius : 0, to = ring ? 1.12 * radius : radius, angle = turn + 0.25 * kPi;
+  point(from * std::cos(angle), from * std::sin(angle));
+  point(to * std::cos(angle), to * std::sin(angle));
+  rows.emplace_back();
+}
+
+// Share of the train's radius by which the largest displacement is drawn.
+constexpr double kDrawn = 0.13;
+
+struct Extent {
+  double left = 1e30, right = -1e30, low = 1e30, high = -1e30;  // mm
+};
+
+Extent extent_of(const System& s) {
+  Extent e;
+  for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b) {
+    const auto& centre = s.bodies[static_cast<size_t>(b)].centre;
+    const double r = drawn_radius(s, b);
+    e.left = std::min(e.left, (centre[0] - r) * kMilli);
+    e.right = std::max(e.right, (centre[0] + r) * kMilli);
+    e.low = std::min(e.low, (centre[1] - r) * kMilli);
+    e.high = std::max(e.high, (centre[1] + r) * kMilli);
+  }
+  return e;
+}
+
+FigureBlock frequency_block(const ModesArtifact& a) {
+  FigureBlock block{"frequencies",
+                    {"mode", "natural_frequency [Hz]", "type", "planet_harmonic", "energy in meshes [%]"},
+                    {}};
+  for (Index i = 0; i < a.natural_frequency.size(); ++i)
+    block.rows.push_back({static_cast<double>(i + 1), a.natural_frequency[i],
+                          static_cast<double>(static_cast<int>(a.type[static_cast<size_t>(i)])),
+                          static_cast<double>(a.planet_harmonic[i]), a.mesh_energy.row(i).sum() * kPercent});
+  return block;
+}
+
+}  // namespace
+
+Figure modes_figure(const ModesArtifact& a) {
+  const System& s = a.layout;
+  Figure figure;
+  figure.title = "Natural modes of a system of rigid bodies";
+  figure.blocks = {frequency_block(a)};
+  const Extent e = extent_of(s);
+  const double size = 0.5 * std::max(e.right - e.left, e.high - e.low) / kMilli;
+  FigureBlock rest{"rest", {"x [mm]", "y [mm]", "colour"}, {}};
+  rest.drawing = true;
+  for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b)
+    draw_body(s, b, Eigen::RowVector3d::Zero(), 0, rest.rows);
+  figure.blocks.push_back(rest);
+  int panels = 0, left_out = 0, still = 0;
+  for (Index i = 0; i < a.natural_frequency.size(); ++i) {
+    if (a.natural_frequency[i] == 0) {
+      ++still;
+      continue;
+    }
+    const auto equal = [&](Index other) {
+      return other >= 0 && other < a.natural_frequency.size() &&
+             std::abs(a.natural_frequency[other] - a.natural_frequency[i]) < 1e-9 * a.natural_frequency[i] &&
+             a.type[static_cast<size_t>(other)] == a.type[static_cast<size_t>(i)];
+    };
+    if (equal(i - 1)) continue;
+    if (panels == static_cast<int>(kMostShapes)) {
+      ++left_out;
+      continue;
+    }
+    const MatrixRM& shape = a.shape[static_cast<size_t>(i)];
+    FigureBlock block{text("shape ", ++panels), {"x [mm]", "y [mm]", "colour"}, {}};
+    block.drawing = true;
+    const double scale = kDrawn * size / shape.cwiseAbs().maxCoeff();
+    for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b)
+      draw_body(s, b, shape.row(b), scale, block.rows);
+    figure.blocks.push_back(block);
+    figure.words.emplace_back(text("panel", panels),
+                              text(fixed(a.natural_frequency[i], 1), " Hz, ",
+                                   name_of(a.type[static_cast<size_t>(i)]), equal(i + 1) ? " (double)" : ""));
+  }
+  figure.notes.push_back(
+      text(s.bodies.size(), " rigid bodies, ", s.meshes.size(), " meshes of mean stiffness, ",
+           a.natural_frequency.size(), " modes, ", still, " of them free motions (0 Hz, not drawn)",
+           left_out ? text("; the shapes of ", left_out, " higher frequencies are not drawn") : ""));
+  figure.notes.push_back(
+      "blue: central gears, orange: planets, green: carrier, grey: at rest; a radius of each gear, of a ring "
+      "a mark outside, shows its "
+      "rotation; of a double mode one shape");
+  figure.notes.push_back(
+      "shapes are magnified, the largest motion of each to the same size; frame of the carrier at rest, "
+      "without Coriolis terms");
+  const int lines = (panels + kColumns - 1) / kColumns;
+  double most = 0;
+  for (Index i = 0; i < a.natural_frequency.size(); ++i) most = std::max(most, a.natural_frequency[i]);
+  const auto has = [&](ModeType type) {
+    return std::count(a.type.begin(), a.type.end(), type) > 0 ? 1.0 : 0.0;
+  };
+  const double middle_x = 0.5 * (e.left + e.right), middle_y = 0.5 * (e.low + e.high),
+               reach = (1 + kDrawn + 0.06) * size * kMilli;
+  figure.numbers = {{"panels", static_cast<double>(panels)},
+                    {"columns", static_cast<double>(kColumns)},
+                    {"lines", static_cast<double>(lines)},
+                    {"highest", most},
+                    {"left", middle_x - reach},
+                    {"right", middle_x + reach},
+                    {"low", middle_y - reach},
+                    {"high", middle_y + reach},
+                    {"train", has(ModeType::train)},
+                    {"mixed", has(ModeType::mixed)}};
+  figure.height = 455 + 340 * lines;
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,35 @@
+// Natural frequencies and mode shapes of a system at rest, with what a reader needs to draw them.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "base/matrix.h"
+#include "model/system.h"
+
+namespace whine {
+
+// Of a planetary train, by how its central members (all but planets) move. mixed: without that structure. train: without a carrier.
+enum class ModeType { rotational, translational, planet, mixed, train };
+template <>
+inline constexpr const char* kWordsOf<ModeType> = "rotational translational planet mixed train";
+
+struct ModesArtifact {
+  Eigen::VectorXd natural_frequency;  // (mode) Hz, ascending
+  std::vector<ModeType> type;         // (mode)
+  // (mode) by how many turns the phase of the motion grows from planet to planet about the carrier, 0 to N/2; -1: the planets are
+  // not alike or not equally spaced
+  Eigen::VectorXi planet_harmonic;
+  // [mode] (body; u, x, y) kg^-1/2: u = r theta in the body's own sense; unit modal mass, sum m (x^2 + y^2) + I / r^2 u^2 = 1
+  std::vector<MatrixRM> shape;
+  MatrixRM
+      mesh_deflection;  // (mode, mesh) kg^-1/2: of the springs along the lines of action, positive where they close
+  MatrixRM mesh_energy;        // (mode, mesh) 1: share of the potential energy; 0 of a mode without any
+  MatrixRM bearing_energy;     // (mode, body) 1: the same of bearings, and of what holds a rotation
+  MatrixRM kinetic_energy;     // (mode, body) 1: share of the kinetic energy
+  double rigid_frequency = 0;  // Hz: motions slower than this count as free, with the frequency 0
+
+  System layout;
+};
+
+}  // namespace whine

@@ -1,0 +1,125 @@
+#include "system/rigid_system.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+Vec2 line_of_action(const System::Mesh& mesh) {
+  // As contact_normal() has it for a first side that turns counter-clockwise and pushes upwards; else its mirror image.
+  const double along = -std::cos(mesh.pressure_angle) * mesh.side[0].sense,
+               away = (mesh.ring_drives ? -1 : 1) * std::sin(mesh.pressure_angle);
+  return Eigen::Rotation2Dd(mesh.direction - 0.5 * std::numbers::pi) * Vec2(along, away);
+}
+
+namespace {
+
+// Whether a drive holds a body with no give.
+bool held_rigidly(const System& layout, int body) {
+  for (const System::Drive& drive : layout.drives)
+    if (drive.body == body && drive.kind == System::DriveKind::held && drive.stiffness == 0) return true;
+  return false;
+}
+
+void require(double value, const char* what, const std::string& name) {
+  if (!(value > 0) || !std::isfinite(value))
+    fail(Failure::input, "a rigid system needs ", what, " of '", name, "' above 0; it is ", value);
+}
+
+// How the place P of an axis moves with what carries it: a carrier, or the ground.
+MatrixXd carried(const RigidSystem& system, int b) {
+  const System::Body& body = system.layout.bodies[static_cast<size_t>(b)];
+  if (body.on == System::kGround) return MatrixXd::Zero(2, system.rotation[0].cols());
+  const auto c = static_cast<size_t>(body.on);
+  const System::Body& carrier = system.layout.bodies[c];
+  const double x = body.centre[0] - carrier.centre[0], y = body.centre[1] - carrier.centre[1];
+  const Vec2 tangent = carrier.sense * Vec2(-y, x) / carrier.radius;
+  return system.translation[c] + tangent * system.rotation[c];
+}
+
+// Numbers the freedoms and fills U and X; carriers come before what they carry.
+void take_freedoms(RigidSystem& system) {
+  const System& layout = system.layout;
+  const int bodies = static_cast<int>(layout.bodies.size());
+  Index freedoms = 0;
+  std::vector<Index> turn(layout.bodies.size(), -1), move(layout.bodies.size(), -1);
+  for (int b = 0; b < bodies; ++b) {
+    if (!held_rigidly(layout, b)) turn[static_cast<size_t>(b)] = freedoms++;
+    if (!layout.bodies[static_cast<size_t>(b)].bearing.elastic()) continue;
+    move[static_cast<size_t>(b)] = freedoms;
+    freedoms += 2;
+  }
+  if (freedoms == 0) fail(Failure::input, "all bodies are held; a system needs one that can move");
+  system.rotation.assign(layout.bodies.size(), MatrixXd::Zero(1, freedoms));
+  system.translation.assign(layout.bodies.size(), MatrixXd::Zero(2, freedoms));
+  for (int b = 0; b < bodies; ++b)
+    if (const Index at = turn[static_cast<size_t>(b)]; at >= 0)
+      system.rotation[static_cast<size_t>(b)](0, at) = 1;
+  for (const bool on_ground : {true, false})
+    for (int b = 0; b < bodies; ++b) {
+      const auto i = static_cast<size_t>(b);
+      if ((layout.bodies[i].on == System::kGround) != on_ground) continue;
+      if (move[i] >= 0)
+        system.translation[i].middleCols(move[i], 2).setIdentity();
+      else
+        system.translation[i] = carried(system, b);
+    }
+}
+
+void take_springs(RigidSystem& system) {
+  const System& layout = system.layout;
+  for (size_t m = 0; m < layout.meshes.size(); ++m) {
+    const System::Mesh& mesh = layout.meshes[m];
+    MatrixXd row = MatrixXd::Zero(1, system.rotation[0].cols());
+    for (int s = 0; s < kSides; ++s) {
+      const auto b = static_cast<size_t>(mesh.side[static_cast<size_t>(s)].body);
+      row +=
+          closing_sign(s) * (system.rotation[b] + line_of_action(mesh).transpose() * system.translation[b]);
+    }
+    require(mesh.stiffness, "a stiffness of the mesh",
+            layout.bodies[static_cast<size_t>(mesh.side[0].body)].name + "-" +
+                layout.bodies[static_cast<size_t>(mesh.side[1].body)].name);
+    system.springs.push_back({RigidSystem::Spring::Kind::mesh, static_cast<int>(m), row, mesh.stiffness});
+  }
+  for (size_t b = 0; b < layout.bodies.size(); ++b)
+    if (const Bearing& bearing = layout.bodies[b].bearing; bearing.elastic())
+      system.springs.push_back({RigidSystem::Spring::Kind::bearing, static_cast<int>(b),
+                                system.translation[b] - carried(system, static_cast<int>(b)),
+                                bearing.stiffness});
+  for (const System::Drive& drive : layout.drives)
+    if (drive.kind == System::DriveKind::held && drive.stiffness > 0)
+      system.springs.push_back({RigidSystem::Spring::Kind::hold, drive.body,
+                                system.rotation[static_cast<size_t>(drive.body)], drive.stiffness});
+}
+
+}  // namespace
+
+RigidSystem rigid_system(const System& layout) {
+  RigidSystem out;
+  out.layout = layout;
+  for (const System::Body& body : layout.bodies) require(body.radius, "a radius", body.name);
+  take_freedoms(out);
+  take_springs(out);
+  const Index n = out.rotation[0].cols();
+  out.mass = out.stiffness = MatrixXd::Zero(n, n);
+  for (size_t b = 0; b < layout.bodies.size(); ++b) {
+    const System::Body& body = layout.bodies[b];
+    if (!held_rigidly(layout, static_cast<int>(b))) {
+      require(body.inertia, "an inertia", body.name);
+      out.mass += body.inertia / (body.radius * body.radius) * out.rotation[b].transpose() * out.rotation[b];
+    }
+    if (body.bearing.elastic()) require(body.bearing.mass, "a mass", body.name);
+    out.mass += body.bearing.mass * out.translation[b].transpose() * out.translation[b];
+  }
+  for (const RigidSystem::Spring& spring : out.springs)
+    out.stiffness += spring.stiffness * spring.row.transpose() * spring.row;
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,140 @@
+// Scenes of several meshes: what they say, what is rejected and where, and the stage parameters that are cut from them.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "gear/system_layout.h"
+#include "io/system_scene.h"
+#include "planetary_train.h"
+#include "relative.h"
+#include "scene_file.h"
+#include "system/natural_modes.h"
+
+using namespace whine;
+
+namespace {
+
+const char* const kShipped = "data/scenes/lin-parker-planetary.toml";
+
+std::string shipped() {
+  std::ifstream file(kShipped);
+  std::ostringstream out;
+  out << file.rdbuf();
+  return out.str();
+}
+
+std::string edited(const std::string& from, const std::string& to) {
+  std::string text = shipped();
+  const size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+// The line of the shipped scene that is `words`, from the n-th on.
+int line_of(const std::string& words, int n = 1) {
+  std::istringstream in(shipped());
+  int line = 0;
+  for (std::string text; std::getline(in, text);) {
+    ++line;
+    if (text == words && --n == 0) return line;
+  }
+  FAIL("no line ", words);
+  return 0;
+}
+
+void rejects(const std::string& text, int line, const std::string& words) {
+  const SceneFile file;
+  const std::string path = file.path(text);
+  std::string said;
+  try {
+    natural_modes(layout_in(read_system_scene(path), path));
+  } catch (const Error& error) {
+    CHECK(error.kind() == Failure::input);
+    said = error.what();
+  }
+  CAPTURE(said);
+  CHECK(said.starts_with(path + ":" + std::to_string(line) + ": "));
+  CHECK(said.find(words) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("the planetary train that ships has the frequencies of the table, whatever its teeth") {
+  CHECK(is_system_scene(kShipped));
+  CHECK(!is_system_scene("data/scenes/first-pair.toml"));
+  const ModesArtifact a = natural_modes(layout_in(read_system_scene(kShipped), kShipped)),
+                      b = natural_modes(layout_of(planetary_train(4)));
+  REQUIRE(a.natural_frequency.size() == b.natural_frequency.size());
+  CHECK(a.natural_frequency[0] == 0);
+  for (Eigen::Index i = 1; i < a.natural_frequency.size(); ++i)
+    CHECK(a.natural_frequency[i] == relative(b.natural_frequency[i], 1e-9));
+  // Sun meshes are ahead of each other by z_s psi / 2 pi, ring meshes by -z_r psi / 2 pi; here both are whole.
+  for (size_t m = 0; m < 4; ++m) CHECK(std::abs(std::remainder(a.layout.meshes[m].phase, 1)) < 1e-9);
+}
+
+TEST_CASE("mesh phases of planets follow from tooth numbers") {
+  const System three = layout_of([] {
+    SystemScene scene = planetary_train(3);
+    for (size_t g = 0; g < 3; ++g) scene.gears[g].design = rigid_gear(std::array{26, 37, 100}[g], g == 2);
+    for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
+    return scene;
+  }());
+  for (size_t n = 0; n < 3; ++n) {
+    const double turns = static_cast<double>(n) / 3;
+    // The sun turns counter-clockwise, so planets that stand farther on are met later.
+    CHECK(std::abs(std::remainder(three.meshes[n].phase - three.meshes[0].phase + 26 * turns, 1)) < 1e-9);
+    CHECK(std::abs(std::remainder(three.meshes[3 + n].phase - three.meshes[3].phase - 100 * turns, 1)) <
+          1e-9);
+  }
+}
+
+TEST_CASE("stage parameters of a system: read as written, the same modes to the last bit") {
+  const SceneFile file;
+  const System layout = layout_in(read_system_scene(kShipped), kShipped);
+  const std::string text = system_parameters(layout);
+  const System again = read_system_parameters(file.path(text));
+  CHECK(system_parameters(again) == text);
+  CHECK(natural_modes(again).shape == natural_modes(layout).shape);
+  // A comment, the title and the order of sections change nothing.
+  CHECK(system_parameters(layout_in(
+            read_system_scene(file.path("# a comment\n" + edited("title", "# title"))), "")) == text);
+  const auto said = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    try {
+      read_system_parameters(file.path(changed));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(said("stands_on = 6", "stands_on = 1").find("which is no carrier") != std::string::npos);
+  CHECK(said("driven_body = 1", "driven_body = 9").find("a body that is not there") != std::string::npos);
+  CHECK(said("radius = ", "radius = nan # ").find("must be a number") != std::string::npos);
+  CHECK(said("sense = 1", "sense = 0.5").find("must be a whole number") != std::string::npos);
+  CHECK_THROWS_AS(read_system_parameters(kShipped), Error);
+}
+
+TEST_CASE("faults of a scene of a system are rejected with their line") {
+  const int carrier = line_of("[[carrier]]"), second = line_of("[[mesh]]", 2),
+            pin = line_of("[[bearing]]", 2);
+  rejects(edited("planets = 4", "planets = 5"), carrier, "which 5 does not divide");
+  rejects(edited("planets = 4", "positions_deg = [0, 91, 180, 270]"), carrier, "Nearest: [0, 90, 180, 270]");
+  rejects(edited("planets = 4", "planets = 4\npositions_deg = [0]"), carrier, "needs either");
+  rejects(edited("driven = \"ring\"", "driven = \"rim\""), second, "there is no [gear.rim]");
+  rejects(edited("88.448", "88.4482"), second, "give both meshes of a planet one centre distance");
+  rejects(edited("mass_kg = 0.66\n", ""), pin, "lacks 'mass_kg'");
+  rejects(edited("gear = \"carrier\"", "gear = \"carier\""), line_of("gear = \"carrier\""),
+          "did you mean 'carrier'?");
+  rejects(edited("kind = \"held\"", "kind = \"torque\""), line_of("kind = \"held\"") + 1,
+          "belongs to kind = \"held\"");
+  rejects(edited("stiffness_N_um = 500.0", ""), line_of("[[mesh]]"), "lacks 'stiffness_N_um'");
+  rejects(edited("body = \"rigid\"", "body = \"modal\""), line_of("body = \"rigid\""),
+          "computed as rigid bodies so far");
+  rejects(shipped() + "[operation]\n", line_of("body = \"rigid\"") + 1, "natural modes are computed so far");
+  rejects(edited("equivalent_mass_kg = 0.61", "equivalent_mass_kg = 0.61\ntotal_inertia_kgm2 = 1"),
+          line_of("[gear.planet]"), "which say the same");
+  const SceneFile file;
+  CHECK_THROWS_AS(read_scene(kShipped), Error);
+}
