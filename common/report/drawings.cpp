@@ -154,8 +154,7 @@ Drawings drawings_of_motions() {
         "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and "
         "damping ratio); "
         "a panel for each set of choices; impact.h5 of the same torques, for damping ratios; branch.h5, for "
-        "unstable orbits and "
-        "folds",
+        "orbits, stable or not, and folds",
         0, 0, draw_responses}},
       {"fig08",
        {"dynamic transmission error over time and its spectrum, both branches at one speed",

@@ -186,8 +186,9 @@ const std::vector<Explained>& explained() {
       {"fig05", "motion", "Vibration over speed", of_response},
       {"fig07", "motion", "Vibration over speed", of_response},
       {"fig05-branches", "motion", "Branches of periodic motions",
-       plain("The same with the unstable orbits, dashed, that lead from one stable branch to the next, and "
-             "the folds at which branches end. A sweep jumps at a fold; where it jumps without one it has "
+       plain("The same with all orbits of the branch: stable ones as a thin line, also where no sweep was on "
+             "them, unstable ones dashed, and the folds at which stable branches end. A sweep jumps at a "
+             "fold; where it jumps without one it has "
              "left the basin of a branch that goes on.")},
       {"multipliers", "motion", "Floquet multipliers",
        plain("Floquet multipliers along the branch in the complex plane: a small disturbance of the motion "

@@ -40,21 +40,26 @@ FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
   return block;
 }
 
-// Unstable orbits in the order of the arc, each stretch from the fold, or the last stable orbit, to the next.
-FigureBlock unstable_block(const std::string& name, const BranchArtifact& b) {
-  FigureBlock block{
-      name, {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]"}, {}, "unstable orbits", name};
+// Stable or unstable orbits in the order of the arc, in stretches; those of unstable ones go from stable orbit to stable orbit.
+FigureBlock orbit_block(const std::string& name, const BranchArtifact& b, bool stable) {
+  FigureBlock block{name,
+                    {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]"},
+                    {},
+                    stable ? "stable orbits" : "unstable orbits",
+                    name};
   const auto add = [&](Eigen::Index i) {
     block.rows.push_back({b.mesh_frequency[i], b.dte_rms[i] * kMicro, b.dte_mean[i] * kMicro});
   };
+  const auto shown = [&](Eigen::Index i) { return (b.stable[i] != 0) == stable; };
   const Eigen::Index n = b.mesh_frequency.size();
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (b.stable[i]) continue;
+    if (!shown(i)) continue;
     const bool first = i == 0 || b.part[i - 1] != b.part[i], last = i + 1 == n || b.part[i + 1] != b.part[i];
-    if (!first && b.stable[i - 1]) add(i - 1);
+    // Unstable orbits are drawn up to the stable ones beside them.
+    if (!stable && !first && !shown(i - 1)) add(i - 1);
     add(i);
-    if (!last && !b.stable[i + 1]) continue;
-    if (!last) add(i + 1);
+    if (!last && shown(i + 1)) continue;
+    if (!stable && !last) add(i + 1);
     block.rows.emplace_back();
   }
   return block;
@@ -150,8 +155,11 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
     extent.add(*r);
   }
   if (const BranchArtifact* branch = branch_of(*curve.up, background)) {
-    figure.blocks.push_back(unstable_block(name + "unstable", *branch));
-    number("unstable", static_cast<double>(figure.blocks.back().rows.size()));
+    for (const bool stable : {true, false}) {
+      const std::string kind = stable ? "stable" : "unstable";
+      figure.blocks.push_back(orbit_block(name + kind, *branch, stable));
+      number(kind, static_cast<double>(figure.blocks.back().rows.size()));
+    }
     figure.blocks.push_back(fold_block(name + "folds", *branch));
     number("folds", static_cast<double>(branch->fold_frequency.size()));
     extent.rms = std::max(extent.rms, branch->dte_rms.maxCoeff());

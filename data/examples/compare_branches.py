@@ -29,7 +29,9 @@ for number, path in enumerate(options.branch):
     # A line goes on to the first point of the other kind, so that no gap is drawn at a fold
     for kind, style in ((stable, "-"), (~stable, "--")):
         shown = kind | numpy.roll(kind, 1) & (numpy.arange(kind.size) > 0)
-        axes.plot(branch.mesh_frequency.values, numpy.where(shown, rms, numpy.nan), style, color=colour,
+        parts = numpy.flatnonzero(numpy.diff(branch["branch"].values)) + 1  # between which nothing is drawn
+        axes.plot(numpy.insert(branch.mesh_frequency.values, parts, numpy.nan),
+                  numpy.insert(numpy.where(shown, rms, numpy.nan), parts, numpy.nan), style, color=colour,
                   label=branch.attrs["title"] if style == "-" else None)
     axes.plot(branch.fold_frequency.values, 1e6 * branch.fold_rms.values, "o", color=colour, fillstyle="none")
 

@@ -2,7 +2,7 @@
 # for each set of choices, a curve for each torque (Figures 5 and 7).
 # Variables from gear-plot: tsv, title, note1, panels, frequency_from, frequency_to, height, speeds, and for each panel a, b, ..:
 # heading_a, heading_lines_a, curves_a, labels_a, jump_labels_a, rms_max_a, contact_lost_a, and for each curve
-# natural_frequency_a_1, jumps_up_a_1, jumps_down_a_1, and with a branch of orbits unstable_a_1, folds_a_1: numbers of rows.
+# natural_frequency_a_1, jumps_up_a_1, jumps_down_a_1, and with a branch of orbits stable_a_1, unstable_a_1, folds_a_1: numbers of rows.
 set datafile separator tab
 set datafile commentschars "#"
 
@@ -61,7 +61,7 @@ set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . " speed falling
 set label 103 "dashed: jump; dotted: to the end of the branch; gap: change of branch" at screen 0.36, screen 26 / height tc rgb "black" font ",14"
 if (lost > 0) { set label 104 "■ below 0: contact lost" at screen 0.82, screen 26 / height tc rgb "black" font ",14" }
 
-if (any_branch > 0) { set label 105 "short dashes: unstable orbits; ✱ fold" at screen 0.06, screen 52 / height tc rgb "black" font ",14" }
+if (any_branch > 0) { set label 105 "thin: stable orbits; short dashes: unstable orbits; ✱ fold" at screen 0.06, screen 52 / height tc rgb "black" font ",14" }
 
 # Above a panel its operating point, in one line; below all panels what f_n is, their scenes and choices.
 caption_lines = 1
@@ -145,12 +145,14 @@ do for [p = 1:panels] {
   # Orbits that no sweep can show, and where they meet the others.
   held(i, what) = exists(sprintf("%s_%s_%d", what, letter, i)) && of_curve(what, letter, i) > 0
   branch_tone(i) = curves > 1 ? torque_colour[i] : "#009e73"
+  stays(i) = block(i, "stable") . sprintf(' using 1:2 with lines lt 1 lw 1.4 lc rgb "%s" notitle, ', branch_tone(i))
   orbits(i) = block(i, "unstable") . sprintf(' using 1:2 with lines lt 1 lw 2.2 dt (9, 6) lc rgb "%s" notitle, ', branch_tone(i))
   folds(i) = block(i, "folds") . sprintf(' using 1:2 with points lt 1 lw 2.4 pt 3 ps 2.2 lc rgb "%s" notitle, ', branch_tone(i))
 
   set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.15 font ",14" noenhanced
   drawn = ''
   do for [i = 1:curves] {
+    if (held(i, "stable")) { drawn = drawn . stays(i) }
     drawn = drawn . branch(i, "down") . branch(i, "up")
     if (held(i, "unstable")) { drawn = drawn . orbits(i) }
     if (held(i, "folds")) { drawn = drawn . folds(i) }
