@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <vector>
@@ -15,14 +16,24 @@
 namespace whine {
 namespace {
 
+// Also the empty one behind a comma that ends the line.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> out;
-  std::istringstream rest(line);
+  std::istringstream rest(line + ',');
   for (std::string field; std::getline(rest, field, ',');) {
     const auto first = field.find_first_not_of(" \t"), last = field.find_last_not_of(" \t");
     out.push_back(first == std::string::npos ? "" : field.substr(first, last - first + 1));
   }
   return out;
+}
+
+// Not finite: it is no number. from_chars knows no '+' in front.
+double number_of(const std::string& word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  const char *begin = word.data() + (plus ? 1 : 0), *end = word.data() + word.size();
+  double value = 0;
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  return error == std::errc() && rest == end ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -37,7 +48,9 @@ TransferFunction read_transfer_function(const std::string& path) {
     fail(Failure::input, path, ":", number, ": ", printable(why, 200),
          "; the first line names frequency_Hz, magnitude, phase_deg, each further one holds their numbers");
   };
-  std::istringstream lines(read_bytes(path));
+  std::string bytes = read_bytes(path);
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);  // byte order mark, which spreadsheets write
+  std::istringstream lines(bytes);
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -52,10 +65,8 @@ TransferFunction read_transfer_function(const std::string& path) {
         continue;
       }
       const std::string& word = fields[column[c]];
-      double value = 0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-        reject("'" + word + "' is no number");
+      const double value = number_of(word);
+      if (!std::isfinite(value)) reject("'" + word + "' is no number");
       values[c].push_back(value);
     }
     if (named && values[0].size() > 1 && !(values[0].back() > values[0][values[0].size() - 2]))
