@@ -56,8 +56,8 @@ lint_sources := $(wildcard common/*/*.cpp tools/*.cpp)
 lint_scripts := $(wildcard tests/*.sh tests/*/*.sh pipelines/*.sh) tests/run .ci/run
 lint_checked := $(lint_sources:%=$(B)/lint/%)
 # __builtin_shuffle is g++'s alone. The analyzer gives up a function after 50000 states instead of 225000: what it spends beyond
-# goes into Eigen's loops, and the time of all checks is halved. A file that passed is checked again when it, a header that it sees or the list of checks has
-# changed.
+# goes into Eigen's loops and takes as long as all other checks. A file that passed is checked again when it, a header that it sees
+# or the list of checks has changed.
 with_deps_lint := $(with_deps) $(filter deps-lint,$(goals))
 $(lint_checked): $(B)/lint/%: % .clang-tidy | $(with_deps_lint)
 	@mkdir -p $(@D)
