@@ -369,7 +369,8 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
     return calibrate(coarse_body(), coarse_body(), statics, 463e6, settings, {1e-6, 16}, ratio, state,
                      no_report);
   };
-  for (const auto& [state, row] : {std::pair{ContactState::one, 0}, {ContactState::two, 1}, {ContactState::mean, 2}}) {
+  for (const auto& [state, row] :
+       {std::pair{ContactState::one, 0}, {ContactState::two, 1}, {ContactState::mean, 2}}) {
     ImpactParameters settings = coarse_impact();
     const ImpactArtifact found = calibrated(settings, 0.05, state);
     settings.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
@@ -381,11 +382,15 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
   ImpactParameters settings = coarse_impact();
   CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::three),
                        doctest::Contains("choose one of: one, two, mean"), Error);
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.9, ContactState::two), doctest::Contains("the largest is near"), Error);
-  CHECK_THROWS_WITH_AS(calibrated(settings, 1.5, ContactState::two), doctest::Contains("outside (0, 1)"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.9, ContactState::two), doctest::Contains("the largest is near"),
+                       Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 1.5, ContactState::two), doctest::Contains("outside (0, 1)"),
+                       Error);
   settings.damping.bearing_ratio = 0.1;
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::two), doctest::Contains("lower bearing_ratio"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::two),
+                       doctest::Contains("lower bearing_ratio"), Error);
   settings = coarse_impact();
   settings.fidelity.body = BodyModel::rigid;
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::two), doctest::Contains("the largest is near"), Error);
+  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::two),
+                       doctest::Contains("the largest is near"), Error);
 }

@@ -41,7 +41,7 @@ DampedRoot frozen_root(const FixedPhaseMesh& mesh);
 // The pair at the phase amid each contact state, fewest loaded pairs first, without Rayleigh stiffness damping.
 struct FixedPhaseState {
   ContactState contact_state = ContactState::one;  // never the mean
-  double undamped_frequency = 0;  // Hz, contact frozen
+  double undamped_frequency = 0;                   // Hz, contact frozen
   FixedPhaseMesh mesh;
 };
 // phases: even, at which states are looked for. Other arguments and errors as impact().

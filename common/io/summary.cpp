@@ -230,7 +230,8 @@ void show(Lines& lines, const ImpactArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.torque_step * 100, " % let go");
   show_damping(lines, a.damping);
   for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
-    add(lines, i < a.state_phase.size() ? text("loaded pairs: ", a.contact_state[i]) : name_of(a.contact_state[i]),
+    add(lines,
+        i < a.state_phase.size() ? text("loaded pairs: ", a.contact_state[i]) : name_of(a.contact_state[i]),
         a.natural_frequency[i], " Hz, damping ratio ", a.damping_ratio[i] * 100, " %; undamped ",
         a.undamped_frequency[i], " Hz");
   add(lines, "fit", a.mesh_phase.size(), " phases; largest residual ", a.fit_residual.maxCoeff(),

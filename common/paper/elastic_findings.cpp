@@ -93,10 +93,9 @@ Finding table_frequency(const SceneResults& s, int torque, ContactState state) {
   if (!row) return {kNone, "no part of the period has " + name_of(state) + " loaded pairs"};
   const double frequency = i.natural_frequency[*row];
   if (state != ContactState::mean)
-    return {frequency, torque == kTorques[0]
-                                        ? std::string()
-                                        : text("mean stiffness ", digits(100 * stiffening(s, torque), 2),
-                                               " % above that at ", kTorques[0], " N m")};
+    return {frequency, torque == kTorques[0] ? std::string()
+                                             : text("mean stiffness ", digits(100 * stiffening(s, torque), 2),
+                                                    " % above that at ", kTorques[0], " N m")};
   const double loaded =
       (i.loaded_pairs.array() >= 2).cast<double>().sum() / static_cast<double>(i.loaded_pairs.size());
   std::string note =

@@ -121,11 +121,11 @@ std::string natural_frequencies_table(const ReportContent& c) {
   html::Rows rows;
   for (const ImpactArtifact& a : c.impacts)
     for (Index i = 0; i < a.natural_frequency.size(); ++i)
-      rows.push_back(
-          {shown(a.torque, 6),
-           i < a.state_phase.size() ? name_of(a.contact_state[static_cast<size_t>(i)]) : "mean over the mesh period",
-           fixed(a.natural_frequency[i], 1), fixed(a.damping_ratio[i] * kPercent, 3),
-           fixed(a.undamped_frequency[i], 1)});
+      rows.push_back({shown(a.torque, 6),
+                      i < a.state_phase.size() ? name_of(a.contact_state[static_cast<size_t>(i)])
+                                               : "mean over the mesh period",
+                      fixed(a.natural_frequency[i], 1), fixed(a.damping_ratio[i] * kPercent, 3),
+                      fixed(a.undamped_frequency[i], 1)});
   return html::table(
              "Natural frequency and damping ratio of the mesh by ring-down: the gears are at a fixed mesh "
              "phase, a part of the torque is let go, and the decay is fitted.",
@@ -232,11 +232,11 @@ std::string remarks_list(const ReportContent& c) {
     std::vector<Remark> found;
     for (Index i = 0; i < a.state_phase.size(); ++i)
       if (const double ratio = a.damping_ratio[i]; ratio < 0.01 || ratio > 0.12)
-        found.push_back(remark(true, "the damping ratio by ring-down with ",
-                               a.contact_state[static_cast<size_t>(i)],
-                               a.contact_state[static_cast<size_t>(i)] == ContactState::one ? " pair" : " pairs",
-                               " in contact is ", shown(ratio * kPercent, 3),
-                               " %, outside 1 to 12 %; `make calibrate` finds the damping for a ratio"));
+        found.push_back(
+            remark(true, "the damping ratio by ring-down with ", a.contact_state[static_cast<size_t>(i)],
+                   a.contact_state[static_cast<size_t>(i)] == ContactState::one ? " pair" : " pairs",
+                   " in contact is ", shown(ratio * kPercent, 3),
+                   " %, outside 1 to 12 %; `make calibrate` finds the damping for a ratio"));
     add("ring-down, " + torque_words(a.torque), found);
   }
   for (const ReportSweep& s : c.sweeps) {
