@@ -152,8 +152,8 @@ make_ -n JUMP_MAP_STEP=25 jump-map
 expect "another step redoes the maps" "gear-jump-map*24 gear-lumped*64 gear-plot*2"
 make_ -n JUMP_MAP_MODELS= JUMP_MAP_STEP=30 jump-map
 expect "a map without lumped models" "gear-jump-map*24 gear-plot*1"
-make_ -n out/parker2000/T300/fold_curves_torque.h5 out/parker2000/T100/fold_curves_damping.h5
-grep -q 'gear-folds .* --torque 300 --over torque .*--first 300 ' "$log" && grep -q 'gear-folds .* --torque 100 --over damping --first 0.07 ' "$log" &&
+make_ -n out/parker2000/T300/fold_curves_torque.h5
+grep -q 'gear-folds .* --torque 300 --over torque .*--first 300 ' "$log" &&
   ok "folds over torque begin at the torque of their path" || wrong "folds over torque begin at the torque of their path" "$(grep gear-folds "$log" | grep -o -e '--torque.*')"
 make_ -n JUMP_MAP=finer jump-map
 grep -q 'JUMP_MAP=finer: it is coarse or fine' "$log" && ok "a fineness that is none is rejected" || wrong "JUMP_MAP=finer is rejected" "$(tail -n 1 "$log")"
