@@ -130,9 +130,10 @@ $(B)/bin/whine-hard-cases: $(library) $(hard_cases) | $(B)/bin/
 	$(link)
 
 flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(COLD_FLAGS) $(STEP_FLAGS) $(LDFLAGS)
-# Equal as whole texts: objects of different flags do not fit each other (Eigen's alignment follows the processor).
-flags_before := $(file <$(B)/flags)
-$(B)/flags: $(if $(and $(findstring x$(flags)x,x$(flags_before)x),$(findstring x$(flags_before)x,x$(flags)x)),,FORCE)
+# Equal as whole texts: objects of different flags do not fit each other (Eigen's alignment follows the processor). $(strip): make 4.3
+# leaves the newline of $(file <...) where its buffer has moved.
+flags_before := $(strip $(file <$(B)/flags))
+$(B)/flags: $(if $(and $(findstring x$(strip $(flags))x,x$(flags_before)x),$(findstring x$(flags_before)x,x$(strip $(flags))x)),,FORCE)
 	@mkdir -p $(@D)
 	@echo '$(flags)' > $@
 

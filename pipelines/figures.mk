@@ -128,8 +128,11 @@ endef
 
 # Heard at a speed of the user's choice, the rising branch first; with a transfer function a file of its own.
 sound_file = $(figure_folder)/sound-$(AT)Hz-T$(TORQUE)$(if $(TRANSFER),-$(basename $(notdir $(TRANSFER))))
+# Path and content: a transfer function of the same name in another folder may be older than the sound of the first.
+sound_plan_file = $(if $(TRANSFER),$(B)/plans/$(own_scene)/$(notdir $(sound_file)))
+sound_plan = --transfer $(TRANSFER) $(firstword $(shell sha256sum 2>/dev/null < '$(TRANSFER)'))
 define sound_rule # sweeps
-$(sound_file).wav $(sound_file).tsv &: $1 $(TRANSFER) $(call id,gear-sound) | $(B)/bin/gear-sound $(with_deps)
+$(sound_file).wav $(sound_file).tsv &: $1 $(TRANSFER) $(sound_plan_file) $(call id,gear-sound) | $(B)/bin/gear-sound $(with_deps)
 	$(B)/bin/gear-sound $(foreach f,$1,--sweep $f) --mesh-frequency $(AT) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
 endef
 
@@ -178,7 +181,8 @@ $(foreach f,$(report_figures) $(other_figures),\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
 $(if $(filter histories,$(goals)),$(if $(filter $1,$(own_scene)),$(foreach f,$(history_figures),\
   $(eval $(call figure_rule,$(firstword $(subst -$(AT)Hz, ,$(notdir $f))),$f,$(call inputs_fig08,$1,$(TORQUE)))))))
-$(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call both_ways,$1,$(TORQUE),sweep)))))
+$(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call both_ways,$1,$(TORQUE),sweep)))\
+  $(if $(TRANSFER),$(eval $(call plan_rule,$(sound_plan_file),$(sound_plan))))))
 $(eval $(call report_rule,$1))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef

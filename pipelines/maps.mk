@@ -70,7 +70,7 @@ lumped_map_inputs = out/$1/params/lumped_map.toml out/$1/T$2/static.h5 $(if $(fi
 
 # Folds of the branches over damping, torque and tip relief: curves in place of the cells, or over them.
 #   make fold-curves                 out/S/T150/fold_curves_damping.h5; FOLDS_OVER=torque, tip_relief: at TORQUE only
-# --first: where a branch gives the folds.
+# --first: where a branch gives the folds; over torque the torque of the path.
 FOLDS_OVER ?= damping
 FOLD_RATIOS ?= 0.055 0.06 0.065 0.07 0.075 0.08 0.085 0.09 0.10
 FOLD_TORQUES ?= 50 75 100 125 150 175 200 250 300 450 600
@@ -79,14 +79,14 @@ FOLD_FIRST ?= 0.07
 FOLD_CURVE_TORQUES ?= $(if $(SCENE),$(SCENE_$(own_scene)_TORQUES),100 150 200 300 600)
 $(if $(filter-out damping torque tip_relief,$(FOLDS_OVER)),$(error FOLDS_OVER=$(FOLDS_OVER): it is damping, torque or tip_relief))
 plan_fold_curves_damping := --over damping --first $(FOLD_FIRST) --values $(call comma_list,$(FOLD_RATIOS))
-plan_fold_curves_torque := --over torque --first $(TORQUE) --values $(call comma_list,$(FOLD_TORQUES))
+plan_fold_curves_torque := --over torque --values $(call comma_list,$(FOLD_TORQUES))
 plan_fold_curves_tip_relief := --over tip_relief --first 0 --values $(call comma_list,$(FOLD_RELIEFS))
 $(foreach q,damping torque tip_relief,$(eval $(call plan_rule,$(B)/plans/$(own_scene)/fold_curves_$q,$(plan_fold_curves_$q))))
 
 fold_curves_inputs = out/$1/params/sweep.toml out/$1/params/static.toml $(pair_bodies) $(call id,gear-folds)
 define fold_curves_rules # scene, torque, quantity
 out/$1/T$2/fold_curves_$3.h5: $(fold_curves_inputs) $(B)/plans/$(own_scene)/fold_curves_$3 | $(B)/bin/gear-folds
-	$$(call run,folds) --params out/$1/params/sweep.toml --static-params out/$1/params/static.toml $(pair_options) --torque $2 $(plan_fold_curves_$3) --output $$@ $$(call landed,folds)
+	$$(call run,folds) --params out/$1/params/sweep.toml --static-params out/$1/params/static.toml $(pair_options) --torque $2 $(plan_fold_curves_$3) $(if $(filter torque,$3),--first $2) --output $$@ $$(call landed,folds)
 endef
 fold_torques := $(if $(filter damping,$(FOLDS_OVER)),$(FOLD_CURVE_TORQUES),$(TORQUE))
 $(if $(SCENE_$(own_scene)_GEARS),$(foreach t,$(sort $(FOLD_CURVE_TORQUES) $(TORQUE)),$(foreach q,damping torque tip_relief,\

@@ -2,11 +2,12 @@
 # looked at before anything is expanded, so the Makefile includes this first; $(value) does not expand, and no $(shell) runs before
 # `$` is ruled out.
 #
-# Allowed are letters, digits and . _ - + , @ / only. Recipes quote them as well.
+# Allowed are letters, digits and . _ - + , @ / only, between the words of lists blanks, in changes of a scene and in options : and =
+# too. Recipes quote paths as well. LAUNCH, CXX and the flags of the compiler are commands themselves and are not looked at.
 
 # a literal comma for functions
 , := ,
-names_allowed := letters, digits and . _ - + , @ / only
+names_allowed = letters, digits$(if $(filter $(lists_given) $(options_given),$1),$(,) blanks) and . _ - + , @ /$(if $(filter $(options_given),$1), : =) only
 name_hash := \#
 name_open := (
 name_close := )
@@ -18,18 +19,30 @@ name_found = $(strip $(foreach c,$2,$(findstring $c,$1)))
 name_is_word = $(if $(filter 1,$(words $1)),$(and $(findstring x$(strip $1)x,x$1x),$(findstring x$1x,x$(strip $1)x)))
 name_shown = $(patsubst MAKECMDGOALS,target,$v)
 name_remedy = , and may hold $(names_allowed)$(if $(filter SCENE STUDY,$1),; rename the file or its folder)
+define name_newline
 
-# SCENE and STUDY are paths, the others numbers and words; none of them has its default yet. What holds a control character is not
-# shown: a terminal would obey it.
-names_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE AT TRANSFER
+
+endef
+
+# SCENE, STUDY and TRANSFER are paths, the others numbers and words; none of them has its default yet. What holds a control
+# character is not shown: a terminal would obey it.
+words_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE AT TRANSFER JUMP_MAP JUMP_MAP_STEP JUMP_MAP_LOADS_AT JUMP_MAP_CELLS \
+  SENSITIVITY SENSITIVITY_FACTOR SENSITIVITY_RATIO SENSITIVITY_STEP HARRIS_DYNAMIC FOLDS_OVER FOLD_FIRST READING_PARTS FAULT_KILLS \
+  STRESS_PROBLEMS STRESS_SCENES STRESS_SEED FUZZ_SECONDS LAUNCH_WAIT FREEZE SANITIZE
+lists_given := BESIDE JUMP_MAP_TORQUES JUMP_MAP_CORNERS JUMP_MAP_MODELS JUMP_MAP_RATIOS FOLD_RATIOS FOLD_TORQUES FOLD_RELIEFS FOLD_CURVE_TORQUES
+options_given := VARIANTS HARRIS_OPTIONS
+names_given := $(words_given) $(lists_given) $(options_given)
 $(foreach v,$(names_given) MAKECMDGOALS,$(if $(findstring $$,$(value $v)),$(error $(name_shown): it holds $$$(call name_remedy,$v))))
+# A recipe would go on in a line of its own.
+$(foreach v,$(names_given),$(if $(findstring $(name_newline),$($v)),$(error $v: it holds a line break$(call name_remedy,$v))))
 
 name_controls := $(shell printf '%b ' '\01' '\02' '\03' '\04' '\05' '\06' '\07' '\010' '\016' '\017' '\020' '\021' '\022' '\023' \
   '\024' '\025' '\026' '\027' '\030' '\031' '\032' '\033' '\034' '\035' '\036' '\037' '\0177')
 $(foreach v,$(names_given) MAKECMDGOALS,$(if $(call name_found,$($v),$(name_controls)),$(error $(name_shown): it holds a control character$(call name_remedy,$v))))
-$(foreach v,$(names_given),$(if $($v),$(if $(call name_is_word,$($v)),,$(error $(name_shown)=$($v): it holds blanks$(call name_remedy,$v)))))
-$(foreach v,$(names_given) MAKECMDGOALS,$(if $(call name_found,$($v),$(name_forbidden)),\
-  $(error $(name_shown)=$($v): it holds $(call name_found,$($v),$(name_forbidden))$(call name_remedy,$v))))
+$(foreach v,$(words_given),$(if $($v),$(if $(call name_is_word,$($v)),,$(error $(name_shown)=$($v): it holds blanks$(call name_remedy,$v)))))
+name_forbidden_in = $(if $(filter $(options_given),$1),$(filter-out : =,$(name_forbidden)),$(name_forbidden))
+$(foreach v,$(names_given) MAKECMDGOALS,$(if $(call name_found,$($v),$(call name_forbidden_in,$v)),\
+  $(error $(name_shown)=$($v): it holds $(call name_found,$($v),$(call name_forbidden_in,$v))$(call name_remedy,$v))))
 
 # $(call plain_stem,variable): its file's name becomes a folder, a part of variables and a target.
 plain_stem = $(if $(basename $(notdir $($1))),$(if $(strip $(foreach c,. + @ $(,),$(findstring $c,$(basename $(notdir $($1)))))),\

@@ -56,8 +56,8 @@ lint_sources := $(wildcard common/*/*.cpp tools/*.cpp)
 lint_scripts := $(wildcard tests/*.sh tests/*/*.sh pipelines/*.sh) tests/run .ci/run
 lint_checked := $(lint_sources:%=$(B)/lint/%)
 # __builtin_shuffle is g++'s alone. The analyzer gives up a function after 50000 states instead of 225000: what it spends beyond
-# goes into Eigen's loops, and the time of all checks is halved. A file that passed is checked again when it, a header that it sees or the list of checks has
-# changed.
+# goes into Eigen's loops and takes as long as all other checks. A file that passed is checked again when it, a header that it sees
+# or the list of checks has changed.
 with_deps_lint := $(with_deps) $(filter deps-lint,$(goals))
 $(lint_checked): $(B)/lint/%: % .clang-tidy | $(with_deps_lint)
 	@mkdir -p $(@D)
@@ -75,9 +75,9 @@ lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks 
 # --- fuzzing
 
 FUZZ_SECONDS ?= 60
-fuzz_targets := scene study artifact sealed
-# Dense decompositions take clang minutes and a gigabyte, and no reader uses one; what expands a study or fits a lumped model calls physics.
-fuzz_sources := $(filter-out common/base/dense% common/io/study_expansion.cpp common/io/lumped_inputs.cpp,$(wildcard common/base/*.cpp common/model/*.cpp common/io/*.cpp))
+fuzz_targets := scene study rexs transfer artifact sealed
+# Dense decompositions take clang minutes and a gigabyte, and no reader uses one; what expands a study, fits a lumped model or sets inertias as drawn calls physics.
+fuzz_sources := $(filter-out common/base/dense% common/io/study_expansion.cpp common/io/lumped_inputs.cpp common/io/pair_inputs.cpp,$(wildcard common/base/*.cpp common/model/*.cpp common/io/*.cpp))
 fuzz_flags := -std=c++20 -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
 
 $(B)/fuzz/ $(B)/fuzz/found/:
@@ -89,10 +89,12 @@ $(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%: tests/fuzz/file_of.h $(fuzz_sources:%.cpp=$(B)/fuzz/%.o)
 $(B)/fuzz/whine-fuzz-scene: tests/fuzz/scene.cpp
 $(B)/fuzz/whine-fuzz-study: tests/fuzz/study.cpp
+$(B)/fuzz/whine-fuzz-rexs: tests/fuzz/rexs.cpp
+$(B)/fuzz/whine-fuzz-transfer: tests/fuzz/transfer.cpp
 $(B)/fuzz/whine-fuzz-artifact $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/artifact.cpp
 $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/edit.cpp
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
-	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 libcrypto)
+	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) -lpugixml -lzip -ljsoncpp -lsndfile $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 libcrypto)
 
 # The same targets without libFuzzer; tests/fuzz.sh runs them if they are there.
 .PHONY: replay
@@ -101,6 +103,8 @@ replay: $$(replays) ## the same readers against the same damaged files every tim
 replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
 $(B)/bin/whine-replay-scene: tests/fuzz/scene.cpp $(call linked,scene)
 $(B)/bin/whine-replay-study: tests/fuzz/study.cpp $(call linked,study)
+$(B)/bin/whine-replay-rexs: tests/fuzz/rexs.cpp $(call linked,rexs)
+$(B)/bin/whine-replay-transfer: tests/fuzz/transfer.cpp $(call linked,transfer)
 $(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact.cpp $(call linked,artifact)
 $(B)/bin/whine-replay-sealed: tests/fuzz/edit.cpp
 $(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(cold_precompiled).gch | $(B)/bin/ $(with_deps)
@@ -111,10 +115,10 @@ $(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h 
 # nor at the end.
 # The corpus stays as it is: what a run finds new goes to $(B)/fuzz, and a file that breaks a reader to $(B)/fuzz/found.
 .PHONY: fuzz
-fuzz: $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%) | $(B)/fuzz/found/ ## feed the readers of scenes, studies and artifacts with damaged files, FUZZ_SECONDS=60 each
+fuzz: $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%) | $(B)/fuzz/found/ ## feed the readers of scenes, studies, REXS models, transfer functions and artifacts with damaged files, FUZZ_SECONDS=60 each
 	@for target in $(fuzz_targets); do \
 	  mkdir -p $(B)/fuzz/new-$$target; \
-	  case $$target in scene|study) leaks=1 ;; *) leaks=0 ;; esac; \
+	  case $$target in artifact|sealed) leaks=0 ;; *) leaks=1 ;; esac; \
 	  ASAN_OPTIONS=detect_leaks=$$leaks $(B)/fuzz/whine-fuzz-$$target -max_total_time=$(FUZZ_SECONDS) -timeout=10 -detect_leaks=$$leaks -malloc_limit_mb=1024 -rss_limit_mb=2048 -max_len=1048576 \
 	    -print_final_stats=1 -artifact_prefix=$(B)/fuzz/found/$$target- $(B)/fuzz/new-$$target tests/fuzz/corpus/$$target > $(B)/fuzz/$$target.log 2>&1 || \
 	    { status=$$?; tail -n 30 $(B)/fuzz/$$target.log >&2; exit $$status; }; \

@@ -87,9 +87,9 @@ out/$1/T$2/loaded_%.h5: out/$1/T$2/static.h5 $(pair_bodies) $(pair_meshes) $(cal
 endef
 
 # Options that stand in the makefiles, in files of their own that are made again if they say otherwise: so that other options
-# redo what they made. $(call plan_rule,file,options)
+# redo what they made. $(call plan_rule,file,options). $(strip): make 4.3 leaves the newline of $(file <...) where its buffer has moved.
 define plan_rule
-$1: $(if $(filter xx,x$(call differs,$(file <$1),$(strip $2))x),,FORCE)
+$1: $(if $(filter xx,x$(call differs,$(strip $(file <$1)),$(strip $2))x),,FORCE)
 	@mkdir -p $$(@D); echo '$(strip $2)' > $$@.new.$$$$$$$$; mv $$@.new.$$$$$$$$ $$@
 endef
 differs = $(if $(and $(findstring x$1x,x$2x),$(findstring x$2x,x$1x)),,differs)

@@ -23,7 +23,17 @@ titles() {
 
 case $1 in
   keys) "$2/gear-scene" --keys ;;
-  datasets) "$2/gear-inspect" --datasets ;;
+  datasets)
+    echo '| artifact | datasets (axes; unit) |'
+    echo '|---|---|'
+    # "<artifact>  <dataset> (<axes>; <unit>): <meaning>"
+    "$2/gear-inspect" --datasets | awk '
+      function flush() { if (row != "") print "| `" artifact "` | " row " |"; row = "" }
+      { if ($1 != artifact) flush()
+        artifact = $1; said = substr($0, length($1) + length($2) + 4, index($0, "): ") - length($1) - length($2) - 3)
+        row = row (row == "" ? "" : ", ") "`" $2 "` " said }
+      END { flush() }'
+    ;;
   targets)
     echo '| `make ...` | makes |'
     echo '|---|---|'

@@ -198,6 +198,22 @@ rm -f map.* scene_variant.toml scene_wide.toml
 rejected "a map of the same torque and rule twice" 3 'two maps of 100 N m' "$bin/gear-plot" jump-map --plots "$plots" --output map \
   out/scene/T100/jump_map_false.h5 out/scene/T100/jump_map_false.h5
 rejected "the sensitivity to nothing" 3 'one variant' "$bin/gear-plot" sensitivity --plots "$plots" --output map out/scene/T100/jump_map_false.h5
+
+# --- sound
+sound=("$bin/gear-sound" --sweep out/scene/T100/up/sweep.h5 --mesh-frequency 2000 --seconds 0.1 --output heard)
+for value in nan inf -inf; do
+  rejected "a sound at the speed $value" 2 "mesh-frequency: $value is no finite number" "${sound[@]/#2000/$value}"
+  rejected "a sound of $value as full scale" 2 "full-scale: $value is no finite number" "${sound[@]}" "--full-scale=$value"
+done
+rejected "a sound at a speed that no sweep has" 3 'holds no speed of 2001 Hz; the nearest is 2000 Hz' "${sound[@]/#2000/2001}"
+rejected "a force on a bearing that is rigid" 2 'bearing pinion:x: wanted is <gear>:x or <gear>:y of a gear on an elastic bearing' "${sound[@]}" --bearing pinion:x
+printf 'frequency_Hz,magnitude,phase_deg\n1,1,0\n2,1,0\n' > low.csv
+rejected "a sound of which a transfer function leaves nothing" 3 'nothing is heard of up: no harmonic below 24000 Hz within the transfer function' "${sound[@]}" --transfer low.csv
+rejected "two such sounds" 3 'nothing is heard of up_1: ' "${sound[@]}" --sweep out/scene/T100/up/sweep.h5 --transfer low.csv
+if "${sound[@]}" --sweep out/scene/T100/up/sweep.h5 --sweep out/scene/T100/down/sweep.h5 > said 2>&1 &&
+  [ "$(sed '1,2d' heard.tsv | cut -f1 | tr '\n' ' ')" = 'up_1 up_2 down ' ]; then ok "sounds of one direction are numbered"; else
+  wrong "sounds of one direction are numbered" "$(tail -n 1 said) $(cut -f1 heard.tsv 2>&1 | tr '\n' ' ')"; fi
+rm -f low.csv heard.*
 rejected "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
 ring_down=("${stage_impact[@]::${#stage_impact[@]}-2}")
 "${ring_down[@]}" --calibrate 0.05 --contact-state one > said 2> /dev/null

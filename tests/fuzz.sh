@@ -1,4 +1,4 @@
-# Readers of scenes and artifacts against damaged files, the same ones every time; `make fuzz` looks further.
+# Readers of scenes, studies, REXS models, transfer functions and artifacts against damaged files, the same ones every time; `make fuzz` looks further.
 set -uo pipefail
 B=${B:-build}
 corpus=$PWD/tests/fuzz/corpus
@@ -13,8 +13,8 @@ for file in "$corpus"/sealed/*.h5; do
     "WHINE_KEEP=kept $B/bin/whine-tests -tc='*bit by bit*' leaves new ones (jump_map.h5 is gear-lumped --map of a coarse scene)"
 done
 # A quarter of a minute in all, a minute for `make test-all`; behind the hash an input takes HDF5 some 14 ms.
-declare -A inputs=([scene]=5000 [study]=5000 [artifact]=2000 [sealed]=500)
-for target in scene study artifact sealed; do
+declare -A inputs=([scene]=5000 [study]=5000 [rexs]=5000 [transfer]=5000 [artifact]=2000 [sealed]=500)
+for target in scene study rexs transfer artifact sealed; do
   [ -x "$bin/whine-replay-$target" ] || { echo "skipped: damaged files for the readers of $target (make replay compiles the programs)"; continue; }
   count=${inputs[$target]}
   [ -z "${long:-}" ] || count=$((4 * count))

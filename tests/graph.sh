@@ -52,7 +52,7 @@ done
 echo "$name $output" >> calls
 [ "${FAIL:-}" != "$output" ] || exit 1
 mkdir -p "$(dirname "$output")"
-case $name in gear-animate) touch "$output".{tsv,gif} "$output"-{000..047}.png ;; gear-report) touch "$output" "${output%/*}/results.tsv" ;; gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
+case $name in gear-animate) touch "$output".{tsv,gif} "$output"-{000..047}.png ;; gear-report) touch "$output" "${output%/*}/results.tsv" ;; gear-sound) touch "$output".{wav,tsv} ;; gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
 SCRIPT
 done
 scene=data/scenes/parker2000.toml
@@ -152,6 +152,9 @@ make_ -n JUMP_MAP_STEP=25 jump-map
 expect "another step redoes the maps" "gear-jump-map*24 gear-lumped*64 gear-plot*2"
 make_ -n JUMP_MAP_MODELS= JUMP_MAP_STEP=30 jump-map
 expect "a map without lumped models" "gear-jump-map*24 gear-plot*1"
+make_ -n out/parker2000/T300/fold_curves_torque.h5
+grep -q 'gear-folds .* --torque 300 --over torque .*--first 300 ' "$log" &&
+  ok "folds over torque begin at the torque of their path" || wrong "folds over torque begin at the torque of their path" "$(grep gear-folds "$log" | grep -o -e '--torque.*')"
 make_ -n JUMP_MAP=finer jump-map
 grep -q 'JUMP_MAP=finer: it is coarse or fine' "$log" && ok "a fineness that is none is rejected" || wrong "JUMP_MAP=finer is rejected" "$(tail -n 1 "$log")"
 make_ -n sensitivity
@@ -188,6 +191,13 @@ rejected_by_make "a sound without a speed is told how to say one" 'say the mesh 
 make_ -n AT=1250 TORQUE=100 sound
 grep -q 'gear-sound --sweep out/parker2000/T100/up/sweep.h5 --sweep out/parker2000/T100/down/sweep.h5 --mesh-frequency 1250 .*--output out/figures/sound-1250Hz-T100' "$log" &&
   ok "a sound at a speed and a torque of one's own" || wrong "a sound at a speed and a torque of one's own" "$(tail -n 1 "$log")"
+mkdir -p a b; echo first > a/mic.csv; echo second > b/mic.csv; touch -d 2000-01-01 a/mic.csv b/mic.csv
+make_ AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound; make_ -n AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
+expect "a sound behind a transfer function is up to date" ""
+make_ -n AT=1250 TORQUE=100 TRANSFER=b/mic.csv sound
+expect "a transfer function of the same name in another folder, however old, makes the sound again" "gear-sound*1"
+cp -p b/mic.csv a/mic.csv; make_ -n AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
+expect "and so does another one in its place" "gear-sound*1"
 make_ -n AT=1250 TORQUE=100 histories
 grep -q 'gear-plot fig08 --output out/figures/histories-1250Hz-T100 --mesh-frequency 1250 .*out/parker2000/T100/up/sweep.h5' "$log" &&
   grep -q 'gear-plot fig10 --output out/figures/history-loads-1250Hz-T100 --mesh-frequency 1250 ' "$log" && ok "histories at a speed and a torque of one's own" ||

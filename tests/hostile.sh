@@ -60,6 +60,20 @@ for given in 'TORQUE=1;touch mark' 'PHASE=$(shell touch mark)' 'SHARE=1/2"$(touc
   elif grep -q '\*\*\* .*: it holds ' "$log"; then ok "$given is rejected"
   else wrong "$given is rejected" "$(tail -n 1 "$log")"; fi
 done
+# Every variable that the makefiles let a user set, and those that they only ask for.
+variables=$(sed -n 's/^\([A-Z][A-Z_]*\) *?=.*/\1/p' Makefile pipelines/*.mk)
+for variable in $variables JUMP_MAP SENSITIVITY HARRIS_DYNAMIC FREEZE SANITIZE; do
+  claim="$variable is data"
+  for value in '0.07; touch mark' '0.07 $(shell touch mark)' '0.07 `touch mark`' $'0.07\ntouch mark' '0.07>mark' '0.07 | touch mark' '*' "'; touch mark; '"; do
+    make $sanitize -n "$variable=$value" jump-map fold-curves harris-map sensitivity bench > "$log" 2>&1
+    if [ -e mark ]; then wrong "$claim" "'$value' runs a command"; rm -f mark
+    elif ! grep -q "\*\*\* $variable.*: it holds .*, and may hold letters, digits" "$log"; then wrong "$claim" "'$value': $(tail -n 1 "$log")"
+    else continue; fi
+    claim=
+    break
+  done
+  [ -z "$claim" ] || ok "$claim"
+done
 mkdir -p h
 for given in SCENE STUDY; do
   cp $([ $given = SCENE ] && echo s.toml || echo study.toml) h/.toml

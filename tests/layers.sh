@@ -39,6 +39,10 @@ confined gmsh 'common/solid/gmsh_mesh\.cpp'
 confined cholmod 'common/solid/.*\.cpp'
 confined fftw3 'common/signal/.*\.cpp'
 confined toml 'common/io/.*\.cpp|common/io/toml\.h'
+confined pugixml 'common/io/rexs\.cpp'
+confined jsoncpp 'common/io/rexs\.cpp|tests/test_rexs\.cpp'
+confined zip 'common/io/rexs\.cpp|tests/test_rexs\.cpp'
+confined sndfile 'common/io/wav\.cpp|tests/test_sound\.cpp'
 confined CLI/ 'common/base/options\.cpp'
 
 found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/* tools/* | head -3)

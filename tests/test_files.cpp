@@ -22,6 +22,7 @@
 #include "io/artifact.h"
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
+#include "io/datasets.h"
 #include "io/error_budget_codec.h"
 #include "io/fit.h"
 #include "io/h5.h"
@@ -1161,6 +1162,22 @@ TEST_CASE("the number of an option is decimal, finite and the whole word") {
     CHECK(wrong.kind == static_cast<int>(Failure::usage));
     CHECK(wrong.says("--torque = '" + std::string(word) + "'"));
   }
+}
+
+TEST_CASE("the list of datasets has a line for each, with axes, unit and meaning") {
+  std::istringstream lines(dataset_list());
+  size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    CAPTURE(line);
+    const size_t name = line.find("  /"), unit = line.find(" ("), meaning = line.find("): ");
+    CHECK(name != std::string::npos);
+    CHECK(unit > name);
+    REQUIRE(meaning != std::string::npos);
+    CHECK(meaning > unit + 2);
+    CHECK(line.size() > meaning + 5);
+  }
+  CHECK(count > 200);
+  CHECK(dataset_list().find("static.h5  /transmission_error (mesh_phase; m): ") != std::string::npos);
 }
 
 TEST_CASE("only what lies below out/ has a make target") {

@@ -165,7 +165,7 @@ TEST_CASE("decay: two to five close damped modes keep their own damping, beside 
     VectorXd y = VectorXd::Zero(257);
     for (int k = 0; k < modes; ++k)
       y += oscillation(close[k][0], close[k][1], close[k][2], 0.3 * k, step, 257);
-    // Weak ones far above, as a wheel with many modes has: 12 roots do not suffice.
+    // Weak ones far above, as a wheel with many modes has: 16 roots and more in all.
     for (int k = 0; k < 6; ++k) y += oscillation(4300 + 3700 * k, 0.04 + 0.04 * k, 4e-3, 0.5 * k, step, 257);
     INFO(modes << " modes");
     const Decay fit = fit_decay(y, step);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/tool.h"
 #include "gear/involute.h"
 #include "gear/scene_geometry.h"
 #include "io/scene.h"
@@ -110,4 +111,24 @@ TEST_CASE("diameters of tip and root stand for addendum and dedendum") {
                  "[gear.wheel] takes 'tip_diameter_mm' = 157.5 over from a gear of other teeth"));
   other.replace(other.find("teeth = 51"), 10, "teeth = 51\naddendum = 0.9");
   CHECK(file.read(other).gears[1].design.addendum == 0.9);
+}
+
+TEST_CASE("texts of files are printed as whole characters of UTF-8, without control characters") {
+  CHECK(printable("Größe 3 µm: β → 𝛽") == "Größe 3 µm: β → 𝛽");
+  CHECK(printable("a\tb\x1b[31m\x7f\xc2\x9b") == "a b?[31m??");
+  // Cut off, too long for its number, a surrogate, above U+10FFFF, no beginning.
+  CHECK(printable("\xc3") == "?");
+  CHECK(printable("\xe2\x82z") == "??z");
+  CHECK(printable("\xc0\xaf\xe0\x80\xaf") == "?????");
+  CHECK(printable("\xed\xa0\x80") == "???");
+  CHECK(printable("\xf4\x90\x80\x80\xf9\x80\x80\x80") == "????????");
+  CHECK(printable("\x80\xbf") == "??");
+  CHECK(printable("\xed\x9f\xbf\xee\x80\x80\xf4\x8f\xbf\xbf") == "\xed\x9f\xbf\xee\x80\x80\xf4\x8f\xbf\xbf");
+  // What is long loses its middle between characters.
+  CHECK(printable("abcdefgh", 4) == "ab ... gh");
+  for (size_t most = 1; most < 20; ++most) {
+    const std::string cut = printable("xüüüü€€€𝛽𝛽𝛽", most);
+    CHECK(printable(cut) == cut);
+    CHECK(cut.size() <= most + 8);
+  }
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -143,7 +144,14 @@ Json::Value json_parts(const std::vector<Part>& parts) {
       Json::Value attribute;
       attribute["id"] = id;
       attribute["unit"] = unit;
-      attribute["floating_point"] = std::stod(value);
+      char* end = nullptr;
+      const double number = std::strtod(value.c_str(), &end);
+      if (*end == '\0')
+        attribute["floating_point"] = number;
+      else if (value == "true" || value == "false")
+        attribute["boolean"] = value == "true";
+      else
+        attribute["enum"] = value;
       node["attributes"].append(attribute);
     }
     out.append(node);
@@ -187,13 +195,17 @@ class Folder {
     std::ofstream(path_ / name, std::ios::binary) << bytes;
     return (path_ / name).string();
   }
-  std::string zipped(const std::string& name,
-                     const std::vector<std::pair<std::string, std::string>>& entries) const {
+  std::string zipped(const std::string& name, const std::vector<std::pair<std::string, std::string>>& entries,
+                     int method = ZIP_CM_DEFAULT) const {
     const std::string path = (path_ / name).string();
     zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
     REQUIRE(archive != nullptr);
-    for (const auto& [entry, bytes] : entries)
-      zip_file_add(archive, entry.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), 0);
+    for (const auto& [entry, bytes] : entries) {
+      const auto at =
+          zip_file_add(archive, entry.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), 0);
+      REQUIRE(at >= 0);
+      zip_set_file_compression(archive, static_cast<zip_uint64_t>(at), method, 0);
+    }
     REQUIRE(zip_close(archive) == 0);
     return path;
   }
@@ -213,6 +225,22 @@ void set(Gearbox& box, int id, const std::string& attribute, const std::string& 
     std::erase_if(part.attributes, [&](const auto& a) { return a[0] == attribute; });
     part.attributes.push_back({attribute, unit, value});
   }
+}
+
+// A component that says something of a gear within the stage.
+void set_stage_gear_data(Gearbox& box, int id, int gear) {
+  box.parts.push_back({id, "cylindrical_stage_gear_data", "", {}});
+  box.links.push_back({"stage_gear_data", {{"stage", 12}, {"gear", gear}, {"stage_gear_data", id}}});
+}
+
+bool says(const std::vector<std::string>& remarks, const std::string& words) {
+  return std::any_of(remarks.begin(), remarks.end(),
+                     [&](const std::string& remark) { return remark.find(words) != std::string::npos; });
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 void unset(Gearbox& box, int id, const std::string& attribute) {
@@ -352,13 +380,98 @@ TEST_CASE(
     CHECK(scene.gears[0].material.youngs_modulus == 206e9);
   }
   const RexsScene scene = scene_of_rexs(read_rexs(path), "62", 1);
-  const auto says = [&](const std::string& words) {
-    return std::any_of(scene.assumed.begin(), scene.assumed.end(),
-                       [&](const std::string& a) { return a.find(words) != std::string::npos; });
-  };
   for (const char* key : {"gear.third.dedendum", "gear.fourth.bore_radius_mm", "youngs_modulus_GPa",
                           "torque_Nm", "rayleigh_stiffness_s"})
-    CHECK_MESSAGE(says(key), key);
+    CHECK_MESSAGE(says(scene.assumed, key), key);
+  CHECK(!says(scene.assumed, "mesh.driver"));
+}
+
+TEST_CASE(
+    "REXS: the driver is the gear that the model or its load case names; else the first, and that is said") {
+  const Folder folder;
+  struct Case {
+    const char *one, *two, *two_in_load;  // is_driving_gear; empty: not there
+    const char* driver;
+    const char* assumed;  // empty: nothing
+  };
+  for (const Case& c : {Case{"true", "", "", "pinion_a", ""}, Case{"", "true", "", "wheel_b", ""},
+                        Case{" false\n", "", "", "wheel_b", ""}, Case{"", "false", "", "pinion_a", ""},
+                        Case{"false", "true", "", "wheel_b", ""}, Case{"", "", "true", "wheel_b", ""},
+                        Case{"", "false", "true", "wheel_b", ""}, Case{"", "true", "false", "pinion_a", ""},
+                        Case{"", "", "", "pinion_a", "the model has no is_driving_gear"},
+                        Case{"false", "false", "", "pinion_a", "is_driving_gear is false of both gears"}}) {
+    CAPTURE(c.one);
+    CAPTURE(c.two);
+    CAPTURE(c.two_in_load);
+    Gearbox box = first_pair();
+    set_stage_gear_data(box, 50, 10);
+    set_stage_gear_data(box, 51, 11);
+    if (*c.one) set(box, 50, "is_driving_gear", "", c.one);
+    if (*c.two) set(box, 51, "is_driving_gear", "", c.two);
+    if (*c.two_in_load)
+      box.load.push_back({51, "cylindrical_stage_gear_data", "", {{"is_driving_gear", "", c.two_in_load}}});
+    for (const std::string& path :
+         {folder.file("pair.rexs", xml(box)), folder.file("pair.rexsj", json(box))}) {
+      const RexsScene scene = scene_of_rexs(read_rexs(path), "", 1);
+      CHECK(read_scene(folder.file("scene.toml", scene.text)).mesh.gear[0] == c.driver);
+      CHECK(says(scene.assumed, "mesh.driver") == (*c.assumed != 0));
+      CHECK(says(scene.assumed, c.assumed));
+      CHECK((scene.text.find("# ASSUMED: gear_1 of the stage") != std::string::npos) == (*c.assumed != 0));
+    }
+  }
+  Gearbox box = first_pair();
+  for (const int id : {50, 51}) {
+    set_stage_gear_data(box, id, id - 40);
+    set(box, id, "is_driving_gear", "", "true");
+  }
+  const auto said = [&] {
+    return message_of([&] { scene_of_rexs(read_rexs(folder.file("bad.rexs", xml(box))), "", 1); });
+  };
+  CHECK(said().find("is_driving_gear is true of both gears of cylindrical_stage 12 'First stage'") !=
+        std::string::npos);
+  set(box, 51, "is_driving_gear", "", "perhaps");
+  CHECK(said().find("'is_driving_gear' of cylindrical_stage_gear_data 51 = 'perhaps' is neither true nor "
+                    "false") != std::string::npos);
+}
+
+TEST_CASE(
+    "REXS: the flank that carries load is that of the load case; where none is said the left one, and that "
+    "is said") {
+  const Folder folder;
+  Gearbox box = first_pair();
+  for (const auto& [id, flank, depth] : {std::tuple{50, 20, "4"}, std::tuple{51, 21, "7"}}) {
+    box.parts.push_back({id,
+                         "tip_relief",
+                         "",
+                         {{"tip_relief_depth", "mum", depth}, {"tip_relief_datum_diameter", "mm", "79.5"}}});
+    box.links.push_back({"reference", {{"origin", flank}, {"referenced", id}}});
+  }
+  set_stage_gear_data(box, 52, 10);
+  const auto scene = [&] { return scene_of_rexs(read_rexs(folder.file("pair.rexs", xml(box))), "", 1); };
+  const auto relief = [&](const RexsScene& s) {
+    return read_scene(folder.file("scene.toml", s.text)).gears[0].modification.tip.amount;
+  };
+  CHECK(relief(scene()) == relative(4e-6, 1e-14));
+  CHECK(says(scene().assumed,
+             "gear.pinion_a.modification: of the left flank: the model has no loaded_tooth_flank"));
+  CHECK(says(scene().ignored, "tip_relief 51 of cylindrical_gear_flank 21: that flank carries no load"));
+  CHECK(scene().text.find("# ASSUMED: [gear.pinion_a.modification] of the left flank") != std::string::npos);
+  // The wheel's flanks are alike: nothing is assumed of them.
+  CHECK(!says(scene().assumed, "gear.wheel_b.modification"));
+  set(box, 52, "loaded_tooth_flank", "", "left");
+  CHECK(relief(scene()) == relative(4e-6, 1e-14));
+  CHECK(!says(scene().assumed, "modification: of"));
+  box.load.push_back({52, "cylindrical_stage_gear_data", "", {{"loaded_tooth_flank", "", "right"}}});
+  CHECK(relief(scene()) == relative(7e-6, 1e-14));
+  CHECK(!says(scene().assumed, "modification: of"));
+  box.load.back().attributes = {{"loaded_tooth_flank", "", "both"}, {"mesh_misalignment", "mum", "3"}};
+  CHECK(says(scene().assumed, "of the left flank: the model says loaded_tooth_flank = 'both'"));
+  CHECK(says(scene().ignored, "load case, cylindrical_stage_gear_data 52: mesh_misalignment"));
+  // A second relief of one flank is not written twice.
+  box.links.push_back({"reference", {{"origin", 20}, {"referenced", 51}}});
+  CHECK(relief(scene()) == relative(4e-6, 1e-14));
+  CHECK(says(scene().ignored,
+             "tip_relief 51 of cylindrical_gear_flank 20: a flank of a scene has one tip_relief"));
 }
 
 TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of the model are data") {
@@ -374,6 +487,73 @@ TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of t
   CHECK(scene.text.find("helix_crowning 50") != std::string::npos);
   CHECK(scene.text.find("\n[material.evil]") == std::string::npos);
   CHECK(read_scene(folder.file("scene.toml", scene.text)).gears.size() == 2);
+  // A type stands in the same comments: of what is read, of what is not, and of what is beside a flank.
+  for (const int id : {30, 31, 40, 50}) {
+    CAPTURE(id);
+    for (Part& part : box.parts)
+      if (part.id == id) {
+        const std::string type = part.type;
+        part.type = "x&#10;[material.evil]&#10;y = 1";
+        const RexsScene changed = scene_of_rexs(read_rexs(folder.file("type.rexs", xml(box))), "", 1);
+        CHECK(changed.text.find("\n[material.evil]") == std::string::npos);
+        CHECK(read_scene(folder.file("scene.toml", changed.text)).gears.size() == 2);
+        part.type = type;
+      }
+  }
+  for (Part& part : box.parts) {
+    if (part.id == 11) part.name = "]\n[material.evil]\nx = 1";
+    if (part.id == 50) part.type = "x\n[material.evil]\ny = 1";
+  }
+  const RexsScene of_json = scene_of_rexs(read_rexs(folder.file("pair.rexsj", json(box))), "", 1);
+  CHECK(of_json.text.find("x [material.evil] y = 1 50") != std::string::npos);
+  CHECK(of_json.text.find("\n[material.evil]") == std::string::npos);
+  CHECK(read_scene(folder.file("scene.toml", of_json.text)).gears.size() == 2);
+}
+
+TEST_CASE("REXS: names that are cut and bytes that are no UTF-8 give a scene that its own reader accepts") {
+  const Folder folder;
+  Gearbox box = first_pair();
+  for (size_t letters = 0; letters < 4; ++letters)
+    for (const char* letter : {"ü", "€", "𝛽", "\xfc", "\xe2\x82"}) {
+      std::string name(letters, 'x');
+      for (int i = 0; i < 60; ++i) name += letter;
+      CAPTURE(letters);
+      CAPTURE(letter);
+      box.parts[1].name = name;
+      set(box, 10, name, "mm", "1");
+      const RexsScene scene = scene_of_rexs(read_rexs(folder.file("pair.rexs", xml(box))), "", 1);
+      CHECK(read_scene(folder.file("scene.toml", scene.text)).gears.size() == 2);
+      unset(box, 10, name);
+    }
+}
+
+TEST_CASE("REXS: a damaged archive is rejected, whatever byte is damaged and however the model is packed") {
+  const Folder folder;
+  const std::string good = xml(first_pair());
+  for (const int method : {ZIP_CM_STORE, ZIP_CM_DEFLATE}) {
+    CAPTURE(method);
+    const std::string whole = bytes_of(folder.zipped("whole.rexsz", {{"pair.rexs", good}}, method));
+    CHECK(read_rexs(folder.file("same.rexsz", whole)).components.size() == 12);
+    // The data stand between the local header (30 bytes and the name) and the central directory. The first bit of a deflated
+    // stream says that it has no further block, and changes nothing that is read.
+    const size_t begin = 30 + 9 + 1, end = whole.find("PK\x01\x02");
+    REQUIRE(end != std::string::npos);
+    for (size_t at = begin; at < end; at += method == ZIP_CM_STORE ? 97 : 7) {
+      std::string bytes = whole;
+      bytes[at] = static_cast<char>(bytes[at] ^ 1);
+      const std::string path = folder.file("damaged.rexsz", bytes);
+      CHECK_MESSAGE(message_of([&] { read_rexs(path); }).find("is damaged or encrypted") != std::string::npos,
+                    at);
+    }
+    // A length that is less than that of the data, in both headers: the rest would be dropped.
+    std::string bytes = whole;
+    for (const size_t at : {size_t{22}, end + 24}) {
+      const size_t length = good.size() - 20;
+      for (size_t k = 0; k < 4; ++k) bytes[at + k] = static_cast<char>(length >> (8 * k));
+    }
+    const std::string path = folder.file("short.rexsz", bytes);
+    CHECK(message_of([&] { read_rexs(path); }).find("zip archive") != std::string::npos);
+  }
 }
 
 TEST_CASE("REXS: foreign and damaged files are rejected with the reason") {

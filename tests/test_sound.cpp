@@ -93,12 +93,31 @@ TEST_CASE("sound: transfer functions from files, and what is wrong with them") {
   CHECK(rows.magnitude[0] == 0.5);
   CHECK(rows.phase[1] == relative(std::numbers::pi, 1e-14));
   CHECK(std::abs(Transfer(rows).at(200) - std::polar(1.0, 0.75 * std::numbers::pi)) < 1e-12);
+  // As spreadsheets and analysers write: a byte order mark, a sign in front, lines that end in CR LF.
+  const Temporary marked(
+      "\xef\xbb\xbf"
+      "frequency_Hz, magnitude, phase_deg\r\n+100, +5e-1, -90\r\n3e+2, 1.5, +180\r\n");
+  const TransferFunction of_marked = read_transfer_function(marked.path());
+  CHECK(of_marked.frequency[0] == 100);
+  CHECK(of_marked.frequency[1] == 300);
+  CHECK(of_marked.magnitude[0] == 0.5);
+  CHECK(of_marked.phase[0] == relative(-std::numbers::pi / 2, 1e-14));
+  CHECK(of_marked.phase[1] == relative(std::numbers::pi, 1e-14));
   for (const char* bad : {"", "frequency_Hz, magnitude\n1, 2\n", "frequency_Hz, magnitude, phase\n1, 2, 3\n",
                           "frequency_Hz, magnitude, phase_deg\n1, 2, 3\n",
                           "frequency_Hz, magnitude, phase_deg\n2, 1, 0\n1, 1, 0\n",
                           "frequency_Hz, magnitude, phase_deg\n1, x, 0\n2, 1, 0\n",
                           "frequency_Hz, magnitude, phase_deg\n1, -1, 0\n2, 1, 0\n",
-                          "frequency_Hz, magnitude, phase_deg\n1, 1, inf\n2, 1, 0\n"}) {
+                          "frequency_Hz, magnitude, phase_deg\n1, 1, inf\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 1, 1e300\n2, 1, -1e300\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 1e300, 0\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n-1, 1, 0\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 1, 0,\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg,\n1, 1, 0\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 1,\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 1, +-5\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 1, +\n2, 1, 0\n",
+                          "frequency_Hz, magnitude, phase_deg\n1, 1, ++5\n2, 1, 0\n"}) {
     CAPTURE(bad);
     const Temporary file(bad);
     CHECK(failure_of([&] { read_transfer_function(file.path()); }) == Failure::input);

@@ -79,13 +79,14 @@ int body(int argc, char** argv) {
               "compare stage parameters with this scene; default: the one that out/<scene>/ was made of, if "
               "it is there");
   bool datasets = false;
-  options.flag("--datasets", datasets, "print the table of the datasets of all artifacts (Markdown)");
+  options.flag("--datasets", datasets,
+               "print the datasets of all artifacts, a line each: axes, unit, meaning");
   options.footer(
       "Example:\n"
       "  gear-inspect out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5");
   options.parse(argc, argv);
   if (datasets) {
-    std::cout << dataset_table();
+    std::cout << dataset_list();
     return 0;
   }
   if (checked) {

@@ -4,6 +4,7 @@
 // Writes     <output>.wav (48 kHz, 24 bits, one channel) and <output>.tsv: tones of each branch
 // Equations  y = sum over k of Re(2 c_k H(k f) exp(2 pi i k f t)), c_k the Fourier coefficients of the force
 #include <cmath>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -36,47 +37,56 @@ Heard heard_at(const std::string& path, double frequency, const std::string& bea
   const SweepArtifact sweep = read_sweep(path);
   Index row = 0;
   const double off = (sweep.mesh_frequency.array() - frequency).abs().minCoeff(&row);
-  if (off > 1e-9 * frequency)
+  if (!(off <= 1e-9 * frequency))
     fail(Failure::input, path, ": holds no speed of ", frequency, " Hz; the nearest is ",
          sweep.mesh_frequency[row], " Hz");
   if (sweep.period_multiple[row] == 0)
     fail(Failure::input, path, ": the motion at ", frequency, " Hz is not periodic; choose another speed");
   // One orbit; behind it the row repeats.
-  const int periods = sweep.period_multiple[row];
-  const Index samples = Index{periods} * sweep.time.steps_per_period;
-  Heard out{name_of(sweep.direction), sweep.mesh_frequency[row] / periods,
+  const Index periods = sweep.period_multiple[row], samples = periods * sweep.time.steps_per_period;
+  Heard out{name_of(sweep.direction), sweep.mesh_frequency[row] / static_cast<double>(periods),
             sweep.mesh_force.row(row).head(samples)};
   if (bearing.empty()) return out;
-  const auto colon = bearing.rfind(':');
-  const std::string gear = bearing.substr(0, colon),
-                    axis = colon == std::string::npos ? "" : bearing.substr(colon + 1);
-  for (int g = 0; g < kSides; ++g) {
-    const auto& force = sweep.bearing_force[static_cast<size_t>(g)];
-    if (gear != sweep.mesh.gear[static_cast<size_t>(g)] || force.empty() || (axis != "x" && axis != "y"))
-      continue;
-    out.record = force[static_cast<size_t>(row)].col(axis == "x" ? 0 : 1).head(samples);
-    return out;
-  }
+  for (size_t g = 0; g < kSides; ++g)
+    for (const int axis : {0, 1}) {
+      const auto& force = sweep.bearing_force[g];
+      if (force.empty() || bearing != sweep.mesh.gear[g] + (axis == 0 ? ":x" : ":y")) continue;
+      out.record = force[static_cast<size_t>(row)].col(axis).head(samples);
+      return out;
+    }
   fail(Failure::usage, "--bearing ", printable(bearing, 80),
        ": wanted is <gear>:x or <gear>:y of a gear on an elastic bearing; ", path, " is of ",
        sweep.mesh.gear[0], " and ", sweep.mesh.gear[1]);
 }
 
+// Designs of one direction: up_1, up_2 in the order of the command line.
+void number_names(std::vector<Heard>& branches) {
+  std::map<std::string, std::vector<Heard*>> named;
+  for (Heard& branch : branches) named[branch.name].push_back(&branch);
+  for (const auto& [name, same] : named)
+    for (size_t i = 0; same.size() > 1 && i < same.size(); ++i) same[i]->name += text("_", i + 1);
+}
+
+// A branch without sound has no level.
 std::string tones(const std::vector<Heard>& branches, const std::vector<VectorXd>& sounds,
                   const std::string& unit) {
+  std::vector<double> rms;
+  for (const VectorXd& y : sounds) {
+    rms.push_back(std::sqrt(y.squaredNorm() / static_cast<double>(y.size())));
+    if (!(rms.back() > 0))
+      fail(Failure::input, "nothing is heard of ", branches[rms.size() - 1].name, ": no harmonic below ",
+           kRate / 2, " Hz within the transfer function");
+  }
   std::ostringstream out;
   out.precision(9);
   out << "# RMS of each branch; level re 1 " << unit
       << "\nbranch\tfundamental_Hz\trms\tlevel_dB\tabove_first_dB\n";
-  const auto rms = [](const VectorXd& y) {
-    return std::sqrt(y.squaredNorm() / static_cast<double>(y.size()));
-  };
   for (size_t b = 0; b < branches.size(); ++b) {
-    const double here = level(rms(sounds[b]), 1);
-    out << branches[b].name << '\t' << branches[b].fundamental << '\t' << rms(sounds[b]) << '\t' << here
-        << '\t' << here - level(rms(sounds[0]), 1) << '\n';
-    tell("gear-sound: ", branches[b].name, ": ", rms(sounds[b]), " ", unit, " RMS, ", here, " dB, ",
-         here - level(rms(sounds[0]), 1), " dB above the first");
+    const auto& [name, fundamental, record] = branches[b];
+    const double here = level(rms[b], 1), above = here - level(rms[0], 1);
+    out << name << '\t' << fundamental << '\t' << rms[b] << '\t' << here << '\t' << above << '\n';
+    tell("gear-sound: ", name, ": ", rms[b], " ", unit, " RMS, ", here, " dB, ", above,
+         " dB above the first");
   }
   return out.str();
 }
@@ -114,15 +124,13 @@ void body(int argc, char** argv) {
     sounds.push_back(
         sound(branches.back().record, branches.back().fundamental, transfer.get(), kRate, length));
   }
+  number_names(branches);
   const std::string table = tones(branches, sounds, transfer ? "unit of the transfer function" : "N");
   double loudest = 0;
   for (const VectorXd& y : sounds) loudest = std::max(loudest, y.cwiseAbs().maxCoeff());
   if (full_scale == 0) full_scale = kHeadroom * loudest;
   if (loudest > full_scale)
     fail(Failure::usage, "--full-scale ", full_scale, ": the loudest sample is ", loudest, "; choose more");
-  if (loudest == 0)
-    fail(Failure::input, "nothing is heard: no harmonic below ", kRate / 2,
-         " Hz within the transfer function");
 
   VectorXd all = VectorXd::Zero(static_cast<Index>(sounds.size()) * (length + pause) - pause);
   for (size_t b = 0; b < sounds.size(); ++b) {

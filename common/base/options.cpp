@@ -1,8 +1,10 @@
 #include "base/options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -45,6 +47,13 @@ void require_output_apart(const CLI::App& app) {
   }
 }
 
+// For CLI11: what is wrong with a word that an option takes for a number; empty: nothing, or it is none. "nan" and "inf" are
+// numbers to CLI11, and pass every comparison with a limit that is not written for them.
+std::string not_finite(const std::string& word) {
+  double value = 0;
+  return CLI::detail::lexical_cast(word, value) && !std::isfinite(value) ? word + " is no finite number" : "";
+}
+
 }  // namespace
 
 Option& Option::required() {
@@ -84,7 +93,10 @@ Options::~Options() = default;
 
 template <class Target>
 Option Options::add(const std::string& name, Target& target, const std::string& help) {
-  return Option(app_->add_option(name, target, help));
+  CLI::Option* option = app_->add_option(name, target, help);
+  if constexpr (std::is_same_v<Target, double> || std::is_same_v<Target, std::vector<double>>)
+    option->check(not_finite);
+  return Option(option);
 }
 
 template Option Options::add(const std::string&, std::string&, const std::string&);

@@ -24,7 +24,7 @@ namespace whine {
 namespace {
 
 template <class Artifact>
-std::string row(const std::string& kind) {
+std::string lines(const std::string& kind) {
   std::vector<Dataset> list;
   Codec codec(list);
   Artifact any;
@@ -32,24 +32,23 @@ std::string row(const std::string& kind) {
   std::string out;
   for (const Dataset& d : list) {
     if (d.name.starts_with("/parameters/")) continue;
-    out += (out.empty() ? "" : ", ") + ("`" + d.name + "` (") + d.axes + (d.axes.empty() ? "" : "; ") +
-           d.units + ")";
+    out += kind + "  " + d.name + " (" + d.axes + (d.axes.empty() ? "" : "; ") + d.units + "): " + d.meaning +
+           (d.equation.empty() ? "" : " [" + d.equation + "]") + "\n";
   }
-  return "| `" + kind + "` | " + out + " |\n";
+  return out;
 }
 
 }  // namespace
 
-std::string dataset_table() {
-  return "| artifact | datasets (axes; unit) |\n|---|---|\n" + row<MeshArtifact>("mesh.h5") +
-         row<BodyArtifact>("body.h5") + row<StaticArtifact>("static.h5") +
-         row<ErrorBudgetArtifact>("error_budget.h5") + row<LoadedArtifact>("loaded_<phase>.h5") +
-         row<ImpactArtifact>("impact.h5") + row<SweepArtifact>("sweep.h5") +
-         row<ResponseArtifact>("response.h5") + row<BranchArtifact>("branch.h5") +
-         row<FoldCurvesArtifact>("fold_curves_*.h5") + row<JumpMapArtifact>("jump_map_*.h5") +
-         row<HarrisMapArtifact>("harris_map.h5") + row<VariantArtifact>("ab12....h5") +
-         row<StudyArtifact>("study.h5") + row<ModesArtifact>("modes.h5") +
-         row<ReadingsArtifact>("readings.h5");
+std::string dataset_list() {
+  return lines<MeshArtifact>("mesh.h5") + lines<BodyArtifact>("body.h5") +
+         lines<StaticArtifact>("static.h5") + lines<ErrorBudgetArtifact>("error_budget.h5") +
+         lines<LoadedArtifact>("loaded_<phase>.h5") + lines<ImpactArtifact>("impact.h5") +
+         lines<SweepArtifact>("sweep.h5") + lines<ResponseArtifact>("response.h5") +
+         lines<BranchArtifact>("branch.h5") + lines<FoldCurvesArtifact>("fold_curves_*.h5") +
+         lines<JumpMapArtifact>("jump_map_*.h5") + lines<HarrisMapArtifact>("harris_map.h5") +
+         lines<VariantArtifact>("ab12....h5") + lines<StudyArtifact>("study.h5") + lines<ModesArtifact>("modes.h5") +
+         lines<ReadingsArtifact>("readings.h5");
 }
 
 }  // namespace whine

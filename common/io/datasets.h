@@ -4,8 +4,8 @@
 
 namespace whine {
 
-// A Markdown table with a line for each kind of artifact: its datasets outside of /parameters and /provenance with axes and
-// unit.
-std::string dataset_table();
+// A line for each dataset outside of /parameters and /provenance: "<artifact>  <dataset> (<axes>; <unit>): <meaning>", and in
+// brackets the equation that it comes from.
+std::string dataset_list();
 
 }  // namespace whine

@@ -63,7 +63,10 @@ std::string unpacked(const std::string& path, const std::string& bytes) {
   const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive.get(), models[0], 0),
                                                                zip_fclose);
   std::string model(entry.size, '\0');
-  if (!file || zip_fread(file.get(), model.data(), entry.size) != static_cast<zip_int64_t>(entry.size))
+  char beyond = 0;
+  // libzip compares checksum and length where the data end: in the read that returns 0.
+  if (!file || zip_fread(file.get(), model.data(), entry.size) != static_cast<zip_int64_t>(entry.size) ||
+      zip_fread(file.get(), &beyond, 1) != 0)
     reject(path, "the model in its zip archive is damaged or encrypted");
   return model;
 }
@@ -146,7 +149,6 @@ RexsComponent component_of(const std::string& path, const Json::Value& node) {
 void read_json(const std::string& bytes, RexsModel& model) {
   Json::CharReaderBuilder builder;
   builder["collectComments"] = false;
-  builder["precision"] = 17;
   Json::Value document;
   std::string why;
   const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());

@@ -10,34 +10,18 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/rexs_stage.h"
 
 namespace whine {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-enum class Dimension { number, length, angle, pressure, density, moment, frequency };
-struct Unit {
-  const char* word;  // without blanks
-  Dimension dimension;
-  double si;
-};
-constexpr Unit kUnits[] = {{"", Dimension::number, 1},         {"none", Dimension::number, 1},
-                           {"-", Dimension::number, 1},        {"mum", Dimension::length, 1e-6},
-                           {"µm", Dimension::length, 1e-6},    {"mm", Dimension::length, 1e-3},
-                           {"m", Dimension::length, 1},        {"deg", Dimension::angle, kPi / 180},
-                           {"°", Dimension::angle, kPi / 180}, {"rad", Dimension::angle, 1},
-                           {"Pa", Dimension::pressure, 1},     {"N/mm^2", Dimension::pressure, 1e6},
-                           {"MPa", Dimension::pressure, 1e6},  {"GPa", Dimension::pressure, 1e9},
-                           {"kg/m^3", Dimension::density, 1},  {"kg/dm^3", Dimension::density, 1e3},
-                           {"Nmm", Dimension::moment, 1e-3},   {"Nm", Dimension::moment, 1},
-                           {"kNm", Dimension::moment, 1e3},    {"1/min", Dimension::frequency, 1.0 / 60},
-                           {"1/s", Dimension::frequency, 1}};
 // What keys of a scene are in.
-constexpr Unit kNumber{"", Dimension::number, 1}, kMicrometre{"mum", Dimension::length, 1e-6},
-    kMillimetre{"mm", Dimension::length, 1e-3}, kDegree{"deg", Dimension::angle, kPi / 180},
-    kGigapascal{"GPa", Dimension::pressure, 1e9}, kDensity{"kg/m^3", Dimension::density, 1},
-    kNewtonMetre{"Nm", Dimension::moment, 1}, kPerMinute{"1/min", Dimension::frequency, 1.0 / 60};
+constexpr RexsUnit kNumber{"", RexsDimension::number, 1}, kMicrometre{"mum", RexsDimension::length, 1e-6},
+    kMillimetre{"mm", RexsDimension::length, 1e-3}, kDegree{"deg", RexsDimension::angle, kPi / 180},
+    kGigapascal{"GPa", RexsDimension::pressure, 1e9}, kDensity{"kg/m^3", RexsDimension::density, 1},
+    kNewtonMetre{"Nm", RexsDimension::moment, 1}, kPerMinute{"1/min", RexsDimension::frequency, 1.0 / 60};
 
 // All digits, and no more.
 std::string digits(double value) {
@@ -46,172 +30,6 @@ std::string digits(double value) {
   const std::string word(buffer, end);
   return word.find_first_of(".en") == std::string::npos ? word + ".0" : word;
 }
-
-// In another unit, without the digits that only round-off has.
-double converted(double value, const Unit& from, const Unit& to) {
-  if (from.si == to.si) return value;
-  char buffer[40];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value * from.si / to.si, std::chars_format::general, 15)
-          .ptr;
-  std::from_chars(buffer, end, value);
-  return value;
-}
-
-// A text of the file in a comment of TOML, which control characters would end.
-std::string quoted_name(const RexsComponent& c) {
-  return text(c.type, " ", c.id, c.name.empty() ? "" : " '" + printable(c.name, 80) + "'");
-}
-
-struct Number {
-  double value;        // in the unit that was asked for
-  std::string origin;  // component and attribute
-};
-
-// The stage that is imported; notes which attributes were read.
-class Stage {
- public:
-  Stage(const RexsModel& model, const std::string& wanted, int load_case) : model_(model) {
-    if (load_case < 1 ||
-        (!model.load_cases.empty() && static_cast<size_t>(load_case) > model.load_cases.size()))
-      fail(Failure::input, model.path, ": there is no load case ", load_case, ", there are ",
-           model.load_cases.size());
-    if (!model.load_cases.empty()) load_ = &model.load_cases[static_cast<size_t>(load_case) - 1];
-    id_ = choose(wanted);
-    for (const RexsRelation& relation : model.relations) {
-      if (relation.type != "stage" || relation.in_role("stage") != id_) continue;
-      gear_ = {relation.in_role("gear_1"), relation.in_role("gear_2")};
-    }
-    for (const int gear : gear_)
-      if (gear < 0)
-        fail(Failure::input, model.path, ": ", quoted_name(stage()),
-             " has no relation 'stage' with gear_1 and gear_2");
-    // The driver first.
-    if (flag(stage_gear_data(1), "is_driving_gear") && !flag(stage_gear_data(0), "is_driving_gear"))
-      std::swap(gear_[0], gear_[1]);
-  }
-
-  const RexsComponent& component(int id) const { return model_.components.at(id); }
-  const RexsComponent& stage() const { return component(id_); }
-  const RexsComponent& gear(int side) const { return component(gear_[static_cast<size_t>(side)]); }
-
-  // The first component of a type that stands in a relation with `id`; nullptr: none.
-  const RexsComponent* beside(int id, const std::string& type) const {
-    for (const RexsRelation& relation : model_.relations)
-      if (relation.holds(id))
-        for (const RexsRelation::Reference& other : relation.references)
-          if (other.component != id && component(other.component).type == type)
-            return &component(other.component);
-    return nullptr;
-  }
-  const RexsComponent* flank(int side, const std::string& role) const {
-    for (const RexsRelation& relation : model_.relations)
-      if (relation.type == "flank" && relation.in_role("gear") == gear(side).id &&
-          relation.in_role(role) >= 0)
-        return &component(relation.in_role(role));
-    return nullptr;
-  }
-  const RexsComponent* stage_gear_data(int side) const {
-    for (const RexsRelation& relation : model_.relations)
-      if (relation.type == "stage_gear_data" && relation.in_role("stage") == id_ &&
-          relation.in_role("gear") == gear(side).id && relation.in_role("stage_gear_data") >= 0)
-        return &component(relation.in_role("stage_gear_data"));
-    return nullptr;
-  }
-  // Components of a type in any relation with `id`, and those of other types.
-  std::vector<const RexsComponent*> related(int id) const {
-    std::vector<const RexsComponent*> out;
-    for (const RexsRelation& relation : model_.relations)
-      if (relation.holds(id))
-        for (const RexsRelation::Reference& other : relation.references)
-          if (other.component != id) out.push_back(&component(other.component));
-    return out;
-  }
-
-  std::optional<Number> number(const RexsComponent* c, const std::string& attribute, const Unit& unit) {
-    if (!c) return {};
-    if (load_ && load_->contains(c->id)) {
-      const auto of_load = number_in(load_->at(c->id), attribute, unit, "load case, ");
-      if (of_load) return of_load;
-    }
-    return number_in(*c, attribute, unit, "");
-  }
-  Number required(const RexsComponent* c, const RexsComponent& owner, const std::string& attribute,
-                  const Unit& unit) {
-    const std::optional<Number> found = number(c, attribute, unit);
-    if (!found)
-      fail(Failure::input, model_.path, ": ", quoted_name(c ? *c : owner), " has no '", attribute,
-           "', which a scene cannot do without; add it to the model");
-    return *found;
-  }
-  std::string word(const RexsComponent* c, const std::string& attribute) {
-    if (!c || !c->attributes.contains(attribute)) return "";
-    read_[c->id].insert(attribute);
-    return c->attributes.at(attribute).value;
-  }
-  bool flag(const RexsComponent* c, const std::string& attribute) { return word(c, attribute) == "true"; }
-
-  // What was not read of the components that something was read of.
-  std::vector<std::string> unread() const {
-    std::vector<std::string> out;
-    for (const auto& [id, attributes] : read_) {
-      std::string names;
-      for (const auto& [name, value] : component(id).attributes)
-        if (!attributes.contains(name)) names += (names.empty() ? "" : ", ") + printable(name, 80);
-      if (!names.empty()) out.push_back(quoted_name(component(id)) + ": " + names);
-    }
-    return out;
-  }
-  const std::string& path() const { return model_.path; }
-
- private:
-  int choose(const std::string& wanted) const {
-    std::vector<const RexsComponent*> found, all;
-    for (const auto& [id, c] : model_.components) {
-      if (c.type != "cylindrical_stage") continue;
-      all.push_back(&c);
-      if (wanted.empty() || wanted == std::to_string(id) || wanted == c.name) found.push_back(&c);
-    }
-    if (found.size() == 1) return found[0]->id;
-    std::string list;
-    for (const RexsComponent* c : all) list += (list.empty() ? "" : "; ") + quoted_name(*c);
-    if (all.empty()) fail(Failure::input, model_.path, ": holds no cylindrical_stage");
-    if (wanted.empty())
-      fail(Failure::input, model_.path, ": holds ", all.size(), " stages; name one with --stage: ", list);
-    fail(Failure::input, model_.path, ": ", found.empty() ? "no stage" : "more than one stage",
-         " is called '", printable(wanted, 80), "'; there are ", list);
-  }
-  std::optional<Number> number_in(const RexsComponent& c, const std::string& attribute, const Unit& unit,
-                                  const std::string& where) {
-    const auto found = c.attributes.find(attribute);
-    if (found == c.attributes.end()) return {};
-    const RexsAttribute& a = found->second;
-    std::string word = a.value, given = a.unit;
-    const auto blank = [](char x) { return x == ' ' || x == '\t' || x == '\n' || x == '\r'; };
-    std::erase_if(word, blank);
-    std::erase_if(given, blank);
-    const auto reject = [&](const std::string& why) {
-      fail(Failure::input, model_.path, ": '", attribute, "' of ", quoted_name(c), " ", why);
-    };
-    if (a.list || word.empty()) reject("is no single number");
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-      reject(text("= '", printable(word, 40), "' is no number"));
-    const Unit* known = std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& u) {
-      return given == u.word && u.dimension == unit.dimension;
-    });
-    if (known == std::end(kUnits)) reject(text("is in '", printable(given, 40), "', which is no unit of it"));
-    read_[c.id].insert(attribute);
-    return Number{converted(value, *known, unit), where + quoted_name(component(c.id)) + ", " + attribute};
-  }
-
-  const RexsModel& model_;
-  const std::map<int, RexsComponent>* load_ = nullptr;
-  int id_ = -1;
-  std::array<int, 2> gear_ = {-1, -1};
-  std::map<int, std::set<std::string>> read_;
-};
 
 class Writer {
  public:
@@ -223,14 +41,19 @@ class Writer {
     start.resize(std::max<size_t>(start.size() + 1, 34), ' ');
     line(start + "# " + remark);
   }
-  void value(const std::string& key, const Number& n) { value(key, digits(n.value), n.origin); }
-  void whole(const std::string& key, const Number& n) {
+  void value(const std::string& key, const RexsNumber& n) { value(key, digits(n.value), n.origin); }
+  void whole(const std::string& key, const RexsNumber& n) {
     value(key, std::to_string(std::lround(n.value)), n.origin);
   }
   void assumed(const std::string& key, const std::string& of, const std::string& word,
                const std::string& why) {
     value(key, word, "ASSUMED: " + why);
     out_.assumed.push_back(of + key + " = " + word + ": " + why);
+  }
+  // What is assumed of a whole section.
+  void assumed_of(const std::string& section, const std::string& why) {
+    line("\n# ASSUMED: [" + section + "] " + why);
+    out_.assumed.push_back(section + ": " + why);
   }
 
  private:
@@ -252,33 +75,33 @@ std::string section_name(const RexsComponent& c) {
 }
 
 // As both flanks have it.
-Number of_flanks(Stage& stage, int side, const std::string& attribute, const Unit& unit) {
+RexsNumber of_flanks(RexsStage& stage, int side, const std::string& attribute, const RexsUnit& unit) {
   const RexsComponent *left = stage.flank(side, "left"), *right = stage.flank(side, "right");
-  const Number one = stage.required(left ? left : right, stage.gear(side), attribute, unit);
-  const std::optional<Number> other = stage.number(right, attribute, unit);
+  const RexsNumber one = stage.required(left ? left : right, stage.gear(side), attribute, unit);
+  const std::optional<RexsNumber> other = stage.number(right, attribute, unit);
   if (other && std::abs(other->value - one.value) > 1e-9)
     fail(Failure::input, stage.path(), ": the flanks of ", quoted_name(stage.gear(side)),
          " differ: ", attribute, " = ", one.value, " and ", other->value, "; a scene has symmetric teeth");
   return one;
 }
 
-void check_spur(Stage& stage, int side) {
+void check_spur(RexsStage& stage, int side) {
   const RexsComponent& gear = stage.gear(side);
   if (gear.type != "cylindrical_gear")
     fail(Failure::input, stage.path(), ": ", quoted_name(gear),
          " is no cylindrical_gear; only external spur gears are imported");
-  const std::optional<Number> helix = stage.number(&gear, "helix_angle_reference_diameter", kDegree);
+  const std::optional<RexsNumber> helix = stage.number(&gear, "helix_angle_reference_diameter", kDegree);
   if (helix && helix->value != 0)
     fail(Failure::input, stage.path(), ": ", quoted_name(stage.stage()), " is helical (", helix->value,
          " degrees at ", quoted_name(gear), "); only spur gears are imported");
-  const Number teeth = stage.required(&gear, gear, "number_of_teeth", kNumber);
+  const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kNumber);
   if (teeth.value < 0)
     fail(Failure::input, stage.path(), ": ", quoted_name(gear), " is internal (", teeth.value,
          " teeth); only external spur gears are imported");
 }
 
 // Heights of the teeth: diameters where they are given, else those of the rack-shaped tool.
-void write_heights(Stage& stage, int side, const std::string& of, Writer& out) {
+void write_heights(RexsStage& stage, int side, const std::string& of, Writer& out) {
   const RexsComponent& gear = stage.gear(side);
   const RexsComponent* tool = stage.beside(gear.id, "rack_shaped_tool");
   for (const char* role : {"left", "right"})
@@ -298,7 +121,7 @@ void write_heights(Stage& stage, int side, const std::string& of, Writer& out) {
     else
       out.assumed(h.key, of, h.standard, "ISO 53, profile A");
   }
-  std::optional<Number> radius;
+  std::optional<RexsNumber> radius;
   for (const char* name : {"tip_corner_radius_factor_reference_profile", "tip_radius_factor"})
     if (!radius) radius = stage.number(tool, name, kNumber);
   if (radius)
@@ -308,7 +131,7 @@ void write_heights(Stage& stage, int side, const std::string& of, Writer& out) {
 }
 
 // ISO 21771: an arc of 2 m (x - x_E) tan(alpha) is cut off by generating with x_E.
-void write_thinning(Stage& stage, int side, const std::string& of, double module_mm, double shift,
+void write_thinning(RexsStage& stage, int side, const std::string& of, double module_mm, double shift,
                     double angle_deg, Writer& out) {
   const RexsComponent* settings =
       stage.beside(stage.gear(side).id, "cylindrical_gear_manufacturing_settings");
@@ -321,27 +144,62 @@ void write_thinning(Stage& stage, int side, const std::string& of, double module
     out.assumed("tooth_thinning_mm", of, "0.0", "no backlash");
 }
 
-// The flank that carries load: as the stage says, else the left one.
-const RexsComponent* working_flank(Stage& stage, int side) {
+// The flank that carries load: as load case or stage say, else the left one, else the only one.
+struct WorkingFlank {
+  const RexsComponent *flank, *other;
+  std::string assumed;  // empty: as the model says
+};
+
+WorkingFlank working_flank(RexsStage& stage, int side) {
   const std::string loaded = stage.word(stage.stage_gear_data(side), "loaded_tooth_flank");
-  const RexsComponent* flank = stage.flank(side, loaded == "right" ? "right" : "left");
-  return flank ? flank : stage.flank(side, loaded == "right" ? "left" : "right");
+  const bool said = loaded == "left" || loaded == "right";
+  const std::string role = said ? loaded : "left", opposite = role == "left" ? "right" : "left";
+  const RexsComponent *flank = stage.flank(side, role), *other = stage.flank(side, opposite);
+  if (!flank) return {other, nullptr, "of the " + opposite + " flank, the only one that the model has"};
+  if (said) return {flank, other, ""};
+  return {flank, other,
+          "of the left flank: the model " +
+              (loaded.empty() ? "has no loaded_tooth_flank"
+                              : "says loaded_tooth_flank = '" + printable(loaded, 40) + "'")};
 }
 
-void write_modifications(Stage& stage, int side, const std::string& name, Writer& out, RexsScene& scene) {
-  const RexsComponent* flank = working_flank(stage, side);
+std::vector<const RexsComponent*> modifications_of(const RexsStage& stage, const RexsComponent* flank) {
+  std::vector<const RexsComponent*> out;
+  if (flank) out = stage.related(flank->id);
+  std::erase_if(out, [](const RexsComponent* c) {
+    return c->type == "cylindrical_gear" || c->type == "rack_shaped_tool" ||
+           c->type == "cylindrical_gear_flank";
+  });
+  return out;
+}
+
+void write_modifications(RexsStage& stage, int side, const std::string& name, Writer& out, RexsScene& scene) {
+  const WorkingFlank works = working_flank(stage, side);
+  const RexsComponent* flank = works.flank;
   if (!flank) return;
-  bool begun = false;
-  for (const RexsComponent* c : stage.related(flank->id)) {
-    const bool tip = c->type == "tip_relief", root = c->type == "root_relief";
+  const auto modifications = modifications_of(stage, flank), others = modifications_of(stage, works.other);
+  // Flanks with the same modifications give the same scene.
+  if (!works.assumed.empty() &&
+      std::set(modifications.begin(), modifications.end()) != std::set(others.begin(), others.end()))
+    out.assumed_of("gear." + name + ".modification", works.assumed);
+  for (const RexsComponent* c : others)
+    if (std::find(modifications.begin(), modifications.end(), c) == modifications.end())
+      scene.ignored.push_back(quoted_name(*c) + " of " + quoted_name(*works.other) +
+                              ": that flank carries no load");
+  std::set<std::string> written;
+  for (const RexsComponent* c : modifications) {
+    const std::string kind = c->type;
+    const bool tip = kind == "tip_relief", root = kind == "root_relief";
     const auto skip = [&](const std::string& why) {
       scene.ignored.push_back(quoted_name(*c) + " of " + quoted_name(*flank) + why);
     };
-    if (c->type == "cylindrical_gear" || c->type == "rack_shaped_tool") continue;
-    const std::string kind = c->type;
+    if (written.contains(kind)) {
+      skip(": a flank of a scene has one " + kind);
+      continue;
+    }
     const auto begin = [&] {
-      if (!begun) out.section("[gear." + name + ".modification]   # of " + quoted_name(*flank));
-      begun = true;
+      if (written.empty()) out.section("[gear." + name + ".modification]   # of " + quoted_name(*flank));
+      written.insert(kind);
     };
     if (tip || root) {
       const auto depth = stage.number(c, kind + "_depth", kMicrometre);
@@ -374,7 +232,7 @@ void write_modifications(Stage& stage, int side, const std::string& name, Writer
   }
 }
 
-void write_errors(Stage& stage, int side, const std::string& name, Writer& out) {
+void write_errors(RexsStage& stage, int side, const std::string& name, Writer& out) {
   for (const char* attribute :
        {"global_tolerance_class_iso_1328_2013", "tolerance_class_according_to_iso_1328_2013"}) {
     const auto iso = stage.number(&stage.gear(side), attribute, kNumber);
@@ -385,14 +243,14 @@ void write_errors(Stage& stage, int side, const std::string& name, Writer& out) 
   }
 }
 
-std::string write_material(Stage& stage, int side, const std::string& plane, Writer& out) {
+std::string write_material(RexsStage& stage, int side, const std::string& plane, Writer& out) {
   const RexsComponent* material = stage.beside(stage.gear(side).id, "material");
   const std::string name = material ? text("material_", material->id) : text("steel_", side + 1),
                     of = "material." + name + ".";
   out.section("[material." + name + "]");
   struct Constant {
     const char *key, *attribute;
-    Unit unit;
+    RexsUnit unit;
     const char* steel;
   };
   for (const Constant& c : {Constant{"youngs_modulus_GPa", "elastic_modulus", kGigapascal, "206.0"},
@@ -407,10 +265,10 @@ std::string write_material(Stage& stage, int side, const std::string& plane, Wri
   return name;
 }
 
-void write_load(Stage& stage, double teeth, Writer& out) {
+void write_load(RexsStage& stage, double teeth, Writer& out) {
   out.section("[operation]");
   const RexsComponent* shaft = stage.beside(stage.gear(0).id, "shaft");
-  std::optional<Number> torque = stage.number(stage.stage_gear_data(0), "torque", kNewtonMetre);
+  std::optional<RexsNumber> torque = stage.number(stage.stage_gear_data(0), "torque", kNewtonMetre);
   if (!torque) torque = stage.number(&stage.gear(0), "torque_acting_on_shaft_u", kNewtonMetre);
   if (!torque && shaft)
     torque = stage.number(stage.beside(shaft->id, "external_load"), "torque_around_u_axis", kNewtonMetre);
@@ -418,7 +276,7 @@ void write_load(Stage& stage, double teeth, Writer& out) {
     out.value("torque_Nm", {std::abs(torque->value), torque->origin});
   else
     out.assumed("torque_Nm", "operation.", "100.0", "the model has no torque of the driver");
-  std::optional<Number> speed = stage.number(&stage.gear(0), "rotational_speed", kPerMinute);
+  std::optional<RexsNumber> speed = stage.number(&stage.gear(0), "rotational_speed", kPerMinute);
   if (!speed) speed = stage.number(shaft, "rotational_speed", kPerMinute);
   if (speed && speed->value != 0) {
     // From a fifth of the operating speed to half beyond it, in steps of a hundredth.
@@ -439,15 +297,15 @@ struct Written {
   double module_mm, teeth;
 };
 
-Written write_gear(Stage& stage, int side, const std::string& name, const std::string& material, Writer& out,
-                   RexsScene& scene) {
+Written write_gear(RexsStage& stage, int side, const std::string& name, const std::string& material,
+                   Writer& out, RexsScene& scene) {
   const RexsComponent& gear = stage.gear(side);
   const std::string of = "gear." + name + ".";
   out.section("[gear." + name + "]   # " + quoted_name(gear));
-  const Number teeth = stage.required(&gear, gear, "number_of_teeth", kNumber),
-               module = stage.required(&gear, gear, "normal_module", kMillimetre),
-               angle = of_flanks(stage, side, "normal_pressure_angle", kDegree),
-               shift = of_flanks(stage, side, "addendum_modification_coefficient", kNumber);
+  const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kNumber),
+                   module = stage.required(&gear, gear, "normal_module", kMillimetre),
+                   angle = of_flanks(stage, side, "normal_pressure_angle", kDegree),
+                   shift = of_flanks(stage, side, "addendum_modification_coefficient", kNumber);
   if (teeth.value != std::round(teeth.value) || teeth.value > 1e6)
     fail(Failure::input, stage.path(), ": ", teeth.origin, " = ", teeth.value, " is no number of teeth");
   out.whole("teeth", teeth);
@@ -473,7 +331,7 @@ Written write_gear(Stage& stage, int side, const std::string& name, const std::s
 }  // namespace
 
 RexsScene scene_of_rexs(const RexsModel& model, const std::string& wanted, int load_case) {
-  Stage stage(model, wanted, load_case);
+  RexsStage stage(model, wanted, load_case);
   for (int side : {0, 1}) check_spur(stage, side);
   RexsScene scene;
   scene.stage = quoted_name(stage.stage());
@@ -501,7 +359,10 @@ RexsScene scene_of_rexs(const RexsModel& model, const std::string& wanted, int l
   out.line("title = " + title);
   scene.text += gears.text + materials.text;
   out.section("[[mesh]]");
-  out.value("driver", "\"" + name[0] + "\"", quoted_name(stage.gear(0)));
+  if (stage.driver_assumed().empty())
+    out.value("driver", "\"" + name[0] + "\"", quoted_name(stage.gear(0)));
+  else
+    out.assumed("driver", "mesh.", "\"" + name[0] + "\"", stage.driver_assumed());
   out.value("driven", "\"" + name[1] + "\"", quoted_name(stage.gear(1)));
   out.value("centre_distance_mm",
             stage.required(&stage.stage(), stage.stage(), "center_distance", kMillimetre));

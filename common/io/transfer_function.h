@@ -8,7 +8,8 @@
 namespace whine {
 
 // Throws Error(io) if the file cannot be read, Error(input) with file:line for a column that is missing or unknown, a row of other
-// length, a word that is no number, frequencies that do not ascend.
+// length, a word that is no number, frequencies that do not ascend, a frequency outside of 0 to 1e9 Hz, a magnitude outside of 0 to
+// 1e30, a phase beyond 1e9 degrees.
 TransferFunction read_transfer_function(const std::string& path);
 
 }  // namespace whine
