@@ -21,7 +21,7 @@ name_remedy = , and may hold $(names_allowed)$(if $(filter SCENE STUDY,$1),; ren
 
 # SCENE and STUDY are paths, the others numbers and words; none of them has its default yet. What holds a control character is not
 # shown: a terminal would obey it.
-names_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE AT TRANSFER
+names_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE AT TRANSFER RATE FROM TO WAY
 $(foreach v,$(names_given) MAKECMDGOALS,$(if $(findstring $$,$(value $v)),$(error $(name_shown): it holds $$$(call name_remedy,$v))))
 
 name_controls := $(shell printf '%b ' '\01' '\02' '\03' '\04' '\05' '\06' '\07' '\010' '\016' '\017' '\020' '\021' '\022' '\023' \

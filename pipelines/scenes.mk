@@ -40,7 +40,7 @@ scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant
 
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
-  $(if $(filter mesh reduce static loaded impact calibrate sweep histories sound lumped branches jump-map fold-curves sensitivity harris-map report out/bodies/%,$(goals)),$(own_scene)) \
+  $(if $(filter mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
   $(if $(filter bifurcations,$(goals)),$(paper_scene) $(bifurcation_scenes)) \
   $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(shown_scenes))) \

@@ -14,6 +14,7 @@
 #include "io/mesh_codec.h"
 #include "io/readings_codec.h"
 #include "io/response_codec.h"
+#include "io/runup_codec.h"
 #include "io/static_codec.h"
 #include "io/study_codec.h"
 #include "io/sweep_codec.h"
@@ -45,9 +46,10 @@ std::string dataset_table() {
          row<ErrorBudgetArtifact>("error_budget.h5") + row<LoadedArtifact>("loaded_<phase>.h5") +
          row<ImpactArtifact>("impact.h5") + row<SweepArtifact>("sweep.h5") +
          row<ResponseArtifact>("response.h5") + row<BranchArtifact>("branch.h5") +
-         row<FoldCurvesArtifact>("fold_curves_*.h5") + row<JumpMapArtifact>("jump_map_*.h5") +
-         row<HarrisMapArtifact>("harris_map.h5") + row<VariantArtifact>("ab12....h5") +
-         row<StudyArtifact>("study.h5") + row<ReadingsArtifact>("readings.h5");
+         row<RunupArtifact>("runup_<rate>.h5") + row<FoldCurvesArtifact>("fold_curves_*.h5") +
+         row<JumpMapArtifact>("jump_map_*.h5") + row<HarrisMapArtifact>("harris_map.h5") +
+         row<VariantArtifact>("ab12....h5") + row<StudyArtifact>("study.h5") +
+         row<ReadingsArtifact>("readings.h5");
 }
 
 }  // namespace whine
