@@ -77,6 +77,7 @@ drawn_as_profile-chart := profile
 drawn_as_relief-jumps := fig05
 drawn_as_histories := fig08
 drawn_as_history-loads := fig10
+$(foreach d,up down,$(eval drawn_as_runup-$d := runup))
 
 $(foreach f,fig08 fig10,$(eval options_$f := --mesh-frequency 2400))
 $(foreach f,fig09 fig11,$(eval options_$f := --mesh-frequency 1300))
@@ -136,6 +137,10 @@ $(sound_file).wav $(sound_file).tsv &: $1 $(TRANSFER) $(sound_plan_file) $(call 
 	$(B)/bin/gear-sound $(foreach f,$1,--sweep $f) --mesh-frequency $(AT) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
 endef
 
+# A run-up with the sweeps beside it.
+runup_figure = $(figure_folder)/runup-$(subst _,-,$(runup_stem))-$(WAY)-T$(TORQUE)
+inputs_runup = out/$1/T$(TORQUE)/$(WAY)/runup_$(runup_stem).h5 $(call both_ways,$1,$(TORQUE),response)
+
 define table_rule # path without extension, inputs, published values, what else it depends on
 $1.tsv $1.txt &: $2 $3 $4 $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot table1 $(if $3,--printed $3) --output $1 $2
@@ -183,6 +188,7 @@ $(if $(filter histories,$(goals)),$(if $(filter $1,$(own_scene)),$(foreach f,$(h
   $(eval $(call figure_rule,$(firstword $(subst -$(AT)Hz, ,$(notdir $f))),$f,$(call inputs_fig08,$1,$(TORQUE)))))))
 $(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call both_ways,$1,$(TORQUE),sweep)))\
   $(if $(TRANSFER),$(eval $(call plan_rule,$(sound_plan_file),$(sound_plan))))))
+$(if $(filter runup,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call figure_rule,runup-$(WAY),$(runup_figure),$(call inputs_runup,$1)))))
 $(eval $(call report_rule,$1))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef
@@ -192,7 +198,7 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # $(call stands,words): where a goal is to be found, also when nothing was to be made. By $(info): `make -q` and `make -n` stay as they are.
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
-.PHONY: figures $(figures) table1 scorecard animation report histories sound
+.PHONY: figures $(figures) table1 scorecard animation report histories sound runup
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
@@ -232,4 +238,6 @@ histories: $(if $(filter histories,$(goals)),$$(addsuffix .png,$$(history_figure
 	$(call stands,histories: $(addsuffix .{png$(,)svg$(,)tsv},$(history_figures)))
 sound: $(if $(filter sound,$(goals)),$$(sound_file).wav) ## what is heard of the mesh force at one mesh frequency in Hz, rising branch, then falling, as WAV: AT=2400 TORQUE=150 TRANSFER=file.csv (SCENE: its first torque)
 	$(call stands,sound: $(sound_file).{wav$(,)tsv})
+runup: $(if $(filter runup,$(goals)),$$(runup_figure).png) ## run-up or run-down: spectrogram of the mesh force, orders of the DTE, tooth loads: RATE=100 (rpm/s) WAY=up FROM=2400 TO=2800 (Hz; else the scene's speeds) TORQUE=150 (SCENE: its first torque)
+	$(call stands,runup: $(runup_figure).{png$(,)svg$(,)tsv})
 animation: $(figure_folder)/animation/motion.gif ## one mesh period with contact loss, GIF and a PNG of each frame, 150 N m, 2400 Hz, upper branch of parker2000-calibrated (SCENE: first torque, at resonance)

@@ -78,6 +78,17 @@ out/$1/T$2/branch.h5: out/$1/params/sweep.toml $(pair_bodies) \
 	  --reference-static $(reference_static) --output $$@ $$(call landed,orbit)
 endef
 
+# The rate (rpm/s) stands in the path, and the ends of the ramp (Hz) where they are not the scene's: runup_100.h5,
+# runup_100_2400_2800.h5.
+runup_word = $(word $2,$(subst _, ,$1))
+define runup_rules # scene, torque, direction
+out/$1/T$2/$3/runup_%.h5: out/$1/params/sweep.toml $(pair_bodies) \
+    out/$1/T$2/static.h5 $(reference_static) $(call id,gear-runup) | $(B)/bin/gear-runup
+	$$(call run,runup) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
+	  --reference-static $(reference_static) --direction $3 --rate '$$(call runup_word,$$*,1)' \
+	  $$(if $$(call runup_word,$$*,2),--from '$$(call runup_word,$$*,2)' --to '$$(call runup_word,$$*,3)') --output $$@ $$(call landed,runup)
+endef
+
 # The phase stands in the path, as the torque does: loaded_0.25.h5.
 pair_meshes = $(patsubst %/body.h5,%/mesh.h5,$(pair_bodies))
 define loaded_rules # scene, torque
@@ -132,9 +143,17 @@ $(if $(filter histories,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
   $(error histories: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make histories AT=1250)))
 $(if $(filter sound,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
   $(error sound: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make sound AT=2400)))
+RATE ?= 100
+WAY ?= up
+$(if $(filter runup,$(goals)),$(if $(call outside,$(RATE),1e-9,1e9),\
+  $(error RATE=$(RATE): it is the change of the driver's speed in rpm/s$(,) above 0; WAY=down is a run-down)))
+$(if $(filter runup,$(goals)),$(if $(filter up down,$(WAY)),,$(error WAY=$(WAY): it is up or down)))
+$(if $(filter runup,$(goals)),$(if $(FROM)$(TO),$(if $(call outside,$(FROM),1e-9,1e9)$(call outside,$(TO),1e-9,1e9),\
+  $(error FROM=$(FROM) TO=$(TO): give both or none: mesh frequencies in Hz at the start and the end of the ramp))))
+runup_stem = $(RATE)$(if $(FROM),_$(FROM)_$(TO))
 $(if $(filter loaded,$(goals)),$(if $(filter alike,$(SCENE_$(own_scene)_TEETH)),$(if $(call outside,$(PHASE),0,1),\
   $(error PHASE=$(PHASE): it is a share of the mesh period, 0 up to, not including, 1))))
-calibrated_torque = $(if $(filter calibrate loaded histories sound,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
+calibrated_torque = $(if $(filter calibrate loaded histories sound runup,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
 
 # Torques of a scene that have rules: those that it lists and those in the paths of goals and figures.
 path_torques = $(patsubst T%,%,$(foreach f,$(filter out/$1/T%,$(goals) $(figure_inputs)),$(word 3,$(subst /, ,$f))))
@@ -147,7 +166,7 @@ $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
 $(foreach t,$(path_torques) $(calibrated_torque),$(call check_torque,$1,$t))
 $(foreach m,$(lumped_models),$(eval $(call plan_rule,$(call lumped_plan_file,$1,,$m),$(call lumped_plan,$1,,$m))))
 $(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))$(eval $(call loaded_rules,$1,$t))$(eval $(call branch_rules,$1,$t))\
-  $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))$(eval $(call jumps_rules,$1,$t,$d))\
+  $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))$(eval $(call jumps_rules,$1,$t,$d))$(eval $(call runup_rules,$1,$t,$d))\
     $(foreach m,$(lumped_models),$(eval $(call lumped_rules,$1,$t,$m,$d)))))
 $(call figure_rules,$1)
 endef

@@ -45,6 +45,7 @@ measured_pair="${pair[*]} --static out/scene/T100/static.h5 --reference-static o
 stage_impact=("$bin/gear-impact" --params out/scene/params/impact.toml $measured_pair --output out/scene/T100/impact.h5)
 stage_spectra=("$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output out/scene/T100/up/response.h5)
 stage_orbit=("$bin/gear-orbit" --params out/scene/params/sweep.toml $measured_pair --output out/scene/T100/branch.h5)
+stage_runup=("$bin/gear-runup" --params out/scene/params/sweep.toml $measured_pair --rate 5000 --output out/scene/T100/up/runup_5000.h5)
 stage_folds=("$bin/gear-folds" --params out/scene/params/sweep.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
   --over torque --first 100 --values 90,110 --from 2000 --to 2100 --output out/scene/T100/fold_curves_torque.h5)
 sed 's/^title = .*/title = "A planetary train"/' "$(dirname "$scene_of_paper")/lin-parker-planetary.toml" > scene-train.toml
@@ -60,7 +61,7 @@ stage_loaded=("$bin/gear-loaded" --static out/scene/T100/static.h5 "${pair[@]}" 
   --mesh wheel=out/scene/wheel/mesh.h5 --mesh-phase 0.25 --output out/scene/T100/loaded_0.25.h5)
 chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
-    $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
+    $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && "${stage_runup[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
     "${stage_train[@]}" && "${stage_modes[@]}" && "${stage_modes_plot[@]}"
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
@@ -74,7 +75,7 @@ if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
   wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
 if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
   wrong "no artifact holds a path of the machine" "$found"; fi
-for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5 out/scene-train/modes.h5; do
+for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/runup_5000.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5 out/scene-train/modes.h5; do
   if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
@@ -145,7 +146,7 @@ rm -rf examples
 
 # --- the command line
 declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
-  [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-orbit]="${stage_orbit[*]}" [gear-folds]="${stage_folds[*]}" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
+  [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-orbit]="${stage_orbit[*]}" [gear-folds]="${stage_folds[*]}" [gear-runup]="${stage_runup[*]}" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
   [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --printed $claims --output x out/scene/T100/static.h5"
   [gear-report]="$bin/gear-report out/scene/T100/static.h5 --output x"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
@@ -177,6 +178,7 @@ gear-static out/scene/linked.h5
 gear-impact out/scene/T100/static.h5
 gear-sweep out/scene/../scene/T100/static.h5
 gear-spectra out/scene/T100/up/sweep.h5
+gear-runup out/scene/T100/static.h5
 gear-report out/scene/T100/static.h5
 CASES
 rm out/scene/linked.h5

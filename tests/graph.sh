@@ -198,6 +198,12 @@ make_ -n AT=1250 TORQUE=100 TRANSFER=b/mic.csv sound
 expect "a transfer function of the same name in another folder, however old, makes the sound again" "gear-sound*1"
 cp -p b/mic.csv a/mic.csv; make_ -n AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
 expect "and so does another one in its place" "gear-sound*1"
+rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup
+rejected_by_make "a run-up with one end is told to give both" 'give both or none' FROM=2400 runup
+make_ -n RATE=500 WAY=down FROM=2800 TO=2400 TORQUE=100 runup
+grep -q "gear-runup --params .*T100/static.h5 .*--direction down --rate '500' --from '2800' --to '2400' --output out/parker2000/T100/down/runup_500_2800_2400.h5" "$log" &&
+  grep -q 'gear-plot runup --output out/figures/runup-500-2800-2400-down-T100 ' "$log" &&
+  ok "a run-down between two speeds" || wrong "a run-down between two speeds" "$(tail -n 1 "$log")"
 make_ -n AT=1250 TORQUE=100 histories
 grep -q 'gear-plot fig08 --output out/figures/histories-1250Hz-T100 --mesh-frequency 1250 .*out/parker2000/T100/up/sweep.h5' "$log" &&
   grep -q 'gear-plot fig10 --output out/figures/history-loads-1250Hz-T100 --mesh-frequency 1250 ' "$log" && ok "histories at a speed and a torque of one's own" ||

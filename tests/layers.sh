@@ -34,7 +34,7 @@ confined() {
   found=$(grep -l "#include <$1" common/*/* tools/* tests/*.cpp | grep -v -E "^($2)$" | tr '\n' ' ')
   if [ -z "$found" ]; then echo "ok: only $2 includes $1"; else echo "FAILED: $1 is included by $found"; fi
 }
-confined hdf5 'common/io/.*\.cpp|common/io/h5\.h'
+confined hdf5 'common/io/.*\.cpp|common/io/h5(_handle)?\.h'
 confined gmsh 'common/solid/gmsh_mesh\.cpp'
 confined cholmod 'common/solid/.*\.cpp'
 confined fftw3 'common/signal/.*\.cpp'

@@ -299,7 +299,7 @@ void RollingDynamics::put_gap(int position, int period) {
   kernel_.set_gap(position, gap);
 }
 
-void RollingDynamics::set_speed(double mesh_frequency, int steps) {
+void RollingDynamics::pass_speed(double mesh_frequency, int steps) {
   const int finest = static_cast<int>(positions_.size());
   if (steps <= 0 || finest % steps != 0)
     fail(Failure::numerical, steps, " steps per period do not divide the ", finest,
@@ -318,6 +318,11 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
                                      : exact_propagator(c.frequency, c.damping, h));
   }
   kernel_.set_speed(std::move(propagators), relaxation_step(relaxation(), h), steps, positions_);
+  damping_.speed.resize(0);
+}
+
+void RollingDynamics::set_speed(double mesh_frequency, int steps) {
+  pass_speed(mesh_frequency, steps);
   damping_ = damping_integrals();
 }
 

@@ -105,6 +105,8 @@ class RollingDynamics {
   const ZoneMemory& memory() const { return memory_; }
   // mesh frequency: Hz; steps per period must divide the steps of the range.
   void set_speed(double mesh_frequency, int steps);
+  // The same for a speed that is left after a few periods, without what an energy balance needs: none may be recorded.
+  void pass_speed(double mesh_frequency, int steps);
   // Static equilibrium at phase 0, at rest.
   State rest();
   // Integrates one mesh period and renames teeth, so that the state can be compared with the one before.

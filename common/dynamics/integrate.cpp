@@ -46,6 +46,8 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
          "the energy balance needs the contact forces of the start state at each strip: it has those of ",
          state.p.size(), " strips, the range has ", positions_[0].mesh.strips(),
          "; integrate a period without an energy balance first");
+  if (energy_balance && damping_.speed.size() == 0)
+    fail(Failure::input, "no energy balance is recorded at a speed that is passed; set the speed");
   try {
     return integrate(state, period, energy_balance, nullptr);
   } catch (const Error& error) {

@@ -183,12 +183,26 @@ void require_made_from(const std::string& artifact, const std::string& role, con
 
 ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int version,
                                const std::string& title, const Provenance& provenance)
-    : path_(std::move(path)), inputs_(provenance.inputs), sha256_(provenance.sha256) {
-  put_seal(file_);
-  file_.attribute("/", "schema", kFamily + kind);
-  file_.attribute("/", "schema_version", version);
-  file_.attribute("/", "title", title);
-  file_.group("/parameters");
+    : ArtifactWriter(std::move(path), nullptr, kind, version, title, provenance) {}
+
+ArtifactWriter ArtifactWriter::on_disk(std::string path, const std::string& kind, int version,
+                                       const std::string& title, const Provenance& provenance) {
+  auto staged = std::make_unique<StagedFile>(path);
+  return ArtifactWriter(std::move(path), std::move(staged), kind, version, title, provenance);
+}
+
+ArtifactWriter::ArtifactWriter(std::string path, std::unique_ptr<StagedFile> staged, const std::string& kind,
+                               int version, const std::string& title, const Provenance& provenance)
+    : path_(std::move(path)),
+      inputs_(provenance.inputs),
+      sha256_(provenance.sha256),
+      staged_(std::move(staged)),
+      file_(staged_ ? std::make_unique<h5::Writer>(staged_->temporary()) : std::make_unique<h5::Writer>()) {
+  put_seal(*file_);
+  file_->attribute("/", "schema", kFamily + kind);
+  file_->attribute("/", "schema_version", version);
+  file_->attribute("/", "title", title);
+  file_->group("/parameters");
 
   std::vector<std::string> roles, paths, hashes, history;
   std::map<std::string, std::string> known;  // hashes by path
@@ -211,45 +225,45 @@ ArtifactWriter::ArtifactWriter(std::string path, const std::string& kind, int ve
       if (named.insert(line).second) history.push_back(line);
   }
   const std::string folder = "/provenance/";
-  file_.put(folder + "tool", provenance.tool, record("program that made this file"));
-  file_.put(folder + "version", std::string(kVersion), record("version of the program"));
-  file_.put(folder + "command", provenance.command, record("command, paths relative to its working folder"));
-  file_.put(folder + "blas", blas_name(), record("linear algebra library"));
-  file_.put(folder + "input_role", roles, record("role of each input", "input"));
-  file_.put(folder + "input_path", paths,
-            record("path of each input, relative to the working folder", "input"));
-  file_.put(folder + "input_sha256", hashes, record("SHA-256 of each input file", "input"));
-  file_.put(folder + "history", history, record("earlier stages, oldest first", "stage"));
+  file_->put(folder + "tool", provenance.tool, record("program that made this file"));
+  file_->put(folder + "version", std::string(kVersion), record("version of the program"));
+  file_->put(folder + "command", provenance.command, record("command, paths relative to its working folder"));
+  file_->put(folder + "blas", blas_name(), record("linear algebra library"));
+  file_->put(folder + "input_role", roles, record("role of each input", "input"));
+  file_->put(folder + "input_path", paths,
+             record("path of each input, relative to the working folder", "input"));
+  file_->put(folder + "input_sha256", hashes, record("SHA-256 of each input file", "input"));
+  file_->put(folder + "history", history, record("earlier stages, oldest first", "stage"));
 }
 
 void ArtifactWriter::put(const std::string& name, double value, const h5::Label& label) {
-  file_.put(name, &value, {}, label);
+  file_->put(name, &value, {}, label);
 }
 
 void ArtifactWriter::put(const std::string& name, int value, const h5::Label& label) {
-  file_.put(name, &value, {}, label);
+  file_->put(name, &value, {}, label);
 }
 
 void ArtifactWriter::put(const std::string& name, const std::string& value, const h5::Label& label) {
-  file_.put(name, value, label);
+  file_->put(name, value, label);
 }
 
 void ArtifactWriter::put(const std::string& name, const Eigen::VectorXd& values, const h5::Label& label) {
-  file_.put(name, values.data(), {static_cast<std::size_t>(values.size())}, label);
+  file_->put(name, values.data(), {static_cast<std::size_t>(values.size())}, label);
 }
 
 void ArtifactWriter::put(const std::string& name, const Eigen::VectorXi& values, const h5::Label& label) {
-  file_.put(name, values.data(), {static_cast<std::size_t>(values.size())}, label);
+  file_->put(name, values.data(), {static_cast<std::size_t>(values.size())}, label);
 }
 
 void ArtifactWriter::put(const std::string& name, const MatrixRM& values, const h5::Label& label) {
-  file_.put(name, values.data(),
-            {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
+  file_->put(name, values.data(),
+             {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
 }
 
 void ArtifactWriter::put(const std::string& name, const MatrixRMi& values, const h5::Label& label) {
-  file_.put(name, values.data(),
-            {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
+  file_->put(name, values.data(),
+             {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
 }
 
 void ArtifactWriter::parameters(const std::string& section, const KeyValues& values, Part part) {
@@ -282,7 +296,10 @@ void ArtifactWriter::publish() {
       fail(Failure::input, path_, ": is not written, because its input ", place,
            " was replaced while it was being made; ", rebuild_advice(path_));
   }
-  whine::publish(path_, sealed(file_.finish()));
+  if (!staged_) return whine::publish(path_, sealed(file_->finish()));
+  file_->close();
+  staged_->seal(kSeal);
+  staged_->publish();
 }
 
 ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind, int version)

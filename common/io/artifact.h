@@ -4,6 +4,7 @@
 // Private to the layer io/; the codecs (io/codec.h) say what stands in each artifact.
 #pragma once
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "io/h5.h"
 #include "io/keys.h"
 #include "io/provenance.h"
+#include "io/publish.h"
 #include "io/ranges.h"
 
 namespace whine {
@@ -27,8 +29,11 @@ class ArtifactWriter {
   // kind: "static" for the schema "whine/static".
   ArtifactWriter(std::string path, const std::string& kind, int version, const std::string& title,
                  const Provenance& provenance);
+  // The same into a staged file on disk, for records of any length.
+  static ArtifactWriter on_disk(std::string path, const std::string& kind, int version,
+                                const std::string& title, const Provenance& provenance);
 
-  h5::Writer& file() { return file_; }
+  h5::Writer& file() { return *file_; }
 
   void put(const std::string& name, double value, const h5::Label& label);
   void put(const std::string& name, int value, const h5::Label& label);
@@ -45,9 +50,13 @@ class ArtifactWriter {
   void publish();
 
  private:
+  ArtifactWriter(std::string path, std::unique_ptr<StagedFile> staged, const std::string& kind, int version,
+                 const std::string& title, const Provenance& provenance);
+
   std::string path_;
   std::vector<std::string> inputs_, sha256_;  // "role=path", and what was recorded of it
-  h5::Writer file_;
+  std::unique_ptr<StagedFile> staged_;        // or nothing
+  std::unique_ptr<h5::Writer> file_;
 };
 
 class ArtifactReader {

@@ -57,9 +57,9 @@ std::string schema_named(const Parts& place) {
   for (const char* kind :
        {"mesh", "body", "static", "error_budget", "impact", "sweep", "response", "branch", "modes"})
     if (stem == kind) return std::string("whine/") + kind;
-  for (const auto& [start, kind] :
-       {std::pair{"loaded_", "loaded"}, std::pair{"jump_map", "jump_map"}, std::pair{"branches", "jump_map"},
-        std::pair{"harris_", "harris_map"}, std::pair{"fold_curves", "fold_curves"}})
+  for (const auto& [start, kind] : {std::pair{"loaded_", "loaded"}, std::pair{"jump_map", "jump_map"},
+                                    std::pair{"branches", "jump_map"}, std::pair{"harris_", "harris_map"},
+                                    std::pair{"runup_", "runup"}, std::pair{"fold_curves", "fold_curves"}})
     if (stem.starts_with(start)) return std::string("whine/") + kind;
   return "";
 }

@@ -169,6 +169,7 @@ void Codec::dataset(const Dataset& d, const Member& member) {
     list_->push_back(d);
     return;
   }
+  if (out_ && record_ != Record::none) return put_record(d, member);
   std::visit(
       [&](auto* value) {
         if (in_) take(*in_, d, known_shape(d.axes), *value);
@@ -176,6 +177,24 @@ void Codec::dataset(const Dataset& d, const Member& member) {
         if (out_) put(*out_, d, known_shape(d.axes), *value);
       },
       member);
+}
+
+void Codec::put_record(const Dataset& d, const Member& member) {
+  constexpr std::size_t kChunk = 16384;  // rows
+  const auto* vector = std::get_if<Eigen::VectorXd*>(&member);
+  const auto* matrix = std::get_if<MatrixRM*>(&member);
+  if (!vector && !matrix) fail(Failure::numerical, "dataset ", d.name, " is no record of rows");
+  std::vector<Eigen::Index> shape = vector ? shape_of(**vector) : shape_of(**matrix);
+  const double* data = vector ? (*vector)->data() : (*matrix)->data();
+  if (record_ == Record::append) {
+    out_->file().append(d.name, data, static_cast<std::size_t>(rows_), static_cast<std::size_t>(shape[0]));
+    return;
+  }
+  shape[0] = rows_;
+  note_shape(d, shape);
+  // Values in single precision (6e-8); coordinates along an axis in double, or neighbours in a long record would be equal.
+  const bool coordinate = d.name == "/" + d.axes;
+  out_->file().reserve(d.name, sizes(known_shape(d.axes)), kChunk, !coordinate, label(d));
 }
 
 void Codec::column(const Dataset& d, MatrixRM& values, Eigen::Index column, Eigen::Index columns) {

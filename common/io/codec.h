@@ -49,6 +49,14 @@ class Codec {
   // Error(input) if the length along an axis is not that of the axis; a reader also if a number is out of range.
   void dataset(const Dataset& dataset, const Member& member);
 
+  // What dataset() does with members from here on, for records that come piece by piece: whole again with Record::none;
+  // reserve: `rows` rows along the first axis; append: the rows of the member from `rows` on. To readers and lists it is nothing.
+  enum class Record { none, reserve, append };
+  void record(Record what, Eigen::Index rows = 0) {
+    record_ = what;
+    rows_ = rows;
+  }
+
   // A choice is stored as its word.
   template <WordedChoice Choice>
   void choice(const Dataset& dataset, Choice& choice) {
@@ -117,11 +125,14 @@ class Codec {
  private:
   std::vector<Eigen::Index> known_shape(const std::string& axes) const;  // -1: not yet known
   void note_shape(const Dataset& dataset, const std::vector<Eigen::Index>& shape);
+  void put_record(const Dataset& dataset, const Member& member);
 
   ArtifactWriter* out_ = nullptr;
   const ArtifactReader* in_ = nullptr;
   std::vector<Dataset>* list_ = nullptr;
   std::map<std::string, Eigen::Index> lengths_;
+  Record record_ = Record::none;
+  Eigen::Index rows_ = 0;
 };
 
 // What stands in a file of a schema; version: raised whenever a dataset changes its name, shape or meaning.

@@ -1,6 +1,5 @@
 #include "io/h5.h"
 
-#include <hdf5.h>
 #include <hdf5_hl.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/h5_handle.h"
 #include "io/h5_heaps.h"
 
 namespace whine::h5 {
@@ -23,41 +23,10 @@ namespace {
 constexpr std::size_t kFilterBytes = 8192;
 constexpr std::size_t kChunkBytes = 1 << 20;
 
-// An HDF5 identifier that is closed by the function that its kind wants.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
-    if (id_ < 0) fail(Failure::numerical, "HDF5 refused to ", what, "; this is a fault of the program");
-  }
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Handle& operator=(Handle&&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: HDF5 calls take the number
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-// Our errors say what went wrong in one line; HDF5's stack of them would hide it.
-void silence() {
-  static const bool done = [] {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    return true;
-  }();
-  (void)done;
-}
-
 // HDF5 takes two files in memory for one if their names agree; the name is not stored.
 std::string memory_name() {
   static std::atomic<long> count{0};
   return text("whine-", ++count, ".h5");
-}
-
-void check(herr_t status, const std::string& what) {
-  if (status < 0) fail(Failure::numerical, "HDF5 refused to ", what, "; this is a fault of the program");
 }
 
 // Of no fixed length for attributes, which readers of other languages then show as text.
@@ -110,34 +79,6 @@ struct Image {
   }
   static void* same(void* self) { return self; }
   static herr_t keep(void*) { return 0; }
-};
-
-template <class T>
-struct Types;
-template <>
-struct Types<double> {
-  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
-  static hid_t file() { return H5T_IEEE_F64LE; }
-};
-template <>
-struct Types<float> {
-  static hid_t memory() { return H5T_NATIVE_FLOAT; }
-  static hid_t file() { return H5T_IEEE_F32LE; }
-};
-template <>
-struct Types<int> {
-  static hid_t memory() { return H5T_NATIVE_INT; }
-  static hid_t file() { return H5T_STD_I32LE; }
-};
-template <>
-struct Types<std::int64_t> {
-  static hid_t memory() { return H5T_NATIVE_INT64; }
-  static hid_t file() { return H5T_STD_I64LE; }
-};
-template <>
-struct Types<std::uint8_t> {
-  static hid_t memory() { return H5T_NATIVE_UINT8; }
-  static hid_t file() { return H5T_STD_U8LE; }
 };
 
 }  // namespace
@@ -198,7 +139,7 @@ struct Writer::Impl {
   }
 
   void put(const std::string& path, hid_t file_type, hid_t memory_type, std::size_t item_bytes,
-           const void* data, const Shape& shape, const Label& label) {
+           const void* data, const Shape& shape, const Label& label, std::size_t chunk_rows = 0) {
     if (label.units.empty() || label.long_name.empty() || (!shape.empty() && label.axes.empty())) {
       fail(Failure::numerical, "dataset ", path, " lacks units, long_name or axes");
     }
@@ -212,14 +153,14 @@ struct Writer::Impl {
       // Whole rows per chunk, about a megabyte: readers take curves of one speed or one table at a time.
       std::vector<hsize_t> chunk(shape.begin(), shape.end());
       const std::size_t row = count / shape[0] * item_bytes;
-      chunk[0] = std::clamp<hsize_t>(kChunkBytes / row, 1, shape[0]);
+      chunk[0] = std::clamp<hsize_t>(chunk_rows > 0 ? chunk_rows : kChunkBytes / row, 1, shape[0]);
       check(H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data()), "set chunks of " + path);
       check(H5Pset_shuffle(list), "set the shuffle filter");
       check(H5Pset_deflate(list, 4), "set the deflate filter");
     }
     const Handle set(H5Dcreate2(file, path.c_str(), file_type, space, H5P_DEFAULT, list, H5P_DEFAULT),
                      H5Dclose, "make the dataset " + path);
-    if (count > 0) {
+    if (count > 0 && data) {
       check(H5Dwrite(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), "write the dataset " + path);
     }
     text_attribute(set, "units", label.units);
@@ -312,19 +253,28 @@ struct Writer::Impl {
 };
 
 Writer::Writer() : impl_(std::make_unique<Impl>()) {
+  create(memory_name(), false);
+}
+
+Writer::Writer(const std::string& file) : impl_(std::make_unique<Impl>()) {
+  create(file, true);
+}
+
+void Writer::create(const std::string& name, bool on_disk) {
   silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
-  check(H5Pset_fapl_core(access, 1 << 20, 0), "select memory as a file");
+  if (!on_disk) check(H5Pset_fapl_core(access, 1 << 20, 0), "select memory as a file");
   check(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG), "select strong closing");
   // The format in which all but global heaps has a checksum: HDF5 then refuses what is damaged before it follows it.
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "select a file format");
   H5FD_file_image_callbacks_t calls{Image::take, nullptr,     Image::resize, Image::give_back,
                                     Image::same, Image::keep, &impl_->image};
-  check(H5Pset_file_image_callbacks(access, &calls), "take its memory");
-  const Handle create(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a property list");
-  check(H5Pset_obj_track_times(create, 0), "switch object times off");
-  list_in_header(create);
-  impl_->file = H5Fcreate(memory_name().c_str(), H5F_ACC_TRUNC, create, access);
+  if (!on_disk) check(H5Pset_file_image_callbacks(access, &calls), "take its memory");
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a property list");
+  check(H5Pset_obj_track_times(creation, 0), "switch object times off");
+  list_in_header(creation);
+  impl_->file = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access);
+  if (impl_->file < 0 && on_disk) fail(Failure::io, name, ": HDF5 cannot write this file; check its folder");
   if (impl_->file < 0) fail(Failure::numerical, "HDF5 refused to make a file in memory");
 }
 
@@ -360,6 +310,35 @@ void Writer::put(const std::string& path, const std::string& value, const Label&
   impl_->put(path, std::vector<std::string>{value}, {}, label);
 }
 
+void Writer::reserve(const std::string& path, const Shape& shape, std::size_t chunk, bool single,
+                     const Label& label) {
+  impl_->put(path, single ? Types<float>::file() : Types<double>::file(), Types<double>::memory(),
+             single ? sizeof(float) : sizeof(double), nullptr, shape, label, chunk);
+}
+
+void Writer::append(const std::string& path, const double* data, std::size_t first, std::size_t rows) {
+  const Handle set(H5Dopen2(impl_->file, path.c_str(), H5P_DEFAULT), H5Dclose, "open " + path);
+  const Handle space(H5Dget_space(set), H5Sclose, "get a space");
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
+  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  if (extent.empty() || first + rows > extent[0])
+    fail(Failure::numerical, "the record ", path, " gets rows beyond those that it has");
+  std::vector<hsize_t> start(extent.size(), 0), count(extent);
+  start[0] = first;
+  count[0] = rows;
+  const std::size_t numbers = count_of({count.begin(), count.end()});
+  for (std::size_t i = 0; i < numbers; ++i)
+    if (!std::isfinite(data[i]))
+      fail(Failure::numerical, "the result ", path, " is not finite (", data[i], " in row ",
+           first + i * rows / numbers, "); nothing is written");
+  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+        "select rows of " + path);
+  const Handle memory = space_of({count.begin(), count.end()});
+  if (H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, data) < 0)
+    fail(Failure::io, "cannot write rows ", first, " to ", first + rows, " of ", path,
+         "; check that the disk has room");
+}
+
 void Writer::attribute(const std::string& path, const std::string& name, const std::string& value) {
   impl_->text_attribute(impl_->object(path), name, value);
 }
@@ -386,6 +365,12 @@ std::string Writer::finish() {
   impl_->image.wanted = true;
   check(H5Fclose(std::exchange(impl_->file, -1)), "close the file");
   return std::move(impl_->image.bytes);
+}
+
+void Writer::close() {
+  impl_->scale_axes();
+  if (H5Fclose(std::exchange(impl_->file, -1)) < 0)
+    fail(Failure::io, "HDF5 cannot finish the file; check that the disk has room");
 }
 
 struct Reader::Impl {

@@ -1,6 +1,6 @@
 // A thin layer over HDF5: labelled datasets in, checked datasets out. Files are built and read in memory, so
 // that the file system sees one write of the whole (io/publish.h) and a full disk cannot leave HDF5 half
-// way. Identical calls give identical bytes: no object times, no addresses, no padding that is not cleared.
+// way; records of any length are written to a staged file on disk. Identical calls give identical bytes: no object times, no addresses, no padding that is not cleared.
 //
 // HDF5's own types stay in h5.cpp; this is private to the layer io/.
 #pragma once
@@ -24,6 +24,8 @@ struct Label {
 class Writer {
  public:
   Writer();
+  // Into an existing file on disk, for what is more than memory should hold; it ends with close() instead of finish().
+  explicit Writer(const std::string& file);
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
@@ -38,6 +40,12 @@ class Writer {
   void put(const std::string& path, const std::uint8_t* data, const Shape& shape, const Label& label);
   void put(const std::string& path, const std::vector<std::string>& data, const Label& label);
   void put(const std::string& path, const std::string& value, const Label& label);
+  // A dataset, in single or double precision, whose rows come later, in chunks of `chunk` rows. Rows that do not come would be
+  // zeros.
+  void reserve(const std::string& path, const Shape& shape, std::size_t chunk, bool single,
+               const Label& label);
+  // `rows` rows from row `first` on. Error(numerical) as of put, or beyond what is reserved.
+  void append(const std::string& path, const double* data, std::size_t first, std::size_t rows);
   // Attributes of an existing object ("/" is the root).
   void attribute(const std::string& path, const std::string& name, const std::string& value);
   void attribute(const std::string& path, const std::string& name, const std::vector<std::int64_t>& values);
@@ -48,8 +56,11 @@ class Writer {
   // The bytes of the file, with a dimension scale (H5DS) attached to each axis of each dataset outside of /VTKHDF; the writer
   // is spent afterwards. Error(numerical) if datasets differ in the length of an axis.
   std::string finish();
+  // The same of a file on disk.
+  void close();
 
  private:
+  void create(const std::string& name, bool on_disk);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -109,25 +110,46 @@ void sync_folder(const std::string& path) {
   if (folder.number() >= 0) ::fsync(folder.number());
 }
 
+std::string hexadecimal(const unsigned char* digest, unsigned int length) {
+  static const char* hex = "0123456789abcdef";
+  std::string out;
+  for (unsigned int i = 0; i < length; ++i) {
+    out += hex[digest[i] >> 4];
+    out += hex[digest[i] & 15];
+  }
+  return out;
+}
+
 }  // namespace
 
-void publish(const std::string& path, const std::string& bytes) {
-  make_folder_of(path);
-  const auto reject = [&](const char* deed, int code) {
-    fail(Failure::io, path, ": cannot ", deed, " (", bytes.size(), " bytes): ", system_says(code),
-         "; nothing was changed, an earlier file is whole");
-  };
+StagedFile::StagedFile(std::string path) : path_(std::move(path)) {
+  make_folder_of(path_);
   std::error_code code;
-  const auto kind = fs::status(path, code);
+  const auto kind = fs::status(path_, code);
   if (fs::exists(kind) && !fs::is_regular_file(kind))
-    fail(Failure::io, path, ": is no regular file and is not replaced; give the name of a file");
-  remove_stale_temporaries(path);
-  const std::string temporary = temporary_name(path);
+    fail(Failure::io, path_, ": is no regular file and is not replaced; give the name of a file");
+  remove_stale_temporaries(path_);
+  temporary_ = temporary_name(path_);
   // One that an earlier process of this number has left, or a link that somebody has put there, which is not followed.
-  ::unlink(temporary.c_str());
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  ::unlink(temporary_.c_str());
+  Descriptor file(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (file.number() < 0) reject("create a file beside it", errno);
-  Temporary guard(temporary);
+}
+
+StagedFile::~StagedFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void StagedFile::reject(const char* deed, int code) const {
+  std::error_code none;
+  const auto bytes = temporary_.empty() ? 0 : fs::file_size(temporary_, none);
+  fail(Failure::io, path_, ": cannot ", deed, " (", none ? 0 : bytes, " bytes): ", system_says(code),
+       "; nothing was changed, an earlier file is whole");
+}
+
+void StagedFile::write(const std::string& bytes) {
+  Descriptor file(::open(temporary_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
+  if (file.number() < 0) reject("open", errno);
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t count = ::write(file.number(), bytes.data() + done, bytes.size() - done);
@@ -137,11 +159,57 @@ void publish(const std::string& path, const std::string& bytes) {
     }
     done += static_cast<std::size_t>(count);
   }
+}
+
+void StagedFile::seal(const std::string& mark) {
+  const std::string zeros(64, '0');
+  Descriptor file(::open(temporary_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC));
+  if (file.number() < 0) reject("open", errno);
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> hash(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
+  if (!hash || EVP_DigestInit_ex(hash.get(), EVP_sha256(), nullptr) != 1)
+    fail(Failure::numerical, "SHA-256 is not available in this OpenSSL");
+  constexpr std::size_t kBlock = 1 << 20;
+  std::string block(kBlock, '\0'), tail;  // tail: end of the blocks before, in which the mark may begin
+  off_t place = -1, seen = 0;
+  for (;;) {
+    const ssize_t count = ::read(file.number(), block.data(), kBlock);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) reject("read", errno);
+    if (count == 0) break;
+    const auto length = static_cast<std::size_t>(count);
+    EVP_DigestUpdate(hash.get(), block.data(), length);
+    if (place < 0) {
+      const std::string text = tail + block.substr(0, length);
+      const auto at = text.find(mark + zeros);
+      if (at != std::string::npos)
+        place = seen - static_cast<off_t>(tail.size()) + static_cast<off_t>(at + mark.size());
+      tail = text.substr(text.size() - std::min(text.size(), mark.size() + zeros.size()));
+    }
+    seen += count;
+  }
+  if (place < 0) fail(Failure::numerical, "the file has no place for its content hash");
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int size = 0;
+  EVP_DigestFinal_ex(hash.get(), digest, &size);
+  const std::string digits = hexadecimal(digest, size);
+  if (::pwrite(file.number(), digits.data(), digits.size(), place) != static_cast<ssize_t>(digits.size()))
+    reject("write its content hash", errno);
+}
+
+void StagedFile::publish() {
+  Descriptor file(::open(temporary_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
+  if (file.number() < 0) reject("open", errno);
   if (::fsync(file.number()) != 0) reject("sync", errno);
   if (file.close() != 0) reject("close", errno);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) reject("put the new file in place", errno);
-  guard.keep();
-  sync_folder(path);
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) reject("put the new file in place", errno);
+  temporary_.clear();
+  sync_folder(path_);
+}
+
+void publish(const std::string& path, const std::string& bytes) {
+  StagedFile file(path);
+  file.write(bytes);
+  file.publish();
 }
 
 bool publish_if_changed(const std::string& path, const std::string& bytes) {
@@ -231,13 +299,7 @@ std::string sha256(const std::string& bytes) {
   if (EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) != 1) {
     fail(Failure::numerical, "SHA-256 is not available from the OpenSSL library of this machine");
   }
-  static const char* hex = "0123456789abcdef";
-  std::string out;
-  for (unsigned int i = 0; i < length; ++i) {
-    out += hex[digest[i] >> 4];
-    out += hex[digest[i] & 15];
-  }
-  return out;
+  return hexadecimal(digest, length);
 }
 
 std::string sha256_of_file(const std::string& path) {

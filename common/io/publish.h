@@ -11,6 +11,27 @@ namespace whine {
 // Writes bytes to path; makes the parent folders.
 void publish(const std::string& path, const std::string& bytes);
 
+// A file that grows beside its place before it is published; removed if it is not.
+class StagedFile {
+ public:
+  // Makes an empty file beside `path`, and the parent folders.
+  explicit StagedFile(std::string path);
+  ~StagedFile();
+  StagedFile(const StagedFile&) = delete;
+  StagedFile& operator=(const StagedFile&) = delete;
+  const std::string& temporary() const { return temporary_; }
+  void write(const std::string& bytes);
+  // Puts the 64 digits of the SHA-256 of the file in the place of the 64 zeros behind `mark`. Error(numerical) if they are
+  // not there.
+  void seal(const std::string& mark);
+  void publish();
+
+ private:
+  [[noreturn]] void reject(const char* deed, int code) const;
+
+  std::string path_, temporary_;
+};
+
 // As publish, but leaves a file with the same content alone (make then sees no change). True if it was
 // replaced.
 bool publish_if_changed(const std::string& path, const std::string& bytes);

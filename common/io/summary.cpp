@@ -19,6 +19,7 @@
 #include "io/mesh_codec.h"
 #include "io/modes_codec.h"
 #include "io/response_codec.h"
+#include "io/runup_codec.h"
 #include "io/static_codec.h"
 #include "io/study.h"
 #include "io/study_codec.h"
@@ -362,6 +363,17 @@ void show(Lines& lines, const FoldCurvesArtifact& a) {
   add(lines, "end", a.end);
 }
 
+void show(Lines& lines, const RunupArtifact& a) {
+  add(lines, "operating point", a.torque, " N m, ", a.ramp.from, " to ", a.ramp.to, " Hz at ", a.ramp.rate,
+      " rpm/s");
+  add(lines, "record", a.samples.size(), " samples at ", a.sample_rate, " Hz, ", a.periods.size(),
+      " mesh periods");
+  Eigen::Index worst = 0;
+  const double most = a.periods.dte_rms.maxCoeff(&worst);
+  add(lines, "largest RMS of the DTE", most * 1e6, " µm in the mesh period at ",
+      a.periods.mesh_frequency[worst], " Hz");
+}
+
 void show(Lines& lines, const ResponseArtifact& a) {
   add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
@@ -500,6 +512,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_fold_curves(path));
   } else if (schema == "whine/modes") {
     show(lines, read_modes(path));
+  } else if (schema == "whine/runup") {
+    show(lines, read_runup(path));
   } else if (schema == "whine/branch") {
     show(lines, read_branch(path));
   } else if (schema == "whine/jump_map") {

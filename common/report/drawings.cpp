@@ -15,6 +15,7 @@
 #include "io/modes_codec.h"
 #include "io/provenance.h"
 #include "io/response_codec.h"
+#include "io/runup_codec.h"
 #include "io/static_codec.h"
 #include "io/study_codec.h"
 #include "io/summary.h"
@@ -27,6 +28,7 @@
 #include "report/motion_figures.h"
 #include "report/multiplier_figure.h"
 #include "report/response_figures.h"
+#include "report/runup_figure.h"
 #include "report/sensitivity_figure.h"
 #include "report/static_figures.h"
 #include "report/study_figure.h"
@@ -147,8 +149,24 @@ Drawings drawings_at_rest() {
   };
 }
 
+Figure draw_runup(const Paths& inputs, const Frequencies&) {
+  std::vector<RunupArtifact> runs;
+  std::vector<ResponseArtifact> sweeps;
+  for (const std::string& path : inputs) {
+    if (is_a("whine/runup", path))
+      runs.push_back(read_runup(path));
+    else
+      sweeps.push_back(read_response(path));
+  }
+  if (runs.size() != 1) fail(Failure::usage, "runup needs one runup.h5; ", runs.size(), " given");
+  return runup_figure(runs[0], sweeps);
+}
+
 Drawings drawings_of_motions() {
   return {
+      {"runup",
+       {"a run-up: spectrogram of the mesh force, orders of the transmission error, tooth loads",
+        "runup.h5; response.h5 of sweeps at the same torque, to compare", 0, 0, draw_runup}},
       {"fig05",
        {"RMS of the dynamic transmission error against mesh frequency",
         "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and "

@@ -14,19 +14,6 @@ namespace whine {
 
 using Eigen::VectorXd;
 
-CandidateZone zone_of_level(const GearMeshModel& model, const StaticArtifact& statics, int level) {
-  const auto at = [&](int l) {
-    return candidate_zone(model, statics, MotionBounds(model, statics, std::pow(kWidening, l)));
-  };
-  CandidateZone range = at(level);
-  if (level == 0) return range;
-  // Strips as wide as those of the narrowest zone.
-  const CandidateZone lowest = at(0);
-  range.strips = padded(static_cast<int>(std::ceil(range.half_zone / lowest.half_zone * lowest.strips)));
-  range.half_zone = lowest.half_zone * range.strips / lowest.strips;
-  return range;
-}
-
 namespace {
 
 constexpr int kMostSegments = 64;

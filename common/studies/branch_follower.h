@@ -9,13 +9,9 @@
 #include "dynamics/period_map.h"
 #include "model/stages.h"
 #include "orbits/branch.h"
+#include "studies/zone_levels.h"
 
 namespace whine {
-
-// The zone of a level: 0 is what the statics' load asks for, each further one wider by kWidening, with strips as wide as those of
-// level 0.
-CandidateZone zone_of_level(const GearMeshModel& model, const StaticArtifact& statics, int level);
-inline constexpr int kMostZoneLevel = 8;
 
 struct BranchSegment {
   OrbitBranch branch;

@@ -20,6 +20,7 @@
 #include "gear/scene_geometry.h"
 #include "signal/branch_end.h"
 #include "signal/response.h"
+#include "studies/zone_levels.h"
 
 namespace whine {
 
@@ -58,33 +59,23 @@ void require_memory(int hunting, int speeds, const SweepParameters& settings, in
          " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period and min_sample_rate_kHz");
 }
 
-// The pair on candidate contact zones of growing levels, whose strips are of one width: a candidate zone holds those of the
-// level below. A motion is that of the lowest level that holds it, whatever the speeds before it wanted.
+// The pair from speed to speed, on the lowest level of candidate contact zones that holds its motion, whatever the speeds before
+// it wanted.
 class Sweeper {
  public:
   Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
           const SweepParameters& settings)
-      : model_(model), parameters_(parameters), statics_(statics), settings_(settings) {
-    finest_ = steps_at(settings.time, settings.frequency_from);
-    lowest_ = range(0);
-    state_ = dynamics(0).rest();
-    hunting_ = dynamics(0).hunting_periods();
+      : settings_(settings),
+        finest_(steps_at(settings.time, settings.frequency_from)),
+        levels_(model, parameters, statics, finest_) {
+    state_ = levels_.at(0).rest();
+    hunting_ = dynamics().hunting_periods();
   }
 
-  const RollingDynamics& dynamics() { return dynamics(level_); }
+  const RollingDynamics& dynamics() { return levels_.at(level_); }
   int hunting_periods() const { return hunting_; }
-  int reach() const { return reach_; }  // largest |pair| that any level can touch
-  // Mean over the mesh period with the contact frozen as the static load leaves it. Hz
-  double natural_frequency() {
-    constexpr int kPhases = 32;
-    const int positions = std::min(kPhases, finest_);
-    double sum = 0;
-    // Of teeth that differ other ones at each phase.
-    for (int i = 0; i < positions; ++i)
-      sum += dynamics(0).frozen_frequency(i * (finest_ / positions),
-                                          i * dynamics(0).hunting_periods() / positions);
-    return sum / positions;
-  }
+  int reach() const { return levels_.reach(); }
+  double natural_frequency() { return levels_.natural_frequency(); }
   RollingDynamics::State& state() { return state_; }
   AndersonAcceleration& acceleration() { return acceleration_; }  // to begin the next run with
 
@@ -92,11 +83,7 @@ class Sweeper {
   Orbit run(double mesh_frequency, const RmsRange& looked_for = {}) {
     const RollingDynamics::State start = state_;
     for (;; ++level_) {
-      if (level_ > kMostLevel)
-        fail_outside_range(Failure::numerical, "at ", mesh_frequency,
-                           " Hz contact leaves the flanks: forces above ", bounds(kMostLevel).force,
-                           " N or deflections above ", bounds(kMostLevel).deflection * 1e6,
-                           " micrometres; lower the torque");
+      levels_.require(level_, mesh_frequency);
       if (auto orbit = try_level(mesh_frequency, looked_for))
         return on_lowest_level(mesh_frequency, std::move(*orbit));
       state_ = start;
@@ -123,13 +110,9 @@ class Sweeper {
   }
 
  private:
-  static constexpr int kMostLevel = 8;
-
-  MotionBounds bounds(int level) const { return {model_, statics_, std::pow(kWidening, level)}; }
-
   std::optional<Orbit> try_level(double mesh_frequency, const RmsRange& looked_for = {}) {
     try {
-      RollingDynamics& dynamics = this->dynamics(level_);
+      RollingDynamics& dynamics = levels_.at(level_);
       dynamics.set_speed(mesh_frequency, steps_at(settings_.time, mesh_frequency));
       return find_periodic_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state,
                                  looked_for, &acceleration_);
@@ -140,7 +123,7 @@ class Sweeper {
 
   // A transient may have wanted more than the orbit does.
   Orbit on_lowest_level(double mesh_frequency, Orbit orbit) {
-    while (level_ > 0 && !keeps_one_level() && orbit.multiple > 0) {
+    while (level_ > 0 && !levels_.keeps_one() && orbit.multiple > 0) {
       const RollingDynamics::State reached = state_;
       --level_;
       std::optional<Orbit> lower;
@@ -160,45 +143,9 @@ class Sweeper {
     return orbit;
   }
 
-  CandidateZone range(int level) const {
-    CandidateZone range = candidate_zone(model_, statics_, bounds(level));
-    if (level > 0) {
-      const double wider = range.half_zone / lowest_.half_zone;
-      constexpr int kAtOnce = StepKernel::kStripsAtOnce;
-      range.strips = kAtOnce * static_cast<int>(std::ceil(wider * lowest_.strips / kAtOnce));
-      range.half_zone = lowest_.half_zone * range.strips / lowest_.strips;
-    }
-    return range;
-  }
-
-  // Every mode of a mesh fills the memory once.
-  bool keeps_one_level() const { return settings_.fidelity.body == BodyModel::full; }
-  RollingDynamics& dynamics(int level) {
-    if (static_cast<int>(levels_.size()) <= level) levels_.resize(level + 1);
-    if (!levels_[level]) {
-      if (keeps_one_level())
-        for (auto& other : levels_) other.reset();
-      ZoneMemory fixed;
-      for (const auto& other : levels_)
-        if (other) {
-          fixed.coordinates += other->memory().coordinates;
-          fixed.gaps += other->memory().gaps;
-        }
-      levels_[level] = std::make_unique<RollingDynamics>(model_, parameters_);
-      levels_[level]->set_zone(range(level), finest_, fixed);
-      levels_[level]->rest();  // sets the scale of distances
-      reach_ = std::max(reach_, levels_[level]->reach());
-    }
-    return *levels_[level];
-  }
-
-  const GearMeshModel& model_;
-  DynamicParameters parameters_;
-  const StaticArtifact& statics_;
   const SweepParameters& settings_;
-  int finest_ = 0, level_ = 0, reach_ = 0, hunting_ = 1;
-  CandidateZone lowest_;
-  std::vector<std::unique_ptr<RollingDynamics>> levels_;
+  int finest_ = 0, level_ = 0, hunting_ = 1;
+  ZoneLevels levels_;
   RollingDynamics::State state_;
   AndersonAcceleration acceleration_;
 };

@@ -1,0 +1,141 @@
+#include "report/runup_figure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "signal/orders.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int kOrders = 4;
+constexpr Index kSlices = 400, kBands = 300, kPoints = 1200;
+constexpr double kHighest = 5.0 / 12;  // of the sample rate: what the record holds undamped
+
+// Spectrogram in dB re 1 N, the largest amplitude of the bins of a band, so that no line falls between two bands.
+FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
+  const double top = std::max(a.ramp.from, a.ramp.to);
+  const double most = std::min((kOrders + 0.5) * top, kHighest * a.sample_rate);
+  // The middle order moves twice as fast as the first.
+  Index length = spectrogram_length(a.sample_rate, 2 * a.mesh_acceleration);
+  // No longer than half the record, no finer than what is drawn, or rays would be hairs.
+  constexpr Index kLeast = 64;
+  const auto drawn = static_cast<Index>(4.0 / 3 * a.sample_rate / most * kBands);
+  while (length > std::min(a.samples.size() / 2, drawn) && length > kLeast) length /= 2;
+  const VectorXd oscillating = a.samples.mesh_force.array() - a.samples.mesh_force.mean();
+  const Spectrogram s = spectrogram(oscillating, a.sample_rate, length, kSlices, most);
+  FigureBlock block{"spectrogram", {"mesh_frequency [Hz]", "frequency [Hz]", "mesh_force [dB re 1 N]"}, {}};
+  block.drawing = true;
+  const Index bins = s.frequency.size() - 1, bands = std::min(kBands, bins);
+  double loudest = -300;
+  for (Index i = 0; i < kSlices; ++i) {
+    const double f = a.ramp.from + a.mesh_acceleration * s.time[i];
+    for (Index b = 0; b < bands; ++b) {
+      const Index first = 1 + bins * b / bands, last = 1 + bins * (b + 1) / bands;
+      const double amplitude = s.amplitude.row(i).segment(first, last - first).maxCoeff();
+      const double level = 20 * std::log10(std::max(amplitude, 1e-9));
+      loudest = std::max(loudest, level);
+      block.rows.push_back({f, 0.5 * (s.frequency[first] + s.frequency[last - 1]), level});
+    }
+    block.rows.emplace_back();
+  }
+  figure.numbers.emplace_back("loudest", loudest);
+  figure.numbers.emplace_back("frequency_end", most);
+  figure.notes.push_back(
+      text("(a) Hann windows of ", shown(static_cast<double>(length) / a.sample_rate * kMilli, 3),
+           " ms, amplitudes in dB re 1 N; orders of the mesh frequency are rays, f_n natural "
+           "frequency of the mesh"));
+  return block;
+}
+
+FigureBlock order_block(const RunupArtifact& a, Figure& figure) {
+  const VectorXd phase = a.samples.time.unaryExpr([&](double t) { return a.mesh_phase(t); });
+  const int width = order_width(0.5 * (a.ramp.from + a.ramp.to), a.mesh_acceleration);
+  const int orders =
+      std::clamp(static_cast<int>(kHighest * a.sample_rate / std::max(a.ramp.from, a.ramp.to)), 1, kOrders);
+  const OrderCuts cuts = order_cuts(a.samples.transmission_error, phase, orders, width);
+  FigureBlock block{"orders", {"time [s]", "mesh_frequency [Hz]"}, {}};
+  for (int n = 1; n <= orders; ++n) block.columns.push_back(text("order_", n, " [um]"));
+  double largest = 0;
+  const Index stride = std::max<Index>(1, cuts.phase.size() / (4 * kPoints));
+  for (Index c = 0; c < cuts.phase.size(); c += stride) {
+    const double squared = a.ramp.from * a.ramp.from + 2 * a.mesh_acceleration * cuts.phase[c];
+    const double f = std::sqrt(squared);
+    std::vector<double> row{(f - a.ramp.from) / a.mesh_acceleration, f};
+    for (int n = 0; n < orders; ++n) row.push_back(cuts.amplitude(c, n) * kMicro);
+    largest = std::max(largest, row[2]);
+    block.rows.push_back(std::move(row));
+  }
+  figure.numbers.emplace_back("orders", orders);
+  figure.numbers.emplace_back("largest", largest);
+  figure.notes.push_back(text("(b) orders in Hann windows of ", width,
+                              " mesh periods over the angle (transform over the phase of the ramp)"));
+  return block;
+}
+
+// Extremes of groups of mesh periods, so that what is short remains.
+FigureBlock period_block(const RunupArtifact& a, double mean_force, Figure& figure) {
+  figure.numbers.emplace_back("largest_load", a.periods.tooth_load_max.maxCoeff() / mean_force);
+  FigureBlock block{
+      "periods", {"mesh_frequency [Hz]", "tooth_load_max [mean mesh force]", "separation_fraction [%]"}, {}};
+  const Index periods = a.periods.size(), stride = std::max<Index>(1, periods / kPoints);
+  for (Index k = 0; k < periods; k += stride) {
+    const Index n = std::min(stride, periods - k);
+    block.rows.push_back({a.periods.mesh_frequency.segment(k, n).mean(),
+                          a.periods.tooth_load_max.segment(k, n).maxCoeff() / mean_force,
+                          a.periods.separation_fraction.segment(k, n).maxCoeff() * kPercent});
+  }
+  return block;
+}
+
+}  // namespace
+
+Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>& sweeps) {
+  Figure figure;
+  const bool up = a.direction == Direction::up;
+  figure.title = text("Run-", a.direction, " at ", a.ramp.rate, " rpm/s, ", torque_words(a.torque));
+  figure.blocks.push_back(spectrogram_block(a, figure));
+  figure.blocks.push_back(order_block(a, figure));
+  figure.blocks.push_back(period_block(a, a.samples.mesh_force.mean(), figure));
+  const double low = std::min(a.ramp.from, a.ramp.to), high = std::max(a.ramp.from, a.ramp.to);
+  double largest = 0;
+  int drawn = 0;
+  for (const ResponseArtifact& r : sweeps) {
+    if (r.torque != a.torque)
+      fail(Failure::input, "the run-", a.direction, " is at ", a.torque, " N m, a sweep at ", r.torque,
+           " N m; give sweeps of the same torque");
+    FigureBlock block{text("sweep ", r.direction), {"mesh_frequency [Hz]", "order_1 [um]"}, {}};
+    block.table = "sweeps";
+    block.curve = text(r.direction);
+    for (Index i = 0; i < r.mesh_frequency.size(); ++i)
+      if (r.mesh_frequency[i] >= low && r.mesh_frequency[i] <= high && r.dte_harmonic.cols() > 0) {
+        block.rows.push_back({r.mesh_frequency[i], r.dte_harmonic(i, 0) * kMicro});
+        largest = std::max(largest, block.rows.back()[1]);
+      }
+    if (block.rows.empty()) continue;
+    figure.words.emplace_back(text("sweep", ++drawn), text(r.direction));
+    figure.blocks.push_back(std::move(block));
+  }
+  figure.numbers.emplace_back("largest_sweep", largest);
+  if (drawn > 0) figure.notes.push_back("(b) dots: first order of the periodic motions of the speed sweeps");
+  figure.notes.push_back(
+      text("(c) of each mesh period, at its time steps; load: what a pair holds for 1/64 of it; the mesh "
+           "frequency changes by ",
+           shown(std::abs(a.mesh_acceleration), 4), " Hz/s, ", up ? "rising" : "falling", " for ",
+           shown((a.ramp.to - a.ramp.from) / a.mesh_acceleration, 3), " s"));
+  figure.words.emplace_back("driver", without_markup(a.mesh.gear[0]));
+  for (const auto& [name, value] :
+       {std::pair{"sweeps", static_cast<double>(drawn)}, std::pair{"frequency_from", low},
+        std::pair{"frequency_to", high}, std::pair{"natural_frequency", a.natural_frequency},
+        std::pair{"rpm_per_hertz", 60.0 / a.gear[0].design.teeth},
+        std::pair{"notes", static_cast<double>(figure.notes.size())}})
+    figure.numbers.emplace_back(name, value);
+  figure.height = 1500;
+  return figure;
+}
+
+}  // namespace whine

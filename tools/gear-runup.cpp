@@ -1,0 +1,103 @@
+// gear-runup: the motion of the pair while its speed changes with time, through jumps, contact loss and transients.
+//
+// Reads   params (stage parameters of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears,
+//         static.h5 of the torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of
+//         the dampers)
+// Writes  runup.h5    transmission error, mesh and bearing forces, tooth loads over time, and per mesh period RMS, largest
+//         tooth load and loss of contact; written as it comes
+// Equations: those of gear-sweep; mesh frequency f(t) = from + a t, a = rate / 60 x teeth of the driver
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/tool.h"
+#include "io/pair_inputs.h"
+#include "io/provenance.h"
+#include "io/runup_codec.h"
+#include "io/scene.h"
+#include "studies/runup.h"
+
+namespace {
+
+using namespace whine;
+
+// What a reader of a run-up has to know beside its numbers.
+class Told : public RunupFile {
+ public:
+  using RunupFile::RunupFile;
+  void end(const RunupArtifact& tail) override {
+    RunupFile::end(tail);
+    const auto torque = acceleration_torque(tail);
+    for (size_t g = 0; g < kSides; ++g)
+      if (const double own =
+              tail.torque *
+              (g == 0 ? 1.0 : static_cast<double>(tail.gear[1].design.teeth) / tail.gear[0].design.teeth);
+          torque[g] > 0.01 * own)
+        tell("gear-runup: accelerating ", tail.mesh.gear[g], " takes ", torque[g], " N m, ",
+             100 * torque[g] / own,
+             " % of its torque; its own shaft is taken to supply this, so the mesh does not carry it");
+    if (tail.backlash_margin <= 0)
+      tell("gear-runup: warning: the motion goes up to ", -tail.backlash_margin * 1e6,
+           " µm beyond the backlash; back flanks would touch there, which is not modelled");
+  }
+};
+
+void body(int argc, char** argv) {
+  Options options{"Motion of the pair while its speed changes with time", "gear-runup"};
+  std::string params, statics, reference, output;
+  std::vector<std::string> bodies;
+  RunupSettings wanted;
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
+  options.add("--static", statics, "static.h5 of the torque to run").required();
+  options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
+      .required();
+  options.add("--rate", wanted.ramp.rate, "rpm/s by which the driver's speed changes, above 0").required();
+  options.add("--from", wanted.ramp.from, "mesh frequency at the start in Hz; 0: an end of the scene's");
+  options.add("--to", wanted.ramp.to, "mesh frequency at the end in Hz; 0: the other end");
+  std::string way = "up";
+  options.add("--direction", way, "up or down; with --from and --to it must be theirs")
+      .one_of({"up", "down"});
+  options.add("--sample-rate", wanted.sample_rate, "Hz of the samples").show_default();
+  options.add("--output", output, "runup.h5 to write").required();
+  options.footer(
+      "Example:\n"
+      "  gear-runup --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 "
+      "--body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
+      "--reference-static out/parker2000/T100/static.h5 --rate 1000 --output runup.h5");
+  options.parse(argc, argv);
+  if (!(wanted.sample_rate >= 1000 && wanted.sample_rate <= 1e6))
+    fail(Failure::usage, "--sample-rate ", wanted.sample_rate, ": 1000 to 1000000 Hz");
+
+  const NamedFiles files("--body", bodies);
+  const Provenance provenance =
+      made_by(argc, argv,
+              files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
+  SweepParameters settings = read_sweep_parameters(params);
+  const auto [pair, at_torque, at_reference] = read_pair_inputs(files, statics, reference, settings);
+  const bool up = way == "up";
+  if (wanted.ramp.from == 0) wanted.ramp.from = up ? settings.frequency_from : settings.frequency_to;
+  if (wanted.ramp.to == 0) wanted.ramp.to = up ? settings.frequency_to : settings.frequency_from;
+  if ((wanted.ramp.to > wanted.ramp.from) != up)
+    fail(Failure::usage, "--direction ", way, ": the ramp goes from ", wanted.ramp.from, " to ",
+         wanted.ramp.to, " Hz; exchange --from and --to, or give the other direction");
+
+  Told file(output, provenance);
+  std::optional<Progress> progress;
+  runup(pair[0], pair[1], at_torque, at_reference.mean_stiffness, settings, wanted, file,
+        [&](long done, long total, const std::string& note) {
+          if (!progress) progress.emplace(text("gear-runup ", way), total);
+          progress->update(done, note);
+        });
+  progress.reset();
+  tell("gear-runup: ", at_torque.torque, " N m, ", wanted.ramp.from, " to ", wanted.ramp.to, " Hz at ",
+       wanted.ramp.rate, " rpm/s -> ", output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_tool(argc, argv, body);
+}
