@@ -242,13 +242,12 @@ TEST_CASE("fold curves: of an elastic pair over torque they are the folds of its
   REQUIRE(a.value.size() >= 2 * torques);
   const double dampers = static_transmission(body, body, at_rest, 100).mean_stiffness;
   for (const double torque : plan.values) {
-    const BranchArtifact branch = pair_branch(
-        body, body, static_transmission(body, body, at_rest, torque), dampers, settings, no_report);
+    const BranchArtifact branch = pair_branch(body, body, static_transmission(body, body, at_rest, torque),
+                                              dampers, settings, no_report);
     REQUIRE(branch.fold_frequency.size() >= 2);
     for (Eigen::Index i = 0; i < a.value.size(); ++i) {
       if (a.value[i] != torque) continue;
-      const double nearest =
-          (branch.fold_frequency.array() - a.fold_frequency[i]).abs().minCoeff();
+      const double nearest = (branch.fold_frequency.array() - a.fold_frequency[i]).abs().minCoeff();
       CAPTURE(torque);
       CAPTURE(a.fold_frequency[i]);
       // Of these 8 strips a zone; they stand elsewhere in the wider zone of the curve, which moves a fold by up to 0.3 Hz.

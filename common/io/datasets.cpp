@@ -46,10 +46,10 @@ std::string dataset_list() {
          lines<StaticArtifact>("static.h5") + lines<ErrorBudgetArtifact>("error_budget.h5") +
          lines<LoadedArtifact>("loaded_<phase>.h5") + lines<ImpactArtifact>("impact.h5") +
          lines<SweepArtifact>("sweep.h5") + lines<ResponseArtifact>("response.h5") +
-         lines<BranchArtifact>("branch.h5") +
-         lines<RunupArtifact>("runup_<rate>.h5") + lines<FoldCurvesArtifact>("fold_curves_*.h5") +
-         lines<JumpMapArtifact>("jump_map_*.h5") + lines<HarrisMapArtifact>("harris_map.h5") +
-         lines<VariantArtifact>("ab12....h5") + lines<StudyArtifact>("study.h5") + lines<ModesArtifact>("modes.h5") +
+         lines<BranchArtifact>("branch.h5") + lines<RunupArtifact>("runup_<rate>.h5") +
+         lines<FoldCurvesArtifact>("fold_curves_*.h5") + lines<JumpMapArtifact>("jump_map_*.h5") +
+         lines<HarrisMapArtifact>("harris_map.h5") + lines<VariantArtifact>("ab12....h5") +
+         lines<StudyArtifact>("study.h5") + lines<ModesArtifact>("modes.h5") +
          lines<ReadingsArtifact>("readings.h5");
 }
 

@@ -16,7 +16,7 @@ void describe(Codec& c, FoldCurvesArtifact& a) {
   describe_motion(c, a);
   describe_torque(c, a.torque);
   c.choice({"/quantity", "1", "what varies beside the mesh frequency: damping, torque or tip_relief", ""},
-            a.quantity);
+           a.quantity);
   c.dataset({"/first_value", "1", "value at which the folds come from a branch, in SI units", "", kPositive},
             &a.first_value);
   c.dataset({"/curve", "1", "curve of the point, counted from 0; 2 i and 2 i + 1 may meet in a cusp", "point",

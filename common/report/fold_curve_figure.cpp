@@ -130,9 +130,9 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
                            : curves[0].quantity == FoldQuantity::torque
                                ? "Torque (N m)"
                                : "Linear tip relief, both gears (µm)";
-  const std::string column = over_damping(curves[0])                            ? "damping_ratio [%]"
+  const std::string column = over_damping(curves[0])                      ? "damping_ratio [%]"
                              : curves[0].quantity == FoldQuantity::torque ? "torque [N m]"
-                                                                                : "tip_relief [um]";
+                                                                          : "tip_relief [um]";
   figure.title = "Folds of the branches: between a pair of curves there are two stable motions";
   Comparison comparison;
   for (size_t k = 0; k < curves.size(); ++k) {

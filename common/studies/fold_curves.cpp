@@ -97,7 +97,8 @@ class Family {
     map->set_parameter(speed);
     RollingDynamics::Period period;
     if (!current_->dynamics.integrate(state, period))
-      fail_outside_range(Failure::numerical, "at ", speed, " Hz contact leaves a zone wider than the branch needs");
+      fail_outside_range(Failure::numerical, "at ", speed,
+                         " Hz contact leaves a zone wider than the branch needs");
     return map->flat(state);
   }
   int steps(double speed) const {  // per period
@@ -209,8 +210,7 @@ void require_ascending(const FoldCurvesPlan& plan) {
       fail(Failure::input, "values of ", plan.quantity, " ascend: ", plan.values[i + 1], " follows ",
            plan.values[i]);
   if (!(plan.first > 0) && plan.quantity != FoldQuantity::tip_relief)
-    fail(Failure::input, "the first value of ", plan.quantity, " is ", plan.first,
-         "; it must be above 0");
+    fail(Failure::input, "the first value of ", plan.quantity, " is ", plan.first, "; it must be above 0");
 }
 
 // The two folds of a branch as those of the maps of a family, with their tangents and bends. Nothing, with the reason, if one is

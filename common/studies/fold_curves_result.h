@@ -17,7 +17,7 @@ inline constexpr const char* kWordsOf<FoldQuantity> = "damping torque tip_relief
 // fold_curves.h5: points in the order of their curves, along each in the order of `value`; two curves that meet in a cusp are
 // neighbours.
 struct FoldCurvesArtifact : MotionParameters {
-  double torque = 0;       // N m on the driver; where it varies that of the first folds
+  double torque = 0;  // N m on the driver; where it varies that of the first folds
   FoldQuantity quantity = FoldQuantity::damping;
   double first_value = 0;  // at which the folds were found along a branch
   Eigen::VectorXi curve;   // (point) 1: counted from 0
