@@ -23,7 +23,8 @@ for torque in "$@"; do
             apart = part[1] - fold[k]
             if (least < 0 || apart * apart < least * least) { least = apart < 0 ? -apart : apart; own = fold[k] }
           }
-          if (n) printf "%s\t%s\t%.3f\t%s\t%.3f\t%.3f\n", torque, direction, part[1], part[3], own, part[1] - own
+          if (!n) { printf "%s\t%s\t%.3f\t%s\t\t\n", torque, direction, part[1], part[3]; continue }
+          printf "%s\t%s\t%.3f\t%s\t%.3f\t%.3f\n", torque, direction, part[1], part[3], own, part[1] - own
         }
       }'
   done

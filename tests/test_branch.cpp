@@ -613,6 +613,24 @@ TEST_CASE("orbits: the branch of the elastic pair through both folds, beside int
   CHECK(unstable >= 2);
 }
 
+// (f / scale) scale is not f in these ranges; what is left points along the branch.
+TEST_CASE("orbits: a branch does not close on the orbit that it begins with") {
+  const BodyArtifact& body = paper_body();
+  StaticParameters coarse = paper_statics(128);
+  coarse.contact.strips = 8;
+  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  for (const double from : {2600.0, 2750.0}) {
+    SweepParameters settings = paper_sweep(from, 3600, 50);
+    settings.fidelity.contact = ContactModel::line;
+    settings.time.steps_per_period = 64;
+    settings.time.min_sample_rate = 0;
+    const BranchArtifact branch = pair_branch(body, body, statics, 463e6, settings, no_report);
+    CAPTURE(from);
+    CAPTURE(branch.end);
+    CHECK(branch.mesh_frequency.tail(1)[0] == relative(from, 1e-9));
+  }
+}
+
 TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of steps") {
   const BodyArtifact& body = paper_body();
   StaticParameters coarse = paper_statics(128);

@@ -87,12 +87,14 @@ void BranchFollower::run(int steps, int direction, int part, const Report& repor
   const double first_at = orbit_.parameter;
   const size_t before = segments.size();
   double lowest = high;
+  long gone = 0;  // steps
   closed_ = false;
   for (;;) {
     BranchSettings settings = branch_settings(settings_, steps, look_ == Look::at_folds, tolerance_);
     settings.multiple = multiple_;
     settings.stop = [&](const BranchPosition& last, const BranchPosition& next) -> std::string {
-      closed_ = passes(last, next, first, first_at, scale);
+      // In its first step a part stands on the orbit that it began with.
+      closed_ = gone++ > 0 && passes(last, next, first, first_at, scale);
       if (closed_) return "the branch closes on itself";
       if (multiple_ % 2 == 0 && becomes_half(last, next))
         return text("orbits of ", multiple_, " mesh periods become orbits of ", multiple_ / 2);
@@ -209,7 +211,7 @@ void BranchFollower::begin_swept(Direction direction, double at) {
     std::optional<Orbit> orbit;
     for (;;) {
       dynamics_.set_speed(speed, steps_at(settings_.time, speed));
-      orbit = find_periodic_orbit(dynamics_, state, settings_.time.periodicity, SteadyState::extrapolate);
+      orbit = find_periodic_orbit(dynamics_, state, settings_.time.periodicity, settings_.time.steady_state);
       if (orbit) break;
       widen();
       state = start;

@@ -42,7 +42,7 @@ double ZoneLevels::natural_frequency() {
   double sum = 0;
   // Of teeth that differ other ones at each phase.
   for (int i = 0; i < positions; ++i)
-    sum += at(0).frozen_frequency(i * (steps_ / positions), i * at(0).hunting_periods() / positions);
+    sum += at(0).frozen_frequency(i * steps_ / positions, i * at(0).hunting_periods() / positions);
   return sum / positions;
 }
 
