@@ -74,6 +74,7 @@ class Codec {
   template <WordedChoice Choice>
   void column_of_choices(const Dataset& dataset, std::vector<Choice>& list) {
     std::vector<std::string> words;
+    words.reserve(list.size());
     for (const Choice choice : list) words.push_back(name_of(choice));
     this->dataset(dataset, &words);
     if (!in_) return;
