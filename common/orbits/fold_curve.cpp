@@ -65,6 +65,27 @@ std::optional<CurvePoint> point_near(Curve& curve, const Fold& guess, std::strin
   return std::nullopt;
 }
 
+// The value at which the arc between two folds goes to 0; the square of it is linear in the value.
+std::optional<double> cusp_ahead(const FoldPair& pair) {
+  const size_t k = pair.low.size();
+  if (k < 2) return std::nullopt;
+  const double a = squared_distance(pair.low[k - 2], pair.high[k - 2]),
+               b = squared_distance(pair.low[k - 1], pair.high[k - 1]);
+  if (!(b < a) || !(b > 0)) return std::nullopt;
+  return pair.low[k - 1].value + b / (a - b) * (pair.low[k - 1].value - pair.low[k - 2].value);
+}
+
+void meet(FoldPair& pair, double cusp) {
+  const size_t k = pair.low.size();
+  const auto middle = [&](size_t i) { return 0.5 * (pair.low[i].parameter + pair.high[i].parameter); };
+  const double at = pair.low[k - 1].value;
+  pair.cusp = true;
+  pair.cusp_value = cusp;
+  pair.cusp_parameter =
+      middle(k - 1) + (cusp - at) / (at - pair.low[k - 2].value) * (middle(k - 1) - middle(k - 2));
+  pair.end = text("the folds meet at ", cusp, ", followed to ", 100 * std::abs(cusp / at - 1), " % of it");
+}
+
 }  // namespace
 
 std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurveSettings& settings,
@@ -180,35 +201,16 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
     if (report) report(value);
     return true;
   };
-  // The value at which the arc between the folds goes to 0; the square of it is linear in the value.
-  const auto cusp_ahead = [&]() -> std::optional<double> {
-    const size_t k = pair.low.size();
-    if (k < 2) return std::nullopt;
-    const double a = squared_distance(pair.low[k - 2], pair.high[k - 2]),
-                 b = squared_distance(pair.low[k - 1], pair.high[k - 1]);
-    if (!(b < a) || !(b > 0)) return std::nullopt;
-    return pair.low[k - 1].value + b / (a - b) * (pair.low[k - 1].value - pair.low[k - 2].value);
-  };
-  const auto meet = [&](double cusp) {
-    const size_t k = pair.low.size();
-    const auto middle = [&](size_t i) { return 0.5 * (pair.low[i].parameter + pair.high[i].parameter); };
-    const double at = pair.low[k - 1].value;
-    pair.cusp = true;
-    pair.cusp_value = cusp;
-    pair.cusp_parameter =
-        middle(k - 1) + (cusp - at) / (at - pair.low[k - 2].value) * (middle(k - 1) - middle(k - 2));
-    pair.end = text("the folds meet at ", cusp, ", followed to ", 100 * std::abs(cusp / at - 1), " % of it");
-  };
   for (const double value : values) {
     double to = value;
     for (int halvings = 0;;) {
       const double at = pair.low.back().value;
-      const auto cusp = cusp_ahead();
+      const auto cusp = cusp_ahead(pair);
       // Ahead of `to`: no further than a part of the way, so that both folds are there.
       const double towards = value > at ? 1 : -1;
       if (cusp && (*cusp - at) * towards > 0 && (*cusp - to) * towards <= 0) {
         if (std::abs(*cusp - at) < kAtCusp * std::abs(*cusp)) {
-          meet(*cusp);
+          meet(pair, *cusp);
           return pair;
         }
         to = at + kTowards * (*cusp - at);
@@ -225,7 +227,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
       if (++halvings > kMostHalvings) {
         // Kinks part the last folds in front of a cusp.
         if (cusp && (*cusp - at) * towards > 0 && std::abs(*cusp - at) < kNearCusp * std::abs(*cusp))
-          meet(*cusp);
+          meet(pair, *cusp);
         return pair;
       }
       to = at + 0.5 * (to - at);
