@@ -38,6 +38,7 @@
 #include "io/ranges.h"
 #include "io/readings_codec.h"
 #include "io/response_codec.h"
+#include "io/runup_codec.h"
 #include "io/static_codec.h"
 #include "io/study.h"
 #include "io/study_codec.h"
@@ -353,6 +354,42 @@ SweepArtifact small_sweep() {
   return a;
 }
 
+// Records are stored in single precision.
+RunupArtifact small_runup() {
+  const auto single = [](const auto& x) { return x.template cast<float>().template cast<double>().eval(); };
+  const SweepArtifact other = small_sweep();
+  RunupArtifact a;
+  static_cast<MotionParameters&>(a) = other;
+  a.torque = 150;
+  a.mean_stiffness = other.mean_stiffness;
+  a.bearing_damper = other.bearing_damper;
+  a.natural_frequency = other.natural_frequency;
+  a.direction = Direction::down;
+  a.ramp = {4000, 3900 + 1.0 / 3, 100.0 / 3};
+  a.mesh_acceleration = -100.0 / 3 / 60 * 50;
+  a.sample_rate = 48000;
+  a.pair = Eigen::VectorXi{{-1, 0, 1}};
+  RunupSamples& s = a.samples;
+  s.time = odd_vector(40, 1e-3);
+  s.mesh_frequency = single(odd_vector(40, 4e3));
+  s.transmission_error = single(odd_vector(40, 1e-5));
+  s.mesh_force = single(odd_vector(40, 3e3));
+  s.tooth_load = single(odd_matrix(40, 3, 1e3));
+  RunupPeriods& p = a.periods;
+  p.time = odd_vector(5, 1e-3);
+  p.mesh_frequency = single(odd_vector(5, 4e3));
+  p.dte_rms = single(odd_vector(5, 1e-6));
+  p.dte_mean = single(odd_vector(5, 1e-5));
+  p.tooth_load_max = single(odd_vector(5, 4e3));
+  p.separation_fraction = single(odd_vector(5, 0.01));
+  a.least_gap = 1e-10 / 3;
+  a.least_force = 1e-4 / 3;
+  a.fallbacks = 3;
+  a.drift_force = 1e-3 / 3;
+  a.backlash_margin = 1e-5 / 3;
+  return a;
+}
+
 ResponseArtifact small_response() {
   ResponseArtifact a;
   set_pair(a);
@@ -539,6 +576,14 @@ ReadingsArtifact small_readings() {
 }
 
 const Provenance kMade{"gear-test", "gear-test --output x.h5", {}};
+
+void write_streamed(const std::string& path, const RunupArtifact& a) {
+  RunupFile file(path, kMade);
+  file.begin(a, a.samples.size(), a.periods.size());
+  if (a.samples.size() > 0) file.take(a.samples);
+  if (a.periods.size() > 0) file.take(a.periods);
+  file.end(a);
+}
 
 void overwrite(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
@@ -744,6 +789,52 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
   a.backlash_margin = std::numeric_limits<double>::infinity();
   write("sweep.h5", a, kMade);
   CHECK(std::isinf(read_sweep("sweep.h5").backlash_margin));
+}
+
+TEST_CASE("runup.h5 gives back every value bit by bit, and is rejected without samples or mesh periods") {
+  Folder folder;
+  const RunupArtifact a = small_runup();
+  write_streamed("runup.h5", a);
+  const RunupArtifact b = read_runup("runup.h5");
+  CHECK(same_pair(a, b));
+  CHECK(same(a.mesh, b.mesh));
+  CHECK(same(a.damping, b.damping));
+  CHECK(same(a.time, b.time));
+  CHECK(a.torque == b.torque);
+  CHECK(a.mean_stiffness == b.mean_stiffness);
+  CHECK(a.bearing_damper == b.bearing_damper);
+  CHECK(a.natural_frequency == b.natural_frequency);
+  CHECK(a.direction == b.direction);
+  CHECK(a.ramp.from == b.ramp.from);
+  CHECK(a.ramp.to == b.ramp.to);
+  CHECK(a.ramp.rate == b.ramp.rate);
+  CHECK(a.mesh_acceleration == b.mesh_acceleration);
+  CHECK(a.sample_rate == b.sample_rate);
+  CHECK(a.pair == b.pair);
+  for (auto member : {&RunupSamples::time, &RunupSamples::mesh_frequency, &RunupSamples::transmission_error,
+                      &RunupSamples::mesh_force})
+    CHECK(a.samples.*member == b.samples.*member);
+  CHECK(a.samples.tooth_load == b.samples.tooth_load);
+  for (auto member :
+       {&RunupPeriods::time, &RunupPeriods::mesh_frequency, &RunupPeriods::dte_rms, &RunupPeriods::dte_mean,
+        &RunupPeriods::tooth_load_max, &RunupPeriods::separation_fraction})
+    CHECK(a.periods.*member == b.periods.*member);
+  CHECK(a.least_gap == b.least_gap);
+  CHECK(a.least_force == b.least_force);
+  CHECK(a.fallbacks == b.fallbacks);
+  CHECK(a.drift_force == b.drift_force);
+  CHECK(a.backlash_margin == b.backlash_margin);
+
+  RunupArtifact still = a;
+  still.periods = RunupPeriods();
+  write_streamed("still.h5", still);
+  CHECK(caught([] { read_runup("still.h5"); }).says("40 samples and 0 mesh periods"));
+  CHECK(caught([] { summary("still.h5", "whine/runup"); }).says("40 samples and 0 mesh periods"));
+  RunupArtifact silent = a;
+  silent.samples = RunupSamples();
+  silent.samples.tooth_load.resize(0, 3);
+  write_streamed("silent.h5", silent);
+  CHECK(caught([] { read_runup("silent.h5"); }).says("0 samples and 5 mesh periods"));
 }
 
 TEST_CASE("impact.h5 gives back every value bit by bit, and rejects rows that do not fit") {

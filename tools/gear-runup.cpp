@@ -23,8 +23,8 @@ namespace {
 
 using namespace whine;
 
-// What a reader of a run-up has to know beside its numbers.
-class Told : public RunupFile {
+// runup.h5; at its end it prints the torques of acceleration and whether back flanks would touch.
+class RunupFileWithNotes : public RunupFile {
  public:
   using RunupFile::RunupFile;
   void end(const RunupArtifact& tail) override {
@@ -84,7 +84,7 @@ void body(int argc, char** argv) {
     fail(Failure::usage, "--direction ", way, ": the ramp goes from ", wanted.ramp.from, " to ",
          wanted.ramp.to, " Hz; exchange --from and --to, or give the other direction");
 
-  Told file(output, provenance);
+  RunupFileWithNotes file(output, provenance);
   std::optional<Progress> progress;
   runup(pair[0], pair[1], at_torque, at_reference.mean_stiffness, settings, wanted, file,
         [&](long done, long total, const std::string& note) {

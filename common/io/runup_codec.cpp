@@ -93,6 +93,9 @@ void describe(Codec& c, RunupArtifact& a) {
   describe_head(c, a);
   describe_samples(c, a.mesh, a.samples);
   describe_periods(c, a.periods);
+  if (c.in() && (a.samples.size() < 1 || a.periods.size() < 1))
+    c.in()->file().reject(text("has ", a.samples.size(), " samples and ", a.periods.size(),
+                               " mesh periods, at least one of each is wanted"));
   describe_tail(c, a);
 }
 

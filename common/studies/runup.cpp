@@ -93,6 +93,17 @@ class Runner {
  private:
   // Level 0 tells the pairs that can touch; a wider zone may reach one more on either side.
   void begin() {
+    const double samples = std::floor(clock_.end() * wanted_.sample_rate) + 1,
+                 periods = std::floor(clock_.end_phase());
+    if (!(periods >= 1))
+      fail(Failure::input, "the ramp from ", wanted_.ramp.from, " to ", wanted_.ramp.to, " Hz at ",
+           wanted_.ramp.rate, " rpm/s takes ", clock_.end(), " s, less than a mesh period; lower the rate");
+    constexpr double kMost = 4e8;
+    if (!(samples <= kMost && periods <= kMost))
+      fail(Failure::input, "the ramp takes ", clock_.end(), " s, which are ", samples, " samples and ",
+           periods, " mesh periods, ", kMost, " of each at most; raise the rate");
+    samples_ = static_cast<Index>(samples);  // no such number before the limits are checked
+    periods_ = static_cast<Index>(periods);
     levels_.at(0);
     reach_ = levels_.reach() + 1;
     head_.natural_frequency = levels_.natural_frequency();
@@ -102,18 +113,8 @@ class Runner {
       floating_ += head_.mesh.bearing[g].elastic();
     }
     channels_ = 2 + 2 * reach_ + 1 + 2 * floating_;
-    const auto samples = static_cast<Index>(std::floor(clock_.end() * wanted_.sample_rate)) + 1;
-    periods_ = static_cast<Index>(std::floor(clock_.end_phase()));
-    if (periods_ < 1)
-      fail(Failure::input, "the ramp from ", wanted_.ramp.from, " to ", wanted_.ramp.to, " Hz at ",
-           wanted_.ramp.rate, " rpm/s takes ", clock_.end(), " s, less than a mesh period; lower the rate");
-    constexpr double kMostSamples = 4e8;
-    if (static_cast<double>(samples) > kMostSamples)
-      fail(Failure::input, "the ramp takes ", clock_.end(), " s, which are ", static_cast<double>(samples),
-           " samples, ", kMostSamples, " at most; raise the rate");
-    sampler_.emplace(wanted_.sample_rate, samples, channels_);
-    samples_ = samples;
-    sink_.begin(head_, samples, periods_);
+    sampler_.emplace(wanted_.sample_rate, samples_, channels_);
+    sink_.begin(head_, samples_, periods_);
     row_.resize(static_cast<size_t>(channels_));
   }
 
@@ -187,6 +188,13 @@ class Runner {
     return fine * (share + (i % ratio == 0 ? (1 - share) * ratio : 0));
   }
 
+  // Channel of the pair with this number in period k: (number - k) mod (2 reach + 1). A pair's number rises by one from
+  // period to period, so each keeps its channel: the filter would ring on the step of a load from one number to another.
+  Index pair_channel(long number, long k) const {
+    const long pairs = 2 * reach_ + 1, rest = (number - k) % pairs;
+    return rest < 0 ? rest + pairs : rest;
+  }
+
   // Samples i = 1 to steps of a period; the last one is the first of the next.
   void record(long k, int steps, int before, int after) {
     const VectorXd& error = period_.transmission_error;
@@ -203,8 +211,9 @@ class Runner {
       std::fill(row_.begin(), row_.end(), 0.0);
       row_[0] = error[at];
       row_[1] = force;
+      const long named = i < steps ? k : k + 1;  // the state at the end has the names of the next period
       for (Index j = 0; j < loads.size(); ++j)
-        row_[static_cast<size_t>(2 + reach_ - own_reach + j)] = loads[j];
+        row_[static_cast<size_t>(2 + pair_channel(static_cast<long>(j) - own_reach, named))] = loads[j];
       double closing = error[at];  // without what bearings give way
       auto next = static_cast<size_t>(2 + 2 * reach_ + 1);
       for (size_t g = 0; g < kSides; ++g)
@@ -264,7 +273,12 @@ class Runner {
     out.mesh_frequency = out.time.unaryExpr([&](double t) { return clock_.frequency(t); });
     out.transmission_error = rows.col(0);
     out.mesh_force = rows.col(1);
-    out.tooth_load = rows.middleCols(2, 2 * reach_ + 1);
+    out.tooth_load.resize(n, 2 * reach_ + 1);
+    for (Index i = 0; i < n; ++i) {
+      const auto k = static_cast<long>(std::floor(head_.mesh_phase(out.time[i])));
+      for (int number = -reach_; number <= reach_; ++number)
+        out.tooth_load(i, reach_ + number) = rows(i, 2 + pair_channel(number, k));
+    }
     Index next = 2 + 2 * reach_ + 1;
     for (size_t g = 0; g < kSides; ++g)
       if (head_.mesh.bearing[g].elastic()) {

@@ -17,6 +17,7 @@
 #include "io/modes_codec.h"
 #include "io/provenance.h"
 #include "io/response_codec.h"
+#include "io/runup_codec.h"
 #include "io/static_codec.h"
 #include "io/study.h"
 #include "io/study_codec.h"
@@ -49,6 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] { read_impact(path); });
   rejected_or_read([&] { read_sweep(path); });
   rejected_or_read([&] { read_response(path); });
+  rejected_or_read([&] { read_runup(path); });
   rejected_or_read([&] { read_branch(path); });
   rejected_or_read([&] { read_fold_curves(path); });
   rejected_or_read([&] { read_modes(path); });
