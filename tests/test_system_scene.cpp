@@ -110,6 +110,12 @@ TEST_CASE("stage parameters of a system: read as written, the same modes to the 
     return std::string();
   };
   CHECK(said("stands_on = 6", "stands_on = 1").find("which is no carrier") != std::string::npos);
+  // The carrier is body 6 and comes last: on itself, then the planets on a carrier that does not stand on the ground.
+  const std::string last = text.substr(text.find("name = \"carrier\""));
+  const std::string carrier = last.substr(0, last.find("stands_on = -1")) + "stands_on = ";
+  CHECK(said(carrier + "-1", carrier + "6").find("which is no carrier on the ground") != std::string::npos);
+  CHECK(said("kind = \"held\"", "kind = \"hold\"")
+            .find("'kind' in [drive] = \"hold\": must be one of: torque held free") != std::string::npos);
   CHECK(said("driven_body = 1", "driven_body = 9").find("a body that is not there") != std::string::npos);
   CHECK(said("radius = ", "radius = nan # ").find("must be a number") != std::string::npos);
   CHECK(said("sense = 1", "sense = 0.5").find("must be a whole number") != std::string::npos);
