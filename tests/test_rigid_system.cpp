@@ -289,8 +289,28 @@ TEST_CASE("what a system scene says wrong is named, with the section that says i
   scene.carriers[0].planet = "comet";
   has(said(scene), "names no [gear.<name>] section");
   scene = planetary_train(4);
-  scene.drives[0].gear = "planet";
-  has(said(scene), "planets have no drives");
+  System layout = layout_of(scene);
+  layout.bodies.back().on = static_cast<int>(layout.bodies.size()) - 1;
+  CHECK_THROWS_WITH_AS(
+      natural_modes(layout),
+      "'planet1' stands on number 6, which is no carrier on the ground; a rigid system has no "
+      "other place for it",
+      Error);
+  for (const char* planet : {"planet", "planet1", "planet4"}) {
+    scene.drives[0].gear = planet;
+    has(said(scene), "planets have no drives");
+  }
+  scene = planetary_train(4);
+  scene.carriers[0].name = "planet1";
+  has(said(scene), "carrier 'planet1' is called like one of the planets of carrier 'planet1'");
+  scene = planetary_train(4);
+  scene.gears.push_back(scene.gears[1]);
+  scene.gears.back().name = "comet";
+  scene.carriers.push_back(scene.carriers[0]);
+  scene.carriers[1].planet = "comet";
+  has(said(scene), "two carriers are called 'carrier'");
+  scene.carriers[0].name = "comet2";
+  has(said(scene), "carrier 'comet2' is called like one of the planets of carrier 'carrier'");
   scene = planetary_train(4);
   scene.meshes[0].stiffness = 0;
   has(said(scene), "a stiffness of the mesh of 'sun-planet1' above 0");
