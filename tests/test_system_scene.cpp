@@ -1,6 +1,7 @@
 // Scenes of several meshes: what they say, what is rejected and where, and the stage parameters that are cut from them.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -69,8 +70,22 @@ TEST_CASE("the planetary train that ships has the frequencies of the table, what
   CHECK(a.natural_frequency[0] == 0);
   for (Eigen::Index i = 1; i < a.natural_frequency.size(); ++i)
     CHECK(a.natural_frequency[i] == relative(b.natural_frequency[i], 1e-9));
-  // Sun meshes are ahead of each other by z_s psi / 2 pi, ring meshes by -z_r psi / 2 pi; here both are whole.
-  for (size_t m = 0; m < 4; ++m) CHECK(std::abs(std::remainder(a.layout.meshes[m].phase, 1)) < 1e-9);
+  // A planet at psi: its sun mesh is ahead by -z_s psi / 2 pi, its ring mesh by z_r psi / 2 pi of those of the planet at 0. Both are
+  // whole at equal spacing, 28 / 4 and 100 / 4. Planets at other steps of 360 / 128 degrees have other phases and the same sum.
+  const auto ahead = [](const System& layout, size_t first, double turns) {
+    const std::vector<System::Mesh>& mesh = layout.meshes;
+    return std::remainder(mesh[first].phase - mesh[first - first % 4].phase - turns, 1);
+  };
+  for (size_t m = 0; m < 8; ++m) CHECK(std::abs(ahead(a.layout, m, 0)) < 1e-9);
+  const SceneFile file;
+  const System moved = layout_in(
+      read_system_scene(file.path(edited("planets = 4", "positions_deg = [0, 92.8125, 180, 267.1875]"))), "");
+  const std::array steps{0.0, 33.0, 64.0, 95.0};
+  for (size_t n = 0; n < 4; ++n) {
+    CHECK(std::abs(ahead(moved, n, -28 * steps[n] / 128)) < 1e-9);
+    CHECK(std::abs(ahead(moved, 4 + n, 100 * steps[n] / 128)) < 1e-9);
+  }
+  CHECK(std::abs(ahead(moved, 1, 28 * steps[1] / 128)) > 0.4);
 }
 
 TEST_CASE("mesh phases of planets follow from tooth numbers") {

@@ -170,7 +170,8 @@ void describe(Codec& c, ModesArtifact& a) {
             &a.rigid_frequency);
   c.choices(
       {"/mode_type", "1",
-       "for each mode: rotational, translational, planet, mixed (no such structure) or train (no carrier)",
+       "for each mode: rotational, translational, planet, mixed (no such structure) or train (no planets, or "
+       "those of several carriers)",
        ""},
       a.type);
   c.dataset({"/planet_harmonic",
