@@ -156,6 +156,12 @@ TEST_CASE("faults of a scene of a system are rejected with their line") {
   rejects(shipped() + "[operation]\n", line_of("body = \"rigid\"") + 1, "natural modes are computed so far");
   rejects(edited("equivalent_mass_kg = 0.61", "equivalent_mass_kg = 0.61\ntotal_inertia_kgm2 = 1"),
           line_of("[gear.planet]"), "which say the same");
+  // Sections that only elastic gears follow, of a gear and of one that another is like.
+  const int end = line_of("body = \"rigid\"") + 1;
+  rejects(shipped() + "[gear.planet.crack]\ntooth = 1\ndepth_mm = 0.5\n", end,
+          "a gear of a system with body = \"rigid\" has no 'crack'");
+  rejects(shipped() + "[gear.sun.modification]\ncrowning_um = 5\n", end, "has no 'modification'");
+  rejects(shipped() + "[gear.ring.error]\neccentricity_um = 5\n", end, "has no 'error'");
   const SceneFile file;
   CHECK_THROWS_AS(read_scene(kShipped), Error);
 }
