@@ -684,6 +684,35 @@ TEST_CASE("modes.h5 gives back every value bit by bit") {
     CHECK(a.layout.bodies[i].name == b.layout.bodies[i].name);
 }
 
+TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is rejected with its dataset") {
+  Folder folder;
+  const ModesArtifact good = natural_modes(layout_of(planetary_train(3)));
+  const int carrier = good.layout.bodies[1].on;
+  const auto said = [&](const auto& spoil) {
+    ModesArtifact a = good;
+    spoil(a.layout);
+    write("modes.h5", a, kMade);
+    try {
+      read_modes("modes.h5");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto rejects = [&](const auto& spoil, const std::string& words) {
+    const std::string message = said(spoil);
+    CAPTURE(message);
+    CHECK(message.find(words) != std::string::npos);
+  };
+  CHECK(said([](System&) {}).empty());
+  for (const int on : {0, carrier, carrier + 1})
+    rejects([&](System& s) { s.bodies[static_cast<size_t>(carrier)].on = on; },
+            "allowed are -1, the ground, and the number of a carrier on the ground");
+  rejects([](System& s) { s.bodies[1].on = 0; }, text("dataset /body/stands_on holds 0 of body 1"));
+  rejects([](System& s) { s.bodies[1].sense = 0; }, "dataset /body/sense holds 0 of body 1");
+  rejects([](System& s) { s.meshes[0].side[1].body = 99; }, "dataset /mesh/body_number holds the number 99");
+}
+
 TEST_CASE("static.h5 gives back every value bit by bit") {
   Folder folder;
   StaticArtifact a = small_static();

@@ -1,6 +1,7 @@
 // Scenes of several meshes: what they say, what is rejected and where, and the stage parameters that are cut from them.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -69,8 +70,22 @@ TEST_CASE("the planetary train that ships has the frequencies of the table, what
   CHECK(a.natural_frequency[0] == 0);
   for (Eigen::Index i = 1; i < a.natural_frequency.size(); ++i)
     CHECK(a.natural_frequency[i] == relative(b.natural_frequency[i], 1e-9));
-  // Sun meshes are ahead of each other by z_s psi / 2 pi, ring meshes by -z_r psi / 2 pi; here both are whole.
-  for (size_t m = 0; m < 4; ++m) CHECK(std::abs(std::remainder(a.layout.meshes[m].phase, 1)) < 1e-9);
+  // A planet at psi: its sun mesh is ahead by -z_s psi / 2 pi, its ring mesh by z_r psi / 2 pi of those of the planet at 0. Both are
+  // whole at equal spacing, 28 / 4 and 100 / 4. Planets at other steps of 360 / 128 degrees have other phases and the same sum.
+  const auto ahead = [](const System& layout, size_t first, double turns) {
+    const std::vector<System::Mesh>& mesh = layout.meshes;
+    return std::remainder(mesh[first].phase - mesh[first - first % 4].phase - turns, 1);
+  };
+  for (size_t m = 0; m < 8; ++m) CHECK(std::abs(ahead(a.layout, m, 0)) < 1e-9);
+  const SceneFile file;
+  const System moved = layout_in(
+      read_system_scene(file.path(edited("planets = 4", "positions_deg = [0, 92.8125, 180, 267.1875]"))), "");
+  const std::array steps{0.0, 33.0, 64.0, 95.0};
+  for (size_t n = 0; n < 4; ++n) {
+    CHECK(std::abs(ahead(moved, n, -28 * steps[n] / 128)) < 1e-9);
+    CHECK(std::abs(ahead(moved, 4 + n, 100 * steps[n] / 128)) < 1e-9);
+  }
+  CHECK(std::abs(ahead(moved, 1, 28 * steps[1] / 128)) > 0.4);
 }
 
 TEST_CASE("mesh phases of planets follow from tooth numbers") {
@@ -110,6 +125,12 @@ TEST_CASE("stage parameters of a system: read as written, the same modes to the 
     return std::string();
   };
   CHECK(said("stands_on = 6", "stands_on = 1").find("which is no carrier") != std::string::npos);
+  // The carrier is body 6 and comes last: on itself, then the planets on a carrier that does not stand on the ground.
+  const std::string last = text.substr(text.find("name = \"carrier\""));
+  const std::string carrier = last.substr(0, last.find("stands_on = -1")) + "stands_on = ";
+  CHECK(said(carrier + "-1", carrier + "6").find("which is no carrier on the ground") != std::string::npos);
+  CHECK(said("kind = \"held\"", "kind = \"hold\"")
+            .find("'kind' in [drive] = \"hold\": must be one of: torque held free") != std::string::npos);
   CHECK(said("driven_body = 1", "driven_body = 9").find("a body that is not there") != std::string::npos);
   CHECK(said("radius = ", "radius = nan # ").find("must be a number") != std::string::npos);
   CHECK(said("sense = 1", "sense = 0.5").find("must be a whole number") != std::string::npos);
@@ -135,6 +156,12 @@ TEST_CASE("faults of a scene of a system are rejected with their line") {
   rejects(shipped() + "[operation]\n", line_of("body = \"rigid\"") + 1, "natural modes are computed so far");
   rejects(edited("equivalent_mass_kg = 0.61", "equivalent_mass_kg = 0.61\ntotal_inertia_kgm2 = 1"),
           line_of("[gear.planet]"), "which say the same");
+  // Sections that only elastic gears follow, of a gear and of one that another is like.
+  const int end = line_of("body = \"rigid\"") + 1;
+  rejects(shipped() + "[gear.planet.crack]\ntooth = 1\ndepth_mm = 0.5\n", end,
+          "a gear of a system with body = \"rigid\" has no 'crack'");
+  rejects(shipped() + "[gear.sun.modification]\ncrowning_um = 5\n", end, "has no 'modification'");
+  rejects(shipped() + "[gear.ring.error]\neccentricity_um = 5\n", end, "has no 'error'");
   const SceneFile file;
   CHECK_THROWS_AS(read_scene(kShipped), Error);
 }

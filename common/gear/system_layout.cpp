@@ -29,6 +29,12 @@ std::vector<double> wanted_positions(const SystemScene::Carrier& carrier, size_t
   return out;
 }
 
+// Whether a name is one of those that the planets of a gear have: <gear>1, <gear>2, ...
+bool called_like_planet(const std::string& name, const std::string& planet) {
+  return name.size() > planet.size() && name.starts_with(planet) &&
+         name.find_first_not_of("0123456789", planet.size()) == std::string::npos;
+}
+
 class Layout {
  public:
   explicit Layout(const SystemScene& scene) : scene_(scene) {}
@@ -72,9 +78,15 @@ class Layout {
     };
     if (std::any_of(scene_.gears.begin(), scene_.gears.end(), names_gear(carrier.name)))
       reject("carrier", c, "carrier '", carrier.name, "' is called like a gear; give it a name of its own");
+    for (size_t other = 0; other < c; ++other)
+      if (scene_.carriers[other].name == carrier.name)
+        reject("carrier", c, "two carriers are called '", carrier.name, "'; give each a name of its own");
+    for (const SystemScene::Carrier& other : scene_.carriers)
+      if (called_like_planet(carrier.name, other.planet))
+        reject("carrier", c, "carrier '", carrier.name, "' is called like one of the planets of carrier '",
+               other.name, "' (", other.planet, "1, ", other.planet, "2, ...); rename it");
     for (const SystemScene::Gear& gear : scene_.gears)
-      if (gear.name.size() > carrier.planet.size() && gear.name.starts_with(carrier.planet) &&
-          gear.name.find_first_not_of("0123456789", carrier.planet.size()) == std::string::npos)
+      if (called_like_planet(gear.name, carrier.planet))
         reject("carrier", c, "[gear.", gear.name, "] is called like one of the planets of carrier '",
                carrier.name, "' (", carrier.planet, "1, ", carrier.planet, "2, ...); rename it");
     if (std::none_of(scene_.gears.begin(), scene_.gears.end(), names_gear(carrier.planet)))
@@ -261,7 +273,7 @@ class Layout {
     for (size_t d = 0; d < scene_.drives.size(); ++d) {
       const SystemScene::Drive& drive = scene_.drives[d];
       const int body = placed(drive.gear);
-      if (body < 0)
+      if (body < 0 || system_.bodies[static_cast<size_t>(body)].on != System::kGround)
         reject("drive", d, "'gear' in [drive] = '", drive.gear,
                "' names no gear and no carrier that stands alone; planets have no drives");
       for (const System::Drive& other : system_.drives)

@@ -21,6 +21,9 @@ System layout_of(const SystemScene& scene);
 // The same with carriers that do not move: planets turn on axes, or on bearings, that stand on the ground, and carriers with their
 // drives are gone. At rest a train whose ring and carrier are held is this one; what holds the carrier is the sum of the planets'
 // bearing forces. Throws Error(input) for a carrier that no drive holds rigidly.
+//
+// Elastic systems (system/system_statics.h) know no carriers and need this form. No tool solves them yet; tests/test_internal_solid.cpp
+// checks a planetary train at rest with it.
 System on_fixed_carriers(const System& layout);
 
 }  // namespace whine

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/codec.h"
+#include "system/rigid_system.h"
 
 namespace whine {
 namespace {
@@ -169,7 +170,8 @@ void describe(Codec& c, ModesArtifact& a) {
             &a.rigid_frequency);
   c.choices(
       {"/mode_type", "1",
-       "for each mode: rotational, translational, planet, mixed (no such structure) or train (no carrier)",
+       "for each mode: rotational, translational, planet, mixed (no such structure) or train (no planets, or "
+       "those of several carriers)",
        ""},
       a.type);
   c.dataset({"/planet_harmonic",
@@ -196,13 +198,17 @@ void describe(Codec& c, ModesArtifact& a) {
             &a.kinetic_energy);
   if (!c.in()) return;
   const auto bodies = columns.carrier.size();
-  require_indices(c, "/mesh/body", columns.side, bodies);
+  require_indices(c, "/mesh/body_number", columns.side, bodies);
   if (static_cast<Eigen::Index>(a.type.size()) != a.natural_frequency.size())
     c.in()->file().reject("dataset /mode_type has not one word for each mode");
   for (Eigen::Index i = 0; i < bodies; ++i)
-    if (columns.on[i] >= bodies || columns.sense[i] == 0)
-      c.in()->file().reject("a body of /body stands on one that is not there, or has no sense of rotation");
+    if (columns.sense[i] == 0)
+      c.in()->file().reject(text("dataset /body/sense holds 0 of body ", i, "; allowed are -1 and 1"));
   a.layout = system_of(columns);
+  for (size_t b = 0; b < a.layout.bodies.size(); ++b)
+    if (const System::Body& body = a.layout.bodies[b]; !has_place(a.layout, body))
+      c.in()->file().reject(text("dataset /body/stands_on holds ", body.on, " of body ", b,
+                                 "; allowed are -1, the ground, and the number of a carrier on the ground"));
 }
 
 void write(const std::string& path, const ModesArtifact& a, const Provenance& provenance) {

@@ -43,7 +43,7 @@ std::vector<Key> system_keys() {
      "inertia of the carrier about its axis; with planets on rigid pins their masses included",
      [](V& v) -> Slot { return &v.carrier.inertia; }},
     {Part::carrier, "carrier", "equivalent_mass_kg", kKilogram, "0.0", 0, 1e9, false, "",
-     "inertia over the square of the radius of the pins, in place of inertia_kgm2; 0: not given",
+     "inertia over the square of the radius of the pins, in place of inertia_kgm2, of the same masses; 0: not given",
      [](V& v) -> Slot { return &v.carrier.equivalent_mass; }},
     {Part::drive, "drive", "gear", kNone, nullptr, 0, 0, false, "",
      "name of the gear or carrier that it acts on; one without a drive is free of torque",

@@ -9,6 +9,7 @@
 #include "io/section_reader.h"
 #include "io/stage_parameters_text.h"
 #include "io/variant.h"
+#include "system/rigid_system.h"
 
 namespace whine {
 namespace {
@@ -53,6 +54,17 @@ class Table {
     if (!node.is_string() || !plain_name(*word))
       source_->reject(node, text("'", name, "' in [", label_, "] must be a name in quotes"));
     value = *word;
+  }
+  template <WordedChoice Choice>
+  void choice(const char* name, Choice& value) {
+    std::string chosen = name_of(value);
+    word(name, chosen);
+    if (out_) return;
+    const std::optional<Choice> known = choice_of<Choice>(chosen);
+    if (!known)
+      source_->reject(found(name), text("'", name, "' in [", label_, "] = \"", chosen,
+                                        "\": must be one of: ", kWordsOf<Choice>));
+    value = *known;
   }
   void flag(const char* name, bool& value) {
     int number = value;
@@ -114,9 +126,7 @@ void describe(Table& t, System::Mesh& mesh) {
 
 void describe(Table& t, System::Drive& drive) {
   t.whole("body", drive.body, 0, kMost);
-  std::string kind = name_of(drive.kind);
-  t.word("kind", kind);
-  drive.kind = choice_of<System::DriveKind>(kind).value_or(System::DriveKind::free);
+  t.choice("kind", drive.kind);
   t.number("torque", drive.torque, -kAny, kAny);
   t.number("stiffness", drive.stiffness, 0, kStiff);
 }
@@ -169,9 +179,10 @@ System read_system_parameters(const std::string& path) {
   for (const System::Body& body : out.bodies)
     if (body.sense == 0) source.reject(text("[[body]] '", body.name, "' has sense = 0; it must be -1 or 1"));
   for (const System::Body& body : out.bodies)
-    if (body.on != System::kGround &&
-        (!there(body.on) || out.bodies[static_cast<size_t>(body.on)].kind != System::BodyKind::carrier))
-      source.reject(text("[[body]] '", body.name, "' stands on number ", body.on, ", which is no carrier"));
+    if (!has_place(out, body))
+      source.reject(text("[[body]] '", body.name, "' stands on number ", body.on,
+                         ", which is no carrier on the ground; stands_on is -1, the ground, or the number "
+                         "of a carrier with stands_on = -1"));
   for (const System::Mesh& mesh : out.meshes)
     if (!there(mesh.side[0].body) || !there(mesh.side[1].body))
       source.reject(text("a [[mesh]] names a body that is not there; there are ", bodies));

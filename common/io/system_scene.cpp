@@ -29,6 +29,11 @@ void take_gears(const Source& source, SystemScene& scene) {
     SystemScene::Gear gear;
     static_cast<SceneGear&>(gear) = own;
     const toml::table* table = source.section("gear")->get(own.name)->as_table();
+    for (const char* key : {"modification", "error", "crack"})
+      if (const toml::node* node = table->get(key))
+        source.reject(
+            *node, text("[gear.", own.name, ".", key, "]: a gear of a system with body = \"rigid\" has no '",
+                        key, "', its mesh is one spring of stiffness_N_um; take the section out"));
     const toml::table* owner = table;
     if (const auto like = (*table)["like"].value<std::string>(); like && !table->get("equivalent_mass_kg"))
       owner = source.section("gear")->get(*like)->as_table();

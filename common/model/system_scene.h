@@ -17,8 +17,10 @@ struct SystemScene {
     std::string name, planet;       // planet: the gear that stands at each position
     int planets = 0;                // at equal spacing; 0: at `positions`
     std::vector<double> positions;  // (planet) rad, counter-clockwise from +x
-    double inertia = 0;             // kg m2, planets not included
-    double equivalent_mass = 0;     // kg: I / r^2, r the radius of the pins, in place of it; 0: not given
+    // kg m2: I, of the carrier about its axis. Planets on elastic pins are not included, each has its own mass. Planets on rigid pins
+    // are point masses of it: + N m r^2, r the radius of the pins. Likewise the mass of the carrier's bearing: + N m.
+    double inertia = 0;
+    double equivalent_mass = 0;  // kg: I / r^2, in place of inertia, of the same masses; 0: not given
     Bearing bearing = {};
   };
   struct Mesh {

@@ -9,7 +9,8 @@
 
 namespace whine {
 
-// Of a planetary train, by how its central members (all but planets) move. mixed: without that structure. train: without a carrier.
+// Of a planetary train, by how its central members (all but planets) move. mixed: without that structure. train: without planets, or with
+// those of several carriers.
 enum class ModeType { rotational, translational, planet, mixed, train };
 template <>
 inline constexpr const char* kWordsOf<ModeType> = "rotational translational planet mixed train";

@@ -100,10 +100,22 @@ void take_springs(RigidSystem& system) {
 
 }  // namespace
 
+bool has_place(const System& layout, const System::Body& body) {
+  if (body.on == System::kGround) return true;
+  if (body.on < 0 || body.on >= static_cast<int>(layout.bodies.size())) return false;
+  const System::Body& carrier = layout.bodies[static_cast<size_t>(body.on)];
+  return carrier.kind == System::BodyKind::carrier && carrier.on == System::kGround;
+}
+
 RigidSystem rigid_system(const System& layout) {
   RigidSystem out;
   out.layout = layout;
-  for (const System::Body& body : layout.bodies) require(body.radius, "a radius", body.name);
+  for (const System::Body& body : layout.bodies) {
+    require(body.radius, "a radius", body.name);
+    if (!has_place(layout, body))
+      fail(Failure::input, "'", body.name, "' stands on number ", body.on,
+           ", which is no carrier on the ground; a rigid system has no other place for it");
+  }
   take_freedoms(out);
   take_springs(out);
   const Index n = out.rotation[0].cols();

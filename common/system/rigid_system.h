@@ -42,8 +42,12 @@ struct RigidSystem {
   Eigen::Index freedoms() const { return mass.rows(); }
 };
 
-// Throws Error(input) that names the body or mesh for a radius, inertia, mass or stiffness that is not positive, and if all
-// freedoms are held.
+// Throws Error(input) that names the body or mesh for a radius, inertia, mass or stiffness that is not positive, for a body without
+// a place, and if all freedoms are held.
 RigidSystem rigid_system(const System& layout);
+
+// Whether the axis of a body stands on the ground, or on a carrier whose axis stands on the ground. A carrier on a carrier, or on
+// itself, is not in the model.
+bool has_place(const System& layout, const System::Body& body);
 
 }  // namespace whine
