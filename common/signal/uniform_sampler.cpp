@@ -40,7 +40,7 @@ UniformSampler::UniformSampler(double rate, Index count, int channels)
     const double u = static_cast<double>(i) / kPerSample, angle = std::numbers::pi * u;
     table_.push_back((i == 0 ? 1 : std::sin(angle) / angle) * window(u / kHalfWidth));
   }
-  sums_.assign(static_cast<size_t>(rows_ * (channels_ + 1)), 0.0);
+  sums_.assign(static_cast<size_t>(rows_) * static_cast<size_t>(channels_ + 1), 0.0);
 }
 
 void UniformSampler::push(double t, double weight, const double* x) {

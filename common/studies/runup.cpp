@@ -213,9 +213,9 @@ class Runner {
       row_[1] = force;
       const long named = i < steps ? k : k + 1;  // the state at the end has the names of the next period
       for (Index j = 0; j < loads.size(); ++j)
-        row_[static_cast<size_t>(2 + pair_channel(static_cast<long>(j) - own_reach, named))] = loads[j];
+        row_[2 + static_cast<size_t>(pair_channel(static_cast<long>(j) - own_reach, named))] = loads[j];
       double closing = error[at];  // without what bearings give way
-      auto next = static_cast<size_t>(2 + 2 * reach_ + 1);
+      size_t next = 2 + 2 * static_cast<size_t>(reach_) + 1;
       for (size_t g = 0; g < kSides; ++g)
         if (head_.mesh.bearing[g].elastic()) {
           for (int xy = 0; xy < 2; ++xy) row_[next++] = period_.bearing_force[g](xy, at);
