@@ -47,49 +47,9 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 
-void body(int argc, char** argv) {
-  std::string path, output, variant, ids, folder = "out";
-  std::vector<std::string> changes;
-  bool keys = false;
-  whine::Options options{"Checks a scene and cuts it into the parts that the stages depend on", "gear-scene"};
-  Option scene_option = options.add("--scene", path, "scene file (TOML)");
-  Option output_option = options.add("--output", output, "make fragment to write");
-  options.add("--out", folder, "folder of the artifacts").show_default();
-  options.add("--ids", ids,
-              "folder of the programs' hashes, whose times in the future become those of now, too");
-  Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
-  Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
-  Option set_option = options.add("--set", changes, "key=value, any number of times");
-  scene_option.excludes(keys_option);
-  output_option.needs(scene_option).excludes(variant_option);
-  variant_option.needs(scene_option).needs(set_option);
-  set_option.needs(variant_option);
-  options.footer(
-      "Examples:\n"
-      "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
-      "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant "
-      "out/parker2000/variants/bore35.toml\n"
-      "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output "
-      "build/scenes/lin-parker-planetary.mk --out out\n"
-      "  gear-scene --keys");
-  options.parse(argc, argv);
-  if (keys) {
-    std::cout << scene_key_table();
-    return;
-  }
-  if (!variant.empty()) {
-    publish_if_changed(variant, scene_variant(path, changes));
-    return;
-  }
-  if (path.empty() || output.empty())
-    fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
-
+void cut_pair(const std::string& path, const std::string& stem, const std::string& folder,
+              const std::string& ids, const std::string& output) {
   // 1. The whole scene is checked before anything is written.
-  const std::string stem = checked_scene_stem(path);
-  if (is_system_scene(path)) {
-    cut_system(path, stem, folder, output);
-    return;
-  }
   const Scene scene = read_scene(path);
   const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
     return scene_place(path, sections, words);
@@ -128,6 +88,51 @@ void body(int argc, char** argv) {
   const size_t hashes = different(bodies).size();
   tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", hashes,
        (hashes == 1 ? " body, " : " bodies, "), scene.operation.torques.size(), " torques");
+}
+
+void body(int argc, char** argv) {
+  std::string path, output, variant, ids, folder = "out";
+  std::vector<std::string> changes;
+  bool keys = false;
+  whine::Options options{"Checks a scene and cuts it into the parts that the stages depend on", "gear-scene"};
+  Option scene_option = options.add("--scene", path, "scene file (TOML)");
+  Option output_option = options.add("--output", output, "make fragment to write");
+  options.add("--out", folder, "folder of the artifacts").show_default();
+  options.add("--ids", ids,
+              "folder of the programs' hashes, whose times in the future become those of now, too");
+  Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
+  Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
+  Option set_option = options.add("--set", changes, "key=value, any number of times");
+  scene_option.excludes(keys_option);
+  output_option.needs(scene_option).excludes(variant_option);
+  variant_option.needs(scene_option).needs(set_option);
+  set_option.needs(variant_option);
+  options.footer(
+      "Examples:\n"
+      "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
+      "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant "
+      "out/parker2000/variants/bore35.toml\n"
+      "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output "
+      "build/scenes/lin-parker-planetary.mk --out out\n"
+      "  gear-scene --keys");
+  options.parse(argc, argv);
+  if (keys) {
+    std::cout << scene_key_table();
+    return;
+  }
+  if (!variant.empty()) {
+    publish_if_changed(variant, scene_variant(path, changes));
+    return;
+  }
+  if (path.empty() || output.empty())
+    fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
+
+  const std::string stem = checked_scene_stem(path);
+  if (is_system_scene(path)) {
+    cut_system(path, stem, folder, output);
+  } else {
+    cut_pair(path, stem, folder, ids, output);
+  }
 }
 
 }  // namespace
