@@ -34,7 +34,8 @@ const StaticArtifact& statics() {
 
 VectorXd joined(const VectorXd& a, const VectorXd& b) {
   VectorXd out(a.size() + b.size());
-  out << a, b;
+  out.head(a.size()) = a;
+  out.tail(b.size()) = b;
   return out;
 }
 
@@ -56,7 +57,8 @@ struct Kept : RunupSink {
     a.transmission_error = joined(a.transmission_error, s.transmission_error);
     a.mesh_force = joined(a.mesh_force, s.mesh_force);
     MatrixRM loads(a.tooth_load.rows() + s.size(), s.tooth_load.cols());
-    loads << a.tooth_load, s.tooth_load;
+    loads.topRows(a.tooth_load.rows()) = a.tooth_load;
+    loads.bottomRows(s.size()) = s.tooth_load;
     a.tooth_load = loads;
     if (other) other->take(s);
   }
