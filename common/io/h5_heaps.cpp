@@ -1,7 +1,9 @@
 #include "io/h5_heaps.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace whine::h5 {
@@ -14,6 +16,8 @@ std::uint64_t number_at(const std::string& bytes, std::size_t at, int length) {
   return out;
 }
 
+static_assert(std::endian::native == std::endian::little, "addresses in a file are read as they lie there");
+
 // Where `mark` stands in `bytes`, ascending, as far as the address of that place stands somewhere in them, too. One pass for
 // all marks: a file may consist of little else.
 std::vector<std::size_t> referred(const std::string& bytes, const std::string& mark) {
@@ -22,10 +26,11 @@ std::vector<std::size_t> referred(const std::string& bytes, const std::string& m
     places.push_back(at);
   if (places.empty()) return out;
   std::vector<bool> found(places.size());
-  std::uint64_t address = 0;  // that ends at i
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    address = address >> 8 | std::uint64_t(static_cast<unsigned char>(bytes[i])) << 56;
-    if (i < 7 || address < places.front() || address > places.back()) continue;
+  const std::uint64_t first = places.front(), span = places.back() - first;
+  for (std::size_t i = 0; i + 8 <= bytes.size(); ++i) {
+    std::uint64_t address = 0;
+    std::memcpy(&address, bytes.data() + i, 8);
+    if (address - first > span) continue;  // below the first place, too: the difference wraps
     const auto place = std::lower_bound(places.begin(), places.end(), address);
     if (*place == address) found[static_cast<std::size_t>(place - places.begin())] = true;
   }
