@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <numbers>
 
 #include "base/error.h"
 #include "failure_of.h"
+#include "io/h5.h"
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
 #include "io/static_codec.h"
@@ -53,6 +56,44 @@ const LoadedArtifact& loaded_at(double phase) {
     made[phase] =
         loaded_pair(coarse().mesh, coarse().mesh, coarse().body, coarse().body, coarse_statics(), phase, 0);
   return made[phase];
+}
+
+// What is rounded for the view: near load to 4 nm and 1.3e-4 of each value, elsewhere to 2 um and 1/64 of the largest value there.
+void check_digits(const std::string& path, const LoadedArtifact& at) {
+  std::ifstream in(path, std::ios::binary);
+  const h5::Reader file(std::string(std::istreambuf_iterator<char>(in), {}), path, "");
+  std::vector<bool> near(static_cast<size_t>(at.vtk_point.rows()), false);
+  for (Eigen::Index e = 0; e < at.vtk_cell.rows(); ++e)
+    for (int k = 0; at.vtk_cell(e, 4) >= 0 && k < 9; ++k) near[static_cast<size_t>(at.vtk_cell(e, k))] = true;
+  for (Eigen::Index i = 0; i < at.vtk_line.size(); ++i)
+    near[static_cast<size_t>(at.vtk_line.data()[i])] = true;
+  CHECK(std::count(near.begin(), near.end(), false) > at.vtk_point.rows() / 2);
+  const std::vector<double> shown = file.doubles("/VTKHDF/Points");
+  double off[2] = {0, 0};
+  for (Eigen::Index i = 0; i < at.vtk_point.rows(); ++i)
+    for (int k = 0; k < 2; ++k) {
+      double& most = off[near[static_cast<size_t>(i)] ? 0 : 1];
+      most = std::max(most, std::abs(shown[static_cast<size_t>(3 * i + k)] - at.vtk_point(i, k)));
+    }
+  CHECK(off[0] < 4e-9);
+  CHECK(off[1] < 2e-6);
+  for (const auto& [name, units, values] : at.vtk_point_data) {
+    CAPTURE(name);
+    const std::vector<double> field = file.doubles("/VTKHDF/PointData/" + name);
+    const size_t width = field.size() / near.size();
+    double near_error = 0, far_error = 0, far_most = 0;
+    for (size_t i = 0; i < near.size(); ++i)
+      for (Eigen::Index k = 0; k < values.cols(); ++k) {
+        const double exact = values(static_cast<Eigen::Index>(i), k),
+                     error = std::abs(field[i * width + static_cast<size_t>(k)] - exact);
+        if (near[i]) near_error = std::max(near_error, error / std::max(std::abs(exact), 1e-300));
+        if (near[i]) continue;
+        far_error = std::max(far_error, error);
+        far_most = std::max(far_most, std::abs(exact));
+      }
+    CHECK(near_error < 1.3e-4);
+    CHECK(far_error <= far_most / 64);
+  }
 }
 
 }  // namespace
@@ -213,6 +254,7 @@ TEST_CASE("loaded: artifacts are read as they were written, and what cannot be s
   CHECK(back.hub_torque == at.hub_torque);
   CHECK(back.mesh_phase == 0.25);
   CHECK(back.gear[0].design.teeth == 50);
+  check_digits(path, at);
   std::filesystem::remove(path);
   std::filesystem::remove(path.substr(0, path.size() - 2) + "hdf");
 

@@ -12,11 +12,12 @@
 namespace whine {
 namespace {
 
-// To 2^-30 m, so that deflate finds zeros behind.
-double to_nanometre(double x) {
-  constexpr double kPerMetre = 1 << 30;
-  return std::round(x * kPerMetre) / kPerMetre;
+// To a multiple of 2^exponent, so that deflate finds zeros behind.
+double to_multiple(double x, int exponent) {
+  return std::ldexp(std::round(std::ldexp(x, -exponent)), exponent);
 }
+
+constexpr int kEightNanometres = -27, kFourMicrometres = -18;
 
 // To 12 bits behind the leading one, 1.2e-4.
 float to_three_digits(double x) {
@@ -146,9 +147,33 @@ namespace {
 
 const std::string kGroup = "/VTKHDF/";
 
-// Values of points or cells, which `of` names ("PointData"), as many rows as there are of them.
+// Which points belong to whole cells of nine nodes or to lines: the others are far from load.
+std::vector<bool> near_load(const VtkGrid& grid) {
+  std::vector<bool> out(static_cast<std::size_t>(grid.point.rows()));
+  const auto add = [&](const auto& points) {
+    for (const int point : points)
+      if (point >= 0) out.at(static_cast<std::size_t>(point)) = true;
+  };
+  for (Eigen::Index e = 0; e < grid.cell.rows(); ++e)
+    if (grid.cell.cols() == 4 || grid.cell(e, 4) >= 0) add(grid.cell.row(e));
+  for (Eigen::Index e = 0; e < grid.line.rows(); ++e) add(grid.line.row(e));
+  return out;
+}
+
+// What is smaller than this step is left out of values far from load: 1/128 to 1/64 of the largest of them, a power of two.
+int far_exponent(const MatrixRM& values, const std::vector<bool>& near) {
+  double most = 0;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (!near[i]) most = std::max(most, values.row(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff());
+  int exponent = 0;
+  std::frexp(most, &exponent);
+  return exponent - 7;
+}
+
+// Values of points or cells, which `of` names ("PointData"), as many rows as there are of them. `near` is empty, or says of each
+// point whether it keeps three digits.
 void put_fields(h5::Writer& file, const std::vector<LoadedArtifact::Field>& fields, const std::string& of,
-                const std::string& axis, std::size_t rows, bool rounded) {
+                const std::string& axis, std::size_t rows, bool rounded, const std::vector<bool>& near) {
   for (const auto& [name, units, values] : fields) {
     const auto columns = static_cast<std::size_t>(values.cols());
     if (values.rows() != static_cast<Eigen::Index>(rows) || columns < 1 || columns > 3) {
@@ -156,16 +181,21 @@ void put_fields(h5::Writer& file, const std::vector<LoadedArtifact::Field>& fiel
            rows, " x 1, 2 or 3");
     }
     const std::size_t width = columns == 2 ? 3 : columns;
+    const int step = far_exponent(values, near);
     std::vector<float> data(rows * width, 0.0F);
     for (std::size_t i = 0; i < rows; ++i)
       for (std::size_t k = 0; k < columns; ++k) {
-        const double value = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+        double value = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+        if (!near.empty() && !near[i]) value = to_multiple(value, step);
         data[i * width + k] = rounded ? to_three_digits(value) : static_cast<float>(value);
       }
     const h5::Shape shape = width == 1 ? h5::Shape{rows} : h5::Shape{rows, width};
+    const char* digits = !rounded ? ", for looking: single precision"
+                         : near.empty()
+                             ? ", for looking: three digits"
+                             : ", for looking: three digits; far from load two of the largest there";
     file.put(kGroup + of + "/" + name, data.data(), shape,
-             {units, name + (rounded ? ", for looking: three digits" : ", for looking: single precision"),
-              axis + (width == 1 ? "" : " component"), ""});
+             {units, name + digits, axis + (width == 1 ? "" : " component"), ""});
   }
 }
 
@@ -207,7 +237,10 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
     return out;
   };
   MatrixRM place = grid.point;
-  if (grid.rounded) place = place.unaryExpr([](double x) { return to_nanometre(x); });
+  const std::vector<bool> near = grid.rounded ? near_load(grid) : std::vector<bool>();
+  for (std::size_t i = 0; i < near.size(); ++i)
+    for (double& x : place.row(static_cast<Eigen::Index>(i)))
+      x = to_multiple(x, near[i] ? kEightNanometres : kFourMicrometres);
   file.put(kGroup + "Points", in_space(place, 0.0).data(), {points, 3},
            {"m", "position of the points", "point xyz", ""});
 
@@ -247,8 +280,8 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
   for (const auto& [name, values] : grid.cell_numbers) {
     file.put(kGroup + "CellData/" + name, values.data(), {cells}, {"1", name + " of the cell", "cell", ""});
   }
-  put_fields(file, grid.point_data, "PointData", "point", points, grid.rounded);
-  put_fields(file, grid.cell_data, "CellData", "cell", cells, grid.rounded);
+  put_fields(file, grid.point_data, "PointData", "point", points, grid.rounded, near);
+  put_fields(file, grid.cell_data, "CellData", "cell", cells, grid.rounded, {});
 }
 
 void link_for_paraview(const std::string& path) {

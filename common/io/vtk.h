@@ -22,7 +22,9 @@ struct VtkGrid {
   // Of 1, 2 or 3 columns; two are a vector in the plane.
   std::vector<LoadedArtifact::Field> point_data;  // (point, k)
   std::vector<LoadedArtifact::Field> cell_data;   // (cell and line, k)
-  bool rounded = false;  // places to a nanometre, values to three digits: half of the file
+  // Places to 8 nm and values to three digits; points of four-node cells alone, far from load, to 4 um and to 1/64 or less of the
+  // largest value among them: a fifth of the file.
+  bool rounded = false;
 };
 
 // The whole gear from one sector: copies turned counter-clockwise by 2 pi / teeth, edge nodes merged with
