@@ -137,6 +137,18 @@ $(sound_file).wav $(sound_file).tsv &: $1 $(TRANSFER) $(sound_plan_file) $(call 
 	$(B)/bin/gear-sound $(foreach f,$1,--sweep $f) --mesh-frequency $(AT) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
 endef
 
+# Results beside the REXS model that the scene was imported from. Path, stage and content, as for a sound.
+$(if $(filter export,$(goals)),$(if $(MODEL),$(if $(wildcard $(MODEL)),,$(error MODEL=$(MODEL): there is no such file)),\
+  $(error export: which model? make export SCENE=my-pair.toml MODEL=stage.rexs, the REXS model that the scene was imported from)))
+export_file = $(figure_folder)/$(basename $(notdir $(MODEL)))-results$(suffix $(MODEL))
+export_plan_file = $(B)/plans/$(own_scene)/$(notdir $(export_file)).export
+export_plan = --model $(MODEL) --stage $(STAGE) $(firstword $(shell sha256sum 2>/dev/null < '$(MODEL)'))
+export_inputs = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep))
+define export_rule # artifacts
+$(export_file): $1 $(MODEL) $(export_plan_file) $(call titles,$1) $(call id,gear-export) | $(B)/bin/gear-export $(with_deps)
+	$(B)/bin/gear-export --model '$(MODEL)' $(if $(STAGE),--stage '$(STAGE)') --output $(export_file) $1
+endef
+
 # A run-up with the sweeps beside it.
 runup_figure = $(figure_folder)/runup-$(subst _,-,$(runup_stem))-$(WAY)-T$(TORQUE)
 inputs_runup = out/$1/T$(TORQUE)/$(WAY)/runup_$(runup_stem).h5 $(call both_ways,$1,$(TORQUE),response)
@@ -188,6 +200,8 @@ $(if $(filter histories,$(goals)),$(if $(filter $1,$(own_scene)),$(foreach f,$(h
   $(eval $(call figure_rule,$(firstword $(subst -$(AT)Hz, ,$(notdir $f))),$f,$(call inputs_fig08,$1,$(TORQUE)))))))
 $(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call both_ways,$1,$(TORQUE),sweep)))\
   $(if $(TRANSFER),$(eval $(call plan_rule,$(sound_plan_file),$(sound_plan))))))
+$(if $(filter export,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call export_rule,$(call export_inputs,$1,$(SCENE_$1_TORQUES))))\
+  $(eval $(call plan_rule,$(export_plan_file),$(export_plan)))))
 $(if $(filter runup,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call figure_rule,runup-$(WAY),$(runup_figure),$(call inputs_runup,$1)))))
 $(eval $(call report_rule,$1))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
@@ -198,9 +212,11 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # $(call stands,words): where a goal is to be found, also when nothing was to be made. By $(info): `make -q` and `make -n` stay as they are.
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
-.PHONY: figures $(figures) table1 scorecard animation report histories sound runup
+.PHONY: figures $(figures) table1 scorecard animation report export histories sound runup
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
+export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
+	$(call stands,export: $(export_file))
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair

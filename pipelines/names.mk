@@ -24,12 +24,12 @@ define name_newline
 
 endef
 
-# SCENE, STUDY and TRANSFER are paths, the others numbers and words; none of them has its default yet. What holds a control
+# SCENE, STUDY, TRANSFER and MODEL are paths, the others numbers and words; none of them has its default yet. What holds a control
 # character is not shown: a terminal would obey it.
-words_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE AT TRANSFER RATE FROM TO WAY JUMP_MAP JUMP_MAP_STEP JUMP_MAP_LOADS_AT JUMP_MAP_CELLS \
+words_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE AT TRANSFER MODEL RATE FROM TO WAY JUMP_MAP JUMP_MAP_STEP JUMP_MAP_LOADS_AT JUMP_MAP_CELLS \
   SENSITIVITY SENSITIVITY_FACTOR SENSITIVITY_RATIO SENSITIVITY_STEP HARRIS_DYNAMIC FOLDS_OVER FOLD_FIRST READING_PARTS FAULT_KILLS \
   STRESS_PROBLEMS STRESS_SCENES STRESS_SEED FUZZ_SECONDS LAUNCH_WAIT FREEZE SANITIZE BRANCHES
-lists_given := BESIDE JUMP_MAP_TORQUES JUMP_MAP_CORNERS JUMP_MAP_MODELS JUMP_MAP_RATIOS FOLD_RATIOS FOLD_TORQUES FOLD_RELIEFS FOLD_CURVE_TORQUES
+lists_given := BESIDE STAGE JUMP_MAP_TORQUES JUMP_MAP_CORNERS JUMP_MAP_MODELS JUMP_MAP_RATIOS FOLD_RATIOS FOLD_TORQUES FOLD_RELIEFS FOLD_CURVE_TORQUES
 options_given := VARIANTS HARRIS_OPTIONS
 names_given := $(words_given) $(lists_given) $(options_given)
 $(foreach v,$(names_given) MAKECMDGOALS,$(if $(findstring $$,$(value $v)),$(error $(name_shown): it holds $$$(call name_remedy,$v))))

@@ -40,7 +40,7 @@ variant_file = out/$(own_scene)/variants/$1.toml
 scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))
 
 # that need a scene of a pair, SCENE or the paper's
-pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report
+pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report export
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
   $(if $(filter $(pair_goals) out/bodies/%,$(goals)),$(own_scene)) \

@@ -151,6 +151,7 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-report]="$bin/gear-report out/scene/T100/static.h5 --output x"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-sound]="$bin/gear-sound --sweep out/scene/T100/up/sweep.h5 --mesh-frequency 2000 --output x"
+  [gear-export]="$bin/gear-export --model $scene_of_paper out/scene/T100/static.h5 --output x.rexs"
   [gear-import]="$bin/gear-import --input $scene_of_paper --output x.toml"
   [gear-loaded]="${stage_loaded[*]}" [gear-modes]="${stage_modes[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
@@ -180,6 +181,7 @@ gear-sweep out/scene/../scene/T100/static.h5
 gear-spectra out/scene/T100/up/sweep.h5
 gear-runup out/scene/T100/static.h5
 gear-report out/scene/T100/static.h5
+gear-export out/scene/T100/static.h5
 CASES
 rm out/scene/linked.h5
 rejected "a map without a damping" 3 'no case' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")

@@ -198,6 +198,13 @@ make_ -n AT=1250 TORQUE=100 TRANSFER=b/mic.csv sound
 expect "a transfer function of the same name in another folder, however old, makes the sound again" "gear-sound*1"
 cp -p b/mic.csv a/mic.csv; make_ -n AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
 expect "and so does another one in its place" "gear-sound*1"
+rejected_by_make "an export without a model is told what it needs" 'export: which model? make export SCENE=my-pair.toml MODEL=stage.rexs' export
+rejected_by_make "an export to a model that is not there" 'MODEL=a/none.rexs: there is no such file' MODEL=a/none.rexs export
+echo first > a/stage.rexsj; make_ MODEL=a/stage.rexsj STAGE='First stage' export; make_ -n MODEL=a/stage.rexsj STAGE='First stage' export
+expect "an export is up to date" ""
+make_ -n MODEL=a/stage.rexsj STAGE=12 export
+grep -q "gear-export --model 'a/stage.rexsj' --stage '12' --output out/figures/stage-results.rexsj .*out/parker2000/T300/down/sweep.h5" "$log" &&
+  ok "another stage of a model: its results, at all torques" || wrong "another stage of a model" "$(tail -n 1 "$log")"
 rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup
 rejected_by_make "a run-up with one end is told to give both" 'give both or none' FROM=2400 runup
 make_ -n RATE=500 WAY=down FROM=2800 TO=2400 TORQUE=100 runup
