@@ -143,14 +143,16 @@ $2.tsv $2.svg $2.png &: $3 $4 $(axis_plan_file) $(call titles,$3) pipelines/plot
 	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $(axis_options) $(if $(filter out/figures/fig%,$2),--paper-figure $1) $3
 endef
 
-# Heard at a speed of the user's choice, the rising branch first; with a transfer function a file of its own.
-sound_file = $(figure_folder)/sound-$(AT)Hz-T$(TORQUE)$(if $(TRANSFER),-$(basename $(notdir $(TRANSFER))))
+# Heard at a speed of the user's choice, the rising branch first, or of a run-up, then of the run-down over the same speeds; with a
+# transfer function a file of its own.
+sound_file = $(figure_folder)/sound-$(if $(sound_of_runup),runup-$(subst _,-,$(runup_stem)),$(AT)Hz)-T$(TORQUE)$(if $(TRANSFER),-$(basename $(notdir $(TRANSFER))))
 # Path and content: a transfer function of the same name in another folder may be older than the sound of the first.
 sound_plan_file = $(if $(TRANSFER),$(B)/plans/$(own_scene)/$(notdir $(sound_file)))
 sound_plan = --transfer $(TRANSFER) $(firstword $(shell sha256sum 2>/dev/null < '$(TRANSFER)'))
-define sound_rule # sweeps
+sound_inputs = $(if $(sound_of_runup),out/$1/T$(TORQUE)/up/runup_$(runup_stem).h5 out/$1/T$(TORQUE)/down/runup_$(RATE)$(if $(FROM),_$(TO)_$(FROM)).h5,$(call both_ways,$1,$(TORQUE),sweep))
+define sound_rule # run-ups or sweeps
 $(sound_file).wav $(sound_file).tsv &: $1 $(TRANSFER) $(sound_plan_file) $(call id,gear-sound) | $(B)/bin/gear-sound $(with_deps)
-	$(B)/bin/gear-sound $(foreach f,$1,--sweep $f) --mesh-frequency $(AT) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
+	$(B)/bin/gear-sound $(if $(sound_of_runup),$(foreach f,$1,--runup $f),$(foreach f,$1,--sweep $f) --mesh-frequency $(AT)) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
 endef
 
 # Results beside the REXS model that the scene was imported from. Path, stage and content, as for a sound.
@@ -214,7 +216,7 @@ $(foreach f,$(report_figures) $(other_figures),\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
 $(if $(filter histories,$(goals)),$(if $(filter $1,$(own_scene)),$(foreach f,$(history_figures),\
   $(eval $(call figure_rule,$(firstword $(subst -$(AT)Hz, ,$(notdir $f))),$f,$(call inputs_fig08,$1,$(TORQUE)))))))
-$(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call both_ways,$1,$(TORQUE),sweep)))\
+$(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call sound_inputs,$1)))\
   $(if $(TRANSFER),$(eval $(call plan_rule,$(sound_plan_file),$(sound_plan))))))
 $(if $(filter export,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call export_rule,$(call export_inputs,$1,$(SCENE_$1_TORQUES))))\
   $(eval $(call plan_rule,$(export_plan_file),$(export_plan)))))
@@ -269,7 +271,7 @@ sidebands: ## teeth that differ: transmission error over the hunting period, sha
 crack: ## a cracked tooth: static transmission error with and without it, orders, 150 N m of parker2000-crack (SCENE: its first torque)
 histories: $(if $(filter histories,$(goals)),$$(addsuffix .png,$$(history_figures))) ## DTE over time, its spectrum and the tooth loads at one mesh frequency in Hz, both branches: AT=1250 TORQUE=150 (SCENE: its first torque)
 	$(call stands,histories: $(addsuffix .{png$(,)svg$(,)tsv},$(history_figures)))
-sound: $(if $(filter sound,$(goals)),$$(sound_file).wav) ## what is heard of the mesh force at one mesh frequency in Hz, rising branch, then falling, as WAV: AT=2400 TORQUE=150 TRANSFER=file.csv (SCENE: its first torque)
+sound: $(if $(filter sound,$(goals)),$$(sound_file).wav) ## what is heard of the mesh force at one mesh frequency in Hz, rising branch, then falling, as WAV: AT=2400; or of a run-up, then a run-down: RATE=100 (rpm/s) FROM=2400 TO=2800; TORQUE=150 TRANSFER=file.csv (SCENE: its first torque)
 	$(call stands,sound: $(sound_file).{wav$(,)tsv})
 runup: $(if $(filter runup,$(goals)),$$(runup_figure).png) ## run-up or run-down: spectrogram of the mesh force, orders of the DTE, tooth loads: RATE=100 (rpm/s) WAY=up FROM=2400 TO=2800 (Hz; else the scene's speeds) TORQUE=150 (SCENE: its first torque)
 	$(call stands,runup: $(runup_figure).{png$(,)svg$(,)tsv})
