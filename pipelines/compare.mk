@@ -8,13 +8,14 @@
 compared_here := $(if $(filter compare,$(goals)),$(compared))
 # $(call common,torques of the first,scenes): those that all have
 common = $(foreach t,$1,$(if $(filter-out $(foreach s,$2,$(if $(filter $t,$(SCENE_$s_TORQUES)),$s)),$2),,$t))
-compared_torques := $(if $(compared_here),$(call common,$(SCENE_$(firstword $(compared_here))_TORQUES),$(compared_here)))
+compared_torques := $(strip $(if $(compared_here),$(call common,$(SCENE_$(firstword $(compared_here))_TORQUES),$(compared_here))))
 $(foreach s,$(compared_here),$(if $(SCENE_$s_SYSTEM),$(error SCENES: $s is a system of several meshes$(,) which has no sweeps to compare)))
 # While fragments are made, which are empty at first, nothing is known of their torques.
-$(if $(strip $(foreach s,$(compared_here),$(if $(SCENE_$s_TORQUES),,empty)) $(compared_torques)),,$(if $(compared_here),\
+compared_known := $(if $(compared_here),$(if $(strip $(foreach s,$(compared_here),$(if $(SCENE_$s_TORQUES),,$s))),,yes))
+$(if $(compared_known),$(if $(compared_torques),,\
   $(error SCENES: the scenes have no torque in common: $(foreach s,$(compared_here),$s at $(SCENE_$s_TORQUES) N m;) give one of the torques to each)))
-compared_torque := $(if $(filter command,$(firstword $(origin TORQUE))),$(if $(compared_torques),$(or $(filter $(TORQUE),$(compared_torques)),\
-  $(error TORQUE=$(TORQUE): the scenes have in common $(compared_torques) N m))),$(firstword $(compared_torques)))
+compared_torque := $(if $(compared_known),$(if $(filter command,$(firstword $(origin TORQUE))),$(or $(filter $(TORQUE),$(compared_torques)),\
+  $(error TORQUE=$(TORQUE): the scenes have in common $(compared_torques) N m)),$(firstword $(compared_torques))))
 compare_words := $(subst $(compare_empty) $(compare_empty),--,$(strip $(compared_here)))
 compare_folder := out/compare/$(compare_words)
 inputs_compare-rest = $(foreach s,$1,out/$s/T$2/static.h5)
@@ -25,13 +26,17 @@ compare_artifacts = $(foreach s,$(compared_here),$(foreach t,$(compared_torques)
   $(if $(compare_moves),$(call both_ways,$s,$(compared_torques),sweep)))
 compare_shows = compare-rest $(if $(compare_moves),compare-motion)
 
+compare_pictures = $(compare_shows:%=$(compare_folder)/%-T$(compared_torque).png)
+# Another torque shows other pictures on the page.
+compare_plan_file := $(B)/plans/compare/$(compare_words)
+
 define compare_rule
-$(foreach f,$(compare_shows),$(eval $(call figure_rule,$f,$(compare_folder)/$f,$(call inputs_$f,$(compared_here),$(compared_torque)),$(compared_here:%=$(B)/scenes/%.mk))))
-$(compare_folder)/index.html $(compare_folder)/compare.tsv &: $(compare_artifacts) $(patsubst %,$(compare_folder)/%.png,$(compare_shows)) \
+$(foreach f,$(compare_shows),$(eval $(call figure_rule,$f,$(compare_folder)/$f-T$(compared_torque),$(call inputs_$f,$(compared_here),$(compared_torque)),$(compared_here:%=$(B)/scenes/%.mk))))
+$(compare_folder)/index.html $(compare_folder)/compare.tsv &: $(compare_artifacts) $(compare_pictures) $(compare_plan_file) \
     $(call titles,$(compare_artifacts)) $(compared_here:%=$(B)/scenes/%.mk) $(call id,gear-compare) | $(B)/bin/gear-compare $(with_deps)
-	$(B)/bin/gear-compare --output $(compare_folder)/index.html $(compare_artifacts) $(patsubst %,$(compare_folder)/%.png,$(compare_shows))
+	$(B)/bin/gear-compare --output $(compare_folder)/index.html $(compare_artifacts) $(compare_pictures)
 endef
-$(if $(compared_here),$(if $(compared_torque),$(eval $(call compare_rule))))
+$(if $(compared_torque),$(eval $(call compare_rule))$(eval $(call plan_rule,$(compare_plan_file),$(compare_pictures))))
 
 .PHONY: compare
 compare: $(if $(compared_here),$(compare_folder)/index.html) ## designs side by side on common axes, their differences first: SCENES='a.toml b.toml ...' (the first is compared with), out/compare/a--b/index.html

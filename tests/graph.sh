@@ -216,10 +216,10 @@ rejected_by_make "a figure at a torque that the designs do not have" 'TORQUE=77:
 make_ SCENES="$scene a/short.toml" compare; make_ -n SCENES="$scene a/short.toml" compare
 expect "designs side by side are up to date" ""
 make_ -n SCENES="$scene a/short.toml" TORQUE=200 compare
-grep -q 'gear-plot compare-rest --output out/compare/parker2000--short/compare-rest .*out/parker2000/T200/static.h5 out/short/T200/static.h5' "$log" &&
+grep -q 'gear-plot compare-rest --output out/compare/parker2000--short/compare-rest-T200 .*out/parker2000/T200/static.h5 out/short/T200/static.h5' "$log" &&
   ok "designs at another torque" || wrong "designs at another torque" "$(programs)"
-make_ -n SCENES="$scene a/short.toml" AXIS=rpm:driver DB=1e-6 compare
-expect "other axes draw the one figure against speed again" "gear-compare*1 gear-plot*1"
+make_ SCENES="$scene a/short.toml" AXIS=rpm:driver DB=1e-6 compare
+expect "other axes draw the one figure against speed again, and the page" "gear-compare*1 gear-plot*1"
 rejected_by_make "a speed of something" 'AXIS=order:1: it is rpm:<gear>, such as rpm:pinion' AXIS=order:1 fig05
 rejected_by_make "decibels of nothing" 'DB=0: it is the length in m that is 0 dB' DB=0 order-cuts
 rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup

@@ -49,7 +49,7 @@ set bmargin at screen top(0.74)
 set ylabel (level_label eq "" ? "Amplitude of DTE (µm)" : "DTE (" . level_label . ")") . " {/:Bold (b)}" offset 0.5, 0
 peak = largest > largest_sweep ? largest : largest_sweep
 if (level_label eq "") { set yrange [0 : 1.08 * peak] } else { set yrange [level_low : level_high] }
-set key top left Left reverse samplen 2 spacing 1.1 font ",15"
+if (level_label eq "") { set key top left Left reverse samplen 2 spacing 1.1 font ",15" } else { set key bottom left horizontal Left reverse samplen 2 spacing 1.1 font ",15" }
 drawn = ""
 do for [k = 1:int(sweeps)] {
   drawn = drawn . sprintf('tsv index "[sweep %s]" using 1:2 with points pt %d ps 0.55 lc rgb "%s" title "order 1, sweep %s", ', value(sprintf("sweep%d", k)), k == 1 ? 7 : 6, "#909090", value(sprintf("sweep%d", k)))
@@ -64,7 +64,7 @@ set format x "%g"
 set xlabel speed_label
 set ylabel "Load / mean {/:Bold (c)}" offset 0.5, 0
 set ytics 1
-set key top right Right noreverse
+set key top right vertical Right noreverse
 set yrange [0 : 1.4 * largest_load]
 set y2range [0 : 100]
 set y2tics 25 out
