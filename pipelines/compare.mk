@@ -1,7 +1,7 @@
 # Designs side by side: scenes, at the torques that they have in common, as one page and figures on common axes.
 #
 #   make compare SCENES='short.toml long.toml'       out/compare/short--long/index.html; TORQUE=150: of the figures (else the first in common)
-#   make compare STUDY=tip-relief                    the two variants that the study marks in [compare]
+#   make compare STUDY=tolerances                    the two variants that the study marks by compare = [0, 3]
 #
 # The first design is what the others are compared with. Artifacts are those of the scenes, in out/<scene>/.
 
@@ -39,5 +39,5 @@ endef
 $(if $(compared_torque),$(eval $(call compare_rule))$(eval $(call plan_rule,$(compare_plan_file),$(compare_pictures))))
 
 .PHONY: compare
-compare: $(if $(compared_here),$(compare_folder)/index.html) ## designs side by side on common axes, their differences first: SCENES='a.toml b.toml ...' (the first is compared with), out/compare/a--b/index.html
+compare: $(if $(compared_here),$(compare_folder)/index.html) ## designs side by side on common axes, their differences first: SCENES='a.toml b.toml ...' (the first is compared with), or STUDY=, the two variants that it marks; out/compare/a--b/index.html
 	$(call stands,compare: open $< in a browser; compare.tsv beside it holds the differences)

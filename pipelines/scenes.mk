@@ -21,9 +21,13 @@ scene_of_project = $(if $3,$(if $(shell cmp -s '$2' $3 || echo differs),$(error 
 $(if $(SCENE),$(call scene_path,SCENE,$(SCENE)))
 # SCENES: two to six for `compare`, the first is what the others are compared with.
 $(foreach f,$(SCENES),$(call scene_path,SCENES,$f))
-compared := $(foreach f,$(SCENES),$(basename $(notdir $f)))
+# Or STUDY: the two variants that it marks, as scenes of their own.
+compared_study := $(if $(SCENES),,$(if $(filter compare,$(goals)),$(STUDY)))
+study_design = out/studies/$(basename $(notdir $(compared_study)))/compare/$1.toml
+study_designs := $(if $(compared_study),$(foreach w,first second,$(basename $(notdir $(compared_study)))-$w))
+compared := $(or $(study_designs),$(foreach f,$(SCENES),$(basename $(notdir $f))))
 $(foreach s,$(compared),$(if $(filter 1,$(words $(filter $s,$(compared)))),,$(error SCENES: two files are called $s.toml$(,) which would share out/$s; rename one)))
-$(if $(filter compare,$(goals)),$(if $(filter 2 3 4 5 6,$(words $(SCENES))),,$(error compare: which scenes? two to six of them: make compare SCENES='a.toml b.toml')))
+$(if $(filter compare,$(goals)),$(if $(filter 2 3 4 5 6,$(words $(compared))),,$(error compare: which scenes? two to six of them: make compare SCENES='a.toml b.toml'; or STUDY=<name>$(,) a study that marks two variants)))
 own_scene := $(or $(scene_stem),$(paper_scene))
 
 # Variants for `sensitivity`: name:key=value (more keys after commas) is the scene <own scene>-<name>. Those listed are
@@ -39,7 +43,7 @@ BIFURCATION_VARIANTS := halfstep:steps_per_period=512,min_sample_rate_kHz=1000 s
 bifurcation_scenes := $(if $(SCENE),,$(foreach v,$(BIFURCATION_VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v))))
 variant_file = out/$(own_scene)/variants/$1.toml
 
-scene_file = $(if $(filter $1,$(compared)),$(firstword $(foreach f,$(SCENES),$(if $(filter $1,$(basename $(notdir $f))),$f))),$(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml)))
+scene_file = $(if $(filter $1,$(study_designs)),$(study_design),$(if $(filter $1,$(compared)),$(firstword $(foreach f,$(SCENES),$(if $(filter $1,$(basename $(notdir $f))),$f))),$(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))))
 
 # that need a scene of a pair, SCENE or the paper's
 pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report export
@@ -61,7 +65,7 @@ scenes := $(sort \
   $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/% out/compare/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
-$(foreach s,$(filter-out $(variant_scenes) $(bifurcation_scenes),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\
+$(foreach s,$(filter-out $(variant_scenes) $(bifurcation_scenes) $(study_designs),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\
   $(error out/$s: there is no data/scenes/$s.toml; for a scene elsewhere say SCENE=path/to/$s.toml)))
 
 scene_fragments := $(scenes:%=$(B)/scenes/%.mk)
@@ -80,5 +84,12 @@ $(call variant_file,$(own_scene)-$1): $(call scene_file,$(own_scene)) $(B)/bin/g
 endef
 $(foreach v,$(VARIANTS) $(BIFURCATION_VARIANTS),$(if $(filter $(own_scene)-$(firstword $(subst :, ,$v)),$(scenes)),\
   $(eval $(call variant_rules,$(firstword $(subst :, ,$v)),$(lastword $(subst :, ,$v))))))
+
+define design_rules # name, first or second
+$(B)/scenes/$1.mk: $(call study_design,$1)
+$(call study_design,$1): $(if $(filter %.toml,$(STUDY)),$(STUDY),data/studies/$(STUDY).toml) $(B)/bin/gear-study FORCE
+	+@mkdir -p $$(@D); $(B)/bin/gear-study --study '$$<' --design $2 --output $$@
+endef
+$(foreach d,$(study_designs),$(eval $(call design_rules,$d,$(lastword $(subst -, ,$d)))))
 
 include $(scene_fragments)

@@ -139,7 +139,7 @@ TEST_CASE(
   CHECK(orders.rows[2][2] == relative(20, 1e-12));
   CHECK(orders.rows[3][3] == relative(20 - 300, 1e-12));
   CHECK(number(figure, "level_high") == 30);
-  CHECK(number(figure, "level_low") == -60);
+  CHECK(number(figure, "level_low") == -10);
   Figure small = order_figure(both_ways());
   apply({"", 2e-9}, small);
   CHECK(word(small, "level_label") == "dB re 2 nm");

@@ -79,13 +79,16 @@ void in_levels(double reference, Figure& figure) {
   const auto level = [&](double micrometres) {
     return 20 * std::log10(std::max(micrometres, 1e-300) / (reference * kMicro));
   };
-  double highest = -1e300;
+  double highest = -1e300, lowest = 1e300;
   for (const FigureBlock& block : figure.blocks)
     for (size_t c = 0; c < block.columns.size(); ++c)
       if (is_level(block.columns[c]))
         for (const auto& row : block.rows)
-          if (!row.empty()) highest = std::max(highest, level(row[c]));
-  const double foot = std::floor((highest - kDepth) / 10) * 10;
+          if (!row.empty() && row[c] > 0) {
+            highest = std::max(highest, level(row[c]));
+            lowest = std::min(lowest, level(row[c]));
+          }
+  const double foot = std::floor((std::max(lowest, highest - kDepth) - 2) / 10) * 10;
   for (FigureBlock& block : figure.blocks)
     for (size_t c = 0; c < block.columns.size(); ++c) {
       if (!is_level(block.columns[c])) continue;

@@ -22,8 +22,8 @@ set xrange [frequency_from - 0.01 * span : frequency_to + 0.01 * span]
 array high[3] = [rms_max, order_max, load_max]
 array axis[3] = [level_label eq "" ? "RMS of DTE (µm)" : "RMS of DTE (" . level_label . ")", \
   level_label eq "" ? "Order 1 of DTE (µm)" : "Order 1 of DTE (" . level_label . ")", "Tooth load / (T / r_b)"]
-array tops[3] = [0.085, 0.385, 0.675]
-array foots[3] = [0.37, 0.65, 0.93]
+array tops[3] = [0.085, 0.395, 0.7]
+array foots[3] = [0.35, 0.655, 0.93]
 do for [p = 1:3] {
   set tmargin at screen top(tops[p])
   set bmargin at screen top(foots[p])
