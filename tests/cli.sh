@@ -123,7 +123,7 @@ for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin"
     gear-reduce) as_made body pinion/body ;;
     gear-static) as_made static T150/static; run_example "$(sed 's/150/100/g' examples/lines)"; as_made static T100/static
       # a second design, of the same bodies
-      sed 's/^tooth_thinning_mm.*/tooth_thinning_mm = 0.05/' examples/data/scenes/parker2000.toml > examples/data/scenes/parker2000-longer.toml
+      sed 's/^centre_distance_mm = 150.0/centre_distance_mm = 150.05/' examples/data/scenes/parker2000.toml > examples/data/scenes/parker2000-longer.toml
       run_example 'gear-scene --scene data/scenes/parker2000-longer.toml --output longer.mk --out out'
       run_example "$(sed 's|out/parker2000/params|out/parker2000-longer/params|' examples/lines)"; as_made static ../parker2000-longer/T150/static ;;
     gear-sweep) as_made sweep T150/up/sweep; run_example "$(sed 's/\<up\>/down/g' examples/lines)"; as_made sweep T150/down/sweep ;;

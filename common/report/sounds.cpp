@@ -21,10 +21,10 @@ std::string unit_of(const Transfer* transfer) {
 }
 
 // A branch without sound has no level.
-void require_heard(const std::string& name, const VectorXd& sound) {
+void require_heard(const std::string& name, const VectorXd& sound, int rate) {
   if (!(sound.squaredNorm() > 0))
-    fail(Failure::input, "nothing is heard of ", name,
-         ": no harmonic below half the rate within the transfer function");
+    fail(Failure::input, "nothing is heard of ", name, ": no harmonic below ", rate / 2,
+         " Hz within the transfer function");
 }
 
 double rms_of(const VectorXd& y) {
@@ -95,11 +95,11 @@ Sounds sounds_of_motions(const std::vector<std::string>& paths, double frequency
     const HeardMotion& heard = branches.back();
     out.sounds.push_back(
         sound(heard.record, heard.fundamental, transfer, kSoundRate, std::lround(seconds * kSoundRate)));
-    require_heard(heard.name, out.sounds.back());
   }
   std::vector<std::string*> names;
   for (HeardMotion& branch : branches) names.push_back(&branch.name);
   number_names(names);
+  for (size_t b = 0; b < branches.size(); ++b) require_heard(branches[b].name, out.sounds[b], out.rate);
   out.table = tones(branches, out.sounds, unit_of(transfer));
   return out;
 }
@@ -114,12 +114,12 @@ Sounds sounds_of_runups(const std::vector<std::string>& paths, const std::string
       fail(Failure::input, path, ": has ", runs.back().rate, " samples a second, ", paths[0], " ",
            runs[0].rate);
     out.sounds.push_back(filtered(runs.back().record, runs.back().rate, transfer));
-    require_heard(runs.back().name, out.sounds.back());
   }
   std::vector<std::string*> names;
   for (HeardRunup& run : runs) names.push_back(&run.name);
   number_names(names);
   out.rate = runs[0].rate;
+  for (size_t b = 0; b < runs.size(); ++b) require_heard(runs[b].name, out.sounds[b], out.rate);
   out.table = bands(runs, out.sounds, unit_of(transfer));
   return out;
 }
