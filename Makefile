@@ -4,6 +4,7 @@
 #   names      what a user's paths may hold                                  (pipelines/names.mk)
 #   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
 #   studies    variants of a scene -> a table of their response quantities       (pipelines/studies.mk)
+#   compare    scenes side by side -> out/compare                         (pipelines/compare.mk)
 #   stages     scene -> mesh -> body -> static -> sweep -> response              (pipelines/stages.mk)
 #   figures    artifacts -> out/figures, out/<scene>/report                      (pipelines/figures.mk)
 #
@@ -153,7 +154,7 @@ replace_if_changed = { cat > $(new); if cmp -s $(new) $1; then rm $(new); else m
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
 
-include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/bifurcations.mk pipelines/stages.mk pipelines/systems.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk pipelines/reading.mk
+include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/bifurcations.mk pipelines/stages.mk pipelines/systems.mk pipelines/compare.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk pipelines/reading.mk
 
 # Figures of P2000 that are none of ours, and what is of its scenes only.
 $(foreach f,$(filter-out figures $(figures),$(filter fig%,$(goals))),\

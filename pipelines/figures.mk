@@ -51,6 +51,7 @@ inputs_fig12 = $(foreach t,$(call each,$2),out/$1/T$t/static.h5)
 inputs_fig13 = $(inputs_fig12)
 inputs_load-sharing = $(inputs_fig12)
 inputs_waterfall = $(call both_ways,$1,$(firstword $2),sweep)
+inputs_order-cuts = $(call both_ways,$1,$(firstword $2),response)
 inputs_tooth-loads = $(inputs_fig08)
 inputs_bearing-forces = $(inputs_fig05)
 inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
@@ -93,7 +94,7 @@ paper_scenes_crack := $(cracked_scene)
 paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-$(foreach f,profile-chart relief-jumps waterfall tooth-loads bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
+$(foreach f,profile-chart relief-jumps waterfall order-cuts tooth-loads bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig07-branches fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
 
@@ -102,7 +103,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall tooth-loads bearing-forces error-budget profile-chart sidebands crack
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads bearing-forces error-budget profile-chart sidebands crack
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
@@ -122,19 +123,48 @@ $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
 $(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(printed_claims) data/published/fitted.toml $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
 	$(B)/bin/gear-scorecard --printed $(printed_claims) --fitted data/published/fitted.toml --output out/figures/scorecard $(inputs_scorecard)
 
+# AXIS=rpm:pinion: the speed of a gear in place of the mesh frequency; DB=1e-6: amplitudes of the DTE in dB re this length in m.
+AXIS ?=
+DB ?=
+$(if $(AXIS),$(if $(filter rpm:%,$(AXIS)),$(if $(filter 1,$(words $(AXIS))),,$(error AXIS=$(AXIS): it is one word)),\
+  $(error AXIS=$(AXIS): it is rpm:<gear>$(,) such as rpm:pinion or rpm:driver)))
+$(if $(DB),$(if $(shell awk -v x='$(DB)' 'BEGIN { if (x ~ /^[0-9.]+([eE][-+]?[0-9]+)?$$/ && x + 0 > 0) print "yes" }'),,\
+  $(error DB=$(DB): it is the length in m that is 0 dB$(,) such as 1e-6)))
+speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces compare-motion runup-up runup-down
+level_figures := order-cuts compare-motion runup-up runup-down
+axis_options = $(strip $(if $(AXIS),$(if $(filter $1,$(speed_figures)),--axis '$(AXIS)')) $(if $(DB),$(if $(filter $1,$(level_figures)),--db $(DB))))
+# Only figures that have the choice remember it.
+axis_plan_file = $(if $(filter $1,$(speed_figures)),$(B)/plans/axes/$2)
+axis_plan = $(if $(axis_plan_file),$(call plan_rule,$(axis_plan_file),figure $(subst ',,$(axis_options))))
+
 define figure_rule # figure, path without extension, inputs, what else it depends on
-$2.tsv $2.svg $2.png &: $3 $4 $(call titles,$3) pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
-	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $(if $(filter out/figures/fig%,$2),--paper-figure $1) $3
+$(axis_plan)
+$2.tsv $2.svg $2.png &: $3 $4 $(axis_plan_file) $(call titles,$3) pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $(axis_options) $(if $(filter out/figures/fig%,$2),--paper-figure $1) $3
 endef
 
-# Heard at a speed of the user's choice, the rising branch first; with a transfer function a file of its own.
-sound_file = $(figure_folder)/sound-$(AT)Hz-T$(TORQUE)$(if $(TRANSFER),-$(basename $(notdir $(TRANSFER))))
+# Heard at a speed of the user's choice, the rising branch first, or of a run-up, then of the run-down over the same speeds; with a
+# transfer function a file of its own.
+sound_file = $(figure_folder)/sound-$(if $(sound_of_runup),runup-$(subst _,-,$(runup_stem)),$(AT)Hz)-T$(TORQUE)$(if $(TRANSFER),-$(basename $(notdir $(TRANSFER))))
 # Path and content: a transfer function of the same name in another folder may be older than the sound of the first.
 sound_plan_file = $(if $(TRANSFER),$(B)/plans/$(own_scene)/$(notdir $(sound_file)))
 sound_plan = --transfer $(TRANSFER) $(firstword $(shell sha256sum 2>/dev/null < '$(TRANSFER)'))
-define sound_rule # sweeps
+sound_inputs = $(if $(sound_of_runup),out/$1/T$(TORQUE)/up/runup_$(runup_stem).h5 out/$1/T$(TORQUE)/down/runup_$(RATE)$(if $(FROM),_$(TO)_$(FROM)).h5,$(call both_ways,$1,$(TORQUE),sweep))
+define sound_rule # run-ups or sweeps
 $(sound_file).wav $(sound_file).tsv &: $1 $(TRANSFER) $(sound_plan_file) $(call id,gear-sound) | $(B)/bin/gear-sound $(with_deps)
-	$(B)/bin/gear-sound $(foreach f,$1,--sweep $f) --mesh-frequency $(AT) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
+	$(B)/bin/gear-sound $(if $(sound_of_runup),$(foreach f,$1,--runup $f),$(foreach f,$1,--sweep $f) --mesh-frequency $(AT)) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
+endef
+
+# Results beside the REXS model that the scene was imported from. Path, stage and content, as for a sound.
+$(if $(filter export,$(goals)),$(if $(MODEL),$(if $(wildcard $(MODEL)),,$(error MODEL=$(MODEL): there is no such file)),\
+  $(error export: which model? make export SCENE=my-pair.toml MODEL=stage.rexs, the REXS model that the scene was imported from)))
+export_file = $(figure_folder)/$(basename $(notdir $(MODEL)))-results$(suffix $(MODEL))
+export_plan_file = $(B)/plans/$(own_scene)/$(notdir $(export_file)).export
+export_plan = --model $(MODEL) --stage $(STAGE) $(firstword $(shell sha256sum 2>/dev/null < '$(MODEL)'))
+export_inputs = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep))
+define export_rule # artifacts
+$(export_file): $1 $(MODEL) $(export_plan_file) $(call titles,$1) $(call id,gear-export) | $(B)/bin/gear-export $(with_deps)
+	$(B)/bin/gear-export --model '$(MODEL)' $(if $(STAGE),--stage '$(STAGE)') --output $(export_file) $1
 endef
 
 # A run-up with the sweeps beside it.
@@ -163,7 +193,7 @@ $(if $(filter-out yes no,$(BRANCHES)),$(error BRANCHES=$(BRANCHES): it is yes or
 report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),fig12 fig13 load-sharing error-budget) \
   $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 \
-  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),fig05-branches multipliers)) waterfall tooth-loads \
+  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),fig05-branches multipliers)) order-cuts waterfall tooth-loads \
   $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
   $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
@@ -186,8 +216,10 @@ $(foreach f,$(report_figures) $(other_figures),\
   $(eval $(call figure_rule,$f,out/$1/report/$f,$(call inputs_$f,$1,$(SCENE_$1_TORQUES)),$(B)/scenes/$1.mk)))
 $(if $(filter histories,$(goals)),$(if $(filter $1,$(own_scene)),$(foreach f,$(history_figures),\
   $(eval $(call figure_rule,$(firstword $(subst -$(AT)Hz, ,$(notdir $f))),$f,$(call inputs_fig08,$1,$(TORQUE)))))))
-$(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call both_ways,$1,$(TORQUE),sweep)))\
+$(if $(filter sound,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call sound_rule,$(call sound_inputs,$1)))\
   $(if $(TRANSFER),$(eval $(call plan_rule,$(sound_plan_file),$(sound_plan))))))
+$(if $(filter export,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call export_rule,$(call export_inputs,$1,$(SCENE_$1_TORQUES))))\
+  $(eval $(call plan_rule,$(export_plan_file),$(export_plan)))))
 $(if $(filter runup,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call figure_rule,runup-$(WAY),$(runup_figure),$(call inputs_runup,$1)))))
 $(eval $(call report_rule,$1))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
@@ -198,9 +230,11 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # $(call stands,words): where a goal is to be found, also when nothing was to be made. By $(info): `make -q` and `make -n` stay as they are.
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
-.PHONY: figures $(figures) table1 scorecard animation report histories sound runup
+.PHONY: figures $(figures) table1 scorecard animation report export histories sound runup
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
+export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
+	$(call stands,export: $(export_file))
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
@@ -227,6 +261,7 @@ scorecard: out/figures/scorecard.txt ## every number and statement of the paper,
 	@cat $<
 load-sharing: ## the share of the load that a tooth pair carries on its way through the mesh, and the loads over a mesh period, at rest
 waterfall: ## spectra of the dynamic transmission error against mesh frequency, rising and falling, and its first orders, 150 N m (SCENE: its first torque)
+order-cuts: ## order cuts: the first orders of the dynamic transmission error against speed, rising and falling, 150 N m (SCENE: its first torque)
 tooth-loads: ## tooth loads against mesh frequency, and over the mesh period at the resonance, 150 N m (SCENE: its first torque)
 bearing-forces: ## forces on elastic bearings against mesh frequency, 150 N m of parker2000-bearings (SCENE: its first torque)
 profile-chart: ## what is taken off the driving flanks, as an inspection sheet shows it, of the paper's pair with relief from 20.9 deg (SCENE: of its gears)
@@ -236,7 +271,7 @@ sidebands: ## teeth that differ: transmission error over the hunting period, sha
 crack: ## a cracked tooth: static transmission error with and without it, orders, 150 N m of parker2000-crack (SCENE: its first torque)
 histories: $(if $(filter histories,$(goals)),$$(addsuffix .png,$$(history_figures))) ## DTE over time, its spectrum and the tooth loads at one mesh frequency in Hz, both branches: AT=1250 TORQUE=150 (SCENE: its first torque)
 	$(call stands,histories: $(addsuffix .{png$(,)svg$(,)tsv},$(history_figures)))
-sound: $(if $(filter sound,$(goals)),$$(sound_file).wav) ## what is heard of the mesh force at one mesh frequency in Hz, rising branch, then falling, as WAV: AT=2400 TORQUE=150 TRANSFER=file.csv (SCENE: its first torque)
+sound: $(if $(filter sound,$(goals)),$$(sound_file).wav) ## what is heard of the mesh force at one mesh frequency in Hz, rising branch, then falling, as WAV: AT=2400; or of a run-up, then a run-down: RATE=100 (rpm/s) FROM=2400 TO=2800; TORQUE=150 TRANSFER=file.csv (SCENE: its first torque)
 	$(call stands,sound: $(sound_file).{wav$(,)tsv})
 runup: $(if $(filter runup,$(goals)),$$(runup_figure).png) ## run-up or run-down: spectrogram of the mesh force, orders of the DTE, tooth loads: RATE=100 (rpm/s) WAY=up FROM=2400 TO=2800 (Hz; else the scene's speeds) TORQUE=150 (SCENE: its first torque)
 	$(call stands,runup: $(runup_figure).{png$(,)svg$(,)tsv})

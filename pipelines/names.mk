@@ -18,19 +18,19 @@ name_found = $(strip $(foreach c,$2,$(findstring $c,$1)))
 # Whether it is one word without blanks around it.
 name_is_word = $(if $(filter 1,$(words $1)),$(and $(findstring x$(strip $1)x,x$1x),$(findstring x$1x,x$(strip $1)x)))
 name_shown = $(patsubst MAKECMDGOALS,target,$v)
-name_remedy = , and may hold $(names_allowed)$(if $(filter SCENE STUDY,$1),; rename the file or its folder)
+name_remedy = , and may hold $(names_allowed)$(if $(filter SCENE SCENES STUDY,$1),; rename the file or its folder)
 define name_newline
 
 
 endef
 
-# SCENE, STUDY and TRANSFER are paths, the others numbers and words; none of them has its default yet. What holds a control
+# SCENE, SCENES, STUDY, TRANSFER and MODEL are paths, the others numbers and words; none of them has its default yet. What holds a control
 # character is not shown: a terminal would obey it.
-words_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE AT TRANSFER RATE FROM TO WAY JUMP_MAP JUMP_MAP_STEP JUMP_MAP_LOADS_AT JUMP_MAP_CELLS \
+words_given := SCENE STUDY SHARE TORQUE PHASE DAMPING STATE AT TRANSFER MODEL DB RATE FROM TO WAY JUMP_MAP JUMP_MAP_STEP JUMP_MAP_LOADS_AT JUMP_MAP_CELLS \
   SENSITIVITY SENSITIVITY_FACTOR SENSITIVITY_RATIO SENSITIVITY_STEP HARRIS_DYNAMIC FOLDS_OVER FOLD_FIRST READING_PARTS FAULT_KILLS \
   STRESS_PROBLEMS STRESS_SCENES STRESS_SEED FUZZ_SECONDS LAUNCH_WAIT FREEZE SANITIZE BRANCHES
-lists_given := BESIDE JUMP_MAP_TORQUES JUMP_MAP_CORNERS JUMP_MAP_MODELS JUMP_MAP_RATIOS FOLD_RATIOS FOLD_TORQUES FOLD_RELIEFS FOLD_CURVE_TORQUES
-options_given := VARIANTS HARRIS_OPTIONS
+lists_given := BESIDE STAGE SCENES JUMP_MAP_TORQUES JUMP_MAP_CORNERS JUMP_MAP_MODELS JUMP_MAP_RATIOS FOLD_RATIOS FOLD_TORQUES FOLD_RELIEFS FOLD_CURVE_TORQUES
+options_given := AXIS VARIANTS HARRIS_OPTIONS
 names_given := $(words_given) $(lists_given) $(options_given)
 $(foreach v,$(names_given) MAKECMDGOALS,$(if $(findstring $$,$(value $v)),$(error $(name_shown): it holds $$$(call name_remedy,$v))))
 # A recipe would go on in a line of its own.
@@ -44,7 +44,7 @@ name_forbidden_in = $(if $(filter $(options_given),$1),$(filter-out : =,$(name_f
 $(foreach v,$(names_given) MAKECMDGOALS,$(if $(call name_found,$($v),$(call name_forbidden_in,$v)),\
   $(error $(name_shown)=$($v): it holds $(call name_found,$($v),$(call name_forbidden_in,$v))$(call name_remedy,$v))))
 
-# $(call plain_stem,variable): its file's name becomes a folder, a part of variables and a target.
-plain_stem = $(if $(basename $(notdir $($1))),$(if $(strip $(foreach c,. + @ $(,),$(findstring $c,$(basename $(notdir $($1)))))),\
-  $(error $1=$($1): the name '$(basename $(notdir $($1)))' becomes a folder and a target$(,) so it may hold letters$(,) digits$(,) _ and - only; rename the file)),\
-  $(error $1=$($1): the file has no name before .toml; rename the file))
+# $(call plain_stem,variable,path): its file's name becomes a folder, a part of variables and a target.
+plain_stem = $(if $(basename $(notdir $2)),$(if $(strip $(foreach c,. + @ $(,),$(findstring $c,$(basename $(notdir $2))))),\
+  $(error $1=$2: the name '$(basename $(notdir $2))' becomes a folder and a target$(,) so it may hold letters$(,) digits$(,) _ and - only; rename the file)),\
+  $(error $1=$2: the file has no name before .toml; rename the file))

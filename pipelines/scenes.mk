@@ -12,16 +12,22 @@
 
 # SCENE: the user's scene; out/<its stem>/ is made from it. Without it `static`, `fig05` ... are of the paper's scene.
 scene_stem := $(basename $(notdir $(SCENE)))
-ifneq ($(words $(SCENE)),0)
-  $(if $(wildcard $(SCENE)),,$(error SCENE=$(SCENE): there is no such file))
-  $(if $(filter %.toml,$(SCENE)),,$(error SCENE=$(SCENE): a scene is a .toml file))
-  $(call plain_stem,SCENE)
-  $(if $(filter figures bodies studies,$(scene_stem)),$(error SCENE=$(SCENE): out/$(scene_stem) has another use; rename the file))
-  # Scenes of one name share out/<name>: one's own must not take the place of the project's.
-  scene_of_name := $(wildcard data/scenes/$(scene_stem).toml)
-  $(if $(scene_of_name),$(if $(shell cmp -s '$(SCENE)' $(scene_of_name) || echo differs),\
-    $(error SCENE=$(SCENE): out/$(scene_stem) is of $(scene_of_name), which says otherwise; rename the file)))
-endif
+# $(call scene_path,variable,path): a scene is a file whose name can be a folder; scenes of one name share out/<name>, and one's own
+# must not take the place of the project's.
+scene_path = $(if $(wildcard $2),,$(error $1=$2: there is no such file))$(if $(filter %.toml,$2),,$(error $1=$2: a scene is a .toml file))\
+  $(call plain_stem,$1,$2)$(if $(filter figures bodies studies compare,$(basename $(notdir $2))),$(error $1=$2: out/$(basename $(notdir $2)) has another use; rename the file))\
+  $(call scene_of_project,$1,$2,$(wildcard data/scenes/$(basename $(notdir $2)).toml))
+scene_of_project = $(if $3,$(if $(shell cmp -s '$2' $3 || echo differs),$(error $1=$2: out/$(basename $(notdir $2)) is of $3, which says otherwise; rename the file)))
+$(if $(SCENE),$(call scene_path,SCENE,$(SCENE)))
+# SCENES: two to six for `compare`, the first is what the others are compared with.
+$(foreach f,$(SCENES),$(call scene_path,SCENES,$f))
+# Or STUDY: the two variants that it marks, as scenes of their own.
+compared_study := $(if $(SCENES),,$(if $(filter compare,$(goals)),$(STUDY)))
+study_design = out/studies/$(basename $(notdir $(compared_study)))/compare/$1.toml
+study_designs := $(if $(compared_study),$(foreach w,first second,$(basename $(notdir $(compared_study)))-$w))
+compared := $(or $(study_designs),$(foreach f,$(SCENES),$(basename $(notdir $f))))
+$(foreach s,$(compared),$(if $(filter 1,$(words $(filter $s,$(compared)))),,$(error SCENES: two files are called $s.toml$(,) which would share out/$s; rename one)))
+$(if $(filter compare,$(goals)),$(if $(filter 2 3 4 5 6,$(words $(compared))),,$(error compare: which scenes? two to six of them: make compare SCENES='a.toml b.toml'; or STUDY=<name>$(,) a study that marks two variants)))
 own_scene := $(or $(scene_stem),$(paper_scene))
 
 # Variants for `sensitivity`: name:key=value (more keys after commas) is the scene <own scene>-<name>. Those listed are
@@ -37,13 +43,14 @@ BIFURCATION_VARIANTS := halfstep:steps_per_period=512,min_sample_rate_kHz=1000 s
 bifurcation_scenes := $(if $(SCENE),,$(foreach v,$(BIFURCATION_VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v))))
 variant_file = out/$(own_scene)/variants/$1.toml
 
-scene_file = $(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))
+scene_file = $(if $(filter $1,$(study_designs)),$(study_design),$(if $(filter $1,$(compared)),$(firstword $(foreach f,$(SCENES),$(if $(filter $1,$(basename $(notdir $f))),$f))),$(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))))
 
 # that need a scene of a pair, SCENE or the paper's
-pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report
+pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report export
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
   $(if $(filter $(pair_goals) out/bodies/%,$(goals)),$(own_scene)) \
+  $(if $(filter compare,$(goals)),$(compared)) $(if $(filter out/compare/%,$(goals)),$(error out/compare: say make compare SCENES='a.toml b.toml')) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
   $(if $(filter bifurcations,$(goals)),$(paper_scene) $(bifurcation_scenes)) \
   $(if $(filter jump-folds,$(goals)),$(paper_scene)) \
@@ -56,9 +63,9 @@ scenes := $(sort \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes) $(standard_scene) $(calibrated_scene))) \
   $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
-  $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
+  $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/% out/compare/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
-$(foreach s,$(filter-out $(variant_scenes) $(bifurcation_scenes),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\
+$(foreach s,$(filter-out $(variant_scenes) $(bifurcation_scenes) $(study_designs),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\
   $(error out/$s: there is no data/scenes/$s.toml; for a scene elsewhere say SCENE=path/to/$s.toml)))
 
 scene_fragments := $(scenes:%=$(B)/scenes/%.mk)
@@ -77,5 +84,12 @@ $(call variant_file,$(own_scene)-$1): $(call scene_file,$(own_scene)) $(B)/bin/g
 endef
 $(foreach v,$(VARIANTS) $(BIFURCATION_VARIANTS),$(if $(filter $(own_scene)-$(firstword $(subst :, ,$v)),$(scenes)),\
   $(eval $(call variant_rules,$(firstword $(subst :, ,$v)),$(lastword $(subst :, ,$v))))))
+
+define design_rules # name, first or second
+$(B)/scenes/$1.mk: $(call study_design,$1)
+$(call study_design,$1): $(if $(filter %.toml,$(STUDY)),$(STUDY),data/studies/$(STUDY).toml) $(B)/bin/gear-study FORCE
+	+@mkdir -p $$(@D); $(B)/bin/gear-study --study '$$<' --design $2 --output $$@
+endef
+$(foreach d,$(study_designs),$(eval $(call design_rules,$d,$(lastword $(subst -, ,$d)))))
 
 include $(scene_fragments)

@@ -141,14 +141,17 @@ $(if $(filter calibrate,$(goals)),$(if $(call outside,$(DAMPING),1e-12,1),\
   $(error DAMPING=$(DAMPING): it is a share of critical damping, above 0 and below 1: 0.05 for 5 %)))
 $(if $(filter histories,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
   $(error histories: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make histories AT=1250)))
-$(if $(filter sound,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
-  $(error sound: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make sound AT=2400)))
+# Without AT and with RATE: the sound of a run-up, then of a run-down.
+sound_of_runup := $(if $(AT),,$(if $(RATE),$(filter sound,$(goals))))
+$(if $(filter sound,$(goals)),$(if $(sound_of_runup),,$(if $(call outside,$(AT),1e-9,1e9),\
+  $(error sound: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make sound AT=2400$(,) or the rate of a run-up in rpm/s: make sound RATE=100))))
+ramp_goals := $(filter runup,$(goals)) $(sound_of_runup)
 RATE ?= 100
 WAY ?= up
-$(if $(filter runup,$(goals)),$(if $(call outside,$(RATE),1e-9,1e9),\
+$(if $(strip $(ramp_goals)),$(if $(call outside,$(RATE),1e-9,1e9),\
   $(error RATE=$(RATE): it is the change of the driver's speed in rpm/s$(,) above 0; WAY=down is a run-down)))
 $(if $(filter runup,$(goals)),$(if $(filter up down,$(WAY)),,$(error WAY=$(WAY): it is up or down)))
-$(if $(filter runup,$(goals)),$(if $(FROM)$(TO),$(if $(call outside,$(FROM),1e-9,1e9)$(call outside,$(TO),1e-9,1e9),\
+$(if $(strip $(ramp_goals)),$(if $(FROM)$(TO),$(if $(call outside,$(FROM),1e-9,1e9)$(call outside,$(TO),1e-9,1e9),\
   $(error FROM=$(FROM) TO=$(TO): give both or none: mesh frequencies in Hz at the start and the end of the ramp))))
 runup_stem = $(RATE)$(if $(FROM),_$(FROM)_$(TO))
 $(if $(filter loaded,$(goals)),$(if $(filter alike,$(SCENE_$(own_scene)_TEETH)),$(if $(call outside,$(PHASE),0,1),\

@@ -16,7 +16,7 @@ study_goals := $(filter study study-bodies,$(goals))
 own_study := $(if $(filter %.toml,$(STUDY)),$(STUDY))
 ifneq ($(words $(STUDY)),0)
   $(if $(or $(own_study),$(findstring /,$(STUDY))),$(if $(filter %.toml,$(STUDY)),,$(error STUDY=$(STUDY): a study is a .toml file)))
-  $(call plain_stem,STUDY)
+  $(call plain_stem,STUDY,$(STUDY))
   study_of_name := $(if $(own_study),$(wildcard data/studies/$(study_stem).toml))
   $(if $(study_of_name),$(if $(shell cmp -s '$(STUDY)' $(study_of_name) || echo differs),\
     $(error STUDY=$(STUDY): out/studies/$(study_stem) is of $(study_of_name), which says otherwise; rename the file)))

@@ -121,7 +121,11 @@ for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin"
   case $program in
     gear-mesh) as_made mesh pinion/mesh ;;
     gear-reduce) as_made body pinion/body ;;
-    gear-static) as_made static T150/static; run_example "$(sed 's/150/100/g' examples/lines)"; as_made static T100/static ;;
+    gear-static) as_made static T150/static; run_example "$(sed 's/150/100/g' examples/lines)"; as_made static T100/static
+      # a second design, of the same bodies
+      sed 's/^centre_distance_mm = 150.0/centre_distance_mm = 150.05/' examples/data/scenes/parker2000.toml > examples/data/scenes/parker2000-longer.toml
+      run_example 'gear-scene --scene data/scenes/parker2000-longer.toml --output longer.mk --out out'
+      run_example "$(sed 's|out/parker2000/params|out/parker2000-longer/params|' examples/lines)"; as_made static ../parker2000-longer/T150/static ;;
     gear-sweep) as_made sweep T150/up/sweep; run_example "$(sed 's/\<up\>/down/g' examples/lines)"; as_made sweep T150/down/sweep ;;
     gear-spectra) as_made response T150/up/response; run_example "$(sed 's/\<up\>/down/g' examples/lines)"; as_made response T150/down/response ;;
   esac
@@ -151,6 +155,8 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-report]="$bin/gear-report out/scene/T100/static.h5 --output x"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-sound]="$bin/gear-sound --sweep out/scene/T100/up/sweep.h5 --mesh-frequency 2000 --output x"
+  [gear-compare]="$bin/gear-compare out/scene/T100/static.h5 --output x"
+  [gear-export]="$bin/gear-export --model $scene_of_paper out/scene/T100/static.h5 --output x.rexs"
   [gear-import]="$bin/gear-import --input $scene_of_paper --output x.toml"
   [gear-loaded]="${stage_loaded[*]}" [gear-modes]="${stage_modes[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
@@ -180,7 +186,11 @@ gear-sweep out/scene/../scene/T100/static.h5
 gear-spectra out/scene/T100/up/sweep.h5
 gear-runup out/scene/T100/static.h5
 gear-report out/scene/T100/static.h5
+gear-export out/scene/T100/static.h5
+gear-compare out/scene/T100/static.h5
 CASES
+rejected "one design has nothing to be compared with" 3 'compare: 1 design given; two are the least' "$bin/gear-compare" out/scene/T100/static.h5 --output x.html
+rejected "a figure that is not against speed has no axis in rpm" 2 'not against the speed of one pair of gears' "$bin/gear-plot" fig12 --axis rpm:driver --plots "$plots" --output x out/scene/T100/static.h5
 rm out/scene/linked.h5
 rejected "a map without a damping" 3 'no case' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")
 rejected "a map with a damping ratio that is no number" 2 "damping-ratio.*'much'" "${stage_map[@]/0.05,0.1/much}"

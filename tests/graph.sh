@@ -52,7 +52,7 @@ done
 echo "$name $output" >> calls
 [ "${FAIL:-}" != "$output" ] || exit 1
 mkdir -p "$(dirname "$output")"
-case $name in gear-animate) touch "$output".{tsv,gif} "$output"-{000..047}.png ;; gear-report) touch "$output" "${output%/*}/results.tsv" ;; gear-sound) touch "$output".{wav,tsv} ;; gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
+case $name in gear-animate) touch "$output".{tsv,gif} "$output"-{000..047}.png ;; gear-report) touch "$output" "${output%/*}/results.tsv" ;; gear-compare) touch "$output" "${output%/*}/compare.tsv" ;; gear-sound) touch "$output".{wav,tsv} ;; gear-plot | gear-scorecard) touch "$output".{tsv,svg,png,txt,md} ;; *) echo "$name" > "$output" ;; esac
 SCRIPT
 done
 scene=data/scenes/parker2000.toml
@@ -191,6 +191,9 @@ rejected_by_make "a sound without a speed is told how to say one" 'say the mesh 
 make_ -n AT=1250 TORQUE=100 sound
 grep -q 'gear-sound --sweep out/parker2000/T100/up/sweep.h5 --sweep out/parker2000/T100/down/sweep.h5 --mesh-frequency 1250 .*--output out/figures/sound-1250Hz-T100' "$log" &&
   ok "a sound at a speed and a torque of one's own" || wrong "a sound at a speed and a torque of one's own" "$(tail -n 1 "$log")"
+make_ -n RATE=500 FROM=2400 TO=2800 TORQUE=100 sound
+grep -q 'gear-sound --runup out/parker2000/T100/up/runup_500_2400_2800.h5 --runup out/parker2000/T100/down/runup_500_2800_2400.h5 .*--output out/figures/sound-runup-500-2400-2800-T100' "$log" &&
+  ok "the sound of a run-up, then of the run-down over the same speeds" || wrong "the sound of a run-up" "$(tail -n 1 "$log")"
 mkdir -p a b; echo first > a/mic.csv; echo second > b/mic.csv; touch -d 2000-01-01 a/mic.csv b/mic.csv
 make_ AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound; make_ -n AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
 expect "a sound behind a transfer function is up to date" ""
@@ -198,6 +201,27 @@ make_ -n AT=1250 TORQUE=100 TRANSFER=b/mic.csv sound
 expect "a transfer function of the same name in another folder, however old, makes the sound again" "gear-sound*1"
 cp -p b/mic.csv a/mic.csv; make_ -n AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
 expect "and so does another one in its place" "gear-sound*1"
+rejected_by_make "an export without a model is told what it needs" 'export: which model? make export SCENE=my-pair.toml MODEL=stage.rexs' export
+rejected_by_make "an export to a model that is not there" 'MODEL=a/none.rexs: there is no such file' MODEL=a/none.rexs export
+echo first > a/stage.rexsj; make_ MODEL=a/stage.rexsj STAGE='First stage' export; make_ -n MODEL=a/stage.rexsj STAGE='First stage' export
+expect "an export is up to date" ""
+make_ -n MODEL=a/stage.rexsj STAGE=12 export
+grep -q "gear-export --model 'a/stage.rexsj' --stage '12' --output out/figures/stage-results.rexsj .*out/parker2000/T300/down/sweep.h5" "$log" &&
+  ok "another stage of a model: its results, at all torques" || wrong "another stage of a model" "$(tail -n 1 "$log")"
+sed 's/^bore_radius_mm = .*/bore_radius_mm = 35/' $scene > a/short.toml; cp $scene b/short.toml
+rejected_by_make "designs without scenes are told how to name them" "compare: which scenes? two to six of them: make compare SCENES='a.toml b.toml'" compare
+rejected_by_make "a design that is not there" 'SCENES=a/none.toml: there is no such file' SCENES="$scene a/none.toml" compare
+rejected_by_make "two designs of one name" 'two files are called short.toml, which would share out/short' SCENES="a/short.toml b/short.toml" compare
+rejected_by_make "a figure at a torque that the designs do not have" 'TORQUE=77: the scenes have in common 100 150 200 300 N m' SCENES="$scene a/short.toml" TORQUE=77 compare
+make_ SCENES="$scene a/short.toml" compare; make_ -n SCENES="$scene a/short.toml" compare
+expect "designs side by side are up to date" ""
+make_ -n SCENES="$scene a/short.toml" TORQUE=200 compare
+grep -q 'gear-plot compare-rest --output out/compare/parker2000--short/compare-rest-T200 .*out/parker2000/T200/static.h5 out/short/T200/static.h5' "$log" &&
+  ok "designs at another torque" || wrong "designs at another torque" "$(programs)"
+make_ SCENES="$scene a/short.toml" AXIS=rpm:driver DB=1e-6 compare
+expect "other axes draw the one figure against speed again, and the page" "gear-compare*1 gear-plot*1"
+rejected_by_make "a speed of something" 'AXIS=order:1: it is rpm:<gear>, such as rpm:pinion' AXIS=order:1 fig05
+rejected_by_make "decibels of nothing" 'DB=0: it is the length in m that is 0 dB' DB=0 order-cuts
 rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup
 rejected_by_make "a run-up with one end is told to give both" 'give both or none' FROM=2400 runup
 make_ -n RATE=500 WAY=down FROM=2800 TO=2400 TORQUE=100 runup
@@ -236,28 +260,28 @@ grep -q -e '--sweep out/moving/T90/down/sweep.h5 .*--output out/moving/report/an
 
 # --- reports
 make_ -n report
-expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*8 gear-report*1 gear-static*1"
+expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*9 gear-report*1 gear-static*1"
 make_ report; make_ -n report
 expect "a report is up to date" ""
 make_ report; grep -q '^report: .*out/parker2000/report/index.html' "$log" && ok "and says where it stands" || wrong "and says where it stands" "$(tail -n 1 "$log")"
 mkdir -p mine
 sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/plain.toml
 make_ -n SCENE=mine/plain.toml report
-expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 make_ -n SCENE=mine/plain.toml BRANCHES=yes report
-expect "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/line.toml; make_ -n SCENE=mine/line.toml report
-expect "contact in lines: no ring-down" "gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "contact in lines: no ring-down" "gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; make_ -n SCENE=mine/relief.toml report
-expect "relief: a profile chart" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "relief: a profile chart" "gear-impact*2 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.toml > mine/graded.toml; make_ -n SCENE=mine/graded.toml report
-expect "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*5 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4"
+expect "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*6 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.crack]\ndepth_mm = 1.0\n&/' mine/plain.toml > mine/cracked.toml; make_ -n SCENE=mine/cracked.toml report
 expect "a cracked tooth: gears at rest only" "gear-mesh*1 gear-plot*2 gear-reduce*1 gear-report*1 gear-static*2"
 make_ -n SCENE=mine/graded.toml fig05
 expect "teeth that differ have no ring-down in other figures either" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2"
 make_ -n SCENE=mine/plain.toml out/plain/report/index.html
-expect "a page by its path" "gear-impact*2 gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "a page by its path" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 
 # --- any torque, other scenes
 make_ -n out/parker2000/T700/up/response.h5

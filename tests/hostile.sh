@@ -54,7 +54,7 @@ for goal in 'out/parker2000/T1;touch${IFS}mark;/static.h5' "out/parker2000/T'\$(
   elif grep -q '\*\*\* target.*: it holds ' "$log"; then ok "the target $goal is rejected"
   else wrong "the target $goal is rejected" "$(tail -n 1 "$log")"; fi
 done
-for given in 'TORQUE=1;touch mark' 'PHASE=$(shell touch mark)' 'SHARE=1/2"$(touch mark)"' 'DAMPING=`touch mark`' 'AT=$(shell touch mark)' 'TRANSFER=x;touch mark'; do
+for given in 'TORQUE=1;touch mark' 'PHASE=$(shell touch mark)' 'SHARE=1/2"$(touch mark)"' 'DAMPING=`touch mark`' 'AT=$(shell touch mark)' 'TRANSFER=x;touch mark' 'MODEL=x;touch mark' 'STAGE=$(shell touch mark)' 'SCENES=a.toml b.toml;touch mark' 'AXIS=rpm:x;touch mark' 'DB=`touch mark`'; do
   make $sanitize -n "$given" STUDY=study.toml study calibrate loaded $([[ $given != AT=* && $given != TRANSFER=* ]] || echo histories) > "$log" 2>&1
   if [ -e mark ]; then wrong "$given" "runs a command"; rm -f mark
   elif grep -q '\*\*\* .*: it holds ' "$log"; then ok "$given is rejected"

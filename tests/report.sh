@@ -42,7 +42,7 @@ for scene in fzg nasa; do
     continue
   fi
   missing=
-  for figure in fig01 fig07 fig12 fig13 load-sharing waterfall tooth-loads error-budget; do
+  for figure in fig01 fig07 fig12 fig13 load-sharing order-cuts waterfall tooth-loads error-budget; do
     for kind in tsv svg png; do [ -s out/$scene/report/$figure.$kind ] || missing+=" $figure.$kind"; done
     grep -q "<figure id=\"$figure\">" out/$scene/report/index.html || missing+=" $figure on the page"
   done

@@ -32,6 +32,16 @@ key = "operation.torque_Nm"
 values = [100, 150]
 STUDY
 
+# --- two variants side by side
+sed 's/^stage = .*/&\ncompare = [0, 2]/' small.toml > marked.toml
+make_ -n STUDY=marked.toml compare
+grep -q 'gear-compare --output out/compare/marked-first--marked-second/index.html .*out/marked-second/T100/down/sweep.h5' "$log" &&
+  ok "the two variants that a study marks are compared" || wrong "the two variants that a study marks are compared" "$(tail -n 1 "$log")"
+make_ -n STUDY=small.toml compare
+grep -q 'small.toml: marks no variants to compare; add compare' "$log" && ok "a study that marks none is told how" ||
+  wrong "a study that marks none is told how" "$(tail -n 1 "$log")"
+rm -rf out/compare out/marked-first out/marked-second out/studies/marked
+
 # --- a study, and what it answers beside the stages
 if make_ STUDY=small.toml study && [ -s out/studies/small/study.png ] && [ -s out/studies/small/study.tsv ]; then
   ok "a study of four variants gives a table and a figure"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -263,6 +264,24 @@ TEST_CASE(
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   publish(folder("b.h5"), bytes);
   CHECK(failure_of([&] { read_runup(folder("b.h5")); }) == Failure::io);
+}
+
+TEST_CASE("a run-up that finds no periodic motion at its start says so") {
+  SweepParameters settings = paper_sweep(3300, 3400, 20);
+  settings.time.periodicity = 1e-300;  // no motion repeats like this
+  RunupSettings wanted;
+  wanted.ramp = {3300, 3400, 2000};
+  Kept out;
+  std::string message = "none";
+  try {
+    runup(body(), body(), statics(), 463e6, settings, wanted, out, no_report);
+  } catch (const Error& e) {
+    CHECK(e.kind() == Failure::numerical);
+    message = e.what();
+  }
+  CHECK(message.find("no periodic motion is found at 3300 Hz") != std::string::npos);
+  CHECK(message.find("--from") != std::string::npos);
+  CHECK(out.all.samples.size() == 0);
 }
 
 TEST_CASE("ramps that are none are rejected") {

@@ -3,6 +3,7 @@
 #include <sndfile.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -14,8 +15,10 @@
 #include "io/wav.h"
 #include "relative.h"
 #include "signal/sound.h"
+#include "signal/spectrum.h"
 
 using namespace whine;
+using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
@@ -147,4 +150,63 @@ TEST_CASE("sound: a WAV file holds the samples to its last bit, and the same byt
   CHECK((back - y).cwiseAbs().maxCoeff() <= 1.5 / (1 << 23));
   y[3] = 1.2;
   CHECK(failure_of([&] { wav_bytes(y, 48000); }) == Failure::input);
+}
+
+TEST_CASE("sound of a run-up: a tone behind a transfer function has its gain and delay, whatever its speed") {
+  constexpr double kRate = 48000;
+  constexpr int kSamples = 24000, kDelay = 120;
+  // A chirp of known amplitude from 400 to 1600 Hz; a transfer function of gain 3 that delays by 120 samples.
+  VectorXd record(kSamples);
+  const auto phase = [&](double t) { return kTwoPi * (400 * t + 1200 * t * t); };
+  for (int n = 0; n < kSamples; ++n) record[n] = 7 + 2 * std::cos(phase(n / kRate));
+  constexpr int kRows = 481;
+  TransferFunction rows;
+  rows.frequency = VectorXd::LinSpaced(kRows, 0, 24000);
+  rows.magnitude = VectorXd::Constant(kRows, 3);
+  rows.phase = -kTwoPi * kDelay / kRate * rows.frequency;
+  const Transfer transfer(rows);
+  const VectorXd heard = filtered(record, kRate, &transfer);
+  REQUIRE(heard.size() == kSamples);
+  double worst = 0;
+  for (int n = kDelay; n < kSamples; ++n)
+    worst = std::max(worst, std::abs(heard[n] - 3 * (record[n - kDelay] - record.mean())));
+  CHECK(worst < 1e-9);
+  CHECK(heard.head(kDelay).cwiseAbs().maxCoeff() < 1e-9);  // nothing comes back round
+  CHECK(
+      (filtered(record, kRate, nullptr) - (record.array() - record.mean()).matrix()).cwiseAbs().maxCoeff() ==
+      0);
+  CHECK(failure_of([&] { filtered(VectorXd::Ones(1), kRate, nullptr); }) == Failure::input);
+
+  // Levels in bands of the speed: that of the tone in each, and the factor 3 everywhere.
+  const VectorXd speed =
+      VectorXd::NullaryExpr(kSamples, [&](Index n) { return 400 + 2400 * static_cast<double>(n) / kRate; });
+  const VectorXd edges = VectorXd::LinSpaced(5, 400, 1600);
+  const VectorXd before = band_rms(filtered(record, kRate, nullptr), speed, edges, 100);
+  for (const double rms : before) CHECK(rms == relative(std::sqrt(2.0), 0.02));
+  CHECK(level(band_rms(3 * record, speed, edges, 100)[2], band_rms(record, speed, edges, 100)[2]) ==
+        relative(20 * std::log10(3.0), 1e-12));
+  CHECK(std::isnan(band_rms(record, speed, VectorXd::LinSpaced(3, 4000, 5000), 1)[0]));
+}
+
+TEST_CASE("sound of a run-up in a WAV file: RMS, peak and spectrum are those of the force") {
+  constexpr int kRate = 48000, kSamples = 48000;
+  VectorXd force(kSamples);
+  for (int n = 0; n < kSamples; ++n)
+    force[n] = 5000 + 300 * std::sin(kTwoPi * 1000 * n / kRate) + 40 * std::cos(kTwoPi * 2000 * n / kRate);
+  constexpr double kFullScale = 500;  // N
+  const Temporary file(wav_bytes(filtered(force, kRate, nullptr) / kFullScale, kRate));
+  SF_INFO info{};
+  SNDFILE* in = sf_open(file.path().c_str(), SFM_READ, &info);
+  REQUIRE(in != nullptr);
+  VectorXd back(kSamples);
+  CHECK(sf_read_double(in, back.data(), kSamples) == kSamples);
+  sf_close(in);
+  back *= kFullScale;
+  CHECK(std::sqrt(back.squaredNorm() / kSamples) == relative(std::hypot(300, 40) / std::sqrt(2.0), 1e-6));
+  CHECK(back.maxCoeff() == relative(260, 1e-6));
+  CHECK(back.minCoeff() == relative(-340, 1e-6));
+  const Harmonics spectrum = harmonics(back, 2500);
+  CHECK(spectrum.amplitude[999] == relative(300, 1e-6));
+  CHECK(spectrum.amplitude[1999] == relative(40, 1e-6));
+  CHECK(spectrum.amplitude.head(999).maxCoeff() < 1e-4);
 }

@@ -65,6 +65,21 @@ const std::string kDamping = "[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nva
 
 }  // namespace
 
+TEST_CASE("a study marks two variants to compare: the changes that make scenes of them") {
+  const Study study = study_of("compare = [1, 2]\n[set]\nbore_radius_mm = 38\n" + kDamping +
+                               "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 150]\n");
+  CHECK(design_changes(study, 0) ==
+        std::vector<std::string>{"bore_radius_mm=38",
+                                 "damping.rayleigh_stiffness_s=" + study.keys[0].values[0],
+                                 "operation.torque_Nm=" + study.keys[1].values[1]});
+  CHECK(design_changes(study, 1)[1] == "damping.rayleigh_stiffness_s=" + study.keys[0].values[1]);
+  for (const char* marked :
+       {"[1]", "[1, 1]", "[0, 2]", "[-1, 1]", "[0, 1, 1]", "['a', 'b']", "1", "[0.5, 1]"})
+    rejects(std::string("compare = ") + marked + "\n" + kDamping,
+            ":2: 'compare' must be the numbers of two different variants, 0 to 1: compare = [0, 1]");
+  CHECK(failure_of([] { design_changes(study_of(kDamping), 0); }) == Failure::input);
+}
+
 TEST_CASE("a study that says nothing sensible is rejected by line, value and limit") {
   rejects("", ": the study varies nothing");
   rejects(

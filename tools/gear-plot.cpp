@@ -14,6 +14,7 @@
 #include "paper/reading_figure.h"
 #include "paper/table1.h"
 #include "report/drawings.h"
+#include "report/engineering_axes.h"
 #include "report/gnuplot.h"
 #include "report/plot_file.h"
 
@@ -63,6 +64,12 @@ void body(int argc, char** argv) {
   options.add("--claim-sets", claim_sets, "sets of claims that the figure of readings shows");
   options.add("--paper-figure", beside,
               "for pairs of P2000: the title says which figure of it shows the same, as in fig07");
+  whine::EngineeringAxes axes;
+  options.add(
+      "--axis", axes.speed,
+      "figures against speed: rpm:<gear> in place of the mesh frequency; also rpm:driver, rpm:driven");
+  options.add("--db", axes.level_reference,
+              "order-cuts, compare-motion, runup: amplitudes in dB re this length in m, as 1e-6");
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
   options.footer(footer());
   options.parse(argc, argv);
@@ -93,6 +100,7 @@ void body(int argc, char** argv) {
   whine::Figure figure = whine::figure_of(name, inputs, mesh_frequencies, others);
   if (const std::string paper = whine::paper_figure(beside); !paper.empty())
     figure.title += ", as " + paper + " of P2000";
+  whine::apply(axes, figure);
   publish_figure(figure, inputs, sources, output, plots + "/" + name + ".gp");
 }
 

@@ -84,16 +84,28 @@ void gather(int argc, char** argv, const std::string& path, const std::string& o
          " variants have speeds at which no periodic motion was found; ", "they are marked so");
 }
 
+// A variant that the study marks, as a scene.
+void write_design(const std::string& path, const std::string& which, const std::string& output) {
+  const Study study = read_study(path);
+  publish_if_changed(output, scene_variant(study.scene, design_changes(study, which == "first" ? 0 : 1)));
+}
+
 void body(int argc, char** argv) {
-  std::string path, plan_path, output, ids, folder = "out";
+  std::string path, plan_path, output, ids, design, folder = "out";
   whine::Options options{"Expands a study into its variants, and gathers their response quantities",
                          "gear-study"};
   Option study_option = options.add("--study", path, "study file (TOML)");
   Option gather_option = options.add("--gather", plan_path, "plan.toml of a study whose variants are there");
-  options.add("--output", output, "make fragment to write; with --gather study.h5").required();
+  options.add("--output", output, "make fragment to write; with --gather study.h5, with --design a scene")
+      .required();
   options.add("--out", folder, "folder of the artifacts").show_default();
   options.add("--ids", ids,
               "folder of the programs' hashes, whose times in the future become those of now, too");
+  options
+      .add("--design", design,
+           "with --study: a scene of the first or the second variant that it marks by compare = [0, 3]")
+      .one_of({"first", "second"})
+      .needs(study_option);
   study_option.excludes(gather_option);
   options.footer(
       "Example:\n"
@@ -101,7 +113,9 @@ void body(int argc, char** argv) {
       "build/studies/damping-torque-relief.mk");
   options.parse(argc, argv);
   if (path.empty() == plan_path.empty()) fail(Failure::usage, "--study or --gather is needed; see --help");
-  if (!path.empty())
+  if (!design.empty())
+    write_design(path, design, output);
+  else if (!path.empty())
     plan(path, output, folder, ids);
   else
     gather(argc, argv, plan_path, output);

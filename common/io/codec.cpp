@@ -336,6 +336,18 @@ void describe_bearing_dampers(Codec& c, double& mean_stiffness, std::array<doubl
               &damper[g]);
 }
 
+void describe_certificate(Codec& c, double& least_gap, double& least_force, int& fallbacks) {
+  c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force, over all steps", "", kLength,
+             "d >= 0 where p = 0 (with Eq. 18, 20)"},
+            &least_gap);
+  c.dataset({"/certificate/least_force", "N", "least force of a strip in contact, over all steps", "", kForce,
+             "p >= 0 where d = 0 (with Eq. 18, 20)"},
+            &least_force);
+  c.dataset({"/certificate/fallbacks", "1", "contact solutions that needed Lawson and Hanson's method", "",
+             kNumber},
+            &fallbacks);
+}
+
 void describe_backlash(Codec& c, double& margin) {
   if (c.optional("/backlash_margin", !std::isinf(margin)))
     c.dataset({"/backlash_margin", "m", "least backlash left along the line of action", "", kLength},

@@ -174,6 +174,9 @@ void describe_speeds(Codec& codec, double& from, double& to, double& step);
 void describe_bearing_dampers(Codec& codec, double& mean_stiffness, std::array<double, kSides>& damper);
 // Left out where back flanks are ignored: the margin (m) is then infinite.
 void describe_backlash(Codec& codec, double& margin);
+
+// How well the contact conditions hold, worst over all steps: m, N, contact solutions by the slower method.
+void describe_certificate(Codec& codec, double& least_gap, double& least_force, int& fallbacks);
 // Mesh periods of a hunting period; left out where all teeth are alike: 1.
 void describe_hunting(Codec& codec, int& periods);
 void describe_natural_frequency(Codec& codec, double& frequency);

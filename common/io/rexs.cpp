@@ -1,7 +1,6 @@
 #include "io/rexs.h"
 
 #include <jsoncpp/json/json.h>
-#include <zip.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,69 +11,23 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/publish.h"
+#include "io/rexs_archive.h"
 
 namespace whine {
 namespace {
-
-constexpr size_t kMostBytes = 64u << 20;  // of a model; one of a whole gearbox has less than 10 MB
-
-[[noreturn]] void reject(const std::string& path, const std::string& why) {
-  fail(Failure::input, path, ": ", printable(why, 300),
-       "; a REXS model of version 1.0 to 2.0 is wanted (.rexs, .rexsj or .rexsz)");
-}
 
 int id_of(const std::string& path, const std::string& word, const char* what) {
   int id = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
   if (error != std::errc() || end != word.data() + word.size() || id < 0)
-    reject(path, text("the id '", word, "' of a ", what, " is no number from 0 on"));
+    reject_rexs(path, text("the id '", word, "' of a ", what, " is no number from 0 on"));
   return id;
-}
-
-// Of the archive the only entry that may be a model: gearbox models come with pictures and meshes beside them.
-std::string unpacked(const std::string& path, const std::string& bytes) {
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
-  zip_t* opened = source ? zip_open_from_source(source, ZIP_RDONLY, &error) : nullptr;
-  if (!opened) {
-    const std::string why = zip_error_strerror(&error);
-    if (source) zip_source_free(source);
-    zip_error_fini(&error);
-    reject(path, "its zip archive cannot be opened: " + why);
-  }
-  const std::unique_ptr<zip_t, void (*)(zip_t*)> archive(opened, zip_discard);
-  std::vector<zip_uint64_t> models;
-  const zip_int64_t entries = zip_get_num_entries(archive.get(), 0);
-  for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(std::max<zip_int64_t>(entries, 0)); ++i) {
-    const char* given = zip_get_name(archive.get(), i, 0);
-    const std::string name = given ? given : "";
-    for (const char* end : {".rexs", ".rexsj", ".xml", ".json"})
-      if (name.ends_with(end)) models.push_back(i);
-  }
-  if (models.size() != 1)
-    reject(path, text("its zip archive holds ", models.size(), " models instead of one"));
-  zip_stat_t entry;
-  zip_stat_init(&entry);
-  if (zip_stat_index(archive.get(), models[0], 0, &entry) != 0 || !(entry.valid & ZIP_STAT_SIZE))
-    reject(path, "its zip archive does not say how long the model is");
-  if (entry.size > kMostBytes)
-    reject(path, text("the model in it has ", entry.size, " bytes, more than 64 MB"));
-  const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive.get(), models[0], 0),
-                                                               zip_fclose);
-  std::string model(entry.size, '\0');
-  char beyond = 0;
-  // libzip compares checksum and length where the data end: in the read that returns 0.
-  if (!file || zip_fread(file.get(), model.data(), entry.size) != static_cast<zip_int64_t>(entry.size) ||
-      zip_fread(file.get(), &beyond, 1) != 0)
-    reject(path, "the model in its zip archive is damaged or encrypted");
-  return model;
 }
 
 void add(const std::string& path, std::map<int, RexsComponent>& components, RexsComponent component) {
   const int id = component.id;
   if (!components.emplace(id, std::move(component)).second)
-    reject(path, text("two components have the id ", id));
+    reject_rexs(path, text("two components have the id ", id));
 }
 
 // --- XML: <model version><relations><relation id type><ref id role/>, <components><component id type name><attribute id unit>
@@ -100,11 +53,12 @@ void read_xml(const std::string& bytes, RexsModel& model) {
   if (!parsed) {
     const auto line =
         1 + std::count(bytes.begin(), bytes.begin() + std::min<long>(parsed.offset, bytes.size()), '\n');
-    reject(model.path, text("its XML is broken in line ", line, ": ", parsed.description()));
+    reject_rexs(model.path, text("its XML is broken in line ", line, ": ", parsed.description()));
   }
   const pugi::xml_node root = document.child("model");
   if (!root)
-    reject(model.path, text("its XML begins with <", document.document_element().name(), ">, not <model>"));
+    reject_rexs(model.path,
+                text("its XML begins with <", document.document_element().name(), ">, not <model>"));
   model.version = root.attribute("version").value();
   for (const pugi::xml_node& node : root.child("components").children("component"))
     add(model.path, model.components, component_of(model.path, node));
@@ -153,9 +107,9 @@ void read_json(const std::string& bytes, RexsModel& model) {
   std::string why;
   const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());
   if (!reader->parse(bytes.data(), bytes.data() + bytes.size(), &document, &why))
-    reject(model.path, "its JSON is broken: " + why.substr(why.find_first_not_of("* \n")));
+    reject_rexs(model.path, "its JSON is broken: " + why.substr(why.find_first_not_of("* \n")));
   if (!document.isObject() || !document["model"].isObject())
-    reject(model.path, "its JSON holds no \"model\"");
+    reject_rexs(model.path, "its JSON holds no \"model\"");
   const Json::Value& root = document["model"];
   model.version = word_of(root["version"]);
   for (const Json::Value& node : root["components"])
@@ -179,7 +133,7 @@ void check_version(const RexsModel& model) {
   const bool numbers =
       v.size() >= 3 && v[1] == '.' && v.find_first_not_of("0123456789.") == std::string::npos;
   if (!numbers || !(v[0] == '1' || v.starts_with("2.0")))
-    reject(model.path, v.empty() ? "it names no version" : "its version is " + v);
+    reject_rexs(model.path, v.empty() ? "it names no version" : "its version is " + v);
 }
 
 }  // namespace
@@ -195,32 +149,32 @@ bool RexsRelation::holds(int component) const {
                      [&](const Reference& reference) { return reference.component == component; });
 }
 
-RexsModel read_rexs(const std::string& path) {
-  std::string bytes = read_bytes(path);
-  if (bytes.size() > kMostBytes) reject(path, text("it has ", bytes.size(), " bytes, more than 64 MB"));
-  if (bytes.starts_with("PK")) bytes = unpacked(path, bytes);
-  if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);  // byte order mark
+RexsModel parse_rexs(const std::string& path, const std::string& bytes) {
   RexsModel model;
   model.path = path;
   const size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) reject(path, "it is empty");
+  if (first == std::string::npos) reject_rexs(path, "it is empty");
   try {
     if (bytes[first] == '<')
       read_xml(bytes, model);
     else if (bytes[first] == '{')
       read_json(bytes, model);
     else
-      reject(path, "it is neither XML nor JSON nor a zip archive");
+      reject_rexs(path, "it is neither XML nor JSON nor a zip archive");
   } catch (const Json::Exception& e) {
-    reject(path, std::string("its JSON is not that of a model: ") + e.what());
+    reject_rexs(path, std::string("its JSON is not that of a model: ") + e.what());
   }
   check_version(model);
   for (const RexsRelation& relation : model.relations)
     for (const RexsRelation::Reference& reference : relation.references)
       if (!model.components.contains(reference.component))
-        reject(path, text("a relation '", relation.type, "' names component ", reference.component,
-                          ", which does not exist"));
+        reject_rexs(path, text("a relation '", relation.type, "' names component ", reference.component,
+                               ", which does not exist"));
   return model;
+}
+
+RexsModel read_rexs(const std::string& path) {
+  return parse_rexs(path, rexs_text(path, read_bytes(path)));
 }
 
 }  // namespace whine

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/rexs_results.h"
 
 namespace whine {
 namespace {
@@ -167,7 +168,8 @@ std::vector<std::string> RexsStage::unread() const {
                                                                             const std::string& where) {
       std::string names;
       for (const auto& [name, value] : c.attributes)
-        if (!names_read.contains(name)) names += (names.empty() ? "" : ", ") + printable(name, 80);
+        if (!names_read.contains(name) && !name.starts_with(kRexsResult))
+          names += (names.empty() ? "" : ", ") + printable(name, 80);
       if (!names.empty()) out.push_back(where + quoted_name(owner) + ": " + names);
     };
     list(component(id), "");

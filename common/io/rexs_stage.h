@@ -60,7 +60,7 @@ class RexsStage {
                       const RexsUnit& unit);
   std::string word(const RexsComponent* c, const std::string& attribute);
 
-  // Attributes that were not read, of components and load case, where any was read of the component.
+  // Attributes that were not read, of components and load case, where any was read of the component; results are left out.
   std::vector<std::string> unread() const;
 
  private:

@@ -73,15 +73,7 @@ void describe_periods(Codec& c, RunupPeriods& a) {
 }
 
 void describe_tail(Codec& c, RunupArtifact& a) {
-  c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force, over all steps", "", kLength,
-             "d >= 0 where p = 0 (with Eq. 18, 20)"},
-            &a.least_gap);
-  c.dataset({"/certificate/least_force", "N", "least force of a strip in contact, over all steps", "", kForce,
-             "p >= 0 where d = 0 (with Eq. 18, 20)"},
-            &a.least_force);
-  c.dataset({"/certificate/fallbacks", "1", "contact solutions that needed Lawson and Hanson's method", "",
-             kNumber},
-            &a.fallbacks);
+  describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
   c.dataset({"/drift_force", "N", "largest force that the output must supply to hold the speed", "", kForce},
             &a.drift_force);
   describe_backlash(c, a.backlash_margin);

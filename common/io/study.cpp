@@ -328,6 +328,17 @@ void read_fixed(const StudyFile& file, const toml::table& table, const std::stri
   }
 }
 
+void read_compared(const StudyFile& file, const toml::node& node, Study& study) {
+  if (const toml::array* list = node.as_array())
+    for (const toml::node& item : *list)
+      if (const auto number = item.value<int64_t>();
+          item.is_integer() && *number >= 0 && *number < study.variants)
+        study.compared.push_back(static_cast<long>(*number));
+  if (study.compared.size() != 2 || node.as_array()->size() != 2 || study.compared[0] == study.compared[1])
+    file.reject(node, text("'compare' must be the numbers of two different variants, 0 to ",
+                           study.variants - 1, ": compare = [0, ", study.variants - 1, "]"));
+}
+
 // Whether two places may hold one number of a scene: "bore_radius_mm" is that of every gear.
 bool overlap(const KeyPlace& a, const KeyPlace& b) {
   return a.key == b.key && (a.owner == b.owner || a.owner.empty() || b.owner.empty());
@@ -432,7 +443,7 @@ Study read_study(const std::string& path) {
   const toml::table& root = file.root();
   file.require_known(root, "",
                      {"title", "scene", "stage", "directions", "plan", "samples", "seed", "answers",
-                      "refusals", "set", "vary", "figure"});
+                      "refusals", "compare", "set", "vary", "figure"});
   Study study;
   study.path = path;
   study.title = file.word(root, "title", std::filesystem::path(path).stem().string());
@@ -502,7 +513,19 @@ Study read_study(const std::string& path) {
   for (const ResponseQuantity& kind : response_quantities(study.directions)) known.push_back(kind.name);
   study.quantities = file.words(root, "answers", known, known, "response quantity of this stage");
   read_figure(file, study);
+  if (const toml::node* marked = root.get("compare")) read_compared(file, *marked, study);
   return study;
+}
+
+std::vector<std::string> design_changes(const Study& study, size_t which) {
+  if (study.compared.empty())
+    fail(Failure::input, study.path,
+         ": marks no variants to compare; add compare = [0, 3], the numbers of two of them");
+  Words changes;
+  for (const auto& [name, value] : study.fixed) changes.push_back(name + "=" + value);
+  const Words values = variant_values(study, study.compared.at(which));
+  for (size_t k = 0; k < values.size(); ++k) changes.push_back(study.keys[k].name + "=" + values[k]);
+  return changes;
 }
 
 std::vector<std::string> variant_values(const Study& study, long index) {

@@ -8,6 +8,7 @@
 //   answers = ["rms_max_up"]                  # what the table holds; default: all of the stage
 //   refusals = "stop"                         # a variant outside the model's range is an error; "mark": a marked line of the
 // table
+//   compare = [0, 3]                          # two variants, by their numbers, that `make compare` shows side by side
 //   [set]                                     # values that all variants have instead of the scene's
 //   "fidelity.contact" = "line"
 //   [[vary]]                                  # one for each key that varies
@@ -66,12 +67,17 @@ struct Study : StudyPlan {
   std::string path;
   long variants = 0;
   std::vector<std::pair<std::string, std::string>> fixed;  // of [set]: key and value as a scene has them
+  std::vector<long> compared;  // numbers of the two variants to be compared, from 0 on; or none
 };
 
 // Reads and checks a study; opens no other file. Error(input) names file:line, key, value and limit, for an unknown key,
 // section or answer the nearest known one; so for a study that varies nothing, an empty range, a key or a value given twice, a
 // torque that no path can hold, more than kMostVariants variants.
 Study read_study(const std::string& path);
+
+// What makes a scene of the first (0) or the second (1) variant to be compared: changes of scene_variant(). Throws Error(input) if
+// the study marks none.
+std::vector<std::string> design_changes(const Study& study, size_t which);
 
 // Values of the keys in variant `index`, as a scene has them. Drawn ones depend on seed, index and key alone, so that a longer
 // sample begins with a shorter one, and have 6 significant digits, so that tables show what was used.

@@ -97,15 +97,7 @@ void describe(Codec& c, SweepArtifact& a) {
   describe_speed_by_speed(c, a);
   describe_natural_frequency(c, a.natural_frequency);
   describe_hunting(c, a.hunting_periods);
-  c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force, over all steps", "", kLength,
-             "d >= 0 where p = 0 (with Eq. 18, 20)"},
-            &a.least_gap);
-  c.dataset({"/certificate/least_force", "N", "least force of a strip in contact, over all steps", "", kForce,
-             "p >= 0 where d = 0 (with Eq. 18, 20)"},
-            &a.least_force);
-  c.dataset({"/certificate/fallbacks", "1", "contact solutions that needed Lawson and Hanson's method", "",
-             kNumber},
-            &a.fallbacks);
+  describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
   describe_backlash(c, a.backlash_margin);
   c.dataset(
       {"/jump_frequency", "Hz", "middle of the interval in which the response jumps", "jump", kFrequency},

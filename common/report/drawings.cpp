@@ -20,6 +20,7 @@
 #include "io/study_codec.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
+#include "report/compare_figures.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
@@ -27,6 +28,7 @@
 #include "report/modes_figure.h"
 #include "report/motion_figures.h"
 #include "report/multiplier_figure.h"
+#include "report/order_figure.h"
 #include "report/response_figures.h"
 #include "report/runup_figure.h"
 #include "report/sensitivity_figure.h"
@@ -149,6 +151,36 @@ Drawings drawings_at_rest() {
   };
 }
 
+template <class Artifact>
+std::vector<OfDesign<Artifact>> read_designs(const Paths& inputs, Artifact (*read)(const std::string&)) {
+  std::vector<OfDesign<Artifact>> designs;
+  for (const std::string& path : inputs) {
+    const std::string scene = scene_words(path);
+    if (scene.empty())
+      fail(Failure::input, path,
+           ": lies in no folder of a scene, so its design has no name; give out/<scene>/...");
+    designs.push_back({scene.substr(0, scene.find(": ")), read(path)});
+  }
+  return designs;
+}
+
+Drawings drawings_of_designs() {
+  return {
+      {"compare-rest",
+       {"designs at rest: transmission error, mesh stiffness, harmonics",
+        "static.h5 of each scene, at one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return compared_rest_figure(read_designs(in, read_static));
+        }}},
+      {"compare-motion",
+       {"designs in motion: RMS, first order and tooth load against speed",
+        "response.h5 of sweeps up and down of each scene, at one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return compared_motion_figure(read_designs(in, read_response));
+        }}},
+  };
+}
+
 Figure draw_runup(const Paths& inputs, const Frequencies&) {
   std::vector<RunupArtifact> runs;
   std::vector<ResponseArtifact> sweeps;
@@ -167,6 +199,10 @@ Drawings drawings_of_motions() {
       {"runup",
        {"a run-up: spectrogram of the mesh force, orders of the transmission error, tooth loads",
         "runup.h5; response.h5 of sweeps at the same torque, to compare", 0, 0, draw_runup}},
+      {"order-cuts",
+       {"order cuts: the first orders of the dynamic transmission error against speed, both ways",
+        "response.h5 of sweeps up and down of one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) { return order_figure(read_all(in, read_response)); }}},
       {"fig05",
        {"RMS of the dynamic transmission error against mesh frequency",
         "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and "
@@ -276,6 +312,7 @@ Drawings drawings_of_maps() {
 // Scenes that all of a figure shows: not those that stand at their panels, nor variants of the first.
 Paths scenes_of(const std::string& name, const Paths& inputs, const Figure& figure) {
   Paths scenes;
+  if (name.starts_with("compare-")) return scenes;  // its curves bear the names of theirs
   for (const std::string& path : inputs) {
     const std::string words = scene_words(path);
     bool at_panel = words.empty() || (name == "sensitivity" && !scenes.empty());
@@ -291,6 +328,7 @@ const std::map<std::string, Drawing>& drawings() {
   static const std::map<std::string, Drawing> all = [] {
     Drawings drawings = drawings_at_rest();
     drawings.merge(drawings_of_motions());
+    drawings.merge(drawings_of_designs());
     drawings.merge(drawings_of_maps());
     return drawings;
   }();

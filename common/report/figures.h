@@ -29,6 +29,12 @@ struct FigureBlock {
   bool drawing = false;  // lines and areas of a drawing, which are in no table
 };
 
+// A gear whose rotation can stand for the mesh frequency: speed (rpm) = 60 / teeth x mesh frequency (Hz).
+struct Shaft {
+  std::string gear;
+  int teeth = 0;
+};
+
 struct Figure {
   std::string title;
   std::vector<std::string> scenes;  // "file: title" of those that all of it shows; filled by the caller
@@ -36,7 +42,10 @@ struct Figure {
   std::vector<FigureBlock> blocks;
   std::vector<std::pair<std::string, double>> numbers;     // variables of the template
   std::vector<std::pair<std::string, std::string>> words;  // string variables of the template
-  int height = 1000;  // of the picture beside a width of 1600; also a variable
+  std::vector<Shaft> shafts =
+      {};  // driver and driven gear, where the figure is against speed and all of it is of such gears
+  std::vector<std::string> levels = {};  // columns (µm) that can be drawn as levels in dB
+  int height = 1000;                     // of the picture beside a width of 1600; also a variable
 };
 
 // %.<digits>g, %.<decimals>f: text() would show ten digits.
@@ -47,6 +56,24 @@ std::string rounded(double value, int decimals);
 
 // 0: "a", the letter of a panel.
 std::string letter_of(size_t i);
+
+// Driver and driven gear of an artifact with gears and a mesh.
+template <class Artifact>
+std::vector<Shaft> shafts_of(const Artifact& a) {
+  return {{a.mesh.gear[0], a.gear[0].design.teeth}, {a.mesh.gear[1], a.gear[1].design.teeth}};
+}
+// Of several: none where their gears differ in name or number of teeth.
+template <class Artifacts>
+std::vector<Shaft> shafts_of_all(const Artifacts& all) {
+  std::vector<Shaft> first;
+  for (const auto& a : all) {
+    const std::vector<Shaft> own = shafts_of(a);
+    if (first.empty()) first = own;
+    for (size_t g = 0; g < own.size(); ++g)
+      if (own[g].gear != first[g].gear || own[g].teeth != first[g].teeth) return {};
+  }
+  return first;
+}
 
 // "150 N m"; "corner contact on"; teeth, module, centre distance, contact ratio and corner rule of a pair.
 std::string torque_words(double torque);

@@ -48,6 +48,8 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
   script +=
       text("tsv = ", gnuplot_string(plain_path(tsv_path)), "; title = ", gnuplot_string(figure.title), "; ");
   script += kFoot;
+  // What engineering_axes() changes.
+  script += "speed_label = 'Mesh frequency (Hz)'; speed_scale = 1.0; level_label = ''; ";
   std::string heading = without_markup(figure.title), scenes;
   for (const std::string& scene : figure.scenes)
     scenes += (scenes.empty() ? "" : "; ") + without_markup(scene);

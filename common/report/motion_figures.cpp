@@ -290,6 +290,7 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   Figure figure;
   figure.title = "Tooth loads against mesh frequency, " + torque_words(curve.up->torque);
   figure.notes = {operating_words(panels[0], background), panels[0].choices};
+  figure.shafts = shafts_of_all(sweeps);
   figure.height = 1240;
   Motion worst;
   double rms = -1, from = std::numeric_limits<double>::infinity(), to = 0, most = 0;
@@ -345,6 +346,7 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
       if (sweep.direction == direction) shown.push_back(&sweep);
   const SweepArtifact& first = *shown.front();
   Figure figure;
+  figure.shafts = shafts_of_all(sweeps);
   figure.title = text("Spectra of the dynamic transmission error against mesh frequency, ",
                       torque_words(first.torque), ", ",
                       shown.size() == 2                  ? "speed rising and falling"

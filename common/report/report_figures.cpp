@@ -197,6 +197,12 @@ const std::vector<Explained>& explained() {
       {"fig14-elastic", "motion", "RMS and mean over speed",
        plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
       {"waterfall", "motion", "Spectra over speed", of_waterfall},
+      {"order-cuts", "motion", "Order cuts",
+       plain("Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission "
+             "error "
+             "against speed, rising and falling. Where the two differ there are two motions, and the order "
+             "that is "
+             "heard depends on where the speed came from.")},
       {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
       {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};

@@ -91,7 +91,7 @@ constexpr Row kRows[] = {
      "0.7 % of numerical error, else as the RMS. A number with a * is of a motion larger than the backlash: "
      "not to be trusted at all.",
      "For strength take it with speed rising and falling, and at the damping you are sure of."},
-    {Needs::motion, "waterfall sidebands", "Spectra over speed",
+    {Needs::motion, "waterfall order-cuts sidebands", "Spectra and orders over speed",
      "Which frequencies sound at which speed. Orders of the mesh frequency run along rays; teeth that differ "
      "add orders of the shafts around them.",
      "Amplitudes as the RMS; below 1/1000 of the largest they are numerical.",

@@ -276,6 +276,7 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
                    : "") +
       (any_elastic && any_lumped ? "; one degree of freedom: " : "") +
       (any_lumped ? "natural frequency of the mass on the mean stiffness" : ""));
+  figure.shafts = shafts_of_all(sweeps);
   figure.height = panels.size() == 1 ? 1060 : 240 + 660 * static_cast<int>(panels.size());
   for (size_t p = 0; p < panels.size(); ++p) add_panel(figure, letter_of(p), panels[p], background);
   double from = std::numeric_limits<double>::infinity(), to = 0;
@@ -306,6 +307,7 @@ Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const B
   Figure figure;
   figure.title = "Forces on the bearings against mesh frequency, " + torque_words(curve.up->torque);
   figure.notes = {operating_words(panels[0], background), panels[0].choices};
+  figure.shafts = shafts_of_all(sweeps);
   std::string labels;
   double rms = 0, most = 0;
   int curves = 0;

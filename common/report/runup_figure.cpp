@@ -59,7 +59,7 @@ FigureBlock order_block(const RunupArtifact& a, Figure& figure) {
       std::clamp(static_cast<int>(kHighest * a.sample_rate / std::max(a.ramp.from, a.ramp.to)), 1, kOrders);
   const OrderCuts cuts = order_cuts(a.samples.transmission_error, phase, orders, width);
   FigureBlock block{"orders", {"time [s]", "mesh_frequency [Hz]"}, {}};
-  for (int n = 1; n <= orders; ++n) block.columns.push_back(text("order_", n, " [um]"));
+  for (int n = 1; n <= orders; ++n) block.columns.push_back(text("order_", n, " [µm]"));
   double largest = 0;
   const Index stride = std::max<Index>(1, cuts.phase.size() / (4 * kPoints));
   for (Index c = 0; c < cuts.phase.size(); c += stride) {
@@ -108,7 +108,7 @@ Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>&
     if (r.torque != a.torque)
       fail(Failure::input, "the run-", a.direction, " is at ", a.torque, " N m, a sweep at ", r.torque,
            " N m; give sweeps of the same torque");
-    FigureBlock block{text("sweep ", r.direction), {"mesh_frequency [Hz]", "order_1 [um]"}, {}};
+    FigureBlock block{text("sweep ", r.direction), {"mesh_frequency [Hz]", "order_1 [µm]"}, {}};
     block.table = "sweeps";
     block.curve = text(r.direction);
     for (Index i = 0; i < r.mesh_frequency.size(); ++i)
@@ -134,6 +134,8 @@ Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>&
         std::pair{"rpm_per_hertz", 60.0 / a.gear[0].design.teeth},
         std::pair{"notes", static_cast<double>(figure.notes.size())}})
     figure.numbers.emplace_back(name, value);
+  figure.shafts = shafts_of(a);
+  for (int n = 1; n <= kOrders; ++n) figure.levels.push_back(text("order_", n, " [µm]"));
   figure.height = 1500;
   return figure;
 }

@@ -7,8 +7,9 @@
 // This is order tracking by resampling to even angles, without the interpolation: the transform over the angle is an integral,
 // taken over the samples where they are (time variant discrete Fourier transform; Blough et al., SAE 971878 (1997)). Record and
 // order below half the rate make its integrand smooth, and the sum exact but for the window's side lobes at the rate, 1e-6
-// of what stands beside the order in a window of 150 samples. Other whole orders of constant amplitude are zero exactly. An amplitude that varies is averaged by the window:
-// A + A'' <u^2> / 2 = A + 0.0163 width^2 A'' in mesh periods, <u^2> = (1/12 - 1/(2 pi^2)) width^2 of the Hann window.
+// of what stands beside the order in a window of 150 samples. Other whole orders of constant amplitude are zero exactly.
+// An amplitude that varies is averaged by the window: A + A'' <u^2> / 2 = A + 0.0163 width^2 A'' in mesh periods,
+// <u^2> = (1/12 - 1/(2 pi^2)) width^2 of the Hann window.
 #pragma once
 #include <Eigen/Core>
 
@@ -21,13 +22,13 @@ struct OrderCuts {
   MatrixRM amplitude;     // (cut, order 1..) unit of the record
 };
 
-// x, phase: (sample), phase ascending; orders: 1 to `orders`; width: mesh periods, >= 4; cuts half a window apart, of those windows that lie
-// within the record. Throws Error(input) if there is none, or an order reaches half the rate.
+// x, phase: (sample), phase ascending; orders: 1 to `orders`; width: mesh periods, >= 4; cuts half a window apart, of those
+// windows that lie within the record. Throws Error(input) if there is none, or an order reaches half the rate.
 OrderCuts order_cuts(const Eigen::Ref<const Eigen::VectorXd>& x,
                      const Eigen::Ref<const Eigen::VectorXd>& phase, int orders, int width);
 
-// Mesh periods: the widest window, a power of two from 4 to 64, within which the speed f (Hz) at the acceleration a (Hz s-1) changes by
-// no more than 0.5 %.
+// Mesh periods: the widest window, a power of two from 4 to 64, within which the speed f (Hz) at the acceleration a (Hz s-1)
+// changes by no more than 0.5 %.
 int order_width(double mesh_frequency, double acceleration);
 
 struct Spectrogram {
@@ -36,13 +37,13 @@ struct Spectrogram {
   MatrixRM amplitude;         // (slice, bin) unit of the record: a cos(2 pi f t) on a bin has a
 };
 
-// Short-time spectra in Hann windows of `length` samples, `slices` of them over the record, bins up to `most` Hz. Throws Error(input) for a
-// record shorter than a window or what is not finite.
+// Short-time spectra in Hann windows of `length` samples, `slices` of them over the record, bins up to `most` Hz. Throws
+// Error(input) for a record shorter than a window or what is not finite.
 Spectrogram spectrogram(const Eigen::Ref<const Eigen::VectorXd>& x, double rate, Eigen::Index length,
                         Eigen::Index slices, double most);
 
-// Samples, a power of two of 64 to 65536: the window in which a tone that moves by `sweep` (Hz s-1) widens as much by its movement as by the
-// window, rate / sqrt(2 sweep).
+// Samples, a power of two of 64 to 65536: the window in which a tone that moves by `sweep` (Hz s-1) widens as much by its
+// movement as by the window, rate / sqrt(2 sweep).
 Eigen::Index spectrogram_length(double rate, double sweep);
 
 }  // namespace whine

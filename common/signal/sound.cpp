@@ -17,6 +17,11 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
+void require_record(const Eigen::Ref<const VectorXd>& record) {
+  if (record.size() < 2 || !record.allFinite())
+    fail(Failure::input, "sound: ", record.size(), " samples; two finite ones are the least");
+}
+
 }  // namespace
 
 Transfer::Transfer(const TransferFunction& rows) : rows_(rows) {
@@ -63,6 +68,34 @@ VectorXd sound(const Eigen::Ref<const VectorXd>& record, double fundamental, con
     }
   }
   return out;
+}
+
+VectorXd filtered(const Eigen::Ref<const VectorXd>& record, double rate, const Transfer* transfer) {
+  require_record(record);
+  const VectorXd oscillating = record.array() - record.mean();
+  if (!transfer) return oscillating;
+  const Index n = record.size() + std::lround(rate);
+  VectorXd padded = VectorXd::Zero(n);
+  padded.head(record.size()) = oscillating;
+  return multiplied_spectrum(padded, [&](double turns) { return transfer->at(turns * rate); })
+      .head(record.size());
+}
+
+VectorXd band_rms(const Eigen::Ref<const VectorXd>& signal, const Eigen::Ref<const VectorXd>& speed,
+                  const VectorXd& edges, Index least) {
+  const Index bands = edges.size() - 1;
+  VectorXd squares = VectorXd::Zero(bands);
+  Eigen::VectorXi count = Eigen::VectorXi::Zero(static_cast<int>(bands));
+  for (Index i = 0; i < signal.size(); ++i) {
+    const Index band = std::upper_bound(edges.begin(), edges.end(), speed[i]) - edges.begin() - 1;
+    if (band < 0 || band >= bands) continue;
+    squares[band] += signal[i] * signal[i];
+    ++count[band];
+  }
+  for (Index b = 0; b < bands; ++b)
+    squares[b] =
+        count[b] < least ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(squares[b] / count[b]);
+  return squares;
 }
 
 void fade(Eigen::Ref<VectorXd> signal, Index samples) {

@@ -32,6 +32,17 @@ class Transfer {
 Eigen::VectorXd sound(const Eigen::Ref<const Eigen::VectorXd>& record, double fundamental,
                       const Transfer* transfer, double rate, Eigen::Index samples);
 
+// A record of any course, such as a force while the speed changes, behind a transfer function: its spectrum times H, with a second
+// of silence behind it so that what H draws out does not come back at the beginning. Same length, the mean is left out; without a
+// transfer function the record less its mean. Throws Error(input) for less than two samples or what is not finite.
+Eigen::VectorXd filtered(const Eigen::Ref<const Eigen::VectorXd>& record, double rate,
+                         const Transfer* transfer);
+
+// (band) RMS of the samples whose speed lies in the bands between `edges` (ascending); NaN for a band of less than `least` samples.
+Eigen::VectorXd band_rms(const Eigen::Ref<const Eigen::VectorXd>& signal,
+                         const Eigen::Ref<const Eigen::VectorXd>& speed, const Eigen::VectorXd& edges,
+                         Eigen::Index least);
+
 // Raises the beginning and lowers the end over `samples` of a half cosine, so that neither clicks.
 void fade(Eigen::Ref<Eigen::VectorXd> signal, Eigen::Index samples);
 

@@ -107,4 +107,22 @@ Separations separations(const Eigen::Ref<const Eigen::VectorXd>& force) {
   return result;
 }
 
+Eigen::VectorXd multiplied_spectrum(const Eigen::Ref<const Eigen::VectorXd>& x,
+                                    const std::function<std::complex<double>(double)>& h) {
+  const int n = static_cast<int>(x.size()), bins = n / 2 + 1;
+  Eigen::VectorXd out = x;
+  Eigen::VectorXcd spectrum(bins);
+  const auto raw = [&] { return reinterpret_cast<fftw_complex*>(spectrum.data()); };
+  // FFTW_ESTIMATE leaves what it plans for as it is.
+  const fftw_plan forth = fftw_plan_dft_r2c_1d(n, out.data(), raw(), FFTW_ESTIMATE);
+  const fftw_plan back = fftw_plan_dft_c2r_1d(n, raw(), out.data(), FFTW_ESTIMATE);
+  if (!forth || !back) fail(Failure::numerical, "FFTW made no plan for ", n, " samples: out of memory?");
+  fftw_execute(forth);
+  for (int k = 0; k < bins; ++k) spectrum[k] *= h(static_cast<double>(k) / n) / static_cast<double>(n);
+  fftw_execute(back);
+  fftw_destroy_plan(forth);
+  fftw_destroy_plan(back);
+  return out;
+}
+
 }  // namespace whine

@@ -8,6 +8,8 @@
 // % after a hundred.
 #pragma once
 #include <Eigen/Core>
+#include <complex>
+#include <functional>
 
 namespace whine {
 
@@ -38,5 +40,9 @@ struct Separations {
 // exactly zero: the complementarity solution has no small forces. Throws Error(input) for no samples,
 // negative or non-finite.
 Separations separations(const Eigen::Ref<const Eigen::VectorXd>& force);
+
+// The real signal whose spectrum is that of x times h(turns per sample), h taken at bins 0 to half the rate (periodic over its length).
+Eigen::VectorXd multiplied_spectrum(const Eigen::Ref<const Eigen::VectorXd>& x,
+                                    const std::function<std::complex<double>(double)>& h);
 
 }  // namespace whine

@@ -13,20 +13,12 @@ using Eigen::Index;
 
 constexpr int kPerSample = 1024;  // table entries; a straight line between them is 1.2e-6 off
 
-// Modified Bessel function of order 0, by its series (Abramowitz and Stegun 9.6.12).
-double bessel_i0(double x) {
-  double sum = 1, term = 1;
-  for (int k = 1; term > 1e-17 * sum; ++k) {
-    term *= x * x / (4.0 * k * k);
-    sum += term;
-  }
-  return sum;
-}
-
 // Kaiser's beta for 80 dB: 0.1102 (80 - 8.7).
 constexpr double kBeta = 7.857;
 
+// Kaiser's window, I0 the modified Bessel function of order 0.
 double window(double u) {
+  const auto bessel_i0 = [](double x) { return std::cyl_bessel_i(0, x); };
   return u >= 1 ? 0 : bessel_i0(kBeta * std::sqrt(1 - u * u)) / bessel_i0(kBeta);
 }
 
@@ -71,7 +63,6 @@ MatrixRM UniformSampler::take() {
   const auto rows = static_cast<Index>(ready_.size()) / channels_;
   MatrixRM out = Eigen::Map<const MatrixRM>(ready_.data(), rows, channels_);
   ready_.clear();
-  taken_ += rows;
   return out;
 }
 

@@ -25,7 +25,6 @@ class UniformSampler {
   void push(double t, double weight, const double* x);
   // Samples that no later instant can change: (sample, channel), in order, without those taken before.
   MatrixRM take();
-  Eigen::Index taken() const { return taken_; }
   // Whether all `count` samples are ready or taken.
   bool complete() const { return first_ == count_; }
 
@@ -33,7 +32,7 @@ class UniformSampler {
   double* row(Eigen::Index k) { return &sums_[static_cast<size_t>(k % rows_ * (channels_ + 1))]; }
 
   double rate_;
-  Eigen::Index count_, first_ = 0, taken_ = 0;  // first_: sample that may still change
+  Eigen::Index count_, first_ = 0;  // first_: sample that may still change
   int channels_, rows_;
   std::vector<double> table_;  // h over the distance in samples
   std::vector<double> sums_;   // (sample, channel and weight), of the samples from first_ on in turn

@@ -126,15 +126,22 @@ class Runner {
     return {k, static_cast<int>(std::clamp(most, 1.0, kMost)), steps_at(settings_.time, f)};
   }
 
-  // The periodic motion at the start of the ramp; integration goes on from the last state where there is none.
+  // The periodic motion at the start of the ramp. Without one the record would begin with a transient of no known cause.
   void settle() {
     for (;; ++level_) {
       levels_.require(level_, wanted_.ramp.from);
       RollingDynamics& dynamics = levels_.at(level_);
       state_ = dynamics.rest();
       dynamics.set_speed(wanted_.ramp.from, steps_at(settings_.time, wanted_.ramp.from));
-      if (find_periodic_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state))
-        return;
+      const auto orbit =
+          find_periodic_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state);
+      if (!orbit) continue;
+      if (orbit->multiple == 0)
+        fail(Failure::numerical, "no periodic motion is found at ", wanted_.ramp.from,
+             " Hz, where the ramp starts: from rest the motion does not repeat to ",
+             settings_.time.periodicity,
+             "; start at a mesh frequency at which the sweep has a periodic motion (--from, FROM= of make)");
+      return;
     }
   }
 

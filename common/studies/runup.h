@@ -3,7 +3,7 @@
 // Steps stay at fixed phases of the mesh period, as everything that a step looks up is of a phase. With phase(t) = f0 t + a t^2/2
 // the time of phase k is t_k = 2 k / (f0 + sqrt(f0^2 + 2 a k)). The speed is constant within a block of m mesh periods, which
 // takes the exact time t_(k+m) - t_k: within it the phase is off by a (m T)^2 / 8 periods at most, at its ends it is exact. m is
-// the largest with |a| m / f^2 <= kSpeedChange, 1 to 64.
+// the largest with |a| m / f^2 <= speed_change, 1 to 64.
 //
 // The torque is constant: what accelerates the gears is put on each shaft by its own machine and does not go through the mesh.
 #pragma once
@@ -40,8 +40,8 @@ std::array<double, kSides> acceleration_torque(const RunupArtifact& a);
 
 // From the periodic motion at the start into which the pair settles from rest. statics, mean_stiffness, settings: as for
 // sweep(), whose speeds are not used. report(done, total, note) is called after each block of samples. Throws Error(input) for a
-// ramp that is empty, a sample rate above that of the steps, parameters that do not fit; Error(numerical), with speed and mesh phase, if contact leaves the flanks
-// or has no certified solution.
+// ramp that is empty, a sample rate above that of the steps, parameters that do not fit; Error(numerical), with the speed, if no
+// periodic motion is found at the start, and with speed and mesh phase, if contact leaves the flanks or has no certified solution.
 void runup(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
            double mean_stiffness, const SweepParameters& settings, const RunupSettings& wanted,
            RunupSink& sink, const std::function<void(long, long, const std::string&)>& report);

@@ -18,7 +18,7 @@ set rmargin at screen 0.80
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
-set xlabel "Mesh frequency (Hz)"
+set xlabel speed_label
 set ylabel "Force (N)"
 array panel_title[2] = ["{/:Bold (a)} RMS of the oscillating part", "{/:Bold (b)} largest force"]
 array high[2] = [rms_max, force_max > static_force ? force_max : static_force]

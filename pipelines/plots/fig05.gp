@@ -27,7 +27,7 @@ raw = (span > 0 ? span : 1.0) / 10
 power = 10 ** floor(log10(raw))
 set xtics power * (raw / power > 5 ? 10 : raw / power > 2 ? 5 : raw / power > 1 ? 2 : 1) out nomirror
 set xrange [frequency_from - margin : frequency_to + margin]
-set xlabel "Mesh frequency (Hz)"
+set xlabel speed_label
 set mxtics 5
 set ytics out nomirror
 set mytics 2

@@ -1,7 +1,7 @@
 # Run-up: spectrogram of the mesh force (a), orders of the transmission error (b), largest tooth load and loss of contact in each
 # mesh period (c), all over the mesh frequency and the speed of the driver.
 # Variables from gear-plot: tsv, heading, height, driver, loudest, frequency_end, orders, largest, largest_sweep, largest_load, sweeps, sweep1,
-# sweep2, frequency_from, frequency_to, natural_frequency, rpm_per_hertz, notes, note1...
+# sweep2, level_label, level_low, level_high, speed_label, speed_scale, frequency_from, frequency_to, natural_frequency, rpm_per_hertz, notes, note1...
 set datafile separator tab
 set datafile commentschars "#"
 lift = room(notes)
@@ -18,19 +18,22 @@ top(y) = 1 - y * (1 - lift)
 # a: spectrogram, with the speed of the driver above
 set tmargin at screen top(0.135)
 set bmargin at screen top(0.475)
-set x2range [frequency_from * rpm_per_hertz : frequency_to * rpm_per_hertz]
+in_hertz = speed_scale == 1
+other = in_hertz ? rpm_per_hertz : 1 / speed_scale
+set x2range [frequency_from * other : frequency_to * other]
 set x2tics out
-set x2label "Speed of " . driver . " (rpm)" offset 0, 0.3
+set x2label (in_hertz ? "Speed of " . driver . " (rpm)" : "Mesh frequency (Hz)") offset 0, 0.3
+f_n = natural_frequency / speed_scale
 set format x ""
 set ylabel "Frequency (Hz) {/:Bold (a)}" offset 1.6, 0
 set yrange [0 : frequency_end]
 set cbrange [loudest - 60 : loudest]
 set cblabel "Mesh force (dB re 1 N)" offset 0.9, 0
 set colorbox user origin screen 0.912, top(0.475) size screen 0.012, top(0.135) - top(0.475)
-set arrow 1 from graph 0, first natural_frequency to graph 1, first natural_frequency nohead front lt 1 lw 1.2 dt (16, 10) lc rgb "#202020"
-set label 1 "f_n" at graph 0.985, first natural_frequency offset 0, -0.7 right front tc rgb "#202020" font ",15"
+set arrow 1 from graph 0, first f_n to graph 1, first f_n nohead front lt 1 lw 1.2 dt (16, 10) lc rgb "#202020"
+set label 1 "f_n" at graph 0.985, first f_n offset 0, -0.7 right front tc rgb "#202020" font ",15"
 do for [k = 1:4] {
-  if (k * frequency_to < frequency_end) { set label 10 + k sprintf("%d", k) at first frequency_to, first k * frequency_to offset -1.2, 0.9 front tc rgb "#202020" font ",15" }
+  if (k * frequency_to / speed_scale < frequency_end) { set label 10 + k sprintf("%d", k) at first frequency_to, first k * frequency_to / speed_scale offset -1.2, 0.9 front tc rgb "#202020" font ",15" }
 }
 plot tsv index "[spectrogram]" using 1:2:3 with image pixels notitle
 unset arrow
@@ -43,10 +46,10 @@ unset colorbox
 set grid lt 1 lc rgb "#e4e4e4" lw 1
 set tmargin at screen top(0.50)
 set bmargin at screen top(0.74)
-set ylabel "Amplitude of DTE (µm) {/:Bold (b)}" offset 0.5, 0
+set ylabel (level_label eq "" ? "Amplitude of DTE (µm)" : "DTE (" . level_label . ")") . " {/:Bold (b)}" offset 0.5, 0
 peak = largest > largest_sweep ? largest : largest_sweep
-set yrange [0 : 1.08 * peak]
-set key top left Left reverse samplen 2 spacing 1.1 font ",15"
+if (level_label eq "") { set yrange [0 : 1.08 * peak] } else { set yrange [level_low : level_high] }
+if (level_label eq "") { set key top left Left reverse samplen 2 spacing 1.1 font ",15" } else { set key bottom left horizontal Left reverse samplen 2 spacing 1.1 font ",15" }
 drawn = ""
 do for [k = 1:int(sweeps)] {
   drawn = drawn . sprintf('tsv index "[sweep %s]" using 1:2 with points pt %d ps 0.55 lc rgb "%s" title "order 1, sweep %s", ', value(sprintf("sweep%d", k)), k == 1 ? 7 : 6, "#909090", value(sprintf("sweep%d", k)))
@@ -58,10 +61,10 @@ eval("plot " . drawn . "NaN notitle")
 set tmargin at screen top(0.77)
 set bmargin at screen top(0.93)
 set format x "%g"
-set xlabel "Mesh frequency (Hz)"
+set xlabel speed_label
 set ylabel "Load / mean {/:Bold (c)}" offset 0.5, 0
 set ytics 1
-set key top right Right noreverse
+set key top right vertical Right noreverse
 set yrange [0 : 1.4 * largest_load]
 set y2range [0 : 100]
 set y2tics 25 out

@@ -22,7 +22,7 @@ set bmargin at screen 0.555 + lift
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
 high = load_max > static_force ? load_max : static_force
 set yrange [0 : 1.08 * (high > 0 ? high : 1)]
-set xlabel "Mesh frequency (Hz)"
+set xlabel speed_label
 set label 1 "{/:Bold (a)} largest load of a tooth pair" at graph 0, graph 1 offset 0, 1.6 font ",14"
 set arrow 1 from worst_speed, graph 0 to worst_speed, graph 1 nohead back lt 1 lw 1.4 dt (18, 10) lc rgb "#9a9a9a"
 set label 2 "(b)" at worst_speed, graph 1 offset 0, 0.4 center tc rgb "#505050" font ",14"

@@ -14,7 +14,7 @@ unit = largest > 0 ? largest : 1.0
 low = log10(unit) - 3
 half_tall = 0.5 * (speed_step > 0 ? speed_step : span)
 # As wide as its order moves with a step, so that a ray is a band.
-half_wide(order) = order * half_tall > 0.004 * frequency_end ? order * half_tall : 0.004 * frequency_end
+half_wide(order) = order * half_tall / speed_scale > 0.004 * frequency_end ? order * half_tall / speed_scale : 0.004 * frequency_end
 set palette defined (0 "#f4f1ea", 0.25 "#c9dcea", 0.5 "#6aaed6", 0.75 "#2166ac", 0.9 "#7a1f5c", 1 "#c8201e")
 
 set multiplot title heading offset 0, -0.4
@@ -35,7 +35,7 @@ do for [r = 1:int(rows)] {
   set xtics autofreq
   set ytics autofreq
   set xlabel "Frequency (Hz) {/:Bold (" . letter(2 * r - 1) . ")}"
-  set ylabel "Mesh frequency (Hz)"
+  set ylabel speed_label
   if (rows > 1) {
     set label 2 (word(directions, r) eq "up" ? "speed rising" : "speed falling") at graph 0, graph 1 offset 0, 1.3 left font ",16"
   }
@@ -43,14 +43,15 @@ do for [r = 1:int(rows)] {
   set xrange [0:frequency_end]
   set yrange [frequency_from - 0.02 * span : top]
   set mxtics 2
-  set arrow 1 from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lw 1.4 dt (18, 10) lc rgb "#9a9a9a"
-  set label 1 "f_n" at natural_frequency, graph 1 offset 0, 0.5 center tc rgb "#505050" font ",14"
+  set arrow 1 from natural_frequency / speed_scale, graph 0 to natural_frequency / speed_scale, graph 1 nohead back lt 1 lw 1.4 dt (18, 10) lc rgb "#9a9a9a"
+  set label 1 "f_n" at natural_frequency / speed_scale, graph 1 offset 0, 0.5 center tc rgb "#505050" font ",14"
   # Rays of the orders, with their numbers where they leave the picture.
   do for [k = 1:int(orders)] {
-    f = k * top < frequency_end ? top : frequency_end / k
+    hertz(speed) = speed / speed_scale
+    f = k * hertz(top) < frequency_end ? top : frequency_end * speed_scale / k
     if (f > frequency_from) {
-      set arrow 10 + k from k * frequency_from, frequency_from to k * f, f nohead back lt 1 lw 1 dt (4, 6) lc rgb "#b0a48c"
-      set label 10 + k sprintf("%d", k) at k * f, f offset (f < top ? 0.6 : 0), (f < top ? 0 : 0.5) center tc rgb "#8a6d3b" font ",13"
+      set arrow 10 + k from k * hertz(frequency_from), frequency_from to k * hertz(f), f nohead back lt 1 lw 1 dt (4, 6) lc rgb "#b0a48c"
+      set label 10 + k sprintf("%d", k) at k * hertz(f), f offset (f < top ? 0.6 : 0), (f < top ? 0 : 0.5) center tc rgb "#8a6d3b" font ",13"
     }
   }
   set cbrange [low : log10(unit)]
@@ -61,7 +62,7 @@ do for [r = 1:int(rows)] {
   x0 = 0.515
   foot = 1 - (175.0 + r * tall - 115) / height
   set colorbox user origin screen x0, foot + lift size screen 0.012, (tall - 115.0 - (rows > 1 ? 30 : 0)) / height
-  plot tsv index sprintf("[spectra %s]", word(directions, r)) using 2:1:(half_wide($2 / $1)):(half_tall):(log10($3) > low ? log10($3) : NaN) \
+  plot tsv index sprintf("[spectra %s]", word(directions, r)) using 2:1:(half_wide($2 / $1 * speed_scale)):(half_tall):(log10($3) > low ? log10($3) : NaN) \
     with boxxyerror fs solid 1 noborder lc palette notitle
   unset colorbox
 
@@ -71,7 +72,7 @@ do for [r = 1:int(rows)] {
   set rmargin at screen 0.985
   set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
   set key at graph 1.0, graph 1.0 right top opaque Left reverse samplen 2 spacing 1.1 font ",14"
-  set xlabel "Mesh frequency (Hz) {/:Bold (" . letter(2 * r) . ")}"
+  set xlabel speed_label . " {/:Bold (" . letter(2 * r) . ")}"
   set ylabel "Amplitude (µm)"
   set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
   raw = span / 6

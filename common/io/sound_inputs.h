@@ -1,0 +1,35 @@
+// What is heard of artifacts: forces of periodic motions and of run-ups.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "signal/sound.h"
+
+namespace whine {
+
+// One whole period of a motion.
+struct HeardMotion {
+  std::string name;        // direction of its sweep
+  double fundamental;      // Hz
+  Eigen::VectorXd record;  // (sample) N
+};
+
+// sweep.h5 at one of its speeds (Hz). bearing: "<gear>:x" or "<gear>:y" of a gear on an elastic bearing; empty: the mesh force.
+// Throws Error(input) for a speed that the sweep does not have or a motion that is not periodic, Error(usage) for a bearing that
+// there is not.
+HeardMotion heard_motion(const std::string& path, double mesh_frequency, const std::string& bearing);
+
+struct HeardRunup {
+  std::string name;                        // direction of its ramp
+  int rate;                                // Hz of the samples
+  Eigen::VectorXd mesh_frequency, record;  // (sample) Hz, N
+};
+
+// runup.h5. Throws Error(input) for a sample rate that is no whole number, else as heard_motion.
+HeardRunup heard_runup(const std::string& path, const std::string& bearing);
+
+// Names that occur several times get numbers in their order: up_1, up_2.
+void number_names(const std::vector<std::string*>& names);
+
+}  // namespace whine

@@ -1,0 +1,238 @@
+#include "report/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "io/publish.h"
+#include "io/scene_keys.h"
+#include "report/figures.h"
+#include "report/html.h"
+#include "report/report_geometry.h"
+#include "report/report_results.h"
+#include "report/report_style.h"
+#include "report/report_tables.h"
+
+namespace whine {
+namespace {
+
+constexpr const char* kNone = "–";
+
+// Nothing for what is no single number, such as a list of jumps.
+bool is_number(const std::string& words, double& value) {
+  char* end = nullptr;
+  value = std::strtod(words.c_str(), &end);
+  return !words.empty() && *end == '\0' && std::isfinite(value);
+}
+
+void add_changes(Difference& row) {
+  double first = 0, other = 0;
+  const bool number = is_number(row.value[0], first) && first != 0;
+  for (size_t d = 1; d < row.value.size(); ++d) {
+    const bool both = number && is_number(row.value[d], other);
+    const double change = both ? (other / first - 1) * kPercent : 0;
+    row.change.push_back(both && row.unit != "%" ? (change > 0 ? "+" : "") + fixed(change, 1) : "");
+  }
+}
+
+// Rows in the order in which quantities come, of the first design that has them.
+class Rows {
+ public:
+  explicit Rows(size_t designs) : designs_(designs) {}
+  void put(size_t design, const std::string& torque, const std::string& quantity, const std::string& unit,
+           const std::string& value) {
+    auto row = std::find_if(rows_.begin(), rows_.end(), [&](const Difference& r) {
+      return r.torque == torque && r.quantity == quantity && r.unit == unit;
+    });
+    if (row == rows_.end()) {
+      rows_.push_back({torque, quantity, unit, std::vector<std::string>(designs_, kNone), {}});
+      row = rows_.end() - 1;
+    }
+    row->value[design] = value;
+  }
+  // Those that are not the same everywhere.
+  std::vector<Difference> differing() {
+    std::erase_if(rows_, [](const Difference& row) {
+      return std::all_of(row.value.begin(), row.value.end(),
+                         [&](const std::string& value) { return value == row.value[0]; });
+    });
+    for (Difference& row : rows_) add_changes(row);
+    return std::move(rows_);
+  }
+
+ private:
+  size_t designs_;
+  std::vector<Difference> rows_;
+};
+
+std::vector<double> common_torques(const std::vector<Design>& designs) {
+  std::vector<double> out;
+  for (const StaticArtifact& s : designs.at(0).content.statics)
+    if (std::all_of(designs.begin(), designs.end(), [&](const Design& d) {
+          return std::any_of(d.content.statics.begin(), d.content.statics.end(),
+                             [&](const StaticArtifact& other) { return other.torque == s.torque; });
+        }))
+      out.push_back(s.torque);
+  return out;
+}
+
+// Gears are called by their role: two designs may name them differently.
+std::string by_role(std::string words, const StaticArtifact& s) {
+  for (int g = 0; g < kSides; ++g) {
+    const std::string& name = s.mesh.gear[g];
+    for (size_t at = words.find(name); !name.empty() && at != std::string::npos;
+         at = words.find(name, at + 1)) {
+      const bool whole = (at == 0 || !std::isalnum(static_cast<unsigned char>(words[at - 1]))) &&
+                         (at + name.size() == words.size() ||
+                          !std::isalnum(static_cast<unsigned char>(words[at + name.size()])));
+      if (whole) words.replace(at, name.size(), kRole[g]);
+    }
+  }
+  return words;
+}
+
+void require_designs(const std::vector<Design>& designs) {
+  if (designs.size() < 2)
+    fail(Failure::input, "compare: ", designs.size(), " design given; two are the least");
+  if (common_torques(designs).empty())
+    fail(
+        Failure::input,
+        "compare: the designs have no torque in common; give each of the scenes one torque_Nm of the others");
+}
+
+std::string table_of(const std::vector<Design>& designs, const std::vector<Difference>& rows,
+                     const std::string& caption, bool of_scene) {
+  if (rows.empty()) return html::paragraph("Nothing differs.");
+  std::vector<std::string> head{of_scene ? "key" : "quantity", "unit"};
+  if (!of_scene) head.insert(head.begin(), "torque (N m)");
+  for (const Design& d : designs) head.push_back(d.name);
+  const auto changed = [&](size_t d) {
+    return !of_scene ||
+           std::any_of(rows.begin(), rows.end(), [&](const Difference& r) { return !r.change[d].empty(); });
+  };
+  for (size_t d = 1; d < designs.size(); ++d)
+    if (changed(d - 1))
+      head.push_back((designs.size() == 2 ? "change" : designs[d].name + " against first") + " (%)");
+  html::Rows cells;
+  for (const Difference& row : rows) {
+    std::vector<std::string> line{row.quantity, row.unit == "1" ? kNone : row.unit};
+    if (!of_scene) line.insert(line.begin(), row.torque.empty() ? kNone : row.torque);
+    line.insert(line.end(), row.value.begin(), row.value.end());
+    for (size_t d = 0; d < row.change.size(); ++d)
+      if (changed(d)) line.push_back(row.change[d]);
+    cells.push_back(line);
+  }
+  return html::table(caption, head, cells);
+}
+
+std::string picture_html(const ReportPicture& picture) {
+  const bool rest = picture.name.starts_with("compare-rest");
+  const char* title = rest ? "At rest" : "In motion";
+  const char* words =
+      rest
+          ? "Static transmission error and secant mesh stiffness over the mesh period, and amplitudes of the "
+            "harmonics of the error."
+          : "RMS and first order of the dynamic transmission error and largest tooth load over T / r_b "
+            "against speed; falling speed dashed. Where the two lines of a design part it has two motions.";
+  return text("<figure id=\"", html::escaped(picture.name), "\">\n<img alt=\"", html::escaped(picture.name),
+              "\" src=\"data:image/png;base64,", base64(picture.bytes), "\">\n<figcaption><strong>", title,
+              " (", html::escaped(picture.name), ").</strong> ", words, "</figcaption>\n</figure>\n");
+}
+
+}  // namespace
+
+std::vector<Difference> differences(const std::vector<Design>& designs) {
+  require_designs(designs);
+  const std::vector<double> torques = common_torques(designs);
+  Rows rows(designs.size());
+  for (size_t d = 0; d < designs.size(); ++d) {
+    const StaticArtifact& s = designs[d].content.statics.front();
+    for (const GeometryNumber& g : pair_geometry(s)) rows.put(d, "", by_role(g.quantity, s), g.unit, g.value);
+    for (const ReportNumber& n : report_numbers(designs[d].content))
+      if (std::find(torques.begin(), torques.end(), n.torque) != torques.end())
+        rows.put(d, shown(n.torque, 6), by_role(n.quantity, s), n.unit,
+                 n.value + (n.remark.empty() ? "" : " *"));
+  }
+  std::vector<Difference> out = rows.differing();
+  // Results first: the geometry explains them.
+  std::stable_partition(out.begin(), out.end(), [](const Difference& row) { return !row.torque.empty(); });
+  return out;
+}
+
+std::vector<Difference> scene_differences(const std::vector<Design>& designs) {
+  Rows rows(designs.size());
+  for (size_t d = 0; d < designs.size(); ++d) {
+    const ReportContent& c = designs[d].content;
+    const auto keys = c.sweeps.empty() ? scene_keys_of(c.statics.at(0)) : scene_keys_of(c.sweeps[0].response);
+    for (const SceneKey& key : keys) {
+      const bool one = key.value[1].empty() || key.value[1] == key.value[0];
+      rows.put(d, "", key.section + "." + key.name, "", key.value[0] + (one ? "" : " / " + key.value[1]));
+    }
+  }
+  // A section that a scene does not have is as good as one of zeros.
+  std::vector<Difference> out = rows.differing();
+  std::erase_if(out, [](const Difference& row) {
+    return std::all_of(row.value.begin(), row.value.end(), [](const std::string& value) {
+      double number = 0;
+      return value == kNone || (is_number(value, number) && number == 0);
+    });
+  });
+  return out;
+}
+
+std::string compare_tsv(const std::vector<Design>& designs) {
+  std::string out = "# designs:", head = "torque [N m]\tquantity\tunit";
+  for (const Design& d : designs) {
+    out += " " + d.name;
+    head += "\t" + d.name;
+  }
+  for (size_t d = 1; d < designs.size(); ++d)
+    head += "\t" + designs[d].name + " against " + designs[0].name + " [%]";
+  out += "\n" + head + "\n";
+  const auto add = [&](const std::vector<Difference>& rows) {
+    for (const Difference& row : rows) {
+      out += row.torque + "\t" + row.quantity + "\t" + row.unit;
+      for (const auto* cells : {&row.value, &row.change})
+        for (const std::string& cell : *cells) out += "\t" + cell;
+      out += "\n";
+    }
+  };
+  add(differences(designs));
+  add(scene_differences(designs));
+  return out;
+}
+
+std::string compare_html(const std::vector<Design>& designs, const std::vector<ReportPicture>& pictures) {
+  require_designs(designs);
+  std::string names, list;
+  for (const Design& d : designs) {
+    names += (names.empty() ? "" : " / ") + d.name;
+    list += html::tagged("li", html::escaped(d.content.scene)) + "\n";
+  }
+  std::string inside =
+      "<section id=\"differences\">\n<h2>Differences</h2>\n" +
+      table_of(designs, differences(designs),
+               "Results that differ, at the torques that all designs have, then geometry; change against the "
+               "first design. compare.tsv holds the same.",
+               false) +
+      html::paragraph("* At this speed the motion is larger than the backlash, which is not modelled.") +
+      table_of(designs, scene_differences(designs),
+               "Keys of the scenes that differ; of driver / driven gear where these differ.", true) +
+      "</section>\n<section id=\"figures\">\n<h2>On common axes</h2>\n";
+  for (const ReportPicture& picture : pictures) inside += picture_html(picture);
+  inside += "</section>\n";
+  for (const Design& d : designs)
+    inside += "<section>\n<h2>" + html::escaped(d.name) + "</h2>\n" + remarks_list(d.content) +
+              provenance_table(d.content) + "</section>\n";
+  return text(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
+      html::escaped(names), "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<header>\n<h1>",
+      html::escaped(names), "</h1>\n<ul>\n", list, "</ul>\n</header>\n<main>\n", inside,
+      "</main>\n<footer><p>Whine ", kVersion,
+      ", gear whine from elastic teeth that touch, part and touch again.</p></footer>\n</body>\n</html>\n");
+}
+
+}  // namespace whine

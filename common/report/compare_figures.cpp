@@ -1,0 +1,152 @@
+#include "report/compare_figures.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+#include "gear/pair.h"
+#include "report/response_figures.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+// What messages call the two artifacts.
+const char* kind_of(const StaticArtifact&) {
+  return "static.h5";
+}
+const char* kind_of(const ResponseArtifact&) {
+  return "response.h5";
+}
+
+template <class Artifact>
+void require_designs(const std::vector<OfDesign<Artifact>>& all, size_t designs) {
+  if (designs < 2 || designs > kMostCurves)
+    fail(Failure::input, "figure: ", designs, " designs given; two to ", kMostCurves, " can be compared");
+  for (const auto& one : all)
+    if (one.artifact.torque != all[0].artifact.torque)
+      fail(Failure::input, "figure: the ", kind_of(one.artifact), " of ", one.design, " is at ",
+           torque_words(one.artifact.torque), ", that of ", all[0].design, " at ",
+           torque_words(all[0].artifact.torque), "; designs are compared at one torque");
+}
+
+std::string quoted_labels(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += "'" + name + "' ";
+  return out;
+}
+
+}  // namespace
+
+Figure compared_rest_figure(const std::vector<OfDesign<StaticArtifact>>& designs) {
+  require_designs(designs, designs.size());
+  Figure figure;
+  figure.title = "Designs at rest, " + torque_words(designs.at(0).artifact.torque);
+  std::vector<std::string> names;
+  double error_low = std::numeric_limits<double>::infinity(), error_high = -error_low, stiffness_high = 0,
+         largest = 0;
+  for (size_t i = 0; i < designs.size(); ++i) {
+    const auto& [name, s] = designs[i];
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      fail(Failure::input, "figure: two static.h5 of ", name, " given; one of each design is wanted");
+    names.push_back(name);
+    FigureBlock period{text("period ", i + 1),
+                       {"mesh_phase [1]", "transmission_error [µm]", "mesh_stiffness_secant [N/µm]"},
+                       {},
+                       "period",
+                       name};
+    for (Index k = 0; k < s.transmission_error.size(); ++k)
+      period.rows.push_back(
+          {s.mesh_phase[k], s.transmission_error[k] * kMicro, s.stiffness_secant[k] * kMega});
+    error_low = std::min(error_low, s.transmission_error.minCoeff() * kMicro);
+    error_high = std::max(error_high, s.transmission_error.maxCoeff() * kMicro);
+    stiffness_high = std::max(stiffness_high, s.stiffness_secant.maxCoeff() * kMega);
+    FigureBlock harmonics{
+        text("harmonics ", i + 1), {"harmonic [1]", "transmission_error [µm]"}, {}, "harmonics", name};
+    const Index last = std::min<Index>(kShownHarmonics, s.transmission_error_harmonic.size() - 1);
+    for (Index n = 1; n <= last; ++n) {
+      harmonics.rows.push_back({static_cast<double>(n), s.transmission_error_harmonic[n] * kMicro});
+      largest = std::max(largest, harmonics.rows.back()[1]);
+    }
+    figure.blocks.push_back(std::move(period));
+    figure.blocks.push_back(std::move(harmonics));
+    figure.notes.push_back(name + ": " + pair_words(s));
+  }
+  figure.words.emplace_back("labels", quoted_labels(names));
+  figure.numbers = {{"designs", static_cast<double>(designs.size())},
+                    {"error_low", error_low},
+                    {"error_high", error_high},
+                    {"stiffness_high", stiffness_high},
+                    {"largest", largest},
+                    {"harmonics", kShownHarmonics},
+                    {"notes", static_cast<double>(figure.notes.size())}};
+  figure.height = 1300;
+  return figure;
+}
+
+Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& sweeps) {
+  std::vector<std::string> names;
+  for (const auto& [name, r] : sweeps)
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  require_designs(sweeps, names.size());
+  Figure figure;
+  figure.title = "Designs in motion, " + torque_words(sweeps.at(0).artifact.torque);
+  double from = std::numeric_limits<double>::infinity(), to = 0, rms = 0, order = 0, load = 0;
+  for (size_t i = 0; i < names.size(); ++i) {
+    std::string jumps;
+    for (const Direction direction : {Direction::up, Direction::down}) {
+      const auto is = [&](const auto& one) {
+        return one.design == names[i] && one.artifact.direction == direction;
+      };
+      if (const auto found = std::count_if(sweeps.begin(), sweeps.end(), is); found != 1)
+        fail(Failure::input, "figure: ", found, " sweeps ", direction, " of ", names[i],
+             " given; one up and one down of each design are wanted");
+      const ResponseArtifact& r = std::find_if(sweeps.begin(), sweeps.end(), is)->artifact;
+      const double force = r.torque / ToothGeometry(r.gear[0].design).base_radius();
+      FigureBlock block{
+          text(i + 1, " ", direction),
+          {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_harmonic_1 [µm]", "tooth_load_max [T / r_b]"},
+          {},
+          "motion",
+          text(names[i], " ", direction)};
+      const std::vector<bool> broken = broken_after(r);
+      for (Index k = 0; k < r.mesh_frequency.size(); ++k) {
+        block.rows.push_back({r.mesh_frequency[k], r.dte_rms[k] * kMicro,
+                              r.dte_harmonic.cols() > 0 ? r.dte_harmonic(k, 0) * kMicro : 0,
+                              r.tooth_load_max[k] / force});
+        rms = std::max(rms, block.rows.back()[1]);
+        order = std::max(order, block.rows.back()[2]);
+        load = std::max(load, block.rows.back()[3]);
+        if (broken[static_cast<size_t>(k)]) block.rows.emplace_back();
+      }
+      from = std::min(from, r.mesh_frequency.minCoeff());
+      to = std::max(to, r.mesh_frequency.maxCoeff());
+      jumps += text(jumps.empty() ? "" : ", ", direction == Direction::up ? "rising" : "falling");
+      std::vector<double> at(r.jump_frequency.begin(), r.jump_frequency.end());
+      std::sort(at.begin(), at.end());
+      for (const double f : at) jumps += " " + fixed(f, 0);
+      if (at.empty()) jumps += " none";
+      figure.blocks.push_back(std::move(block));
+      if (direction == Direction::up)
+        figure.numbers.emplace_back(text("natural_frequency_", i + 1), r.natural_frequency);
+    }
+    figure.notes.push_back(names[i] + ": jumps in Hz, " + jumps);
+  }
+  figure.notes.push_back(
+      "f_n: mean natural frequency over the mesh period, contact frozen under the static load");
+  figure.words.emplace_back("labels", quoted_labels(names));
+  for (const auto& [name, value] :
+       {std::pair{"designs", static_cast<double>(names.size())}, std::pair{"rms_max", rms},
+        std::pair{"order_max", order}, std::pair{"load_max", load}, std::pair{"frequency_from", from},
+        std::pair{"frequency_to", to}, std::pair{"notes", static_cast<double>(figure.notes.size())}})
+    figure.numbers.emplace_back(name, value);
+  std::vector<ResponseArtifact> all;
+  for (const auto& one : sweeps) all.push_back(one.artifact);
+  figure.shafts = shafts_of_all(all);
+  figure.levels = {"dte_rms [µm]", "dte_harmonic_1 [µm]"};
+  figure.height = 1600;
+  return figure;
+}
+
+}  // namespace whine

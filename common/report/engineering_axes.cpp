@@ -1,0 +1,119 @@
+#include "report/engineering_axes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+constexpr double kDepth = 80;     // dB below the largest level: the foot of an axis of levels
+constexpr double kSilence = 300;  // dB below it: what stands for a level of nothing
+
+// Numbers of templates that are mesh frequencies, by how they begin.
+bool is_speed(const std::string& number) {
+  constexpr std::array kSpeeds{"natural_frequency", "frequency_from", "frequency_to", "speed_step",
+                               "worst_speed"};
+  return std::any_of(kSpeeds.begin(), kSpeeds.end(), [&](const char* s) { return number.starts_with(s); });
+}
+
+// Columns against which figures of motions are drawn; other frequencies stay.
+bool is_speed_column(const std::string& column) {
+  constexpr std::array kSpeeds{"mesh_frequency [Hz]", "jump_frequency [Hz]", "jump_width [Hz]",
+                               "last speed before [Hz]", "fold_frequency [Hz]"};
+  return std::find(kSpeeds.begin(), kSpeeds.end(), column) != kSpeeds.end();
+}
+
+const Shaft& shaft_of(const std::string& wanted, const Figure& figure) {
+  constexpr const char* kKind = "rpm:";
+  if (!wanted.starts_with(kKind))
+    fail(Failure::usage, "--axis ", wanted, ": it is rpm:<gear>, such as rpm:driver");
+  if (figure.shafts.empty())
+    fail(Failure::usage, "--axis ", wanted,
+         ": this figure is not against the speed of one pair of gears: ", "its axis stays as it is");
+  const std::string name = wanted.substr(4);
+  std::string known;
+  for (size_t g = 0; g < figure.shafts.size(); ++g) {
+    if (name == figure.shafts[g].gear || name == kRole[g]) return figure.shafts[g];
+    known += (known.empty() ? "" : ", ") + figure.shafts[g].gear;
+  }
+  fail(Failure::usage, "--axis ", wanted, ": there is no gear ", name, "; there are ", known,
+       ", also called driver and driven");
+}
+
+void in_rpm(const Shaft& shaft, Figure& figure) {
+  const double scale = 60.0 / shaft.teeth;
+  for (FigureBlock& block : figure.blocks)
+    for (size_t c = 0; c < block.columns.size(); ++c) {
+      if (!is_speed_column(block.columns[c])) continue;
+      std::string& column = block.columns[c];
+      column = column.substr(0, column.find(" [")) + " [rpm of " + shaft.gear + "]";
+      for (auto& row : block.rows)
+        if (!row.empty()) row[c] *= scale;
+    }
+  for (auto& [name, value] : figure.numbers)
+    if (is_speed(name)) value *= scale;
+  const std::string against = "against mesh frequency";
+  if (const size_t at = figure.title.find(against); at != std::string::npos)
+    figure.title.replace(at, against.size(), "against the speed of " + shaft.gear);
+  figure.numbers.emplace_back("speed_scale", scale);
+  figure.words.emplace_back("speed_label", "Speed of " + without_markup(shaft.gear) + " (rpm)");
+}
+
+// "dB re 1e-06 m" reads as "dB re 1 µm".
+std::string reference_words(double reference) {
+  const double exponent = std::floor(std::log10(reference) / 3 + 1e-9) * 3;
+  const int index = static_cast<int>(std::lround(exponent / 3)) + 4;
+  constexpr std::array kUnits{"pm", "nm", "µm", "mm", "m"};
+  if (index < 0 || index >= static_cast<int>(kUnits.size())) return shown(reference, 6) + " m";
+  return shown(reference / std::pow(10, exponent), 6) + " " + kUnits[static_cast<size_t>(index)];
+}
+
+void in_levels(double reference, Figure& figure) {
+  const auto is_level = [&](const std::string& column) {
+    return std::find(figure.levels.begin(), figure.levels.end(), column) != figure.levels.end();
+  };
+  const std::string label = "dB re " + reference_words(reference);
+  const auto level = [&](double micrometres) {
+    return 20 * std::log10(std::max(micrometres, 1e-300) / (reference * kMicro));
+  };
+  double highest = -1e300, lowest = 1e300;
+  for (const FigureBlock& block : figure.blocks)
+    for (size_t c = 0; c < block.columns.size(); ++c)
+      if (is_level(block.columns[c]))
+        for (const auto& row : block.rows)
+          if (!row.empty() && row[c] > 0) {
+            highest = std::max(highest, level(row[c]));
+            lowest = std::min(lowest, level(row[c]));
+          }
+  const double foot = std::floor((std::max(lowest, highest - kDepth) - 2) / 10) * 10;
+  for (FigureBlock& block : figure.blocks)
+    for (size_t c = 0; c < block.columns.size(); ++c) {
+      if (!is_level(block.columns[c])) continue;
+      for (auto& row : block.rows)
+        if (!row.empty()) row[c] = std::max(highest - kSilence, level(row[c]));
+      block.columns[c] = block.columns[c].substr(0, block.columns[c].find(" [")) + " [" + label + "]";
+    }
+  figure.words.emplace_back("level_label", label);
+  figure.numbers.emplace_back("level_low", foot);
+  figure.numbers.emplace_back("level_high", std::ceil((highest + 4) / 10) * 10);
+}
+
+}  // namespace
+
+void apply(const EngineeringAxes& axes, Figure& figure) {
+  if (!axes.speed.empty()) in_rpm(shaft_of(axes.speed, figure), figure);
+  if (axes.level_reference == 0) return;
+  if (!(axes.level_reference > 0) || !std::isfinite(axes.level_reference))
+    fail(Failure::usage, "--db ", axes.level_reference, ": it is a length in m above 0, such as 1e-6");
+  if (figure.levels.empty())
+    fail(
+        Failure::usage, "--db ", axes.level_reference,
+        ": this figure has no amplitudes of the transmission error; it is for order-cuts, compare-motion and "
+        "runup");
+  in_levels(axes.level_reference, figure);
+}
+
+}  // namespace whine

@@ -1,0 +1,23 @@
+// Figures in the axes that engineers use: speed as the rotation of a gear, amplitudes as levels.
+//
+//   n = 60 f / z   (rpm; f mesh frequency in Hz, z teeth of the gear),   L = 20 log10(a / reference)   (dB)
+#pragma once
+#include <string>
+
+#include "report/figures.h"
+
+namespace whine {
+
+struct EngineeringAxes {
+  std::string
+      speed;  // "rpm:<gear>", by its name or as "rpm:driver", "rpm:driven"; empty: mesh frequency in Hz
+  double level_reference = 0;  // m: amplitudes in dB re this; 0: in µm
+};
+
+// Columns, numbers and words of the figure; columns are renamed by their new unit, notes and lists of jumps stay in Hz. Axes of
+// levels reach down to the least, by 80 dB at most; an amplitude of nothing stands 300 dB below it. Throws Error(usage) for a figure that is not against speed, gears
+// that differ in teeth, a gear that it does not have, a figure without amplitudes of the transmission error, a reference that is
+// no length above 0.
+void apply(const EngineeringAxes& axes, Figure& figure);
+
+}  // namespace whine

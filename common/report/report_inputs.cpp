@@ -1,0 +1,74 @@
+#include "report/report_inputs.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "io/error_budget_codec.h"
+#include "io/impact_codec.h"
+#include "io/provenance.h"
+#include "io/publish.h"
+#include "io/static_codec.h"
+#include "io/summary.h"
+#include "io/sweep_codec.h"
+#include "signal/response.h"
+#include "studies/sweep.h"
+
+namespace whine {
+namespace {
+
+ReportPicture read_picture(const std::string& path) {
+  const ReportPicture picture{std::filesystem::path(path).stem().string(),
+                              read_bytes(path, "make the figure first")};
+  const bool whole =
+      picture.bytes.rfind("\x89PNG", 0) == 0 && picture.bytes.find("IEND") != std::string::npos;
+  if (!whole) fail(Failure::input, path, ": is no whole PNG; delete it and make the figure again");
+  return picture;
+}
+
+// Of a sweep only what it says: the motions of teeth that differ are large.
+ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
+  const SweepArtifact sweep = read_sweep(path);
+  if (sweep.model != SweepArtifact().model)
+    fail(Failure::input, path, ": is of the lumped model ", sweep.model,
+         "; a report is of the elastic pair: give the sweep.h5 in T<torque>/up or T<torque>/down");
+  for (const StaticArtifact& statics : content.statics)
+    if (statics.torque == sweep.torque)
+      return {response(sweep), remarks(sweep, statics), backlash_left(sweep)};
+  fail(Failure::input, path, ": is at ", sweep.torque, " N m, at which no static.h5 is given; give it, too");
+}
+
+}  // namespace
+
+ReportContent read_report_content(const std::vector<std::string>& paths) {
+  // Sweeps last: what they warn of depends on the statics at their torque.
+  ReportContent content;
+  std::vector<std::string> sweeps;
+  for (const std::string& path : paths) {
+    if (path.ends_with(".png")) {
+      content.pictures.push_back(read_picture(path));
+      continue;
+    }
+    require_fresh(path);
+    content.sources.push_back({recorded_path(path), sha256_of_file(path), read_origin(path)});
+    if (content.scene.empty()) content.scene = scene_words(path);
+    const std::string& schema = content.sources.back().origin.schema;
+    if (schema == "whine/static") {
+      content.statics.push_back(read_static(path));
+    } else if (schema == "whine/impact") {
+      content.impacts.push_back(read_impact(path));
+    } else if (schema == "whine/error_budget") {
+      content.budget = read_error_budget(path);
+    } else if (schema == "whine/sweep") {
+      sweeps.push_back(path);
+    } else {
+      fail(Failure::usage, path, ": is ", schema,
+           "; a report is made of static.h5, impact.h5, sweep.h5 and error_budget.h5");
+    }
+  }
+  for (const std::string& path : sweeps) content.sweeps.push_back(read_sweep_of(content, path));
+  if (content.scene.empty()) content.scene = "gear pair";
+  return content;
+}
+
+}  // namespace whine

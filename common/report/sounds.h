@@ -1,0 +1,29 @@
+// Sounds of motions and of run-ups, one for each branch, with the table of their levels.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "signal/sound.h"
+
+namespace whine {
+
+inline constexpr int kSoundRate = 48000;  // Hz
+
+struct Sounds {
+  std::vector<Eigen::VectorXd> sounds;  // [branch] (sample) N, or what the transfer function makes of it
+  int rate = kSoundRate;                // Hz
+  std::string table;                    // TSV
+};
+
+// Of sweep.h5 at one speed (Hz), `seconds` of each: RMS and level of each branch, and how far it is above the first. transfer:
+// nullptr: 1. bearing and errors: as heard_motion; Error(input) for a branch of which nothing is heard.
+Sounds sounds_of_motions(const std::vector<std::string>& paths, double mesh_frequency,
+                         const std::string& bearing, const Transfer* transfer, double seconds);
+
+// Of runup.h5: levels in bands of the mesh frequency that all of them pass, and how far they are above the first. Errors as
+// heard_runup, and Error(input) for run-ups of different sample rates or without a common speed.
+Sounds sounds_of_runups(const std::vector<std::string>& paths, const std::string& bearing,
+                        const Transfer* transfer);
+
+}  // namespace whine

@@ -1,0 +1,257 @@
+// REXS models for tests, written here after the published schema, in each of their forms.
+#pragma once
+#include <doctest/doctest.h>
+#include <jsoncpp/json/json.h>
+#include <unistd.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "io/rexs.h"
+#include "io/rexs_scene.h"
+#include "io/scene.h"
+
+namespace whine {
+
+struct Part {
+  int id;
+  std::string type, name;
+  std::vector<std::array<std::string, 3>> attributes;  // id, unit, value
+};
+struct Link {
+  std::string type;
+  std::vector<std::pair<std::string, int>> refs;
+};
+struct Gearbox {
+  std::string version = "1.4";
+  std::vector<Part> parts;
+  std::vector<Link> links;
+  std::vector<Part> load;  // of one load case
+};
+
+// The pair of data/scenes/first-pair.toml, with the values that a model of a gearbox has.
+inline Gearbox first_pair() {
+  Gearbox box;
+  box.parts = {{1, "gear_unit", "Unit", {}},
+               {10,
+                "cylindrical_gear",
+                "Pinion A",
+                {{"number_of_teeth", "", "30"},
+                 {"normal_module", "mm", "2.5"},
+                 {"face_width", "mm", "20"},
+                 {"inner_diameter", "mm", "40"},
+                 {"helix_angle_reference_diameter", "deg", "0"}}},
+               {11,
+                "cylindrical_gear",
+                "Wheel B",
+                {{"number_of_teeth", "none", "45"},
+                 {"normal_module", "mm", "2.5"},
+                 {"face_width", "mm", "20"},
+                 {"inner_diameter", "mm", "60"}}},
+               {12, "cylindrical_stage", "First stage", {{"center_distance", "mm", "94.5"}}},
+               {20,
+                "cylindrical_gear_flank",
+                "",
+                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.25"}}},
+               {21,
+                "cylindrical_gear_flank",
+                "",
+                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.25"}}},
+               {22,
+                "cylindrical_gear_flank",
+                "",
+                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.05"}}},
+               {23,
+                "cylindrical_gear_flank",
+                "",
+                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.05"}}},
+               {30,
+                "rack_shaped_tool",
+                "Tool",
+                {{"addendum_coefficient_reference_profile", "", "1.25"},
+                 {"dedendum_coefficient_reference_profile", "", "1"},
+                 {"tip_radius_factor", "", "0.38"}}},
+               {31,
+                "material",
+                "Steel",
+                {{"elastic_modulus", "N / mm^2", "206000"},
+                 {"poisson_ratio", "", "0.3"},
+                 {"density", "kg / dm^3", "7.85"}}},
+               {40, "shaft", "Input", {}},
+               {41, "external_load", "Load", {}}};
+  box.links = {{"stage", {{"stage", 12}, {"gear_1", 10}, {"gear_2", 11}}},
+               {"flank", {{"gear", 10}, {"left", 20}, {"right", 21}}},
+               {"flank", {{"gear", 11}, {"left", 22}, {"right", 23}}},
+               {"manufacturing_step", {{"workpiece", 10}, {"tool", 30}}},
+               {"manufacturing_step", {{"workpiece", 11}, {"tool", 30}}},
+               {"reference", {{"origin", 10}, {"referenced", 31}}},
+               {"reference", {{"origin", 11}, {"referenced", 31}}},
+               {"assembly", {{"assembly", 40}, {"part", 10}}},
+               {"assembly", {{"assembly", 40}, {"part", 41}}}};
+  box.load = {{40, "shaft", "Input", {{"rotational_speed", "1 / min", "6000"}}},
+              {41, "external_load", "Load", {{"torque_around_u_axis", "N m", "-60"}}}};
+  return box;
+}
+
+inline std::string xml_parts(const std::vector<Part>& parts) {
+  std::string out;
+  for (const Part& part : parts) {
+    out += "<component id=\"" + std::to_string(part.id) + "\" type=\"" + part.type + "\" name=\"" +
+           part.name + "\">\n";
+    for (const auto& [id, unit, value] : part.attributes)
+      out += "<attribute id=\"" + id + "\" unit=\"" + unit + "\">" + value + "</attribute>\n";
+    out += "</component>\n";
+  }
+  return out;
+}
+
+inline std::string xml(const Gearbox& box) {
+  std::string out =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model version=\"" + box.version + "\">\n<relations>\n";
+  for (size_t i = 0; i < box.links.size(); ++i) {
+    out += "<relation id=\"" + std::to_string(100 + i) + "\" type=\"" + box.links[i].type + "\">";
+    for (const auto& [role, id] : box.links[i].refs)
+      out += "<ref id=\"" + std::to_string(id) + "\" role=\"" + role + "\"/>";
+    out += "</relation>\n";
+  }
+  out += "</relations>\n<components>\n" + xml_parts(box.parts) + "</components>\n";
+  if (!box.load.empty())
+    out += "<load_spectrum id=\"1\"><load_case id=\"1\">" + xml_parts(box.load) +
+           "</load_case></load_spectrum>\n";
+  return out + "</model>\n";
+}
+
+inline Json::Value json_parts(const std::vector<Part>& parts) {
+  Json::Value out(Json::arrayValue);
+  for (const Part& part : parts) {
+    Json::Value node;
+    node["id"] = part.id;
+    node["type"] = part.type;
+    node["name"] = part.name;
+    node["attributes"] = Json::Value(Json::arrayValue);
+    for (const auto& [id, unit, value] : part.attributes) {
+      Json::Value attribute;
+      attribute["id"] = id;
+      attribute["unit"] = unit;
+      char* end = nullptr;
+      const double number = std::strtod(value.c_str(), &end);
+      if (*end == '\0')
+        attribute["floating_point"] = number;
+      else if (value == "true" || value == "false")
+        attribute["boolean"] = value == "true";
+      else
+        attribute["enum"] = value;
+      node["attributes"].append(attribute);
+    }
+    out.append(node);
+  }
+  return out;
+}
+
+inline std::string json(const Gearbox& box) {
+  Json::Value root;
+  Json::Value& model = root["model"];
+  model["version"] = box.version;
+  model["components"] = json_parts(box.parts);
+  for (size_t i = 0; i < box.links.size(); ++i) {
+    Json::Value relation;
+    relation["id"] = static_cast<int>(100 + i);
+    relation["type"] = box.links[i].type;
+    for (const auto& [role, id] : box.links[i].refs) {
+      Json::Value ref;
+      ref["id"] = id;
+      ref["role"] = role;
+      relation["refs"].append(ref);
+    }
+    model["relations"].append(relation);
+  }
+  Json::Value load_case;
+  load_case["id"] = 1;
+  load_case["components"] = json_parts(box.load);
+  model["load_spectrum"]["load_cases"].append(load_case);
+  return Json::writeString(Json::StreamWriterBuilder(), root);
+}
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "whine-rexs-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string file(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return (path_ / name).string();
+  }
+  std::string zipped(const std::string& name, const std::vector<std::pair<std::string, std::string>>& entries,
+                     int method = ZIP_CM_DEFAULT) const {
+    const std::string path = (path_ / name).string();
+    zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
+    REQUIRE(archive != nullptr);
+    for (const auto& [entry, bytes] : entries) {
+      const auto at =
+          zip_file_add(archive, entry.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), 0);
+      REQUIRE(at >= 0);
+      zip_set_file_compression(archive, static_cast<zip_uint64_t>(at), method, 0);
+    }
+    REQUIRE(zip_close(archive) == 0);
+    return path;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline Scene imported(const Folder& folder, const std::string& model, const std::string& stage = "") {
+  return read_scene(folder.file("imported.toml", scene_of_rexs(read_rexs(model), stage, 1).text));
+}
+
+inline void set(Gearbox& box, int id, const std::string& attribute, const std::string& unit,
+                const std::string& value) {
+  for (Part& part : box.parts) {
+    if (part.id != id) continue;
+    std::erase_if(part.attributes, [&](const auto& a) { return a[0] == attribute; });
+    part.attributes.push_back({attribute, unit, value});
+  }
+}
+
+// A component that says something of a gear within the stage.
+inline void set_stage_gear_data(Gearbox& box, int id, int gear) {
+  box.parts.push_back({id, "cylindrical_stage_gear_data", "", {}});
+  box.links.push_back({"stage_gear_data", {{"stage", 12}, {"gear", gear}, {"stage_gear_data", id}}});
+}
+
+inline bool says(const std::vector<std::string>& remarks, const std::string& words) {
+  return std::any_of(remarks.begin(), remarks.end(),
+                     [&](const std::string& remark) { return remark.find(words) != std::string::npos; });
+}
+
+inline std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+inline void unset(Gearbox& box, int id, const std::string& attribute) {
+  for (Part& part : box.parts)
+    if (part.id == id) std::erase_if(part.attributes, [&](const auto& a) { return a[0] == attribute; });
+}
+
+inline std::string message_of(const auto& run) {
+  try {
+    run();
+  } catch (const Error& e) {
+    CHECK(e.kind() == Failure::input);
+    return e.what();
+  }
+  return "no error";
+}
+
+}  // namespace whine

@@ -1,0 +1,231 @@
+// Designs side by side, and figures in the axes of engineers: speeds in rpm, amplitudes in dB.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "failure_of.h"
+#include "paper_pair.h"
+#include "relative.h"
+#include "report/compare.h"
+#include "report/compare_figures.h"
+#include "report/engineering_axes.h"
+#include "report/gnuplot.h"
+#include "report/order_figure.h"
+#include "report/plot_file.h"
+#include "report/report.h"
+#include "signal/spectrum.h"
+
+using namespace whine;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+ResponseArtifact some_response(Direction direction, int driven_teeth = 40) {
+  ResponseArtifact r;
+  r.gear[0].design = paper_gear(50);
+  r.gear[1].design = paper_gear(driven_teeth);
+  r.mesh.gear[0] = "pinion_1";
+  r.mesh.gear[1] = "wheel";
+  r.mesh.centre_distance = 0.15;
+  r.torque = 150;
+  r.direction = direction;
+  r.model = "finite elements";
+  r.natural_frequency = 2300;
+  const int n = 5;
+  r.mesh_frequency = VectorXd::LinSpaced(n, 2000, 2400);
+  if (direction == Direction::down) r.mesh_frequency.reverseInPlace();
+  r.dte_rms = VectorXd::LinSpaced(n, 1e-6, 5e-6);
+  r.dte_mean = r.tooth_load_max = r.mesh_force_max = VectorXd::Ones(n);
+  r.dte_harmonic = 1e-6 * MatrixRM::Ones(n, 3);
+  r.dte_harmonic(2, 1) = 10e-6;
+  r.dte_harmonic(3, 2) = 0;
+  r.separation_fraction = r.separations_per_period = VectorXd::Zero(n);
+  r.period_multiple = Eigen::VectorXi::Ones(n);
+  r.jump_frequency = r.jump_width = VectorXd(0);
+  return r;
+}
+
+std::vector<ResponseArtifact> both_ways() {
+  return {some_response(Direction::up), some_response(Direction::down)};
+}
+
+const FigureBlock& block(const Figure& figure, const std::string& name) {
+  for (const auto& b : figure.blocks)
+    if (b.name == name) return b;
+  FAIL("no block " << name);
+  return figure.blocks.front();
+}
+
+double number(const Figure& figure, const std::string& name) {
+  for (const auto& [known, value] : figure.numbers)
+    if (known == name) return value;
+  FAIL("no number " << name);
+  return 0;
+}
+
+std::string word(const Figure& figure, const std::string& name) {
+  for (const auto& [known, value] : figure.words)
+    if (known == name) return value;
+  return "";
+}
+
+StaticArtifact at_rest(double torque, double crowning = 0) {
+  StaticParameters settings = paper_statics(16);
+  settings.mesh.gear[0] = crowning > 0 ? "sun" : "pinion";
+  settings.mesh.gear[1] = "wheel";
+  settings.mesh.modification[0].crowning = crowning;
+  const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
+  StaticArtifact s = static_transmission(body, body, settings, torque);
+  const Harmonics h = harmonics(s.transmission_error, 4);
+  s.transmission_error_harmonic.resize(5);
+  s.transmission_error_harmonic << h.mean, h.amplitude;
+  return s;
+}
+
+Design design(const std::string& name, const std::vector<double>& torques, double crowning = 0) {
+  Design out{name, {}};
+  out.content.scene = name + ": some <title>";
+  for (const double torque : torques) out.content.statics.push_back(at_rest(torque, crowning));
+  return out;
+}
+
+const Difference& row(const std::vector<Difference>& rows, const std::string& torque,
+                      const std::string& quantity) {
+  for (const Difference& r : rows)
+    if (r.torque == torque && r.quantity == quantity) return r;
+  FAIL("no row " << quantity);
+  return rows.front();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "speeds in rpm of a gear: columns, numbers and title, by its teeth; back again by the other scale") {
+  const Figure hertz = order_figure(both_ways());
+  for (const auto& [axis, teeth] : {std::pair{"rpm:pinion_1", 50.0}, std::pair{"rpm:driver", 50.0},
+                                    std::pair{"rpm:wheel", 40.0}, std::pair{"rpm:driven", 40.0}}) {
+    Figure rpm = hertz;
+    apply({axis, 0}, rpm);
+    const FigureBlock &a = block(hertz, "orders up"), &b = block(rpm, "orders up");
+    REQUIRE(a.rows.size() == b.rows.size());
+    for (size_t i = 0; i < a.rows.size(); ++i) {
+      CHECK(b.rows[i][0] == relative(a.rows[i][0] * 60 / teeth, 1e-15));
+      CHECK(b.rows[i][1] == a.rows[i][1]);
+    }
+    CHECK(b.columns[0].starts_with("mesh_frequency [rpm of "));
+    CHECK(number(rpm, "natural_frequency") == relative(2300 * 60 / teeth, 1e-15));
+    CHECK(number(rpm, "speed_scale") == relative(60 / teeth, 1e-15));
+    CHECK(number(rpm, "largest") == number(hertz, "largest"));
+  }
+  Figure none = hertz;
+  apply({}, none);
+  CHECK(plot_data(none) == plot_data(hertz));
+  Figure marked = hertz;
+  apply({"rpm:pinion_1", 0}, marked);
+  CHECK(word(marked, "speed_label") == "Speed of pinion\\_1 (rpm)");
+}
+
+TEST_CASE(
+    "levels: 20 dB for each factor of ten, in the words of the reference; nothing has a level far below") {
+  Figure figure = order_figure(both_ways());
+  apply({"", 1e-6}, figure);
+  const FigureBlock& orders = block(figure, "orders up");
+  CHECK(orders.columns[1] == "order_1 [dB re 1 µm]");
+  CHECK(std::abs(orders.rows[0][1]) < 1e-12);
+  CHECK(orders.rows[2][2] == relative(20, 1e-12));
+  CHECK(orders.rows[3][3] == relative(20 - 300, 1e-12));
+  CHECK(number(figure, "level_high") == 30);
+  CHECK(number(figure, "level_low") == -10);
+  Figure small = order_figure(both_ways());
+  apply({"", 2e-9}, small);
+  CHECK(word(small, "level_label") == "dB re 2 nm");
+  CHECK(block(small, "orders up").rows[0][1] == relative(20 * std::log10(500), 1e-12));
+}
+
+TEST_CASE("axes that a figure does not have are rejected by what it has") {
+  const auto rejected = [](Figure figure, const EngineeringAxes& axes) {
+    return failure_of([&] { apply(axes, figure); });
+  };
+  const Figure figure = order_figure(both_ways());
+  CHECK(rejected(figure, {"rpm:carrier", 0}) == Failure::usage);
+  CHECK(rejected(figure, {"Hz", 0}) == Failure::usage);
+  CHECK(rejected(figure, {"", -1e-6}) == Failure::usage);
+  CHECK(rejected(Figure(), {"rpm:driver", 0}) == Failure::usage);
+  CHECK(rejected(Figure(), {"", 1e-6}) == Failure::usage);
+  // Designs of other teeth have no speed of a gear in common.
+  const Figure designs = compared_motion_figure({{"a", some_response(Direction::up)},
+                                                 {"a", some_response(Direction::down)},
+                                                 {"b", some_response(Direction::up, 41)},
+                                                 {"b", some_response(Direction::down, 41)}});
+  CHECK(rejected(designs, {"rpm:driver", 0}) == Failure::usage);
+}
+
+TEST_CASE("templates of order cuts and of designs in motion draw both axes and levels") {
+  for (const bool engineers : {false, true}) {
+    Figure orders = order_figure(both_ways()),
+           motion = compared_motion_figure({{"a", some_response(Direction::up)},
+                                            {"a", some_response(Direction::down)},
+                                            {"b", some_response(Direction::up)},
+                                            {"b", some_response(Direction::down)}}),
+           rest = compared_rest_figure({{"a", at_rest(150)}, {"b", at_rest(150, 8e-6)}});
+    if (engineers)
+      for (Figure* figure : {&orders, &motion}) apply({"rpm:driven", 1e-6}, *figure);
+    for (const auto& [figure, name] : {std::pair{&orders, "order-cuts"}, std::pair{&motion, "compare-motion"},
+                                       std::pair{&rest, "compare-rest"}}) {
+      const PlotFile data(*figure);
+      const std::string svg =
+          draw(*figure, data.path(), std::string("pipelines/plots/") + name + ".gp", Picture::svg);
+      CHECK(svg.find("</svg>") != std::string::npos);
+      if (figure != &rest) CHECK((svg.find("Speed of wheel (rpm)") != std::string::npos) == engineers);
+    }
+  }
+}
+
+TEST_CASE("designs: what differs, with its change; gears by their role; keys of the scenes") {
+  const Design first = design("first", {100, 150}), second = design("second", {150, 200}, 8e-6);
+  const std::vector<Difference> found = differences({first, second});
+  const Difference& stiffness = row(found, "150", "mean mesh stiffness");
+  const double a = first.content.statics[1].mean_stiffness, b = second.content.statics[0].mean_stiffness;
+  CHECK(std::stod(stiffness.value[0]) == relative(a * 1e-6, 1e-3));
+  CHECK(std::stod(stiffness.value[1]) == relative(b * 1e-6, 1e-3));
+  CHECK(std::abs(std::stod(stiffness.change.at(0)) - 100 * (b / a - 1)) < 0.15);
+  // At torques that both have; nothing of what is the same, though the gears are called otherwise.
+  for (const Difference& r : found) {
+    CHECK(r.torque == "150");
+    CHECK(r.quantity.find("sun") == std::string::npos);
+    CHECK(r.value[0] != r.value[1]);
+  }
+  const std::vector<Difference> keys = scene_differences({first, second});
+  CHECK(row(keys, "", "modification.crowning_um").value[1].starts_with("8"));
+  for (const Difference& r : keys) CHECK(r.quantity.find("teeth") == std::string::npos);
+  CHECK(differences({first, first}).empty());
+  CHECK(scene_differences({first, first}).empty());
+
+  const std::string page = compare_html({first, second}, {{"compare-rest", "\x89PNG IEND"}});
+  CHECK(page.find("<h1>first / second</h1>") != std::string::npos);
+  CHECK(page.find("Differences") < page.find("compare-rest"));
+  CHECK(page.find("some <title>") == std::string::npos);
+  CHECK(page.find("<script") == std::string::npos);
+  CHECK(compare_tsv({first, second}).find("\nmean mesh") == std::string::npos);
+  CHECK(compare_tsv({first, second}).find("150\tmean mesh stiffness\tN/µm\t") != std::string::npos);
+}
+
+TEST_CASE("designs that cannot be compared are rejected") {
+  const Design first = design("first", {100}), other = design("other", {200});
+  CHECK(failure_of([&] { differences({first}); }) == Failure::input);
+  CHECK(failure_of([&] { differences({first, other}); }) == Failure::input);
+  CHECK(failure_of([&] { compared_rest_figure({{"a", at_rest(100)}}); }) == Failure::input);
+  CHECK(failure_of([&] {
+          compared_rest_figure({{"a", at_rest(100)}, {"b", at_rest(200)}});
+        }) == Failure::input);
+  CHECK(failure_of([&] {
+          compared_rest_figure({{"a", at_rest(100)}, {"a", at_rest(100)}});
+        }) == Failure::input);
+  CHECK(failure_of([&] {
+          compared_motion_figure({{"a", some_response(Direction::up)}, {"b", some_response(Direction::up)}});
+        }) == Failure::input);
+}

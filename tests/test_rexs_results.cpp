@@ -1,0 +1,166 @@
+// Results beside a REXS model: what is written, what of the model stays, and what is not exported.
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "io/publish.h"
+#include "io/rexs_results.h"
+#include "rexs_models.h"
+
+using namespace whine;
+
+namespace {
+
+const RexsPair kPair{{30, 45}, {2.5e-3, 2.5e-3}, 94.5e-3};
+
+std::vector<RexsResult> some_results(double stiffness = 420.5) {
+  return {{"version", "none", {}, false, "a \"quoted\" <word> & more"},
+          {"contact_ratio", "none", {1.619}},
+          {"mesh_stiffness_mean", "N / mm", {stiffness, 1.0 / 3}, true},
+          {"jumps", "Hz", {}, true}};
+}
+
+// Three stages: as handed on, driven by its second gear with a relief, and one of three of a gear unit with other names.
+std::vector<std::pair<Gearbox, std::string>> stages() {
+  Gearbox relieved = first_pair(), several = first_pair();
+  set_stage_gear_data(relieved, 50, 11);
+  set(relieved, 50, "is_driving_gear", "", "true");
+  relieved.parts.push_back(
+      {51,
+       "tip_relief",
+       "",
+       {{"tip_relief_depth", "mum", "12.3"}, {"tip_relief_datum_diameter", "mm", "79.1"}}});
+  relieved.links.push_back({"reference", {{"origin", 20}, {"referenced", 51}}});
+  relieved.links.push_back({"reference", {{"origin", 21}, {"referenced", 51}}});
+  for (const int id : {60, 61}) {
+    several.parts.push_back({id, "cylindrical_stage", "Stage &amp; more", {}});
+    several.links.push_back({"stage", {{"stage", id}, {"gear_1", 10}, {"gear_2", 11}}});
+  }
+  several.version = "2.0";
+  for (Part& part : several.parts)
+    if (part.id == 11) part.name = "Rad größer";
+  return {{first_pair(), ""}, {relieved, ""}, {several, "12"}};
+}
+
+std::string exported(const Folder& folder, const std::string& path, const std::string& name,
+                     const std::string& stage, double stiffness = 420.5) {
+  return folder.file(name, with_results(path, read_bytes(path), stage, kPair, some_results(stiffness)));
+}
+
+RexsPair pair_of(const RexsScene& scene) {
+  return scene.text.find("driver = \"wheel_b\"") == std::string::npos
+             ? kPair
+             : RexsPair{{45, 30}, kPair.module, kPair.centre_distance};
+}
+
+}  // namespace
+
+TEST_CASE("REXS: import, results, export and import again give the same scene, byte for byte, in all forms") {
+  const Folder folder;
+  for (const auto& [box, stage] : stages()) {
+    const std::string as_xml = xml(box), as_json = json(box);
+    for (const std::string& path :
+         {folder.file("m.rexs", as_xml), folder.file("bom.rexs", "\xef\xbb\xbf" + as_xml),
+          folder.file("m.rexsj", as_json),
+          folder.zipped("m.rexsz", {{"a/m.rexs", as_xml}, {"picture.png", "?"}}),
+          folder.zipped("j.rexsz", {{"m.rexsj", as_json}}, ZIP_CM_STORE)}) {
+      CAPTURE(path);
+      const std::string before = read_bytes(path);
+      const RexsScene scene = scene_of_rexs(read_rexs(path), stage, 1);
+      const std::string with =
+          folder.file("with", with_results(path, before, stage, pair_of(scene), some_results()));
+      CHECK(read_bytes(path) == before);
+      CHECK(!holds_results(path));
+      CHECK(holds_results(with));
+      const RexsScene again = scene_of_rexs(read_rexs(with), stage, 1);
+      CHECK(again.text == scene.text);
+      CHECK(again.assumed == scene.assumed);
+      CHECK(again.ignored == scene.ignored);
+      // A second export replaces the first: the same bytes, whatever stood there.
+      const std::string other =
+          folder.file("other", with_results(path, before, stage, pair_of(scene), some_results(999)));
+      CHECK(read_bytes(other) != read_bytes(with));
+      CHECK(with_results(other, read_bytes(other), stage, pair_of(scene), some_results()) ==
+            read_bytes(with));
+    }
+  }
+}
+
+TEST_CASE("REXS: results stand at the stage, with unit and nine digits; nothing else of the model changes") {
+  const Folder folder;
+  const Gearbox box = stages()[2].first;
+  for (const std::string& path : {folder.file("m.rexs", xml(box)), folder.file("m.rexsj", json(box)),
+                                  folder.zipped("m.rexsz", {{"m.rexs", xml(box)}, {"b.png", "picture"}})}) {
+    CAPTURE(path);
+    RexsModel before = read_rexs(path), after = read_rexs(exported(folder, path, "with", "12"));
+    auto& results = after.components.at(12).attributes;
+    CHECK(results.at("custom_whine_contact_ratio").value == "1.619");
+    CHECK(results.at("custom_whine_contact_ratio").unit == "none");
+    CHECK(results.at("custom_whine_version").value == "a \"quoted\" <word> & more");
+    CHECK(results.at("custom_whine_mesh_stiffness_mean").list);
+    CHECK(results.at("custom_whine_mesh_stiffness_mean").unit == "N / mm");
+    CHECK(results.at("custom_whine_jumps").list);
+    std::erase_if(results, [](const auto& a) { return a.first.starts_with(kRexsResult); });
+    REQUIRE(after.components.size() == before.components.size());
+    for (const auto& [id, component] : before.components) {
+      const RexsComponent& same = after.components.at(id);
+      CHECK(same.type == component.type);
+      CHECK(same.name == component.name);
+      REQUIRE(same.attributes.size() == component.attributes.size());
+      for (const auto& [name, attribute] : component.attributes) {
+        CHECK(same.attributes.at(name).value == attribute.value);
+        CHECK(same.attributes.at(name).unit == attribute.unit);
+      }
+    }
+    CHECK(after.relations.size() == before.relations.size());
+    CHECK(after.load_cases.size() == before.load_cases.size());
+  }
+  // JSON keeps its bytes; of an archive the other entries stay.
+  const std::string text = json(box), path = folder.file("m.rexsj", text),
+                    with = read_bytes(exported(folder, path, "with", "12"));
+  CHECK(with.find("0.333333333, ") == std::string::npos);
+  CHECK(with.find("[420.5, 0.333333333]") != std::string::npos);
+  // The attributes of the stage are put together anew: but for blanks within them the rest is one insertion.
+  size_t begin = 0, end = 0;
+  while (with[begin] == text[begin]) ++begin;
+  while (end < text.size() && with[with.size() - 1 - end] == text[text.size() - 1 - end]) ++end;
+  CHECK(begin + end > text.size() - 200);
+  // XML: lines of the component keep their indentation.
+  const std::string lines = read_bytes(exported(folder, folder.file("m.rexs", xml(box)), "with", "12"));
+  CHECK(lines.find("\n<attribute id=\"custom_whine_contact_ratio\" unit=\"none\">1.619</attribute>\n") !=
+        std::string::npos);
+  CHECK(lines.find("<array><c>420.5</c><c>0.333333333</c></array>") != std::string::npos);
+}
+
+TEST_CASE("REXS: results of another pair, of no stage, or that are no numbers are not exported") {
+  const Folder folder;
+  const Gearbox box = stages()[2].first;
+  const std::string path = folder.file("m.rexs", xml(box));
+  const auto said = [&](const std::string& stage, const RexsPair& pair) {
+    return message_of([&] { with_results(path, read_bytes(path), stage, pair, some_results()); });
+  };
+  CHECK(said("12", {{30, 46}, kPair.module, kPair.centre_distance})
+            .find("has 30 and 45 teeth of module 2.5 mm at 94.5 mm; the results are of 30 and 46") !=
+        std::string::npos);
+  CHECK(said("12", {{30, 45}, {2.5e-3, 2e-3}, kPair.centre_distance}).find("the results are of") !=
+        std::string::npos);
+  CHECK(said("12", {{30, 45}, kPair.module, 94.6e-3}).find("at 94.6 mm") != std::string::npos);
+  CHECK(said("", kPair).find("name one with --stage") != std::string::npos);
+  CHECK(said("Ninth", kPair).find("no stage is called 'Ninth'") != std::string::npos);
+  CHECK(said("60", kPair).find("has no 'center_distance'") != std::string::npos);
+  const std::string archive = folder.zipped("m.rexsz", {{"m.rexs", xml(box)}});
+  std::string bytes = read_bytes(archive);
+  bytes[60] = static_cast<char>(bytes[60] ^ 1);
+  CHECK(message_of([&] {
+          with_results(archive, bytes, "12", kPair, some_results());
+        }).find("is damaged or encrypted") != std::string::npos);
+  CHECK(message_of([&] { with_results(path, "", "12", kPair, some_results()); }).find("it is empty") !=
+        std::string::npos);
+  try {
+    with_results(path, read_bytes(path), "12", kPair,
+                 {{"x", "none", {std::numeric_limits<double>::quiet_NaN()}}});
+    FAIL("written");
+  } catch (const Error& e) {
+    CHECK(e.kind() == Failure::numerical);
+  }
+}

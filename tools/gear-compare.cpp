@@ -1,0 +1,72 @@
+// gear-compare: designs side by side as one HTML page, from their artifacts and the figures that show them on common axes.
+//
+// Reads      static.h5, impact.h5 and sweep.h5 of two to six scenes, each in the folder of its scene (params/title.txt tells them
+//            apart); figures that gear-plot has drawn, as .png
+// Writes     --output: the page; compare.tsv beside it, what differs
+// Equations  change = value / value of the first design - 1
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "io/publish.h"
+#include "io/summary.h"
+#include "report/compare.h"
+#include "report/report_inputs.h"
+
+namespace {
+
+using namespace whine;
+
+struct Inputs {
+  std::string scene;
+  std::vector<std::string> paths;
+};
+
+void body(int argc, char** argv) {
+  Options options{"Writes designs side by side from their artifacts and figures", "gear-compare"};
+  std::vector<std::string> inputs;
+  std::string output;
+  options.add("inputs", inputs, "artifacts (.h5) of several scenes and figures (.png) of them").required();
+  options.add("--output", output, "page to write (.html); compare.tsv stands beside it").required();
+  options.footer(
+      "Example:\n"
+      "  gear-compare --output compare/index.html out/parker2000/T150/static.h5 "
+      "out/parker2000-longer/T150/static.h5");
+  options.parse(argc, argv);
+
+  std::vector<Inputs> scenes;
+  std::vector<std::string> pictures;
+  for (const std::string& path : inputs) {
+    if (path.ends_with(".png")) {
+      pictures.push_back(path);
+      continue;
+    }
+    const std::string scene = scene_words(path);
+    if (scene.empty())
+      fail(Failure::input, path,
+           ": lies in no folder of a scene, so its design has no name; give out/<scene>/...");
+    auto found =
+        std::find_if(scenes.begin(), scenes.end(), [&](const Inputs& s) { return s.scene == scene; });
+    if (found == scenes.end()) found = scenes.insert(scenes.end(), Inputs{scene, {}});
+    found->paths.push_back(path);
+  }
+  std::vector<Design> designs;
+  for (const Inputs& scene : scenes)
+    designs.push_back({scene.scene.substr(0, scene.scene.find(": ")), read_report_content(scene.paths)});
+
+  const std::string page = compare_html(designs, read_report_content(pictures).pictures),
+                    table = compare_tsv(designs);
+  publish((std::filesystem::path(output).parent_path() / "compare.tsv").string(), table);
+  publish(output, page);
+  tell("gear-compare: ", designs.size(), " designs, ", pictures.size(), " figures, ",
+       differences(designs).size(), " differences -> ", output);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_tool(argc, argv, body);
+}
