@@ -445,7 +445,7 @@ TEST_CASE(
   std::uniform_real_distribution<double> uniform(-1, 1);
   int empty = 0, steps = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    const int n = 1 + trial % kMostPairs;
+    const int n = 1 + trial % (2 * kMostPairs);
     const Lines lines = random_lines(n, random);
     const VectorXd e = VectorXd::NullaryExpr(n, [&] { return 4e-6 * uniform(random); });
     VectorXd force = VectorXd::Zero(n), d(n);

@@ -301,12 +301,7 @@ System on_fixed_carriers(const System& layout) {
     const System::Body& body = layout.bodies[b];
     number.push_back(static_cast<int>(out.bodies.size()));
     if (body.kind == System::BodyKind::carrier) {
-      const bool held =
-          std::any_of(layout.drives.begin(), layout.drives.end(), [&](const System::Drive& drive) {
-            return drive.body == static_cast<int>(b) && drive.kind == System::DriveKind::held &&
-                   drive.stiffness == 0;
-          });
-      if (!held)
+      if (!layout.held_rigidly(static_cast<int>(b)))
         fail(Failure::input, "carrier '", body.name,
              "' may turn; at rest it has to be held: give it a [[drive]] with kind = \"held\" and no "
              "stiffness");

@@ -96,7 +96,8 @@ Index leading_coordinate(const MatrixXd& shape) {
   return at;
 }
 
-void make_unique(Eigen::Ref<MatrixXd> pair) {
+// The largest motion is positive; of two modes of one frequency the first holds all of it.
+void fix_direction(Eigen::Ref<MatrixXd> pair) {
   const Index at = leading_coordinate(pair);
   if (pair.cols() == 2) {
     const double c = pair(at, 0), s = pair(at, 1), norm = std::hypot(c, s);
@@ -142,7 +143,7 @@ std::vector<Mode> symmetric_modes(const RigidSystem& system, const MatrixXd& tur
                                                                                  : ModeType::planet;
     const Index width = pairs ? 2 : 1;
     for (Index i = 0; i + width <= solved.squared.size(); i += width) {
-      make_unique(solved.shape.middleCols(i, width));
+      fix_direction(solved.shape.middleCols(i, width));
       const double mean = solved.squared.segment(i, width).mean();
       for (Index j = i; j < i + width; ++j) out.push_back({mean, type, k, solved.shape.col(j)});
     }
@@ -208,7 +209,7 @@ std::vector<Mode> modes_of(const RigidSystem& system, const std::vector<int>& pl
   std::vector<Mode> out;
   Solved solved = solve(system.stiffness, system.mass);
   for (Index i = 0; i < solved.squared.size(); ++i) {
-    make_unique(solved.shape.col(i));
+    fix_direction(solved.shape.col(i));
     out.push_back({solved.squared[i], ModeType::mixed, -1, solved.shape.col(i)});
   }
   return out;

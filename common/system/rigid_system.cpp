@@ -20,13 +20,6 @@ Vec2 line_of_action(const System::Mesh& mesh) {
 
 namespace {
 
-// Whether a drive holds a body with no give.
-bool held_rigidly(const System& layout, int body) {
-  for (const System::Drive& drive : layout.drives)
-    if (drive.body == body && drive.kind == System::DriveKind::held && drive.stiffness == 0) return true;
-  return false;
-}
-
 void require(double value, const char* what, const std::string& name) {
   if (!(value > 0) || !std::isfinite(value))
     fail(Failure::input, "a rigid system needs ", what, " of '", name, "' above 0; it is ", value);
@@ -50,7 +43,7 @@ void take_freedoms(RigidSystem& system) {
   Index freedoms = 0;
   std::vector<Index> turn(layout.bodies.size(), -1), move(layout.bodies.size(), -1);
   for (int b = 0; b < bodies; ++b) {
-    if (!held_rigidly(layout, b)) turn[static_cast<size_t>(b)] = freedoms++;
+    if (!layout.held_rigidly(b)) turn[static_cast<size_t>(b)] = freedoms++;
     if (!layout.bodies[static_cast<size_t>(b)].bearing.elastic()) continue;
     move[static_cast<size_t>(b)] = freedoms;
     freedoms += 2;
@@ -122,7 +115,7 @@ RigidSystem rigid_system(const System& layout) {
   out.mass = out.stiffness = MatrixXd::Zero(n, n);
   for (size_t b = 0; b < layout.bodies.size(); ++b) {
     const System::Body& body = layout.bodies[b];
-    if (!held_rigidly(layout, static_cast<int>(b))) {
+    if (!layout.held_rigidly(static_cast<int>(b))) {
       require(body.inertia, "an inertia", body.name);
       out.mass += body.inertia / (body.radius * body.radius) * out.rotation[b].transpose() * out.rotation[b];
     }
