@@ -1,8 +1,8 @@
 # Systems: scenes of several meshes, carriers or drives.
 #
-#   rigid gears    out/S/params/system.toml -> out/S/modes.h5 -> out/S/report/modes.png
+#   rigid gears    out/S/params/system.toml -> out/S/modes.h5 -> out/S/report/{modes,campbell}.png
 #   elastic gears  out/S/params/system_static.toml and the bodies -> out/S/system_static.h5 -> out/S/report/system-static.png,
-#                  out/S/modes.h5 -> out/S/report/modes.png
+#                  out/S/modes.h5 -> out/S/report/{modes,campbell}.png
 
 define rigid_rules # scene
 out/$1/modes.h5: out/$1/params/system.toml $(call id,gear-modes) | $(B)/bin/gear-modes
@@ -22,7 +22,7 @@ endef
 
 define system_rules # scene
 $(eval $(call $(SCENE_$1_SYSTEM)_rules,$1))
-$(eval $(call figure_rule,modes,out/$1/report/modes,out/$1/modes.h5))
+$(foreach f,modes campbell,$(eval $(call figure_rule,$f,out/$1/report/$f,out/$1/modes.h5)))
 endef
 $(foreach s,$(scenes),$(if $(SCENE_$s_SYSTEM),$(eval $(call system_rules,$s))))
 
@@ -39,5 +39,5 @@ $(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter $(pair_goals) figures $(f
     $(if $(filter elastic,$(SCENE_$(own_scene)_SYSTEM)),system-static )modes)))
 
 .PHONY: modes system-static
-modes: out/$(modes_scene)/modes.h5 $(foreach e,tsv svg png,out/$(modes_scene)/report/modes.$e) ## natural frequencies and mode shapes of a system, SCENE (default: a planetary train of rigid gears), out/<scene>/report/modes.png
+modes: out/$(modes_scene)/modes.h5 $(foreach f,modes campbell,$(foreach e,tsv svg png,out/$(modes_scene)/report/$f.$e)) ## natural frequencies and mode shapes of a system, SCENE (default: a planetary train of rigid gears), out/<scene>/report/modes.png, and a Campbell diagram, campbell.png
 system-static: out/$(elastic_scene)/system_static.h5 $(foreach e,tsv svg png,out/$(elastic_scene)/report/system-static.$e) ## a system of elastic gears at rest, SCENE (default: a planetary train): transmission errors, load sharing, bearing forces, out/<scene>/report/system-static.png

@@ -14,7 +14,7 @@ namespace whine {
 namespace {
 
 constexpr const char* kStage = "the statics of a system";
-constexpr int kPositions = 64;  // where the scene leaves them open
+constexpr int kPositions = 128;  // where the scene leaves them open
 
 std::string mesh_label(size_t number) {
   return "mesh_" + std::to_string(number);

@@ -21,6 +21,7 @@
 #include "io/summary.h"
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
+#include "report/campbell_figure.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
@@ -277,8 +278,13 @@ Drawings drawings_of_systems() {
       {"modes",
        {"natural frequencies of a system by type, and its mode shapes", "modes.h5", 1, 0,
         [](const Paths& in, const Frequencies&) { return modes_figure(read_modes(in[0])); }}},
+      {"campbell",
+       {"natural frequencies of a system and the harmonics of the mesh frequency that excite them",
+        "modes.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return campbell_figure(read_modes(in[0])); }}},
       {"system-static",
-       {"a system at rest: transmission errors, forces of meshes, forces on bearings", "system_static.h5", 1, 0,
+       {"a system at rest: transmission errors, forces of meshes, forces on bearings", "system_static.h5", 1,
+        0,
         [](const Paths& in, const Frequencies&) { return system_static_figure(read_system_static(in[0])); }}},
   };
 }

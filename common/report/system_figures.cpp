@@ -77,9 +77,9 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
   figure.blocks.push_back(period);
   figure.blocks.push_back(spectrum);
   const std::string row = std::to_string(figure.blocks.size() / 2);
-  for (const auto& [name, value] : {std::pair{"curves", static_cast<double>(curves.size())},
-                                    std::pair{"low", low - room}, std::pair{"high", high + room},
-                                    std::pair{"most", std::max(1.08 * most, 1e-4 * size)}})
+  for (const auto& [name, value] :
+       {std::pair{"curves", static_cast<double>(curves.size())}, std::pair{"low", low - room},
+        std::pair{"high", high + room}, std::pair{"most", std::max(1.08 * most, 1e-4 * size)}})
     figure.numbers.emplace_back(name + row, value);
   for (const auto& [name, word] : {std::pair{"quantity", quantity}, std::pair{"axis", axis},
                                    std::pair{"unit", unit}, std::pair{"labels", labels}})
@@ -92,7 +92,8 @@ std::string sharing_words(const SystemStaticArtifact& a) {
   const std::vector<int>& section = a.settings.section;
   for (size_t m = 0; m < section.size(); ++m) {
     const auto alike = std::count(section.begin(), section.end(), section[m]);
-    if (alike < 2 || std::find(section.begin(), section.end(), section[m]) != section.begin() + static_cast<Index>(m))
+    if (alike < 2 ||
+        std::find(section.begin(), section.end(), section[m]) != section.begin() + static_cast<Index>(m))
       continue;
     double most = 0, mean = 0;
     for (size_t other = 0; other < section.size(); ++other)
@@ -101,8 +102,8 @@ std::string sharing_words(const SystemStaticArtifact& a) {
         mean = std::max(mean, a.load_share.col(static_cast<Index>(other)).mean());
       }
     const auto& gears = a.settings.mesh[static_cast<size_t>(section[m])].gear;
-    out += text(out.empty() ? "load sharing factor (largest share times number of planets): " : ", ", gears[0], "-",
-                gears[1], " ", fixed(most * static_cast<double>(alike), 3), " at most, ",
+    out += text(out.empty() ? "load sharing factor (largest share times number of planets): " : ", ",
+                gears[0], "-", gears[1], " ", fixed(most * static_cast<double>(alike), 3), " at most, ",
                 fixed(mean * static_cast<double>(alike), 3), " in the mean of the most loaded");
   }
   return out;
@@ -117,7 +118,8 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
   figure.notes.push_back(system_words(a));
   if (const std::string sharing = sharing_words(a); !sharing.empty()) figure.notes.push_back(sharing);
   figure.notes.emplace_back(
-      "transmission error along the line of action, what bearings give way included; mesh force: torque on the driving gear "
+      "transmission error along the line of action, what bearings give way included; mesh force: torque on "
+      "the driving gear "
       "over its base radius; bearing force: its size, of rigid axes, too");
   std::vector<Curve> errors, forces, bearings;
   for (size_t m = 0; m < s.meshes.size(); ++m) {
@@ -135,7 +137,8 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
   add_row(a, "bearing_force", "Bearing force", "N", std::move(bearings), figure);
   figure.numbers.emplace_back("harmonics",
                               static_cast<double>(resolved_harmonics(a.mesh_phase.size(), kShownHarmonics)));
-  figure.height = 1500;
+  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
+  figure.height = 1640;
   return figure;
 }
 

@@ -24,7 +24,8 @@ VectorXd loads_of_ranges(const SystemModel& system) {
 }
 
 // N: the sum of the contact forces on body b.
-Vec2 hub_force(const SystemPosition& position, const std::vector<GearMeshModel>& meshes, int b, const VectorXd& p) {
+Vec2 hub_force(const SystemPosition& position, const std::vector<GearMeshModel>& meshes, int b,
+               const VectorXd& p) {
   Vec2 sum(0, 0);
   for (const ContactSegment& segment : position.segment) {
     const auto& side = meshes[static_cast<size_t>(segment.mesh)].layout.side;
@@ -67,7 +68,8 @@ std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, d
 
 std::string outside_zone(const SystemSolution& solution, double phase) {
   if (!solution.at_root.empty())
-    return text("at mesh phase ", phase, " the pressure reaches the start of the involute of '", solution.at_root,
+    return text("at mesh phase ", phase, " the pressure reaches the start of the involute of '",
+                solution.at_root,
                 "', which its mate's tip comes too close to: shorten that tip or deepen the root (dedendum)");
   if (solution.leaves_zone)
     return text("at mesh phase ", phase, " the pressure reaches the candidate zone's end");
@@ -174,7 +176,8 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
     const VectorXd own = solution.equilibrium.p(position.strips_of(m));
     const auto moment = [&](size_t side) {
       return closing_sign(static_cast<int>(side)) *
-             position.load.rotation.col(system_.mesh[m].layout.side[side].body)(position.strips_of(m)).dot(own);
+             position.load.rotation.col(system_.mesh[m].layout.side[side].body)(position.strips_of(m))
+                 .dot(own);
     };
     solution.mesh_force.push_back(moment(0));
     solution.driven_force.push_back(moment(1));
@@ -191,13 +194,14 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
 
 void SystemStatics::take_strips(SystemSolution& solution) const {
   const VectorXd& p = solution.equilibrium.p;
-  for (size_t m = 0; m < position_->mesh.size(); ++m)
-  {
+  for (size_t m = 0; m < position_->mesh.size(); ++m) {
     const VectorXd own = p(position_->strips_of(m));
     solution.leaves_zone = solution.leaves_zone || position_->mesh[m].reaches_zone_end(own);
     if (const int side = side_at_root(position_->mesh[m], own); side >= 0)
       solution.at_root =
-          system_.layout.bodies[static_cast<size_t>(system_.mesh[m].layout.side[static_cast<size_t>(side)].body)].name;
+          system_.layout
+              .bodies[static_cast<size_t>(system_.mesh[m].layout.side[static_cast<size_t>(side)].body)]
+              .name;
   }
   for (const ContactSegment& segment : position_->segment) {
     const auto own = p.segment(segment.first_strip, segment.strips);
@@ -236,7 +240,8 @@ MatrixXd SystemStatics::mesh_stiffness() const {
   MatrixXd a = cracked_here_ ? with_cracks_ : compliance_;
   for (size_t b = 0; b < system_.body.size(); ++b)
     if (const Bearing& bearing = system_.layout.bodies[b].bearing; bearing.elastic())
-      a -= position.displacement.translation[b] * position.load.translation[b].transpose() / bearing.stiffness;
+      a -=
+          position.displacement.translation[b] * position.load.translation[b].transpose() / bearing.stiffness;
   MatrixXd closing = MatrixXd::Zero(position.strips(), meshes);
   for (size_t m = 0; m < position.mesh.size(); ++m) {
     const auto own = position.strips_of(m);

@@ -23,7 +23,8 @@ struct SystemSolution {
   std::vector<double> transmission_error, deflection;    // [mesh] m; see mesh_deflection
   std::vector<double> next_corner_gap, lost_corner_gap;  // [mesh] m, see PairsInReach
   bool leaves_zone = false;                              // a wider range may do
-  std::string at_root;  // body at the start of whose involute pressure stands, which no wider range helps; "": none
+  std::string
+      at_root;  // body at the start of whose involute pressure stands, which no wider range helps; "": none
   Eigen::MatrixXd mesh_stiffness;  // (mesh, mesh) N m-1, see SystemStatics; of a period alone
 };
 
