@@ -25,7 +25,7 @@ Figure campbell_figure(const ModesArtifact& a) {
     const double f = a.natural_frequency[i];
     if (f == 0) continue;
     const double number = static_cast<double>(i + 1);
-    highest = std::max(highest, f);
+    highest = std::max(highest, bands ? a.frozen_frequency.col(i).maxCoeff() : f);
     modes.rows.push_back({number, f, bands ? a.frozen_frequency.col(i).minCoeff() : f,
                           bands ? a.frozen_frequency.col(i).maxCoeff() : f,
                           static_cast<double>(static_cast<int>(a.type[static_cast<size_t>(i)]))});

@@ -12,7 +12,7 @@ set multiplot title heading offset 0, -0.4
 set border 3 lw 1.6
 set tics out nomirror
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set lmargin at screen 0.09
+set lmargin at screen 0.12
 set rmargin at screen 0.80
 set tmargin at screen 0.88
 set bmargin at screen 0.11 + lift
@@ -24,7 +24,7 @@ set ylabel "Frequency (Hz)"
 set key at screen 0.82, screen 0.87 left top Left reverse vertical samplen 2 spacing 1.3 font ",14"
 set style fill solid 0.22 noborder
 do for [l = 1:int(harmonics)] {
-  set label l sprintf("%d f_m", l) at (l == 1 ? 0.985 * top : top / l), (l == 1 ? 0.95 * top : top) offset 0, (l == 1 ? 0 : 0.6) center tc rgb "#505050" font ",13"
+  set label l sprintf("%d f_m", l) at (l == 1 ? 0.985 * top : top / l), (l == 1 ? 0.95 * top : top) offset 0, (l == 1 ? 0 : 0.6) center front tc rgb "#505050" font ",13"
 }
 drawn = ""
 do for [k = 0:4] {
