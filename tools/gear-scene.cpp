@@ -3,8 +3,7 @@
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml
 //                                                        stage parameters in SI, replaced only if they change
-//            <out>/<scene>/params/system.toml            of a scene of several meshes and rigid gears, in place of these
-//            <out>/<scene>/params/system_static.toml     of one of elastic gears
+//            <out>/<scene>/params/system.toml            of several meshes and rigid gears; system_static.toml: elastic ones
 //            <out>/<scene>/params/title.txt              what figures call it
 //            <out>/<scene>/params/scene.txt              path of the scene, from the working folder
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
