@@ -31,7 +31,7 @@ elastic_scene := $(if $(SCENE),$(own_scene),$(elastic_system_scene))
 # A fragment is empty until make has remade it, then make starts again.
 system_goals := $(filter modes system-static,$(goals))
 $(if $(system_goals),$(if $(SCENE_$(modes_scene)_GEARS),\
-  $(error SCENE=$(SCENE): it is a pair; $(firstword $(system_goals)) is of systems$(,) scenes of several meshes$(,) carriers or drives)))
+  $(error SCENE=$(SCENE): it is a pair; $(if $(filter modes,$(goals)),modes are,system-static is) of systems$(,) scenes of several meshes$(,) carriers or drives)))
 $(if $(filter system-static,$(goals)),$(if $(filter rigid,$(SCENE_$(elastic_scene)_SYSTEM)),\
   $(error SCENE=$(SCENE): its gears are rigid; system-static needs elastic ones$(,) for it there is: make SCENE=$(SCENE) modes)))
 $(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter $(pair_goals) figures $(figures) table1 animation,$(goals)),\

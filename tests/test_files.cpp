@@ -691,7 +691,7 @@ namespace {
 // One planet between sun and ring at two phases, numbers without meaning.
 SystemStaticArtifact small_system() {
   SystemScene scene = planetary_train(3);
-  scene.fidelity.contact = ContactModel::line;
+  scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
   scene.contact = {4, 2};
   const SystemStaticParameters settings = static_parameters_of(scene, layout_of(scene));
   const auto bodies = static_cast<Eigen::Index>(settings.layout.bodies.size()),

@@ -223,6 +223,28 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("the four-planet set that ships and its rigid twin stand, turn and mesh alike") {
+  const char *const elastic = "data/scenes/oh58-planetary.toml",
+                    *const rigid = "data/scenes/oh58-planetary-rigid.toml";
+  const System a = layout_in(read_system_scene(elastic), elastic),
+               b = layout_in(read_system_scene(rigid), rigid);
+  REQUIRE(a.bodies.size() == b.bodies.size());
+  for (size_t i = 0; i < a.bodies.size(); ++i) {
+    CHECK(a.bodies[i].name == b.bodies[i].name);
+    CHECK(a.bodies[i].radius == b.bodies[i].radius);
+    CHECK(a.bodies[i].centre == b.bodies[i].centre);
+    CHECK(a.bodies[i].bearing.stiffness == b.bodies[i].bearing.stiffness);
+  }
+  for (size_t m = 0; m < a.meshes.size(); ++m) CHECK(a.meshes[m].phase == b.meshes[m].phase);
+  // 24.6 and 20.19 degrees, as published.
+  CHECK(a.meshes[0].pressure_angle * 180 / kPi == relative(24.6, 1e-3));
+  CHECK(a.meshes[4].pressure_angle * 180 / kPi == relative(20.19, 1e-3));
+  // The elastic set has 1608.6 to 10015.6 Hz (make modes); the twin lacks what the sun's body joins.
+  const ModesArtifact modes = natural_modes(b);
+  CHECK(modes.natural_frequency[0] == relative(1608.576, 1e-3));
+  CHECK(modes.natural_frequency[14] == relative(10015.64, 0.03));
+}
+
 TEST_CASE(
     "stage parameters of elastic systems: read as written; what a scene of elastic gears cannot have is "
     "rejected") {
