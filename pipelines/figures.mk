@@ -21,6 +21,8 @@ cracked_scene := parker2000-crack
 bearing_scene := parker2000-bearings
 # of rigid bodies; see systems.mk
 system_scene := lin-parker-planetary
+# of elastic ones
+elastic_system_scene := oh58-planetary
 
 # $(call both_ways,scenes,torques,artifact): sweeps up and down
 both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))

@@ -366,15 +366,22 @@ change 's/^title = .*/title = "Another title"/'; : > calls; make_ fig12; make_ -
 expect "figures with another title are up to date" ""
 grep -q 'Another title' out/parker2000/params/title.txt && grep -q 'gear-plot out/figures/fig12' calls && ok "another title redraws" || wrong "another title redraws" "$(tail -n 2 calls)"; cp scene.original $scene
 make_ -n modes
-expect "natural modes of a system that ships: one stage and its figure" "gear-modes*1 gear-plot*1"
+expect "natural modes of a system that ships: one stage and its figures" "gear-modes*1 gear-plot*2"
 make_ modes; make_ -n modes
 expect "and they are up to date then" ""
 cp data/scenes/lin-parker-planetary.toml train.toml; make_ -n SCENE=train.toml modes
-expect "those of SCENE" "gear-modes*1 gear-plot*1"
+expect "those of SCENE" "gear-modes*1 gear-plot*2"
 make_ SCENE=train.toml modes; sed -i 's/^# .*//' train.toml; make_ -n SCENE=train.toml modes
 expect "comments redo nothing" ""
 sed -i 's/^stiffness_N_um = 500.0/stiffness_N_um = 400.0/' train.toml; make_ -n SCENE=train.toml modes
-expect "stiffnesses redo them" "gear-modes*1 gear-plot*1"
+expect "stiffnesses redo them" "gear-modes*1 gear-plot*2"
+make_ -n SCENE=data/scenes/three-in-line.toml system-static modes
+expect "a system of elastic gears: three bodies, its statics, its modes" "gear-mesh*3 gear-modes*1 gear-plot*3 gear-reduce*3 gear-system-static*1"
+cp data/scenes/three-in-line.toml inline.toml; make_ SCENE=inline.toml system-static modes; sed -i 's/^torque_Nm = 60.0/torque_Nm = 50.0/' inline.toml
+make_ -n SCENE=inline.toml system-static modes
+expect "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear-system-static*1"
+make_ -n SCENE=data/scenes/lin-parker-planetary.toml system-static
+grep -q 'its gears are rigid; system-static needs elastic ones' "$log" && ok "statics of a system reject rigid gears" || wrong "statics of a system reject rigid gears" "$(tail -n 1 "$log")"
 make_ -n SCENE=train.toml static
 grep -q 'SCENE=train.toml is a system of several meshes' "$log" && ok "stages of pairs reject a system" || wrong "stages of pairs reject a system" "$(tail -n 1 "$log")"
 make_ -n SCENE=data/scenes/nasa28.toml modes

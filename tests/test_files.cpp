@@ -44,6 +44,8 @@
 #include "io/study_codec.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
+#include "io/system_scene.h"
+#include "io/system_static_codec.h"
 #include "io/variant_codec.h"
 #include "io/vtk.h"
 #include "planetary_train.h"
@@ -682,6 +684,79 @@ TEST_CASE("modes.h5 gives back every value bit by bit") {
   REQUIRE(b.layout.bodies.size() == a.layout.bodies.size());
   for (size_t i = 0; i < a.layout.bodies.size(); ++i)
     CHECK(a.layout.bodies[i].name == b.layout.bodies[i].name);
+}
+
+namespace {
+
+// One planet between sun and ring at two phases, numbers without meaning.
+SystemStaticArtifact small_system() {
+  SystemScene scene = planetary_train(3);
+  scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  scene.contact = {4, 2};
+  const SystemStaticParameters settings = static_parameters_of(scene, layout_of(scene));
+  const auto bodies = static_cast<Eigen::Index>(settings.layout.bodies.size()),
+             meshes = static_cast<Eigen::Index>(settings.layout.meshes.size());
+  SystemStaticArtifact a;
+  a.settings = settings;
+  for (const SystemScene::Gear& gear : scene.gears) {
+    a.drawing.push_back({gear.design, Material{206e9, 0.3, 7850, true}, {}});
+    a.drawing.back().design.bore_radius = gear.design.internal ? 0 : 10e-3;
+    a.drawing.back().discretisation.element_size = 1e-3;
+  }
+  a.contact_ratio = Eigen::VectorXd::LinSpaced(meshes, 1.4, 1.8);
+  a.mesh_phase = Eigen::Vector2d(0, 0.5);
+  a.rotation = MatrixRM::Constant(2, bodies, 1.25e-6);
+  a.torque = MatrixRM::Constant(2, bodies, -12.5);
+  a.transmission_error = a.mesh_deflection = MatrixRM::Constant(2, meshes, 2.5e-6);
+  a.mesh_force = MatrixRM::Constant(2, meshes, 1000.5);
+  a.load_share = MatrixRM::Constant(2, meshes, 1.0 / 3);
+  a.pair = Eigen::Vector3i(-1, 0, 1);
+  a.translation.assign(2, MatrixRM::Constant(bodies, 2, 1e-6 / 3));
+  a.bearing_force.assign(2, MatrixRM::Constant(bodies, 2, 100.0 / 3));
+  a.tooth_load.assign(2, MatrixRM::Constant(meshes, 3, 1000.0 / 3));
+  a.contact_pressure.assign(2, MatrixRM::Constant(meshes, 3, 1e9 / 3));
+  a.mesh_stiffness.assign(2, MatrixRM::Identity(meshes, meshes) * 5e8);
+  a.least_gap = a.least_force = a.torque_residual = Eigen::Vector2d(0, 1e-13);
+  a.transmission_error_harmonic = MatrixRM::Constant(1, meshes, 2.5e-6);
+  return a;
+}
+
+}  // namespace
+
+TEST_CASE("system_static.h5 gives back every value bit by bit") {
+  Folder folder;
+  const SystemStaticArtifact a = small_system();
+  write("system_static.h5", a, kMade);
+  const SystemStaticArtifact b = read_system_static("system_static.h5");
+  for (const auto member : {&SystemStaticArtifact::rotation, &SystemStaticArtifact::torque,
+                            &SystemStaticArtifact::transmission_error, &SystemStaticArtifact::mesh_deflection,
+                            &SystemStaticArtifact::mesh_force, &SystemStaticArtifact::load_share,
+                            &SystemStaticArtifact::transmission_error_harmonic})
+    CHECK(a.*member == b.*member);
+  for (const auto member : {&SystemStaticArtifact::translation, &SystemStaticArtifact::bearing_force,
+                            &SystemStaticArtifact::tooth_load, &SystemStaticArtifact::contact_pressure,
+                            &SystemStaticArtifact::mesh_stiffness})
+    CHECK(a.*member == b.*member);
+  for (const auto member : {&SystemStaticArtifact::contact_ratio, &SystemStaticArtifact::mesh_phase,
+                            &SystemStaticArtifact::least_gap, &SystemStaticArtifact::least_force,
+                            &SystemStaticArtifact::torque_residual})
+    CHECK(a.*member == b.*member);
+  CHECK(a.pair == b.pair);
+  CHECK(a.settings.gear == b.settings.gear);
+  CHECK(a.settings.section == b.settings.section);
+  CHECK(a.settings.gears() == b.settings.gears());
+  CHECK(a.settings.contact.positions == b.settings.contact.positions);
+  CHECK(a.settings.fidelity.contact == b.settings.fidelity.contact);
+  REQUIRE(b.settings.mesh.size() == 2);
+  CHECK(a.settings.mesh[1].centre_distance == b.settings.mesh[1].centre_distance);
+  REQUIRE(b.drawing.size() == 3);
+  CHECK(a.drawing[2].design.rim_outer_radius == b.drawing[2].design.rim_outer_radius);
+  // Names that no gear has.
+  SystemStaticArtifact wrong = a;
+  wrong.settings.gear[1] = "moon";
+  write("system_static.h5", wrong, kMade);
+  CHECK_THROWS_AS(read_system_static("system_static.h5"), Error);
+  write("system_static.h5", a, kMade);
 }
 
 TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is rejected with its dataset") {

@@ -151,8 +151,9 @@ TEST_CASE("faults of a scene of a system are rejected with their line") {
   rejects(edited("kind = \"held\"", "kind = \"torque\""), line_of("kind = \"held\"") + 1,
           "belongs to kind = \"held\"");
   rejects(edited("stiffness_N_um = 500.0", ""), line_of("[[mesh]]"), "lacks 'stiffness_N_um'");
-  rejects(edited("body = \"rigid\"", "body = \"modal\""), line_of("body = \"rigid\""),
-          "computed as rigid bodies so far");
+  // Elastic gears have other keys.
+  rejects(edited("body = \"rigid\"", "body = \"modal\""), line_of("equivalent_mass_kg = 0.39      # I / r^2"),
+          "equivalent_mass_kg");
   rejects(shipped() + "[operation]\n", line_of("body = \"rigid\"") + 1, "natural modes are computed so far");
   rejects(edited("equivalent_mass_kg = 0.61", "equivalent_mass_kg = 0.61\ntotal_inertia_kgm2 = 1"),
           line_of("[gear.planet]"), "which say the same");

@@ -1,8 +1,8 @@
-// gear-modes: natural frequencies and mode shapes of a system of rigid gears and carriers.
+// gear-modes: natural frequencies and mode shapes of a system of gears and carriers.
 //
-// Reads   params (the system as laid out: bodies, bearings, meshes, what is held)
+// Reads   params (the system as laid out: bodies, bearings, meshes, what is held) or, of elastic gears, system_static.h5
 // Writes  modes.h5   natural frequencies, types, shapes, where the energy of each mode is
-// Equations: K v = w^2 M v, meshes frozen at their mean stiffness (common/system/natural_modes.h)
+// Equations: K v = w^2 M v, meshes frozen, at their mean stiffness (common/system/natural_modes.h)
 #include <string>
 
 #include "base/error.h"
@@ -10,23 +10,33 @@
 #include "io/modes_codec.h"
 #include "io/provenance.h"
 #include "io/system_scene.h"
+#include "io/system_static_codec.h"
 #include "system/natural_modes.h"
 
 namespace {
 
 void body(int argc, char** argv) {
-  whine::Options options{"Natural frequencies and mode shapes of a system of rigid gears and carriers",
+  whine::Options options{"Natural frequencies and mode shapes of a system of gears and carriers",
                          "gear-modes"};
-  std::string params, output;
-  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/system.toml").required();
+  std::string params, statics, output;
+  whine::Option of_params = options.add(
+      "--params", params, "of rigid gears: stage parameters of the scene, out/<scene>/params/system.toml");
+  options.add("--static", statics, "of elastic gears: system_static.h5, whose stiffness and masses are taken")
+      .excludes(of_params);
   options.add("--output", output, "modes.h5 to write").required();
   options.footer(
-      "Example:\n"
-      "  gear-modes --params out/lin-parker-planetary/params/system.toml --output modes.h5");
+      "Examples:\n"
+      "  gear-modes --params out/lin-parker-planetary/params/system.toml --output modes.h5\n"
+      "  gear-modes --static out/three-in-line/system_static.h5 --output modes.h5");
   options.parse(argc, argv);
 
-  const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params});
-  const whine::ModesArtifact result = whine::natural_modes(whine::read_system_parameters(params));
+  if (params.empty() && statics.empty())
+    whine::fail(whine::Failure::usage, "give --params or --static; see --help");
+  const whine::Provenance provenance =
+      whine::made_by(argc, argv, {statics.empty() ? "params=" + params : "static=" + statics});
+  const whine::ModesArtifact result = statics.empty()
+                                          ? whine::natural_modes(whine::read_system_parameters(params))
+                                          : whine::elastic_modes(whine::read_system_static(statics));
   whine::write(output, result, provenance);
   std::string first;
   int still = 0;

@@ -3,7 +3,7 @@
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml
 //                                                        stage parameters in SI, replaced only if they change
-//            <out>/<scene>/params/system.toml            of a scene of several meshes, in place of these
+//            <out>/<scene>/params/system.toml            of several meshes and rigid gears; system_static.toml: elastic ones
 //            <out>/<scene>/params/title.txt              what figures call it
 //            <out>/<scene>/params/scene.txt              path of the scene, from the working folder
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
@@ -20,6 +20,7 @@
 #include "base/tool.h"
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
+#include "gear/system_layout.h"
 #include "io/fit.h"
 #include "io/publish.h"
 #include "io/scene.h"
@@ -33,17 +34,30 @@ namespace {
 
 using namespace whine;
 
+ScenePlace place_in(const std::string& path) {
+  return
+      [path](const auto& sections, const std::string& words) { return scene_place(path, sections, words); };
+}
+
 // A system (several meshes, carriers or drives): its stage parameters and its fragment.
 void cut_system(const std::string& path, const std::string& stem, const std::string& folder,
                 const std::string& output) {
   const SystemScene scene = read_system_scene(path);
   const System layout = layout_in(scene, path);
-  rigid_system(layout);
   const std::string home = folder + "/" + stem;
-  record_scene(home, path);
-  publish_if_changed(home + "/params/system.toml", system_parameters(layout));
+  if (scene.rigid()) {
+    rigid_system(layout);
+    record_scene(home, path);
+    publish_if_changed(home + "/params/system.toml", system_parameters(layout));
+  } else {
+    check_system_geometry(scene, place_in(path));
+    on_fixed_carriers(layout);
+    record_scene(home, path);
+    const std::string statics = system_static_parameters(static_parameters_of(scene, layout));
+    publish_if_changed(home + "/params/system_static.toml", statics);
+  }
   publish_if_changed(home + "/params/title.txt", scene.title + "\n");
-  publish(output, system_fragment(path, stem));
+  publish(output, system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene))));
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 
@@ -51,9 +65,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
               const std::string& ids, const std::string& output) {
   // 1. The whole scene is checked before anything is written.
   const Scene scene = read_scene(path);
-  const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
-    return scene_place(path, sections, words);
-  };
+  const ScenePlace where = place_in(path);
   check_geometry(scene, where);
   check_inertia(scene, where);
   const std::string home = folder + "/" + stem;
@@ -64,13 +76,10 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
     tell("gear-scene: ", home, ": ", moved, " files had times in the future and have those of now instead");
 
   // 2. Stage parameters and links; unchanged ones are left alone, so that make sees what did change.
-  BodyHashes bodies;
-  for (const SceneGear& gear : scene.gears) {
-    const std::string settings = body_parameters(scene, gear.name), hash = body_hash(settings);
-    publish_if_changed(folder + "/bodies/" + hash + "/body.toml", settings);
-    publish_link(home + "/" + gear.name, "../bodies/" + hash);
-    bodies.emplace_back(gear.name, hash);
-  }
+  BodySettings settings;
+  for (const SceneGear& gear : scene.gears)
+    settings.emplace_back(gear.name, body_parameters(scene, gear.name));
+  const BodyHashes bodies = publish_bodies(home, folder, settings);
   const std::pair<const char*, std::string> parameters[] = {
       {"static.toml", static_parameters(scene)},
       {"impact.toml", impact_parameters(scene)},
@@ -85,9 +94,8 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
   publish(output, scene_fragment(scene, path, stem, bodies));
   for (const std::string& warning : scene_warnings(scene, where)) tell("gear-scene: warning: ", warning);
   for (const std::string& cost : costs(scene)) tell("gear-scene: ", path, ": ", cost);
-  const size_t hashes = different(bodies).size();
-  tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", hashes,
-       (hashes == 1 ? " body, " : " bodies, "), scene.operation.torques.size(), " torques");
+  tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", different(bodies).size(),
+       (different(bodies).size() == 1 ? " body, " : " bodies, "), scene.operation.torques.size(), " torques");
 }
 
 void body(int argc, char** argv) {

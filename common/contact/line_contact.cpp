@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,13 +18,33 @@ namespace {
 
 constexpr double kRoundOff = 16 * std::numeric_limits<double>::epsilon();
 
+// Most: kMostPairs, for which no memory is taken, or any number (Eigen::Dynamic): the meshes of a system at rest.
+template <int Most>
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Most, 1>;
+template <int Most>
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Most, Most>;
+// Which pairs carry force: the numbers of the first `count`, and for each pair whether it is one of them.
+template <int Most>
+struct Carrying {
+  explicit Carrying(Eigen::Index pairs) : in(pairs), number(pairs) { in.setZero(); }
+  Eigen::Matrix<int, Eigen::Dynamic, 1, 0, Most, 1> in, number;
+  int count = 0;
+
+  void list() {
+    count = 0;
+    for (int i = 0; i < in.size(); ++i)
+      if (in[i]) number[count++] = i;
+  }
+};
+
 struct Energy {
   double value = 0;
   double magnitude = 0;  // sum of the terms' sizes, for the round-off
 };
 
+template <int Most>
 Energy energy(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
-              const Eigen::Ref<const VectorXd>& e, const PairVector& force) {
+              const Eigen::Ref<const VectorXd>& e, const Vector<Most>& force) {
   Energy result;
   for (Eigen::Index i = 0; i < force.size(); ++i) {
     if (force[i] == 0) continue;
@@ -38,27 +57,21 @@ Energy energy(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> la
 }
 
 // (carrying, carrying) of C + slopes, factorised.
-using Factor = Eigen::LLT<PairMatrix>;
-Factor factorise(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law, const PairVector& force,
-                 const std::array<int, kMostPairs>& carrying, int count) {
-  PairMatrix tangent(count, count);
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j) tangent(i, j) = c(carrying[i], carrying[j]);
-    tangent(i, i) += law[carrying[i]].at(force[carrying[i]]).slope;
+template <int Most>
+Eigen::LLT<Matrix<Most>> factorise(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                                   const Eigen::Ref<const VectorXd>& force, const Carrying<Most>& carrying) {
+  Matrix<Most> tangent(carrying.count, carrying.count);
+  for (int i = 0; i < carrying.count; ++i) {
+    const int own = carrying.number[i];
+    for (int j = 0; j < carrying.count; ++j) tangent(i, j) = c(own, carrying.number[j]);
+    tangent(i, i) += law[own].at(force[own]).slope;
   }
-  Factor factor(tangent);
+  Eigen::LLT<Matrix<Most>> factor(tangent);
   if (factor.info() != Eigen::Success)
-    fail(Failure::numerical, "line contact: the compliance of ", count,
+    fail(Failure::numerical, "line contact: the compliance of ", carrying.count,
          " pairs and their Hertz laws is not positive definite (least diagonal term ",
          tangent.diagonal().minCoeff(), " m/N); take the laws relative to a smaller depth");
   return factor;
-}
-
-int list(const std::array<bool, kMostPairs>& in, Eigen::Index n, std::array<int, kMostPairs>& carrying) {
-  int count = 0;
-  for (int i = 0; i < n; ++i)
-    if (in[i]) carrying[count++] = i;
-  return count;
 }
 
 // At s.at: all that a Newton step from there needs but e. False where the tangent is not positive definite.
@@ -182,27 +195,24 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
   return solve_line_contact(c, law, e, start, force, d);
 }
 
+namespace {
+
 // NOLINTNEXTLINE(readability-function-size): the innermost loop of contact lines, whose steps share all of its state
-Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
-                               const Eigen::Ref<const VectorXd>& e, LineStart& start,
-                               Eigen::Ref<VectorXd> force, Eigen::Ref<VectorXd> d) {
+template <int Most>
+Certificate solve_by_energy(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                            const Eigen::Ref<const VectorXd>& e, Eigen::Ref<VectorXd> force,
+                            Eigen::Ref<VectorXd> d) {
   const Eigen::Index n = e.size();
-  if (n > kMostPairs)
-    fail(Failure::numerical, "line contact: ", n, " pairs, at most ", kMostPairs, " are foreseen");
   Certificate certificate;
-  if (follow_start(c, law, e, start, force, d, certificate)) return certificate;
-  if (!e.allFinite() || !c.allFinite()) fail(Failure::numerical, "line contact: a number is not finite");
-  start.forget();
-  certificate = {};
-  PairVector f(n);
-  std::array<bool, kMostPairs> in{};
+  Vector<Most> f(n);
+  Carrying<Most> carrying(n);
+  auto& in = carrying.in;
   for (int i = 0; i < n; ++i) {
     in[i] = force[i] > 0 && std::isfinite(force[i]);
     f[i] = in[i] ? force[i] : 0;
   }
   const double scale = n ? e.cwiseAbs().maxCoeff() : 0;
-  PairVector tolerance(n);  // m: round-off of each pair's terms, however far the others are
-  std::array<int, kMostPairs> carrying;
+  Vector<Most> tolerance(n);  // m: round-off of each pair's terms, however far the others are
   constexpr int kMostSteps = 200;
   for (int step = 0;; ++step) {
     double worst = 0, least = 0;
@@ -223,53 +233,52 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
     certificate.iterations = step + 1;
     if (met) {
       if (incoming < 0) break;
-      in[incoming] = true;
+      in[incoming] = 1;
     }
     if (step == kMostSteps)
       fail(Failure::numerical, "line contact did not converge: a gap of ", worst, " m where ", n,
            " pairs touch, largest |e| ", scale, " m, after ", step, " steps");
 
     // A pair that has just come to zero, or came in, and is pulled below zero by the others stays out.
-    PairVector change(n), right;
-    int count;
+    Vector<Most> change(n), right;
     for (bool again = true; again;) {
       again = false;
-      count = list(in, n, carrying);
-      right.resize(count);
-      for (int i = 0; i < count; ++i) right[i] = -d[carrying[i]];
+      carrying.list();
+      right.resize(carrying.count);
+      for (int i = 0; i < carrying.count; ++i) right[i] = -d[carrying.number[i]];
       ++certificate.factorisations;
-      right = factorise(c, law, f, carrying, count).solve(right);
-      for (int i = 0; i < count; ++i)
-        if (f[carrying[i]] == 0 && right[i] < 0) {
-          in[carrying[i]] = false;
+      right = factorise(c, law, f, carrying).solve(right);
+      for (int i = 0; i < carrying.count; ++i)
+        if (f[carrying.number[i]] == 0 && right[i] < 0) {
+          in[carrying.number[i]] = 0;
           again = true;
         }
     }
     change.setZero();
-    for (int i = 0; i < count; ++i) change[carrying[i]] = right[i];
+    for (int i = 0; i < carrying.count; ++i) change[carrying.number[i]] = right[i];
 
     double reach = 1;
     for (int i = 0; i < n; ++i)
       if (f[i] + reach * change[i] < 0) reach = -f[i] / change[i];
     const double fall = change.dot(d);
-    const Energy before = energy(c, law, e, f);
-    PairVector next(n);
+    const Energy before = energy<Most>(c, law, e, f);
+    Vector<Most> next(n);
     constexpr int kMostHalvings = 30;
     double part = reach;
     for (int halving = 0;; ++halving, part *= 0.5) {
       next = (f + part * change).cwiseMax(0.0);
-      const Energy after = energy(c, law, e, next);
+      const Energy after = energy<Most>(c, law, e, next);
       const double slack = kRoundOff * (before.magnitude + after.magnitude);
       if (after.value <= before.value + 1e-4 * part * fall + slack) break;
       if (halving == kMostHalvings)
         fail(Failure::numerical, "line contact: after ", step, " steps the energy ", before.value, " N m of ",
-             count, " pairs with force does not fall along Newton's step (to ", after.value, " N m over ",
-             part, " of it, slope ", fall, " N m, gap ", worst,
+             carrying.count, " pairs with force does not fall along Newton's step (to ", after.value,
+             " N m over ", part, " of it, slope ", fall, " N m, gap ", worst,
              " m): the compliance is not symmetric and positive definite");
     }
     for (int i = 0; i < n; ++i) {
       if (part == reach && reach < 1 && change[i] < 0 && next[i] <= kRoundOff * f[i]) next[i] = 0;
-      if (next[i] == 0) in[i] = false;
+      if (next[i] == 0) in[i] = 0;
     }
     f = next;
   }
@@ -294,17 +303,36 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
   return certificate;
 }
 
+template <int Most>
+double stiffness_of(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                    const Eigen::Ref<const VectorXd>& approach, const Eigen::Ref<const VectorXd>& force) {
+  Carrying<Most> carrying(force.size());
+  for (int i = 0; i < force.size(); ++i) carrying.in[i] = force[i] > 0;
+  carrying.list();
+  if (carrying.count == 0) return 0;
+  Vector<Most> reduced(carrying.count);
+  for (int i = 0; i < carrying.count; ++i) reduced[i] = approach[carrying.number[i]];
+  return reduced.dot(factorise(c, law, force, carrying).solve(reduced));
+}
+
+}  // namespace
+
+Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
+                               const Eigen::Ref<const VectorXd>& e, LineStart& start,
+                               Eigen::Ref<VectorXd> force, Eigen::Ref<VectorXd> d) {
+  Certificate certificate;
+  if (follow_start(c, law, e, start, force, d, certificate)) return certificate;
+  if (!e.allFinite() || !c.allFinite()) fail(Failure::numerical, "line contact: a number is not finite");
+  start.forget();
+  return e.size() > kMostPairs ? solve_by_energy<Eigen::Dynamic>(c, law, e, force, d)
+                               : solve_by_energy<kMostPairs>(c, law, e, force, d);
+}
+
 double line_contact_stiffness(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
                               const Eigen::Ref<const VectorXd>& approach,
                               const Eigen::Ref<const VectorXd>& force) {
-  std::array<bool, kMostPairs> in{};
-  std::array<int, kMostPairs> carrying;
-  for (int i = 0; i < force.size(); ++i) in[i] = force[i] > 0;
-  const int count = list(in, force.size(), carrying);
-  if (count == 0) return 0;
-  PairVector reduced(count);
-  for (int i = 0; i < count; ++i) reduced[i] = approach[carrying[i]];
-  return reduced.dot(factorise(c, law, force, carrying, count).solve(reduced));
+  return force.size() > kMostPairs ? stiffness_of<Eigen::Dynamic>(c, law, approach, force)
+                                   : stiffness_of<kMostPairs>(c, law, approach, force);
 }
 
 void require_hertz_range(std::span<const HertzLine> law, const Eigen::Ref<const VectorXd>& force) {

@@ -6,7 +6,7 @@
 // fall; a pair comes in only at the least energy of the others, so that no set of pairs comes back (as in Lawson and
 // Hanson, Solving Least Squares Problems, 1974, chapter 23). Up to three pairs that carry at the start are first followed
 // by themselves by plain Newton steps, each of n laws and an n x n inverse: enough while no pair comes or goes, and
-// the last step needs no look back, for the slope of a law changes by less than C / F. No memory is taken.
+// the last step needs no look back, for the slope of a law changes by less than C / F. Up to kMostPairs take no memory.
 #pragma once
 #include <Eigen/Core>
 #include <span>
@@ -16,7 +16,7 @@
 
 namespace whine {
 
-inline constexpr int kMostPairs = 8;
+inline constexpr int kMostPairs = 8;  // of one mesh in motion; at rest there may be more
 using PairVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPairs, 1>;
 using PairMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostPairs, kMostPairs>;
 
@@ -44,7 +44,7 @@ struct LineStart {
 // uses the result asks require_hertz_range. Certificate as ComplementaritySolver's: gap tolerance the round-off of
 // each pair's own terms; forces are never negative; `factorisations` counts Newton steps; where the start is followed, d
 // of a pair with force is 0 and the residual is the bound of the last step's error, below that tolerance. Throws
-// Error(numerical) for more than kMostPairs pairs, a number that is not finite, a C that is not semidefinite where it
+// Error(numerical) for a number that is not finite, a C that is not semidefinite where it
 // is tried, an energy that does not fall within 30 halvings of a step, no convergence within 200 steps, or by
 // require_residual.
 Certificate solve_line_contact(const Eigen::Ref<const Eigen::MatrixXd>& c, std::span<const HertzLine> law,

@@ -23,24 +23,28 @@ void in_section(const ScenePlace& where, const std::string& heading, const std::
   }
 }
 
+void check_gear(const SceneGear& gear, const ScenePlace& where) {
+  const auto in_part = [&](const std::string& part, const auto& make) {
+    const std::string section = "gear." + gear.name + part;
+    in_section(where, "[" + section + "]", {section, "gear." + gear.name}, make);
+  };
+  in_part("", [&] {
+    const ToothGeometry tooth(gear.design);
+    if (gear.design.crack.depth > 0) crack_slit(tooth);
+  });
+  in_part(".modification", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
+  in_part(".error", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
+}
+
 }  // namespace
 
+void check_system_geometry(const SystemScene& scene, const ScenePlace& where) {
+  for (const SystemScene::Gear& gear : scene.gears) check_gear(gear, where);
+}
+
 void check_geometry(const Scene& scene, const ScenePlace& where) {
-  const auto in = [&](const std::string& heading, const std::vector<std::string>& sections,
-                      const auto& make) { in_section(where, heading, sections, make); };
-  for (const SceneGear& gear : scene.gears) {
-    const auto in_part = [&](const std::string& part, const auto& make) {
-      const std::string section = "gear." + gear.name + part;
-      in("[" + section + "]", {section, "gear." + gear.name}, make);
-    };
-    in_part("", [&] {
-      const ToothGeometry tooth(gear.design);
-      if (gear.design.crack.depth > 0) crack_slit(tooth);
-    });
-    in_part(".modification", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
-    in_part(".error", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
-  }
-  in("[[mesh]]", {"mesh", "gear." + scene.mesh.gear[1], "gear." + scene.mesh.gear[0]}, [&] {
+  for (const SceneGear& gear : scene.gears) check_gear(gear, where);
+  in_section(where, "[[mesh]]", {"mesh", "gear." + scene.mesh.gear[1], "gear." + scene.mesh.gear[0]}, [&] {
     GearPair pair(scene.gear(scene.mesh.gear[0]).design, scene.gear(scene.mesh.gear[1]).design,
                   scene.mesh.centre_distance);
   });

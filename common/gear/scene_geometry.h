@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/scene.h"
+#include "model/system_scene.h"
 
 namespace whine {
 
@@ -16,6 +16,8 @@ using ScenePlace =
 // Throws what ToothGeometry, crack_slit, FlankDeviation and GearPair throw, with the section of the scene before it and `where`
 // before that.
 void check_geometry(const Scene& scene, const ScenePlace& where);
+// The gears of a system alone; its meshes are checked where it is laid out.
+void check_system_geometry(const SystemScene& scene, const ScenePlace& where);
 
 // Error(input), in the same words, for a gear whose total inertia lies below least_body_inertia; of gears that check_geometry
 // has passed. Statics do not depend on it.

@@ -294,6 +294,36 @@ System layout_of(const SystemScene& scene) {
   return Layout(scene).make();
 }
 
+std::vector<std::string> gears_of(const SystemScene& scene, const System& layout) {
+  std::vector<std::string> out;
+  for (const System::Body& body : layout.bodies) {
+    out.emplace_back();
+    if (body.kind == System::BodyKind::carrier) continue;
+    for (const SystemScene::Gear& gear : scene.gears)
+      if (gear.name == body.name) out.back() = gear.name;
+    for (const SystemScene::Carrier& carrier : scene.carriers)
+      if (body.on != System::kGround && layout.bodies[static_cast<size_t>(body.on)].name == carrier.name)
+        out.back() = carrier.planet;
+  }
+  return out;
+}
+
+std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std::vector<std::string>& gears,
+                             const System& layout) {
+  std::vector<int> out;
+  for (const System::Mesh& mesh : layout.meshes) {
+    out.push_back(-1);
+    for (size_t m = 0; m < meshes.size(); ++m)
+      if (meshes[m].gear[0] == gears[static_cast<size_t>(mesh.side[0].body)] &&
+          meshes[m].gear[1] == gears[static_cast<size_t>(mesh.side[1].body)])
+        out.back() = static_cast<int>(m);
+    if (out.back() < 0)
+      fail(Failure::input, "no [[mesh]] joins '", layout.bodies[static_cast<size_t>(mesh.side[0].body)].name,
+           "' and '", layout.bodies[static_cast<size_t>(mesh.side[1].body)].name, "'");
+  }
+  return out;
+}
+
 System on_fixed_carriers(const System& layout) {
   System out;
   std::vector<int> number;  // [body of layout] in `out`
@@ -301,12 +331,7 @@ System on_fixed_carriers(const System& layout) {
     const System::Body& body = layout.bodies[b];
     number.push_back(static_cast<int>(out.bodies.size()));
     if (body.kind == System::BodyKind::carrier) {
-      const bool held =
-          std::any_of(layout.drives.begin(), layout.drives.end(), [&](const System::Drive& drive) {
-            return drive.body == static_cast<int>(b) && drive.kind == System::DriveKind::held &&
-                   drive.stiffness == 0;
-          });
-      if (!held)
+      if (!layout.held_rigidly(static_cast<int>(b)))
         fail(Failure::input, "carrier '", body.name,
              "' may turn; at rest it has to be held: give it a [[drive]] with kind = \"held\" and no "
              "stiffness");

@@ -18,12 +18,15 @@ inline constexpr double kPositionDigits = 0.05;
 // assembled or run into each other, meshes that do not form one train.
 System layout_of(const SystemScene& scene);
 
+// [body] the [gear.<name>] that a body of the layout is, "" of a carrier; [mesh] the [[mesh]] that a mesh of it comes from.
+std::vector<std::string> gears_of(const SystemScene& scene, const System& layout);
+std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std::vector<std::string>& gears,
+                             const System& layout);
+
 // The same with carriers that do not move: planets turn on axes, or on bearings, that stand on the ground, and carriers with their
 // drives are gone. At rest a train whose ring and carrier are held is this one; what holds the carrier is the sum of the planets'
 // bearing forces. Throws Error(input) for a carrier that no drive holds rigidly.
-//
-// Elastic systems (system/system_statics.h) know no carriers and need this form. No tool solves them yet; tests/test_internal_solid.cpp
-// checks a planetary train at rest with it.
+// Elastic systems (system/system_statics.h) know no carriers and need this form.
 System on_fixed_carriers(const System& layout);
 
 }  // namespace whine

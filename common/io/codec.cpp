@@ -253,7 +253,15 @@ void describe_blank(Codec& c, const std::string& section, KeyValues& values) {
     c.parameters(section, values, Part::bore);
 }
 
-// One gear of a pair: geometry, material and the discretisation of its body, under its role.
+void describe_inertia(Codec& c, const std::string& role, double& inertia) {
+  KeyValues values;
+  values.total_inertia = inertia;
+  c.parameters(role, values, Part::inertia);
+  if (c.in()) inertia = values.total_inertia;
+}
+
+}  // namespace
+
 void describe_gear(Codec& c, const std::string& role, BodyParameters& gear) {
   KeyValues values;
   values.design = gear.design;
@@ -265,15 +273,6 @@ void describe_gear(Codec& c, const std::string& role, BodyParameters& gear) {
   describe_crack(c, role, values);
   if (c.in()) gear = {values.design, values.material, values.body};
 }
-
-void describe_inertia(Codec& c, const std::string& role, double& inertia) {
-  KeyValues values;
-  values.total_inertia = inertia;
-  c.parameters(role, values, Part::inertia);
-  if (c.in()) inertia = values.total_inertia;
-}
-
-}  // namespace
 
 void describe_design(Codec& c, const std::string& section, GearDesign& design) {
   KeyValues values;

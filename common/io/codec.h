@@ -163,6 +163,8 @@ Artifact read_artifact(const std::string& path, const Schema& schema) {
 // --- what several artifacts have in common
 
 void describe_design(Codec& codec, const std::string& section, GearDesign& design);
+// With material and discretisation.
+void describe_gear(Codec& codec, const std::string& section, BodyParameters& gear);
 // Gears, mesh, model level of the contact and its discretisation; fidelity: false leaves the model level out.
 void describe_pair(Codec& codec, PairParameters& a, bool fidelity = true);
 // What a motion has beside: inertias, damping, model levels; time: with the discretisation of time.

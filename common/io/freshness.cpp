@@ -29,7 +29,7 @@ std::string against_scene(const std::string& artifact, const InputRecord& input,
                           bool& fresh) {
   if (scene.empty()) scene = scene_of(input.path);
   const auto today = [&] {
-    if (is_system_scene(scene)) return system_parameters(layout_in(read_system_scene(scene), scene));
+    if (is_system_scene(scene)) return system_parameters_for(scene, input.path);
     return parameters_for(read_scene(scene), input.path);
   };
   const std::string now = scene.empty() ? "" : today();

@@ -17,22 +17,17 @@
 namespace whine {
 namespace {
 
-constexpr Unit kNone{"", "1"};
+using namespace units;
 constexpr Unit kMillimetre{"_mm", "m", 1, 1000};
 constexpr Unit kMicrometre{"_um", "m", 1, 1e6};
-constexpr Unit kDegree{"_deg", "rad", std::numbers::pi, 180};
 constexpr Unit kCornerDegree{"", "rad", std::numbers::pi, 180};
-constexpr Unit kInertia{"_kgm2", "kg m2"};
 constexpr Unit kGigapascal{"_GPa", "Pa", 1e9};
 constexpr Unit kDensity{"_kgm3", "kg m-3"};
 constexpr Unit kPerSecond{"_per_s", "s-1"};
 constexpr Unit kSecond{"_s", "s"};
-constexpr Unit kNewtonMetre{"_Nm", "N m"};
 constexpr Unit kHertz{"_Hz", "Hz"};
 constexpr Unit kKilohertz{"_kHz", "Hz", 1000};
-constexpr Unit kNewtonPerMicrometre{"_N_um", "N m-1", 1e6};
 constexpr Unit kNewtonSecondPerMetre{"_Ns_m", "N s m-1"};
-constexpr Unit kKilogram{"_kg", "kg"};
 
 // NOLINTNEXTLINE(readability-function-size): a table of data
 std::vector<Key> make_keys() {

@@ -4,6 +4,7 @@
 // Private to the layer io/.
 #pragma once
 #include <array>
+#include <numbers>
 #include <string>
 #include <variant>
 #include <vector>
@@ -104,6 +105,13 @@ struct Unit {
   const char* si;      // UDUNITS form
   double multiply = 1, divide = 1;
 };
+
+// Those that both tables of keys, of pairs and of systems, have.
+namespace units {
+inline constexpr Unit kNone{"", "1"}, kDegree{"_deg", "rad", std::numbers::pi, 180},
+    kInertia{"_kgm2", "kg m2"}, kKilogram{"_kg", "kg"}, kNewtonMetre{"_Nm", "N m"},
+    kNewtonPerMicrometre{"_N_um", "N m-1", 1e6};
+}  // namespace units
 
 struct Key {
   Part part;

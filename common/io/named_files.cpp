@@ -7,6 +7,18 @@
 
 namespace whine {
 
+namespace {
+
+// "sun, planet and ring"
+std::string listed(const std::vector<std::string>& words) {
+  std::string out;
+  for (size_t i = 0; i < words.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return out;
+}
+
+}  // namespace
+
 NamedFiles::NamedFiles(std::string option, const std::vector<std::string>& words)
     : option_(std::move(option)) {
   for (const std::string& word : words) {
@@ -21,13 +33,16 @@ NamedFiles::NamedFiles(std::string option, const std::vector<std::string>& words
 }
 
 std::vector<std::string> NamedFiles::of(const GearMeshSpec& mesh) const {
-  const std::vector<std::string> gears(mesh.gear.begin(), mesh.gear.end());
+  return of(std::vector<std::string>(mesh.gear.begin(), mesh.gear.end()));
+}
+
+std::vector<std::string> NamedFiles::of(const std::vector<std::string>& gears) const {
   for (const auto& [name, path] : files_)
     if (std::find(gears.begin(), gears.end(), name) == gears.end()) {
       const std::string near = nearest(name, gears);
-      fail(
-          Failure::usage, option_, " ", name, "=", path, ": no gear of this mesh is called '", name, "'; ",
-          near.empty() ? text("they are ", gears[0], " and ", gears[1]) : text("did you mean '", near, "'?"));
+      fail(Failure::usage, option_, " ", name, "=", path, ": no gear of this ",
+           gears.size() == 2 ? "mesh" : "system", " is called '", name, "'; ",
+           near.empty() ? "they are " + listed(gears) : text("did you mean '", near, "'?"));
     }
   std::vector<std::string> paths;
   for (const std::string& gear : gears) {

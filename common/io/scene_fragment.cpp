@@ -19,6 +19,17 @@ std::vector<std::string> different(const BodyHashes& bodies) {
   return hashes;
 }
 
+BodyHashes publish_bodies(const std::string& home, const std::string& folder, const BodySettings& settings) {
+  BodyHashes bodies;
+  for (const auto& [gear, text] : settings) {
+    const std::string hash = body_hash(text);
+    publish_if_changed(folder + "/bodies/" + hash + "/body.toml", text);
+    publish_link(home + "/" + gear, "../bodies/" + hash);
+    bodies.emplace_back(gear, hash);
+  }
+  return bodies;
+}
+
 std::string checked_scene_stem(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
   if (!plain_name(stem)) {
@@ -33,9 +44,20 @@ std::string checked_scene_stem(const std::string& path) {
   return stem;
 }
 
-std::string system_fragment(const std::string& path, const std::string& stem) {
-  return "# Written by gear-scene from " + in_comment(recorded_path(path)) + "\nSCENE_" + stem +
-         "_SYSTEM := rigid\n";
+std::string system_fragment(const std::string& path, const std::string& stem, const BodyHashes& bodies) {
+  std::ostringstream out;
+  out << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\nSCENE_" << stem
+      << "_SYSTEM := " << (bodies.empty() ? "rigid" : "elastic") << "\n";
+  if (bodies.empty()) return out.str();
+  out << "SCENE_" << stem << "_SYSTEM_GEARS :=";
+  for (const auto& [gear, hash] : bodies) out << " " << gear;
+  out << "\n";
+  for (const auto& [gear, hash] : bodies)
+    out << "SCENE_" << stem << "_BODY_" << gear << " := " << hash << "\n";
+  out << "BODIES +=";
+  for (const auto& hash : different(bodies)) out << " " << hash;
+  out << "\n";
+  return out.str();
 }
 
 std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,

@@ -24,6 +24,7 @@
 #include "io/study.h"
 #include "io/study_codec.h"
 #include "io/sweep_codec.h"
+#include "io/system_static_codec.h"
 #include "io/variant_codec.h"
 
 namespace whine {
@@ -350,6 +351,28 @@ void show(Lines& lines, const ModesArtifact& a) {
     add(lines, "mode", a.natural_frequency[i], " Hz, ", a.type[static_cast<size_t>(i)]);
 }
 
+void show(Lines& lines, const SystemStaticArtifact& a) {
+  const System& s = a.settings.layout;
+  add(lines, "model", "contact ", a.settings.fidelity.contact, ", ", a.mesh_phase.size(),
+      " positions in a mesh period");
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const auto column = static_cast<Eigen::Index>(b);
+    double most = 0;
+    for (const MatrixRM& force : a.bearing_force) most = std::max(most, force.row(column).norm());
+    add(lines, "body", s.bodies[b].name, ": torque ", a.torque.col(column).mean(),
+        " N m, bearing force up to ", most, " N");
+  }
+  for (size_t m = 0; m < s.meshes.size(); ++m) {
+    const auto column = static_cast<Eigen::Index>(m);
+    add(lines, "mesh", s.bodies[static_cast<size_t>(s.meshes[m].side[0].body)].name, " and ",
+        s.bodies[static_cast<size_t>(s.meshes[m].side[1].body)].name, ": transmission error ",
+        a.transmission_error.col(column).minCoeff() * 1e6, " to ",
+        a.transmission_error.col(column).maxCoeff() * 1e6, " µm, share of the load ",
+        a.load_share.col(column).minCoeff() * 100, " to ", a.load_share.col(column).maxCoeff() * 100, " %");
+  }
+  add(lines, "residual", a.torque_residual.maxCoeff(), " of the largest mesh force");
+}
+
 void show(Lines& lines, const FoldCurvesArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -512,6 +535,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_fold_curves(path));
   } else if (schema == "whine/modes") {
     show(lines, read_modes(path));
+  } else if (schema == "whine/system_static") {
+    show(lines, read_system_static(path));
   } else if (schema == "whine/runup") {
     show(lines, read_runup(path));
   } else if (schema == "whine/branch") {

@@ -1,20 +1,9 @@
 #include "io/system_keys.h"
 
-#include <numbers>
-
 namespace whine {
-namespace {
-
-constexpr Unit kNone{"", "1"};
-constexpr Unit kDegree{"_deg", "rad", std::numbers::pi, 180};
-constexpr Unit kInertia{"_kgm2", "kg m2"};
-constexpr Unit kKilogram{"_kg", "kg"};
-constexpr Unit kNewtonMetre{"_Nm", "N m"};
-constexpr Unit kNewtonPerMicrometre{"_N_um", "N m-1", 1e6};
-
-}  // namespace
 
 std::vector<Key> system_keys() {
+  using namespace units;
   using V = KeyValues;
   // clang-format off
   return {

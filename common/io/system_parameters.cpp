@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "io/section_reader.h"
 #include "io/stage_parameters_text.h"
+#include "io/system_layout_text.h"
 #include "io/variant.h"
 #include "system/rigid_system.h"
 
@@ -155,20 +156,19 @@ void read_list(const Source& source, const char* name, std::vector<Item>& list) 
 
 }  // namespace
 
-std::string system_parameters(const System& layout) {
+std::string layout_text(const System& layout) {
   std::ostringstream out;
-  out << kStageParametersStart << kStage << kStageParametersEnd << "\n";
   write_list(out, "body", layout.bodies);
   write_list(out, "mesh", layout.meshes);
   write_list(out, "drive", layout.drives);
   return out.str();
 }
 
-System read_system_parameters(const std::string& path) {
-  const Source source(path,
-                      "stage parameters are out/<scene>/params/system.toml, made with: make modes SCENE=...");
-  if (!source.is_stage_parameters() || source.stage_of() != kStage)
-    source.reject("is not what the modes of a system depend on: give out/<scene>/params/system.toml");
+std::string system_parameters(const System& layout) {
+  return std::string(kStageParametersStart) + kStage + kStageParametersEnd + "\n" + layout_text(layout);
+}
+
+System layout_from(const Source& source) {
   System out;
   read_list(source, "body", out.bodies);
   read_list(source, "mesh", out.meshes);
@@ -190,6 +190,14 @@ System read_system_parameters(const std::string& path) {
     if (!there(drive.body))
       source.reject(text("a [[drive]] names a body that is not there; there are ", bodies));
   return out;
+}
+
+System read_system_parameters(const std::string& path) {
+  const Source source(path,
+                      "stage parameters are out/<scene>/params/system.toml, made with: make modes SCENE=...");
+  if (!source.is_stage_parameters() || source.stage_of() != kStage)
+    source.reject("is not what the modes of a system depend on: give out/<scene>/params/system.toml");
+  return layout_from(source);
 }
 
 }  // namespace whine

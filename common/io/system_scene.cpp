@@ -22,18 +22,33 @@ std::vector<const toml::table*> list_of(const Source& source, const std::string&
   return out;
 }
 
+void reject_unlike_teeth(const Source& source, const toml::table& table, const SceneGear& gear, bool rigid) {
+  for (const char* key : {"modification", "error", "crack"}) {
+    const toml::node* node = table.get(key);
+    if (node && rigid)
+      source.reject(
+          *node, text("[gear.", gear.name, ".", key, "]: a gear of a system with body = \"rigid\" has no '",
+                      key, "', its mesh is one spring of stiffness_N_um; take the section out"));
+    if (node && key != std::string("modification"))
+      source.reject(*node, text("[gear.", gear.name, ".", key,
+                                "]: a gear of a system (several meshes, carriers or drives) has no '", key,
+                                "' so far, its teeth are all alike; take the section out"));
+  }
+}
+
 void take_gears(const Source& source, SystemScene& scene) {
   Scene gears;
-  read_gears(source, gears, true);
+  const bool rigid = scene.rigid();
+  read_gears(source, gears, rigid);
   for (const SceneGear& own : gears.gears) {
     SystemScene::Gear gear;
     static_cast<SceneGear&>(gear) = own;
     const toml::table* table = source.section("gear")->get(own.name)->as_table();
-    for (const char* key : {"modification", "error", "crack"})
-      if (const toml::node* node = table->get(key))
-        source.reject(
-            *node, text("[gear.", own.name, ".", key, "]: a gear of a system with body = \"rigid\" has no '",
-                        key, "', its mesh is one spring of stiffness_N_um; take the section out"));
+    reject_unlike_teeth(source, *table, own, rigid);
+    if (!rigid) {
+      scene.gears.push_back(gear);
+      continue;
+    }
     const toml::table* owner = table;
     if (const auto like = (*table)["like"].value<std::string>(); like && !table->get("equivalent_mass_kg"))
       owner = source.section("gear")->get(*like)->as_table();
@@ -62,7 +77,7 @@ void take_carriers(const Source& source, SystemScene& scene) {
     if (!plain_name(values.carrier.name))
       source.reject(*table->get("name"), text("'name' in [carrier] = '", values.carrier.name,
                                               "': a name holds letters, digits, '_' and '-' only"));
-    if ((values.carrier.inertia > 0) == (values.carrier.equivalent_mass > 0))
+    if (scene.rigid() && (values.carrier.inertia > 0) == (values.carrier.equivalent_mass > 0))
       source.reject(*table, text("[carrier] '", values.carrier.name,
                                  "' needs its inertia, either 'inertia_kgm2' or 'equivalent_mass_kg'"));
     scene.carriers.push_back(values.carrier);
@@ -77,10 +92,18 @@ void take_meshes(const Source& source, SystemScene& scene) {
     reader.reject_unknown({"direction_deg", "stiffness_N_um"});
     reader.read(values, {Part::mesh, Part::contact_plane}, false);
     train.read(values, {Part::train_mesh}, false);
-    if (!(values.train_mesh.stiffness > 0))
+    if (const toml::node* node = table->get("stiffness_N_um"); node && !scene.rigid())
+      source.reject(
+          *node,
+          "'stiffness_N_um' in [mesh] belongs to body = \"rigid\"; that of elastic gears is computed, "
+          "take it out");
+    if (scene.rigid() && !(values.train_mesh.stiffness > 0))
       source.reject(*table, text("[mesh] of '", values.mesh.gear[0], "' and '", values.mesh.gear[1],
                                  "' lacks 'stiffness_N_um', which body = \"rigid\" needs"));
     values.train_mesh.spec = values.mesh;
+    for (size_t g = 0; g < kSides; ++g)
+      for (const SystemScene::Gear& gear : scene.gears)
+        if (gear.name == values.mesh.gear[g]) values.train_mesh.spec.modification[g] = gear.modification;
     scene.meshes.push_back(values.train_mesh);
   }
 }
@@ -111,7 +134,12 @@ void take_bearings(const Source& source, SystemScene& scene) {
       source.reject(*table->get("gear"), text("'gear' in [bearing] = '", values.bearing_gear,
                                               "' has a bearing already; give one section with what carries "
                                               "it in all"));
-    if (!(values.bearing.mass > 0))
+    if (!scene.rigid() && static_cast<size_t>(at - names.begin()) >= scene.gears.size())
+      source.reject(
+          *table->get("gear"),
+          text("'gear' in [bearing] = '", values.bearing_gear,
+               "' is a carrier, whose axis is rigid where gears are elastic; take the section out"));
+    if (scene.rigid() && !(values.bearing.mass > 0))
       source.reject(*table, text("[bearing] of '", values.bearing_gear,
                                  "' lacks 'mass_kg', which body = \"rigid\" needs"));
     bearing = values.bearing;
@@ -131,8 +159,32 @@ void take_drives(const Source& source, SystemScene& scene) {
     };
     only("torque_Nm", System::DriveKind::torque);
     only("stiffness_N_um", System::DriveKind::held);
+    if (const toml::node* node = table->get("stiffness_N_um"); node && !scene.rigid())
+      source.reject(
+          *node,
+          "'stiffness_N_um' in [drive] belongs to body = \"rigid\"; elastic gears are held rigidly, take "
+          "it out");
     scene.drives.push_back(values.drive);
   }
+}
+
+// [fidelity] and [discretisation].
+void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) {
+  static const toml::table kNothing;
+  for (const char* name : {"fidelity", "discretisation"}) {
+    const toml::table* table = source.section(name);
+    const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
+    reader.reject_unknown();
+    reader.read(values, {Part::level, Part::contact_level, Part::body, Part::near_field, Part::contact},
+                false);
+  }
+  scene.fidelity = values.fidelity;
+  scene.body = values.body;
+  scene.contact = values.contact;
+  if (const toml::node* node = source.root().get("discretisation"); node && scene.rigid())
+    source.reject(
+        *node, "[discretisation] belongs to elastic gears, and those of this scene are rigid; take it out");
+  if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
 }
 
 }  // namespace
@@ -150,12 +202,15 @@ SystemScene read_system_scene(const std::string& path) {
   if (source.is_stage_parameters())
     source.reject("holds stage parameters, which gear-scene wrote from a scene; give the scene itself");
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
-  for (const char* name : {"operation", "damping", "discretisation"})
+  for (const char* name : {"operation", "damping"})
     if (const toml::node* node = source.root().get(name))
-      source.reject(*node, text("[", name,
-                                "] stands in a scene of a system (several meshes, carriers or drives), of "
-                                "which natural modes are computed so far; take the section out"));
-  top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "drive", "fidelity"});
+      source.reject(
+          *node, text("[", name,
+                      "] stands in a scene of a system (several meshes, carriers or drives), of which "
+                      "statics and natural modes are computed so far, its torques those of [[drive]]; take "
+                      "the section out"));
+  top.reject_unknown(
+      {"gear", "material", "bearing", "mesh", "carrier", "drive", "fidelity", "discretisation"});
   for (const char* name : {"gear", "mesh"})
     if (!source.root().get(name))
       source.reject(text("the scene of a system lacks ",
@@ -165,21 +220,7 @@ SystemScene read_system_scene(const std::string& path) {
   KeyValues values;
   top.read(values, {Part::title}, false);
   scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
-  static const toml::table kNothing;
-  const toml::table* fidelity = source.section("fidelity");
-  const SectionReader reader(source, Dialect::scene, fidelity ? *fidelity : kNothing, "fidelity", "fidelity");
-  reader.reject_unknown();
-  reader.read(values, {Part::level, Part::contact_level}, false);
-  scene.fidelity = values.fidelity;
-  if (scene.fidelity.body != BodyModel::rigid) {
-    const toml::node* body = fidelity ? fidelity->get("body") : nullptr;
-    const std::string what = text(
-        "body = \"", scene.fidelity.body,
-        "\" of a system (several meshes, carriers or drives): systems are computed as rigid bodies so far; "
-        "write [fidelity] body = \"rigid\"");
-    if (body) source.reject(*body, what);
-    source.reject(what);
-  }
+  take_fidelity(source, values, scene);
   take_gears(source, scene);
   take_carriers(source, scene);
   take_meshes(source, scene);

@@ -1,8 +1,10 @@
 // Scenes of systems (several meshes, carriers, drives), and the stage parameters that are cut from them.
 #pragma once
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "model/system_scene.h"
+#include "model/system_stages.h"
 
 namespace whine {
 
@@ -18,5 +20,17 @@ System layout_in(const SystemScene& scene, const std::string& path);
 // Canonical text of the stage parameters of the modes of a system, and back: bodies, meshes and drives as they stand, in SI.
 std::string system_parameters(const System& layout);
 System read_system_parameters(const std::string& path);
+
+// Gears and the stage parameters of their bodies, in the order of the scene; none of rigid ones.
+using BodySettings = std::vector<std::pair<std::string, std::string>>;
+BodySettings body_parameters_of(const SystemScene& scene);
+
+// Of elastic systems: what their statics depend on, as text and back.
+SystemStaticParameters static_parameters_of(const SystemScene& scene, const System& layout);
+std::string system_static_parameters(const SystemStaticParameters& parameters);
+SystemStaticParameters read_system_static_parameters(const std::string& path);
+
+// The stage parameters that the scene gives now for the path of earlier ones; empty if none of it stand there.
+std::string system_parameters_for(const std::string& scene, const std::string& path);
 
 }  // namespace whine

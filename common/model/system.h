@@ -65,6 +65,11 @@ struct System {
       if (drive.body == body && drive.kind == DriveKind::held) return true;
     return false;
   }
+  bool held_rigidly(int body) const {
+    for (const Drive& drive : drives)
+      if (drive.body == body && drive.kind == DriveKind::held && drive.stiffness == 0) return true;
+    return false;
+  }
   double torque(int body) const {  // N m
     double sum = 0;
     for (const Drive& drive : drives)

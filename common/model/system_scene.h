@@ -40,6 +40,11 @@ struct SystemScene {
   std::vector<Mesh> meshes;
   std::vector<Drive> drives;
   Fidelity fidelity;
+  // Of elastic bodies, of which natural modes need statics first.
+  BodyDiscretisation body;
+  ContactDiscretisation contact;
+
+  bool rigid() const { return fidelity.body == BodyModel::rigid; }
 };
 
 // An error about one section of a list ([[mesh]], [[carrier]], [[drive]]), which who reads the file gives its line.

@@ -21,6 +21,8 @@
 #include "io/summary.h"
 #include "io/sweep_codec.h"
 #include "report/compare_figures.h"
+#include "io/system_static_codec.h"
+#include "report/campbell_figure.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
@@ -34,6 +36,7 @@
 #include "report/sensitivity_figure.h"
 #include "report/static_figures.h"
 #include "report/study_figure.h"
+#include "report/system_figures.h"
 #include "signal/response.h"
 
 namespace whine {
@@ -278,9 +281,6 @@ Drawings drawings_of_maps() {
       {"multipliers",
        {"Floquet multipliers of a branch in the complex plane, and their largest modulus", "branch.h5", 1, 0,
         [](const Paths& in, const Frequencies&) { return multiplier_figure(read_branch(in[0])); }}},
-      {"modes",
-       {"natural frequencies of a system by type, and its mode shapes", "modes.h5", 1, 0,
-        [](const Paths& in, const Frequencies&) { return modes_figure(read_modes(in[0])); }}},
       {"fold-curves",
        {"mesh frequencies of folds against damping, torque or tip relief, with their cusps",
         "fold_curves.h5 of one quantity, one per torque; jump_map.h5 beside them, for the jumps of sweeps", 0,
@@ -309,6 +309,22 @@ Drawings drawings_of_maps() {
   };
 }
 
+Drawings drawings_of_systems() {
+  return {
+      {"modes",
+       {"natural frequencies of a system by type, and its mode shapes", "modes.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return modes_figure(read_modes(in[0])); }}},
+      {"campbell",
+       {"natural frequencies of a system and the harmonics of the mesh frequency that excite them",
+        "modes.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return campbell_figure(read_modes(in[0])); }}},
+      {"system-static",
+       {"a system at rest: transmission errors, forces of meshes, forces on bearings", "system_static.h5", 1,
+        0,
+        [](const Paths& in, const Frequencies&) { return system_static_figure(read_system_static(in[0])); }}},
+  };
+}
+
 // Scenes that all of a figure shows: not those that stand at their panels, nor variants of the first.
 Paths scenes_of(const std::string& name, const Paths& inputs, const Figure& figure) {
   Paths scenes;
@@ -330,6 +346,7 @@ const std::map<std::string, Drawing>& drawings() {
     drawings.merge(drawings_of_motions());
     drawings.merge(drawings_of_designs());
     drawings.merge(drawings_of_maps());
+    drawings.merge(drawings_of_systems());
     return drawings;
   }();
   return all;

@@ -99,7 +99,9 @@ FigureBlock frequency_block(const ModesArtifact& a) {
 Figure modes_figure(const ModesArtifact& a) {
   const System& s = a.layout;
   Figure figure;
-  figure.title = "Natural modes of a system of rigid bodies";
+  const bool elastic = a.frozen_frequency.size() > 0;
+  figure.title = elastic ? "Natural modes of a system with the mean stiffness of its elastic gears"
+                         : "Natural modes of a system of rigid bodies";
   figure.blocks = {frequency_block(a)};
   const Extent e = extent_of(s);
   const double size = 0.5 * std::max(e.right - e.left, e.high - e.low) / kMilli;
@@ -136,8 +138,9 @@ Figure modes_figure(const ModesArtifact& a) {
                                    name_of(a.type[static_cast<size_t>(i)]), equal(i + 1) ? " (double)" : ""));
   }
   figure.notes.push_back(
-      text(s.bodies.size(), " rigid bodies, ", s.meshes.size(), " meshes of mean stiffness, ",
-           a.natural_frequency.size(), " modes, ", still, " of them free motions (0 Hz, not drawn)",
+      text(s.bodies.size(), elastic ? " bodies, " : " rigid bodies, ", s.meshes.size(),
+           " meshes of mean stiffness, ", a.natural_frequency.size(), " modes, ", still,
+           " of them free motions (0 Hz, not drawn)",
            left_out ? text("; the shapes of ", left_out, " higher frequencies are not drawn") : ""));
   figure.notes.push_back(
       "blue: central gears, orange: planets, green: carrier, grey: at rest; a radius of each gear, of a ring "

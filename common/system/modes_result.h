@@ -25,10 +25,14 @@ struct ModesArtifact {
   std::vector<MatrixRM> shape;
   MatrixRM
       mesh_deflection;  // (mode, mesh) kg^-1/2: of the springs along the lines of action, positive where they close
-  MatrixRM mesh_energy;        // (mode, mesh) 1: share of the potential energy; 0 of a mode without any
+  MatrixRM
+      mesh_energy;  // (mode, mesh) 1: share of the potential energy; 0 of a mode without any, and below 0 where other meshes push through a common body
   MatrixRM bearing_energy;     // (mode, body) 1: the same of bearings, and of what holds a rotation
   MatrixRM kinetic_energy;     // (mode, body) 1: share of the kinetic energy
   double rigid_frequency = 0;  // Hz: motions slower than this count as free, with the frequency 0
+  // Of elastic gears: natural frequencies with the contact of each phase, ascending; of rigid ones none.
+  Eigen::VectorXd mesh_phase;  // (phase) 1
+  MatrixRM frozen_frequency;   // (phase, mode) Hz
 
   System layout;
 };

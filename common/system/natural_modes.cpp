@@ -96,7 +96,8 @@ Index leading_coordinate(const MatrixXd& shape) {
   return at;
 }
 
-void make_unique(Eigen::Ref<MatrixXd> pair) {
+// The largest motion is positive; of two modes of one frequency the first holds all of it.
+void fix_direction(Eigen::Ref<MatrixXd> pair) {
   const Index at = leading_coordinate(pair);
   if (pair.cols() == 2) {
     const double c = pair(at, 0), s = pair(at, 1), norm = std::hypot(c, s);
@@ -142,7 +143,7 @@ std::vector<Mode> symmetric_modes(const RigidSystem& system, const MatrixXd& tur
                                                                                  : ModeType::planet;
     const Index width = pairs ? 2 : 1;
     for (Index i = 0; i + width <= solved.squared.size(); i += width) {
-      make_unique(solved.shape.middleCols(i, width));
+      fix_direction(solved.shape.middleCols(i, width));
       const double mean = solved.squared.segment(i, width).mean();
       for (Index j = i; j < i + width; ++j) out.push_back({mean, type, k, solved.shape.col(j)});
     }
@@ -169,12 +170,15 @@ ModeType type_by_motion(const ModesArtifact& a, Index mode, const std::vector<in
 
 void fill_energies(const RigidSystem& system, Index mode, const VectorXd& q, ModesArtifact& a) {
   double potential = 0, kinetic = 0;
+  const VectorXd closing = system.closing * q, force = system.mesh_stiffness * closing;
   for (const RigidSystem::Spring& spring : system.springs) {
     const VectorXd way = spring.row * q;
-    const double energy = spring.stiffness * way.squaredNorm();
+    const double energy = spring.kind == RigidSystem::Spring::Kind::mesh
+                              ? closing[spring.number] * force[spring.number]
+                              : spring.stiffness * way.squaredNorm();
     potential += energy;
     if (spring.kind == RigidSystem::Spring::Kind::mesh) {
-      a.mesh_deflection(mode, spring.number) = way[0];
+      a.mesh_deflection(mode, spring.number) = closing[spring.number];
       a.mesh_energy(mode, spring.number) += energy;
     } else {
       a.bearing_energy(mode, spring.number) += energy;
@@ -208,7 +212,7 @@ std::vector<Mode> modes_of(const RigidSystem& system, const std::vector<int>& pl
   std::vector<Mode> out;
   Solved solved = solve(system.stiffness, system.mass);
   for (Index i = 0; i < solved.squared.size(); ++i) {
-    make_unique(solved.shape.col(i));
+    fix_direction(solved.shape.col(i));
     out.push_back({solved.squared[i], ModeType::mixed, -1, solved.shape.col(i)});
   }
   return out;
@@ -216,8 +220,8 @@ std::vector<Mode> modes_of(const RigidSystem& system, const std::vector<int>& pl
 
 }  // namespace
 
-ModesArtifact natural_modes(const System& layout) {
-  const RigidSystem system = rigid_system(layout);
+ModesArtifact natural_modes(const System& layout, const MatrixXd& mesh_stiffness) {
+  const RigidSystem system = rigid_system(layout, mesh_stiffness);
   const std::vector<int> planets = planets_of(layout);
   std::vector<Mode> modes = modes_of(system, planets);
   double largest = 0;
@@ -230,7 +234,7 @@ ModesArtifact natural_modes(const System& layout) {
   const auto count = static_cast<Index>(modes.size()), bodies = static_cast<Index>(layout.bodies.size()),
              meshes = static_cast<Index>(layout.meshes.size());
   ModesArtifact out;
-  out.layout = layout;
+  out.layout = system.layout;
   out.rigid_frequency = std::sqrt(kFreeMotion * largest) / (2 * kPi);
   out.natural_frequency.resize(count);
   out.planet_harmonic.resize(count);
@@ -244,6 +248,22 @@ ModesArtifact natural_modes(const System& layout) {
     fill_energies(system, i, mode.shape, out);
     out.type.push_back(mode.harmonic >= 0 ? mode.type : type_by_motion(out, i, planets, system));
   }
+  return out;
+}
+
+ModesArtifact elastic_modes(const SystemStaticArtifact& at_rest) {
+  if (at_rest.mesh_stiffness.empty()) fail(Failure::input, "the statics hold no phase");
+  const auto meshes = static_cast<Index>(at_rest.settings.layout.meshes.size());
+  MatrixXd mean = MatrixXd::Zero(meshes, meshes);
+  for (const MatrixRM& frozen : at_rest.mesh_stiffness) mean += frozen;
+  mean /= static_cast<double>(at_rest.mesh_stiffness.size());
+  ModesArtifact out = natural_modes(at_rest.settings.layout, mean);
+  out.mesh_phase = at_rest.mesh_phase;
+  out.frozen_frequency.resize(out.mesh_phase.size(), out.natural_frequency.size());
+  for (Index i = 0; i < out.mesh_phase.size(); ++i)
+    out.frozen_frequency.row(i) =
+        natural_modes(at_rest.settings.layout, at_rest.mesh_stiffness[static_cast<size_t>(i)])
+            .natural_frequency.transpose();
   return out;
 }
 

@@ -20,13 +20,6 @@ Vec2 line_of_action(const System::Mesh& mesh) {
 
 namespace {
 
-// Whether a drive holds a body with no give.
-bool held_rigidly(const System& layout, int body) {
-  for (const System::Drive& drive : layout.drives)
-    if (drive.body == body && drive.kind == System::DriveKind::held && drive.stiffness == 0) return true;
-  return false;
-}
-
 void require(double value, const char* what, const std::string& name) {
   if (!(value > 0) || !std::isfinite(value))
     fail(Failure::input, "a rigid system needs ", what, " of '", name, "' above 0; it is ", value);
@@ -50,7 +43,7 @@ void take_freedoms(RigidSystem& system) {
   Index freedoms = 0;
   std::vector<Index> turn(layout.bodies.size(), -1), move(layout.bodies.size(), -1);
   for (int b = 0; b < bodies; ++b) {
-    if (!held_rigidly(layout, b)) turn[static_cast<size_t>(b)] = freedoms++;
+    if (!layout.held_rigidly(b)) turn[static_cast<size_t>(b)] = freedoms++;
     if (!layout.bodies[static_cast<size_t>(b)].bearing.elastic()) continue;
     move[static_cast<size_t>(b)] = freedoms;
     freedoms += 2;
@@ -74,6 +67,7 @@ void take_freedoms(RigidSystem& system) {
 
 void take_springs(RigidSystem& system) {
   const System& layout = system.layout;
+  system.closing.resize(static_cast<Index>(layout.meshes.size()), system.rotation[0].cols());
   for (size_t m = 0; m < layout.meshes.size(); ++m) {
     const System::Mesh& mesh = layout.meshes[m];
     MatrixXd row = MatrixXd::Zero(1, system.rotation[0].cols());
@@ -86,6 +80,7 @@ void take_springs(RigidSystem& system) {
             layout.bodies[static_cast<size_t>(mesh.side[0].body)].name + "-" +
                 layout.bodies[static_cast<size_t>(mesh.side[1].body)].name);
     system.springs.push_back({RigidSystem::Spring::Kind::mesh, static_cast<int>(m), row, mesh.stiffness});
+    system.closing.row(static_cast<Index>(m)) = row;
   }
   for (size_t b = 0; b < layout.bodies.size(); ++b)
     if (const Bearing& bearing = layout.bodies[b].bearing; bearing.elastic())
@@ -107,9 +102,22 @@ bool has_place(const System& layout, const System::Body& body) {
   return carrier.kind == System::BodyKind::carrier && carrier.on == System::kGround;
 }
 
-RigidSystem rigid_system(const System& layout) {
+RigidSystem rigid_system(const System& layout, const MatrixXd& mesh_stiffness) {
   RigidSystem out;
   out.layout = layout;
+  const auto meshes = static_cast<Index>(layout.meshes.size());
+  out.mesh_stiffness = mesh_stiffness;
+  if (mesh_stiffness.size() == 0) out.mesh_stiffness.setZero(meshes, meshes);
+  if (out.mesh_stiffness.rows() != meshes || out.mesh_stiffness.cols() != meshes)
+    fail(Failure::input, "a system of ", meshes, " meshes is given the stiffness of ",
+         out.mesh_stiffness.rows());
+  for (Index m = 0; m < meshes; ++m) {
+    double& own = out.layout.meshes[static_cast<size_t>(m)].stiffness;
+    if (mesh_stiffness.size() == 0)
+      out.mesh_stiffness(m, m) = own;
+    else
+      own = mesh_stiffness(m, m);
+  }
   for (const System::Body& body : layout.bodies) {
     require(body.radius, "a radius", body.name);
     if (!has_place(layout, body))
@@ -122,15 +130,17 @@ RigidSystem rigid_system(const System& layout) {
   out.mass = out.stiffness = MatrixXd::Zero(n, n);
   for (size_t b = 0; b < layout.bodies.size(); ++b) {
     const System::Body& body = layout.bodies[b];
-    if (!held_rigidly(layout, static_cast<int>(b))) {
+    if (!layout.held_rigidly(static_cast<int>(b))) {
       require(body.inertia, "an inertia", body.name);
       out.mass += body.inertia / (body.radius * body.radius) * out.rotation[b].transpose() * out.rotation[b];
     }
     if (body.bearing.elastic()) require(body.bearing.mass, "a mass", body.name);
     out.mass += body.bearing.mass * out.translation[b].transpose() * out.translation[b];
   }
+  out.stiffness = out.closing.transpose() * out.mesh_stiffness * out.closing;
   for (const RigidSystem::Spring& spring : out.springs)
-    out.stiffness += spring.stiffness * spring.row.transpose() * spring.row;
+    if (spring.kind != RigidSystem::Spring::Kind::mesh)
+      out.stiffness += spring.stiffness * spring.row.transpose() * spring.row;
   return out;
 }
 

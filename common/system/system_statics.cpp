@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/model_range.h"
+#include "system/rigid_system.h"
 
 namespace whine {
 
@@ -20,6 +21,31 @@ constexpr double kStripsDepth = 1e-3;  // m: statics do not depend on it, near f
 VectorXd loads_of_ranges(const SystemModel& system) {
   const VectorXd loads = mesh_loads(system);
   return loads.cwiseMax(1e-3 * loads.maxCoeff());
+}
+
+// N: the sum of the contact forces on body b.
+Vec2 hub_force(const SystemPosition& position, const std::vector<GearMeshModel>& meshes, int b,
+               const VectorXd& p) {
+  Vec2 sum(0, 0);
+  for (const ContactSegment& segment : position.segment) {
+    const auto& side = meshes[static_cast<size_t>(segment.mesh)].layout.side;
+    const double force = p.segment(segment.first_strip, segment.strips).sum();
+    if (side[0].body == b) sum -= force * segment.normal;
+    if (side[1].body == b) sum += force * segment.normal;
+  }
+  return sum;
+}
+
+// Of the pairs of a mesh the gear, side 0 or 1, whose involute ends at its root where force stands; -1: none does.
+int side_at_root(const MeshPosition& mesh, const VectorXd& p) {
+  for (size_t j = 0; j < mesh.pairs.size(); ++j) {
+    const PairStrips& pair = mesh.pairs[j];
+    if (!pair.low_is_edge && pair.border[0] == pair.contact.x_min && p[mesh.first_strip[j]] > 0) return 0;
+    if (!pair.high_is_edge && pair.border[pair.border.size() - 1] == pair.contact.x_max &&
+        p[mesh.first_strip[j + 1] - 1] > 0)
+      return 1;
+  }
+  return -1;
 }
 }  // namespace
 
@@ -41,6 +67,10 @@ std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, d
 }
 
 std::string outside_zone(const SystemSolution& solution, double phase) {
+  if (!solution.at_root.empty())
+    return text("at mesh phase ", phase, " the pressure reaches the start of the involute of '",
+                solution.at_root,
+                "', which its mate's tip comes too close to: shorten that tip or deepen the root (dedendum)");
   if (solution.leaves_zone)
     return text("at mesh phase ", phase, " the pressure reaches the candidate zone's end");
   for (size_t m = 0; m < solution.deflection.size(); ++m) {
@@ -70,6 +100,7 @@ std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactM
       const double phase = static_cast<double>(i) / positions;
       out.push_back(statics.solve(phase, 0, start));
       start = out.back().equilibrium.x;
+      out.back().mesh_stiffness = statics.mesh_stiffness();
       beyond = outside_zone(out.back(), phase);
     }
     if (beyond.empty()) return out;
@@ -139,9 +170,17 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
     solution.bearing_force.push_back(
         system_.layout.bodies[b].bearing.elastic()
             ? bearing_force(position, static_cast<int>(b), solution.equilibrium.p)
-            : Vec2(0, 0));
+            : hub_force(position, system_.mesh, static_cast<int>(b), solution.equilibrium.p));
   for (size_t m = 0; m < position.mesh.size(); ++m) {
     const int number = static_cast<int>(m);
+    const VectorXd own = solution.equilibrium.p(position.strips_of(m));
+    const auto moment = [&](size_t side) {
+      return closing_sign(static_cast<int>(side)) *
+             position.load.rotation.col(system_.mesh[m].layout.side[side].body)(position.strips_of(m))
+                 .dot(own);
+    };
+    solution.mesh_force.push_back(moment(0));
+    solution.driven_force.push_back(moment(1));
     solution.transmission_error.push_back(solution.equilibrium.transmission_error(system_, number));
     solution.deflection.push_back(mesh_deflection(system_, position, solution.equilibrium, number));
     solution.next_corner_gap.push_back(position.mesh[m].next_corner_gap);
@@ -155,9 +194,15 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
 
 void SystemStatics::take_strips(SystemSolution& solution) const {
   const VectorXd& p = solution.equilibrium.p;
-  for (size_t m = 0; m < position_->mesh.size(); ++m)
-    solution.leaves_zone =
-        solution.leaves_zone || position_->mesh[m].reaches_zone_end(p(position_->strips_of(m)));
+  for (size_t m = 0; m < position_->mesh.size(); ++m) {
+    const VectorXd own = p(position_->strips_of(m));
+    solution.leaves_zone = solution.leaves_zone || position_->mesh[m].reaches_zone_end(own);
+    if (const int side = side_at_root(position_->mesh[m], own); side >= 0)
+      solution.at_root =
+          system_.layout
+              .bodies[static_cast<size_t>(system_.mesh[m].layout.side[static_cast<size_t>(side)].body)]
+              .name;
+  }
   for (const ContactSegment& segment : position_->segment) {
     const auto own = p.segment(segment.first_strip, segment.strips);
     const MeshPosition& mesh = position_->mesh[static_cast<size_t>(segment.mesh)];
@@ -183,6 +228,36 @@ void SystemStatics::take_lines(SystemSolution& solution) const {
       patch = {4 * force[strip] / (std::numbers::pi * width * segment.width), 0.5 * width};
     solution.loads.push_back({segment.mesh, segment.pair, force[strip], patch});
   }
+}
+
+MatrixXd SystemStatics::mesh_stiffness() const {
+  const SystemPosition& position = *position_;
+  const VectorXd& p = solution_.equilibrium.p;
+  const auto meshes = static_cast<Eigen::Index>(position.mesh.size());
+  std::vector<Eigen::Index> active;
+  for (Eigen::Index i = 0; i < p.size(); ++i)
+    if (p[i] > 0) active.push_back(i);
+  MatrixXd a = cracked_here_ ? with_cracks_ : compliance_;
+  for (size_t b = 0; b < system_.body.size(); ++b)
+    if (const Bearing& bearing = system_.layout.bodies[b].bearing; bearing.elastic())
+      a -=
+          position.displacement.translation[b] * position.load.translation[b].transpose() / bearing.stiffness;
+  MatrixXd closing = MatrixXd::Zero(position.strips(), meshes);
+  for (size_t m = 0; m < position.mesh.size(); ++m) {
+    const auto own = position.strips_of(m);
+    for (int s = 0; s < kSides; ++s)
+      closing(own, static_cast<Eigen::Index>(m)) +=
+          0.5 * closing_sign(s) *
+          position.displacement.rotation.col(system_.mesh[m].layout.side[static_cast<size_t>(s)].body)(own);
+    if (lines_)
+      for (size_t j = 0; j < position.mesh[m].law.size(); ++j) {
+        const Eigen::Index i = position.first_strip[m] + static_cast<Eigen::Index>(j);
+        if (p[i] > 0) a(i, i) += position.mesh[m].law[j].at(p[i]).slope;
+      }
+  }
+  const MatrixXd w = closing(active, Eigen::all), c = a(active, active);
+  const MatrixXd k = w.transpose() * c.ldlt().solve(w);
+  return 0.5 * (k + k.transpose());
 }
 
 std::vector<std::vector<ContactZone>> SystemStatics::zones() const {

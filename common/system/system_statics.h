@@ -17,10 +17,15 @@ struct LoadedSegment {
 struct SystemSolution {
   SystemEquilibrium equilibrium;
   std::vector<LoadedSegment> loads;
-  std::vector<Vec2> bearing_force;                       // [body] N, see bearing_force(); 0 of rigid bearings
+  std::vector<Vec2> bearing_force;  // [body] N, see bearing_force(); of rigid bearings, too
+  std::vector<double> mesh_force,
+      driven_force;  // [mesh] N: torque on the first side over its base radius, on the second
   std::vector<double> transmission_error, deflection;    // [mesh] m; see mesh_deflection
   std::vector<double> next_corner_gap, lost_corner_gap;  // [mesh] m, see PairsInReach
   bool leaves_zone = false;                              // a wider range may do
+  std::string
+      at_root;  // body at the start of whose involute pressure stands, which no wider range helps; "": none
+  Eigen::MatrixXd mesh_stiffness;  // (mesh, mesh) N m-1, see SystemStatics; of a period alone
 };
 
 // One pair of a position that is loaded.
@@ -57,6 +62,11 @@ class SystemStatics {
   // At a phase, 0 to 1, of a mesh period; start: (body) m. One phase after the other: what all mesh periods have in common
   // there is kept. Throws Error(numerical) where there is no equilibrium within the flanks.
   const SystemSolution& solve(double phase, int period, const Eigen::VectorXd& start);
+  // (mesh, mesh) N m-1, of the position that was solved last: K = W^T C^-1 W, contact frozen: C the compliance without bearings of what
+  // carries load, of lines with the slopes of their laws; W by how much each mesh's approach closes it, 1 on the line of action
+  // and at a tip edge the mean of the lever arms over the base radii. Off its diagonal stands what bodies that take part in several
+  // meshes join.
+  Eigen::MatrixXd mesh_stiffness() const;
   // [mesh], of strips, of the position that was solved last.
   std::vector<std::vector<ContactZone>> zones() const;
 

@@ -23,6 +23,7 @@
 #include "io/study_codec.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
+#include "io/system_static_codec.h"
 #include "io/variant_codec.h"
 
 using namespace whine;
@@ -54,6 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] { read_branch(path); });
   rejected_or_read([&] { read_fold_curves(path); });
   rejected_or_read([&] { read_modes(path); });
+  rejected_or_read([&] { read_system_static(path); });
   rejected_or_read([&] { read_jump_map(path); });
   rejected_or_read([&] { read_harris_map(path); });
   rejected_or_read([&] { read_variant(path); });

@@ -1,0 +1,15 @@
+// The bodies and meshes of a system, as the artifacts of systems hold them.
+//
+// Private to the layer io/.
+#pragma once
+#include "model/system.h"
+
+namespace whine {
+
+class Codec;
+
+// /body/... and /mesh/...; of drives what is held. A reader rejects senses and places that no system has, and numbers of bodies
+// that are not there. Flanks and tooth numbers of the sides are left out.
+void describe_layout(Codec& codec, System& layout);
+
+}  // namespace whine

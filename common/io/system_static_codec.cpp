@@ -1,0 +1,146 @@
+#include "io/system_static_codec.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "io/codec.h"
+#include "io/layout_codec.h"
+
+namespace whine {
+namespace {
+
+using namespace ranges;
+
+constexpr Schema kSchema{"system_static", 1};
+
+// Gears by name and what bodies and meshes are of them; [[mesh]] and [gear.<name>] of the scene as parameters.
+void describe_settings(Codec& c, SystemStaticArtifact& a) {
+  SystemStaticParameters& s = a.settings;
+  describe_layout(c, s.layout);
+  std::vector<std::string> gears = s.gears();
+  Eigen::VectorXi section =
+      Eigen::Map<Eigen::VectorXi>(s.section.data(), static_cast<Eigen::Index>(s.section.size()));
+  c.dataset({"/body/gear", "1", "name of its gear in the scene; empty of a carrier", "body_number"}, &s.gear);
+  c.dataset({"/gear", "1", "names of the gears of the scene", "gear_number"}, &gears);
+  c.dataset({"/mesh/section", "1", "number of the [[mesh]] of the scene", "mesh_number", {0, 10000}},
+            &section);
+  KeyValues values;
+  values.fidelity = s.fidelity;
+  values.contact = s.contact;
+  c.parameters("fidelity", values, Part::contact_level);
+  c.parameters("discretisation", values, Part::contact);
+  if (c.in()) {
+    s.fidelity = values.fidelity;
+    s.contact = values.contact;
+    s.section.assign(section.begin(), section.end());
+    s.mesh.resize(section.size() > 0 ? static_cast<size_t>(section.maxCoeff()) + 1 : 0);
+    a.drawing.resize(gears.size());
+    for (const std::string& name : gears) s.body.emplace_back(name, "");
+  }
+  for (size_t m = 0; m < s.mesh.size(); ++m) {
+    values.mesh = s.mesh[m];
+    c.parameters("mesh_" + std::to_string(m), values, Part::mesh);
+    if (c.in()) s.mesh[m] = values.mesh;
+  }
+  for (size_t g = 0; g < gears.size(); ++g) describe_gear(c, "gear_" + gears[g], a.drawing[g]);
+}
+
+void describe_motions(Codec& c, SystemStaticArtifact& a) {
+  c.dataset({"/mesh_phase", "1", "phase of the first mesh; 0: its reference pair at the pitch point",
+             "mesh_phase", kPhase},
+            &a.mesh_phase);
+  c.dataset({"/rotation", "m", "base radius times rotation in the body's sense; 0 of held bodies",
+             "mesh_phase body_number", kLength},
+            &a.rotation);
+  c.dataset({"/translation", "m", "displacement of the hub", "mesh_phase body_number xy", kLength},
+            &a.translation);
+  c.dataset({"/transmission_error", "m",
+             "transmission error of each mesh along its line of action, positive when the driver is ahead",
+             "mesh_phase mesh_number", kLength, "r1 theta1 - r2 theta2, each in its own sense"},
+            &a.transmission_error);
+  c.dataset(
+      {"/mesh_deflection", "m", "the same without what bearings give way", "mesh_phase mesh_number", kLength},
+      &a.mesh_deflection);
+  c.dataset({"/transmission_error_harmonic", "m",
+             "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic mesh_number", kLength},
+            &a.transmission_error_harmonic);
+  c.numbers("harmonic", 0, "number of the harmonic of the mesh frequency; 0: the mean");
+}
+
+void describe_loads(Codec& c, SystemStaticArtifact& a) {
+  c.dataset({"/mesh_force", "N", "torque on the driving body over its base radius", "mesh_phase mesh_number",
+             kForce},
+            &a.mesh_force);
+  c.dataset({"/load_share",
+             "1",
+             "share of the meshes that come from one [[mesh]]: of planets the load sharing",
+             "mesh_phase mesh_number",
+             {-1, 2}},
+            &a.load_share);
+  c.dataset(
+      {"/pair", "1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", kPair},
+      &a.pair);
+  c.dataset({"/tooth_load", "N", "normal force of each tooth pair", "mesh_phase mesh_number pair", kForce},
+            &a.tooth_load);
+  c.dataset({"/contact_pressure", "Pa",
+             "largest contact pressure of each pair inside its flanks; 0 where a corner or nothing touches",
+             "mesh_phase mesh_number pair", kPressure},
+            &a.contact_pressure);
+  c.dataset({"/bearing_force", "N",
+             "force of a body on its bearing, of a planet on its pin, of a carrier on the ground",
+             "mesh_phase body_number xy", kForce},
+            &a.bearing_force);
+  c.dataset({"/torque", "N m", "torque of the drive, or of what holds the body, in its sense",
+             "mesh_phase body_number", kMoment},
+            &a.torque);
+  c.dataset(
+      {"/mesh_stiffness", "N m-1", "frozen stiffness between the approaches of the meshes, without bearings",
+       "mesh_phase mesh_number other_mesh", kSpring},
+      &a.mesh_stiffness);
+}
+
+}  // namespace
+
+void describe(Codec& c, SystemStaticArtifact& a) {
+  describe_settings(c, a);
+  c.dataset(
+      {"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "mesh_number", {0, 100, true}},
+      &a.contact_ratio);
+  describe_motions(c, a);
+  describe_loads(c, a);
+  c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force", "mesh_phase", kLength,
+             "d >= 0 where p = 0 (with Eq. 18, 20)"},
+            &a.least_gap);
+  c.dataset({"/certificate/least_force", "N", "least force of a strip in contact", "mesh_phase", kForce,
+             "p >= 0 where d = 0 (with Eq. 18, 20)"},
+            &a.least_force);
+  c.dataset({"/certificate/torque_residual", "1",
+             "largest unbalance of a free body's rotation over the largest mesh force", "mesh_phase",
+             kPositive, "|L^T p - T / r|"},
+            &a.torque_residual);
+  if (!c.in()) return;
+  const size_t bodies = a.settings.layout.bodies.size();
+  if (a.settings.gear.size() != bodies)
+    c.in()->file().reject("dataset /body/gear has not one name for each body");
+  for (size_t b = 0; b < bodies; ++b) {
+    const std::vector<std::string> gears = a.settings.gears();
+    const bool carrier = a.settings.layout.bodies[b].kind == System::BodyKind::carrier;
+    if (carrier ? !a.settings.gear[b].empty()
+                : std::find(gears.begin(), gears.end(), a.settings.gear[b]) == gears.end())
+      c.in()->file().reject(text("dataset /body/gear holds '", a.settings.gear[b], "' of body ", b,
+                                 "; it is one of /gear, or empty of a carrier"));
+  }
+}
+
+void write(const std::string& path, const SystemStaticArtifact& a, const Provenance& provenance) {
+  write_artifact(path, kSchema,
+                 text("System at rest: ", a.settings.layout.bodies.size(), " bodies, ",
+                      a.settings.layout.meshes.size(), " meshes"),
+                 a, provenance);
+}
+
+SystemStaticArtifact read_system_static(const std::string& path) {
+  return read_artifact<SystemStaticArtifact>(path, kSchema);
+}
+
+}  // namespace whine

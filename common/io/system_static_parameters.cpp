@@ -1,0 +1,155 @@
+#include "io/system_scene.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "gear/system_layout.h"
+#include "io/scene.h"
+#include "io/section_reader.h"
+#include "io/stage_parameters_text.h"
+#include "io/system_layout_text.h"
+
+namespace whine {
+namespace {
+
+constexpr const char* kStage = "the statics of a system";
+constexpr int kPositions = 128;  // where the scene leaves them open
+
+std::string mesh_label(size_t number) {
+  return "mesh_" + std::to_string(number);
+}
+
+std::string modification_label(const std::string& gear) {
+  return "modification_" + gear;
+}
+
+// What a mesh says of one of its gears.
+const FlankModification& modification_of(const std::vector<GearMeshSpec>& meshes, const std::string& gear) {
+  static const FlankModification kNone;
+  for (const GearMeshSpec& mesh : meshes)
+    for (size_t g = 0; g < kSides; ++g)
+      if (mesh.gear[g] == gear) return mesh.modification[g];
+  return kNone;
+}
+
+}  // namespace
+
+BodySettings body_parameters_of(const SystemScene& scene) {
+  BodySettings out;
+  if (scene.rigid()) return out;
+  for (const SystemScene::Gear& gear : scene.gears)
+    out.emplace_back(gear.name, body_parameters({gear.design, gear.material, scene.body}));
+  return out;
+}
+
+SystemStaticParameters static_parameters_of(const SystemScene& scene, const System& layout) {
+  SystemStaticParameters out;
+  out.layout = layout;
+  out.gear = gears_of(scene, layout);
+  for (const SystemScene::Mesh& mesh : scene.meshes) out.mesh.push_back(mesh.spec);
+  out.section = sections_of(out.mesh, out.gear, layout);
+  out.fidelity = scene.fidelity;
+  out.contact = scene.contact;
+  if (out.contact.positions == 0) out.contact.positions = kPositions;
+  for (const auto& [gear, settings] : body_parameters_of(scene))
+    out.body.emplace_back(gear, body_hash(settings));
+  return out;
+}
+
+std::string system_static_parameters(const SystemStaticParameters& p) {
+  StageParametersText out(kStage);
+  KeyValues values;
+  for (size_t m = 0; m < p.mesh.size(); ++m) {
+    values.mesh = p.mesh[m];
+    out.add("mesh", mesh_label(m), values, {Part::mesh, Part::contact_plane});
+  }
+  for (const auto& [gear, hash] : p.body) {
+    values.modification = modification_of(p.mesh, gear);
+    if (values.modification != FlankModification{})
+      out.add("modification", modification_label(gear), values, {Part::modification});
+  }
+  values.fidelity = p.fidelity;
+  values.contact = p.contact;
+  out.add("fidelity", "fidelity", values, {Part::contact_level});
+  out.add("discretisation", "discretisation", values, {Part::contact});
+  for (const auto& [gear, hash] : p.body) out.add_line("bodies", gear, hash);
+  for (size_t b = 0; b < p.gear.size(); ++b)
+    if (!p.gear[b].empty()) out.add_line("gear_of", p.layout.bodies[b].name, p.gear[b]);
+  return out.text() + layout_text(p.layout);
+}
+
+std::string system_parameters_for(const std::string& scene, const std::string& path) {
+  const SystemScene read = read_system_scene(scene);
+  const std::filesystem::path place(path);
+  const std::string name = place.filename().string();
+  if (name == "system.toml" && read.rigid()) return system_parameters(layout_in(read, scene));
+  if (name == "system_static.toml" && !read.rigid())
+    return system_static_parameters(static_parameters_of(read, layout_in(read, scene)));
+  const std::string folder = place.parent_path().filename().string();
+  for (const auto& [gear, settings] : body_parameters_of(read))
+    if (name == "body.toml" && (folder == body_hash(settings) || folder == gear)) return settings;
+  return "";
+}
+
+SystemStaticParameters read_system_static_parameters(const std::string& path) {
+  const Source source(path,
+                      "stage parameters are out/<scene>/params/system_static.toml, made with: make "
+                      "system-static SCENE=...");
+  if (!source.is_stage_parameters() || source.stage_of() != kStage)
+    source.reject(
+        "is not what the statics of a system depend on: give out/<scene>/params/system_static.toml");
+  SystemStaticParameters out;
+  out.layout = layout_from(source);
+  const auto section = [&](const std::string& name) -> const toml::table& {
+    const toml::table* table = source.section(name);
+    if (!table) source.reject(text("lacks the section [", name, "]; it is made by gear-scene"));
+    return *table;
+  };
+  const toml::table& bodies = section("bodies");
+  for (const auto& [gear, hash] : bodies)
+    out.body.emplace_back(std::string(gear.str()), hash.value_or(std::string()));
+  // In the order of the file, which is that of the scene.
+  std::stable_sort(out.body.begin(), out.body.end(), [&](const auto& a, const auto& b) {
+    return bodies.get(a.first)->source().begin.line < bodies.get(b.first)->source().begin.line;
+  });
+  KeyValues values;
+  for (size_t m = 0; m == 0 || source.section(mesh_label(m)); ++m) {
+    SectionReader(source, Dialect::settings, section(mesh_label(m)), "mesh", mesh_label(m))
+        .read(values, {Part::mesh, Part::contact_plane}, false);
+    out.mesh.push_back(values.mesh);
+  }
+  for (const auto& [gear, hash] : out.body) {
+    KeyValues own;
+    const std::string label = modification_label(gear);
+    if (!source.section(label)) continue;
+    SectionReader(source, Dialect::settings, section(label), "modification", label)
+        .read(own, {Part::modification}, false);
+    for (GearMeshSpec& mesh : out.mesh)
+      for (size_t g = 0; g < kSides; ++g)
+        if (mesh.gear[g] == gear) mesh.modification[g] = own.modification;
+  }
+  SectionReader(source, Dialect::settings, section("fidelity"), "fidelity", "fidelity")
+      .read(values, {Part::contact_level}, false);
+  SectionReader(source, Dialect::settings, section("discretisation"), "discretisation", "discretisation")
+      .read(values, {Part::contact}, false);
+  out.fidelity = values.fidelity;
+  out.contact = values.contact;
+  const toml::table& gear_of = section("gear_of");
+  const std::vector<std::string> gears = out.gears();
+  for (const System::Body& body : out.layout.bodies) {
+    out.gear.emplace_back();
+    if (body.kind == System::BodyKind::carrier) continue;
+    out.gear.back() = gear_of[body.name].value_or(std::string());
+    if (std::find(gears.begin(), gears.end(), out.gear.back()) == gears.end())
+      source.reject(text("[gear_of] names no gear for the body '", body.name, "'"));
+  }
+  try {
+    out.section = sections_of(out.mesh, out.gear, out.layout);
+  } catch (const Error& error) {
+    source.reject(error.what());
+  }
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,31 @@
+// What the stages of a system depend on of its scene.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/system_scene.h"
+
+namespace whine {
+
+// For gear-system-static; `contact.positions` is resolved (never 0), `fidelity` holds the contact level only.
+struct SystemStaticParameters {
+  System layout;                   // with its carriers
+  std::vector<std::string> gear;   // [body] the [gear.<name>] that it is; "" of a carrier
+  std::vector<GearMeshSpec> mesh;  // [[mesh]] of the scene: a planet's stands for those of all planets
+  std::vector<int> section;        // [mesh of the layout] its number in `mesh`
+  Fidelity fidelity;
+  ContactDiscretisation contact;
+  std::vector<std::pair<std::string, std::string>>
+      body;  // gears, and hashes of the stage parameters of their bodies
+
+  // The gears, each once, in the order of the bodies.
+  std::vector<std::string> gears() const {
+    std::vector<std::string> out;
+    out.reserve(body.size());
+    for (const auto& [name, hash] : body) out.push_back(name);
+    return out;
+  }
+};
+
+}  // namespace whine

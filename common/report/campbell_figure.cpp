@@ -1,0 +1,60 @@
+#include "report/campbell_figure.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace whine {
+
+using Eigen::Index;
+
+Figure campbell_figure(const ModesArtifact& a) {
+  Figure figure;
+  figure.title = "Campbell diagram: natural frequencies and harmonics of the mesh frequency";
+  FigureBlock modes{"frequencies",
+                    {"mode", "natural_frequency [Hz]", "least over the mesh phases [Hz]",
+                     "largest over the mesh phases [Hz]", "type"},
+                    {}},
+      crossings{"crossings",
+                {"mode", "harmonic", "mesh_frequency [Hz]", "natural_frequency [Hz]"},
+                {},
+                "crossings"};
+  const bool bands = a.frozen_frequency.size() > 0;
+  double highest = 0;
+  for (Index i = 0; i < a.natural_frequency.size(); ++i) {
+    const double f = a.natural_frequency[i];
+    if (f == 0) continue;
+    const double number = static_cast<double>(i + 1);
+    highest = std::max(highest, bands ? a.frozen_frequency.col(i).maxCoeff() : f);
+    modes.rows.push_back({number, f, bands ? a.frozen_frequency.col(i).minCoeff() : f,
+                          bands ? a.frozen_frequency.col(i).maxCoeff() : f,
+                          static_cast<double>(static_cast<int>(a.type[static_cast<size_t>(i)]))});
+    for (int l = 1; l <= kCampbellHarmonics; ++l)
+      crossings.rows.push_back({number, static_cast<double>(l), f / l, f});
+  }
+  if (modes.rows.empty())
+    fail(Failure::input, "figure: all motions of the system are free; there is no natural frequency");
+  figure.blocks = {modes, crossings};
+  const auto count = [&](ModeType type) {
+    return static_cast<double>(std::count(a.type.begin(), a.type.end(), type));
+  };
+  figure.numbers = {{"highest", highest},
+                    {"harmonics", static_cast<double>(kCampbellHarmonics)},
+                    {"bands", bands ? 1.0 : 0.0},
+                    {"rotational", count(ModeType::rotational)},
+                    {"translational", count(ModeType::translational)},
+                    {"planet", count(ModeType::planet)},
+                    {"mixed", count(ModeType::mixed)},
+                    {"train", count(ModeType::train)}};
+  figure.notes.push_back(
+      text(a.layout.bodies.size(), " bodies, ", a.layout.meshes.size(), " meshes; ",
+           bands ? "lines: mean stiffness of the meshes, bands: frozen contact at all mesh phases"
+                 : "meshes at their mean stiffness"));
+  figure.notes.emplace_back(
+      "points: mesh frequencies at which a harmonic of the meshes meets a natural frequency; frame of the "
+      "carrier at rest, without "
+      "Coriolis terms");
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,170 @@
+#include "system/system_rest.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "gear/system_layout.h"
+#include "signal/spectrum.h"
+#include "system/system_statics.h"
+
+namespace whine {
+
+using Eigen::Index;
+
+namespace {
+
+const BodyArtifact& body_of(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
+                            const std::string& gear) {
+  for (size_t g = 0; g < settings.body.size() && g < bodies.size(); ++g)
+    if (settings.body[g].first == gear) return bodies[g];
+  fail(Failure::input, "[gear.", gear, "] has no body");
+}
+
+// Bodies of a layout on fixed carriers stand in the order of the whole one, whose carriers come last.
+SystemModel model_of(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies) {
+  const System layout = on_fixed_carriers(settings.layout);
+  std::vector<BodyArtifact> of_body;
+  for (size_t b = 0; b < layout.bodies.size(); ++b)
+    of_body.push_back(body_of(settings, bodies, settings.gear[b]));
+  std::vector<GearMeshSpec> specs;
+  for (const int section : settings.section) specs.push_back(settings.mesh[static_cast<size_t>(section)]);
+  return {layout, of_body, specs};
+}
+
+// Inertias and masses as the gears are drawn, where the scene does not say them.
+void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
+                 System& layout) {
+  for (size_t b = 0; b < layout.bodies.size(); ++b) {
+    System::Body& body = layout.bodies[b];
+    if (body.kind == System::BodyKind::carrier) continue;
+    const BodyArtifact& drawn = body_of(settings, bodies, settings.gear[b]);
+    if (body.inertia == 0) body.inertia = drawn.inertia;
+    if (body.bearing.elastic() && body.bearing.mass == 0) body.bearing.mass = drawn.mass;
+  }
+}
+
+void take_pairs(const std::vector<SystemSolution>& solutions, Index meshes, SystemStaticArtifact& out) {
+  int lowest = -1, highest = 1;
+  for (const SystemSolution& at : solutions)
+    for (const LoadedSegment& load : at.loads)
+      if (load.force > 0) {
+        lowest = std::min(lowest, load.pair);
+        highest = std::max(highest, load.pair);
+      }
+  out.pair = Eigen::VectorXi::LinSpaced(highest - lowest + 1, lowest, highest);
+  const MatrixRM none = MatrixRM::Zero(meshes, out.pair.size());
+  out.tooth_load.assign(solutions.size(), none);
+  out.contact_pressure = out.tooth_load;
+  for (size_t i = 0; i < solutions.size(); ++i)
+    for (const LoadedSegment& load : solutions[i].loads)
+      if (load.force > 0) {
+        out.tooth_load[i](load.mesh, load.pair - lowest) = load.force;
+        out.contact_pressure[i](load.mesh, load.pair - lowest) = load.patch.pressure;
+      }
+}
+
+// Torques on bodies and forces on bearings; those of carriers follow from their planets.
+void take_balance(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticArtifact& out) {
+  const System& layout = out.settings.layout;
+  MatrixRM& force = out.bearing_force[static_cast<size_t>(row)];
+  for (size_t b = 0; b < system.layout.bodies.size(); ++b) {
+    force.row(static_cast<Index>(b)) = at.bearing_force[b].transpose();
+    double moment = 0;  // N, of the contact forces over the base radius
+    for (size_t m = 0; m < system.mesh.size(); ++m)
+      if (const int side = system.side_of(static_cast<int>(b), static_cast<int>(m)); side >= 0)
+        moment += side == 0 ? at.mesh_force[m] : -at.driven_force[m];
+    const int number = static_cast<int>(b);
+    out.torque(row, number) =
+        system.layout.held(number) ? moment * system.base_radius(number) : system.layout.torque(number);
+  }
+  for (size_t b = 0; b < system.layout.bodies.size(); ++b) {
+    const int on = layout.bodies[b].on;
+    if (on == System::kGround) continue;
+    const System::Body& carrier = layout.bodies[static_cast<size_t>(on)];
+    const double x = layout.bodies[b].centre[0] - carrier.centre[0],
+                 y = layout.bodies[b].centre[1] - carrier.centre[1];
+    const Vec2& pin = at.bearing_force[b];
+    force.row(on) += pin.transpose();
+    out.torque(row, on) -= carrier.sense * (x * pin.y() - y * pin.x());
+  }
+}
+
+void take_phase(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticArtifact& out) {
+  const SystemStaticParameters& settings = out.settings;
+  std::vector<double> carried(settings.mesh.size(), 0.0);
+  for (size_t m = 0; m < system.mesh.size(); ++m)
+    carried[static_cast<size_t>(settings.section[m])] += at.mesh_force[m];
+  for (size_t m = 0; m < system.mesh.size(); ++m) {
+    const auto column = static_cast<Index>(m);
+    const double all = carried[static_cast<size_t>(settings.section[m])];
+    out.transmission_error(row, column) = at.transmission_error[m];
+    out.mesh_deflection(row, column) = at.deflection[m];
+    out.mesh_force(row, column) = at.mesh_force[m];
+    out.load_share(row, column) = all > 0 ? at.mesh_force[m] / all : 0;
+  }
+  for (size_t b = 0; b < system.layout.bodies.size(); ++b) {
+    const auto column = static_cast<Index>(b);
+    out.rotation(row, column) = at.equilibrium.x[column];
+    if (const Bearing& bearing = system.layout.bodies[b].bearing; bearing.elastic())
+      out.translation[static_cast<size_t>(row)].row(column) =
+          at.bearing_force[b].transpose() / bearing.stiffness;
+  }
+  out.mesh_stiffness[static_cast<size_t>(row)] = at.mesh_stiffness;
+  out.least_gap[row] = at.equilibrium.certificate.least_gap;
+  out.least_force[row] = at.equilibrium.certificate.least_force;
+  out.torque_residual[row] = at.equilibrium.residual;
+  take_balance(system, at, row, out);
+}
+
+void take_harmonics(SystemStaticArtifact& out) {
+  constexpr int kMostHarmonics = 40;
+  const int count = resolved_harmonics(out.mesh_phase.size(), kMostHarmonics);
+  out.transmission_error_harmonic.resize(count + 1, out.transmission_error.cols());
+  for (Index m = 0; m < out.transmission_error.cols(); ++m) {
+    const Harmonics h = harmonics(Eigen::VectorXd(out.transmission_error.col(m)), count);
+    out.transmission_error_harmonic(0, m) = h.mean;
+    out.transmission_error_harmonic.col(m).tail(count) = h.amplitude;
+  }
+}
+
+}  // namespace
+
+SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
+                                    const std::vector<BodyArtifact>& bodies) {
+  const SystemModel system = model_of(settings, bodies);
+  for (const GearMeshModel& mesh : system.mesh)
+    for (const FlankDeviation& flank : mesh.deviation)
+      if (flank.repeats() > 1)
+        fail(Failure::input,
+             "teeth of a gear differ from each other; a system at rest is computed over one mesh period");
+  const std::vector<SystemSolution> solutions = rest_over_period(
+      system, settings.fidelity.contact, settings.contact.strips, settings.contact.positions);
+  const auto phases = static_cast<Index>(solutions.size()),
+             all = static_cast<Index>(settings.layout.bodies.size()),
+             meshes = static_cast<Index>(system.mesh.size());
+  SystemStaticArtifact out;
+  out.settings = settings;
+  for (const auto& [gear, hash] : settings.body) out.drawing.push_back(body_of(settings, bodies, gear));
+  take_masses(settings, bodies, out.settings.layout);
+  out.contact_ratio.resize(meshes);
+  for (Index m = 0; m < meshes; ++m)
+    out.contact_ratio[m] = system.mesh[static_cast<size_t>(m)].kinematics.contact_ratio();
+  for (Eigen::VectorXd* list : {&out.mesh_phase, &out.least_gap, &out.least_force, &out.torque_residual})
+    list->setZero(phases);
+  out.rotation = out.torque = MatrixRM::Zero(phases, all);
+  out.transmission_error = out.mesh_deflection = out.mesh_force = out.load_share =
+      MatrixRM::Zero(phases, meshes);
+  out.translation.assign(solutions.size(), MatrixRM::Zero(all, 2));
+  out.bearing_force = out.translation;
+  out.mesh_stiffness.assign(solutions.size(), MatrixRM::Zero(meshes, meshes));
+  for (Index i = 0; i < phases; ++i) {
+    out.mesh_phase[i] = static_cast<double>(i) / static_cast<double>(phases);
+    take_phase(system, solutions[static_cast<size_t>(i)], i, out);
+  }
+  take_pairs(solutions, meshes, out);
+  take_harmonics(out);
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,20 @@
+// A scene's system of elastic gears at rest over a mesh period: bodies, teeth, bearings, carriers.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "solid/reduced_body.h"
+#include "system/system_static_result.h"
+
+namespace whine {
+
+// bodies: [gear] of settings.body. Throws Error(input) for a carrier that may turn, torques that are not balanced and what
+// SystemModel rejects, and what rest_over_period throws.
+//
+// What holds a carrier, T_c = -sum (P - C) x F over its planets, and its bearing force, sum F, F what a planet presses its pin
+// with, follow from the planets. Where all axes of a train but those of planets are one, sum of sense T over bodies that stand on the
+// ground is 0.
+SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
+                                    const std::vector<BodyArtifact>& bodies);
+
+}  // namespace whine

@@ -1,0 +1,37 @@
+// A system of elastic gears at rest, over a mesh period.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "base/matrix.h"
+#include "model/stages.h"
+#include "model/system_stages.h"
+
+namespace whine {
+
+// What a body's rotation and hub, a mesh, a pair of teeth and a bearing do at each phase. Frame: that of the carriers, which stand still.
+struct SystemStaticArtifact {
+  SystemStaticParameters
+      settings;  // inertias and masses of the layout that the scene leaves out are those of the bodies
+  std::vector<BodyParameters> drawing;     // [gear] of settings.body
+  Eigen::VectorXd contact_ratio;           // (mesh) 1
+  Eigen::VectorXd mesh_phase;              // (phase) 1, of the first mesh
+  MatrixRM rotation;                       // (phase, body) m: r theta in the body's own sense; 0 of held ones
+  std::vector<MatrixRM> translation;       // [phase] (body, xy) m, of its hub
+  MatrixRM transmission_error;             // (phase, mesh) m
+  MatrixRM mesh_deflection;                // (phase, mesh) m: the same without what bearings give way
+  MatrixRM mesh_force;                     // (phase, mesh) N: torque on the driving body over its base radius
+  MatrixRM load_share;                     // (phase, mesh) 1: of the meshes of one [[mesh]]
+  Eigen::VectorXi pair;                    // -1 following, 0 reference, 1 preceding
+  std::vector<MatrixRM> tooth_load;        // [phase] (mesh, pair) N
+  std::vector<MatrixRM> contact_pressure;  // [phase] (mesh, pair) Pa; 0 where a tip edge touches
+  std::vector<MatrixRM> bearing_force;  // [phase] (body, xy) N: what a body presses its bearing or pin with
+  MatrixRM torque;  // (phase, body) N m in the body's own sense: drives, and what holds a body
+  std::vector<MatrixRM> mesh_stiffness;  // [phase] (mesh, mesh) N m-1, see SystemStatics::mesh_stiffness()
+  // Certificate of each solution: (phase) m, N and 1
+  Eigen::VectorXd least_gap, least_force, torque_residual;
+  MatrixRM transmission_error_harmonic;  // (harmonic, mesh) m; the first row is the mean
+};
+
+}  // namespace whine
