@@ -1,14 +1,13 @@
 // Closed formulas of ISO 6336 for strength and of losses, against published numbers and their own definitions.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "base/error.h"
 #include "gear/iso6336_strength.h"
+#include "gear/losses.h"
 #include "internal_pair.h"
 #include "paper_pair.h"
 #include "relative.h"
@@ -120,16 +119,22 @@ TEST_CASE("loss factor of rigid teeth: 16 and 24 teeth, the pair of the paper, a
   CHECK(loss_factor_of_rigid_teeth(shorter) == relative(0.19496, 5e-5));
   const GearPair paper(paper_gear(), paper_gear(), 0.150);
   CHECK(loss_factor_of_rigid_teeth(paper) == relative(0.0986, 1e-3));
-  // Integral of |sliding| times the share of the load over a base pitch, the force being 1 / r_b per newton metre of the driver.
-  constexpr int kPieces = 20000;
-  double lost = 0;
-  for (int i = 0; i < kPieces; ++i) {
-    const double base = paper.base_pitch(), at = base * (i + 0.5) / kPieces;
-    std::array<double, 3> path{at - base, at, at + base};
-    const auto touches = [&](double p) { return p > paper.path_start() && p < paper.path_end(); };
-    const auto pairs = static_cast<double>(std::count_if(path.begin(), path.end(), touches));
-    for (const double p : path)
-      if (touches(p)) lost += std::abs(paper.sliding(p)) / pairs / kPieces;
+  // The definition: pairs in contact share the force T / r_b evenly, whichever of the two drives.
+  constexpr int kSamples = 20000;
+  const Eigen::VectorXd phase = Eigen::VectorXd::LinSpaced(kSamples, 0.5 / kSamples, 1 - 0.5 / kSamples);
+  const Eigen::VectorXi number = Eigen::VectorXi::LinSpaced(3, -1, 1);
+  const GearPair swapped(fzg_c(24, 0.1715, 118.544e-3), fzg_c(16, 0.1817, 82.636e-3), 91.5e-3);
+  for (const GearPair& pair : {paper, fzg_c_pair(), swapped}) {
+    MatrixRM load = MatrixRM::Zero(kSamples, 3);
+    for (int i = 0; i < kSamples; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const double path = (phase[i] + number[k]) * pair.base_pitch();
+        load(i, k) = path > pair.path_start() && path < pair.path_end() ? 1 : 0;
+      }
+      load.row(i) *= 150 / pair.gear(0).base_radius() / load.row(i).sum();
+    }
+    CHECK(loss_factor(pair, number, phase, load, 150) == relative(loss_factor_of_rigid_teeth(pair), 1e-4));
+    CHECK(loss_factor(pair, number, phase, 2 * load, 300) ==
+          relative(loss_factor(pair, number, phase, load, 150), 1e-12));
   }
-  CHECK(loss_factor_of_rigid_teeth(paper) == relative(lost / paper.gear(0).base_radius(), 1e-4));
 }

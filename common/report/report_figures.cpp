@@ -198,6 +198,14 @@ const std::vector<Explained>& explained() {
        plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
       {"waterfall", "motion", "Spectra over speed", of_waterfall},
       {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
+      {"root-stress", "motion", "Root stress and dynamic factors",
+       plain("Largest tension along the roots beside the loaded flanks: while a tooth passes through the "
+             "mesh at "
+             "rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth load and "
+             "root "
+             "stress at a speed over T / r_b or over the largest at rest; K_v is what ISO 6336-1, method B, "
+             "says "
+             "of gears without deviations.")},
       {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};
   return all;
