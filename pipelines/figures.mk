@@ -199,10 +199,11 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # $(call stands,words): where a goal is to be found, also when nothing was to be made. By $(info): `make -q` and `make -n` stay as they are.
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
-.PHONY: figures $(figures) table1 scorecard animation report histories sound runup
+.PHONY: figures teeth $(figures) table1 scorecard animation report histories sound runup
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
+teeth: root-stress load-sharing tooth-loads error-budget ## what a tooth suffers: root stress, dynamic factors, loads, losses, pressure and their errors, 150 N m (SCENE: its first torque)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
 fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m (SCENE: its first torque)

@@ -11,7 +11,7 @@ modes_scene := $(if $(SCENE),$(own_scene),$(system_scene))
 # A fragment is empty until make has remade it, then make starts again.
 $(if $(filter modes,$(goals)),$(if $(SCENE_$(modes_scene)_GEARS),\
   $(error SCENE=$(SCENE): it is a pair; modes are of systems$(,) scenes of several meshes$(,) carriers or drives)))
-$(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter $(pair_goals) figures $(figures) table1 animation,$(goals)),\
+$(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter $(pair_goals) figures teeth $(figures) table1 animation,$(goals)),\
   $(error $g: SCENE=$(SCENE) is a system of several meshes$(,) carriers or drives; for it there is: make SCENE=$(SCENE) modes)))
 
 .PHONY: modes

@@ -141,6 +141,35 @@ TEST_CASE("root stress at rest: histories, their maximum, and Y_F Y_S of ISO 633
     const double end = (g == 0 ? pair.path_start() : pair.path_end()) / pair.base_pitch() + (g == 0 ? 1 : -1);
     CHECK(std::abs(s.root_stress_phase[g] - end) < 0.1);
   }
+  // Two gears of one design: each is the mirror image of the other.
+  CHECK(s.root_stress_max[0] == relative(s.root_stress_max[1], 1e-9));
   CHECK(s.loss_factor > 0.7 * loss_factor_of_rigid_teeth(pair));
   CHECK(s.loss_factor < 1.1 * loss_factor_of_rigid_teeth(pair));
+}
+
+TEST_CASE(
+    "root stress of a mesh: one pair is its table times its force, teeth without load carry none of their "
+    "own") {
+  const BodyArtifact& body = coarse().body;
+  const StaticParameters settings = paper_statics(32);
+  const GearMeshModel model(body, body, settings.mesh);
+  RootStresses roots(model, {0.0, 0.3});
+  REQUIRE(roots.known());
+  const Eigen::VectorXi numbers = Eigen::VectorXi::LinSpaced(3, -1, 1);
+  const Eigen::Vector3d alone(0, 1000, 0), none(0, 0, 0), both(800, 1000, 0);
+  const ToothGeometry tooth(body.design);
+  for (const size_t phase : {size_t{0}, size_t{1}})
+    for (int g = 0; g < kSides; ++g) {
+      const double xi = model.kinematics.contact(phase == 0 ? 0.0 : 0.3).roll[static_cast<size_t>(g)];
+      const double share =
+          (xi - tooth.form_roll_angle()) / (tooth.tip_roll_angle() - tooth.form_roll_angle());
+      const RootStress found = roots.largest(g, phase, numbers, alone);
+      CHECK(found.pair == 0);
+      // the parabola through the three highest points is above them
+      CHECK(found.stress >= 1000 * largest(body, share) * (1 - 1e-12));
+      CHECK(found.stress == relative(1000 * largest(body, share), 0.005));
+      CHECK(roots.largest(g, phase, numbers, 2 * alone).stress == relative(2 * found.stress, 1e-12));
+      CHECK(roots.largest(g, phase, numbers, none).stress == 0);
+      CHECK(roots.largest(g, phase, numbers, both).stress >= 0.8 * found.stress);
+    }
 }

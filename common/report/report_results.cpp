@@ -79,9 +79,9 @@ void add_motion(const StaticArtifact& s, const ReportSweep& sweep, const Adder& 
   add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
   add(kNominalPressure + way, "MPa", fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
   for (int g = 0; g < s.root_stress_max.size(); ++g)
-    if (r.root_stress_max[g].size() > 0) {
-      const std::string of = "root stress of " + s.mesh.gear[g];
-      const double stress = r.root_stress_max[g].maxCoeff(&at);
+    if (r.root_stress_held[g].size() > 0) {
+      const std::string of = "root stress of " + s.mesh.gear[g] + " (held for 1/64 of a mesh period)";
+      const double stress = r.root_stress_held[g].maxCoeff(&at);
       beyond = beyond_backlash(sweep, at) ? kBeyond : "";
       add("largest " + of + way, "MPa", fixed(stress * 1e-6, 1), beyond);
       add("largest " + of + " over that at rest" + way, "1", fixed(stress / s.root_stress_max[g], 2), beyond);

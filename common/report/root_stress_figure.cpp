@@ -54,9 +54,9 @@ FigureBlock speed_block(const ResponseArtifact& r, const AtRest& rest) {
                     name_of(r.direction)};
   const std::vector<bool> broken = broken_after(r);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
-    const double a = r.root_stress_max[0][i], b = r.root_stress_max[1][i];
+    const double a = r.root_stress_held[0][i], b = r.root_stress_held[1][i];
     block.rows.push_back({r.mesh_frequency[i], a * kMegapascal, b * kMegapascal,
-                          r.mesh_force_max[i] / rest.mesh_force, r.tooth_load_max[i] / rest.tooth_load,
+                          r.mesh_force_held[i] / rest.mesh_force, r.tooth_load_held[i] / rest.tooth_load,
                           a / rest.root_stress[0], b / rest.root_stress[1], r.loss_factor[i]});
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
   }
@@ -112,7 +112,10 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
     iso_words += text(g ? "; " : "", s.mesh.gear[g], " ", shown(iso_stress[g] * kMegapascal, 4),
                       " MPa, ratio ", shown(s.root_stress_max[g] / iso_stress[g], 3));
   }
-  figure.notes = {"largest tension along the root beside the loaded flank; at rest: " + static_words};
+  figure.notes = {
+      "largest tension along the root beside the loaded flank, in motion held for 1/64 of a mesh period; at "
+      "rest: " +
+      static_words};
   if (external)
     figure.notes.push_back("sigma_{F0} of ISO 6336-3, method B, at the outer point of single contact: " +
                            iso_words);

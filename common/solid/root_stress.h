@@ -5,7 +5,7 @@
 // The strain is that of the sides of the elements, taken where it is best: at the Gauss points of the side, two for sides of
 // three nodes, one for sides of two (Barlow, Int. J. Numer. Methods Eng. 10 (1976) 243), and fitted by least squares with
 // polynomials of degree 8 or less along the root: that evens out what elements at the corner of three blocks, in the middle of
-// the fillet, are off by (6 % beside it with elements of 0.4 mm at a module of 3 mm, with changing sign).
+// the fillet, are off by (6 % beside it with elements of 0.8 mm at a module of 3 mm, with changing sign).
 //
 // In a loaded tooth with the near field subtracted the nodes hold w = u - u_hs (solid/flank_loads.h). What u_hs adds is in closed
 // form, with s_n and s_t its stresses normal to and along the root: sigma_t = E' e_t(w) + s_t - nu / (1 - nu) s_n (moduli of plane

@@ -6,9 +6,6 @@
 // of what the kept modes leave out adds nothing.
 #pragma once
 #include <array>
-#include <limits>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "system/rolling_mesh.h"
@@ -16,9 +13,9 @@
 namespace whine {
 
 struct RootStress {
-  double stress = -std::numeric_limits<double>::infinity();  // Pa: largest along the root, tension positive
-  int pair = 0;                                              // of which tooth
-  double angle = 0;  // rad: of the root's tangent there against the centre line
+  double stress = 0;  // Pa: largest along the root, tension positive
+  int pair = 0;       // of which tooth
+  double angle = 0;   // rad: of the root's tangent there against the centre line
 };
 
 class RootStresses {
@@ -27,10 +24,11 @@ class RootStresses {
   RootStresses(const GearMeshModel& model, std::vector<double> phases);
   // False for bodies without tables and for cracked gears, whose tables are those of intact ones; then nothing else may be asked.
   bool known() const { return known_; }
-  // Of gear g beside the loaded flank: the tooth of each pair in `numbers`; load: (pair) N. Parabola through the three points
-  // about the largest.
-  std::vector<RootStress> of_teeth(int g, size_t phase, const Eigen::VectorXi& numbers,
-                                   const Eigen::Ref<const Eigen::VectorXd>& load);
+  // Of gear g beside the loaded flank: of the tooth in pair `of`; load: (pair) N of the pairs `numbers`. Parabola through the
+  // three points about the largest.
+  RootStress of_tooth(int g, size_t phase, int of, const Eigen::VectorXi& numbers,
+                      const Eigen::Ref<const Eigen::VectorXd>& load);
+  // Of the teeth that carry load, all without load: 0.
   RootStress largest(int g, size_t phase, const Eigen::VectorXi& numbers,
                      const Eigen::Ref<const Eigen::VectorXd>& load);
 
@@ -39,7 +37,13 @@ class RootStresses {
   const Eigen::MatrixXd& per_force(int g, size_t phase, int pair);
   const GearMeshModel& model_;
   std::vector<double> phases_;
-  std::array<std::map<std::pair<size_t, int>, Eigen::MatrixXd>, 2> per_force_;  // [gear] by phase and pair
+  struct PerForce {
+    int pair = 0;
+    Eigen::MatrixXd table;
+  };
+  std::array<std::vector<std::vector<PerForce>>, 2>
+      per_force_;          // [gear][phase] of the pairs that were asked for
+  Eigen::VectorXd along_;  // (root) Pa
   bool known_;
 };
 

@@ -104,9 +104,8 @@ void store_root_stress(const GearMeshModel& model, StaticArtifact& s) {
     out.resize(s.tooth_load.rows(), s.tooth_load.cols());
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
       const size_t phase = static_cast<size_t>(i) % positions;
-      const std::vector<RootStress> teeth = roots.of_teeth(g, phase, s.pair, s.tooth_load.row(i).transpose());
       for (Eigen::Index k = 0; k < out.cols(); ++k) {
-        const RootStress& tooth = teeth[static_cast<size_t>(k)];
+        const RootStress tooth = roots.of_tooth(g, phase, s.pair[k], s.pair, s.tooth_load.row(i).transpose());
         out(i, k) = tooth.stress;
         if (tooth.stress <= s.root_stress_max[g]) continue;
         s.root_stress_max[g] = tooth.stress;
