@@ -64,6 +64,7 @@ inputs_profile-chart = out/$1/T$(firstword $2)/static.h5
 inputs_relief-jumps = $(inputs_fig05)
 inputs_error-budget = out/$1/T$(firstword $2)/error_budget.h5
 inputs_sidebands = out/$1/T$(firstword $2)/static.h5 out/$1/T$(firstword $2)/up/response.h5
+inputs_root-stress = out/$1/T$(firstword $2)/static.h5 $(call both_ways,$1,$(firstword $2),response)
 inputs_crack = out/$1/T$(firstword $2)/static.h5
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
@@ -96,7 +97,7 @@ paper_scenes_crack := $(cracked_scene)
 paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-$(foreach f,profile-chart relief-jumps waterfall order-cuts tooth-loads bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
+$(foreach f,profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig07-branches fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
 
@@ -105,7 +106,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads bearing-forces error-budget profile-chart sidebands crack
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress bearing-forces error-budget profile-chart sidebands crack
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
@@ -195,7 +196,7 @@ $(if $(filter-out yes no,$(BRANCHES)),$(error BRANCHES=$(BRANCHES): it is yes or
 report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),fig12 fig13 load-sharing error-budget) \
   $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 \
-  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),fig05-branches multipliers)) order-cuts waterfall tooth-loads \
+  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),fig05-branches multipliers)) order-cuts waterfall tooth-loads $(if $(call teeth,$1,alike),root-stress) \
   $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
   $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
@@ -232,12 +233,13 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # $(call stands,words): where a goal is to be found, also when nothing was to be made. By $(info): `make -q` and `make -n` stay as they are.
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
-.PHONY: figures $(figures) table1 scorecard animation report export histories sound runup
+.PHONY: figures teeth $(figures) table1 scorecard animation report export histories sound runup
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
 	$(call stands,export: $(export_file))
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
+teeth: root-stress load-sharing tooth-loads error-budget ## what a tooth suffers: root stress, dynamic factors, loads, losses, pressure and their errors, 150 N m (SCENE: its first torque)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
 fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m (SCENE: its first torque)
@@ -265,6 +267,7 @@ load-sharing: ## the share of the load that a tooth pair carries on its way thro
 waterfall: ## spectra of the dynamic transmission error against mesh frequency, rising and falling, and its first orders, 150 N m (SCENE: its first torque)
 order-cuts: ## order cuts: the first orders of the dynamic transmission error against speed, rising and falling, 150 N m (SCENE: its first torque)
 tooth-loads: ## tooth loads against mesh frequency, and over the mesh period at the resonance, 150 N m (SCENE: its first torque)
+root-stress: ## root stress over the mesh cycle and over speed, dynamic factors beside K_v of ISO 6336-1, 150 N m (SCENE: its first torque)
 bearing-forces: ## forces on elastic bearings against mesh frequency, 150 N m of parker2000-bearings (SCENE: its first torque)
 profile-chart: ## what is taken off the driving flanks, as an inspection sheet shows it, of the paper's pair with relief from 20.9 deg (SCENE: of its gears)
 relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relief, at both dampings, 150 N m

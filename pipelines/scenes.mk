@@ -55,7 +55,7 @@ scenes := $(sort \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
   $(if $(filter bifurcations,$(goals)),$(paper_scene) $(bifurcation_scenes)) \
   $(if $(filter jump-folds,$(goals)),$(paper_scene)) \
-  $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(shown_scenes))) \
+  $(if $(filter $(figures) table1 figures teeth,$(goals)),$(if $(SCENE),$(own_scene),$(shown_scenes))) \
   $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
   $(if $(filter bearing-forces out/figures/bearing-forces%,$(goals)),$(if $(SCENE),$(own_scene),$(bearing_scene))) \

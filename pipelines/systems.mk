@@ -34,7 +34,7 @@ $(if $(system_goals),$(if $(SCENE_$(modes_scene)_GEARS),\
   $(error SCENE=$(SCENE): it is a pair; $(if $(filter modes,$(goals)),modes are,system-static is) of systems$(,) scenes of several meshes$(,) carriers or drives)))
 $(if $(filter system-static,$(goals)),$(if $(filter rigid,$(SCENE_$(elastic_scene)_SYSTEM)),\
   $(error SCENE=$(SCENE): its gears are rigid; system-static needs elastic ones$(,) for it there is: make SCENE=$(SCENE) modes)))
-$(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter $(pair_goals) figures $(figures) table1 animation,$(goals)),\
+$(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter $(pair_goals) figures teeth $(figures) table1 animation,$(goals)),\
   $(error $g: SCENE=$(SCENE) is a system of several meshes$(,) carriers or drives; for it there is: make SCENE=$(SCENE) \
     $(if $(filter elastic,$(SCENE_$(own_scene)_SYSTEM)),system-static )modes)))
 

@@ -230,6 +230,9 @@ BodyArtifact small_body() {
   a.far_compliance = odd_matrix(4 * (25 - 1), 4, 1e-11);
   a.back_compliance = odd_matrix(4 * 50, 4, 1e-10);
   a.back_flank_mode = odd_matrix(4, 3, 3);
+  a.root_arc_length = Eigen::Vector3d(0.1e-3 / 3, 0.5e-3 / 3, 2e-3 / 3);
+  a.root_angle = Eigen::Vector3d(0.3 / 1.1, 0.7 / 1.1, 1.5 / 1.1);
+  a.root_stress = {odd_matrix(6, 4, 1e4), odd_matrix(6, 4, 4e4), odd_matrix(6, 4, 1.1e4)};
   a.reference_depth = 0.001 / 3;
   a.asymmetry = 1e-4 / 3;
   a.least_eigenvalue = 1e-13 / 3;
@@ -259,6 +262,11 @@ StaticArtifact small_static() {
   a.tooth_load = odd_matrix(3, 3, 2e3);
   a.contact_pressure = odd_matrix(3, 3, 5e8);
   a.contact_half_width = odd_matrix(3, 3, 1e-4);
+  a.root_stress = {odd_matrix(3, 3, 9e7), odd_matrix(3, 3, 8e7)};
+  a.root_stress_max = Eigen::Vector2d(1e8 / 1.1, 1e8 / 1.2);
+  a.root_stress_angle = Eigen::Vector2d(0.7 / 1.1, 0.8 / 1.1);
+  a.root_stress_phase = Eigen::Vector2d(0.1 / 1.1, -0.1 / 1.1);
+  a.loss_factor = 0.1 / 1.1;
   a.transmission_error_harmonic = odd_vector(2, 1e-6);
   a.stiffness_harmonic = odd_vector(2, 1e7);
   a.mean_stiffness = 463.5e6 / 1.1;
@@ -283,6 +291,7 @@ ErrorBudgetArtifact small_budget() {
               odd_vector(2, 3e-2),
               {},
               odd_matrix(2, 5, 2e-2)};
+  a.refinement.root_stress_change = odd_vector(3, 7e-3);
   return a;
 }
 
@@ -339,6 +348,7 @@ SweepArtifact small_sweep() {
   a.transmission_error = odd_matrix(2, 64, 1e-5);
   a.mesh_force = odd_matrix(2, 64, 3e3);
   a.pair = Eigen::VectorXi{{-1, 0, 1}};
+  a.root_stress = {odd_matrix(2, 64, 9e7), odd_matrix(2, 64, 8e7)};
   a.tooth_load = {odd_matrix(64, 3, 1e3), odd_matrix(64, 3, 2e3)};
   a.periods = Eigen::VectorXi{{80, 120}};
   a.residual = odd_vector(2, 1e-7);
@@ -407,6 +417,11 @@ ResponseArtifact small_response() {
   a.dte_mean = odd_vector(2, 1e-5);
   a.dte_harmonic = odd_matrix(2, 10, 1e-6);
   a.tooth_load_max = odd_vector(2, 4e3);
+  a.root_stress_max = {odd_vector(2, 3e8), odd_vector(2, 2e8)};
+  a.root_stress_held = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
+  a.tooth_load_held = odd_vector(2, 4e3).cwiseAbs();
+  a.mesh_force_held = odd_vector(2, 6e3).cwiseAbs();
+  a.loss_factor = odd_vector(2, 0.1).cwiseAbs();
   a.mesh_force_max = odd_vector(2, 7e3);
   a.separation_fraction = odd_vector(2, 0.1);
   a.separations_per_period = odd_vector(2, 1);
@@ -645,6 +660,9 @@ TEST_CASE("body.h5 gives back every value bit by bit") {
   CHECK(a.far_compliance == b.far_compliance);
   CHECK(a.back_compliance == b.back_compliance);
   CHECK(a.back_flank_mode == b.back_flank_mode);
+  CHECK(a.root_arc_length == b.root_arc_length);
+  CHECK(a.root_angle == b.root_angle);
+  CHECK(a.root_stress == b.root_stress);
   CHECK(a.reference_depth == b.reference_depth);
   CHECK(a.asymmetry == b.asymmetry);
   CHECK(a.least_eigenvalue == b.least_eigenvalue);
@@ -807,6 +825,11 @@ TEST_CASE("static.h5 gives back every value bit by bit") {
   CHECK(a.tooth_load == b.tooth_load);
   CHECK(a.contact_pressure == b.contact_pressure);
   CHECK(a.contact_half_width == b.contact_half_width);
+  CHECK(a.root_stress == b.root_stress);
+  CHECK(a.root_stress_max == b.root_stress_max);
+  CHECK(a.root_stress_angle == b.root_stress_angle);
+  CHECK(a.root_stress_phase == b.root_stress_phase);
+  CHECK(a.loss_factor == b.loss_factor);
   CHECK(a.transmission_error_harmonic == b.transmission_error_harmonic);
   CHECK(a.stiffness_harmonic == b.stiffness_harmonic);
   CHECK(a.mean_stiffness == b.mean_stiffness);
@@ -827,7 +850,7 @@ TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices
   const auto same_changes = [](const StaticChanges& one, const StaticChanges& other) {
     return one.entry == other.entry && one.mean_stiffness_change == other.mean_stiffness_change &&
            one.peak_to_peak_change == other.peak_to_peak_change &&
-           one.harmonic_change == other.harmonic_change;
+           one.harmonic_change == other.harmonic_change && one.root_stress_change == other.root_stress_change;
   };
   const ErrorBudgetArtifact b = read_error_budget("error_budget.h5");
   CHECK(same_pair(a, b));
@@ -872,6 +895,7 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
   CHECK(a.mesh_frequency == b.mesh_frequency);
   CHECK(a.transmission_error == b.transmission_error);
   CHECK(a.mesh_force == b.mesh_force);
+  CHECK(a.root_stress == b.root_stress);
   CHECK(a.pair == b.pair);
   REQUIRE(b.tooth_load.size() == 2);
   CHECK(a.tooth_load[0] == b.tooth_load[0]);
@@ -1060,6 +1084,11 @@ TEST_CASE("response.h5 gives back every value bit by bit") {
   CHECK(a.dte_harmonic == b.dte_harmonic);
   CHECK(a.tooth_load_max == b.tooth_load_max);
   CHECK(a.mesh_force_max == b.mesh_force_max);
+  CHECK(a.root_stress_max == b.root_stress_max);
+  CHECK(a.root_stress_held == b.root_stress_held);
+  CHECK(a.tooth_load_held == b.tooth_load_held);
+  CHECK(a.mesh_force_held == b.mesh_force_held);
+  CHECK(a.loss_factor == b.loss_factor);
   CHECK(a.separation_fraction == b.separation_fraction);
   CHECK(a.separations_per_period == b.separations_per_period);
   CHECK(a.jump_frequency == b.jump_frequency);
@@ -1405,7 +1434,7 @@ TEST_CASE("an artifact of another schema or version is rejected with what it is 
   });
   const Caught old = caught([] { read_static("out/old.h5"); });
   CHECK(old.kind == kInput);
-  CHECK(old.says("is schema version 0, this program reads 4"));
+  CHECK(old.says("is schema version 0, this program reads 5"));
   CHECK(old.says("make out/old.h5"));
 
   write_static_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });

@@ -9,7 +9,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"body", 4};
+constexpr Schema kSchema{"body", 5};
 
 void describe_compliance(Codec& c, BodyArtifact& a) {
   const std::string at = "/compliance/";
@@ -64,6 +64,24 @@ void describe_compliance(Codec& c, BodyArtifact& a) {
             &a.least_eigenvalue);
 }
 
+void describe_root_stress(Codec& c, BodyArtifact& a) {
+  const std::string at = "/root_stress/";
+  c.dataset(
+      {at + "arc_length", "m", "arc length from the flank along the root curve", "root_position", kSize},
+      &a.root_arc_length);
+  c.dataset({at + "angle", "1", "angle (rad) between the root's tangent and the centre line of the tooth",
+             "root_position", kRoll},
+            &a.root_angle);
+  c.axis("both_root_position", 2 * a.root_arc_length.size());
+  c.axis("root_offset", 2 * a.offsets + 1);
+  c.dataset({at + "per_force", "Pa N-1",
+             "tangential stress along the driving flank's root, then the other one, per unit normal force; "
+             "of the teeth from "
+             "`offsets` clockwise of the loaded one to `offsets` counter-clockwise of it",
+             "root_offset both_root_position loaded_position", kStressPerForce},
+            &a.root_stress);
+}
+
 }  // namespace
 
 void describe(Codec& c, BodyArtifact& a) {
@@ -104,6 +122,7 @@ void describe(Codec& c, BodyArtifact& a) {
              kMode},
             &a.back_flank_mode);
   describe_compliance(c, a);
+  describe_root_stress(c, a);
   if (c.out() && a.vtk_point.rows() > 0)
     put_vtk(c.out()->file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}, false});
 }

@@ -22,6 +22,10 @@ void describe_changes(Codec& c, const std::string& group, StaticChanges& a, cons
     c.dataset({group + "/pressure_change", "1",
                "relative change of the largest contact pressure inside a flank", axis, kSigned},
               &a.pressure_change);
+  if (c.optional(group + "/root_stress_change", a.root_stress_change.size() > 0))
+    c.dataset({group + "/root_stress_change", "1",
+               "relative change of the largest root stress, of the gear where it is larger", axis, kSigned},
+              &a.root_stress_change);
   c.dataset({group + "/harmonic_change", "1",
              "change of the first harmonics of the transmission error over its first harmonic",
              axis + " harmonic", kSigned},

@@ -25,6 +25,7 @@ inline constexpr double kMetres = 10, kNewtons = 1e12, kStiffnesses = 1e15, kHer
 inline constexpr Range kLength{-kMetres, kMetres}, kSize{0, kMetres}, kPlace{-1000, 1000},  // m
     kForce{-kNewtons, kNewtons}, kLoad{0, kNewtons},                                        // N
     kSpring{-kStiffnesses, kStiffnesses}, kStiff{0, kStiffnesses},                          // N m-1
+    kStressPerForce{-1e12, 1e12},                                                           // Pa N-1
     kFlexibility{-1, 1},                                                                    // m N-1
     kFrequency{0, kHertz}, kSpeed{0, kHertz, true},                                         // Hz
     kMoment{-kNewtonMetres, kNewtonMetres}, kDrive{0, kNewtonMetres, true},                 // N m

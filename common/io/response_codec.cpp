@@ -54,7 +54,30 @@ void describe(Codec& c, ResponseArtifact& a) {
             &a.tooth_load_max);
   c.dataset({"/mesh_force_max", "N", "largest normal force of all pairs together", axis, kLoad},
             &a.mesh_force_max);
-  for (int g = 0; g < (c.lists() ? 1 : 2); ++g) describe_bearings(c, a, g);
+  for (int g = 0; g < (c.lists() ? 1 : 2); ++g) {
+    describe_bearings(c, a, g);
+    if (c.optional(of_body(c, a.mesh, g, "root_stress_max"), a.root_stress_max[g].size() > 0)) {
+      c.dataset({of_body(c, a.mesh, g, "root_stress_max"), "Pa",
+                 "largest tangential stress along the roots beside the loaded flanks", axis, kStress},
+                &a.root_stress_max[g]);
+      c.dataset(
+          {of_body(c, a.mesh, g, "root_stress_held"), "Pa",
+           "the same, held for 1/64 of a mesh period: without spikes whose height depends on the time step",
+           axis, kStress},
+          &a.root_stress_held[g]);
+    }
+  }
+  if (c.optional("/tooth_load_held", a.tooth_load_held.size() > 0)) {
+    c.dataset({"/tooth_load_held", "N", "largest normal force that one pair holds for 1/64 of a mesh period",
+               axis, kLoad},
+              &a.tooth_load_held);
+    c.dataset({"/mesh_force_held", "N", "the same of all pairs together", axis, kLoad}, &a.mesh_force_held);
+  }
+  if (c.optional("/loss_factor", a.loss_factor.size() > 0))
+    c.dataset({"/loss_factor", "1",
+               "mean power lost by sliding over the power carried, per unit coefficient of friction", axis,
+               kPositive},
+              &a.loss_factor);
   c.dataset({"/separation_fraction", "1", "share of the period without force", axis, kShare},
             &a.separation_fraction);
   c.dataset({"/separations_per_period", "1", "losses of contact per mesh period", axis, kPositive},

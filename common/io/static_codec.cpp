@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"static", 4};
+constexpr Schema kSchema{"static", 5};
 
 void describe_curves(Codec& c, StaticArtifact& a) {
   const char* const without = a.mesh.on_bearings() ? ", without the bearings" : "";
@@ -52,6 +52,32 @@ void describe_curves(Codec& c, StaticArtifact& a) {
             &a.contact_half_width);
 }
 
+void describe_root_stress(Codec& c, StaticArtifact& a) {
+  const bool there = a.root_stress[0].size() > 0;
+  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
+    if (c.optional(of_body(c, a.mesh, g, "root_stress"), there))
+      c.dataset(
+          {of_body(c, a.mesh, g, "root_stress"), "Pa",
+           "largest tangential stress along the root beside the loaded flank of each pair's tooth, "
+           "tension positive",
+           "mesh_phase pair", kStress, "sum over the pairs of root_stress/per_force of body.h5 times force"},
+          &a.root_stress[g]);
+  if (c.optional("/root_stress_max", there)) {
+    c.dataset({"/root_stress_max", "Pa", "largest root stress over the mesh cycle", "gear", kStress},
+              &a.root_stress_max);
+    c.dataset({"/root_stress_angle", "1",
+               "angle (rad) of the root's tangent there against the centre line of the tooth", "gear", kRoll},
+              &a.root_stress_angle);
+    c.dataset({"/root_stress_phase", "1", "mesh phase of the tooth's pair then, 0 at the pitch point", "gear",
+               kPlace},
+              &a.root_stress_phase);
+  }
+  c.dataset({"/loss_factor", "1",
+             "mean power lost by sliding over the power carried, per unit coefficient of friction", "",
+             kPositive, "H_V = mean of sum F |sliding per angle| / T"},
+            &a.loss_factor);
+}
+
 }  // namespace
 
 void describe(Codec& c, StaticArtifact& a) {
@@ -60,6 +86,7 @@ void describe(Codec& c, StaticArtifact& a) {
   c.dataset({"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "", {0, 100, true}},
             &a.contact_ratio);
   describe_curves(c, a);
+  describe_root_stress(c, a);
   c.dataset({"/transmission_error_harmonic", "m",
              "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic", kLength},
             &a.transmission_error_harmonic);

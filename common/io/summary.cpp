@@ -194,6 +194,10 @@ void show(Lines& lines, const StaticArtifact& a) {
     add(lines, "peak pressure", peak * 1e-6, " MPa inside a flank, half-width there ",
         a.contact_half_width(i, j) * 1e3, " mm, at mesh phase ", a.mesh_phase[i]);
   }
+  for (int g = 0; g < a.root_stress_max.size(); ++g)
+    add(lines, "root stress of " + a.mesh.gear[g], a.root_stress_max[g] * 1e-6, " MPa at a tangent of ",
+        a.root_stress_angle[g] * 180 / std::numbers::pi, " deg, phase of its pair ", a.root_stress_phase[g]);
+  add(lines, "loss factor", a.loss_factor);
   add(lines, "certificate", a.mesh_phase.size(), " positions; least gap ", a.least_gap * 1e6,
       " µm, least force ", a.least_force, " N, torque residual ", a.torque_residual);
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");

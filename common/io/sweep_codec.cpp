@@ -53,6 +53,13 @@ void describe_motions(Codec& c, SweepArtifact& a, bool lumped) {
            "counter-clockwise",
            "mesh_frequency sample xy", kForce},
           &a.bearing_force[g]);
+  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
+    if (c.optional(of_body(c, a.mesh, g, "root_stress"), a.root_stress[g].size() > 0))
+      c.dataset({of_body(c, a.mesh, g, "root_stress"), "Pa",
+                 "largest tangential stress of all teeth along the root beside the loaded flank, tension "
+                 "positive",
+                 "mesh_frequency sample", kStress},
+                &a.root_stress[g]);
 }
 
 void describe_speed_by_speed(Codec& c, SweepArtifact& a) {

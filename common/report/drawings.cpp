@@ -32,6 +32,7 @@
 #include "report/multiplier_figure.h"
 #include "report/order_figure.h"
 #include "report/response_figures.h"
+#include "report/root_stress_figure.h"
 #include "report/runup_figure.h"
 #include "report/sensitivity_figure.h"
 #include "report/static_figures.h"
@@ -145,6 +146,12 @@ Drawings drawings_at_rest() {
        {"the mark of a cracked tooth in the static transmission error, and its orders",
         "static.h5 of a pair with a crack", 1, 0,
         [](const Paths& in, const Frequencies&) { return crack_figure(read_static(in[0])); }}},
+      {"root-stress",
+       {"root stress over the mesh cycle and over speed, dynamic factors beside K_v",
+        "static.h5, response.h5 of the sweeps up and down, all of one torque", 3, 0,
+        [](const Paths& in, const Frequencies&) {
+          return root_stress_figure(read_static(in[0]), {read_response(in[1]), read_response(in[2])});
+        }}},
       {"sidebands",
        {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
         "static.h5 and response.h5 of one torque", 2, 0,

@@ -204,6 +204,11 @@ const std::vector<Explained>& explained() {
              "that is "
              "heard depends on where the speed came from.")},
       {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
+      {"root-stress", "motion", "Root stress and dynamic factors",
+       plain("Largest tension along the roots beside the loaded flanks: while a tooth passes through the "
+             "mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth "
+             "load and root stress at a speed, each held for 1/64 of a mesh period, over T / r_b or over the "
+             "largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
       {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};
   return all;

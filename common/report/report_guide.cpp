@@ -96,6 +96,11 @@ constexpr Row kRows[] = {
      "add orders of the shafts around them.",
      "Amplitudes as the RMS; below 1/1000 of the largest they are numerical.",
      "make histories AT=1250 shows the motion at one speed."},
+    {Needs::motion, "root-stress", "Root stress, loss factor",
+     "Tension in the roots, at rest and in motion; sigma_F0 is that of ISO 6336-3, method B, with its own "
+     "assumptions (one pair carries the load, a beam with a notch).",
+     "At rest as the line root stress of the error budget; in motion as the tooth load.",
+     "Raise element_order or lower element_mm if its line is above 1 %."},
     {Needs::motion, "bearing-forces", "Forces on the bearings",
      "What each gear presses its bearing with, spring and damper together; the oscillating part is what a "
      "housing "

@@ -45,6 +45,11 @@ void add_statics(const StaticArtifact& s, const Adder& add) {
     add("static contact pressure inside a flank, largest", "MPa", fixed(pressure.smooth * 1e-6, 0));
   if (pressure.on_ridge > pressure.smooth)
     add("the same where relief begins", "MPa", "no value: see the warnings");
+  for (int g = 0; g < s.root_stress_max.size(); ++g)
+    add("static root stress of " + s.mesh.gear[g] + ", largest", "MPa",
+        fixed(s.root_stress_max[g] * 1e-6, 1));
+  add("loss factor H_V at rest (power lost over power carried and coefficient of friction)", "1",
+      fixed(s.loss_factor, 4));
 }
 
 void add_ring_down(const ImpactArtifact& a, const Adder& add) {
@@ -73,6 +78,14 @@ void add_motion(const StaticArtifact& s, const ReportSweep& sweep, const Adder& 
   add("mesh frequency of that tooth load" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
   add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
   add(kNominalPressure + way, "MPa", fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
+  for (int g = 0; g < s.root_stress_max.size(); ++g)
+    if (r.root_stress_held[g].size() > 0) {
+      const std::string of = "root stress of " + s.mesh.gear[g] + " (held for 1/64 of a mesh period)";
+      const double stress = r.root_stress_held[g].maxCoeff(&at);
+      beyond = beyond_backlash(sweep, at) ? kBeyond : "";
+      add("largest " + of + way, "MPa", fixed(stress * 1e-6, 1), beyond);
+      add("largest " + of + " over that at rest" + way, "1", fixed(stress / s.root_stress_max[g], 2), beyond);
+    }
   for (int g = 0; g < kSides; ++g)
     if (r.bearing_force_rms[g].size() > 0) {
       const std::string of = "force on the bearing of " + s.mesh.gear[g];

@@ -153,17 +153,18 @@ std::string budget_table(const ErrorBudgetArtifact& b) {
       };
       rows.push_back({what, rest.substr(0, comma), percent(changes.mean_stiffness_change[i]),
                       percent(changes.peak_to_peak_change[i]), percent(changes.harmonic_change(i, 0)),
-                      i < changes.pressure_change.size() ? percent(changes.pressure_change[i]) : "–"});
+                      i < changes.pressure_change.size() ? percent(changes.pressure_change[i]) : "–",
+                      i < changes.root_stress_change.size() ? percent(changes.root_stress_change[i]) : "–"});
       rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
     }
   };
   add(b.refinement, "error");
   add(b.choice, "other model");
-  return html::table(
-             "What each refinement alone changes in the statics at " + torque_words(b.torque) +
-                 ". Another model is no error of this one and in no sum.",
-             {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)", "flank pressure (%)"},
-             rows) +
+  return html::table("What each refinement alone changes in the statics at " + torque_words(b.torque) +
+                         ". Another model is no error of this one and in no sum.",
+                     {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)",
+                      "flank pressure (%)", "root stress (%)"},
+                     rows) +
          (b.choice_missing.empty() ? "" : html::paragraph("Not computed: " + b.choice_missing + "."));
 }
 

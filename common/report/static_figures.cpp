@@ -333,6 +333,8 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
       block.columns.push_back(text("harmonic_", n, " [% of the first]"));
     const bool pressure = changes->pressure_change.size() > 0;
     if (pressure) block.columns.emplace_back("flank_pressure [%]");
+    const bool stress = pressure && changes->root_stress_change.size() > 0;
+    if (stress) block.columns.emplace_back("root_stress [%]");
     std::string words, rest = changes->entry;
     for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
       std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * kPercent,
@@ -340,6 +342,7 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
       for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
         row.push_back(std::abs(changes->harmonic_change(i, n)) * kPercent);
       if (pressure) row.push_back(std::abs(changes->pressure_change[i]) * kPercent);
+      if (stress) row.push_back(std::abs(changes->root_stress_change[i]) * kPercent);
       block.rows.push_back(row);
       const size_t comma = rest.find(", ");
       std::string label = rest.substr(0, comma);
@@ -361,7 +364,8 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
     figure.blocks.push_back(block);
     figure.words.emplace_back(labels, words);
     figure.numbers.emplace_back(count, static_cast<double>(block.rows.size()));
-    if (changes == &budget.refinement) figure.numbers.emplace_back("bars_each", pressure ? 8 : 7);
+    if (changes == &budget.refinement)
+      figure.numbers.emplace_back("bars_each", stress ? 9 : pressure ? 8 : 7);
   }
   return figure;
 }

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/losses.h"
 #include "signal/branch_end.h"
+#include "signal/branches.h"
 #include "signal/spectrum.h"
 
 namespace whine {
@@ -22,6 +24,10 @@ void require_shapes(const SweepArtifact& s) {
   require_length("transmission_error", s.transmission_error.rows(), speeds);
   require_length("mesh_force", s.mesh_force.rows(), speeds);
   require_length("tooth_load", static_cast<Eigen::Index>(s.tooth_load.size()), speeds);
+  for (const MatrixRM& stress : s.root_stress)
+    if (stress.size() > 0 && (stress.rows() != speeds || stress.cols() != s.transmission_error.cols()))
+      fail(Failure::input, "sweep: root_stress is ", stress.rows(), " x ", stress.cols(), ", expected ",
+           speeds, " x ", s.transmission_error.cols());
   require_length("period_multiple", s.period_multiple.size(), speeds);
   if (s.mesh_force.cols() != s.transmission_error.cols())
     fail(Failure::input, "sweep: mesh_force has ", s.mesh_force.cols(), " samples, transmission_error ",
@@ -134,6 +140,26 @@ ResponseArtifact response(const SweepArtifact& s) {
   for (size_t g = 0; g < kSides; ++g)
     if (!s.bearing_force[g].empty())
       for (Eigen::VectorXd* v : {&r.bearing_force_max[g], &r.bearing_force_rms[g]}) v->resize(speeds);
+  for (size_t g = 0; g < kSides; ++g)
+    if (s.root_stress[g].size() > 0) {
+      r.root_stress_max[g] = s.root_stress[g].rowwise().maxCoeff();
+      r.root_stress_held[g].resize(speeds);
+    }
+  if (s.model == SweepArtifact().model) {
+    const GearPair gears(s);
+    for (Eigen::VectorXd* v : {&r.loss_factor, &r.tooth_load_held, &r.mesh_force_held}) v->resize(speeds);
+    for (Eigen::Index f = 0; f < speeds; ++f) {
+      const Eigen::Index samples = stored(f) * per_period;
+      const Eigen::VectorXd phase = Eigen::VectorXd::LinSpaced(samples, 0, static_cast<double>(samples - 1)) /
+                                    static_cast<double>(per_period);
+      r.loss_factor[f] = loss_factor(gears, s.pair, phase, s.tooth_load[f].topRows(samples), s.torque);
+      r.tooth_load_held[f] = held_load(s.tooth_load[f], s.time.steps_per_period);
+      r.mesh_force_held[f] = held_load(s.mesh_force.row(f).transpose(), s.time.steps_per_period);
+      for (size_t g = 0; g < kSides; ++g)
+        if (s.root_stress[g].size() > 0)
+          r.root_stress_held[g][f] = held_load(s.root_stress[g].row(f).transpose(), s.time.steps_per_period);
+    }
+  }
   r.separation_fraction.resize(speeds);
   r.separations_per_period.resize(speeds);
   for (Eigen::Index f = 0; f < speeds; ++f) {

@@ -24,6 +24,13 @@ struct ResponseArtifact : MotionParameters {
   Eigen::VectorXd tooth_load_max, mesh_force_max;  // (speed) N
   // [gear] (speed) N: largest force on its bearing, and RMS of what of it oscillates; empty for a rigid bearing
   std::array<Eigen::VectorXd, 2> bearing_force_max, bearing_force_rms;
+  // [gear] (speed) Pa: largest root stress, as in the sweep; empty for lumped models
+  std::array<Eigen::VectorXd, 2> root_stress_max;
+  // What is held for 1/64 of a mesh period: without the spikes of pairs that come into contact at once, whose height depends on
+  // the time step. [gear] (speed) Pa; (speed) N; empty for lumped models
+  std::array<Eigen::VectorXd, 2> root_stress_held;
+  Eigen::VectorXd tooth_load_held, mesh_force_held;
+  Eigen::VectorXd loss_factor;                 // (speed) H_V, as in static.h5; empty for lumped models
   Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
   Eigen::VectorXd separations_per_period;      // (speed) 1
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz

@@ -27,6 +27,14 @@ struct StaticArtifact : PairParameters {
   std::array<MatrixRM, 2> bearing_force;
   // (phase, pair) Pa, m: of contacts that stay inside the flank, 0 elsewhere
   MatrixRM contact_pressure, contact_half_width;
+  // [gear] (phase, pair) Pa: largest tangential stress along the root beside the loaded flank of each pair's tooth, tension
+  // positive; empty for a pair with a cracked tooth
+  std::array<MatrixRM, 2> root_stress;
+  Eigen::VectorXd root_stress_max;  // (gear) Pa: largest of these
+  Eigen::VectorXd
+      root_stress_angle;  // (gear) rad: of the root's tangent there against the centre line of the tooth
+  Eigen::VectorXd root_stress_phase;  // (gear) 1: mesh phase of the loaded pair then, 0 at the pitch point
+  double loss_factor = 0;             // H_V: mean power lost by sliding, over mu times the power carried
   Eigen::VectorXd transmission_error_harmonic;  // (harmonic 0..) m: mean, then amplitudes
   Eigen::VectorXd stiffness_harmonic;           // (harmonic 0..) N m-1, of the secant stiffness
   // (order 0..) m: mean, then amplitudes of the harmonics of the hunting frequency, up to those above; empty for teeth that

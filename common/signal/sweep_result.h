@@ -65,6 +65,9 @@ struct SweepArtifact : MotionParameters {
   std::vector<MatrixRM> tooth_load;  // [speed] (sample, pair) N
   // [gear][speed] (sample, xy) N: as in static.h5, with the bearing's damper; empty for a rigid bearing
   std::array<std::vector<MatrixRM>, 2> bearing_force;
+  // [gear] (speed, sample) Pa: largest tangential stress of all teeth along the root beside the loaded flank; empty for lumped
+  // models
+  std::array<MatrixRM, 2> root_stress;
   Eigen::VectorXi periods;   // (speed) mesh periods run
   Eigen::VectorXd residual;  // (speed) relative change of the state over a period at the end
   // (speed) mesh periods of the orbit: hunting_periods unless subharmonic; 0: not periodic within the limit

@@ -14,6 +14,7 @@
 #include "solid/flank_table.h"
 #include "solid/mesher.h"
 #include "solid/modes.h"
+#include "solid/root_stress.h"
 #include "solid/sector.h"
 
 namespace whine {
@@ -100,7 +101,8 @@ struct Reduction {
   Eigen::VectorXcd translation, linear_momentum;
   CyclicSector sector;
   SparseReal outward, back_outward;  // of the driving flank, of the other
-  SparseReal below;                  // what the loaded tooth is read by in place of its surface
+  RootReader root;
+  SparseReal below;  // what the loaded tooth is read by in place of its surface
 };
 
 Reduction::Reduction(const MeshArtifact& of, const Material& material, int wanted, const Eigen::VectorXd& xi)
@@ -114,7 +116,8 @@ Reduction::Reduction(const MeshArtifact& of, const Material& material, int wante
       momentum(system.mass * rotation),
       translation((Eigen::Vector2cd(1, Complex(0, 1))).replicate(mesh.node_position.rows(), 1)),
       linear_momentum(system.mass.cast<Complex>() * translation),
-      sector(mesh, system) {
+      sector(mesh, system),
+      root(mesh, material) {
   if (all && sector.size() > kMostDense)
     fail(Failure::input, "body = \"full\" wants all ", static_cast<long>(sector.size()) * teeth, " modes of ",
          teeth, " sectors with ", sector.size(), " unknowns; at most ", kMostDense,
@@ -126,10 +129,10 @@ Reduction::Reduction(const MeshArtifact& of, const Material& material, int wante
   below = matching ? reader.outward_below(xi, mesh.discretisation.matching_depth) : outward;
 }
 
-// Of each harmonic: flexibility (point, load) inward, across: that of the other flank, displacement (2 node) under one of the
+// Of each harmonic: flexibility (point, load) inward, across: that of the other flank, stress along the roots, displacement (2 node) under one of the
 // loads; the lowest modes of all.
 struct Harmonics {
-  std::vector<Eigen::MatrixXcd> flexibility, across;
+  std::vector<Eigen::MatrixXcd> flexibility, across, root_stress;
   std::vector<Eigen::VectorXcd> displacement;
   std::vector<KeptMode> found;
 };
@@ -175,6 +178,7 @@ Harmonics solve_harmonics(const Reduction& r, FlankLoads& loads, Eigen::Index sh
     const Eigen::MatrixXcd solution = r.sector.expand(n, factor.solve(r.sector.gather(n, loads.force)));
     out.flexibility.push_back(-(r.outward.cast<Complex>() * solution));
     out.across.push_back(-(r.back_outward.cast<Complex>() * solution));
+    out.root_stress.push_back(r.root.stress().cast<Complex>() * solution);
     if (r.matching)
       loads.subtracted -=
           ((r.sector.single(n) ? 1.0 : 2.0) / r.teeth * ((r.below - r.outward).cast<Complex>() * solution))
@@ -297,6 +301,19 @@ void store_compliance(const Reduction& r, const FlankLoads& loads, Harmonics& ha
   }
 }
 
+void store_root_stress(const Reduction& r, const FlankLoads& loads, const Harmonics& harmonics,
+                       BodyArtifact& body) {
+  const RootPoints at = root_points(ToothGeometry(r.mesh.design));
+  body.root_arc_length = at.arc_length;
+  body.root_angle = at.angle;
+  for (int d = -body.offsets; d <= body.offsets; ++d) {
+    Eigen::MatrixXd table = r.offset_sum(
+        d, [&](int n) -> const Eigen::MatrixXcd& { return harmonics.root_stress[static_cast<size_t>(n)]; });
+    if (d == 0) table += r.root.near_field(loads, body.flank_position);
+    body.root_stress.push_back(table);
+  }
+}
+
 // Of the whole gear's table, all offsets: the least of those of its harmonics, less the kept modes. What the half-plane takes
 // too much beyond its depth leaves up to 2 % of the largest entry below zero (at a module of 0.3 mm); far more is no body.
 double least_eigenvalue(const Reduction& r, const std::vector<Eigen::MatrixXcd>& flexibility,
@@ -344,6 +361,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   Fields fields(mesh, body);
   store_modes(r, kept, fields, body);
   store_compliance(r, loads, harmonics, body);
+  store_root_stress(r, loads, harmonics, body);
   if (mesh.design.crack.depth > 0) body.crack_compliance = crack_compliance(mesh, material, xi, body.offsets);
   body.least_eigenvalue =
       least_eigenvalue(r, harmonics.flexibility, kept, body.compliance[0].cwiseAbs().maxCoeff());

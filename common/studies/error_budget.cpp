@@ -22,13 +22,14 @@ constexpr int kHarmonics = 5;
 struct Outcome {
   double mean_stiffness, peak_to_peak, pressure;
   VectorXd harmonic;
+  VectorXd root_stress;  // (gear) Pa, empty: not known
 };
 
 using NamedOutcomes = std::vector<std::pair<std::string, Outcome>>;
 
 Outcome outcome(const StaticArtifact& s) {
   return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
-          flank_pressure(s).smooth, harmonics(s.transmission_error, kHarmonics).amplitude};
+          flank_pressure(s).smooth, harmonics(s.transmission_error, kHarmonics).amplitude, s.root_stress_max};
 }
 
 StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
@@ -38,12 +39,17 @@ StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
   result.peak_to_peak_change.resize(count);
   result.harmonic_change.resize(count, kHarmonics);
   if (reference.pressure > 0) result.pressure_change.resize(count);
+  if (reference.root_stress.size() > 0) result.root_stress_change.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [name, other] = others[i];
     result.entry += (i ? ", " : "") + name;
     result.mean_stiffness_change[i] = other.mean_stiffness / reference.mean_stiffness - 1;
     result.peak_to_peak_change[i] = other.peak_to_peak / reference.peak_to_peak - 1;
     if (reference.pressure > 0) result.pressure_change[i] = other.pressure / reference.pressure - 1;
+    if (reference.root_stress.size() > 0) {
+      const Eigen::ArrayXd change = other.root_stress.array() / reference.root_stress.array() - 1;
+      result.root_stress_change[i] = std::abs(change[0]) > std::abs(change[1]) ? change[0] : change[1];
+    }
     result.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
   }
   return result;

@@ -21,6 +21,7 @@
 #include "signal/branch_end.h"
 #include "signal/response.h"
 #include "studies/zone_levels.h"
+#include "system/root_stress.h"
 
 namespace whine {
 
@@ -417,6 +418,31 @@ double store_motions(const std::vector<Orbit>& steady, int reach, SweepArtifact&
   return least_error;
 }
 
+// At the samples that are stored; orbits shorter than the row repeat in it.
+void store_root_stress(const GearMeshModel& model, SweepArtifact& a) {
+  const int samples = a.time.steps_per_period;
+  std::vector<double> phases;
+  for (int n = 0; n < samples; ++n) phases.push_back(static_cast<double>(n) / samples);
+  RootStresses roots(model, phases);
+  if (!roots.known()) return;
+  const Eigen::Index width = a.mesh_force.cols();
+  for (int g = 0; g < kSides; ++g) {
+    MatrixRM& out = a.root_stress[static_cast<size_t>(g)];
+    out.resize(a.mesh_force.rows(), width);
+    for (Eigen::Index row = 0; row < out.rows(); ++row) {
+      const Eigen::Index orbit = a.period_multiple[row] > 0
+                                     ? std::min<Eigen::Index>(width, a.period_multiple[row] * samples)
+                                     : width;
+      const MatrixRM& load = a.tooth_load[static_cast<size_t>(row)];
+      for (Eigen::Index n = 0; n < width; ++n)
+        out(row, n) =
+            n < orbit
+                ? roots.largest(g, static_cast<size_t>(n % samples), a.pair, load.row(n).transpose()).stress
+                : out(row, n - orbit);
+    }
+  }
+}
+
 // Hz: the speeds in their order.
 std::vector<double> speeds_of(const SweepParameters& settings, Direction direction) {
   const int count = static_cast<int>(std::floor(
@@ -487,6 +513,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     }
 
   double least_error = store_motions(steady, sweeper.reach(), result);
+  store_root_stress(model, result);
   if (model.on_bearings()) least_error = least_closing(result).minCoeff();
   result.backlash_margin = result.tooth_thinning() > 0 ? model.kinematics.backlash() + least_error
                                                        : std::numeric_limits<double>::infinity();

@@ -13,8 +13,10 @@
 #include "base/model_range.h"
 #include "base/progress.h"
 #include "gear/internal_mesh.h"
+#include "gear/losses.h"
 #include "system/compliance_split.h"
 #include "system/flank_pressure.h"
+#include "system/root_stress.h"
 
 namespace whine {
 
@@ -88,6 +90,32 @@ std::string solve_period(const SystemModel& system, const std::vector<CandidateZ
   return "";
 }
 
+// Root stresses at all positions, and where they are largest; nothing of a pair with a cracked tooth.
+void store_root_stress(const GearMeshModel& model, StaticArtifact& s) {
+  const auto positions = static_cast<size_t>(s.contact.positions);
+  std::vector<double> phases;
+  for (size_t i = 0; i < positions; ++i)
+    phases.push_back(static_cast<double>(i) / static_cast<double>(positions));
+  RootStresses roots(model, phases);
+  if (!roots.known()) return;
+  for (VectorXd* v : {&s.root_stress_max, &s.root_stress_angle, &s.root_stress_phase}) v->setZero(kSides);
+  for (int g = 0; g < kSides; ++g) {
+    MatrixRM& out = s.root_stress[static_cast<size_t>(g)];
+    out.resize(s.tooth_load.rows(), s.tooth_load.cols());
+    for (Eigen::Index i = 0; i < out.rows(); ++i) {
+      const size_t phase = static_cast<size_t>(i) % positions;
+      for (Eigen::Index k = 0; k < out.cols(); ++k) {
+        const RootStress tooth = roots.of_tooth(g, phase, s.pair[k], s.pair, s.tooth_load.row(i).transpose());
+        out(i, k) = tooth.stress;
+        if (tooth.stress <= s.root_stress_max[g]) continue;
+        s.root_stress_max[g] = tooth.stress;
+        s.root_stress_angle[g] = tooth.angle;
+        s.root_stress_phase[g] = phases[phase] + tooth.pair;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
@@ -138,6 +166,9 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
     widening *= kWidening;
   }
   result.mean_stiffness = result.stiffness_secant.mean();
+  store_root_stress(model, result);
+  result.loss_factor =
+      loss_factor(model.kinematics, result.pair, result.mesh_phase, result.tooth_load, torque);
   result.backlash_margin =
       driver.design.tooth_thinning + driven.design.tooth_thinning > 0
           ? model.kinematics.backlash() +

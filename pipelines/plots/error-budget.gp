@@ -22,20 +22,20 @@ two_lines(s) = strstrt(s, "|") > 0 ? s[1:strstrt(s, "|") - 1] . "\n{/*0.8 " . s[
 do for [i = 1:entries] { set xtics add (two_lines(word(labels, i)) i - 1) }
 first_choice = entries + 0.5
 do for [i = 1:choices] { set xtics add (two_lines(word(choice_labels, i)) first_choice + i - 1) }
-# The eighth bar is there only for budgets that know of pressure.
-array colour[8] = ["#0072b2", "#d55e00", "#333333", "#666666", "#8f8f8f", "#b5b5b5", "#d9d9d9", "#009e73"]
-array name[8] = ["mean stiffness", "peak to peak", "harmonic 1", "harmonic 2", "harmonic 3", "harmonic 4", "harmonic 5", "flank pressure"]
+# The eighth bar is there only for budgets that know of pressure, the ninth for those that know of root stress, too.
+array colour[9] = ["#0072b2", "#d55e00", "#333333", "#666666", "#8f8f8f", "#b5b5b5", "#d9d9d9", "#009e73", "#aa4499"]
+array name[9] = ["mean stiffness", "peak to peak", "harmonic 1", "harmonic 2", "harmonic 3", "harmonic 4", "harmonic 5", "flank pressure", "root stress"]
 set key at screen 0.9, screen 0.085 + lift horizontal Left reverse samplen 1.5 maxrows 2
 set style fill solid 0.9 noborder
-set boxwidth 0.1
+set boxwidth 0.095
 floor_value(x) = x < 1e-5 ? 1e-5 : x
-bars = 'for [k = 1:bars_each] tsv index "[changes]" using ($1 + 0.105 * (k - 4)):(floor_value(column(k + 1))) with boxes' \
+bars = 'for [k = 1:bars_each] tsv index "[changes]" using ($1 + 0.1 * (k - 4.5)):(floor_value(column(k + 1))) with boxes' \
   . ' lc rgb colour[k] title name[k]'
 if (choices > 0) {
   set arrow from entries - 0.22, graph 0 to entries - 0.22, graph 1 nohead lt 1 lw 1.6 lc rgb "#505050"
   set label "errors" at entries - 0.3, graph 0.97 right tc rgb "#505050"
   set label "other choices" at entries - 0.14, graph 0.97 left tc rgb "#505050"
-  bars = bars . ', for [k = 1:bars_each] tsv index "[choices]" using (first_choice + $1 + 0.105 * (k - 4))' \
+  bars = bars . ', for [k = 1:bars_each] tsv index "[choices]" using (first_choice + $1 + 0.1 * (k - 4.5))' \
     . ':(floor_value(column(k + 1))) with boxes lc rgb colour[k] notitle'
 }
 eval(foot_labels)

@@ -1,0 +1,14 @@
+// What a tooth suffers: root stress over the mesh cycle and over speed, dynamic factors, losses.
+#pragma once
+#include "report/figures.h"
+#include "signal/response_result.h"
+
+namespace whine {
+
+// Root stress of both gears while a tooth passes through the mesh (a) and its largest value over speed, both sweep directions (b);
+// dynamic factors of mesh force, tooth load and root stress beside K_v of ISO 6336-1, method B (c): over
+// T / r_b or over the largest at rest. In motion all are what is held for 1/64 of a mesh period. External pairs also show sigma_F0 of ISO 6336-3, method B. Tables: what is drawn, and loss
+// factors. Throws Error(input) for artifacts without root stress, of another torque, or that are not two sweeps, up and down.
+Figure root_stress_figure(const StaticArtifact& statics, const std::vector<ResponseArtifact>& sweeps);
+
+}  // namespace whine

@@ -1,0 +1,250 @@
+#include "solid/root_stress.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "base/error.h"
+#include "solid/half_plane.h"
+
+namespace whine {
+namespace {
+
+// The root curve in steps that are even in its parameter.
+constexpr int kSteps = 4000;
+constexpr Eigen::Index kMostTerms = 9;
+
+// (place, value) 1: least squares by polynomials in x, from -1 to 1 along the root, of values at `at` with the weights `weight`,
+// read at `wanted`. Legendre polynomials, of at most degree 8.
+Eigen::MatrixXd fitted(const Eigen::VectorXd& at, const Eigen::VectorXd& weight,
+                       const Eigen::VectorXd& wanted) {
+  const Eigen::Index terms = std::clamp<Eigen::Index>(at.size() / 2 + 1, 1, kMostTerms);
+  const auto polynomials = [terms](const Eigen::VectorXd& x) {
+    Eigen::MatrixXd p(x.size(), terms);
+    p.col(0).setOnes();
+    if (terms > 1) p.col(1) = x;
+    for (Eigen::Index n = 2; n < terms; ++n) {
+      const auto k = static_cast<double>(n);
+      p.col(n) = ((2 * k - 1) * x.array() * p.col(n - 1).array() - (k - 1) * p.col(n - 2).array()) / k;
+    }
+    return p;
+  };
+  const Eigen::VectorXd root = weight.cwiseSqrt();
+  const Eigen::MatrixXd known = root.asDiagonal() * polynomials(at);
+  return polynomials(wanted) * known.householderQr().solve(Eigen::MatrixXd(root.asDiagonal()));
+}
+
+// Nodes and their mirror images in the centre line of the tooth.
+int mirror_node(const MeshArtifact& mesh, int node) {
+  const Vec2 image(-mesh.node_position(node, 0), mesh.node_position(node, 1));
+  Eigen::Index nearest = 0;
+  const double miss = (mesh.node_position.rowwise() - image.transpose()).rowwise().norm().minCoeff(&nearest);
+  if (miss > 1e-9 * image.norm())
+    fail(Failure::input, "the mesh has no mirror image of its root node ", node, " (the nearest node is ",
+         miss * 1e3, " mm off); rebuild the mesh");
+  return static_cast<int>(nearest);
+}
+
+}  // namespace
+
+RootPoints root_points(const ToothGeometry& tooth, int points) {
+  std::vector<double> length(kSteps + 1, 0), angle(kSteps + 1, 0), turn(kSteps + 1, 0);
+  std::vector<Vec2> at(kSteps + 1);
+  for (int i = 0; i <= kSteps; ++i)
+    at[static_cast<size_t>(i)] = tooth.root_point(static_cast<double>(i) / kSteps);
+  for (size_t i = 1; i <= kSteps; ++i) {
+    const Vec2 step = at[i] - at[i - 1];
+    length[i] = length[i - 1] + step.norm();
+    // Against the centre line, from the tip inwards; of a ring outwards.
+    angle[i] = std::atan2(std::abs(step.x()), -tooth.outwards() * step.y());
+    if (i > 1) turn[i] = turn[i - 1] + std::abs(angle[i] - angle[i - 1]);
+  }
+  angle[0] = angle[1];
+  RootPoints out;
+  out.length = length[kSteps];
+  out.places.resize(kSteps + 1);
+  out.lengths.resize(kSteps + 1);
+  out.parameter.resize(points);
+  out.arc_length.resize(points);
+  out.angle.resize(points);
+  size_t i = 1;
+  const auto place = [&](size_t k) { return 0.5 * (length[k] / length[kSteps] + turn[k] / turn[kSteps]); };
+  for (size_t k = 0; k <= kSteps; ++k) {
+    out.places[k] = place(k);
+    out.lengths[k] = length[k];
+  }
+  for (int k = 0; k < points; ++k) {
+    const double wanted = (k + 0.5) / points;
+    while (i < kSteps && place(i) < wanted) ++i;
+    const double share = (wanted - place(i - 1)) / (place(i) - place(i - 1));
+    const auto between = [&](const std::vector<double>& v) { return v[i - 1] + share * (v[i] - v[i - 1]); };
+    out.parameter[k] = (static_cast<double>(i) - 1 + share) / kSteps;
+    out.arc_length[k] = between(length);
+    out.angle[k] = between(angle);
+  }
+  return out;
+}
+
+double RootPoints::place(double s) const {
+  const auto above =
+      std::clamp<std::ptrdiff_t>(std::upper_bound(lengths.begin(), lengths.end(), s) - lengths.begin(), 1,
+                                 static_cast<std::ptrdiff_t>(lengths.size()) - 1);
+  const auto i = static_cast<size_t>(above);
+  return places[i - 1] + (s - lengths[i - 1]) / (lengths[i] - lengths[i - 1]) * (places[i] - places[i - 1]);
+}
+
+// A side of an element on the root of the driving flank.
+struct RootReader::Side {
+  std::vector<int> node;  // 2, or 3: start, end, middle; from the flank on
+};
+
+// The strain along the root at one place of a side: e_t = sum over k of slope[k] tangent . u_k.
+struct RootReader::Strain {
+  double arc_length = 0;  // m from the flank
+  double weight = 0;      // m: share of the arc length, up to a factor
+  Vec2 tangent = Vec2::Zero();
+  std::vector<int> node;
+  std::vector<double> slope;  // m-1
+};
+
+// From the lower end of the driving flank along the free boundary to the sector's edge.
+std::vector<RootReader::Side> RootReader::sides() const {
+  const MeshArtifact& mesh = mesh_;
+  std::map<std::pair<int, int>, std::pair<std::vector<int>, int>> all;  // nodes, elements at the side
+  for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e)
+    for (int k = 0; k < 4; ++k) {
+      std::vector<int> node{mesh.element_node(e, k), mesh.element_node(e, (k + 1) % 4)};
+      if (mesh.element_node.cols() == 9) node.push_back(mesh.element_node(e, 4 + k));
+      auto& [nodes, elements] = all[std::minmax(node[0], node[1])];
+      nodes = node;
+      // What lies outside the tooth region holds no half-plane: a root has to be in it.
+      elements += mesh.element_region[e] == 1 ? 1 : 2;
+    }
+  std::multimap<int, std::vector<int>> free;
+  const std::set<int> flank(mesh.flank_node.begin(), mesh.flank_node.end());
+  for (const auto& [ends, side] : all) {
+    if (side.second != 1) continue;
+    if (flank.contains(ends.first) && flank.contains(ends.second)) continue;
+    free.emplace(ends.first, side.first);
+    free.emplace(ends.second, side.first);
+  }
+  std::set<int> edge(mesh.side_node.col(0).begin(), mesh.side_node.col(0).end());
+  edge.insert(mesh.side_node.col(1).begin(), mesh.side_node.col(1).end());
+  int at = tooth_.internal() ? mesh.flank_node[mesh.flank_node.size() - 1] : mesh.flank_node[0];
+  int last = -1;
+  std::vector<Side> chain;
+  while (!edge.contains(at)) {
+    const auto [first, end] = free.equal_range(at);
+    const auto next =
+        std::find_if(first, end, [&](const auto& s) { return s.second[0] != last && s.second[1] != last; });
+    if (next == end || chain.size() > all.size())
+      fail(Failure::input, "the root of the mesh breaks off at node ", at,
+           " before it reaches the edge of the sector; rebuild the mesh");
+    Side side{next->second};
+    if (side.node[0] != at) std::swap(side.node[0], side.node[1]);
+    last = at;
+    at = side.node[1];
+    chain.push_back(std::move(side));
+  }
+  return chain;
+}
+
+RootReader::RootReader(const MeshArtifact& mesh, const Material& material, int points)
+    : mesh_(mesh),
+      tooth_(mesh.design),
+      points_(root_points(tooth_, points)),
+      moduli_(plane_strain_equivalent(material)) {
+  const GaussRule fine = gauss_rule(6);
+  std::vector<Strain> strains;
+  double length = 0;
+  for (const Side& side : sides()) {
+    const auto along = [&](double a) {
+      const SideShape shape = side_shape(side.node.size(), a);
+      Vec2 d = Vec2::Zero();
+      for (size_t k = 0; k < side.node.size(); ++k)
+        d += shape.slope[k] * Vec2(mesh.node_position.row(side.node[k]));
+      return d;
+    };
+    const auto length_to = [&](double a) {
+      double sum = 0;
+      for (Eigen::Index g = 0; g < fine.point.size(); ++g)
+        sum += 0.5 * (a + 1) * fine.weight[g] * along(-1 + 0.5 * (a + 1) * (1 + fine.point[g])).norm();
+      return sum;
+    };
+    const GaussRule best = gauss_rule(static_cast<int>(side.node.size()) - 1);
+    for (const double a : best.point) {
+      const SideShape shape = side_shape(side.node.size(), a);
+      const Vec2 d = along(a);
+      Strain strain{length + length_to(a), d.norm(), d.normalized(), side.node, {}};
+      for (size_t k = 0; k < side.node.size(); ++k) strain.slope.push_back(shape.slope[k] / d.norm());
+      strains.push_back(std::move(strain));
+    }
+    length += length_to(1);
+  }
+  Eigen::VectorXd place(static_cast<Eigen::Index>(strains.size())), weight(place.size());
+  for (size_t i = 0; i < strains.size(); ++i) {
+    place[static_cast<Eigen::Index>(i)] = points_.place(strains[i].arc_length * points_.length / length);
+    weight[static_cast<Eigen::Index>(i)] = strains[i].weight / length;
+  }
+  const Eigen::VectorXd wanted =
+      Eigen::VectorXd::NullaryExpr(points, [&](Eigen::Index i) { return (2 * i + 1.0) / points - 1; });
+  const Eigen::MatrixXd fit = fitted((2 * place.array() - 1).matrix(), weight, wanted);
+  const double modulus = moduli_.youngs_modulus / (1 - moduli_.poisson_ratio * moduli_.poisson_ratio);  // E'
+  std::map<int, int> image;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < points; ++i)
+    for (size_t g = 0; g < strains.size(); ++g) {
+      const Strain& s = strains[g];
+      for (size_t k = 0; k < s.node.size(); ++k) {
+        const int node = s.node[k];
+        if (!image.contains(node)) image[node] = mirror_node(mesh, node);
+        for (int c = 0; c < 2; ++c) {
+          const double value = fit(i, static_cast<Eigen::Index>(g)) * modulus * s.slope[k] * s.tangent[c];
+          entries.emplace_back(i, 2 * node + c, value);
+          entries.emplace_back(points + i, 2 * image.at(node) + c, c == 0 ? -value : value);
+        }
+      }
+    }
+  stress_.resize(2 * points, 2 * mesh.node_position.rows());
+  stress_.setFromTriplets(entries.begin(), entries.end());
+}
+
+MatrixRM RootReader::near_field(const FlankLoads& loads, const Eigen::VectorXd& xi) const {
+  const Eigen::Index points = points_.parameter.size(), nodes = mesh_.node_position.rows();
+  MatrixRM out = MatrixRM::Zero(2 * points, xi.size());
+  if (std::none_of(loads.holds_rest.begin(), loads.holds_rest.end(), [](char rest) { return rest != 0; }))
+    return out;
+  const double thickness = mesh_.design.face_width,
+               across = moduli_.poisson_ratio / (1 - moduli_.poisson_ratio);
+  // Nodes of the roots that hold u: what they hold of the half-plane is taken off.
+  std::set<int> whole;
+  for (int column = 0; column < stress_.outerSize(); ++column)
+    for (SparseReal::InnerIterator it(stress_, column); it; ++it)
+      if (!loads.holds_rest[static_cast<size_t>(it.col() / 2)]) whole.insert(static_cast<int>(it.col() / 2));
+  for (Eigen::Index j = 0; j < xi.size(); ++j) {
+    const LineLoadField field(tooth_.flank_point(xi[j]), tooth_.flank_normal(xi[j]), moduli_, thickness,
+                              kReferenceDepth);
+    Eigen::VectorXd held = Eigen::VectorXd::Zero(2 * nodes);
+    for (const int node : whole)
+      held.segment<2>(2 * node) = field.displacement(mesh_.node_position.row(node).transpose());
+    out.col(j) = -(stress_ * held);
+    for (Eigen::Index i = 0; i < points; ++i) {
+      const double t = points_.parameter[i], step = 1e-5;
+      const Vec2 d = tooth_.root_point(std::min(t + step, 1.0)) - tooth_.root_point(std::max(t - step, 0.0));
+      for (const int side : {0, 1}) {
+        const Vec2 mirror(side == 0 ? 1 : -1, 1);
+        const Vec2 point = tooth_.root_point(t).cwiseProduct(mirror),
+                   tangent = d.normalized().cwiseProduct(mirror), normal(tangent.y(), -tangent.x());
+        out(side * points + i, j) += (field.traction(point, tangent).dot(tangent) -
+                                      across * field.traction(point, normal).dot(normal)) /
+                                     thickness;
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,71 @@
+#include "system/root_stress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace whine {
+
+RootStresses::RootStresses(const GearMeshModel& model, std::vector<double> phases)
+    : model_(model), phases_(std::move(phases)), known_(true) {
+  for (size_t g = 0; g < kSides; ++g) {
+    per_force_[g].resize(phases_.size());
+    const BodyArtifact& body = model.gear[g].body();
+    known_ = known_ && static_cast<int>(body.root_stress.size()) == 2 * body.offsets + 1 &&
+             body.root_angle.size() > 2 && body.design.crack.depth == 0;
+  }
+}
+
+const Eigen::MatrixXd& RootStresses::per_force(int g, size_t phase, int pair) {
+  std::vector<PerForce>& known = per_force_[static_cast<size_t>(g)][phase];
+  for (const PerForce& at : known)
+    if (at.pair == pair) return at.table;
+  const ElasticGear& gear = model_.gear[static_cast<size_t>(g)];
+  const FlankTable& flank = gear.table();
+  const double roll =
+      std::clamp(model_.kinematics.contact(phases_[phase] + pair).roll[static_cast<size_t>(g)],
+                 flank.lowest(), flank.highest());
+  const Eigen::VectorXd weights = flank.weights(roll).transpose();
+  const BodyArtifact& body = gear.body();
+  PerForce at{pair, Eigen::MatrixXd(body.root_angle.size(), 2 * body.offsets + 1)};
+  for (int d = 0; d <= 2 * body.offsets; ++d)
+    at.table.col(d) = body.root_stress[static_cast<size_t>(d)].topRows(body.root_angle.size()) * weights;
+  known.push_back(std::move(at));
+  return known.back().table;
+}
+
+RootStress RootStresses::of_tooth(int g, size_t phase, int of, const Eigen::VectorXi& numbers,
+                                  const Eigen::Ref<const Eigen::VectorXd>& load) {
+  const BodyArtifact& body = model_.gear[static_cast<size_t>(g)].body();
+  along_.setZero(body.root_angle.size());
+  for (Eigen::Index k = 0; k < numbers.size(); ++k) {
+    if (!(load[k] > 0)) continue;
+    const int offset = GearMeshModel::tooth(g, of) - GearMeshModel::tooth(g, numbers[k]);
+    if (std::abs(offset) <= body.offsets)
+      along_ += load[k] * per_force(g, phase, numbers[k]).col(offset + body.offsets);
+  }
+  Eigen::Index top = 0;
+  RootStress out{along_.maxCoeff(&top), of, body.root_angle[top]};
+  if (top > 0 && top + 1 < along_.size()) {
+    const double left = out.stress - along_[top - 1], right = out.stress - along_[top + 1];
+    if (left + right > 0) {
+      const double move = 0.5 * (left - right) / (left + right);  // points, towards the larger neighbour
+      out.stress += (left - right) * (left - right) / (8 * (left + right));
+      out.angle += std::abs(move) * (body.root_angle[top + (move > 0 ? 1 : -1)] - out.angle);
+    }
+  }
+  return out;
+}
+
+RootStress RootStresses::largest(int g, size_t phase, const Eigen::VectorXi& numbers,
+                                 const Eigen::Ref<const Eigen::VectorXd>& load) {
+  RootStress most;
+  for (Eigen::Index k = 0; k < numbers.size(); ++k) {
+    if (!(load[k] > 0)) continue;
+    const RootStress stress = of_tooth(g, phase, numbers[k], numbers, load);
+    if (stress.stress > most.stress) most = stress;
+  }
+  return most;
+}
+
+}  // namespace whine

@@ -1,0 +1,50 @@
+// Root stress of the teeth of a mesh under the loads of its pairs.
+//
+//   sigma_q(s) = sum over the pairs p of T_(j_q - j_p)(s, xi_p) F_p
+// s along the root, j_p the tooth of a gear in pair p, xi_p the roll angle at which it is touched, T the tables of
+// solid/root_stress.h. The load of a pair stands at its touching point: a root is far away from the spread of the pressure. Inertia
+// of what the kept modes leave out adds nothing.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "system/rolling_mesh.h"
+
+namespace whine {
+
+struct RootStress {
+  double stress = 0;  // Pa: largest along the root, tension positive
+  int pair = 0;       // of which tooth
+  double angle = 0;   // rad: of the root's tangent there against the centre line
+};
+
+class RootStresses {
+ public:
+  // model is kept by reference. phases: mesh phases (0 to 1) by whose index loads are given.
+  RootStresses(const GearMeshModel& model, std::vector<double> phases);
+  // False for bodies without tables and for cracked gears, whose tables are those of intact ones; then nothing else may be asked.
+  bool known() const { return known_; }
+  // Of gear g beside the loaded flank: of the tooth in pair `of`; load: (pair) N of the pairs `numbers`. Parabola through the
+  // three points about the largest.
+  RootStress of_tooth(int g, size_t phase, int of, const Eigen::VectorXi& numbers,
+                      const Eigen::Ref<const Eigen::VectorXd>& load);
+  // Of the teeth that carry load, all without load: 0.
+  RootStress largest(int g, size_t phase, const Eigen::VectorXi& numbers,
+                     const Eigen::Ref<const Eigen::VectorXd>& load);
+
+ private:
+  // (root, offset) Pa N-1 of gear g under a unit force of a pair.
+  const Eigen::MatrixXd& per_force(int g, size_t phase, int pair);
+  const GearMeshModel& model_;
+  std::vector<double> phases_;
+  struct PerForce {
+    int pair = 0;
+    Eigen::MatrixXd table;
+  };
+  std::array<std::vector<std::vector<PerForce>>, 2>
+      per_force_;          // [gear][phase] of the pairs that were asked for
+  Eigen::VectorXd along_;  // (root) Pa
+  bool known_;
+};
+
+}  // namespace whine

@@ -1,0 +1,175 @@
+// Stress along the roots of teeth: identities of the reading, tables against whole fields, refinement, ISO 6336-3.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gear/iso6336_strength.h"
+#include "internal_pair.h"
+#include "paper_pair.h"
+#include "relative.h"
+#include "solid/loaded_gear.h"
+#include "solid/root_stress.h"
+#include "system/root_stress.h"
+
+using namespace whine;
+
+namespace {
+
+struct Coarse {
+  MeshArtifact mesh;
+  BodyArtifact body;
+};
+
+Coarse made(const GearDesign& design, double element, int order = 2) {
+  BodyDiscretisation discretisation;
+  discretisation.element_size = element;
+  discretisation.element_order = order;
+  const MeshArtifact mesh = make_sector_mesh(design, discretisation);
+  return {mesh, reduce(mesh, paper_steel(), 0)};
+}
+
+const Coarse& coarse() {
+  static const Coarse gear = made(paper_gear(), 0.8e-3);
+  return gear;
+}
+
+// (2 root) Pa N-1: of tooth `offset` under a force at a share of the flank, 0 at its lower end.
+Eigen::VectorXd under_force(const BodyArtifact& body, double share, int offset = 0) {
+  const ToothGeometry tooth(body.design);
+  const FlankTable table(tooth, static_cast<int>(body.flank_position.size()));
+  const double xi = table.lowest() + share * (table.highest() - table.lowest());
+  return body.root_stress[static_cast<size_t>(offset + body.offsets)] * table.weights(xi).transpose();
+}
+
+double largest(const BodyArtifact& body, double share) {
+  return under_force(body, share).head(body.root_angle.size()).maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("root stress: rigid motions give none, an even expansion gives E' times its strain") {
+  for (const GearDesign& design : {paper_gear(), ring_gear()})
+    for (const bool plane_stress : {true, false}) {
+      BodyDiscretisation discretisation;
+      discretisation.element_size = 0.8e-3;
+      const MeshArtifact mesh = make_sector_mesh(design, discretisation);
+      Material steel = paper_steel();
+      steel.plane_stress = plane_stress;
+      const RootReader reader(mesh, steel);
+      const Eigen::VectorXd rotated = reader.stress() * rotation_field(mesh.node_position);
+      CHECK(rotated.cwiseAbs().maxCoeff() < 1e-9 * steel.youngs_modulus);
+      constexpr double kStrain = 1e-3;
+      const MatrixRM expansion = kStrain * mesh.node_position;
+      const Eigen::VectorXd stress =
+          reader.stress() * Eigen::Map<const Eigen::VectorXd>(expansion.data(), expansion.size());
+      const double modulus = steel.youngs_modulus / (plane_stress ? 1 : 1 - 0.3 * 0.3);
+      CHECK(stress.minCoeff() == relative(modulus * kStrain, 1e-9));
+      CHECK(stress.maxCoeff() == relative(modulus * kStrain, 1e-9));
+    }
+}
+
+TEST_CASE("root stress: points go from the flank to the space, the tangent turns from the flank's on") {
+  const ToothGeometry tooth(paper_gear());
+  const RootPoints points = root_points(tooth);
+  for (Eigen::Index i = 1; i < points.arc_length.size(); ++i)
+    CHECK(points.arc_length[i] > points.arc_length[i - 1]);
+  CHECK(points.arc_length[0] > 0);
+  CHECK(points.arc_length[points.arc_length.size() - 1] < points.length);
+  CHECK(points.angle[0] < 0.35);
+  CHECK(points.angle.maxCoeff() > 1.4);
+}
+
+TEST_CASE(
+    "root stress: tables against the whole field of a loaded gear, on the loaded tooth and its neighbours") {
+  const auto& [mesh, body] = coarse();
+  const ToothGeometry tooth(body.design);
+  const FlankTable table(tooth, static_cast<int>(body.flank_position.size()));
+  const RootReader reader(mesh, paper_steel());
+  for (const double share : {0.4, 0.7}) {
+    const double xi = table.lowest() + share * (table.highest() - table.lowest());
+    const LoadedGear loaded = loaded_gear(mesh, paper_steel(), {{0, xi, 0.1e-3, 1.0}});
+    for (const int offset : {-2, -1, 0, 1, 2}) {
+      CAPTURE(offset);
+      const int number = (offset + body.design.teeth) % body.design.teeth;
+      const double angle = 2 * std::numbers::pi * offset / body.design.teeth;
+      Eigen::Matrix2d back;
+      back << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+      Eigen::VectorXd u(2 * mesh.node_position.rows());
+      for (Eigen::Index i = 0; i < mesh.node_position.rows(); ++i)
+        u.segment<2>(2 * i) = back * loaded.displacement.row(loaded.gear.node(number, i)).transpose();
+      const Eigen::VectorXd field = reader.stress() * u, found = under_force(body, share, offset);
+      // The half-plane is exact in the table, in the field it is read from the nodes.
+      const double tolerance = offset == 0 ? 0.02 : 1e-4;
+      CHECK((field - found).cwiseAbs().maxCoeff() < tolerance * field.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST_CASE("root stress: a tooth bends: tension beside the loaded flank, compression on the other side") {
+  const BodyArtifact& body = coarse().body;
+  const Eigen::Index points = body.root_angle.size();
+  for (const double share : {0.3, 0.6, 0.9}) {
+    const Eigen::VectorXd stress = under_force(body, share);
+    CHECK(stress.head(points).maxCoeff() > 0.5 * stress.cwiseAbs().maxCoeff());
+    CHECK(stress.tail(points).minCoeff() < -0.9 * stress.cwiseAbs().maxCoeff());
+  }
+  CHECK(largest(body, 0.9) > 1.2 * largest(body, 0.6));
+}
+
+TEST_CASE("root stress: elements of 0.8 mm against 0.4 mm") {
+  const BodyArtifact fine = made(paper_gear(), 0.4e-3).body;
+  for (const double share : {0.35, 0.65, 0.95}) {
+    CHECK(largest(coarse().body, share) == relative(largest(fine, share), 0.02));
+  }
+}
+
+TEST_CASE("root stress at rest: histories, their maximum, and Y_F Y_S of ISO 6336-3") {
+  const BodyArtifact& body = coarse().body;
+  const StaticArtifact s = static_transmission(body, body, paper_statics(32), 150);
+  const GearPair pair(s);
+  for (int g = 0; g < kSides; ++g) {
+    CAPTURE(g);
+    CHECK(s.root_stress[static_cast<size_t>(g)].maxCoeff() == s.root_stress_max[g]);
+    // Plane stress, elastic support, a curved tooth and shared loads, against a beam with a notch factor that carries the load
+    // alone at the outer point of single contact.
+    const double ratio =
+        s.root_stress_max[g] / iso_6336_root_stress(pair, g, 150 / pair.gear(0).pitch_radius());
+    CHECK(ratio == relative(0.93, 0.1));
+    // Where one pair alone carries the load, at the end of that which is farther from the root.
+    const double end = (g == 0 ? pair.path_start() : pair.path_end()) / pair.base_pitch() + (g == 0 ? 1 : -1);
+    CHECK(std::abs(s.root_stress_phase[g] - end) < 0.1);
+  }
+  // Two gears of one design: each is the mirror image of the other.
+  CHECK(s.root_stress_max[0] == relative(s.root_stress_max[1], 1e-9));
+  CHECK(s.loss_factor > 0.7 * loss_factor_of_rigid_teeth(pair));
+  CHECK(s.loss_factor < 1.1 * loss_factor_of_rigid_teeth(pair));
+}
+
+TEST_CASE(
+    "root stress of a mesh: one pair is its table times its force, teeth without load carry none of their "
+    "own") {
+  const BodyArtifact& body = coarse().body;
+  const StaticParameters settings = paper_statics(32);
+  const GearMeshModel model(body, body, settings.mesh);
+  RootStresses roots(model, {0.0, 0.3});
+  REQUIRE(roots.known());
+  const Eigen::VectorXi numbers = Eigen::VectorXi::LinSpaced(3, -1, 1);
+  const Eigen::Vector3d alone(0, 1000, 0), none(0, 0, 0), both(800, 1000, 0);
+  const ToothGeometry tooth(body.design);
+  for (const size_t phase : {size_t{0}, size_t{1}})
+    for (int g = 0; g < kSides; ++g) {
+      const double xi = model.kinematics.contact(phase == 0 ? 0.0 : 0.3).roll[static_cast<size_t>(g)];
+      const double share =
+          (xi - tooth.form_roll_angle()) / (tooth.tip_roll_angle() - tooth.form_roll_angle());
+      const RootStress found = roots.largest(g, phase, numbers, alone);
+      CHECK(found.pair == 0);
+      // the parabola through the three highest points is above them
+      CHECK(found.stress >= 1000 * largest(body, share) * (1 - 1e-12));
+      CHECK(found.stress == relative(1000 * largest(body, share), 0.005));
+      CHECK(roots.largest(g, phase, numbers, 2 * alone).stress == relative(2 * found.stress, 1e-12));
+      CHECK(roots.largest(g, phase, numbers, none).stress == 0);
+      CHECK(roots.largest(g, phase, numbers, both).stress >= 0.8 * found.stress);
+    }
+}
