@@ -144,7 +144,7 @@ for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin"
       # a second design, of the same bodies
       sed 's/^centre_distance_mm = 150.0/centre_distance_mm = 150.05/' examples/data/scenes/parker2000.toml > examples/data/scenes/parker2000-longer.toml
       run_example 'gear-scene --scene data/scenes/parker2000-longer.toml --output longer.mk --out out'
-      run_example "$(sed 's|out/parker2000/params|out/parker2000-longer/params|' examples/lines)"; as_made static ../parker2000-longer/T150/static ;;
+      run_example "$(sed 's|out/parker2000/|out/parker2000-longer/|g' examples/lines)"; as_made static ../parker2000-longer/T150/static ;;
     gear-sweep) as_made sweep T150/up/sweep; run_example "$(sed 's/\<up\>/down/g' examples/lines)"; as_made sweep T150/down/sweep ;;
     gear-spectra) as_made response T150/up/response; run_example "$(sed 's/\<up\>/down/g' examples/lines)"; as_made response T150/down/response ;;
   esac
