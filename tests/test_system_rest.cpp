@@ -224,8 +224,8 @@ TEST_CASE(
 }
 
 TEST_CASE("the four-planet set that ships and its rigid twin stand, turn and mesh alike") {
-  const char *const elastic = "data/scenes/oh58-planetary.toml",
-                    *const rigid = "data/scenes/oh58-planetary-rigid.toml";
+  const char *const elastic = "data/scenes/oh58-planetary.toml", *const rigid =
+                                                                     "data/scenes/oh58-planetary-rigid.toml";
   const System a = layout_in(read_system_scene(elastic), elastic),
                b = layout_in(read_system_scene(rigid), rigid);
   REQUIRE(a.bodies.size() == b.bodies.size());
