@@ -236,18 +236,18 @@ grep -q -e '--sweep out/moving/T90/down/sweep.h5 .*--output out/moving/report/an
 
 # --- reports
 make_ -n report
-expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*8 gear-report*1 gear-static*1"
+expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*9 gear-report*1 gear-static*1"
 make_ report; make_ -n report
 expect "a report is up to date" ""
 make_ report; grep -q '^report: .*out/parker2000/report/index.html' "$log" && ok "and says where it stands" || wrong "and says where it stands" "$(tail -n 1 "$log")"
 mkdir -p mine
 sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/plain.toml
 make_ -n SCENE=mine/plain.toml report
-expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 make_ -n SCENE=mine/plain.toml BRANCHES=yes report
-expect "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/line.toml; make_ -n SCENE=mine/line.toml report
-expect "contact in lines: no ring-down" "gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "contact in lines: no ring-down" "gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; make_ -n SCENE=mine/relief.toml report
 expect "relief: a profile chart" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.toml > mine/graded.toml; make_ -n SCENE=mine/graded.toml report
@@ -257,7 +257,7 @@ expect "a cracked tooth: gears at rest only" "gear-mesh*1 gear-plot*2 gear-reduc
 make_ -n SCENE=mine/graded.toml fig05
 expect "teeth that differ have no ring-down in other figures either" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2"
 make_ -n SCENE=mine/plain.toml out/plain/report/index.html
-expect "a page by its path" "gear-impact*2 gear-plot*8 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "a page by its path" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 
 # --- any torque, other scenes
 make_ -n out/parker2000/T700/up/response.h5
@@ -306,6 +306,9 @@ drawn() { sed -n 's/^gear-plot //p' calls | sort | tr '\n' ' '; }
   wrong "figures of SCENE stand in its report, at its own torques" "$(drawn) $(tail -n 1 "$log")"
 make_ -n SCENE=elsewhere/own.toml figures error-budget
 expect "and are up to date then" ""
+rm -f calls; make_ SCENE=elsewhere/own.toml teeth
+[ "$(drawn)" = "$(printf 'out/own/report/%s ' load-sharing root-stress tooth-loads)" ] && ok "make teeth draws what a tooth suffers" ||
+  wrong "make teeth draws what a tooth suffers" "$(drawn) $(tail -n 1 "$log")"
 make_ -n SCENE=elsewhere/own.toml jump-map
 expect "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2"
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml
