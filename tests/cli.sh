@@ -496,6 +496,8 @@ rejected "motion with a cracked tooth" 3 "driver has a crack in tooth 3: motion 
   --static $cracked/T100/static.h5 --reference-static $cracked/T100/static.h5 --direction up --output $cracked/T100/sweep.h5
 rejected "a lumped model of a cracked tooth" 3 "50 mesh periods, because a tooth is cracked" "$bin/gear-lumped" --model secant --static $cracked/T100/static.h5 \
   --params $cracked/params/sweep.toml --direction up --output $cracked/T100/lumped.h5
+rejected "root stress without two sweeps of one torque" 3 'two response.h5 beside static.h5, up and down' "$bin/gear-plot" root-stress --plots "$plots" --output root \
+  out/scene/T100/static.h5 out/scene/T100/up/response.h5 out/scene/T100/up/response.h5
 rejected "a figure of a crack without one" 3 "no tooth has a crack" "$bin/gear-plot" crack --plots "$plots" --output crack out/scene/T100/static.h5
 rm -rf said crack.* cracked.mk "$(readlink -f $cracked/pinion)" $cracked
 

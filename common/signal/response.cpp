@@ -145,7 +145,7 @@ ResponseArtifact response(const SweepArtifact& s) {
       r.root_stress_max[g] = s.root_stress[g].rowwise().maxCoeff();
       r.root_stress_held[g].resize(speeds);
     }
-  if (s.model == SweepArtifact().model) {
+  if (s.root_stress[0].size() > 0) {
     const GearPair gears(s);
     for (Eigen::VectorXd* v : {&r.loss_factor, &r.tooth_load_held, &r.mesh_force_held}) v->resize(speeds);
     for (Eigen::Index f = 0; f < speeds; ++f) {

@@ -120,8 +120,7 @@ std::vector<RootReader::Side> RootReader::sides() const {
       if (mesh.element_node.cols() == 9) node.push_back(mesh.element_node(e, 4 + k));
       auto& [nodes, elements] = all[std::minmax(node[0], node[1])];
       nodes = node;
-      // What lies outside the tooth region holds no half-plane: a root has to be in it.
-      elements += mesh.element_region[e] == 1 ? 1 : 2;
+      ++elements;
     }
   std::multimap<int, std::vector<int>> free;
   const std::set<int> flank(mesh.flank_node.begin(), mesh.flank_node.end());
