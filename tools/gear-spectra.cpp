@@ -12,6 +12,7 @@
 #include "io/response_codec.h"
 #include "io/sweep_codec.h"
 #include "signal/response.h"
+#include "studies/sweep_losses.h"
 
 namespace {
 
@@ -28,7 +29,8 @@ void body(int argc, char** argv) {
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});
   const whine::SweepArtifact sweep = whine::read_sweep(input);
-  const whine::ResponseArtifact result = whine::response(sweep);
+  whine::ResponseArtifact result = whine::response(sweep);
+  result.loss_factor = whine::loss_factors(sweep);
   whine::write(output, result, provenance);
 
   Eigen::Index peak = 0;

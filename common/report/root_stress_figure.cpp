@@ -21,7 +21,7 @@ void require_inputs(const StaticArtifact& s, const std::vector<ResponseArtifact>
     fail(Failure::input, "root-stress: it needs two response.h5 beside static.h5, up and down; ",
          sweeps.size(), " given");
   for (const ResponseArtifact& r : sweeps)
-    if (r.torque != s.torque || r.root_stress_max[0].size() == 0)
+    if (r.torque != s.torque || r.root_stress_max[0].size() == 0 || r.loss_factor.size() == 0)
       fail(Failure::input, "root-stress: a response.h5 of ", r.torque, " N m",
            r.root_stress_max[0].size() == 0 ? " holds no root stress (of a lumped model)" : "",
            "; static.h5 is of ", s.torque, " N m");

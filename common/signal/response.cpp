@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "gear/losses.h"
 #include "signal/branch_end.h"
 #include "signal/branches.h"
 #include "signal/spectrum.h"
@@ -146,18 +145,14 @@ ResponseArtifact response(const SweepArtifact& s) {
       r.root_stress_held[g].resize(speeds);
     }
   if (s.root_stress[0].size() > 0) {
-    const GearPair gears(s);
-    for (Eigen::VectorXd* v : {&r.loss_factor, &r.tooth_load_held, &r.mesh_force_held}) v->resize(speeds);
+    for (Eigen::VectorXd* v : {&r.tooth_load_held, &r.mesh_force_held}) v->resize(speeds);
+    const int steps = s.time.steps_per_period;
     for (Eigen::Index f = 0; f < speeds; ++f) {
-      const Eigen::Index samples = stored(f) * per_period;
-      const Eigen::VectorXd phase = Eigen::VectorXd::LinSpaced(samples, 0, static_cast<double>(samples - 1)) /
-                                    static_cast<double>(per_period);
-      r.loss_factor[f] = loss_factor(gears, s.pair, phase, s.tooth_load[f].topRows(samples), s.torque);
-      r.tooth_load_held[f] = held_load(s.tooth_load[f], s.time.steps_per_period);
-      r.mesh_force_held[f] = held_load(s.mesh_force.row(f).transpose(), s.time.steps_per_period);
+      r.tooth_load_held[f] = held_load(s.tooth_load[f], steps);
+      r.mesh_force_held[f] = held_load(s.mesh_force.row(f).transpose(), steps);
       for (size_t g = 0; g < kSides; ++g)
         if (s.root_stress[g].size() > 0)
-          r.root_stress_held[g][f] = held_load(s.root_stress[g].row(f).transpose(), s.time.steps_per_period);
+          r.root_stress_held[g][f] = held_load(s.root_stress[g].row(f).transpose(), steps);
     }
   }
   r.separation_fraction.resize(speeds);

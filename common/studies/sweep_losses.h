@@ -1,0 +1,10 @@
+// Losses of a sweep by the loads that its teeth carry.
+#pragma once
+#include "signal/sweep_result.h"
+
+namespace whine {
+
+// (speed) 1: H_V of gear/losses.h over the mesh periods that are stored. Empty for lumped models.
+Eigen::VectorXd loss_factors(const SweepArtifact& sweep);
+
+}  // namespace whine
