@@ -53,7 +53,7 @@ stage_train=("$bin/gear-scene" --scene scene-train.toml --output scene-train.mk 
 stage_modes=("$bin/gear-modes" --params out/scene-train/params/system.toml --output out/scene-train/modes.h5)
 stage_modes_plot=("$bin/gear-plot" modes --plots "$plots" --output modes out/scene-train/modes.h5)
 cp "$(dirname "$scene_of_paper")/three-in-line.toml" scene-inline.toml
-printf '[fidelity]\nmodes = 5\ncontact = "line"\n[discretisation]\nelement_mm = 1.5\nelement_order = 1\npositions = 8\n' >> scene-inline.toml
+printf '[gear.idler.modification]\ncrowning_um = 5\n[fidelity]\nmodes = 5\ncontact = "line"\n[discretisation]\nelement_mm = 1.5\nelement_order = 1\npositions = 8\n' >> scene-inline.toml
 stage_inline=("$bin/gear-scene" --scene scene-inline.toml --output scene-inline.mk --out out)
 inline_bodies() {
   for gear in pinion idler wheel; do

@@ -20,6 +20,7 @@
 #include "base/tool.h"
 #include "gear/system_layout.h"
 #include "io/artifact.h"
+#include "io/artifact_place.h"
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
 #include "io/datasets.h"
@@ -699,6 +700,15 @@ TEST_CASE("modes.h5 gives back every value bit by bit") {
   CHECK(a.rigid_frequency == b.rigid_frequency);
   // The system as it is stored has the same modes.
   CHECK(natural_modes(b.layout).shape == a.shape);
+  // Springs have no energy below 0; elastic bodies may join meshes that have.
+  ModesArtifact negative = a;
+  negative.mesh_energy(0, 0) = -0.5;
+  write("negative.h5", negative, kMade);
+  CHECK_THROWS_WITH(read_modes("negative.h5"), doctest::Contains("mesh_energy"));
+  negative.mesh_phase = Eigen::VectorXd::Zero(1);
+  negative.frozen_frequency = a.natural_frequency.transpose();
+  write("elastic.h5", negative, kMade);
+  CHECK(read_modes("elastic.h5").mesh_energy(0, 0) == -0.5);
   REQUIRE(b.layout.bodies.size() == a.layout.bodies.size());
   for (size_t i = 0; i < a.layout.bodies.size(); ++i)
     CHECK(a.layout.bodies[i].name == b.layout.bodies[i].name);
@@ -706,10 +716,20 @@ TEST_CASE("modes.h5 gives back every value bit by bit") {
 
 namespace {
 
-// One planet between sun and ring at two phases, numbers without meaning.
+// Sun, three planets and ring at two phases, numbers without meaning.
 SystemStaticArtifact small_system() {
   SystemScene scene = planetary_train(3);
   scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  // Of sun and planet, one of them in two meshes, and none of the ring.
+  FlankModification relieved, crowned;
+  relieved.tip.amount = 20e-6;
+  relieved.tip.length = 1.5e-3;
+  crowned.crowning = 5e-6;
+  for (SystemScene::Mesh& mesh : scene.meshes)
+    for (size_t g = 0; g < kSides; ++g) {
+      if (mesh.spec.gear[g] == "sun") mesh.spec.modification[g] = relieved;
+      if (mesh.spec.gear[g] == "planet") mesh.spec.modification[g] = crowned;
+    }
   scene.contact = {4, 2};
   const SystemStaticParameters settings = static_parameters_of(scene, layout_of(scene));
   const auto bodies = static_cast<Eigen::Index>(settings.layout.bodies.size()),
@@ -766,9 +786,21 @@ TEST_CASE("system_static.h5 gives back every value bit by bit") {
   CHECK(a.settings.contact.positions == b.settings.contact.positions);
   CHECK(a.settings.fidelity.contact == b.settings.fidelity.contact);
   REQUIRE(b.settings.mesh.size() == 2);
+  for (const char* gear : {"sun", "planet", "ring"})
+    CHECK(a.settings.modification(gear) == b.settings.modification(gear));
+  CHECK(a.settings.modification("sun") != a.settings.modification("planet"));
+  CHECK(b.settings.mesh[0].modification[1] == b.settings.mesh[1].modification[0]);
+  CHECK(b.settings.modification("ring") == FlankModification{});
   CHECK(a.settings.mesh[1].centre_distance == b.settings.mesh[1].centre_distance);
   REQUIRE(b.drawing.size() == 3);
   CHECK(a.drawing[2].design.rim_outer_radius == b.drawing[2].design.rim_outer_radius);
+  // What has another name than its schema is misplaced.
+  CHECK(misplaced("out/train/system_static.h5", read_origin("system_static.h5")).empty());
+  CHECK(misplaced("out/train/static.h5", read_origin("system_static.h5")).find("its name is that of") !=
+        std::string::npos);
+  Origin of_pair;
+  of_pair.schema = "whine/static";
+  CHECK(misplaced("out/train/system_static.h5", of_pair).find("'whine/system_static'") != std::string::npos);
   // Names that no gear has.
   SystemStaticArtifact wrong = a;
   wrong.settings.gear[1] = "moon";
@@ -1068,6 +1100,10 @@ TEST_CASE("bodies are given by the names of their gears, in any order, one for e
   rejected({"pinion=a.h5"}, "the gear 'wheel' has no file; give --body wheel=<path>");
   rejected({"pinion=a.h5", "whel=b.h5"}, "no gear of this mesh is called 'whel'; did you mean 'wheel'?");
   rejected({"pinion=a.h5", "wheel=b.h5", "carrier=c.h5"}, "they are pinion and wheel");
+  // A system may have two gears, too.
+  CHECK(caught([] {
+          NamedFiles("--body", {"sun=a.h5", "moon=b.h5"}).of({"sun", "ring"}, "system");
+        }).says("no gear of this system is called 'moon'"));
 }
 
 TEST_CASE("response.h5 gives back every value bit by bit") {

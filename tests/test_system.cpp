@@ -247,6 +247,12 @@ TEST_CASE("a third gear without torque: the first two are the pair, the second m
   System loose = train();
   loose.drives = {{0, System::DriveKind::torque, kTorque}};
   CHECK_THROWS_AS(mesh_loads({loose, train_bodies(), {train_mesh(0), train_mesh(1)}}), Error);
+  loose.drives = {};
+  for (const int b : {0, 1, 2}) loose.drives.push_back({b, System::DriveKind::held});
+  CHECK_THROWS_WITH(mesh_loads({loose, train_bodies(), {train_mesh(0), train_mesh(1)}}),
+                    doctest::Contains("every body is held"));
+  CHECK_THROWS_WITH(mesh_loads(loaded_train(train(), 2, true, 0)),
+                    doctest::Contains("no drive of the system"));
   // Torque against the flow of power opens the meshes.
   CHECK_THROWS_AS(mesh_loads(loaded_train(train(), 2, true, -kTorque)), Error);
 }

@@ -80,6 +80,9 @@ SystemStaticArtifact at_rest(const SystemScene& scene) {
   return system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies);
 }
 
+// What tip edges change of moments and forces: their normals are tilted against the line of action.
+constexpr double kTipEdges = 0.01;
+
 // Bodies of a train of three planets: 0 the sun, 1 to 3 the planets, 4 the ring, 5 the carrier.
 constexpr Index kRing = 4, kCarrier = 5;
 
@@ -101,15 +104,26 @@ TEST_CASE(
     REQUIRE(a.mesh_phase.size() == kPositions);
     for (Index i = 0; i < kPositions; ++i) {
       CHECK(torque_left(a, i) < 1e-8 * kTorque);
-      CHECK(a.torque(i, 0) == kTorque);
       CHECK(a.mesh_force.row(i).head(3).sum() == relative(force, 1e-9));
-      CHECK(a.load_share.row(i).head(3).sum() == relative(1, 1e-12));
+      // Normal forces on the teeth, which act at the base radius but for tip edges: the sun's moment is the drive's torque, what
+      // comes to a planet goes on to the ring, and shares are those of the forces.
+      const VectorXd load = a.tooth_load[static_cast<size_t>(i)].rowwise().sum();
+      CHECK(load.head(3).sum() * kTorque / force == relative(a.torque(i, 0), kTipEdges));
+      for (Index n = 0; n < 3; ++n) {
+        CHECK(load[n] == relative(load[3 + n], kTipEdges));
+        CHECK(a.load_share(i, n) == relative(load[n] / load.head(3).sum(), kTipEdges));
+      }
       // Contact forces of all gears come in pairs, so that bearings, pins and what holds the ring carry nothing together.
       const MatrixRM& bearing = a.bearing_force[static_cast<size_t>(i)];
       CHECK(bearing.topRows(5).colwise().sum().norm() < 1e-9 * force);
-      CHECK((bearing.row(kCarrier) - bearing.middleRows(1, 3).colwise().sum()).norm() < 1e-12 * force);
+      // Along the lines of action of both meshes of each planet.
+      Vec2 pins(0, 0);
+      for (Index m = 0; m < 6; ++m)
+        pins += closing_sign(m < 3 ? 1 : 0) * -load[m] *
+                line_of_action(a.settings.layout.meshes[static_cast<size_t>(m)]);
+      CHECK((Vec2(bearing.row(kCarrier)) - pins).norm() < kTipEdges * force);
       // Willis: of torques z_s and z_r, but for what tip edges change.
-      CHECK(a.torque(i, kRing) == relative(-kTorque * 100 / 26, 0.01));
+      CHECK(a.torque(i, kRing) == relative(-kTorque * 100 / 26, kTipEdges));
       CHECK(a.least_force[i] >= 0);
       CHECK(a.least_gap[i] > -1e-13);
       CHECK(a.torque_residual[i] < 1e-10);
@@ -215,12 +229,44 @@ TEST_CASE(
   }
   CHECK(rotational == 4);
   CHECK(translational == 8);
-  // Where stiffness is larger at every phase frequencies are (Courant and Fischer); the mean lies between.
-  for (Index i = 0; i < 12; ++i) {
-    CHECK(modes.natural_frequency[i] <= modes.frozen_frequency.col(i).maxCoeff() * (1 + 1e-9));
-    CHECK(modes.natural_frequency[i] >= modes.frozen_frequency.col(i).minCoeff() * (1 - 1e-9));
+  for (Index i = 0; i < 12; ++i)
     CHECK(modes.mesh_energy.row(i).sum() + modes.bearing_energy.row(i).sum() == relative(1, 1e-9));
+  // The sum of w^2 is the trace of M^-1 K, linear in K. Of a symmetric matrix the least eigenvalue is concave and the largest
+  // convex; those between need not lie among those of the phases.
+  const double phases = static_cast<double>(modes.frozen_frequency.rows());
+  CHECK(modes.natural_frequency.squaredNorm() ==
+        relative(modes.frozen_frequency.squaredNorm() / phases, 1e-9));
+  CHECK(modes.natural_frequency[0] >= modes.frozen_frequency.col(0).minCoeff() * (1 - 1e-9));
+  CHECK(modes.natural_frequency[11] <= modes.frozen_frequency.col(11).maxCoeff() * (1 + 1e-9));
+  const VectorXd trace = modes.frozen_frequency.rowwise().squaredNorm();
+  CHECK(trace.maxCoeff() > 1.001 * trace.minCoeff());  // the phases do differ
+}
+
+TEST_CASE("a third gear without torque: no stiffness in its mesh, one more free motion, modes of the pair") {
+  SystemScene scene = train({26, 37, 100}, ContactModel::line, false);
+  scene.carriers.clear();
+  scene.gears[2] = scene.gears[0];
+  scene.gears[2].name = "last";
+  scene.meshes[1].spec.gear[1] = "last";
+  for (SystemScene::Gear& gear : scene.gears) gear.bearing = {};
+  scene.drives = {{"sun", System::DriveKind::torque, kTorque, 0}, {"planet", System::DriveKind::held, 0, 0}};
+  const SystemStaticArtifact a = at_rest(scene);
+  for (const MatrixRM& k : a.mesh_stiffness) {
+    CHECK(k(0, 0) > 1e8);
+    CHECK(k(1, 1) == 0);
+    CHECK(k(0, 1) == 0);
   }
+  const ModesArtifact modes = elastic_modes(a);
+  REQUIRE(modes.natural_frequency.size() == 2);
+  CHECK(modes.natural_frequency[0] == 0);
+  double mean = 0;
+  for (const MatrixRM& k : a.mesh_stiffness) mean += k(0, 0) / static_cast<double>(a.mesh_stiffness.size());
+  const System::Body& sun = a.settings.layout.bodies[0];
+  CHECK(2 * kPi * modes.natural_frequency[1] == relative(std::sqrt(mean / sun.inertia) * sun.radius, 1e-12));
+  // Springs of a scene are another matter: each needs its stiffness.
+  System springs = a.settings.layout;
+  springs.meshes[0].stiffness = 0;
+  CHECK_THROWS_WITH(natural_modes(springs), doctest::Contains("a stiffness of the mesh of 'sun-planet'"));
 }
 
 TEST_CASE("the four-planet set that ships and its rigid twin stand, turn and mesh alike") {
@@ -278,4 +324,72 @@ TEST_CASE(
   CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n").find("whose axis is rigid") !=
         std::string::npos);
   CHECK(said("[operation]\n").find("statics and natural modes are computed so far") != std::string::npos);
+}
+
+namespace {
+
+// Coarse bodies of a scene's gears, and what of its statics does not need many positions.
+SystemStaticArtifact coarsely_at_rest(SystemScene scene, ContactModel contact) {
+  scene.fidelity.contact = contact;
+  scene.contact = {4, kPositions};
+  scene.body.element_size = 2.5e-3;
+  scene.body.modes = 1;
+  static std::map<std::string, BodyArtifact> known;
+  std::vector<BodyArtifact> bodies;
+  for (const SystemScene::Gear& gear : scene.gears) {
+    std::ostringstream key;
+    key << gear.design.teeth << ' ' << gear.design.dedendum;
+    if (!known.count(key.str()))
+      known[key.str()] = reduce(make_sector_mesh(gear.design, scene.body), gear.material, 1);
+    bodies.push_back(known[key.str()]);
+  }
+  return system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies);
+}
+
+}  // namespace
+
+TEST_CASE("the rigid twin of the four-planet set has its phases, stiffnesses, inertias and masses") {
+  const SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml"),
+                    rigid = read_system_scene("data/scenes/oh58-planetary-rigid.toml");
+  const SystemStaticArtifact a = coarsely_at_rest(scene, ContactModel::line);
+  const System &elastic = a.settings.layout, twin = layout_of(rigid);
+  REQUIRE(elastic.bodies.size() == twin.bodies.size());
+  REQUIRE(elastic.meshes.size() == twin.meshes.size());
+  for (size_t b = 0; b < twin.bodies.size(); ++b) {
+    CAPTURE(b);
+    CHECK(elastic.bodies[b].name == twin.bodies[b].name);
+    if (twin.bodies[b].kind == System::BodyKind::carrier) continue;
+    CHECK(twin.bodies[b].inertia == relative(elastic.bodies[b].inertia, 1e-3));
+    CHECK(twin.bodies[b].bearing.stiffness == elastic.bodies[b].bearing.stiffness);
+    if (twin.bodies[b].bearing.elastic())
+      CHECK(twin.bodies[b].bearing.mass == relative(elastic.bodies[b].bearing.mass, 1e-3));
+  }
+  // From planet to planet; backlash, which the twin has none of, puts ring meshes ahead of the sun's.
+  const auto ahead = [](const System& layout, size_t m) {
+    return layout.meshes[m].phase - layout.meshes[m - m % 4].phase;
+  };
+  for (size_t m = 0; m < twin.meshes.size(); ++m)
+    CHECK(std::abs(std::remainder(ahead(twin, m) - ahead(elastic, m), 1)) < 1e-9);
+  // Planets opposite each other.
+  for (const size_t n : {1, 2})
+    for (const size_t axis : {0, 1})
+      CHECK(std::abs(twin.bodies[n].centre[axis] + twin.bodies[n + 2].centre[axis]) < 1e-12);
+  for (const Index first : {0, 4}) {
+    double mean = 0;
+    for (const MatrixRM& k : a.mesh_stiffness)
+      mean += k.diagonal().segment(first, 4).mean() / static_cast<double>(a.mesh_stiffness.size());
+    // The scene has finer elements and more positions.
+    CHECK(rigid.meshes[first == 0 ? 0 : 1].stiffness == relative(mean, 0.02));
+  }
+}
+
+TEST_CASE("a tip that comes too close to the root of its mate is told of, of lines and of strips") {
+  SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml");
+  scene.gears[0].design.dedendum = 1.25;
+  scene.drives[0].torque = 1500;
+  for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
+    CAPTURE(contact);
+    CHECK_THROWS_WITH(coarsely_at_rest(scene, contact),
+                      doctest::Contains("reaches the start of the involute of 'sun'"));
+  }
 }

@@ -1,10 +1,13 @@
 // Scenes of several meshes: what they say, what is rejected and where, and the stage parameters that are cut from them.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
+#include "gear/scene_geometry.h"
 #include "gear/system_layout.h"
 #include "io/system_scene.h"
 #include "planetary_train.h"
@@ -165,4 +168,71 @@ TEST_CASE("faults of a scene of a system are rejected with their line") {
   rejects(shipped() + "[gear.ring.error]\neccentricity_um = 5\n", end, "has no 'error'");
   const SceneFile file;
   CHECK_THROWS_AS(read_scene(kShipped), Error);
+}
+
+TEST_CASE("elastic systems: what their rest needs is checked with its line before bodies are made") {
+  const char* const kElastic = "data/scenes/oh58-planetary.toml";
+  std::ostringstream whole;
+  whole << std::ifstream(kElastic).rdbuf();
+  const SceneFile file;
+  // The scene with each `from` replaced, its fault and the place of `at` in it.
+  struct Edit {
+    const char *from, *to;
+  };
+  const auto check = [&](const std::vector<Edit>& edits, const char* at, const std::string& words) {
+    std::string text = whole.str();
+    for (const auto& [from, to] : edits) {
+      const size_t place = text.find(from);
+      REQUIRE(place != std::string::npos);
+      text.replace(place, std::string(from).size(), to);
+    }
+    const std::string path = file.path(text);
+    std::string said;
+    try {
+      const SystemScene scene = read_system_scene(path);
+      const System layout = layout_in(scene, path);
+      check_inertia(scene, [&](const auto&, const auto&) { return path; });
+      check_at_rest_in(scene, layout, path);
+    } catch (const Error& error) {
+      CHECK(error.kind() == Failure::input);
+      said = error.what();
+    }
+    CAPTURE(said);
+    CAPTURE(words);
+    CHECK(said.empty() == words.empty());
+    CHECK(said.find(words) != std::string::npos);
+    if (!at) return;
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(text.find(at)), '\n');
+    CHECK(said.starts_with(path + ":" + std::to_string(line) + ": "));
+  };
+  check({}, nullptr, "");
+  const char* const sun = "[[drive]]\ngear = \"sun\"";
+  const std::string held = "[[drive]]\ngear = \"ring\"\nkind = \"held\"\n";
+  check({{held.c_str(), ""}}, sun, "not balanced: hold one gear");
+  check({{"torque_Nm = 400.0", "torque_Nm = 0.0"}}, sun, "no drive of the system has a torque");
+  check({{"torque_Nm = 400.0", "torque_Nm = -400.0"}}, "[[mesh]]\ndriver = \"sun\"",
+        "pull the [[mesh]] of 'sun' and 'planet' apart (-");
+  check({{"kind = \"torque\"\ntorque_Nm = 400.0", "kind = \"held\""}}, sun,
+        "no drive of the system has a torque");
+  check({{"[[drive]]\ngear = \"carrier\"               # the frame in which the train is at rest\nkind = "
+          "\"held\"",
+          ""}},
+        "[[carrier]]", "carrier 'carrier' may turn");
+  check({{"driver = \"planet\"", "contact_plane = \"stress\"\ndriver = \"planet\""}},
+        "[[mesh]]\ncontact_plane", "give all meshes the same");
+  check({{"[[bearing]]\ngear = \"sun\"",
+          "[[mesh]]\ndriven = \"planet\"\ndriver = \"sun\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = "
+          "\"sun\""}},
+        "[[mesh]]\ndriven", "a second [[mesh]] of 'sun' and 'planet'");
+  check({{"[[bearing]]\ngear = \"sun\"",
+          "[[mesh]]\ndriver = \"ring\"\ndriven = \"planet\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = "
+          "\"sun\""}},
+        "[[mesh]]\ndriver = \"ring\"", "a second [[mesh]] of 'ring' and 'planet'");
+  // Opposite planets stay opposite: 31.5 and 94.5 steps of 360 / 126 degrees are both rounded down.
+  check({{"positions_deg = [0.0, 88.5714, 180.0, 268.5714]", "planets = 4"}}, "[[carrier]]",
+        "Nearest: positions_deg = [0, 88.5714, 180, 268.5714]");
+  check({{"title = ", "discretisation.steps_per_period = 64\ntitle = "}}, "discretisation.steps",
+        "belongs to gears in motion");
+  check({{"bore_radius_mm = 20.0", "bore_radius_mm = 20.0\ntotal_inertia_kgm2 = 1e-4"}}, nullptr,
+        "by its drawing at least");
 }

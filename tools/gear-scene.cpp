@@ -51,7 +51,8 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
     publish_if_changed(home + "/params/system.toml", system_parameters(layout));
   } else {
     check_system_geometry(scene, place_in(path));
-    on_fixed_carriers(layout);
+    check_inertia(scene, place_in(path));
+    check_at_rest_in(scene, layout, path);
     record_scene(home, path);
     const std::string statics = system_static_parameters(static_parameters_of(scene, layout));
     publish_if_changed(home + "/params/system_static.toml", statics);

@@ -39,7 +39,7 @@ void body(int argc, char** argv) {
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::SystemStaticParameters settings = whine::read_system_static_parameters(params);
   std::vector<whine::BodyArtifact> gears;
-  const std::vector<std::string> paths = files.of(settings.gears());
+  const std::vector<std::string> paths = files.of(settings.gears(), "system");
   for (size_t g = 0; g < paths.size(); ++g) {
     gears.push_back(whine::read_body(paths[g]));
     whine::require_body(gears.back(), settings.body[g].second, settings.body[g].first, paths[g]);

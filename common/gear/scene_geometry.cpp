@@ -50,15 +50,25 @@ void check_geometry(const Scene& scene, const ScenePlace& where) {
   });
 }
 
+namespace {
+
+void check_gear_inertia(const SceneGear& gear, const ScenePlace& where) {
+  const std::string section = "gear." + gear.name;
+  in_section(where, "[" + section + "]", {section}, [&] {
+    const double least = least_body_inertia(ToothGeometry(gear.design), gear.material);
+    if (gear.total_inertia != 0 && gear.total_inertia < least)
+      fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
+  });
+}
+
+}  // namespace
+
 void check_inertia(const Scene& scene, const ScenePlace& where) {
-  for (const SceneGear& gear : scene.gears) {
-    const std::string section = "gear." + gear.name;
-    in_section(where, "[" + section + "]", {section}, [&] {
-      const double least = least_body_inertia(ToothGeometry(gear.design), gear.material);
-      if (gear.total_inertia != 0 && gear.total_inertia < least)
-        fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
-    });
-  }
+  for (const SceneGear& gear : scene.gears) check_gear_inertia(gear, where);
+}
+
+void check_inertia(const SystemScene& scene, const ScenePlace& where) {
+  for (const SystemScene::Gear& gear : scene.gears) check_gear_inertia(gear, where);
 }
 
 std::string thin_rim(const GearDesign& design, const std::string& name) {

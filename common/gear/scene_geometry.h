@@ -22,6 +22,7 @@ void check_system_geometry(const SystemScene& scene, const ScenePlace& where);
 // Error(input), in the same words, for a gear whose total inertia lies below least_body_inertia; of gears that check_geometry
 // has passed. Statics do not depend on it.
 void check_inertia(const Scene& scene, const ScenePlace& where);
+void check_inertia(const SystemScene& scene, const ScenePlace& where);  // of elastic gears
 
 // What a scene may mean but hardly does, each with its place before it: thin rims, inertias of flywheels. Nothing is computed for it.
 std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where);

@@ -29,6 +29,11 @@ std::vector<double> wanted_positions(const SystemScene::Carrier& carrier, size_t
   return out;
 }
 
+// A step midway between two positions is rounded down, whatever its round-off, so that planets opposite each other stay so.
+double nearest_step(double step) {
+  return std::ceil(step - 0.5 - 1e-6);
+}
+
 // Whether a name is one of those that the planets of a gear have: <gear>1, <gear>2, ...
 bool called_like_planet(const std::string& name, const std::string& planet) {
   return name.size() > planet.size() && name.starts_with(planet) &&
@@ -43,6 +48,7 @@ class Layout {
     if (scene_.meshes.empty()) reject("mesh", 0, "a system needs one [[mesh]] at least");
     for (size_t c = 0; c < scene_.carriers.size(); ++c) check_carrier(c);
     for (size_t m = 0; m < scene_.meshes.size(); ++m) {
+      check_new(m);
       try {
         take_mesh(m);
       } catch (const SystemSceneError&) {
@@ -62,6 +68,17 @@ class Layout {
     for (const SystemScene::Gear& gear : scene_.gears)
       if (gear.name == name) return gear;
     reject("mesh", mesh, "[[mesh]] names '", name, "', and there is no [gear.", name, "] section");
+  }
+
+  // Two meshes of the same bodies would share the load twice.
+  void check_new(size_t m) const {
+    const auto& [driver, driven] = scene_.meshes[m].spec.gear;
+    for (size_t n = 0; n < m; ++n) {
+      const auto& [first, second] = scene_.meshes[n].spec.gear;
+      if ((first == driver && second == driven) || (first == driven && second == driver))
+        reject("mesh", m, "a second [[mesh]] of '", driver, "' and '", driven,
+               "'; two gears have one mesh, that of a planet stands for all planets: take one out");
+    }
   }
 
   // The carrier whose planets a gear is; -1: none.
@@ -121,7 +138,7 @@ class Layout {
     bool fits = true;
     const double first = positions_[c][0];
     for (double& position : positions_[c]) {
-      const double step = (position - first) * steps / (2 * kPi), whole = std::round(step);
+      const double step = (position - first) * steps / (2 * kPi), whole = nearest_step(step);
       const double assembled = first + whole * 2 * kPi / steps;
       nearest += text(nearest.empty() ? "" : ", ", std::round(assembled * kDegrees * 1e4) / 1e4);
       fits = fits && std::abs(step - whole) <= (carrier.planets > 0 ? 1e-9 : kPositionDigits);

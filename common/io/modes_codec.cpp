@@ -39,16 +39,18 @@ void describe(Codec& c, ModesArtifact& a) {
   c.dataset({"/mesh_deflection", "kg-1/2", "closing of each mesh along its line of action, at that shape",
              "mode mesh_number", shape},
             &a.mesh_deflection);
-  c.dataset(
-      {"/mesh_energy", "1", "share of the potential energy in each mesh", "mode mesh_number", Range{-10, 10}},
-      &a.mesh_energy);
+  // Of springs shares are 0 to 1; terms off the diagonal of elastic bodies may take one below 0.
+  const bool elastic = c.optional("/frozen_frequency", a.frozen_frequency.size() > 0);
+  c.dataset({"/mesh_energy", "1", "share of the potential energy in each mesh", "mode mesh_number",
+             elastic ? Range{-10, 10} : Range{0, 1 + 1e-9}},
+            &a.mesh_energy);
   c.dataset({"/bearing_energy", "1", "the same of each body's bearing and of what holds its rotation",
              "mode body_number", Range{0, 1 + 1e-9}},
             &a.bearing_energy);
   c.dataset({"/kinetic_energy", "1", "share of the kinetic energy of each body", "mode body_number",
              Range{0, 1 + 1e-9}},
             &a.kinetic_energy);
-  if (c.lists() || c.optional("/frozen_frequency", a.frozen_frequency.size() > 0)) {
+  if (elastic) {
     c.dataset({"/mesh_phase", "1", "of elastic gears: phase of the first mesh", "mesh_phase", kPhase},
               &a.mesh_phase);
     c.dataset({"/frozen_frequency", "Hz",

@@ -33,16 +33,16 @@ NamedFiles::NamedFiles(std::string option, const std::vector<std::string>& words
 }
 
 std::vector<std::string> NamedFiles::of(const GearMeshSpec& mesh) const {
-  return of(std::vector<std::string>(mesh.gear.begin(), mesh.gear.end()));
+  return of(std::vector<std::string>(mesh.gear.begin(), mesh.gear.end()), "mesh");
 }
 
-std::vector<std::string> NamedFiles::of(const std::vector<std::string>& gears) const {
+std::vector<std::string> NamedFiles::of(const std::vector<std::string>& gears,
+                                        const std::string& whole) const {
   for (const auto& [name, path] : files_)
     if (std::find(gears.begin(), gears.end(), name) == gears.end()) {
       const std::string near = nearest(name, gears);
-      fail(Failure::usage, option_, " ", name, "=", path, ": no gear of this ",
-           gears.size() == 2 ? "mesh" : "system", " is called '", name, "'; ",
-           near.empty() ? "they are " + listed(gears) : text("did you mean '", near, "'?"));
+      fail(Failure::usage, option_, " ", name, "=", path, ": no gear of this ", whole, " is called '", name,
+           "'; ", near.empty() ? "they are " + listed(gears) : text("did you mean '", near, "'?"));
     }
   std::vector<std::string> paths;
   for (const std::string& gear : gears) {

@@ -17,8 +17,8 @@ class NamedFiles {
 
   // Paths of the gears of a mesh, the driver's first. Throws Error(usage) for a gear without a file and a file of no gear.
   std::vector<std::string> of(const GearMeshSpec& mesh) const;
-  // The same of gears by their names.
-  std::vector<std::string> of(const std::vector<std::string>& gears) const;
+  // The same of gears by their names; whole: what they are the gears of, in a message: "mesh" or "system".
+  std::vector<std::string> of(const std::vector<std::string>& gears, const std::string& whole) const;
   // "body pinion": as what a file's history knows it.
   std::string role(const std::string& gear) const;
   // For made_by: the inputs given, and these.

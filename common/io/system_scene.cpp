@@ -6,6 +6,7 @@
 #include "gear/system_layout.h"
 #include "io/scene_sections.h"
 #include "io/variant.h"
+#include "system/system_rest.h"
 
 namespace whine {
 namespace {
@@ -178,6 +179,13 @@ void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) 
     reader.read(values, {Part::level, Part::contact_level, Part::body, Part::near_field, Part::contact},
                 false);
   }
+  if (const toml::table* table = source.section("discretisation"))
+    for (const Key& key : scene_keys())
+      if (key.section == std::string("discretisation") && key.part == Part::time)
+        if (const toml::node* node = table->get(key.name))
+          source.reject(*node, text("'", key.name,
+                                    "' in [discretisation] belongs to gears in motion; statics and natural "
+                                    "modes of systems are computed so far, take it out"));
   scene.fidelity = values.fidelity;
   scene.body = values.body;
   scene.contact = values.contact;
@@ -229,15 +237,29 @@ SystemScene read_system_scene(const std::string& path) {
   return scene;
 }
 
-System layout_in(const SystemScene& scene, const std::string& path) {
+namespace {
+
+// What `make` gives; its SystemSceneError with file and line.
+template <class Make>
+auto placed_in(const std::string& path, const Make& make) {
   try {
-    return layout_of(scene);
+    return make();
   } catch (const SystemSceneError& error) {
     const Source source(path);
     const auto tables = list_of(source, error.section());
     if (error.number() < tables.size()) source.reject(*tables[error.number()], error.what());
     source.reject(error.what());
   }
+}
+
+}  // namespace
+
+System layout_in(const SystemScene& scene, const std::string& path) {
+  return placed_in(path, [&] { return layout_of(scene); });
+}
+
+void check_at_rest_in(const SystemScene& scene, const System& layout, const std::string& path) {
+  placed_in(path, [&] { check_at_rest(scene, layout); });
 }
 
 }  // namespace whine

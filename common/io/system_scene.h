@@ -17,6 +17,9 @@ SystemScene read_system_scene(const std::string& path);
 // layout_of(scene), with file:line of the section that is wrong.
 System layout_in(const SystemScene& scene, const std::string& path);
 
+// check_at_rest(scene, layout), likewise.
+void check_at_rest_in(const SystemScene& scene, const System& layout, const std::string& path);
+
 // Canonical text of the stage parameters of the modes of a system, and back: bodies, meshes and drives as they stand, in SI.
 std::string system_parameters(const System& layout);
 System read_system_parameters(const std::string& path);

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "io/codec.h"
+#include "io/keys.h"
 #include "io/layout_codec.h"
 
 namespace whine {
@@ -12,6 +13,17 @@ namespace {
 using namespace ranges;
 
 constexpr Schema kSchema{"system_static", 1};
+
+// [gear.<name>.modification], of gears that have one.
+void describe_modification(Codec& c, const std::string& gear, SystemStaticParameters& s) {
+  const std::string section = "modification_" + gear;
+  KeyValues values;
+  values.modification = s.modification(gear);
+  const bool stands = values.modification != FlankModification{};
+  if (c.lists() || !c.optional("/parameters/" + section + "/tip_relief", stands)) return;
+  c.parameters(section, values, Part::modification);
+  if (c.in()) s.modify(gear, values.modification);
+}
 
 // Gears by name and what bodies and meshes are of them; [[mesh]] and [gear.<name>] of the scene as parameters.
 void describe_settings(Codec& c, SystemStaticArtifact& a) {
@@ -39,10 +51,15 @@ void describe_settings(Codec& c, SystemStaticArtifact& a) {
   }
   for (size_t m = 0; m < s.mesh.size(); ++m) {
     values.mesh = s.mesh[m];
+    // Sections of a side have no number of the mesh; what they hold is written gear by gear.
+    for (int g = 0; g < kSides; ++g) put_gear(KeyValues(), values.mesh, g);
     c.parameters("mesh_" + std::to_string(m), values, Part::mesh);
     if (c.in()) s.mesh[m] = values.mesh;
   }
-  for (size_t g = 0; g < gears.size(); ++g) describe_gear(c, "gear_" + gears[g], a.drawing[g]);
+  for (size_t g = 0; g < gears.size(); ++g) {
+    describe_gear(c, "gear_" + gears[g], a.drawing[g]);
+    describe_modification(c, gears[g], s);
+  }
 }
 
 void describe_motions(Codec& c, SystemStaticArtifact& a) {
@@ -75,7 +92,7 @@ void describe_loads(Codec& c, SystemStaticArtifact& a) {
              "1",
              "share of the meshes that come from one [[mesh]]: of planets the load sharing",
              "mesh_phase mesh_number",
-             {-1, 2}},
+             {0, 1 + 1e-9}},
             &a.load_share);
   c.dataset(
       {"/pair", "1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", kPair},

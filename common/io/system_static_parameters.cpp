@@ -24,15 +24,6 @@ std::string modification_label(const std::string& gear) {
   return "modification_" + gear;
 }
 
-// What a mesh says of one of its gears.
-const FlankModification& modification_of(const std::vector<GearMeshSpec>& meshes, const std::string& gear) {
-  static const FlankModification kNone;
-  for (const GearMeshSpec& mesh : meshes)
-    for (size_t g = 0; g < kSides; ++g)
-      if (mesh.gear[g] == gear) return mesh.modification[g];
-  return kNone;
-}
-
 }  // namespace
 
 BodySettings body_parameters_of(const SystemScene& scene) {
@@ -65,7 +56,7 @@ std::string system_static_parameters(const SystemStaticParameters& p) {
     out.add("mesh", mesh_label(m), values, {Part::mesh, Part::contact_plane});
   }
   for (const auto& [gear, hash] : p.body) {
-    values.modification = modification_of(p.mesh, gear);
+    values.modification = p.modification(gear);
     if (values.modification != FlankModification{})
       out.add("modification", modification_label(gear), values, {Part::modification});
   }
@@ -125,9 +116,7 @@ SystemStaticParameters read_system_static_parameters(const std::string& path) {
     if (!source.section(label)) continue;
     SectionReader(source, Dialect::settings, section(label), "modification", label)
         .read(own, {Part::modification}, false);
-    for (GearMeshSpec& mesh : out.mesh)
-      for (size_t g = 0; g < kSides; ++g)
-        if (mesh.gear[g] == gear) mesh.modification[g] = own.modification;
+    out.modify(gear, own.modification);
   }
   SectionReader(source, Dialect::settings, section("fidelity"), "fidelity", "fidelity")
       .read(values, {Part::contact_level}, false);

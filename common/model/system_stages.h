@@ -26,6 +26,18 @@ struct SystemStaticParameters {
     for (const auto& [name, hash] : body) out.push_back(name);
     return out;
   }
+  // Of a gear's flanks, which all its meshes have alike.
+  FlankModification modification(const std::string& of) const {
+    for (const GearMeshSpec& pair : mesh)
+      for (size_t g = 0; g < kSides; ++g)
+        if (pair.gear[g] == of) return pair.modification[g];
+    return {};
+  }
+  void modify(const std::string& which, const FlankModification& modification) {
+    for (GearMeshSpec& pair : mesh)
+      for (size_t g = 0; g < kSides; ++g)
+        if (pair.gear[g] == which) pair.modification[g] = modification;
+  }
 };
 
 }  // namespace whine

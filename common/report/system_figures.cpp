@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "signal/spectrum.h"
+#include "system/rigid_system.h"
 
 namespace whine {
 
@@ -13,11 +14,6 @@ using Eigen::Index;
 namespace {
 
 constexpr size_t kMostLines = 12;  // colours and dashes of the template
-
-std::string mesh_name(const System& s, size_t m) {
-  return s.bodies[static_cast<size_t>(s.meshes[m].side[0].body)].name + "-" +
-         s.bodies[static_cast<size_t>(s.meshes[m].side[1].body)].name;
-}
 
 std::string system_words(const SystemStaticArtifact& a) {
   const System& s = a.settings.layout;

@@ -18,6 +18,12 @@ Vec2 line_of_action(const System::Mesh& mesh) {
   return Eigen::Rotation2Dd(mesh.direction - 0.5 * std::numbers::pi) * Vec2(along, away);
 }
 
+std::string mesh_name(const System& system, size_t m) {
+  const auto& side = system.meshes[m].side;
+  return system.bodies[static_cast<size_t>(side[0].body)].name + "-" +
+         system.bodies[static_cast<size_t>(side[1].body)].name;
+}
+
 namespace {
 
 void require(double value, const char* what, const std::string& name) {
@@ -65,7 +71,7 @@ void take_freedoms(RigidSystem& system) {
     }
 }
 
-void take_springs(RigidSystem& system) {
+void take_springs(RigidSystem& system, bool frozen) {
   const System& layout = system.layout;
   system.closing.resize(static_cast<Index>(layout.meshes.size()), system.rotation[0].cols());
   for (size_t m = 0; m < layout.meshes.size(); ++m) {
@@ -76,9 +82,9 @@ void take_springs(RigidSystem& system) {
       row +=
           closing_sign(s) * (system.rotation[b] + line_of_action(mesh).transpose() * system.translation[b]);
     }
-    require(mesh.stiffness, "a stiffness of the mesh",
-            layout.bodies[static_cast<size_t>(mesh.side[0].body)].name + "-" +
-                layout.bodies[static_cast<size_t>(mesh.side[1].body)].name);
+    // Frozen contact of a mesh without load has no stiffness.
+    if (!frozen || mesh.stiffness != 0)
+      require(mesh.stiffness, "a stiffness of the mesh", mesh_name(layout, m));
     system.springs.push_back({RigidSystem::Spring::Kind::mesh, static_cast<int>(m), row, mesh.stiffness});
     system.closing.row(static_cast<Index>(m)) = row;
   }
@@ -125,7 +131,7 @@ RigidSystem rigid_system(const System& layout, const MatrixXd& mesh_stiffness) {
            ", which is no carrier on the ground; a rigid system has no other place for it");
   }
   take_freedoms(out);
-  take_springs(out);
+  take_springs(out, mesh_stiffness.size() > 0);
   const Index n = out.rotation[0].cols();
   out.mass = out.stiffness = MatrixXd::Zero(n, n);
   for (size_t b = 0; b < layout.bodies.size(); ++b) {

@@ -28,6 +28,9 @@ inline double closing_sign(int side) {
 // Unit vector along the line of action of a mesh, from the first side's flank to the second's, in the frame of the system.
 Vec2 line_of_action(const System::Mesh& mesh);
 
+// "sun-planet1": a mesh by its bodies.
+std::string mesh_name(const System& system, size_t m);
+
 struct RigidSystem {
   System layout;
   struct Spring {
@@ -49,7 +52,7 @@ struct RigidSystem {
 // a place, and if all freedoms are held.
 //
 // mesh_stiffness: (mesh, mesh) N m-1, of meshes that elastic bodies join (SystemStatics::mesh_stiffness()), symmetric; empty: those of the
-// layout, each by itself.
+// layout, each by itself. On its diagonal a mesh without load may have 0.
 RigidSystem rigid_system(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
 
 // Whether the axis of a body stands on the ground, or on a carrier whose axis stands on the ground. A carrier on a carrier, or on

@@ -206,33 +206,45 @@ MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& pos
   return a;
 }
 
-VectorXd mesh_loads(const SystemModel& system) {
-  const std::vector<int> free = free_bodies(system.layout);
-  const auto meshes = static_cast<Index>(system.mesh.size());
+LoadBalance load_balance(const System& layout) {
+  const std::vector<int> free = free_bodies(layout);
+  if (free.empty())
+    fail(Failure::input,
+         "every body is held; leave one gear free to turn, and give it or another one a torque");
+  const auto meshes = static_cast<Index>(layout.meshes.size());
   MatrixXd balance = MatrixXd::Zero(static_cast<Index>(free.size()), meshes);
   VectorXd force(static_cast<Index>(free.size()));
   for (size_t i = 0; i < free.size(); ++i) {
-    force[static_cast<Index>(i)] = system.layout.torque(free[i]) / system.base_radius(free[i]);
+    const auto row = static_cast<Index>(i);
+    force[row] = layout.torque(free[i]) / layout.bodies[static_cast<size_t>(free[i])].radius;
     for (Index m = 0; m < meshes; ++m)
-      if (const int side = system.side_of(free[i], static_cast<int>(m)); side >= 0)
-        balance(static_cast<Index>(i), m) = closing_sign(side);
+      for (int s = 0; s < kSides; ++s)
+        if (layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(s)].body == free[i])
+          balance(row, m) = closing_sign(s);
   }
-  const VectorXd loads = meshes == 1 && free.size() == 1
-                             ? VectorXd(force / balance(0, 0))
-                             : VectorXd(balance.completeOrthogonalDecomposition().solve(force));
-  const double most = loads.cwiseAbs().maxCoeff(), round_off = 1e-12 * force.cwiseAbs().maxCoeff();
-  if (!((balance * loads - force).cwiseAbs().maxCoeff() <= round_off))
-    fail(Failure::input,
-         "the torques of the drives are not balanced: hold one gear, or give the others torques that add up");
-  for (Index m = 0; m < meshes; ++m)
-    if (loads[m] < -1e-12 * most) {
-      const System::Mesh& mesh = system.layout.meshes[static_cast<size_t>(m)];
-      fail(Failure::input, "the torques pull the mesh of [gear.",
-           system.layout.bodies[static_cast<size_t>(mesh.side[0].body)].name, "] and [gear.",
-           system.layout.bodies[static_cast<size_t>(mesh.side[1].body)].name, "] apart (", loads[m],
-           " N); name the gears in the order of the flow of power");
-    }
-  return loads.cwiseMax(0.0);
+  LoadBalance out;
+  out.load = meshes == 1 && free.size() == 1
+                 ? VectorXd(force / balance(0, 0))
+                 : VectorXd(balance.completeOrthogonalDecomposition().solve(force));
+  const double most = out.load.cwiseAbs().maxCoeff(), round_off = 1e-12 * force.cwiseAbs().maxCoeff();
+  out.balanced = (balance * out.load - force).cwiseAbs().maxCoeff() <= round_off;
+  for (Index m = 0; m < meshes && out.pulled_apart < 0; ++m)
+    if (out.load[m] < -1e-12 * most) out.pulled_apart = static_cast<int>(m);
+  return out;
+}
+
+VectorXd mesh_loads(const SystemModel& system) {
+  const LoadBalance out = load_balance(system.layout);
+  if (!out.balanced) fail(Failure::input, kUnbalanced);
+  if (out.pulled_apart >= 0) {
+    const System::Mesh& mesh = system.layout.meshes[static_cast<size_t>(out.pulled_apart)];
+    fail(Failure::input, "the torques pull the mesh of '",
+         system.layout.bodies[static_cast<size_t>(mesh.side[0].body)].name, "' and '",
+         system.layout.bodies[static_cast<size_t>(mesh.side[1].body)].name, "' apart (",
+         out.load[out.pulled_apart], " N); ", kFlowOfPower);
+  }
+  if (!(out.load.maxCoeff() > 0)) fail(Failure::input, kNoTorque);
+  return out.load.cwiseMax(0.0);
 }
 
 double SystemEquilibrium::transmission_error(const SystemModel& system, int m) const {
@@ -360,7 +372,6 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
   }
 
   const double scale = mesh_loads(system).maxCoeff();
-  if (!(scale > 0)) fail(Failure::input, "no drive of the system has a torque that a mesh carries");
   x = first_guess(system, position, compliance, free);
   VectorXd unbalance;
   const auto stand = [&](const VectorXd& at) {
@@ -399,8 +410,13 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
        " of the largest mesh load ", scale, " N after ", kSteps, " steps");
 }
 
-Vec2 bearing_force(const SystemPosition& position, int b, const Eigen::Ref<const VectorXd>& p) {
-  return -position.load.translation[static_cast<size_t>(b)].transpose() * p;
+Vec2 bearing_force(const SystemModel& system, const SystemPosition& position, int b,
+                   const Eigen::Ref<const VectorXd>& p) {
+  Vec2 sum(0, 0);
+  for (const ContactSegment& segment : position.segment)
+    if (const int side = system.side_of(b, segment.mesh); side >= 0)
+      sum -= closing_sign(side) * p.segment(segment.first_strip, segment.strips).sum() * segment.normal;
+  return sum;
 }
 
 double mesh_deflection(const SystemModel& system, const SystemPosition& position, const SystemEquilibrium& at,
@@ -411,7 +427,7 @@ double mesh_deflection(const SystemModel& system, const SystemPosition& position
     const int b = mesh.layout.side[static_cast<size_t>(s)].body;
     const Bearing& bearing = system.layout.bodies[static_cast<size_t>(b)].bearing;
     if (bearing.elastic())
-      out += mesh.outward_in_system(s).dot(bearing_force(position, b, at.p)) / bearing.stiffness;
+      out += mesh.outward_in_system(s).dot(bearing_force(system, position, b, at.p)) / bearing.stiffness;
   }
   return out;
 }

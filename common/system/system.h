@@ -88,8 +88,25 @@ SystemTables compliance_tables(const SystemModel& system, std::span<const double
 Eigen::MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& position,
                                    const SystemTables& tables, std::span<const double> depth);
 
-// N: mean force along the line of action that each mesh carries, by the balance of torques alone. Throws Error(input) if a mesh
-// would be pulled apart, or if torques of free bodies are left that no mesh carries.
+// The balance of torques alone: sum over the meshes of a free body of closing sign times load = T / r.
+struct LoadBalance {
+  Eigen::VectorXd load;   // (mesh) N, mean force along the line of action; below 0: pulled
+  bool balanced = true;   // no torque of a free body is left that no mesh carries
+  int pulled_apart = -1;  // the first mesh that would be; -1: none
+};
+// Throws Error(input) if every body is held.
+LoadBalance load_balance(const System& layout);
+
+// What is wrong with torques and what to do, in the words of errors.
+inline constexpr const char* kUnbalanced =
+    "the torques of the drives are not balanced: hold one gear, or give the others torques that add up";
+inline constexpr const char* kFlowOfPower =
+    "name the gears in the order of the flow of power, or give torque_Nm the other sign";
+inline constexpr const char* kNoTorque =
+    "no drive of the system has a torque that a mesh carries; give one a torque_Nm above 0";
+
+// (mesh) N: the loads of load_balance(). Throws Error(input) if a mesh would be pulled apart, if torques are not balanced, and if no
+// mesh carries load.
 Eigen::VectorXd mesh_loads(const SystemModel& system);
 
 struct SystemEquilibrium {
@@ -111,8 +128,9 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
                               const Eigen::MatrixXd& compliance, const Eigen::VectorXd& start,
                               ComplementaritySolver& solver);
 
-// N, in the frame of the system: what body b presses its bearing with.
-Vec2 bearing_force(const SystemPosition& position, int b, const Eigen::Ref<const Eigen::VectorXd>& p);
+// N, in the frame of the system: what body b presses its bearing with, elastic or rigid; the sum of its contact forces.
+Vec2 bearing_force(const SystemModel& system, const SystemPosition& position, int b,
+                   const Eigen::Ref<const Eigen::VectorXd>& p);
 
 // m: what mesh m alone gives way, the transmission error less what its bearings give way along the line of action.
 double mesh_deflection(const SystemModel& system, const SystemPosition& position, const SystemEquilibrium& at,

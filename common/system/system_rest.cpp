@@ -130,6 +130,38 @@ void take_harmonics(SystemStaticArtifact& out) {
 
 }  // namespace
 
+void check_at_rest(const SystemScene& scene, const System& layout) {
+  const auto reject = [](const char* section, size_t number, const auto&... words) {
+    throw SystemSceneError(section, number, text(words...));
+  };
+  for (size_t c = 0; c < scene.carriers.size(); ++c)
+    for (size_t b = 0; b < layout.bodies.size(); ++b)
+      if (layout.bodies[b].name == scene.carriers[c].name && !layout.held_rigidly(static_cast<int>(b)))
+        reject("carrier", c, "carrier '", scene.carriers[c].name,
+               "' may turn; at rest it has to be held: give it a [[drive]] with kind = \"held\"");
+  std::vector<GearMeshSpec> specs;
+  for (const SystemScene::Mesh& mesh : scene.meshes) specs.push_back(mesh.spec);
+  for (size_t m = 1; m < specs.size(); ++m)
+    if (specs[m].contact_plane != specs[0].contact_plane)
+      reject("mesh", m, "contact_plane = \"", specs[m].contact_plane, "\", and of the first [[mesh]] \"",
+             specs[0].contact_plane, "\": bodies that take part in both have one; give all meshes the same");
+  LoadBalance balance;
+  try {
+    balance = load_balance(on_fixed_carriers(layout));
+  } catch (const Error& error) {
+    reject("drive", 0, error.what());
+  }
+  if (!balance.balanced) reject("drive", 0, kUnbalanced);
+  if (balance.pulled_apart >= 0) {
+    const auto section = static_cast<size_t>(
+        sections_of(specs, gears_of(scene, layout), layout)[static_cast<size_t>(balance.pulled_apart)]);
+    reject("mesh", section, "the torques of the drives pull the [[mesh]] of '", specs[section].gear[0],
+           "' and '", specs[section].gear[1], "' apart (", balance.load[balance.pulled_apart], " N); ",
+           kFlowOfPower);
+  }
+  if (!(balance.load.maxCoeff() > 0)) reject("drive", 0, kNoTorque);
+}
+
 SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
                                     const std::vector<BodyArtifact>& bodies) {
   const SystemModel system = model_of(settings, bodies);

@@ -3,10 +3,15 @@
 #include <string>
 #include <vector>
 
+#include "model/system_scene.h"
 #include "solid/reduced_body.h"
 #include "system/system_static_result.h"
 
 namespace whine {
+
+// What can be told of a scene before its bodies are made. Throws SystemSceneError with the section that is wrong: a carrier that may
+// turn, meshes of different contact_plane, torques that are not balanced, that pull a mesh apart or that no mesh carries.
+void check_at_rest(const SystemScene& scene, const System& layout);
 
 // bodies: [gear] of settings.body. Throws Error(input) for a carrier that may turn, torques that are not balanced and what
 // SystemModel rejects, and what rest_over_period throws.

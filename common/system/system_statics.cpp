@@ -2,11 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "base/error.h"
 #include "base/model_range.h"
+#include "base/progress.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -23,19 +25,6 @@ VectorXd loads_of_ranges(const SystemModel& system) {
   return loads.cwiseMax(1e-3 * loads.maxCoeff());
 }
 
-// N: the sum of the contact forces on body b.
-Vec2 hub_force(const SystemPosition& position, const std::vector<GearMeshModel>& meshes, int b,
-               const VectorXd& p) {
-  Vec2 sum(0, 0);
-  for (const ContactSegment& segment : position.segment) {
-    const auto& side = meshes[static_cast<size_t>(segment.mesh)].layout.side;
-    const double force = p.segment(segment.first_strip, segment.strips).sum();
-    if (side[0].body == b) sum -= force * segment.normal;
-    if (side[1].body == b) sum += force * segment.normal;
-  }
-  return sum;
-}
-
 // Of the pairs of a mesh the gear, side 0 or 1, whose involute ends at its root where force stands; -1: none does.
 int side_at_root(const MeshPosition& mesh, const VectorXd& p) {
   for (size_t j = 0; j < mesh.pairs.size(); ++j) {
@@ -46,6 +35,36 @@ int side_at_root(const MeshPosition& mesh, const VectorXd& p) {
       return 1;
   }
   return -1;
+}
+
+// The same of lines: whose width reaches beyond the start of an involute. Deviations of flanks move a contact by less than its width,
+// which is left out.
+int side_at_root(const GearPair& gears, const MeshPosition& mesh, const VectorXd& p) {
+  for (size_t j = 0; j < mesh.pairs.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    if (!(p[i] > 0)) continue;
+    const PairContact& contact = mesh.pairs[j].contact;
+    const double width = mesh.law[j].width(p[i]), driver_tip = gears.tip_distance(contact, 0),
+                 driven_tip = gears.tip_distance(contact, 1);
+    double low = -0.5 * width, high = 0.5 * width;
+    if (contact.corner || mesh.law[j].at_edge(p[i])) {
+      const bool driver = contact.corner ? contact.tip_gear == 0 : driver_tip < driven_tip;
+      const double edge = contact.corner ? 0 : driver ? driver_tip : -driven_tip;
+      low = driver ? edge - width : edge;
+      high = low + width;
+    }
+    if (low < contact.x_min && !std::isfinite(driven_tip)) return 0;
+    if (high > contact.x_max && !std::isfinite(driver_tip)) return 1;
+  }
+  return -1;
+}
+
+// The range would have to be wider, whatever else is wrong.
+bool wants_more(const SystemSolution& solution) {
+  bool out = solution.leaves_zone;
+  for (size_t m = 0; m < solution.deflection.size(); ++m)
+    out = out || solution.deflection[m] > solution.next_corner_gap[m];
+  return out;
 }
 }  // namespace
 
@@ -97,6 +116,7 @@ std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactM
     std::string beyond;
     VectorXd start = VectorXd::Zero(static_cast<Eigen::Index>(system.body.size()));
     for (int i = 0; i < positions && beyond.empty(); ++i) {
+      report_step("mesh positions", i, positions);
       const double phase = static_cast<double>(i) / positions;
       out.push_back(statics.solve(phase, 0, start));
       start = out.back().equilibrium.x;
@@ -104,7 +124,7 @@ std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactM
       beyond = outside_zone(out.back(), phase);
     }
     if (beyond.empty()) return out;
-    if (attempt == kWidenings)
+    if (attempt == kWidenings || (!out.back().at_root.empty() && !wants_more(out.back())))
       fail_outside_range(Failure::numerical, "contact leaves the flanks: ", beyond, "; lower the torque");
   }
 }
@@ -168,9 +188,7 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
       equilibrium(system_, position, cracked_here_ ? with_cracks_ : compliance_, start, solver_);
   for (size_t b = 0; b < system_.body.size(); ++b)
     solution.bearing_force.push_back(
-        system_.layout.bodies[b].bearing.elastic()
-            ? bearing_force(position, static_cast<int>(b), solution.equilibrium.p)
-            : hub_force(position, system_.mesh, static_cast<int>(b), solution.equilibrium.p));
+        bearing_force(system_, position, static_cast<int>(b), solution.equilibrium.p));
   for (size_t m = 0; m < position.mesh.size(); ++m) {
     const int number = static_cast<int>(m);
     const VectorXd own = solution.equilibrium.p(position.strips_of(m));
@@ -192,16 +210,18 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
   return solution_;
 }
 
+void SystemStatics::note_root(SystemSolution& solution, size_t m, int side) const {
+  if (side < 0) return;
+  const int body = system_.mesh[m].layout.side[static_cast<size_t>(side)].body;
+  solution.at_root = system_.layout.bodies[static_cast<size_t>(body)].name;
+}
+
 void SystemStatics::take_strips(SystemSolution& solution) const {
   const VectorXd& p = solution.equilibrium.p;
   for (size_t m = 0; m < position_->mesh.size(); ++m) {
     const VectorXd own = p(position_->strips_of(m));
     solution.leaves_zone = solution.leaves_zone || position_->mesh[m].reaches_zone_end(own);
-    if (const int side = side_at_root(position_->mesh[m], own); side >= 0)
-      solution.at_root =
-          system_.layout
-              .bodies[static_cast<size_t>(system_.mesh[m].layout.side[static_cast<size_t>(side)].body)]
-              .name;
+    note_root(solution, m, side_at_root(position_->mesh[m], own));
   }
   for (const ContactSegment& segment : position_->segment) {
     const auto own = p.segment(segment.first_strip, segment.strips);
@@ -215,8 +235,11 @@ void SystemStatics::take_strips(SystemSolution& solution) const {
 
 void SystemStatics::take_lines(SystemSolution& solution) const {
   const VectorXd& force = solution.equilibrium.p;
-  for (size_t m = 0; m < position_->mesh.size(); ++m)
-    require_line_range(position_->mesh[m], force(position_->strips_of(m)));
+  for (size_t m = 0; m < position_->mesh.size(); ++m) {
+    const VectorXd own = force(position_->strips_of(m));
+    require_line_range(position_->mesh[m], own);
+    note_root(solution, m, side_at_root(system_.mesh[m].kinematics, position_->mesh[m], own));
+  }
   for (const ContactSegment& segment : position_->segment) {
     const auto mesh = static_cast<size_t>(segment.mesh);
     const int strip = segment.first_strip;
@@ -234,9 +257,13 @@ MatrixXd SystemStatics::mesh_stiffness() const {
   const SystemPosition& position = *position_;
   const VectorXd& p = solution_.equilibrium.p;
   const auto meshes = static_cast<Eigen::Index>(position.mesh.size());
+  // Where a mesh without load touches is a matter of round-off.
+  const std::vector<double>& force = solution_.mesh_force;
+  const double least = 1e-9 * *std::max_element(force.begin(), force.end());
   std::vector<Eigen::Index> active;
-  for (Eigen::Index i = 0; i < p.size(); ++i)
-    if (p[i] > 0) active.push_back(i);
+  for (size_t m = 0; m < position.mesh.size(); ++m)
+    for (int i = position.first_strip[m]; i < position.first_strip[m + 1]; ++i)
+      if (p[i] > 0 && force[m] > least) active.push_back(i);
   MatrixXd a = cracked_here_ ? with_cracks_ : compliance_;
   for (size_t b = 0; b < system_.body.size(); ++b)
     if (const Bearing& bearing = system_.layout.bodies[b].bearing; bearing.elastic())

@@ -65,13 +65,15 @@ class SystemStatics {
   // (mesh, mesh) N m-1, of the position that was solved last: K = W^T C^-1 W, contact frozen: C the compliance without bearings of what
   // carries load, of lines with the slopes of their laws; W by how much each mesh's approach closes it, 1 on the line of action
   // and at a tip edge the mean of the lever arms over the base radii. Off its diagonal stands what bodies that take part in several
-  // meshes join.
+  // meshes join. A mesh without load has the stiffness 0.
   Eigen::MatrixXd mesh_stiffness() const;
   // [mesh], of strips, of the position that was solved last.
   std::vector<std::vector<ContactZone>> zones() const;
 
  private:
   void take_position(double phase, int period);
+  // side: of mesh m, at whose root force stands; -1: none.
+  void note_root(SystemSolution& solution, size_t m, int side) const;
   void take_strips(SystemSolution& solution) const;
   void take_lines(SystemSolution& solution) const;
   const SystemModel& system_;
