@@ -20,7 +20,6 @@
 #include "base/tool.h"
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
-#include "gear/system_layout.h"
 #include "io/fit.h"
 #include "io/publish.h"
 #include "io/scene.h"
