@@ -203,7 +203,7 @@ stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstwo
 report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
-teeth: root-stress load-sharing tooth-loads error-budget ## what a tooth suffers: root stress, dynamic factors, loads, losses, pressure and their errors, 150 N m (SCENE: its first torque)
+teeth: root-stress load-sharing tooth-loads error-budget ## root stress, tooth loads and load sharing of a pair of intact, equal teeth, and what refining changes in statics, 150 N m (SCENE: its first torque)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
 fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m (SCENE: its first torque)
