@@ -239,7 +239,7 @@ report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page
 export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
 	$(call stands,export: $(export_file))
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
-teeth: root-stress load-sharing tooth-loads error-budget ## what a tooth suffers: root stress, dynamic factors, loads, losses, pressure and their errors, 150 N m (SCENE: its first torque)
+teeth: root-stress load-sharing tooth-loads error-budget ## root stress, tooth loads and load sharing of a pair of intact, equal teeth, and what refining changes in statics, 150 N m (SCENE: its first torque)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
 fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m (SCENE: its first torque)

@@ -95,3 +95,8 @@ endef
 $(foreach d,$(study_designs),$(eval $(call design_rules,$d,$(lastword $(subst -, ,$d)))))
 
 include $(scene_fragments)
+
+# What a tooth carries is of intact, equal teeth; of others there are parts. A fragment is empty until make has remade it, then make starts again.
+$(if $(filter teeth,$(goals)),$(if $(SCENE),$(if $(SCENE_$(own_scene)_TEETH),$(if $(call teeth,$(own_scene),alike),,$(error teeth: SCENE=$(SCENE) has teeth \
+  that $(if $(call teeth,$(own_scene),differ),differ,are cracked)$(,) and root stress$(,) load sharing and error budget are of intact$(,) equal teeth; for it there is: \
+  make SCENE=$(SCENE) $(if $(call teeth,$(own_scene),cracked),$(if $(call teeth,$(own_scene),differ),fig01,crack),tooth-loads sidebands))))))

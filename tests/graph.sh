@@ -278,6 +278,12 @@ sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.tom
 expect "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*6 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.crack]\ndepth_mm = 1.0\n&/' mine/plain.toml > mine/cracked.toml; make_ -n SCENE=mine/cracked.toml report
 expect "a cracked tooth: gears at rest only" "gear-mesh*1 gear-plot*2 gear-reduce*1 gear-report*1 gear-static*2"
+make_ -n SCENE=mine/graded.toml teeth
+grep -q 'teeth: SCENE=mine/graded.toml has teeth that differ.*make SCENE=mine/graded.toml tooth-loads sidebands' "$log" && ok "make teeth says what there is of teeth that differ" ||
+  wrong "make teeth says what there is of teeth that differ" "$(tail -n 1 "$log")"
+make_ -n SCENE=mine/cracked.toml teeth
+grep -q 'teeth: SCENE=mine/cracked.toml has teeth that are cracked.*make SCENE=mine/cracked.toml crack' "$log" && ok "make teeth says what there is of a cracked tooth" ||
+  wrong "make teeth says what there is of a cracked tooth" "$(tail -n 1 "$log")"
 make_ -n SCENE=mine/graded.toml fig05
 expect "teeth that differ have no ring-down in other figures either" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2"
 make_ -n SCENE=mine/plain.toml out/plain/report/index.html

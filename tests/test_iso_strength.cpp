@@ -91,6 +91,34 @@ TEST_CASE("ISO 6336: an internal pair is rejected by its name") {
   CHECK_THROWS_WITH_AS(iso_6336_root(pair, 0), doctest::Contains("is internal"), Error);
 }
 
+TEST_CASE("ISO 6336: more than a module of a wider gear's overhang carries nothing") {
+  GearDesign wide = fzg_c(16, 0.1817, 82.636e-3), narrow = fzg_c(24, 0.1715, 118.544e-3);
+  const double even = iso_6336_root_stress(GearPair(wide, narrow, 91.5e-3), 0, kForce);
+  wide.face_width = narrow.face_width + 0.5 * wide.module;
+  CHECK(iso_6336_root_stress(GearPair(wide, narrow, 91.5e-3), 0, kForce) ==
+        relative(even * narrow.face_width / wide.face_width, 1e-12));
+  wide.face_width = 3 * narrow.face_width;
+  const GearPair pair(wide, narrow, 91.5e-3);
+  CHECK(iso_6336_root_stress(pair, 0, kForce) ==
+        relative(even * narrow.face_width / (narrow.face_width + wide.module), 1e-12));
+  CHECK(iso_6336_root_stress(pair, 1, kForce) ==
+        relative(iso_6336_root_stress(fzg_c_pair(), 1, kForce), 1e-12));
+}
+
+TEST_CASE("ISO 6336 and losses of rigid teeth: a contact ratio of 2 or more is rejected with its number") {
+  GearDesign tall = paper_gear();
+  tall.addendum = 1.35;
+  tall.dedendum = 1.6;
+  tall.rack_tip_radius = 0.2;
+  const GearPair pair(tall, tall, 0.150);
+  REQUIRE(pair.contact_ratio() > 2);
+  const Material steel = paper_steel();
+  CHECK_THROWS_WITH_AS(iso_6336_root(pair, 0), doctest::Contains("contact ratio below 2"), Error);
+  CHECK_THROWS_WITH_AS(iso_6336_flank_pressure(pair, {steel, steel}, kForce),
+                       doctest::Contains("contact ratio below 2"), Error);
+  CHECK_THROWS_WITH_AS(loss_factor_of_rigid_teeth(pair), doctest::Contains("contact ratio below 2"), Error);
+}
+
 TEST_CASE("ISO 6336-1 method B: the dynamic factor of each range of speed, by hand") {
   // c' = 14e9, F_t / b = 200e3 N/m: 7 % per micrometre
   IsoDynamics gears{1.6, 200e3, 14e9, 2e-6, 3e-6, 0};

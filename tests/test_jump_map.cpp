@@ -140,7 +140,7 @@ TEST_CASE(
     const int row = d == 0 ? 7 : 6;  // 2400 Hz
     REQUIRE(alone.mesh_frequency[row] == 2400);
     CHECK(map.tooth_load(0, d) == alone.tooth_load[row].maxCoeff());
-    CHECK(map.held_load_there(0, d) == held_load(alone.tooth_load[row], 128));
+    CHECK(map.held_load_there(0, d) == held_load(alone.tooth_load[row], 128, alone.period_multiple[row]));
     CHECK(map.held_load_there(0, d) == relative(map.tooth_load(0, d), 2e-2));
     CHECK(map.dte_rms_there(0, d) == relative(rms(alone, row), 1e-12));
   }
@@ -192,6 +192,17 @@ TEST_CASE("a held load leaves out what lasts no longer than 1/64 of a period, in
   load(127, 0) = load(126, 0) = 200;  // whatever stands at the ends
   CHECK(held_load(load, 128) == 50);
   CHECK(held_load(load.topRows(64), 64) == 100);  // two samples of 64 are as long
+  // Where the motion repeats its end is followed by its begin; what stands behind it is not looked at.
+  load(0, 0) = 150;
+  CHECK(held_load(load, 128) == 50);
+  CHECK(held_load(load, 128, 1) == 150);
+  CHECK(held_load(load, 64, 1) == 100);
+  // 64 does not divide 100: three samples span 0.02 of a period, two would span less than 1/64.
+  MatrixRM other = MatrixRM::Constant(100, 1, 10);
+  other(30, 0) = other(31, 0) = 100;
+  CHECK(held_load(other, 100) == 10);
+  other(32, 0) = 70;
+  CHECK(held_load(other, 100) == 70);
 }
 
 TEST_CASE("maps that cannot be are rejected with what, value and limit") {

@@ -155,6 +155,9 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(errors.mean_stiffness_change.cwiseAbs().minCoeff() > 0);  // each refinement did change something
   CHECK(errors.peak_to_peak_change.cwiseAbs().maxCoeff() < 2e-3);
   CHECK(errors.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
+  REQUIRE(errors.root_stress_change.size() == 5);
+  CHECK(errors.root_stress_change.cwiseAbs().maxCoeff() < 0.02);
+  REQUIRE(budget.choice.root_stress_change.size() == 3);
   // Choices are what a body and stage parameters made that way answer.
   CHECK(budget.fidelity.contact == ContactModel::strips);
   CHECK(budget.choice.entry == "matching at 1 mm, order 1, contact line");

@@ -4,13 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "failure_of.h"
 #include "gear/iso6336_strength.h"
 #include "internal_pair.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "report/root_stress_figure.h"
+#include "signal/response.h"
 #include "solid/loaded_gear.h"
 #include "solid/root_stress.h"
+#include "studies/sweep.h"
+#include "studies/sweep_losses.h"
+#include "system/flank_pressure.h"
 #include "system/root_stress.h"
 
 using namespace whine;
@@ -83,26 +91,30 @@ TEST_CASE("root stress: points go from the flank to the space, the tangent turns
 
 TEST_CASE(
     "root stress: tables against the whole field of a loaded gear, on the loaded tooth and its neighbours") {
-  const auto& [mesh, body] = coarse();
-  const ToothGeometry tooth(body.design);
-  const FlankTable table(tooth, static_cast<int>(body.flank_position.size()));
-  const RootReader reader(mesh, paper_steel());
-  for (const double share : {0.4, 0.7}) {
-    const double xi = table.lowest() + share * (table.highest() - table.lowest());
-    const LoadedGear loaded = loaded_gear(mesh, paper_steel(), {{0, xi, 0.1e-3, 1.0}});
-    for (const int offset : {-2, -1, 0, 1, 2}) {
-      CAPTURE(offset);
-      const int number = (offset + body.design.teeth) % body.design.teeth;
-      const double angle = 2 * std::numbers::pi * offset / body.design.teeth;
-      Eigen::Matrix2d back;
-      back << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
-      Eigen::VectorXd u(2 * mesh.node_position.rows());
-      for (Eigen::Index i = 0; i < mesh.node_position.rows(); ++i)
-        u.segment<2>(2 * i) = back * loaded.displacement.row(loaded.gear.node(number, i)).transpose();
-      const Eigen::VectorXd field = reader.stress() * u, found = under_force(body, share, offset);
-      // The half-plane is exact in the table, in the field it is read from the nodes.
-      const double tolerance = offset == 0 ? 0.02 : 1e-4;
-      CHECK((field - found).cwiseAbs().maxCoeff() < tolerance * field.cwiseAbs().maxCoeff());
+  static const Coarse ring = made(ring_gear(), 0.8e-3);
+  for (const Coarse* gear : {&coarse(), &ring}) {
+    const auto& [mesh, body] = *gear;
+    CAPTURE(body.design.internal);
+    const ToothGeometry tooth(body.design);
+    const FlankTable table(tooth, static_cast<int>(body.flank_position.size()));
+    const RootReader reader(mesh, paper_steel());
+    for (const double share : body.design.internal ? std::vector{0.5} : std::vector{0.4, 0.7}) {
+      const double xi = table.lowest() + share * (table.highest() - table.lowest());
+      const LoadedGear loaded = loaded_gear(mesh, paper_steel(), {{0, xi, 0.1e-3, 1.0}});
+      for (const int offset : {-2, -1, 0, 1, 2}) {
+        CAPTURE(offset);
+        const int number = (offset + body.design.teeth) % body.design.teeth;
+        const double angle = 2 * std::numbers::pi * offset / body.design.teeth;
+        Eigen::Matrix2d back;
+        back << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+        Eigen::VectorXd u(2 * mesh.node_position.rows());
+        for (Eigen::Index i = 0; i < mesh.node_position.rows(); ++i)
+          u.segment<2>(2 * i) = back * loaded.displacement.row(loaded.gear.node(number, i)).transpose();
+        const Eigen::VectorXd field = reader.stress() * u, found = under_force(body, share, offset);
+        // The half-plane is exact in the table, in the field it is read from the nodes.
+        const double tolerance = offset == 0 ? 0.02 : 1e-4;
+        CHECK((field - found).cwiseAbs().maxCoeff() < tolerance * field.cwiseAbs().maxCoeff());
+      }
     }
   }
 }
@@ -172,4 +184,90 @@ TEST_CASE(
       CHECK(roots.largest(g, phase, numbers, none).stress == 0);
       CHECK(roots.largest(g, phase, numbers, both).stress >= 0.8 * found.stress);
     }
+}
+
+TEST_CASE(
+    "root stress of a mesh: the load of the next tooth adds its table on its own side, of either gear") {
+  const BodyArtifact& body = coarse().body;
+  const StaticParameters settings = paper_statics(32);
+  const GearMeshModel model(body, body, settings.mesh);
+  constexpr double kPhase = 0.1;
+  RootStresses roots(model, {kPhase});
+  const Eigen::VectorXi numbers = Eigen::VectorXi::LinSpaced(3, -1, 1);
+  const Eigen::Vector3d load(800, 1000, 0);
+  const ToothGeometry tooth(body.design);
+  for (int g = 0; g < kSides; ++g)
+    for (const int of : {-1, 0}) {
+      CAPTURE(g);
+      CAPTURE(of);
+      // Pair -1 is clockwise of pair 0 on the driver and counter-clockwise of it on the driven gear.
+      Eigen::VectorXd sum = Eigen::VectorXd::Zero(body.root_angle.size());
+      Eigen::VectorXd mistaken = sum;
+      for (const int by : {-1, 0}) {
+        const double xi = model.kinematics.contact(kPhase + by).roll[static_cast<size_t>(g)];
+        const double share =
+            (xi - tooth.form_roll_angle()) / (tooth.tip_roll_angle() - tooth.form_roll_angle());
+        const int offset = g == 0 ? of - by : by - of;
+        sum += load[by + 1] * under_force(body, share, offset).head(sum.size());
+        mistaken += load[by + 1] * under_force(body, share, -offset).head(sum.size());
+      }
+      const double found = roots.of_tooth(g, 0, of, numbers, load).stress;
+      CHECK(found >= sum.maxCoeff());
+      CHECK(found == relative(sum.maxCoeff(), 2e-3));
+      CHECK(std::abs(mistaken.maxCoeff() / sum.maxCoeff() - 1) > 5e-3);
+    }
+}
+
+TEST_CASE(
+    "root stress in motion: crawling gears have that at rest, held values are no larger, the figure shows "
+    "both") {
+  const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
+  const StaticArtifact s = static_transmission(body, body, paper_statics(128), 150);
+  const SweepArtifact up =
+      sweep(body, body, s, s.mean_stiffness, paper_sweep(10, 10, 1), Direction::up, no_report);
+  for (size_t g = 0; g < kSides; ++g) {
+    REQUIRE(up.root_stress[g].cols() == s.root_stress[g].rows());
+    const Eigen::VectorXd difference =
+        up.root_stress[g].row(0).transpose() - s.root_stress[g].rowwise().maxCoeff();
+    // Tooth loads move by the inertia of the hubs, 4e-3 as in the transmission error.
+    CHECK(difference.cwiseAbs().maxCoeff() < 5e-3 * s.root_stress_max[static_cast<Eigen::Index>(g)]);
+  }
+  ResponseArtifact r = response(up);
+  r.loss_factor = loss_factors(up);
+  CHECK(r.loss_factor[0] == relative(s.loss_factor, 2e-3));
+  for (size_t g = 0; g < kSides; ++g) {
+    CHECK(r.root_stress_held[g][0] <= r.root_stress_max[g][0]);
+    CHECK(r.root_stress_held[g][0] == relative(r.root_stress_max[g][0], 0.02));
+  }
+  CHECK(r.tooth_load_held[0] <= r.tooth_load_max[0]);
+  CHECK(r.mesh_force_held[0] <= r.mesh_force_max[0]);
+
+  ResponseArtifact back = r;
+  back.direction = Direction::down;
+  const Figure figure = root_stress_figure(s, {r, back});
+  const auto block = [&](const std::string& name) {
+    for (const FigureBlock& b : figure.blocks)
+      if (b.name == name) return b;
+    FAIL("no block " << name);
+    return FigureBlock();
+  };
+  const FigureBlock rest = block("rest"), speed = block("speed up");
+  REQUIRE(rest.columns.size() == rest.rows[0].size());
+  CHECK(rest.columns.size() == 9);
+  CHECK(rest.rows[0][1] == relative(s.root_stress_max[0] * 1e-6, 1e-12));
+  CHECK(rest.rows[0][6] == relative(flank_pressure(s).smooth * 1e-6, 1e-12));
+  for (size_t column = 3; column < 7; ++column) CHECK(speed.rows[0][column] == relative(1, 0.02));
+  CHECK(block("cycle 1").rows.size() == static_cast<size_t>(s.root_stress[0].size()));
+  CHECK(block("iso").rows.front()[1] >= 1);
+
+  const auto without = [&](const auto& take) {
+    ResponseArtifact lacking = r;
+    take(lacking);
+    return failure_of([&] { root_stress_figure(s, {lacking, back}); });
+  };
+  CHECK(without([](ResponseArtifact&) {}) == static_cast<Failure>(0));
+  CHECK(without([](ResponseArtifact& a) { a.root_stress_held[1].resize(0); }) == Failure::input);
+  CHECK(without([](ResponseArtifact& a) { a.mesh_force_held.resize(0); }) == Failure::input);
+  CHECK(without([](ResponseArtifact& a) { a.tooth_load_held.resize(0); }) == Failure::input);
+  CHECK(without([](ResponseArtifact& a) { a.loss_factor.resize(0); }) == Failure::input);
 }

@@ -22,6 +22,13 @@ void require_external(const GearPair& pair) {
          pair.ring() == 0 ? "driver" : "driven", " is internal; take the computed root stress alone");
 }
 
+void require_two_pairs(const GearPair& pair, const char* what) {
+  if (pair.contact_ratio() >= 2)
+    fail(Failure::input, what,
+         " is for a contact ratio below 2, where at most two pairs share the load; here it is ",
+         pair.contact_ratio(), "; take the computed value alone");
+}
+
 // m from the pitch point, along the driver's motion: where gear g carries the load of one pair farthest from its root. The driver
 // carries it outwards, up to the point D, one base pitch after contact begins; the driven gear begins with it at B.
 double outer_single_contact(const GearPair& pair, int g) {
@@ -32,6 +39,7 @@ double outer_single_contact(const GearPair& pair, int g) {
 
 IsoRoot iso_6336_root(const GearPair& pair, int g) {
   require_external(pair);
+  require_two_pairs(pair, "sigma_F0 of ISO 6336-3, method B,");
   const ToothGeometry& tooth = pair.gear(g);
   const GearDesign& d = tooth.design();
   const double z = d.teeth, m = d.module, alpha = d.pressure_angle;
@@ -76,12 +84,14 @@ IsoRoot iso_6336_root(const GearPair& pair, int g) {
 double iso_6336_root_stress(const GearPair& pair, int g, double tangential_force) {
   const IsoRoot root = iso_6336_root(pair, g);
   const GearDesign& d = pair.gear(g).design();
-  return tangential_force / (d.face_width * d.module) * root.form * root.stress_correction;
+  const double width = std::min(d.face_width, pair.gear(1 - g).design().face_width + d.module);
+  return tangential_force / (width * d.module) * root.form * root.stress_correction;
 }
 
 double iso_6336_flank_pressure(const GearPair& pair, const std::array<Material, 2>& material,
                                double tangential_force) {
   require_external(pair);
+  require_two_pairs(pair, "sigma_H0 of ISO 6336-2");
   const int pinion = pair.gear(0).design().teeth <= pair.gear(1).design().teeth ? 0 : 1;
   const GearDesign &d1 = pair.gear(pinion).design(), &d2 = pair.gear(1 - pinion).design();
   const double ratio = static_cast<double>(d2.teeth) / d1.teeth,
@@ -123,6 +133,7 @@ double iso_6336_dynamic_factor(const IsoDynamics& gears, double ratio) {
 }
 
 double loss_factor_of_rigid_teeth(const GearPair& pair) {
+  require_two_pairs(pair, "the loss factor of rigid teeth");
   const double last = pair.path_end() / pair.base_pitch(), first = -pair.path_start() / pair.base_pitch();
   // sliding over the angle of the driver, per length along the path: (u + 1) / u of an external pinion that drives
   const double per_path = pair.sliding(pair.base_pitch()) / pair.base_pitch();

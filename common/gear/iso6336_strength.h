@@ -11,10 +11,11 @@
 //   Y_F  = 6 h_Fe cos a_Fe / (s_Fn^2 cos alpha),      Y_S = (1.2 + 0.13 L) q_s^(1 / (1.21 + 2.3 / L))
 // with L = s_Fn / h_Fe, q_s = s_Fn / (2 rho_F), d_e the diameter of the load, cos a_e = d_b / d_e,
 // gamma = (pi / 2 + 2 x_E tan alpha) / z + inv alpha - inv a_e, a_Fe = a_e - gamma.
-//   sigma_F0 = F_t / (b m) Y_F Y_S
+//   sigma_F0 = F_t / (b m) Y_F Y_S,   b = min(own face width, that of the other gear + m)
 //   sigma_H0 = Z_H Z_E Z_eps sqrt(F_t / (d_1 b) (u + 1) / u),   Z_H = sqrt(2 cos a_w / (cos^2 alpha sin a_w)),
 //   Z_E = 1 / sqrt(pi ((1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2)),   Z_eps = sqrt((4 - eps_alpha) / 3)
-// Y_S holds for 1 <= q_s < 8. Tooth fillets cut by a rack without protuberance.
+// Y_S holds for 1 <= q_s < 8. Tooth fillets cut by a rack without protuberance. All are for contact ratios below 2: above there
+// is no single pair contact, and more than two pairs share the load.
 #pragma once
 #include <array>
 
@@ -33,14 +34,15 @@ struct IsoRoot {
   bool in_range = true;          // 1 <= q_s < 8
 };
 
-// pair: of external gears. g: 0 the driver, 1 the driven gear. Throws Error(input) for an internal pair, Error(numerical) if the
-// section is not found.
+// pair: of external gears. g: 0 the driver, 1 the driven gear. Throws Error(input) for an internal pair and for a contact ratio of 2
+// or more, Error(numerical) if the section is not found.
 IsoRoot iso_6336_root(const GearPair& pair, int g);
 
 // Pa, sigma_F0 of gear g. tangential_force: N, F_t.
 double iso_6336_root_stress(const GearPair& pair, int g, double tangential_force);
 
-// Pa, sigma_H0 at the pitch point, of an external pair. material: of driver and driven gear. tangential_force: N, F_t.
+// Pa, sigma_H0 at the pitch point, of an external pair with a contact ratio below 2; throws as iso_6336_root() for others.
+// material: of driver and driven gear. tangential_force: N, F_t.
 double iso_6336_flank_pressure(const GearPair& pair, const std::array<Material, 2>& material,
                                double tangential_force);
 
@@ -64,7 +66,7 @@ double iso_6336_dynamic_factor(const IsoDynamics& gears, double ratio);
 // H_V of Ohlendorf, rigid teeth, two pairs share the load evenly:
 //   H_V = pi (u + 1) / (z_1 u) (1 - eps_alpha + eps_1^2 + eps_2^2)
 // so that the mean power lost is mu H_V times the power carried. eps_1, eps_2: addendum contact ratios. An internal pair has
-// u - 1 in place of u + 1 with teeth of both counted positive.
+// u - 1 in place of u + 1 with teeth of both counted positive. Throws Error(input) for a contact ratio of 2 or more.
 double loss_factor_of_rigid_teeth(const GearPair& pair);
 
 }  // namespace whine

@@ -7,7 +7,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"error_budget", 2};
+constexpr Schema kSchema{"error_budget", 3};
 
 void describe_changes(Codec& c, const std::string& group, StaticChanges& a, const std::string& what) {
   const std::string axis = group.substr(1) + "/change";  // `entry` names them in one text

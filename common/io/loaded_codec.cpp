@@ -63,10 +63,12 @@ void describe(Codec& c, LoadedArtifact& a) {
   c.dataset({"/tooth_load", "N", "normal force of each tooth pair", "pair", kForce}, &a.tooth_load);
   c.dataset({"/tooth", "1", "teeth of the pairs, counter-clockwise from tooth 0", "pair gear", kTooth},
             &a.tooth);
-  c.dataset(
-      {"/root_stress", "Pa", "largest principal stress at the nodes of the fillet below the loaded flank",
-       "pair gear", kStress},
-      &a.root_stress);
+  c.dataset({"/root_stress", "Pa",
+             "largest principal stress at the nodes of the fillet below the loaded flank; static.h5 has the "
+             "tangential "
+             "stress, fitted along the root",
+             "pair gear", kStress},
+            &a.root_stress);
   describe_strips(c, a);
   describe_certificate(c, a);
   if (c.out() && a.vtk_point.rows() > 0)

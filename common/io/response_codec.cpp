@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"response", 3};
+constexpr Schema kSchema{"response", 4};
 
 void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
   if (!c.optional(of_body(c, a.mesh, g, "bearing_force_max"), a.bearing_force_max[g].size() > 0)) return;
@@ -57,9 +57,12 @@ void describe(Codec& c, ResponseArtifact& a) {
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g) {
     describe_bearings(c, a, g);
     if (c.optional(of_body(c, a.mesh, g, "root_stress_max"), a.root_stress_max[g].size() > 0)) {
-      c.dataset({of_body(c, a.mesh, g, "root_stress_max"), "Pa",
-                 "largest tangential stress along the roots beside the loaded flanks", axis, kStress},
-                &a.root_stress_max[g]);
+      c.dataset(
+          {of_body(c, a.mesh, g, "root_stress_max"), "Pa",
+           "largest tangential stress along the roots beside the loaded flanks, quasi-static in the tooth "
+           "loads: the inertia of the body adds none",
+           axis, kStress},
+          &a.root_stress_max[g]);
       c.dataset(
           {of_body(c, a.mesh, g, "root_stress_held"), "Pa",
            "the same, held for 1/64 of a mesh period: without spikes whose height depends on the time step",

@@ -63,7 +63,8 @@ void describe_root_stress(Codec& c, StaticArtifact& a) {
            "mesh_phase pair", kStress, "sum over the pairs of root_stress/per_force of body.h5 times force"},
           &a.root_stress[g]);
   if (c.optional("/root_stress_max", there)) {
-    c.dataset({"/root_stress_max", "Pa", "largest root stress over the mesh cycle", "gear", kStress},
+    c.dataset({"/root_stress_max", "Pa", "largest root stress over the mesh cycle, beside the loaded flanks",
+               "gear", kStress},
               &a.root_stress_max);
     c.dataset({"/root_stress_angle", "1",
                "angle (rad) of the root's tangent there against the centre line of the tooth", "gear", kRoll},

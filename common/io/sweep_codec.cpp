@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"sweep", 4};
+constexpr Schema kSchema{"sweep", 5};
 
 // Left out of finite element sweeps, which have no such part.
 void describe_lumped(Codec& c, std::string& model, LumpedParameters& a) {
@@ -55,11 +55,12 @@ void describe_motions(Codec& c, SweepArtifact& a, bool lumped) {
           &a.bearing_force[g]);
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
     if (c.optional(of_body(c, a.mesh, g, "root_stress"), a.root_stress[g].size() > 0))
-      c.dataset({of_body(c, a.mesh, g, "root_stress"), "Pa",
-                 "largest tangential stress of all teeth along the root beside the loaded flank, tension "
-                 "positive",
-                 "mesh_frequency sample", kStress},
-                &a.root_stress[g]);
+      c.dataset(
+          {of_body(c, a.mesh, g, "root_stress"), "Pa",
+           "largest tangential stress of the teeth that carry load along the root beside the loaded flank, "
+           "tension positive; quasi-static in the tooth loads: the inertia of the body adds none",
+           "mesh_frequency sample", kStress},
+          &a.root_stress[g]);
 }
 
 void describe_speed_by_speed(Codec& c, SweepArtifact& a) {

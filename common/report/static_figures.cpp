@@ -333,7 +333,7 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
       block.columns.push_back(text("harmonic_", n, " [% of the first]"));
     const bool pressure = changes->pressure_change.size() > 0;
     if (pressure) block.columns.emplace_back("flank_pressure [%]");
-    const bool stress = pressure && changes->root_stress_change.size() > 0;
+    const bool stress = changes->root_stress_change.size() > 0;
     if (stress) block.columns.emplace_back("root_stress [%]");
     std::string words, rest = changes->entry;
     for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
@@ -365,7 +365,8 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
     figure.words.emplace_back(labels, words);
     figure.numbers.emplace_back(count, static_cast<double>(block.rows.size()));
     if (changes == &budget.refinement)
-      figure.numbers.emplace_back("bars_each", stress ? 9 : pressure ? 8 : 7);
+      figure.numbers.insert(figure.numbers.end(), {{"bars_each", 7 + (pressure ? 1 : 0) + (stress ? 1 : 0)},
+                                                   {"pressure", pressure}});
   }
   return figure;
 }

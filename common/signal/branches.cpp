@@ -91,12 +91,17 @@ std::optional<Branches> widest(const VectorXd& speed, const VectorXd& up, const 
 
 }  // namespace
 
-double held_load(const Eigen::Ref<const MatrixRM>& load, int samples) {
-  const Eigen::Index window = samples / 64 + 1;
+double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple) {
+  const Eigen::Index window = (samples + 63) / 64 + 1;
+  const Eigen::Index rows =
+      multiple > 0 ? std::min(load.rows(), static_cast<Eigen::Index>(multiple) * samples) : load.rows();
   double held = 0;
   for (Eigen::Index pair = 0; pair < load.cols(); ++pair)
-    for (Eigen::Index i = 0; i + window <= load.rows(); ++i)
-      held = std::max(held, load.col(pair).segment(i, window).minCoeff());
+    for (Eigen::Index i = 0; i + (multiple > 0 ? 1 : window) <= rows; ++i) {
+      double least = load(i, pair);
+      for (Eigen::Index n = 1; n < window; ++n) least = std::min(least, load((i + n) % rows, pair));
+      held = std::max(held, least);
+    }
   return held;
 }
 
@@ -151,7 +156,7 @@ void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
     const ResponseArtifact r = response(swept);
     VectorXd held(speed.size());
     for (Eigen::Index i = 0; i < speed.size(); ++i)
-      held[i] = held_load(swept.tooth_load[i], swept.time.steps_per_period);
+      held[i] = held_load(swept.tooth_load[i], swept.time.steps_per_period, swept.period_multiple[i]);
     const auto ascending = [&](const VectorXd& row) { return d == 0 ? row : VectorXd(row.reverse()); };
     map.dte_rms[d].row(c) = ascending(r.dte_rms).transpose();
     map.tooth_load_max[d].row(c) = ascending(r.tooth_load_max).transpose();

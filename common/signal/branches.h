@@ -19,9 +19,11 @@ struct BranchPoint {
   bool parted = false;        // contact is lost during the period
 };
 
-// Largest load (N) that one pair carries through 1/64 of a mesh period without a break; load: (sample, pair), whole periods
-// of `samples`.
-double held_load(const Eigen::Ref<const MatrixRM>& load, int samples);
+// Largest load (N) that one pair carries through 1/64 of a mesh period without a break: the least of ceil(samples / 64) + 1
+// samples in a row, which span 1/64 or, where 64 does not divide `samples`, up to one sample more. load: (sample, pair), whole
+// periods of `samples`. multiple: periods after which the motion repeats; only these count, and their end is followed by their
+// begin. 0: it does not repeat.
+double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple = 0);
 
 struct MapSpeeds {
   double from = 0, to = 0;    // Hz; 0: 0.57 and 1.2 of the natural frequency

@@ -129,8 +129,8 @@ Reduction::Reduction(const MeshArtifact& of, const Material& material, int wante
   below = matching ? reader.outward_below(xi, mesh.discretisation.matching_depth) : outward;
 }
 
-// Of each harmonic: flexibility (point, load) inward, across: that of the other flank, stress along the roots, displacement (2 node) under one of the
-// loads; the lowest modes of all.
+// Of each harmonic: flexibility (point, load) inward, across: that of the other flank, stress along the roots, displacement
+// (2 node) under one of the loads; the lowest modes of all.
 struct Harmonics {
   std::vector<Eigen::MatrixXcd> flexibility, across, root_stress;
   std::vector<Eigen::VectorXcd> displacement;

@@ -51,7 +51,8 @@ void require_memory(int hunting, int speeds, const SweepParameters& settings, in
   for (int i = 0; i < speeds; ++i)
     samples += settings.time.steps_per_period +
                steps_at(settings.time, settings.frequency_from + i * settings.frequency_step);
-  const double memory = 8.0 * (samples * hunting * (2 + pairs) + speeds * state);
+  constexpr int kRows = 2 + kSides;  // transmission error, mesh force; root stress of both gears
+  const double memory = 8.0 * (samples * hunting * (kRows + pairs) + speeds * state);
   if (memory > kMostMemory)
     fail(Failure::input,
          hunting > 1 ? text("teeth that differ meet again after ", hunting, " mesh periods; ") : "", speeds,
@@ -156,7 +157,8 @@ BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
   for (const RollingDynamics::Period& period : orbit.record) {
     point.tooth_load_max = std::max(point.tooth_load_max, period.pair_load.maxCoeff());
     point.held_load = std::max(
-        point.held_load, held_load(period.pair_load.transpose(), static_cast<int>(period.pair_load.cols())));
+        point.held_load, held_load(period.pair_load.transpose(), static_cast<int>(period.pair_load.cols()),
+                                   orbit.multiple == 1 ? 1 : 0));
     point.parted = point.parted || !(period.pair_load.colwise().sum().minCoeff() > 0);
   }
   return point;

@@ -1,9 +1,10 @@
 // Root stress of the teeth of a mesh under the loads of its pairs.
 //
 //   sigma_q(s) = sum over the pairs p of T_(j_q - j_p)(s, xi_p) F_p
-// s along the root, j_p the tooth of a gear in pair p, xi_p the roll angle at which it is touched, T the tables of
-// solid/root_stress.h. The load of a pair stands at its touching point: a root is far away from the spread of the pressure. Inertia
-// of what the kept modes leave out adds nothing.
+// s along the root beside the loaded flank, j_p the tooth of a gear in pair p, xi_p the roll angle at which it is touched, T the
+// tables of solid/root_stress.h. The load of a pair stands at its touching point: a root is far away from the spread of the
+// pressure. In motion this is quasi-static in the loads of the teeth: T holds all of the static flexibility, kept modes included,
+// and the inertia of the body, kept modes included, adds none.
 #pragma once
 #include <array>
 #include <vector>
@@ -28,7 +29,7 @@ class RootStresses {
   // three points about the largest.
   RootStress of_tooth(int g, size_t phase, int of, const Eigen::VectorXi& numbers,
                       const Eigen::Ref<const Eigen::VectorXd>& load);
-  // Of the teeth that carry load, all without load: 0.
+  // Of the teeth that carry load; 0 where none does. Neighbours without load are not looked at.
   RootStress largest(int g, size_t phase, const Eigen::VectorXi& numbers,
                      const Eigen::Ref<const Eigen::VectorXd>& load);
 

@@ -1,9 +1,10 @@
 # Root stress of both gears while a tooth passes through the mesh (a), the largest over speed (b), dynamic factors beside K_v (c).
-# Variables from gear-plot: tsv, heading, note1, note2, height, labels, iso, iso_driver, iso_driven, path_start, path_end,
-# stress_max, factor_max, frequency_from, frequency_to, resonance, natural_frequency.
+# Variables from gear-plot: tsv, heading, note1, note2, ..., notes, height, labels, iso, iso_driver, iso_driven, path_start, path_end,
+# stress_max, factor_max, frequency_from, frequency_to, resonance, natural_frequency; iso: 0 without K_v, iso_driver, iso_driven: 0
+# without sigma_F0, resonance: Hz at which N = 1.
 set datafile separator tab
 set datafile commentschars "#"
-lift = room(2)
+lift = room(notes)
 
 array colour[2] = ["#0072b2", "#d55e00"]
 array width[2] = [4.4, 1.6]
@@ -32,7 +33,7 @@ do for [x in sprintf("%.6f %.6f %.6f %.6f", path_start, path_end - 1, path_start
 drawn = ''
 do for [g = 1:2] {
   drawn = drawn . sprintf('tsv index "[cycle %d]" using 1:2 with lines lt 1 lw %g lc rgb "%s" title word(labels, %d), ', g, width[g], colour[g], g)
-  if (iso == 1) { drawn = drawn . sprintf('%g with lines lt 1 lw %g dt (18, 8) lc rgb "%s" title "ISO 6336-3: %.0f MPa", ', level[g], 0.5 * width[g], colour[g], level[g]) }
+  if (level[g] > 0) { drawn = drawn . sprintf('%g with lines lt 1 lw %g dt (18, 8) lc rgb "%s" title "ISO 6336-3: %.0f MPa", ', level[g], 0.5 * width[g], colour[g], level[g]) }
 }
 eval("plot " . drawn)
 
@@ -60,7 +61,11 @@ set tmargin at screen 0.27 + 0.5 * lift
 set bmargin at screen 0.10 + 0.5 * lift
 set yrange [0 : 1.08 * factor_max]
 set ylabel "Dynamic factor"
-set label 1 "{/:Bold (c)} the same over the largest at rest"
+set label 1 "{/:Bold (c)} the same over the largest at rest; root stress is quasi-static in the tooth loads"
+if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
+  set arrow from resonance, graph 0 to resonance, graph 1 nohead back lw 1.2 dt (4, 4) lc rgb "#aa4499"
+  set label 12 "N = 1" at resonance, graph 1.0 offset 0, -0.7 left tc rgb "#aa4499" font ",13"
+}
 array what[4] = ["mesh force (over T / r_b)", "tooth load", "root stress, driver", "root stress, driven gear"]
 array shade[4] = ["#444444", "#009e73", "#0072b2", "#d55e00"]
 array heavy[4] = [2.2, 2.2, 4.4, 1.6]
