@@ -48,7 +48,7 @@ set tmargin at screen top(0.50)
 set bmargin at screen top(0.74)
 set ylabel (level_label eq "" ? "Amplitude of DTE (µm)" : "DTE (" . level_label . ")") . " {/:Bold (b)}" offset 0.5, 0
 peak = largest > largest_sweep ? largest : largest_sweep
-if (level_label eq "") { set yrange [0 : 1.08 * peak] } else { set yrange [level_low : level_high] }
+if (level_label eq "") { set yrange [0 : 1.08 * peak] } else { set yrange [level_low - 0.25 * (level_high - level_low) : level_high] }
 if (level_label eq "") { set key top left Left reverse samplen 2 spacing 1.1 font ",15" } else { set key bottom left horizontal Left reverse samplen 2 spacing 1.1 font ",15" }
 drawn = ""
 do for [k = 1:int(sweeps)] {
