@@ -1,6 +1,6 @@
 # Designs side by side: scenes, at the torques that they have in common, as one page and figures on common axes.
 #
-#   make compare SCENES='short.toml long.toml'       out/compare/short--long/index.html; TORQUE=150: of the figures (else the first in common)
+#   make compare SCENES='short.toml long.toml'       out/compare/short+long/index.html; TORQUE=150: of the figures (else the first in common)
 #   make compare STUDY=tolerances                    the two variants that the study marks by compare = [0, 3]
 #
 # The first design is what the others are compared with. Artifacts are those of the scenes, in out/<scene>/.
@@ -16,7 +16,8 @@ $(if $(compared_known),$(if $(compared_torques),,\
   $(error SCENES: the scenes have no torque in common: $(foreach s,$(compared_here),$s at $(SCENE_$s_TORQUES) N m;) give one of the torques to each)))
 compared_torque := $(if $(compared_known),$(if $(filter command,$(firstword $(origin TORQUE))),$(or $(filter $(TORQUE),$(compared_torques)),\
   $(error TORQUE=$(TORQUE): the scenes have in common $(compared_torques) N m)),$(firstword $(compared_torques))))
-compare_words := $(subst $(compare_empty) $(compare_empty),--,$(strip $(compared_here)))
+# `+` joins their names, in which it is forbidden: `--` could stand in one.
+compare_words := $(subst $(compare_empty) $(compare_empty),+,$(strip $(compared_here)))
 compare_folder := out/compare/$(compare_words)
 inputs_compare-rest = $(foreach s,$1,out/$s/T$2/static.h5)
 inputs_compare-motion = $(foreach s,$1,$(call both_ways,$s,$2,response))
@@ -39,5 +40,5 @@ endef
 $(if $(compared_torque),$(eval $(call compare_rule))$(eval $(call plan_rule,$(compare_plan_file),$(compare_pictures))))
 
 .PHONY: compare
-compare: $(if $(compared_here),$(compare_folder)/index.html) ## designs side by side on common axes, their differences first: SCENES='a.toml b.toml ...' (the first is compared with), or STUDY=, the two variants that it marks; out/compare/a--b/index.html
+compare: $(if $(compared_here),$(compare_folder)/index.html) ## designs side by side on common axes, their differences first: SCENES='a.toml b.toml ...' (the first is compared with), or STUDY=, the two variants that it marks; out/compare/a+b/index.html
 	$(call stands,compare: open $< in a browser; compare.tsv beside it holds the differences)

@@ -126,7 +126,7 @@ $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
 $(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(printed_claims) data/published/fitted.toml $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
 	$(B)/bin/gear-scorecard --printed $(printed_claims) --fitted data/published/fitted.toml --output out/figures/scorecard $(inputs_scorecard)
 
-# AXIS=rpm:pinion: the speed of a gear in place of the mesh frequency; DB=1e-6: amplitudes of the DTE in dB re this length in m.
+# AXIS=rpm:pinion: the speed of a gear in place of the mesh frequency; DB=1e-6: RMS of the DTE and of its orders in dB re this length in m.
 AXIS ?=
 DB ?=
 $(if $(AXIS),$(if $(filter rpm:%,$(AXIS)),$(if $(filter 1,$(words $(AXIS))),,$(error AXIS=$(AXIS): it is one word)),\
@@ -135,6 +135,12 @@ $(if $(DB),$(if $(shell awk -v x='$(DB)' 'BEGIN { if (x ~ /^[0-9.]+([eE][-+]?[0-
   $(error DB=$(DB): it is the length in m that is 0 dB$(,) such as 1e-6)))
 speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces compare-motion runup-up runup-down
 level_figures := order-cuts compare-motion runup-up runup-down
+# A figure that would not take them is not drawn without them.
+not_drawn_with = $(filter-out $1,$(filter $(figures) table1 histories multipliers fold-curves jump-map sensitivity harris-map branches modes,$(goals)))
+$(if $(AXIS),$(if $(call not_drawn_with,$(speed_figures)),$(error AXIS=$(AXIS): $(firstword $(call not_drawn_with,$(speed_figures))) \
+  is not drawn against the speed of a gear; leave AXIS out. It is for $(filter-out compare-motion runup-up runup-down,$(speed_figures))$(,) runup$(,) compare and report)))
+$(if $(DB),$(if $(call not_drawn_with,$(level_figures)),$(error DB=$(DB): $(firstword $(call not_drawn_with,$(level_figures))) \
+  is not drawn in dB; leave DB out. It is for order-cuts$(,) runup$(,) compare and report)))
 axis_options = $(strip $(if $(AXIS),$(if $(filter $1,$(speed_figures)),--axis '$(AXIS)')) $(if $(DB),$(if $(filter $1,$(level_figures)),--db $(DB))))
 # Only figures that have the choice remember it.
 axis_plan_file = $(if $(filter $1,$(speed_figures)),$(B)/plans/axes/$2)

@@ -20,15 +20,20 @@ scene_path = $(if $(wildcard $2),,$(error $1=$2: there is no such file))$(if $(f
   $(call scene_of_project,$1,$2,$(wildcard data/scenes/$(basename $(notdir $2)).toml))
 scene_of_project = $(if $3,$(if $(shell cmp -s '$2' $3 || echo differs),$(error $1=$2: out/$(basename $(notdir $2)) is of $3, which says otherwise; rename the file)))
 $(if $(SCENE),$(call scene_path,SCENE,$(SCENE)))
-# SCENES: two to six for `compare`, the first is what the others are compared with.
-$(foreach f,$(SCENES),$(call scene_path,SCENES,$f))
+# SCENES: two to six for `compare`, the first is what the others are compared with. Other goals do not look at them.
+compared_files := $(if $(filter compare,$(goals)),$(SCENES))
+$(foreach f,$(compared_files),$(call scene_path,SCENES,$f))
 # Or STUDY: the two variants that it marks, as scenes of their own.
 compared_study := $(if $(SCENES),,$(if $(filter compare,$(goals)),$(STUDY)))
 study_design = out/studies/$(basename $(notdir $(compared_study)))/compare/$1.toml
 study_designs := $(if $(compared_study),$(foreach w,first second,$(basename $(notdir $(compared_study)))-$w))
-compared := $(or $(study_designs),$(foreach f,$(SCENES),$(basename $(notdir $f))))
+compared := $(or $(study_designs),$(foreach f,$(compared_files),$(basename $(notdir $f))))
 $(foreach s,$(compared),$(if $(filter 1,$(words $(filter $s,$(compared)))),,$(error SCENES: two files are called $s.toml$(,) which would share out/$s; rename one)))
 $(if $(filter compare,$(goals)),$(if $(filter 2 3 4 5 6,$(words $(compared))),,$(error compare: which scenes? two to six of them: make compare SCENES='a.toml b.toml'; or STUDY=<name>$(,) a study that marks two variants)))
+# Of one name they share out/<name>; so does a design of a study with a SCENE of its name.
+compared_as_scene := $(if $(scene_stem),$(firstword $(foreach f,$(compared_files),$(if $(filter $(scene_stem),$(basename $(notdir $f))),$f)) $(filter $(scene_stem),$(study_designs))))
+$(if $(compared_as_scene),$(if $(filter $(realpath $(SCENE)),$(realpath $(compared_as_scene))),,\
+  $(error SCENE=$(SCENE): out/$(scene_stem) is of $(compared_as_scene), which is compared; rename the file)))
 own_scene := $(or $(scene_stem),$(paper_scene))
 
 # Variants for `sensitivity`: name:key=value (more keys after commas) is the scene <own scene>-<name>. Those listed are
@@ -44,7 +49,7 @@ BIFURCATION_VARIANTS := halfstep:steps_per_period=512,min_sample_rate_kHz=1000 s
 bifurcation_scenes := $(if $(SCENE),,$(foreach v,$(BIFURCATION_VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v))))
 variant_file = out/$(own_scene)/variants/$1.toml
 
-scene_file = $(if $(filter $1,$(study_designs)),$(study_design),$(if $(filter $1,$(compared)),$(firstword $(foreach f,$(SCENES),$(if $(filter $1,$(basename $(notdir $f))),$f))),$(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))))
+scene_file = $(if $(filter $1,$(study_designs)),$(study_design),$(if $(filter $1,$(compared)),$(firstword $(foreach f,$(compared_files),$(if $(filter $1,$(basename $(notdir $f))),$f))),$(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))))
 
 # that need a scene of a pair, SCENE or the paper's
 pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report export

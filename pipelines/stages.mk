@@ -141,6 +141,8 @@ $(if $(filter calibrate,$(goals)),$(if $(call outside,$(DAMPING),1e-12,1),\
   $(error DAMPING=$(DAMPING): it is a share of critical damping, above 0 and below 1: 0.05 for 5 %)))
 $(if $(filter histories,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
   $(error histories: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make histories AT=1250)))
+$(if $(filter sound,$(goals)),$(if $(filter runup,$(goals)),,$(if $(AT),$(if $(RATE),\
+  $(error sound: AT=$(AT) and RATE=$(RATE): a sound is of one speed (AT) or of a run-up (RATE); leave one of them out)))))
 # Without AT and with RATE: the sound of a run-up, then of a run-down.
 sound_of_runup := $(if $(AT),,$(if $(RATE),$(filter sound,$(goals))))
 $(if $(filter sound,$(goals)),$(if $(sound_of_runup),,$(if $(call outside,$(AT),1e-9,1e9),\

@@ -226,6 +226,13 @@ rejected "a variant that cannot be" 3 'scene_wide.toml.*bore' "$bin/gear-scene" 
 "$bin/gear-plot" jump-map --plots "$plots" --output map out/scene/T100/jump_map_false.h5 > said 2>&1 && grep -q 'no corner contact' map.svg &&
   ok "a map of one torque is drawn" || wrong "a map of one torque is drawn" "$(head -n 1 said)"
 rm -f map.* scene_variant.toml scene_wide.toml
+rejected "decibels re nothing" 2 '--db 0: it is a length in m above 0' "$bin/gear-plot" waterfall --plots "$plots" --db 0 --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
+rejected "a speed of no gear" 2 'there is no gear carrier; there are pinion, wheel' "$bin/gear-plot" waterfall --plots "$plots" --axis rpm:carrier --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
+rejected "two static.h5 of one torque in a report" 3 'a static.h5 at 100 N m is given twice' "$bin/gear-report" out/scene/T100/static.h5 out/scene/../scene/T100/static.h5 --output x.html
+mkdir -p other_scene/params other_scene/T100 && cp out/scene/T100/static.h5 other_scene/T100 && echo Other > other_scene/params/title.txt
+rejected "two scenes in an export" 3 'other_scene/T100/static.h5: is of the scene other_scene: Other, artifacts before it are of scene' "$bin/gear-export" --model "$scene_of_paper" \
+  out/scene/T100/static.h5 other_scene/T100/static.h5 --output x.rexs
+rm -r other_scene
 rejected "a map of the same torque and rule twice" 3 'two maps of 100 N m' "$bin/gear-plot" jump-map --plots "$plots" --output map \
   out/scene/T100/jump_map_false.h5 out/scene/T100/jump_map_false.h5
 rejected "the sensitivity to nothing" 3 'one variant' "$bin/gear-plot" sensitivity --plots "$plots" --output map out/scene/T100/jump_map_false.h5
@@ -244,6 +251,10 @@ rejected "two such sounds" 3 'nothing is heard of up_1: ' "${sound[@]}" --sweep 
 if "${sound[@]}" --sweep out/scene/T100/up/sweep.h5 --sweep out/scene/T100/down/sweep.h5 > said 2>&1 &&
   [ "$(sed '1,2d' heard.tsv | cut -f1 | tr '\n' ' ')" = 'up_1 up_2 down ' ]; then ok "sounds of one direction are numbered"; else
   wrong "sounds of one direction are numbered" "$(tail -n 1 said) $(cut -f1 heard.tsv 2>&1 | tr '\n' ' ')"; fi
+rejected "a length of a sound of a run-up" 2 '--seconds requires --sweep' "$bin/gear-sound" --runup out/scene/T100/none.h5 --seconds 2 --output heard
+rejected "a run-up and a sweep as one sound" 2 '--runup excludes --sweep' "${sound[@]}" --runup out/scene/T100/none.h5
+rejected "a sound of nothing" 2 'wanted is --sweep with --mesh-frequency above 0, or --runup' "$bin/gear-sound" --output heard
+rejected "a sound of a run-up that is a sweep" 3 'sweep.h5' "$bin/gear-sound" --runup out/scene/T100/up/sweep.h5 --output heard
 rm -f low.csv heard.*
 rejected "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
 ring_down=("${stage_impact[@]::${#stage_impact[@]}-2}")

@@ -216,10 +216,25 @@ rejected_by_make "a figure at a torque that the designs do not have" 'TORQUE=77:
 make_ SCENES="$scene a/short.toml" compare; make_ -n SCENES="$scene a/short.toml" compare
 expect "designs side by side are up to date" ""
 make_ -n SCENES="$scene a/short.toml" TORQUE=200 compare
-grep -q 'gear-plot compare-rest --output out/compare/parker2000--short/compare-rest-T200 .*out/parker2000/T200/static.h5 out/short/T200/static.h5' "$log" &&
+grep -q 'gear-plot compare-rest --output out/compare/parker2000+short/compare-rest-T200 .*out/parker2000/T200/static.h5 out/short/T200/static.h5' "$log" &&
   ok "designs at another torque" || wrong "designs at another torque" "$(programs)"
 make_ SCENES="$scene a/short.toml" AXIS=rpm:driver DB=1e-6 compare
 expect "other axes draw the one figure against speed again, and the page" "gear-compare*1 gear-plot*1"
+sed 's/^bore_radius_mm = .*/bore_radius_mm = 30/' $scene > b/short.toml
+make_ -n SCENE=a/short.toml SCENES="b/short.toml $scene" report
+grep -q 'gear-scene.*b/short.toml' "$log" && wrong "SCENES leave a report of SCENE alone" "$(grep -m1 b/short.toml "$log")" ||
+  { programs | grep -q 'gear-report\*1' && ok "SCENES leave a report of SCENE alone" || wrong "SCENES leave a report of SCENE alone" "$(programs) $(tail -n 1 "$log")"; }
+grep -q '^bore_radius = 0.035 ' out/short/*/body.toml && ok "and its artifacts are of SCENE" || wrong "and its artifacts are of SCENE" "$(grep bore_radius out/short/*/body.toml | head -n 1)"
+rejected_by_make "a scene and a design of one name" 'SCENE=a/short.toml: out/short is of b/short.toml, which is compared; rename the file' SCENE=a/short.toml SCENES="b/short.toml $scene" report compare
+make_ -n SCENE=a/short.toml SCENES="./a/short.toml $scene" report compare
+programs | grep -q 'gear-compare\*1.*gear-report\*1' && ok "a scene that is compared, too, has its report" || wrong "a scene that is compared, too, has its report" "$(tail -n 1 "$log")"
+cp $scene a/a--b.toml; cp $scene a/c.toml; cp $scene a/a.toml; cp $scene a/b--c.toml
+make_ SCENES='a/a--b.toml a/c.toml' compare; make_ -n SCENES='a/a.toml a/b--c.toml' compare
+grep -q 'gear-compare --output out/compare/a+b--c/index.html' "$log" && [ -e out/compare/a--b+c/index.html ] &&
+  ok "designs of other names have a folder of their own" || wrong "designs of other names have a folder of their own" "$(ls out/compare) $(tail -n 1 "$log")"
+rejected_by_make "a figure that has no axis of speed" 'AXIS=rpm:driver: multipliers' AXIS=rpm:driver multipliers
+rejected_by_make "a figure that has no amplitudes in dB" 'DB=1e-6: fig05' DB=1e-6 fig05
+rejected_by_make "a sound at a speed and of a run-up" 'AT=1250 and RATE=500: a sound is of one speed (AT) or of a run-up (RATE)' AT=1250 RATE=500 sound
 rejected_by_make "a speed of something" 'AXIS=order:1: it is rpm:<gear>, such as rpm:pinion' AXIS=order:1 fig05
 rejected_by_make "decibels of nothing" 'DB=0: it is the length in m that is 0 dB' DB=0 order-cuts
 rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -109,7 +110,7 @@ TEST_CASE(
   for (const auto& [axis, teeth] : {std::pair{"rpm:pinion_1", 50.0}, std::pair{"rpm:driver", 50.0},
                                     std::pair{"rpm:wheel", 40.0}, std::pair{"rpm:driven", 40.0}}) {
     Figure rpm = hertz;
-    apply({axis, 0}, rpm);
+    apply({axis}, rpm);
     const FigureBlock &a = block(hertz, "orders up"), &b = block(rpm, "orders up");
     REQUIRE(a.rows.size() == b.rows.size());
     for (size_t i = 0; i < a.rows.size(); ++i) {
@@ -125,7 +126,7 @@ TEST_CASE(
   apply({}, none);
   CHECK(plot_data(none) == plot_data(hertz));
   Figure marked = hertz;
-  apply({"rpm:pinion_1", 0}, marked);
+  apply({"rpm:pinion_1"}, marked);
   CHECK(word(marked, "speed_label") == "Speed of pinion\\_1 (rpm)");
 }
 
@@ -134,16 +135,25 @@ TEST_CASE(
   Figure figure = order_figure(both_ways());
   apply({"", 1e-6}, figure);
   const FigureBlock& orders = block(figure, "orders up");
-  CHECK(orders.columns[1] == "order_1 [dB re 1 µm]");
-  CHECK(std::abs(orders.rows[0][1]) < 1e-12);
-  CHECK(orders.rows[2][2] == relative(20, 1e-12));
-  CHECK(orders.rows[3][3] == relative(20 - 300, 1e-12));
+  // An order of amplitude 1 µm has an RMS of 1 µm / sqrt(2).
+  const double half = 10 * std::log10(2.0);
+  CHECK(orders.columns[1] == "order_1 [dB re 1 µm RMS]");
+  CHECK(orders.rows[0][1] == relative(-half, 1e-12));
+  CHECK(orders.rows[2][2] == relative(20 - half, 1e-12));
+  CHECK(orders.rows[3][3] == relative(20 - half - 300, 1e-12));
   CHECK(number(figure, "level_high") == 30);
   CHECK(number(figure, "level_low") == -10);
   Figure small = order_figure(both_ways());
   apply({"", 2e-9}, small);
-  CHECK(word(small, "level_label") == "dB re 2 nm");
-  CHECK(block(small, "orders up").rows[0][1] == relative(20 * std::log10(500), 1e-12));
+  CHECK(word(small, "level_label") == "dB re 2 nm RMS");
+  CHECK(block(small, "orders up").rows[0][1] == relative(20 * std::log10(500) - half, 1e-12));
+  // An RMS stays one: of a motion that is a cosine it has the level of its first order.
+  ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
+  for (ResponseArtifact* r : {&up, &down}) r->dte_rms.setConstant(1e-6 / std::numbers::sqrt2);
+  Figure motion = compared_motion_figure({{"a", up}, {"a", down}, {"b", up}, {"b", down}});
+  apply({"", 1e-6}, motion);
+  CHECK(motion.blocks[0].rows[0][1] == relative(-half, 1e-12));
+  CHECK(motion.blocks[0].rows[0][1] == relative(motion.blocks[0].rows[0][2], 1e-12));
 }
 
 TEST_CASE("axes that a figure does not have are rejected by what it has") {
@@ -151,17 +161,35 @@ TEST_CASE("axes that a figure does not have are rejected by what it has") {
     return failure_of([&] { apply(axes, figure); });
   };
   const Figure figure = order_figure(both_ways());
-  CHECK(rejected(figure, {"rpm:carrier", 0}) == Failure::usage);
-  CHECK(rejected(figure, {"Hz", 0}) == Failure::usage);
+  CHECK(rejected(figure, {"rpm:carrier", {}}) == Failure::usage);
+  CHECK(rejected(figure, {"Hz", {}}) == Failure::usage);
   CHECK(rejected(figure, {"", -1e-6}) == Failure::usage);
-  CHECK(rejected(Figure(), {"rpm:driver", 0}) == Failure::usage);
+  CHECK(rejected(figure, {"", 0}) == Failure::usage);
+  CHECK(rejected(Figure(), {"rpm:driver", {}}) == Failure::usage);
   CHECK(rejected(Figure(), {"", 1e-6}) == Failure::usage);
   // Designs of other teeth have no speed of a gear in common.
   const Figure designs = compared_motion_figure({{"a", some_response(Direction::up)},
                                                  {"a", some_response(Direction::down)},
                                                  {"b", some_response(Direction::up, 41)},
                                                  {"b", some_response(Direction::down, 41)}});
-  CHECK(rejected(designs, {"rpm:driver", 0}) == Failure::usage);
+  CHECK(rejected(designs, {"rpm:driver", {}}) == Failure::usage);
+  // The same teeth under other names: by their role.
+  ResponseArtifact other_up = some_response(Direction::up), other_down = some_response(Direction::down);
+  for (ResponseArtifact* r : {&other_up, &other_down}) r->mesh.gear[0] = "sun";
+  Figure named = compared_motion_figure({{"a", some_response(Direction::up)},
+                                         {"a", some_response(Direction::down)},
+                                         {"b", other_up},
+                                         {"b", other_down}});
+  CHECK(rejected(named, {"rpm:sun", {}}) == Failure::usage);
+  apply({"rpm:driver", {}}, named);
+  CHECK(word(named, "speed_label") == "Speed of driver (rpm)");
+}
+
+TEST_CASE("names of designs stand in tables as they are, in pictures without marks") {
+  const Figure rest = compared_rest_figure({{"deep_root", at_rest(150)}, {"b", at_rest(150)}});
+  CHECK(rest.notes[0].starts_with("deep_root: "));
+  CHECK(word(rest, "line1").starts_with("deep\\_root: "));
+  CHECK(word(rest, "labels") == "'deep_root' 'b' ");  // of a key that reads no marks
 }
 
 TEST_CASE("templates of order cuts and of designs in motion draw both axes and levels") {
@@ -203,6 +231,14 @@ TEST_CASE("designs: what differs, with its change; gears by their role; keys of 
   CHECK(row(keys, "", "modification.crowning_um").value[1].starts_with("8"));
   for (const Difference& r : keys) CHECK(r.quantity.find("teeth") == std::string::npos);
   CHECK(differences({first, first}).empty());
+  // Names of which one begins with the other, as imports make them, and names that are words of the table.
+  Design numbered = first, mesh = first;
+  for (StaticArtifact& s : numbered.content.statics)
+    s.mesh.gear[0] = "stirnrad", s.mesh.gear[1] = "stirnrad_2";
+  for (StaticArtifact& s : mesh.content.statics) s.mesh.gear[0] = "mesh", s.mesh.gear[1] = "driver";
+  CHECK(differences({first, numbered}).empty());
+  CHECK(differences({numbered, mesh}).empty());
+  CHECK(compare_html({first, second}, {}).find("* At this speed") == std::string::npos);
   CHECK(scene_differences({first, first}).empty());
 
   const std::string page = compare_html({first, second}, {{"compare-rest", "\x89PNG IEND"}});

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "io/publish.h"
 #include "io/rexs_results.h"
@@ -11,7 +12,13 @@ using namespace whine;
 
 namespace {
 
-const RexsPair kPair{{30, 45}, {2.5e-3, 2.5e-3}, 94.5e-3};
+constexpr double kAngle = 20 * std::numbers::pi / 180;
+const RexsPair kPair{{30, 45}, {2.5e-3, 2.5e-3}, 94.5e-3, {kAngle, kAngle}, {0.25, 0.05}};
+
+void replace_all(std::string& in, const std::string& what, const std::string& with) {
+  for (size_t at = in.find(what); at != std::string::npos; at = in.find(what, at + with.size()))
+    in.replace(at, what.size(), with);
+}
 
 std::vector<RexsResult> some_results(double stiffness = 420.5) {
   return {{"version", "none", {}, false, "a \"quoted\" <word> & more"},
@@ -50,7 +57,7 @@ std::string exported(const Folder& folder, const std::string& path, const std::s
 RexsPair pair_of(const RexsScene& scene) {
   return scene.text.find("driver = \"wheel_b\"") == std::string::npos
              ? kPair
-             : RexsPair{{45, 30}, kPair.module, kPair.centre_distance};
+             : RexsPair{{45, 30}, kPair.module, kPair.centre_distance, kPair.pressure_angle, {0.05, 0.25}};
 }
 
 }  // namespace
@@ -139,12 +146,28 @@ TEST_CASE("REXS: results of another pair, of no stage, or that are no numbers ar
   const auto said = [&](const std::string& stage, const RexsPair& pair) {
     return message_of([&] { with_results(path, read_bytes(path), stage, pair, some_results()); });
   };
-  CHECK(said("12", {{30, 46}, kPair.module, kPair.centre_distance})
-            .find("has 30 and 45 teeth of module 2.5 mm at 94.5 mm; the results are of 30 and 46") !=
+  const auto changed = [](auto&& change) {
+    RexsPair pair = kPair;
+    change(pair);
+    return pair;
+  };
+  CHECK(said("12", kPair) == "no error");
+  CHECK(said("12", changed([](RexsPair& p) { p.teeth[1] = 46; }))
+            .find("has 30 and 45 teeth of module 2.5 mm at 94.5 mm, pressure angles 20 and 20 deg, profile "
+                  "shifts 0.25 and 0.05; the results are of 30 and 46") != std::string::npos);
+  CHECK(said("12", changed([](RexsPair& p) { p.module[1] = 2e-3; })).find("the results are of") !=
         std::string::npos);
-  CHECK(said("12", {{30, 45}, {2.5e-3, 2e-3}, kPair.centre_distance}).find("the results are of") !=
+  CHECK(said("12", changed([](RexsPair& p) { p.centre_distance = 94.6e-3; })).find("at 94.6 mm") !=
         std::string::npos);
-  CHECK(said("12", {{30, 45}, kPair.module, 94.6e-3}).find("at 94.6 mm") != std::string::npos);
+  // The same teeth of the same module at the same distance, with the sum of the shifts shared otherwise.
+  CHECK(said("12", changed([](RexsPair& p) {
+               p.profile_shift = {0.15, 0.15};
+             }))
+            .find("profile shifts 0.15 and 0.15") != std::string::npos);
+  CHECK(said("12", changed([](RexsPair& p) {
+               p.pressure_angle = {kAngle * 1.125, kAngle * 1.125};
+             }))
+            .find("pressure angles 22.5 and 22.5") != std::string::npos);
   CHECK(said("", kPair).find("name one with --stage") != std::string::npos);
   CHECK(said("Ninth", kPair).find("no stage is called 'Ninth'") != std::string::npos);
   CHECK(said("60", kPair).find("has no 'center_distance'") != std::string::npos);
@@ -163,4 +186,57 @@ TEST_CASE("REXS: results of another pair, of no stage, or that are no numbers ar
   } catch (const Error& e) {
     CHECK(e.kind() == Failure::numerical);
   }
+}
+
+TEST_CASE("REXS: the stage is found by the number of its id, however it is written") {
+  const Folder folder;
+  std::string as_xml = xml(first_pair()), as_json = json(first_pair());
+  replace_all(as_xml, "id=\"12\"", "id=\"012\"");
+  // Two spellings of one number: that of the component and that of the reference.
+  const size_t at = as_json.rfind("\"id\"", as_json.find("\"cylindrical_stage\""));
+  const size_t begin = as_json.find("12", at);
+  REQUIRE(begin < as_json.find("\n", at));
+  as_json.replace(begin, 2, "\"0012\"");
+  for (const std::string& path : {folder.file("m.rexs", as_xml), folder.file("m.rexsj", as_json)}) {
+    CAPTURE(path);
+    const std::string with = exported(folder, path, "with", "");
+    CHECK(holds_results(with));
+    CHECK(read_rexs(with).components.at(12).attributes.contains("custom_whine_contact_ratio"));
+  }
+}
+
+TEST_CASE("REXS: XML of an encoding that is not converted, or with entities, is not written anew") {
+  const Folder folder;
+  const auto with_head = [&](const std::string& head, const std::string& name) {
+    std::string out = xml(first_pair());
+    replace_all(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>", head);
+    replace_all(out, "First stage", name);
+    return folder.file("m.rexs", out);
+  };
+  const auto said = [&](const std::string& path) {
+    return message_of([&] { with_results(path, read_bytes(path), "", kPair, some_results()); });
+  };
+  const auto declared = [](const std::string& encoding) {
+    return "<?xml version=\"1.0\" encoding=\"" + encoding + "\"?>";
+  };
+  CHECK(said(with_head(declared("windows-1252"),
+                       "R\xe4"
+                       "der"))
+            .find("its XML is in windows-1252 with characters") != std::string::npos);
+  CHECK(said(with_head(declared("US-ASCII"),
+                       "R\xe4"
+                       "der"))
+            .find("save the model as UTF-8") != std::string::npos);
+  const std::string ascii = with_head(declared("windows-1252"), "Wheels");
+  CHECK(read_bytes(exported(folder, ascii, "with", "")).find("encoding=\"UTF-8\"") != std::string::npos);
+  const std::string latin = with_head(declared("ISO-8859-1"),
+                                      "R\xe4"
+                                      "der");
+  const std::string with = read_bytes(exported(folder, latin, "with", ""));
+  CHECK(with.find("encoding=\"UTF-8\"") != std::string::npos);
+  CHECK(with.find("R\xc3\xa4"
+                  "der") != std::string::npos);
+  CHECK(said(with_head(declared("UTF-8") + "<!DOCTYPE model [<!ENTITY unit \"mm\">]>", "Wheels"))
+            .find("defines entities") != std::string::npos);
+  CHECK(said(with_head(declared("UTF-8") + "<!DOCTYPE model>", "Wheels")) == "no error");
 }

@@ -7,13 +7,18 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
+#include <sstream>
 
 #include "base/error.h"
 #include "failure_of.h"
+#include "io/runup_codec.h"
 #include "io/transfer_function.h"
 #include "io/wav.h"
+#include "paper_pair.h"
 #include "relative.h"
+#include "report/sounds.h"
 #include "signal/sound.h"
 #include "signal/spectrum.h"
 
@@ -209,4 +214,139 @@ TEST_CASE("sound of a run-up in a WAV file: RMS, peak and spectrum are those of 
   CHECK(spectrum.amplitude[999] == relative(300, 1e-6));
   CHECK(spectrum.amplitude[1999] == relative(40, 1e-6));
   CHECK(spectrum.amplitude.head(999).maxCoeff() < 1e-4);
+}
+
+namespace {
+
+constexpr double kFrom = 1000, kTo = 1400;  // Hz
+
+// A run-up whose mesh force is a cosine of the mesh phase above a mean.
+RunupArtifact some_runup(double seconds, double amplitude, Direction direction = Direction::up) {
+  RunupArtifact a;
+  for (auto& gear : a.gear) {
+    gear.design = paper_gear(50);
+    gear.material = {206e9, 0.3, 7850, true};
+    gear.discretisation = {0.8e-3, 1, 8};
+  }
+  a.mesh = {"pinion", "wheel", 0.15, {false, std::numeric_limits<double>::infinity()}};
+  a.contact = {16, 64};
+  a.time = {64, 250e3, 1e-6};
+  a.damping = {0, 7.7e-6, 0.5e-3, 0};
+  a.inertia[0] = a.inertia[1] = 0.0148;
+  a.torque = 150;
+  a.mean_stiffness = 4e8;
+  a.bearing_damper = {1, 1};
+  a.natural_frequency = 2900;
+  a.direction = direction;
+  const bool up = direction == Direction::up;
+  a.ramp = {up ? kFrom : kTo, up ? kTo : kFrom, (kTo - kFrom) / seconds * 60 / 50};
+  a.mesh_acceleration = (a.ramp.to - a.ramp.from) / seconds;
+  a.sample_rate = 48000;
+  a.pair = Eigen::VectorXi{{0}};
+  const auto n = static_cast<Index>(std::lround(seconds * a.sample_rate));
+  RunupSamples& s = a.samples;
+  s.time = VectorXd::NullaryExpr(n, [&](Index i) { return static_cast<double>(i) / a.sample_rate; });
+  s.mesh_frequency = a.ramp.from + a.mesh_acceleration * s.time.array();
+  s.mesh_force =
+      s.time.unaryExpr([&](double t) { return 2000 + amplitude * std::cos(kTwoPi * a.mesh_phase(t)); });
+  s.transmission_error = VectorXd::Zero(n);
+  s.tooth_load = MatrixRM::Zero(n, 1);
+  RunupPeriods& p = a.periods;
+  p.time = VectorXd{{0}};
+  p.mesh_frequency = VectorXd{{a.ramp.from}};
+  p.dte_rms = p.dte_mean = p.separation_fraction = VectorXd{{0}};
+  p.tooth_load_max = VectorXd{{2000}};
+  a.backlash_margin = std::numeric_limits<double>::infinity();
+  return a;
+}
+
+std::string written(const Temporary& at, const RunupArtifact& a) {
+  RunupFile file(at.path(), Provenance{"gear-test", "gear-test --output x.h5", {}});
+  file.begin(a, a.samples.size(), a.periods.size());
+  file.take(a.samples);
+  file.take(a.periods);
+  file.end(a);
+  return at.path();
+}
+
+std::vector<std::vector<std::string>> lines_of(const std::string& table) {
+  std::vector<std::vector<std::string>> out;
+  std::istringstream in(table);
+  for (std::string line, cell; std::getline(in, line);) {
+    std::istringstream cells(line);
+    out.emplace_back();
+    while (std::getline(cells, cell, '\t')) out.back().push_back(cell);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "sounds of run-ups: levels in bands of two of known amplitude, up and down; short ones have fewer "
+    "bands") {
+  const Temporary quiet(""), loud(""), brief(""), tiny("");
+  // 0.1 of the force of the first: -20 dB in every band, whatever the direction.
+  const std::string first = written(loud, some_runup(1, 100)),
+                    second = written(quiet, some_runup(1, 10, Direction::down));
+  const Sounds both = sounds_of_runups({first, second}, "", nullptr);
+  CHECK(both.rate == 48000);
+  const auto lines = lines_of(both.table);
+  REQUIRE(lines.size() == 102);
+  CHECK(lines[1] == std::vector<std::string>{"mesh_frequency_Hz", "up_dB", "down_dB", "down_above_first_dB"});
+  for (size_t i = 2; i < lines.size(); ++i) {
+    CHECK(std::stod(lines[i][0]) == relative(kFrom + (i - 1.5) * (kTo - kFrom) / 100, 1e-3));
+    // A band has ten periods, and a share of one.
+    CHECK(std::abs(std::stod(lines[i][1]) - 20 * std::log10(100 / std::sqrt(2))) < 0.5);
+    CHECK(std::abs(std::stod(lines[i][3]) + 20) < 0.5);
+  }
+  const auto same = lines_of(sounds_of_runups({first, first}, "", nullptr).table);
+  for (size_t i = 2; i < same.size(); ++i) CHECK(std::stod(same[i][3]) == 0);
+
+  const std::string short_one = written(brief, some_runup(0.05, 100));
+  const auto few = lines_of(sounds_of_runups({short_one}, "", nullptr).table);
+  CHECK(few.size() == 2 + 25);  // 2 ms each
+  const std::string too_short = written(tiny, some_runup(1.5e-3, 100));
+  try {
+    sounds_of_runups({first, too_short}, "", nullptr);
+    FAIL("accepted");
+  } catch (const Error& e) {
+    CHECK(e.kind() == Failure::input);
+    CHECK(std::string(e.what()).find("2 ms are the least for a level") != std::string::npos);
+  }
+}
+
+TEST_CASE("sounds of run-ups: none in common, other rates and silence are rejected by name") {
+  const Temporary one(""), other("");
+  const std::string first = written(one, some_runup(0.1, 100));
+  const auto said = [&](const auto& change) {
+    RunupArtifact a = some_runup(0.1, 100);
+    change(a);
+    const std::string path = written(other, a);
+    try {
+      sounds_of_runups({first, path}, "", nullptr);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CHECK(said([](RunupArtifact&) {}).empty());
+  CHECK(said([](RunupArtifact& a) {
+          a.samples.mesh_frequency.array() += 1000;
+        }).find("no mesh frequency in common") != std::string::npos);
+  CHECK(said([](RunupArtifact& a) { a.sample_rate = 44100; }).find("has 44100 samples a second") !=
+        std::string::npos);
+  CHECK(said([](RunupArtifact& a) { a.sample_rate = 44100.5; }).find("a sound a whole number") !=
+        std::string::npos);
+  CHECK(said([](RunupArtifact& a) {
+          a.samples.mesh_force.setConstant(2000);
+        }).find("nothing is heard of up_2") != std::string::npos);
+  VectorXd broken = VectorXd::Ones(10);
+  broken[7] = std::numeric_limits<double>::infinity();
+  try {
+    filtered(broken, 48000, nullptr);
+    FAIL("accepted");
+  } catch (const Error& e) {
+    CHECK(std::string(e.what()).find("sample 7 of 10 is inf") != std::string::npos);
+  }
 }

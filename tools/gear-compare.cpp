@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "base/tool.h"
 #include "io/publish.h"
 #include "io/summary.h"
@@ -21,7 +20,7 @@ namespace {
 using namespace whine;
 
 struct Inputs {
-  std::string scene;
+  std::string name;
   std::vector<std::string> paths;
 };
 
@@ -44,18 +43,13 @@ void body(int argc, char** argv) {
       pictures.push_back(path);
       continue;
     }
-    const std::string scene = scene_words(path);
-    if (scene.empty())
-      fail(Failure::input, path,
-           ": lies in no folder of a scene, so its design has no name; give out/<scene>/...");
-    auto found =
-        std::find_if(scenes.begin(), scenes.end(), [&](const Inputs& s) { return s.scene == scene; });
-    if (found == scenes.end()) found = scenes.insert(scenes.end(), Inputs{scene, {}});
+    const std::string name = design_name(path);
+    auto found = std::find_if(scenes.begin(), scenes.end(), [&](const Inputs& s) { return s.name == name; });
+    if (found == scenes.end()) found = scenes.insert(scenes.end(), Inputs{name, {}});
     found->paths.push_back(path);
   }
   std::vector<Design> designs;
-  for (const Inputs& scene : scenes)
-    designs.push_back({scene.scene.substr(0, scene.scene.find(": ")), read_report_content(scene.paths)});
+  for (const Inputs& scene : scenes) designs.push_back({scene.name, read_report_content(scene.paths)});
 
   const std::string page = compare_html(designs, read_report_content(pictures).pictures),
                     table = compare_tsv(designs);

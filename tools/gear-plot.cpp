@@ -65,11 +65,13 @@ void body(int argc, char** argv) {
   options.add("--paper-figure", beside,
               "for pairs of P2000: the title says which figure of it shows the same, as in fig07");
   whine::EngineeringAxes axes;
+  std::vector<double> references;  // none or one
   options.add(
       "--axis", axes.speed,
       "figures against speed: rpm:<gear> in place of the mesh frequency; also rpm:driver, rpm:driven");
-  options.add("--db", axes.level_reference,
-              "order-cuts, compare-motion, runup: amplitudes in dB re this length in m, as 1e-6");
+  options.add("--db", references,
+              "order-cuts, compare-motion, runup: RMS (of an order its amplitude / sqrt 2) in dB re this "
+              "length in m, as 1e-6");
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
   options.footer(footer());
   options.parse(argc, argv);
@@ -100,6 +102,9 @@ void body(int argc, char** argv) {
   whine::Figure figure = whine::figure_of(name, inputs, mesh_frequencies, others);
   if (const std::string paper = whine::paper_figure(beside); !paper.empty())
     figure.title += ", as " + paper + " of P2000";
+  if (references.size() > 1)
+    whine::fail(whine::Failure::usage, "--db is given ", references.size(), " times");
+  if (!references.empty()) axes.level_reference = references[0];
   whine::apply(axes, figure);
   publish_figure(figure, inputs, sources, output, plots + "/" + name + ".gp");
 }

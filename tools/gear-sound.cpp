@@ -37,7 +37,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "path without extension").required();
   options.add("--bearing", bearing, "<gear>:x or <gear>:y: the force on its bearing; else the mesh force");
   options.add("--transfer", transfer_path, "CSV: frequency_Hz, magnitude, phase_deg");
-  options.add("--seconds", seconds, "of each branch of a sweep").show_default();
+  options.add("--seconds", seconds, "of each branch of a sweep").show_default().needs(sweep);
   options
       .add("--full-scale", full_scale,
            "N (or unit of the transfer function's output) of a full scale; 0: a tenth above the loudest")

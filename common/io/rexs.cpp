@@ -1,10 +1,7 @@
 #include "io/rexs.h"
 
-#include <jsoncpp/json/json.h>
-
 #include <algorithm>
 #include <charconv>
-#include <memory>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -12,17 +9,10 @@
 #include "base/tool.h"
 #include "io/publish.h"
 #include "io/rexs_archive.h"
+#include "io/rexs_json.h"
 
 namespace whine {
 namespace {
-
-int id_of(const std::string& path, const std::string& word, const char* what) {
-  int id = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
-  if (error != std::errc() || end != word.data() + word.size() || id < 0)
-    reject_rexs(path, text("the id '", word, "' of a ", what, " is no number from 0 on"));
-  return id;
-}
 
 void add(const std::string& path, std::map<int, RexsComponent>& components, RexsComponent component) {
   const int id = component.id;
@@ -34,7 +24,7 @@ void add(const std::string& path, std::map<int, RexsComponent>& components, Rexs
 
 RexsComponent component_of(const std::string& path, const pugi::xml_node& node) {
   RexsComponent out;
-  out.id = id_of(path, node.attribute("id").value(), "component");
+  out.id = rexs_id(path, node.attribute("id").value(), "component");
   out.type = node.attribute("type").value();
   out.name = node.attribute("name").value();
   for (const pugi::xml_node& attribute : node.children("attribute")) {
@@ -66,7 +56,7 @@ void read_xml(const std::string& bytes, RexsModel& model) {
     RexsRelation relation{node.attribute("type").value(), {}};
     for (const pugi::xml_node& ref : node.children("ref"))
       relation.references.push_back(
-          {ref.attribute("role").value(), id_of(model.path, ref.attribute("id").value(), "reference")});
+          {ref.attribute("role").value(), rexs_id(model.path, ref.attribute("id").value(), "reference")});
     model.relations.push_back(std::move(relation));
   }
   for (const pugi::xml_node& node : root.child("load_spectrum").children("load_case")) {
@@ -84,7 +74,7 @@ std::string word_of(const Json::Value& value) {
 
 RexsComponent component_of(const std::string& path, const Json::Value& node) {
   RexsComponent out;
-  out.id = id_of(path, word_of(node["id"]), "component");
+  out.id = rexs_id(path, word_of(node["id"]), "component");
   out.type = word_of(node["type"]);
   out.name = word_of(node["name"]);
   for (const Json::Value& attribute : node["attributes"]) {
@@ -101,15 +91,7 @@ RexsComponent component_of(const std::string& path, const Json::Value& node) {
 }
 
 void read_json(const std::string& bytes, RexsModel& model) {
-  Json::CharReaderBuilder builder;
-  builder["collectComments"] = false;
-  Json::Value document;
-  std::string why;
-  const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());
-  if (!reader->parse(bytes.data(), bytes.data() + bytes.size(), &document, &why))
-    reject_rexs(model.path, "its JSON is broken: " + why.substr(why.find_first_not_of("* \n")));
-  if (!document.isObject() || !document["model"].isObject())
-    reject_rexs(model.path, "its JSON holds no \"model\"");
+  const Json::Value document = rexs_json(model.path, bytes);
   const Json::Value& root = document["model"];
   model.version = word_of(root["version"]);
   for (const Json::Value& node : root["components"])
@@ -118,7 +100,7 @@ void read_json(const std::string& bytes, RexsModel& model) {
     RexsRelation relation{word_of(node["type"]), {}};
     for (const Json::Value& ref : node["refs"])
       relation.references.push_back(
-          {word_of(ref["role"]), id_of(model.path, word_of(ref["id"]), "reference")});
+          {word_of(ref["role"]), rexs_id(model.path, word_of(ref["id"]), "reference")});
     model.relations.push_back(std::move(relation));
   }
   for (const Json::Value& node : root["load_spectrum"]["load_cases"]) {
@@ -137,6 +119,14 @@ void check_version(const RexsModel& model) {
 }
 
 }  // namespace
+
+int rexs_id(const std::string& path, const std::string& word, const char* what) {
+  int id = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
+  if (error != std::errc() || end != word.data() + word.size() || id < 0)
+    reject_rexs(path, text("the id '", word, "' of a ", what, " is no number from 0 on"));
+  return id;
+}
 
 int RexsRelation::in_role(const std::string& role) const {
   for (const Reference& reference : references)

@@ -28,4 +28,8 @@ std::string archive_with_model(const std::string& path, const std::string& archi
 std::string rexs_text(const std::string& path, std::string bytes);
 RexsModel parse_rexs(const std::string& path, const std::string& text);
 
+// The number of an id of a component or reference, as it is written ("012" is 12); what: of what, for the message. Throws
+// Error(input) for what is no whole number from 0 on.
+int rexs_id(const std::string& path, const std::string& word, const char* what);
+
 }  // namespace whine

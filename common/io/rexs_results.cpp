@@ -1,23 +1,26 @@
 #include "io/rexs_results.h"
 
-#include <jsoncpp/json/json.h>
-
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <memory>
+#include <numbers>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/tool.h"
 #include "io/publish.h"
 #include "io/rexs_archive.h"
+#include "io/rexs_json.h"
 #include "io/rexs_stage.h"
 
 namespace whine {
 namespace {
 
-constexpr RexsUnit kNumber{"", RexsDimension::number, 1}, kMetre{"m", RexsDimension::length, 1};
+constexpr RexsUnit kNumber{"", RexsDimension::number, 1}, kMetre{"m", RexsDimension::length, 1},
+    kRadian{"rad", RexsDimension::angle, 1};
 
 // Nine digits: fewer than round-off has, so that other machines write the same.
 std::string digits(const std::string& path, const RexsResult& result, double value) {
@@ -33,22 +36,43 @@ void require_stage_of(const RexsModel& model, const std::string& wanted, const R
   id = stage.stage().id;
   constexpr double kSame = 1e-9;  // relative: what rounding to the digits of a file leaves
   const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); };
-  std::array<double, 2> teeth, module;
+  std::array<double, 2> teeth, module, angle, shift;
   for (int g : {0, 1}) {
     const auto at = static_cast<size_t>(g);
     teeth[at] = stage.required(&stage.gear(g), stage.gear(g), "number_of_teeth", kNumber).value;
     module[at] = stage.required(&stage.gear(g), stage.gear(g), "normal_module", kMetre).value;
   }
   const double distance = stage.required(&stage.stage(), stage.stage(), "center_distance", kMetre).value;
+  for (int g : {0, 1}) {
+    const auto at = static_cast<size_t>(g);
+    angle[at] = stage.of_flanks(g, "normal_pressure_angle", kRadian).value;
+    shift[at] = stage.of_flanks(g, "addendum_modification_coefficient", kNumber).value;
+  }
   const auto fits = [&](size_t first, size_t second) {
-    return same(teeth[first], pair.teeth[0]) && same(teeth[second], pair.teeth[1]) &&
-           same(module[first], pair.module[0]) && same(module[second], pair.module[1]);
+    for (const auto& [g, of_pair] : {std::pair{first, size_t{0}}, std::pair{second, size_t{1}}})
+      if (!same(teeth[g], pair.teeth[of_pair]) || !same(module[g], pair.module[of_pair]) ||
+          !same(angle[g], pair.pressure_angle[of_pair]) ||
+          !(std::abs(shift[g] - pair.profile_shift[of_pair]) <= kSame))
+        return false;
+    return true;
+  };
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const auto words = [](const auto& z, const auto& m, double a, const auto& alpha, const auto& x) {
+    return text(z[0], " and ", z[1], " teeth of module ", 1e3 * m[0],
+                m[1] == m[0] ? "" : text(" and ", 1e3 * m[1]), " mm at ", 1e3 * a, " mm, pressure angles ",
+                kDegrees * alpha[0], " and ", kDegrees * alpha[1], " deg, profile shifts ", x[0], " and ",
+                x[1]);
   };
   if (!(fits(0, 1) || fits(1, 0)) || !same(distance, pair.centre_distance))
-    fail(Failure::input, model.path, ": ", quoted_name(stage.stage()), " has ", teeth[0], " and ", teeth[1],
-         " teeth of module ", 1e3 * module[0], " mm at ", 1e3 * distance, " mm; the results are of ",
-         pair.teeth[0], " and ", pair.teeth[1], " teeth of module ", 1e3 * pair.module[0], " mm at ",
-         1e3 * pair.centre_distance, " mm: give the model or the stage that the scene was imported from");
+    fail(Failure::input, model.path, ": ", quoted_name(stage.stage()), " has ",
+         words(teeth, module, distance, angle, shift), "; the results are of ",
+         words(pair.teeth, pair.module, pair.centre_distance, pair.pressure_angle, pair.profile_shift),
+         ": give the model or the stage that the scene was imported from");
+}
+
+[[noreturn]] void reject_lost_stage(const std::string& path, int id) {
+  fail(Failure::numerical, path, ": the component ", id,
+       " of the stage is not found a second time; save the model anew with the program that wrote it");
 }
 
 // --- XML: lines of the stage's component stay as they are
@@ -94,16 +118,41 @@ void add_result(const std::string& path, pugi::xml_node component, const RexsRes
   }
 }
 
+// pugixml converts UTF-8 and ISO 8859-1 and takes all else for UTF-8.
+void require_convertible(const std::string& path, const std::string& bytes, pugi::xml_document& document) {
+  const bool ascii =
+      std::all_of(bytes.begin(), bytes.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  for (const pugi::xml_node& node : document.children()) {
+    std::string encoding = node.attribute("encoding").value();
+    for (char& c : encoding) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    constexpr std::array kConverted{"", "utf-8", "utf8", "iso-8859-1", "latin1"};
+    if (node.type() == pugi::node_declaration && !ascii &&
+        std::find(kConverted.begin(), kConverted.end(), encoding) == kConverted.end())
+      fail(Failure::input, path, ": its XML is in ", printable(encoding, 40),
+           " with characters beyond ASCII, which is not converted; save the model as UTF-8 and export again");
+    if (node.type() == pugi::node_doctype && std::string(node.value()).find("<!ENTITY") != std::string::npos)
+      fail(
+          Failure::input, path,
+          ": its XML defines entities (<!ENTITY), which would not stay as they are; save the model without a "
+          "DOCTYPE and export again");
+  }
+}
+
 std::string xml_with(const std::string& path, const std::string& bytes, int id,
                      const std::vector<RexsResult>& results) {
   pugi::xml_document document;
   document.load_buffer(bytes.data(), bytes.size(), pugi::parse_full | pugi::parse_ws_pcdata);
+  require_convertible(path, bytes, document);
+  bool found = false;
   for (pugi::xml_node& node : document.child("model").child("components").children("component")) {
-    if (node.attribute("id").value() != std::to_string(id)) continue;
+    // By the number: "012" is 12.
+    if (rexs_id(path, node.attribute("id").value(), "component") != id) continue;
+    found = true;
     remove_results(node);
     const std::string indent = is_blank(node.first_child()) ? node.first_child().value() : "";
     for (const RexsResult& result : results) add_result(path, node, result, indent);
   }
+  if (!found) reject_lost_stage(path, id);
   for (pugi::xml_node node : document.children())
     if (node.type() == pugi::node_declaration && node.attribute("encoding"))
       node.attribute("encoding").set_value("UTF-8");
@@ -132,15 +181,9 @@ std::string json_result(const std::string& path, const RexsResult& result) {
 
 std::string json_with(const std::string& path, const std::string& bytes, int id,
                       const std::vector<RexsResult>& results) {
-  Json::CharReaderBuilder builder;
-  builder["collectComments"] = false;
-  Json::Value document;
-  std::string why;
-  const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());
-  reader->parse(bytes.data(), bytes.data() + bytes.size(), &document, &why);
+  const Json::Value document = rexs_json(path, bytes);
   for (const Json::Value& node : document["model"]["components"]) {
-    if (!node["id"].isConvertibleTo(Json::stringValue) || node["id"].asString() != std::to_string(id))
-      continue;
+    if (rexs_id(path, node["id"].asString(), "component") != id) continue;
     const Json::Value& attributes = node["attributes"];
     std::string inside;
     const auto add = [&](const std::string& attribute) {
@@ -160,7 +203,7 @@ std::string json_with(const std::string& path, const std::string& bytes, int id,
     const auto end = static_cast<size_t>(node.getOffsetLimit()) - 1;
     return bytes.substr(0, end) + ", \"attributes\": [" + inside + "]" + bytes.substr(end);
   }
-  fail(Failure::numerical, path, ": the stage ", id, " is not found again");
+  reject_lost_stage(path, id);
 }
 
 }  // namespace

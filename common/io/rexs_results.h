@@ -1,6 +1,9 @@
 // Results of a stage as custom attributes of a REXS model: a copy of the file in its own form (XML, JSON or zip archive), in which
-// the component of the stage has attributes more, whose ids begin with `custom_whine_`. All else stays: of JSON and of other
-// entries of an archive byte for byte, of XML but for line ends, quotation marks and the encoding, which become \n, " and UTF-8.
+// the component of the stage has attributes more, whose ids begin with `custom_whine_`.
+//
+// JSON outside of the attributes of the stage and the other entries of an archive stay byte for byte. XML is written anew from what
+// was parsed: elements, attributes, texts and comments stay, with their order; line ends, quotation marks, blanks within tags,
+// character references and empty elements may be spelt otherwise, and the encoding becomes UTF-8.
 #pragma once
 #include <array>
 #include <string>
@@ -22,13 +25,15 @@ struct RexsResult {
 // What tells the pair that results are of from another one.
 struct RexsPair {
   std::array<int, 2> teeth;
-  std::array<double, 2> module;  // m
-  double centre_distance;        // m
+  std::array<double, 2> module;                         // m
+  double centre_distance;                               // m
+  std::array<double, 2> pressure_angle, profile_shift;  // rad, in modules
 };
 
 // bytes: of the file at `path`, which stands in messages; stage: as of scene_of_rexs. Results that the stage has already are
 // replaced. Values have nine digits. Throws Error(input) for what read_rexs and scene_of_rexs reject, and for a stage of other
-// teeth, module or centre distance than the pair.
+// teeth, module, centre distance, pressure angle or profile shift than the pair, for XML of an encoding that is not converted (neither UTF-8 nor
+// ISO 8859-1, with characters beyond ASCII) and for XML that defines entities.
 std::string with_results(const std::string& path, const std::string& bytes, const std::string& stage,
                          const RexsPair& pair, const std::vector<RexsResult>& results);
 

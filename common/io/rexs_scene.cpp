@@ -74,17 +74,6 @@ std::string section_name(const RexsComponent& c) {
   return out.empty() || out.size() > 40 ? text("gear_", c.id) : out;
 }
 
-// As both flanks have it.
-RexsNumber of_flanks(RexsStage& stage, int side, const std::string& attribute, const RexsUnit& unit) {
-  const RexsComponent *left = stage.flank(side, "left"), *right = stage.flank(side, "right");
-  const RexsNumber one = stage.required(left ? left : right, stage.gear(side), attribute, unit);
-  const std::optional<RexsNumber> other = stage.number(right, attribute, unit);
-  if (other && std::abs(other->value - one.value) > 1e-9)
-    fail(Failure::input, stage.path(), ": the flanks of ", quoted_name(stage.gear(side)),
-         " differ: ", attribute, " = ", one.value, " and ", other->value, "; a scene has symmetric teeth");
-  return one;
-}
-
 void check_spur(RexsStage& stage, int side) {
   const RexsComponent& gear = stage.gear(side);
   if (gear.type != "cylindrical_gear")
@@ -304,8 +293,8 @@ Written write_gear(RexsStage& stage, int side, const std::string& name, const st
   out.section("[gear." + name + "]   # " + quoted_name(gear));
   const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kNumber),
                    module = stage.required(&gear, gear, "normal_module", kMillimetre),
-                   angle = of_flanks(stage, side, "normal_pressure_angle", kDegree),
-                   shift = of_flanks(stage, side, "addendum_modification_coefficient", kNumber);
+                   angle = stage.of_flanks(side, "normal_pressure_angle", kDegree),
+                   shift = stage.of_flanks(side, "addendum_modification_coefficient", kNumber);
   if (teeth.value != std::round(teeth.value) || teeth.value > 1e6)
     fail(Failure::input, stage.path(), ": ", teeth.origin, " = ", teeth.value, " is no number of teeth");
   out.whole("teeth", teeth);

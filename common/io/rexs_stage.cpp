@@ -210,4 +210,14 @@ void RexsStage::put_driver_first() {
                         : "gear_1 of the stage: the model has no is_driving_gear";
 }
 
+RexsNumber RexsStage::of_flanks(int side, const std::string& attribute, const RexsUnit& unit) {
+  const RexsComponent *left = flank(side, "left"), *right = flank(side, "right");
+  const RexsNumber one = required(left ? left : right, gear(side), attribute, unit);
+  const std::optional<RexsNumber> other = number(right, attribute, unit);
+  if (other && std::abs(other->value - one.value) > 1e-9)
+    fail(Failure::input, path(), ": the flanks of ", quoted_name(gear(side)), " differ: ", attribute, " = ",
+         one.value, " and ", other->value, "; a scene has symmetric teeth");
+  return one;
+}
+
 }  // namespace whine

@@ -58,6 +58,8 @@ class RexsStage {
                                    const RexsUnit& unit);
   RexsNumber required(const RexsComponent* c, const RexsComponent& owner, const std::string& attribute,
                       const RexsUnit& unit);
+  // Of both flanks of a gear, which must agree.
+  RexsNumber of_flanks(int side, const std::string& attribute, const RexsUnit& unit);
   std::string word(const RexsComponent* c, const std::string& attribute);
 
   // Attributes that were not read, of components and load case, where any was read of the component; results are left out.

@@ -580,4 +580,12 @@ std::string scene_words(const std::string& path) {
   return "";
 }
 
+std::string design_name(const std::string& path) {
+  const std::string scene = scene_words(path);
+  if (scene.empty())
+    fail(Failure::input, path,
+         ": lies in no folder of a scene, so its design has no name; give out/<scene>/...");
+  return scene.substr(0, scene.find(": "));
+}
+
 }  // namespace whine

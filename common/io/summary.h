@@ -23,4 +23,7 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
 // that is its title, "" if no folder above the artifact is a scene's. One line of 160 characters at most.
 std::string scene_words(const std::string& path);
 
+// The file alone: what designs side by side are called by. Throws Error(input) for an artifact in no folder of a scene.
+std::string design_name(const std::string& path);
+
 }  // namespace whine

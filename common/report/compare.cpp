@@ -5,20 +5,18 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "base/tool.h"
-#include "io/publish.h"
 #include "io/scene_keys.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/report_geometry.h"
 #include "report/report_results.h"
-#include "report/report_style.h"
 #include "report/report_tables.h"
 
 namespace whine {
 namespace {
 
 constexpr const char* kNone = "–";
+constexpr const char* kStar = " *";  // behind a value of a motion beyond the backlash
 
 // Nothing for what is no single number, such as a list of jumps.
 bool is_number(const std::string& words, double& value) {
@@ -79,18 +77,14 @@ std::vector<double> common_torques(const std::vector<Design>& designs) {
 }
 
 // Gears are called by their role: two designs may name them differently.
-std::string by_role(std::string words, const StaticArtifact& s) {
-  for (int g = 0; g < kSides; ++g) {
-    const std::string& name = s.mesh.gear[g];
-    for (size_t at = words.find(name); !name.empty() && at != std::string::npos;
-         at = words.find(name, at + 1)) {
-      const bool whole = (at == 0 || !std::isalnum(static_cast<unsigned char>(words[at - 1]))) &&
-                         (at + name.size() == words.size() ||
-                          !std::isalnum(static_cast<unsigned char>(words[at + name.size()])));
-      if (whole) words.replace(at, name.size(), kRole[g]);
-    }
-  }
-  return words;
+ReportContent by_role(ReportContent c) {
+  const auto rename = [](auto& artifact) {
+    for (int g = 0; g < kSides; ++g) artifact.mesh.gear[g] = kRole[g];
+  };
+  for (StaticArtifact& s : c.statics) rename(s);
+  for (ImpactArtifact& a : c.impacts) rename(a);
+  for (ReportSweep& sweep : c.sweeps) rename(sweep.response);
+  return c;
 }
 
 void require_designs(const std::vector<Design>& designs) {
@@ -136,9 +130,7 @@ std::string picture_html(const ReportPicture& picture) {
             "harmonics of the error."
           : "RMS and first order of the dynamic transmission error and largest tooth load over T / r_b "
             "against speed; falling speed dashed. Where the two lines of a design part it has two motions.";
-  return text("<figure id=\"", html::escaped(picture.name), "\">\n<img alt=\"", html::escaped(picture.name),
-              "\" src=\"data:image/png;base64,", base64(picture.bytes), "\">\n<figcaption><strong>", title,
-              " (", html::escaped(picture.name), ").</strong> ", words, "</figcaption>\n</figure>\n");
+  return html::figure(picture.name, picture.bytes, title, html::escaped(words));
 }
 
 }  // namespace
@@ -148,12 +140,12 @@ std::vector<Difference> differences(const std::vector<Design>& designs) {
   const std::vector<double> torques = common_torques(designs);
   Rows rows(designs.size());
   for (size_t d = 0; d < designs.size(); ++d) {
-    const StaticArtifact& s = designs[d].content.statics.front();
-    for (const GeometryNumber& g : pair_geometry(s)) rows.put(d, "", by_role(g.quantity, s), g.unit, g.value);
-    for (const ReportNumber& n : report_numbers(designs[d].content))
+    const ReportContent content = by_role(designs[d].content);
+    for (const GeometryNumber& g : pair_geometry(content.statics.front()))
+      rows.put(d, "", g.quantity, g.unit, g.value);
+    for (const ReportNumber& n : report_numbers(content))
       if (std::find(torques.begin(), torques.end(), n.torque) != torques.end())
-        rows.put(d, shown(n.torque, 6), by_role(n.quantity, s), n.unit,
-                 n.value + (n.remark.empty() ? "" : " *"));
+        rows.put(d, shown(n.torque, 6), n.quantity, n.unit, n.value + (n.remark.empty() ? "" : kStar));
   }
   std::vector<Difference> out = rows.differing();
   // Results first: the geometry explains them.
@@ -211,13 +203,21 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
     names += (names.empty() ? "" : " / ") + d.name;
     list += html::tagged("li", html::escaped(d.content.scene)) + "\n";
   }
+  const std::vector<Difference> found = differences(designs);
+  const bool starred = std::any_of(found.begin(), found.end(), [](const Difference& row) {
+    return std::any_of(row.value.begin(), row.value.end(),
+                       [](const std::string& value) { return value.ends_with(kStar); });
+  });
   std::string inside =
       "<section id=\"differences\">\n<h2>Differences</h2>\n" +
-      table_of(designs, differences(designs),
+      table_of(designs, found,
                "Results that differ, at the torques that all designs have, then geometry; change against the "
                "first design. compare.tsv holds the same.",
                false) +
-      html::paragraph("* At this speed the motion is larger than the backlash, which is not modelled.") +
+      (starred ? html::paragraph(
+                     "* At this speed the motion is larger than the backlash; contact of back flanks is not "
+                     "modelled.")
+               : "") +
       table_of(designs, scene_differences(designs),
                "Keys of the scenes that differ; of driver / driven gear where these differ.", true) +
       "</section>\n<section id=\"figures\">\n<h2>On common axes</h2>\n";
@@ -226,13 +226,7 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
   for (const Design& d : designs)
     inside += "<section>\n<h2>" + html::escaped(d.name) + "</h2>\n" + remarks_list(d.content) +
               provenance_table(d.content) + "</section>\n";
-  return text(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
-      html::escaped(names), "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<header>\n<h1>",
-      html::escaped(names), "</h1>\n<ul>\n", list, "</ul>\n</header>\n<main>\n", inside,
-      "</main>\n<footer><p>Whine ", kVersion,
-      ", gear whine from elastic teeth that touch, part and touch again.</p></footer>\n</body>\n</html>\n");
+  return html::page(names, "<ul>\n" + list + "</ul>\n", inside);
 }
 
 }  // namespace whine

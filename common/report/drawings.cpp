@@ -164,13 +164,7 @@ Drawings drawings_at_rest() {
 template <class Artifact>
 std::vector<OfDesign<Artifact>> read_designs(const Paths& inputs, Artifact (*read)(const std::string&)) {
   std::vector<OfDesign<Artifact>> designs;
-  for (const std::string& path : inputs) {
-    const std::string scene = scene_words(path);
-    if (scene.empty())
-      fail(Failure::input, path,
-           ": lies in no folder of a scene, so its design has no name; give out/<scene>/...");
-    designs.push_back({scene.substr(0, scene.find(": ")), read(path)});
-  }
+  for (const std::string& path : inputs) designs.push_back({design_name(path), read(path)});
   return designs;
 }
 

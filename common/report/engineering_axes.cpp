@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
+#include "base/tool.h"
 
 namespace whine {
 namespace {
@@ -29,9 +31,9 @@ bool is_speed_column(const std::string& column) {
 const Shaft& shaft_of(const std::string& wanted, const Figure& figure) {
   constexpr const char* kKind = "rpm:";
   if (!wanted.starts_with(kKind))
-    fail(Failure::usage, "--axis ", wanted, ": it is rpm:<gear>, such as rpm:driver");
+    fail(Failure::usage, "--axis ", printable(wanted, 80), ": it is rpm:<gear>, such as rpm:driver");
   if (figure.shafts.empty())
-    fail(Failure::usage, "--axis ", wanted,
+    fail(Failure::usage, "--axis ", printable(wanted, 80),
          ": this figure is not against the speed of one pair of gears: ", "its axis stays as it is");
   const std::string name = wanted.substr(4);
   std::string known;
@@ -39,8 +41,8 @@ const Shaft& shaft_of(const std::string& wanted, const Figure& figure) {
     if (name == figure.shafts[g].gear || name == kRole[g]) return figure.shafts[g];
     known += (known.empty() ? "" : ", ") + figure.shafts[g].gear;
   }
-  fail(Failure::usage, "--axis ", wanted, ": there is no gear ", name, "; there are ", known,
-       ", also called driver and driven");
+  fail(Failure::usage, "--axis ", printable(wanted, 80), ": there is no gear ", printable(name, 80),
+       "; there are ", known, ", also called driver and driven");
 }
 
 void in_rpm(const Shaft& shaft, Figure& figure) {
@@ -72,28 +74,33 @@ std::string reference_words(double reference) {
 }
 
 void in_levels(double reference, Figure& figure) {
-  const auto is_level = [&](const std::string& column) {
-    return std::find(figure.levels.begin(), figure.levels.end(), column) != figure.levels.end();
+  // A level is of the RMS: that of a harmonic is its amplitude over sqrt(2). nullptr: no level.
+  const auto level_of = [&](const std::string& column) {
+    const auto found = std::find_if(figure.levels.begin(), figure.levels.end(),
+                                    [&](const LevelColumn& level) { return level.column == column; });
+    return found == figure.levels.end() ? nullptr : &*found;
   };
-  const std::string label = "dB re " + reference_words(reference);
-  const auto level = [&](double micrometres) {
-    return 20 * std::log10(std::max(micrometres, 1e-300) / (reference * kMicro));
+  const std::string label = "dB re " + reference_words(reference) + " RMS";
+  const auto level = [&](const LevelColumn& of, double micrometres) {
+    const double rms = of.amplitude ? micrometres / std::numbers::sqrt2 : micrometres;
+    return 20 * std::log10(std::max(rms, 1e-300) / (reference * kMicro));
   };
   double highest = -1e300, lowest = 1e300;
   for (const FigureBlock& block : figure.blocks)
     for (size_t c = 0; c < block.columns.size(); ++c)
-      if (is_level(block.columns[c]))
+      if (const LevelColumn* of = level_of(block.columns[c]))
         for (const auto& row : block.rows)
           if (!row.empty() && row[c] > 0) {
-            highest = std::max(highest, level(row[c]));
-            lowest = std::min(lowest, level(row[c]));
+            highest = std::max(highest, level(*of, row[c]));
+            lowest = std::min(lowest, level(*of, row[c]));
           }
   const double foot = std::floor((std::max(lowest, highest - kDepth) - 2) / 10) * 10;
   for (FigureBlock& block : figure.blocks)
     for (size_t c = 0; c < block.columns.size(); ++c) {
-      if (!is_level(block.columns[c])) continue;
+      const LevelColumn* of = level_of(block.columns[c]);
+      if (!of) continue;
       for (auto& row : block.rows)
-        if (!row.empty()) row[c] = std::max(highest - kSilence, level(row[c]));
+        if (!row.empty()) row[c] = std::max(highest - kSilence, level(*of, row[c]));
       block.columns[c] = block.columns[c].substr(0, block.columns[c].find(" [")) + " [" + label + "]";
     }
   figure.words.emplace_back("level_label", label);
@@ -105,15 +112,16 @@ void in_levels(double reference, Figure& figure) {
 
 void apply(const EngineeringAxes& axes, Figure& figure) {
   if (!axes.speed.empty()) in_rpm(shaft_of(axes.speed, figure), figure);
-  if (axes.level_reference == 0) return;
-  if (!(axes.level_reference > 0) || !std::isfinite(axes.level_reference))
-    fail(Failure::usage, "--db ", axes.level_reference, ": it is a length in m above 0, such as 1e-6");
+  if (!axes.level_reference) return;
+  const double reference = *axes.level_reference;
+  if (!(reference > 0) || !std::isfinite(reference))
+    fail(Failure::usage, "--db ", reference, ": it is a length in m above 0, such as 1e-6");
   if (figure.levels.empty())
     fail(
-        Failure::usage, "--db ", axes.level_reference,
+        Failure::usage, "--db ", reference,
         ": this figure has no amplitudes of the transmission error; it is for order-cuts, compare-motion and "
         "runup");
-  in_levels(axes.level_reference, figure);
+  in_levels(reference, figure);
 }
 
 }  // namespace whine

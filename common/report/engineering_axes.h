@@ -1,7 +1,9 @@
 // Figures in the axes that engineers use: speed as the rotation of a gear, amplitudes as levels.
 //
-//   n = 60 f / z   (rpm; f mesh frequency in Hz, z teeth of the gear),   L = 20 log10(a / reference)   (dB)
+//   n = 60 f / z   (rpm; f mesh frequency in Hz, z teeth of the gear),   L = 20 log10(RMS / reference)   (dB), RMS = a / sqrt(2) of a
+//   harmonic of amplitude a
 #pragma once
+#include <optional>
 #include <string>
 
 #include "report/figures.h"
@@ -11,7 +13,7 @@ namespace whine {
 struct EngineeringAxes {
   std::string
       speed;  // "rpm:<gear>", by its name or as "rpm:driver", "rpm:driven"; empty: mesh frequency in Hz
-  double level_reference = 0;  // m: amplitudes in dB re this; 0: in µm
+  std::optional<double> level_reference = {};  // m: levels in dB re this; none: in µm
 };
 
 // Columns, numbers and words of the figure; columns are renamed by their new unit, notes and lists of jumps stay in Hz. Axes of

@@ -119,10 +119,13 @@ void add_motion(const ReportContent& c, Direction direction, Collector& all) {
 RexsPair exported_pair(const ReportContent& c) {
   if (c.statics.empty())
     fail(Failure::input, "results: no static.h5 given; that of the scene's first torque is the least");
+  require_one_pair(c);
   const StaticArtifact& s = c.statics.front();
   return {{s.gear[0].design.teeth, s.gear[1].design.teeth},
           {s.gear[0].design.module, s.gear[1].design.module},
-          s.mesh.centre_distance};
+          s.mesh.centre_distance,
+          {s.gear[0].design.pressure_angle, s.gear[1].design.pressure_angle},
+          {s.gear[0].design.profile_shift, s.gear[1].design.profile_shift}};
 }
 
 std::vector<RexsResult> exported_results(const ReportContent& c) {

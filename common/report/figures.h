@@ -35,6 +35,12 @@ struct Shaft {
   int teeth = 0;
 };
 
+// A column (µm) that can be drawn as levels in dB.
+struct LevelColumn {
+  std::string column;
+  bool amplitude;  // of a harmonic; else an RMS
+};
+
 struct Figure {
   std::string title;
   std::vector<std::string> scenes;  // "file: title" of those that all of it shows; filled by the caller
@@ -44,8 +50,8 @@ struct Figure {
   std::vector<std::pair<std::string, std::string>> words;  // string variables of the template
   std::vector<Shaft> shafts =
       {};  // driver and driven gear, where the figure is against speed and all of it is of such gears
-  std::vector<std::string> levels = {};  // columns (µm) that can be drawn as levels in dB
-  int height = 1000;                     // of the picture beside a width of 1600; also a variable
+  std::vector<LevelColumn> levels = {};
+  int height = 1000;  // of the picture beside a width of 1600; also a variable
 };
 
 // %.<digits>g, %.<decimals>f: text() would show ten digits.
@@ -62,7 +68,7 @@ template <class Artifact>
 std::vector<Shaft> shafts_of(const Artifact& a) {
   return {{a.mesh.gear[0], a.gear[0].design.teeth}, {a.mesh.gear[1], a.gear[1].design.teeth}};
 }
-// Of several: none where their gears differ in name or number of teeth.
+// Of several: none where their gears differ in number of teeth; gears of other names are called by their role.
 template <class Artifacts>
 std::vector<Shaft> shafts_of_all(const Artifacts& all) {
   std::vector<Shaft> first;
@@ -70,7 +76,10 @@ std::vector<Shaft> shafts_of_all(const Artifacts& all) {
     const std::vector<Shaft> own = shafts_of(a);
     if (first.empty()) first = own;
     for (size_t g = 0; g < own.size(); ++g)
-      if (own[g].gear != first[g].gear || own[g].teeth != first[g].teeth) return {};
+      if (own[g].teeth != first[g].teeth)
+        return {};
+      else if (own[g].gear != first[g].gear)
+        first[g].gear = kRole[g];
   }
   return first;
 }

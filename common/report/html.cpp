@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+#include "base/tool.h"
+#include "io/publish.h"
+#include "report/report_style.h"
+
 namespace whine::html {
 namespace {
 
@@ -57,6 +62,22 @@ std::string table(const std::string& caption, const std::vector<std::string>& he
 
 std::string paragraph(const std::string& words) {
   return tagged("p", escaped(words)) + "\n";
+}
+
+std::string figure(const std::string& name, const std::string& png, const std::string& title,
+                   const std::string& caption) {
+  return text("<figure id=\"", escaped(name), "\">\n<img alt=\"", escaped(name),
+              "\" src=\"data:image/png;base64,", base64(png), "\">\n<figcaption><strong>", escaped(title),
+              " (", escaped(name), ").</strong> ", caption, "</figcaption>\n</figure>\n");
+}
+
+std::string page(const std::string& title, const std::string& header, const std::string& main) {
+  return text(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
+      escaped(title), "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<header>\n<h1>",
+      escaped(title), "</h1>\n", header, "</header>\n<main>\n", main, "</main>\n<footer><p>Whine ", kVersion,
+      ", gear whine from elastic teeth that touch, part and touch again.</p></footer>\n</body>\n</html>\n");
 }
 
 }  // namespace whine::html

@@ -19,4 +19,11 @@ std::string paragraph(const std::string& words);
 std::string table(const std::string& caption, const std::vector<std::string>& head, const Rows& rows,
                   const std::string& kind = "");
 
+// A PNG within the page, under its name. caption: marks, behind title and name.
+std::string figure(const std::string& name, const std::string& png, const std::string& title,
+                   const std::string& caption);
+
+// A whole document. header: marks below the title; main: marks.
+std::string page(const std::string& title, const std::string& header, const std::string& main);
+
 }  // namespace whine::html

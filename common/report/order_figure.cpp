@@ -48,7 +48,7 @@ Figure order_figure(const std::vector<ResponseArtifact>& sweeps) {
     to = std::max(to, r->mesh_frequency.maxCoeff());
   }
   figure.shafts = shafts_of_all(sweeps);
-  for (Eigen::Index k = 1; k <= orders; ++k) figure.levels.push_back(text("order_", k, " [µm]"));
+  for (Eigen::Index k = 1; k <= orders; ++k) figure.levels.push_back({text("order_", k, " [µm]"), true});
   figure.words.emplace_back("driver", without_markup(curve.up->mesh.gear[0]));
   for (const auto& [name, value] :
        {std::pair{"orders", static_cast<double>(orders)}, std::pair{"largest", largest},

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/tool.h"
 #include "gear/pair.h"
 #include "report/figures.h"
 #include "report/html.h"
@@ -12,7 +11,6 @@
 #include "report/report_geometry.h"
 #include "report/report_guide.h"
 #include "report/report_results.h"
-#include "report/report_style.h"
 #include "report/report_tables.h"
 
 namespace whine {
@@ -44,20 +42,7 @@ std::string introduction(const ReportContent& c) {
 void require_whole(const ReportContent& c) {
   if (c.statics.empty())
     fail(Failure::input, "report: no static.h5 given; that of the scene's first torque is the least");
-  const StaticArtifact& first = c.statics[0];
-  const auto same_pair = [&](const auto& a, const std::string& what) {
-    if (a.gear[0].design.teeth != first.gear[0].design.teeth ||
-        a.gear[1].design.teeth != first.gear[1].design.teeth ||
-        a.mesh.centre_distance != first.mesh.centre_distance ||
-        a.mesh.modification != first.mesh.modification)
-      fail(Failure::input, "report: ", what, " at ", a.torque,
-           " N m is of another pair than the static.h5 at ", first.torque,
-           " N m; give artifacts of one scene");
-  };
-  for (const auto& s : c.statics) same_pair(s, "a static.h5");
-  for (const auto& a : c.impacts) same_pair(a, "an impact.h5");
-  for (const auto& s : c.sweeps) same_pair(s.response, "a sweep.h5");
-  if (c.budget) same_pair(*c.budget, "the error_budget.h5");
+  require_one_pair(c);
   const std::vector<std::string> known = report_figures();
   for (size_t i = 0; i < c.pictures.size(); ++i) {
     const std::string& name = c.pictures[i].name;
@@ -111,14 +96,10 @@ std::string report_html(const ReportContent& c) {
     inside += text("<section id=\"", s.id, "\">\n<h2>", html::escaped(s.heading), "</h2>\n", s.inside,
                    "</section>\n");
   }
-  return text(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
-      html::escaped(title), "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<header>\n<h1>",
-      html::escaped(title), "</h1>\n<p class=\"scene\">Gear whine report of the scene <code>",
-      html::escaped(file), "</code></p>\n</header>\n<main>\n<nav aria-label=\"Contents\"><ol>\n", contents,
-      "</ol></nav>\n", inside, "</main>\n<footer><p>Whine ", kVersion,
-      ", gear whine from elastic teeth that touch, part and touch again.</p></footer>\n</body>\n</html>\n");
+  return html::page(
+      title,
+      "<p class=\"scene\">Gear whine report of the scene <code>" + html::escaped(file) + "</code></p>\n",
+      "<nav aria-label=\"Contents\"><ol>\n" + contents + "</ol></nav>\n" + inside);
 }
 
 }  // namespace whine

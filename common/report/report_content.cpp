@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "base/error.h"
 #include "contact/half_plane_strip.h"
@@ -28,6 +29,30 @@ const ImpactArtifact* impact_of(const ReportContent& c, double torque) {
   for (const ImpactArtifact& a : c.impacts)
     if (a.torque == torque) return &a;
   return nullptr;
+}
+
+void require_one_pair(const ReportContent& c) {
+  if (c.statics.empty()) return;
+  const StaticArtifact& first = c.statics[0];
+  const auto same_gear = [](const GearDesign& a, const GearDesign& b) {
+    return a.teeth == b.teeth && a.module == b.module && a.pressure_angle == b.pressure_angle &&
+           a.profile_shift == b.profile_shift && a.face_width == b.face_width;
+  };
+  std::set<std::pair<std::string, double>> seen;
+  const auto take = [&](const auto& a, const std::string& what) {
+    if (!same_gear(a.gear[0].design, first.gear[0].design) ||
+        !same_gear(a.gear[1].design, first.gear[1].design) ||
+        a.mesh.centre_distance != first.mesh.centre_distance ||
+        a.mesh.modification != first.mesh.modification)
+      fail(Failure::input, what, " at ", torque_words(a.torque), " is of another pair than the static.h5 at ",
+           torque_words(first.torque), "; give artifacts of one scene");
+    if (!seen.emplace(what, a.torque).second)
+      fail(Failure::input, what, " at ", torque_words(a.torque), " is given twice; give one of each torque");
+  };
+  for (const auto& s : c.statics) take(s, "a static.h5");
+  for (const auto& a : c.impacts) take(a, "an impact.h5");
+  for (const auto& s : c.sweeps) take(s.response, text("a sweep.h5 ", s.response.direction));
+  if (c.budget) take(*c.budget, "the error_budget.h5");
 }
 
 double static_force(const StaticArtifact& s) {

@@ -45,6 +45,10 @@ struct ReportContent {
 const ReportSweep* sweep_of(const ReportContent& c, double torque, Direction direction);
 const ImpactArtifact* impact_of(const ReportContent& c, double torque);
 
+// Throws Error(input) for artifacts of different gears or modifications, and for two of one kind at one torque (of sweeps: and of one
+// direction).
+void require_one_pair(const ReportContent& c);
+
 double static_force(const StaticArtifact& s);  // N: T / r_b
 double peak_to_peak(const Eigen::VectorXd& v);
 

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "base/error.h"
-#include "io/publish.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/response_figures.h"
@@ -69,7 +68,7 @@ std::string beyond_words(const ReportContent& c, double torque) {
 
 std::string of_response(const ReportContent& c) {
   std::string out =
-      "RMS of the oscillating part of the dynamic transmission error against mesh frequency, with speed "
+      "RMS of the oscillating part of the dynamic transmission error against speed, with speed "
       "rising and falling; f_n is the natural frequency with the contact frozen under the static load, mean "
       "over the "
       "mesh period. ";
@@ -118,7 +117,7 @@ std::string of_tooth_loads(const ReportContent& c) {
   const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
                     *down = sweep_of(c, s.torque, Direction::down);
   std::string out =
-      "Largest load of a tooth pair against mesh frequency (above), and the loads over the mesh period at "
+      "Largest load of a tooth pair against speed (above), and the loads over the mesh period at "
       "the speed with the largest "
       "vibration (below).";
   if (up && down) {
@@ -131,7 +130,7 @@ std::string of_tooth_loads(const ReportContent& c) {
 }
 
 std::string of_bearings(const ReportContent& c) {
-  return "Force of each gear on its bearing against mesh frequency: what a housing hears. RMS of the "
+  return "Force of each gear on its bearing against speed: what a housing hears. RMS of the "
          "oscillating part, at most " +
          at_torques(c,
                     [&](const StaticArtifact& s) {
@@ -195,7 +194,7 @@ const std::vector<Explained>& explained() {
              "is multiplied by them in each mesh period. Inside the unit circle it decays. A branch folds "
              "at 1; at -1 its period doubles.")},
       {"fig14-elastic", "motion", "RMS and mean over speed",
-       plain("RMS and mean of the dynamic transmission error against mesh frequency.")},
+       plain("RMS and mean of the dynamic transmission error against speed.")},
       {"waterfall", "motion", "Spectra over speed", of_waterfall},
       {"order-cuts", "motion", "Order cuts",
        plain("Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission "
@@ -226,11 +225,13 @@ std::string figure(const ReportContent& c, const ReportPicture& picture, const E
       !paper.empty() && of_paper(c.statics[0].gear[0].design) && of_paper(c.statics[0].gear[1].design))
     words += text(" ", picture.name, " shows of this pair what ", paper, " of P2000 ",
                   paper.starts_with("Figures") ? "show" : "shows", " of its own.");
-  return text("<figure id=\"", picture.name, "\">\n<img alt=\"", html::escaped(picture.name),
-              "\" src=\"data:image/png;base64,", base64(picture.bytes), "\">\n<figcaption><strong>",
-              kind.title, " (", picture.name, ").</strong> ", words, " <span class=\"files\">", "<a href=\"",
-              picture.name, ".tsv\">numbers</a> <a href=\"", picture.name, ".svg\">svg</a> <a href=\"",
-              picture.name, ".png\">png</a></span></figcaption>\n</figure>\n");
+  std::string files;
+  for (const auto& [end, what] :
+       {std::pair{"tsv", "numbers"}, std::pair{"svg", "svg"}, std::pair{"png", "png"}})
+    files += text(files.empty() ? "" : " ", "<a href=\"", html::escaped(picture.name), ".", end, "\">", what,
+                  "</a>");
+  return html::figure(picture.name, picture.bytes, kind.title,
+                      words + " <span class=\"files\">" + files + "</span>");
 }
 
 }  // namespace

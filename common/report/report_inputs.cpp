@@ -51,7 +51,11 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
     }
     require_fresh(path);
     content.sources.push_back({recorded_path(path), sha256_of_file(path), read_origin(path)});
-    if (content.scene.empty()) content.scene = scene_words(path);
+    const std::string scene = scene_words(path);
+    if (content.scene.empty()) content.scene = scene;
+    if (!scene.empty() && scene != content.scene)
+      fail(Failure::input, path, ": is of the scene ", scene, ", artifacts before it are of ", content.scene,
+           "; give artifacts of one scene");
     const std::string& schema = content.sources.back().origin.schema;
     if (schema == "whine/static") {
       content.statics.push_back(read_static(path));
@@ -68,6 +72,7 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
   }
   for (const std::string& path : sweeps) content.sweeps.push_back(read_sweep_of(content, path));
   if (content.scene.empty()) content.scene = "gear pair";
+  require_one_pair(content);
   return content;
 }
 

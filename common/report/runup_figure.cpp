@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "signal/orders.h"
@@ -16,7 +17,7 @@ constexpr int kOrders = 4;
 constexpr Index kSlices = 400, kBands = 300, kPoints = 1200;
 constexpr double kHighest = 5.0 / 12;  // of the sample rate: what the record holds undamped
 
-// Spectrogram in dB re 1 N, the largest amplitude of the bins of a band, so that no line falls between two bands.
+// Spectrogram in dB re 1 N, RMS: of the bins of a band the one of largest amplitude, so that no line falls between two bands.
 FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
   const double top = std::max(a.ramp.from, a.ramp.to);
   const double most = std::min((kOrders + 0.5) * top, kHighest * a.sample_rate);
@@ -28,7 +29,8 @@ FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
   while (length > std::min(a.samples.size() / 2, drawn) && length > kLeast) length /= 2;
   const VectorXd oscillating = a.samples.mesh_force.array() - a.samples.mesh_force.mean();
   const Spectrogram s = spectrogram(oscillating, a.sample_rate, length, kSlices, most);
-  FigureBlock block{"spectrogram", {"mesh_frequency [Hz]", "frequency [Hz]", "mesh_force [dB re 1 N]"}, {}};
+  FigureBlock block{
+      "spectrogram", {"mesh_frequency [Hz]", "frequency [Hz]", "mesh_force [dB re 1 N RMS]"}, {}};
   block.drawing = true;
   const Index bins = s.frequency.size() - 1, bands = std::min(kBands, bins);
   double loudest = -300;
@@ -37,7 +39,7 @@ FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
     for (Index b = 0; b < bands; ++b) {
       const Index first = 1 + bins * b / bands, last = 1 + bins * (b + 1) / bands;
       const double amplitude = s.amplitude.row(i).segment(first, last - first).maxCoeff();
-      const double level = 20 * std::log10(std::max(amplitude, 1e-9));
+      const double level = 20 * std::log10(std::max(amplitude, 1e-9) / std::numbers::sqrt2);
       loudest = std::max(loudest, level);
       block.rows.push_back({f, 0.5 * (s.frequency[first] + s.frequency[last - 1]), level});
     }
@@ -47,7 +49,7 @@ FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
   figure.numbers.emplace_back("frequency_end", most);
   figure.notes.push_back(
       text("(a) Hann windows of ", shown(static_cast<double>(length) / a.sample_rate * kMilli, 3),
-           " ms, amplitudes in dB re 1 N; orders of the mesh frequency are rays, f_n natural "
+           " ms, RMS of lines in dB re 1 N; orders of the mesh frequency are rays, f_n natural "
            "frequency of the mesh"));
   return block;
 }
@@ -135,7 +137,7 @@ Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>&
         std::pair{"notes", static_cast<double>(figure.notes.size())}})
     figure.numbers.emplace_back(name, value);
   figure.shafts = shafts_of(a);
-  for (int n = 1; n <= kOrders; ++n) figure.levels.push_back(text("order_", n, " [µm]"));
+  for (int n = 1; n <= kOrders; ++n) figure.levels.push_back({text("order_", n, " [µm]"), true});
   figure.height = 1500;
   return figure;
 }

@@ -14,7 +14,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kBands = 100;
+constexpr Index kMostBands = 100;
+constexpr double kLeastTime = 1e-3;  // s of a run-up in a band; its samples are spread evenly over the bands
 
 std::string unit_of(const Transfer* transfer) {
   return transfer ? "unit of the transfer function" : "N";
@@ -57,17 +58,29 @@ std::string bands(const std::vector<HeardRunup>& runs, const std::vector<VectorX
   }
   if (!(high > low))
     fail(Failure::input, "the run-ups have no mesh frequency in common; give ramps over the same speeds");
-  const VectorXd edges = VectorXd::LinSpaced(kBands + 1, low, high);
+  // Short run-ups have fewer bands.
+  const auto least = static_cast<Index>(std::ceil(kLeastTime * runs[0].rate));
+  Index shared = runs[0].mesh_frequency.size();
+  for (const HeardRunup& run : runs)
+    shared = std::min<Index>(
+        shared, (run.mesh_frequency.array() >= low && run.mesh_frequency.array() <= high).count());
+  const Index count = std::min(kMostBands, shared / (2 * least));
+  if (count < 1)
+    fail(Failure::input, "the run-ups have ", 1e3 * static_cast<double>(shared) / runs[0].rate,
+         " ms between the mesh frequencies ", low, " and ", high, " Hz, which all of them pass; ",
+         2e3 * kLeastTime, " ms are the least for a level: give a wider range of speeds or a lower rate");
+  const VectorXd edges = VectorXd::LinSpaced(count + 1, low, high);
   std::ostringstream out;
   out.precision(9);
   out << "# level re 1 " << unit << " in bands of the mesh frequency\nmesh_frequency_Hz";
   std::vector<VectorXd> rms;
   for (size_t b = 0; b < runs.size(); ++b) {
-    rms.push_back(band_rms(sounds[b], runs[b].mesh_frequency, edges, runs[b].rate / 1000));
+    rms.push_back(band_rms(sounds[b], runs[b].mesh_frequency, edges, least));
     out << '\t' << runs[b].name << "_dB" << (b > 0 ? "\t" + runs[b].name + "_above_first_dB" : "");
   }
   double most = 0, at = 0;
-  for (Index band = 0; band < kBands; ++band) {
+  size_t of = 0;
+  for (Index band = 0; band < count; ++band) {
     const double f = 0.5 * (edges[band] + edges[band + 1]);
     const bool heard = std::all_of(rms.begin(), rms.end(), [&](const VectorXd& r) { return r[band] > 0; });
     if (!heard) continue;
@@ -76,11 +89,15 @@ std::string bands(const std::vector<HeardRunup>& runs, const std::vector<VectorX
       const double above = level(rms[b][band], rms[0][band]);
       out << '\t' << level(rms[b][band], 1);
       if (b > 0) out << '\t' << above;
-      if (std::abs(above) > std::abs(most)) most = above, at = f;
+      if (std::abs(above) > std::abs(most)) most = above, at = f, of = b;
     }
   }
   out << '\n';
-  if (runs.size() > 1) tell("gear-sound: at most ", most, " dB above the first, at ", at, " Hz");
+  if (of > 0)
+    tell("gear-sound: ", runs[of].name, " differs most from the first at a mesh frequency of ", at,
+         " Hz, by ", most > 0 ? "+" : "", most, " dB");
+  else if (runs.size() > 1)
+    tell("gear-sound: all run-ups have the level of the first");
   return out.str();
 }
 

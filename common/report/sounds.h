@@ -22,7 +22,8 @@ Sounds sounds_of_motions(const std::vector<std::string>& paths, double mesh_freq
                          const std::string& bearing, const Transfer* transfer, double seconds);
 
 // Of runup.h5: levels in bands of the mesh frequency that all of them pass, and how far they are above the first. Errors as
-// heard_runup, and Error(input) for run-ups of different sample rates or without a common speed.
+// heard_runup, and Error(input) for run-ups of different sample rates, without a common speed or of less than 2 ms over the common
+// ones. 100 bands, of short run-ups as many as have 2 ms each.
 Sounds sounds_of_runups(const std::vector<std::string>& paths, const std::string& bearing,
                         const Transfer* transfer);
 

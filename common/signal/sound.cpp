@@ -18,8 +18,11 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
 void require_record(const Eigen::Ref<const VectorXd>& record) {
-  if (record.size() < 2 || !record.allFinite())
-    fail(Failure::input, "sound: ", record.size(), " samples; two finite ones are the least");
+  if (record.size() < 2) fail(Failure::input, "sound: ", record.size(), " samples; two are the least");
+  for (Index n = 0; n < record.size(); ++n)
+    if (!std::isfinite(record[n]))
+      fail(Failure::input, "sound: sample ", n, " of ", record.size(), " is ", record[n],
+           "; finite forces are wanted: make the artifact again");
 }
 
 }  // namespace

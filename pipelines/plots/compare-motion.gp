@@ -1,9 +1,10 @@
 # Designs in motion against speed, both directions of the sweeps: RMS of the dynamic transmission error (a), its first harmonic (b),
 # the largest tooth load over T / r_b (c); a colour for each design, falling speed dashed.
 # Variables from gear-plot: tsv, heading, height, labels, designs, natural_frequency_1..., rms_max, order_max, load_max, frequency_from,
-# frequency_to, speed_label, level_label, level_low, level_high, notes, note1...
+# frequency_to, speed_label, level_label, level_low, level_high, notes, line1...
 set datafile separator tab
 set datafile commentschars "#"
+foot_name = "line%d"
 lift = room(notes)
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]

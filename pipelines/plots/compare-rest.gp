@@ -1,9 +1,10 @@
 # Designs at rest: static transmission error (a) and secant mesh stiffness (b) over the mesh period, amplitudes of the error's
 # harmonics (c); a colour for each design.
 # Variables from gear-plot: tsv, heading, height, labels, designs, error_low, error_high, stiffness_high, largest, harmonics, notes,
-# note1...
+# line1...
 set datafile separator tab
 set datafile commentschars "#"
+foot_name = "line%d"
 lift = room(notes)
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]

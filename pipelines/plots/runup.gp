@@ -28,7 +28,7 @@ set format x ""
 set ylabel "Frequency (Hz) {/:Bold (a)}" offset 1.6, 0
 set yrange [0 : frequency_end]
 set cbrange [loudest - 60 : loudest]
-set cblabel "Mesh force (dB re 1 N)" offset 0.9, 0
+set cblabel "Mesh force (dB re 1 N RMS)" offset 0.9, 0
 set colorbox user origin screen 0.912, top(0.475) size screen 0.012, top(0.135) - top(0.475)
 set arrow 1 from graph 0, first f_n to graph 1, first f_n nohead front lt 1 lw 1.2 dt (16, 10) lc rgb "#202020"
 set label 1 "f_n" at graph 0.985, first f_n offset 0, -0.7 right front tc rgb "#202020" font ",15"
@@ -48,7 +48,7 @@ set tmargin at screen top(0.50)
 set bmargin at screen top(0.74)
 set ylabel (level_label eq "" ? "Amplitude of DTE (µm)" : "DTE (" . level_label . ")") . " {/:Bold (b)}" offset 0.5, 0
 peak = largest > largest_sweep ? largest : largest_sweep
-if (level_label eq "") { set yrange [0 : 1.08 * peak] } else { set yrange [level_low : level_high] }
+if (level_label eq "") { set yrange [0 : 1.08 * peak] } else { set yrange [level_low - 0.25 * (level_high - level_low) : level_high] }
 if (level_label eq "") { set key top left Left reverse samplen 2 spacing 1.1 font ",15" } else { set key bottom left horizontal Left reverse samplen 2 spacing 1.1 font ",15" }
 drawn = ""
 do for [k = 1:int(sweeps)] {
