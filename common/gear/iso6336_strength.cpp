@@ -24,9 +24,8 @@ void require_external(const GearPair& pair) {
 
 void require_two_pairs(const GearPair& pair, const char* what) {
   if (pair.contact_ratio() >= 2)
-    fail(Failure::input, what,
-         " is for a contact ratio below 2, where at most two pairs share the load; here it is ",
-         pair.contact_ratio(), "; take the computed value alone");
+    fail(Failure::input, what, " is for a contact ratio below 2; here it is ", pair.contact_ratio(),
+         "; take the computed value alone");
 }
 
 // m from the pitch point, along the driver's motion: where gear g carries the load of one pair farthest from its root. The driver
@@ -39,7 +38,7 @@ double outer_single_contact(const GearPair& pair, int g) {
 
 IsoRoot iso_6336_root(const GearPair& pair, int g) {
   require_external(pair);
-  require_two_pairs(pair, "sigma_F0 of ISO 6336-3, method B,");
+  require_two_pairs(pair, "the root stress of ISO 6336-3, method B,");
   const ToothGeometry& tooth = pair.gear(g);
   const GearDesign& d = tooth.design();
   const double z = d.teeth, m = d.module, alpha = d.pressure_angle;
@@ -91,7 +90,7 @@ double iso_6336_root_stress(const GearPair& pair, int g, double tangential_force
 double iso_6336_flank_pressure(const GearPair& pair, const std::array<Material, 2>& material,
                                double tangential_force) {
   require_external(pair);
-  require_two_pairs(pair, "sigma_H0 of ISO 6336-2");
+  require_two_pairs(pair, "the flank pressure of ISO 6336-2");
   const int pinion = pair.gear(0).design().teeth <= pair.gear(1).design().teeth ? 0 : 1;
   const GearDesign &d1 = pair.gear(pinion).design(), &d2 = pair.gear(1 - pinion).design();
   const double ratio = static_cast<double>(d2.teeth) / d1.teeth,

@@ -99,7 +99,8 @@ constexpr Row kRows[] = {
     {Needs::motion, "root-stress", "Root stress, loss factor",
      "Tension in the roots, at rest and in motion; sigma_F0 is that of ISO 6336-3, method B, with its own "
      "assumptions (one pair carries the load, a beam with a notch).",
-     "At rest as the line root stress of the error budget; in motion as the tooth load, from which it follows "
+     "At rest as the line root stress of the error budget; in motion as the tooth load, from which it "
+     "follows "
      "as at rest: the inertia of the body, kept modes included, adds none.",
      "Raise element_order or lower element_mm if its line is above 1 %."},
     {Needs::motion, "bearing-forces", "Forces on the bearings",

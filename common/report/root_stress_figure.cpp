@@ -92,13 +92,14 @@ IsoValues iso_values(const StaticArtifact& s, const GearPair& pair) {
       into = formula();
     } catch (const Error& error) {
       if (error.kind() != Failure::input && error.kind() != Failure::numerical) throw;
-      out.missing += text(out.missing.empty() ? "" : ", ", name);
+      if (out.missing.find(name) == std::string::npos)
+        out.missing += text(out.missing.empty() ? "" : ", ", name);
       if (out.why.empty()) out.why = error.what();
     }
   };
   if (!pair.internal()) {
     for (int g = 0; g < kSides; ++g)
-      take(out.root[g], g == 0 ? "sigma_{F0} of the driver" : "sigma_{F0} of the driven gear", [&] {
+      take(out.root[g], "sigma_{F0}", [&] {
         out.root_in_range = out.root_in_range && iso_6336_root(pair, g).in_range;
         return iso_6336_root_stress(pair, g, force);
       });
@@ -212,8 +213,7 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
                    shown(s.contact_ratio, 3), ")");
   if (!beyond.empty())
     figure.notes.push_back("outside of the range that ISO 6336 gives for its formulas: " + beyond);
-  if (!iso.missing.empty())
-    figure.notes.push_back("left out: " + iso.missing + ": " + without_markup(iso.why));
+  if (!iso.missing.empty()) figure.notes.push_back("left out: " + iso.missing + " (" + iso.why + ")");
   figure.blocks.push_back(rest_block(s, iso));
   figure.words = {{"labels", text("'", s.mesh.gear[0], "' '", s.mesh.gear[1], "'")}};
   figure.numbers = {{"iso", factors ? 1.0 : 0.0},

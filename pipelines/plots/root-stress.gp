@@ -58,7 +58,7 @@ do for [g = 1:2] {
 eval("plot " . drawn . 'keyentry with lines lt 1 lw 2.6 dt (10, 5) lc rgb "#505050" title "dashed: falling"')
 
 set tmargin at screen 0.27 + 0.5 * lift
-set bmargin at screen 0.10 + 0.5 * lift
+set bmargin at screen 0.082 + 0.8 * lift
 set yrange [0 : 1.08 * factor_max]
 set ylabel "Dynamic factor"
 set label 1 "{/:Bold (c)} the same over the largest at rest; root stress is quasi-static in the tooth loads"
