@@ -252,7 +252,7 @@ if "${sound[@]}" --sweep out/scene/T100/up/sweep.h5 --sweep out/scene/T100/down/
   [ "$(sed '1,2d' heard.tsv | cut -f1 | tr '\n' ' ')" = 'up_1 up_2 down ' ]; then ok "sounds of one direction are numbered"; else
   wrong "sounds of one direction are numbered" "$(tail -n 1 said) $(cut -f1 heard.tsv 2>&1 | tr '\n' ' ')"; fi
 rejected "a length of a sound of a run-up" 2 '--seconds requires --sweep' "$bin/gear-sound" --runup out/scene/T100/none.h5 --seconds 2 --output heard
-rejected "a run-up and a sweep as one sound" 2 '--runup excludes --sweep' "${sound[@]}" --runup out/scene/T100/none.h5
+rejected "a run-up and a sweep as one sound" 2 '--sweep excludes --runup' "${sound[@]}" --runup out/scene/T100/none.h5
 rejected "a sound of nothing" 2 'wanted is --sweep with --mesh-frequency above 0, or --runup' "$bin/gear-sound" --output heard
 rejected "a sound of a run-up that is a sweep" 3 'sweep.h5' "$bin/gear-sound" --runup out/scene/T100/up/sweep.h5 --output heard
 rm -f low.csv heard.*

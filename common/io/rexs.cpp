@@ -1,5 +1,7 @@
 #include "io/rexs.h"
 
+#include <jsoncpp/json/json.h>
+
 #include <algorithm>
 #include <charconv>
 #include <pugixml.hpp>

@@ -1,5 +1,7 @@
 #include "io/rexs_json.h"
 
+#include <jsoncpp/json/json.h>
+
 #include <memory>
 
 #include "io/rexs_archive.h"

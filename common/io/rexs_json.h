@@ -2,9 +2,11 @@
 //
 // Private to the layer io/.
 #pragma once
-#include <jsoncpp/json/json.h>
-
 #include <string>
+
+namespace Json {
+class Value;
+}
 
 namespace whine {
 

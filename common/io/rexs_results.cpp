@@ -1,5 +1,7 @@
 #include "io/rexs_results.h"
 
+#include <jsoncpp/json/json.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
