@@ -275,20 +275,20 @@ grep -q -e '--sweep out/moving/T90/down/sweep.h5 .*--output out/moving/report/an
 
 # --- reports
 make_ -n report
-expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*9 gear-report*1 gear-static*1"
+expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*10 gear-report*1 gear-static*1"
 make_ report; make_ -n report
 expect "a report is up to date" ""
 make_ report; grep -q '^report: .*out/parker2000/report/index.html' "$log" && ok "and says where it stands" || wrong "and says where it stands" "$(tail -n 1 "$log")"
 mkdir -p mine
 sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/plain.toml
 make_ -n SCENE=mine/plain.toml report
-expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 make_ -n SCENE=mine/plain.toml BRANCHES=yes report
-expect "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*12 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/line.toml; make_ -n SCENE=mine/line.toml report
-expect "contact in lines: no ring-down" "gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "contact in lines: no ring-down" "gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; make_ -n SCENE=mine/relief.toml report
-expect "relief: a profile chart" "gear-impact*2 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "relief: a profile chart" "gear-impact*2 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.toml > mine/graded.toml; make_ -n SCENE=mine/graded.toml report
 expect "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*6 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4"
 sed -E 's/^\[gear.wheel\]/[gear.pinion.crack]\ndepth_mm = 1.0\n&/' mine/plain.toml > mine/cracked.toml; make_ -n SCENE=mine/cracked.toml report
@@ -302,7 +302,7 @@ grep -q 'teeth: SCENE=mine/cracked.toml has teeth that are cracked.*make SCENE=m
 make_ -n SCENE=mine/graded.toml fig05
 expect "teeth that differ have no ring-down in other figures either" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2"
 make_ -n SCENE=mine/plain.toml out/plain/report/index.html
-expect "a page by its path" "gear-impact*2 gear-plot*9 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+expect "a page by its path" "gear-impact*2 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
 
 # --- any torque, other scenes
 make_ -n out/parker2000/T700/up/response.h5
