@@ -75,8 +75,7 @@ BranchPoint branch_point(double mesh_frequency, const LumpedOrbit& orbit) {
   BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
   for (const LumpedRecord& period : orbit.record) {
     point.tooth_load_max = std::max(point.tooth_load_max, period.load.maxCoeff());
-    point.held_load = std::max(point.held_load, held_load(period.load, static_cast<int>(period.load.rows()),
-                                                          orbit.multiple == 1 ? 1 : 0));
+    point.held_load = std::max(point.held_load, held_load(period.load, static_cast<int>(period.load.rows())));
     point.parted = point.parted || !(period.load.rowwise().sum().minCoeff() > 0);
   }
   return point;

@@ -84,8 +84,7 @@ double largest_load(const SceneResults& s, const Motion& m, LoadOf what) {
   if (what == LoadOf::sum) return m.sweep->mesh_force_max[m.row];
   if (what == LoadOf::tooth) return m.sweep->tooth_load_max[m.row];
   const SweepArtifact& sweep = s.sweep(kFigureTorque, m.sweep->direction);
-  return held_load(sweep.tooth_load[static_cast<size_t>(m.row)], sweep.time.steps_per_period,
-                   sweep.period_multiple[m.row]);
+  return held_load(sweep.tooth_load[static_cast<size_t>(m.row)], sweep.time.steps_per_period);
 }
 
 Finding table_frequency(const SceneResults& s, int torque, ContactState state) {

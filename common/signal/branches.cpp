@@ -156,7 +156,7 @@ void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
     const ResponseArtifact r = response(swept);
     VectorXd held(speed.size());
     for (Eigen::Index i = 0; i < speed.size(); ++i)
-      held[i] = held_load(swept.tooth_load[i], swept.time.steps_per_period, swept.period_multiple[i]);
+      held[i] = held_load(swept.tooth_load[i], swept.time.steps_per_period);
     const auto ascending = [&](const VectorXd& row) { return d == 0 ? row : VectorXd(row.reverse()); };
     map.dte_rms[d].row(c) = ascending(r.dte_rms).transpose();
     map.tooth_load_max[d].row(c) = ascending(r.tooth_load_max).transpose();

@@ -22,7 +22,7 @@ struct BranchPoint {
 // Largest load (N) that one pair carries through 1/64 of a mesh period without a break: the least of ceil(samples / 64) + 1
 // samples in a row, which span 1/64 or, where 64 does not divide `samples`, up to one sample more. load: (sample, pair), whole
 // periods of `samples`. multiple: periods after which the motion repeats; only these count, and their end is followed by their
-// begin. 0: it does not repeat.
+// begin; not for loads of pairs, which go on in another column there. 0: it does not repeat.
 double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple = 0);
 
 struct MapSpeeds {

@@ -148,7 +148,7 @@ ResponseArtifact response(const SweepArtifact& s) {
     for (Eigen::VectorXd* v : {&r.tooth_load_held, &r.mesh_force_held}) v->resize(speeds);
     const int steps = s.time.steps_per_period;
     for (Eigen::Index f = 0; f < speeds; ++f) {
-      r.tooth_load_held[f] = held_load(s.tooth_load[f], steps, s.period_multiple[f]);
+      r.tooth_load_held[f] = held_load(s.tooth_load[f], steps);
       r.mesh_force_held[f] = held_load(s.mesh_force.row(f).transpose(), steps, s.period_multiple[f]);
       for (size_t g = 0; g < kSides; ++g)
         if (s.root_stress[g].size() > 0)

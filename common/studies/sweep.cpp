@@ -157,8 +157,7 @@ BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
   for (const RollingDynamics::Period& period : orbit.record) {
     point.tooth_load_max = std::max(point.tooth_load_max, period.pair_load.maxCoeff());
     point.held_load = std::max(
-        point.held_load, held_load(period.pair_load.transpose(), static_cast<int>(period.pair_load.cols()),
-                                   orbit.multiple == 1 ? 1 : 0));
+        point.held_load, held_load(period.pair_load.transpose(), static_cast<int>(period.pair_load.cols())));
     point.parted = point.parted || !(period.pair_load.colwise().sum().minCoeff() > 0);
   }
   return point;
