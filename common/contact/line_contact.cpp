@@ -197,8 +197,8 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
 
 namespace {
 
-// NOLINTNEXTLINE(readability-function-size): the innermost loop of contact lines, whose steps share all of its state
 template <int Most>
+// NOLINTNEXTLINE(readability-function-size): the innermost loop of contact lines, whose steps share all of its state
 Certificate solve_by_energy(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,
                             const Eigen::Ref<const VectorXd>& e, Eigen::Ref<VectorXd> force,
                             Eigen::Ref<VectorXd> d) {
