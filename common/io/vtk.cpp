@@ -160,6 +160,14 @@ std::vector<bool> near_load(const VtkGrid& grid) {
   return out;
 }
 
+// (point, 2) m. near: empty, or as near_load() has it, and places are rounded.
+MatrixRM shown_places(MatrixRM point, const std::vector<bool>& near) {
+  for (std::size_t i = 0; i < near.size(); ++i)
+    for (double& x : point.row(static_cast<Eigen::Index>(i)))
+      x = to_multiple(x, near[i] ? kEightNanometres : kFourMicrometres);
+  return point;
+}
+
 // What is smaller than this step is left out of values far from load: 1/128 to 1/64 of the largest of them, a power of two.
 int far_exponent(const MatrixRM& values, const std::vector<bool>& near) {
   double most = 0;
@@ -236,11 +244,8 @@ void put_vtk(h5::Writer& file, const VtkGrid& grid) {
     }
     return out;
   };
-  MatrixRM place = grid.point;
   const std::vector<bool> near = grid.rounded ? near_load(grid) : std::vector<bool>();
-  for (std::size_t i = 0; i < near.size(); ++i)
-    for (double& x : place.row(static_cast<Eigen::Index>(i)))
-      x = to_multiple(x, near[i] ? kEightNanometres : kFourMicrometres);
+  const MatrixRM place = shown_places(grid.point, near);
   file.put(kGroup + "Points", in_space(place, 0.0).data(), {points, 3},
            {"m", "position of the points", "point xyz", ""});
 
