@@ -151,6 +151,7 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& swe
         std::pair{"frequency_to", to}, std::pair{"notes", static_cast<double>(figure.notes.size())}})
     figure.numbers.emplace_back(name, value);
   std::vector<ResponseArtifact> all;
+  all.reserve(sweeps.size());
   for (const auto& one : sweeps) all.push_back(one.artifact);
   figure.shafts = shafts_of_all(all);
   figure.levels = {{"dte_rms [µm]", false}, {"dte_harmonic_1 [µm]", true}};
