@@ -114,6 +114,7 @@ Sounds sounds_of_motions(const std::vector<std::string>& paths, double frequency
         sound(heard.record, heard.fundamental, transfer, kSoundRate, std::lround(seconds * kSoundRate)));
   }
   std::vector<std::string*> names;
+  names.reserve(branches.size());
   for (HeardMotion& branch : branches) names.push_back(&branch.name);
   number_names(names);
   for (size_t b = 0; b < branches.size(); ++b) require_heard(branches[b].name, out.sounds[b], out.rate);
@@ -133,6 +134,7 @@ Sounds sounds_of_runups(const std::vector<std::string>& paths, const std::string
     out.sounds.push_back(filtered(runs.back().record, runs.back().rate, transfer));
   }
   std::vector<std::string*> names;
+  names.reserve(runs.size());
   for (HeardRunup& run : runs) names.push_back(&run.name);
   number_names(names);
   out.rate = runs[0].rate;
