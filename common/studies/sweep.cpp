@@ -423,6 +423,7 @@ double store_motions(const std::vector<Orbit>& steady, int reach, SweepArtifact&
 void store_root_stress(const GearMeshModel& model, SweepArtifact& a) {
   const int samples = a.time.steps_per_period;
   std::vector<double> phases;
+  phases.reserve(static_cast<size_t>(samples));
   for (int n = 0; n < samples; ++n) phases.push_back(static_cast<double>(n) / samples);
   RootStresses roots(model, phases);
   if (!roots.known()) return;
