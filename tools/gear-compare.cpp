@@ -49,6 +49,7 @@ void body(int argc, char** argv) {
     found->paths.push_back(path);
   }
   std::vector<Design> designs;
+  designs.reserve(scenes.size());
   for (const Inputs& scene : scenes) designs.push_back({scene.name, read_report_content(scene.paths)});
 
   const std::string page = compare_html(designs, read_report_content(pictures).pictures),
