@@ -105,7 +105,7 @@ double round_down(double x) {
 }
 
 std::string frame_name(int frame) {
-  char name[8];
+  char name[16];
   std::snprintf(name, sizeof name, "%03d", frame);
   return name;
 }

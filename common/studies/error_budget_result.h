@@ -17,7 +17,7 @@ struct StaticChanges {
   Eigen::VectorXd pressure_change;
   MatrixRM harmonic_change;  // (entry, harmonic 1..5) 1, of the transmission error, over its first harmonic
   // (entry) 1, relative, of the largest root stress of both gears: the change that is larger; empty: not known
-  Eigen::VectorXd root_stress_change;
+  Eigen::VectorXd root_stress_change = {};
 };
 
 // error_budget.h5

@@ -17,9 +17,9 @@
 namespace whine {
 
 struct BranchPlan {
-  std::optional<Direction> sweep;  // begins with the motion of a sweep in this direction
-  double at = 0;                   // Hz, of that motion
-  double tolerance = 1e-9;         // of an orbit's residual, 1e-12 to 1e-3
+  std::optional<Direction> sweep = {};  // begins with the motion of a sweep in this direction
+  double at = 0;                        // Hz, of that motion
+  double tolerance = 1e-9;              // of an orbit's residual, 1e-12 to 1e-3
   int most_periods = 1;  // 2 or 4: branches beyond period doublings too, up to orbits of so many periods
 };
 
