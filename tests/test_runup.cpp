@@ -58,7 +58,7 @@ struct Kept : RunupSink {
     a.transmission_error = joined(a.transmission_error, s.transmission_error);
     a.mesh_force = joined(a.mesh_force, s.mesh_force);
     MatrixRM loads(a.tooth_load.rows() + s.size(), s.tooth_load.cols());
-    loads.topRows(a.tooth_load.rows()) = a.tooth_load;
+    if (a.tooth_load.rows() > 0) loads.topRows(a.tooth_load.rows()) = a.tooth_load;
     loads.bottomRows(s.size()) = s.tooth_load;
     a.tooth_load = loads;
     if (other) other->take(s);
