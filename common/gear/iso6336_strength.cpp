@@ -67,14 +67,12 @@ IsoRoot iso_6336_root(const GearPair& pair, int g) {
   const double gamma =
       (kPi / 2 + 2 * shift * std::tan(alpha)) / z + involute_function(alpha) - involute_function(at_load);
   IsoRoot out;
-  out.load_angle = at_load - gamma;
-  const double arm = 0.5 * ((std::cos(gamma) - std::sin(gamma) * std::tan(out.load_angle)) * diameter -
+  const double load_angle = at_load - gamma;  // a_Fe
+  const double arm = 0.5 * ((std::cos(gamma) - std::sin(gamma) * std::tan(load_angle)) * diameter -
                             z * std::cos(kPi / 3 - theta) - fillet + tip);
   const double slenderness = s / arm, notch = s / (2 * rho);  // L, q_s
   out.thickness = s * m;
-  out.radius = rho * m;
-  out.arm = arm * m;
-  out.form = 6 * arm * std::cos(out.load_angle) / (s * s * std::cos(alpha));
+  out.form = 6 * arm * std::cos(load_angle) / (s * s * std::cos(alpha));
   out.stress_correction = (1.2 + 0.13 * slenderness) * std::pow(notch, 1 / (1.21 + 2.3 / slenderness));
   out.in_range = notch >= 1 && notch < 8;
   return out;

@@ -26,9 +26,6 @@ namespace whine {
 // The critical section of a tooth, where the tangent of its fillet stands at 30 degrees to its centre line.
 struct IsoRoot {
   double thickness = 0;          // m: s_Fn
-  double radius = 0;             // m: rho_F, of the fillet there
-  double arm = 0;                // m: h_Fe, from the section to the load on the centre line
-  double load_angle = 0;         // rad: a_Fe, of the load against the section
   double form = 0;               // Y_F
   double stress_correction = 0;  // Y_S
   bool in_range = true;          // 1 <= q_s < 8

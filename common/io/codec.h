@@ -45,8 +45,9 @@ class Codec {
   // Lists the datasets, with the optional ones.
   explicit Codec(std::vector<Dataset>& list) : list_(&list) {}
 
-  // Writes the member, or reads and checks it, or lists the dataset. Error(numerical) for numbers without a range. A writer fails with Error(numerical) and a reader with
-  // Error(input) if the length along an axis is not that of the axis; a reader also if a number is out of range.
+  // Writes the member, or reads and checks it, or lists the dataset. Error(numerical) for numbers without a range. A writer
+  // fails with Error(numerical) and a reader with Error(input) if the length along an axis is not that of the axis; a reader
+  // also if a number is out of range.
   void dataset(const Dataset& dataset, const Member& member);
 
   // What dataset() does with members from here on, for records that come piece by piece: whole again with Record::none;

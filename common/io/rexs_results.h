@@ -32,8 +32,8 @@ struct RexsPair {
 
 // bytes: of the file at `path`, which stands in messages; stage: as of scene_of_rexs. Results that the stage has already are
 // replaced. Values have nine digits. Throws Error(input) for what read_rexs and scene_of_rexs reject, and for a stage of other
-// teeth, module, centre distance, pressure angle or profile shift than the pair, for XML of an encoding that is not converted (neither UTF-8 nor
-// ISO 8859-1, with characters beyond ASCII) and for XML that defines entities.
+// teeth, module, centre distance, pressure angle or profile shift than the pair, for XML of an encoding that is not converted
+// (neither UTF-8 nor ISO 8859-1, with characters beyond ASCII) and for XML that defines entities.
 std::string with_results(const std::string& path, const std::string& bytes, const std::string& stage,
                          const RexsPair& pair, const std::vector<RexsResult>& results);
 

@@ -5,8 +5,8 @@
 
 namespace whine {
 
-// Crossings f_mesh = f_n / l of the harmonics l = 1 .. kCampbellHarmonics are in a table of their own; of elastic gears a band spans the
-// frequencies of all mesh phases.
+// Crossings f_mesh = f_n / l of the harmonics l = 1 .. kCampbellHarmonics are in a table of their own; of elastic gears a band
+// spans the frequencies of all mesh phases.
 inline constexpr int kCampbellHarmonics = 5;
 Figure campbell_figure(const ModesArtifact& modes);
 

@@ -17,9 +17,9 @@ struct EngineeringAxes {
 };
 
 // Columns, numbers and words of the figure; columns are renamed by their new unit, notes and lists of jumps stay in Hz. Axes of
-// levels reach down to the least, by 80 dB at most; an amplitude of nothing stands 300 dB below it. Throws Error(usage) for a figure that is not against speed, gears
-// that differ in teeth, a gear that it does not have, a figure without amplitudes of the transmission error, a reference that is
-// no length above 0.
+// levels reach down to the least, by 80 dB at most; an amplitude of nothing stands 300 dB below it. Throws Error(usage) for a
+// figure that is not against speed, gears that differ in teeth, a gear that it does not have, a figure without amplitudes of the
+// transmission error, a reference that is no length above 0.
 void apply(const EngineeringAxes& axes, Figure& figure);
 
 }  // namespace whine

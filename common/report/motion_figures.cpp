@@ -282,11 +282,7 @@ Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_f
 Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background background) {
   background.lumped = lumped_of(sweeps);
   const auto panels = panels_of(sweeps, background);
-  if (panels.size() != 1 || panels[0].curves.size() != 1)
-    fail(Failure::input, "figure: sweeps of ",
-         panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
-         " torques or sets of choices given; tooth loads against speed are of one");
-  const auto& curve = panels[0].curves[0];
+  const auto& curve = only_curve(panels, "tooth loads against speed");
   Figure figure;
   figure.title = "Tooth loads against mesh frequency, " + torque_words(curve.up->torque);
   figure.notes = {operating_words(panels[0], background), panels[0].choices};

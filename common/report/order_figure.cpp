@@ -16,11 +16,7 @@ constexpr Eigen::Index kOrders = 5;
 
 Figure order_figure(const std::vector<ResponseArtifact>& sweeps) {
   const auto panels = panels_of(sweeps, {});
-  if (panels.size() != 1 || panels[0].curves.size() != 1)
-    fail(Failure::input, "figure: sweeps of ",
-         panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
-         " torques or sets of choices given; order cuts are of one");
-  const auto& curve = panels[0].curves[0];
+  const auto& curve = only_curve(panels, "order cuts");
   Figure figure;
   figure.title = "Order cuts of the dynamic transmission error (DTE), " + torque_words(curve.up->torque);
   figure.notes = {operating_words(panels[0], {}) + "; " + panels[0].choices,

@@ -9,7 +9,8 @@ namespace whine {
 
 // Artifacts of one scene (static.h5, impact.h5, sweep.h5, error_budget.h5) and figures (.png), in any order; torques in the
 // order of their static.h5. Throws Error(usage) for another artifact, Error(input) for a picture that is not whole, a sweep of a
-// lumped model or one without the static.h5 of its torque, artifacts of several scenes or as require_one_pair, and as the readers of artifacts do.
+// lumped model or one without the static.h5 of its torque, artifacts of several scenes or as require_one_pair, and as the
+// readers of artifacts do.
 ReportContent read_report_content(const std::vector<std::string>& paths);
 
 }  // namespace whine

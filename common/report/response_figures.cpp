@@ -295,11 +295,7 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
 
 Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background) {
   const auto panels = panels_of(sweeps, background);
-  if (panels.size() != 1 || panels[0].curves.size() != 1)
-    fail(Failure::input, "figure: sweeps of ",
-         panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
-         " torques or sets of choices given; bearing forces against speed are of one");
-  const auto& curve = panels[0].curves[0];
+  const auto& curve = only_curve(panels, "bearing forces against speed");
   const GearMeshSpec& mesh = curve.up->mesh;
   if (!mesh.on_bearings())
     fail(Failure::input,

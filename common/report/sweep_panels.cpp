@@ -159,13 +159,27 @@ const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& bac
   return found == background.branches.end() ? nullptr : &*found;
 }
 
+template <class Sweep>
+const typename ChoicePanel<Sweep>::Curve& only_curve(const std::vector<ChoicePanel<Sweep>>& panels,
+                                                     const std::string& what) {
+  if (panels.size() != 1 || panels[0].curves.size() != 1)
+    fail(Failure::input, "figure: sweeps of ",
+         panels.empty() ? 0 : std::max(panels.size(), panels[0].curves.size()),
+         " torques or sets of choices given; ", what, " are of one");
+  return panels[0].curves[0];
+}
+
 template std::vector<ChoicePanel<ResponseArtifact>> panels_of(const std::vector<ResponseArtifact>&,
                                                               const Background&);
+template const ChoicePanel<ResponseArtifact>::Curve& only_curve(
+    const std::vector<ChoicePanel<ResponseArtifact>>&, const std::string&);
 template std::string choice_words(const ResponseArtifact&);
 template std::string operating_words(const ChoicePanel<ResponseArtifact>&, const Background&);
 template std::string curve_label(const ChoicePanel<ResponseArtifact>&, const ResponseArtifact&);
 template std::vector<ChoicePanel<SweepArtifact>> panels_of(const std::vector<SweepArtifact>&,
                                                            const Background&);
+template const ChoicePanel<SweepArtifact>::Curve& only_curve(const std::vector<ChoicePanel<SweepArtifact>>&,
+                                                             const std::string&);
 template std::string choice_words(const SweepArtifact&);
 template std::string operating_words(const ChoicePanel<SweepArtifact>&, const Background&);
 template std::string curve_label(const ChoicePanel<SweepArtifact>&, const SweepArtifact&);

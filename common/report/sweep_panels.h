@@ -40,6 +40,11 @@ struct ChoicePanel {
 template <class Sweep>
 std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& background);
 
+// The one curve that figures of one torque and one set of choices are of. what: "order cuts", in the Error(input) for more or none.
+template <class Sweep>
+const typename ChoicePanel<Sweep>::Curve& only_curve(const std::vector<ChoicePanel<Sweep>>& panels,
+                                                     const std::string& what);
+
 // Damping, corner rule and fidelity of elastic gears; stiffness and integrator of a lumped model.
 template <class Sweep>
 std::string choice_words(const Sweep& s);

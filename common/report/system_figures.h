@@ -5,7 +5,8 @@
 
 namespace whine {
 
-// Transmission error and force of each mesh, size of the force on each bearing, pin and axis; the notes say how planets share the load.
+// Transmission error and force of each mesh, size of the force on each bearing, pin and axis; the notes say how planets share
+// the load.
 Figure system_static_figure(const SystemStaticArtifact& a);
 
 }  // namespace whine

@@ -32,7 +32,7 @@ class Transfer {
 Eigen::VectorXd sound(const Eigen::Ref<const Eigen::VectorXd>& record, double fundamental,
                       const Transfer* transfer, double rate, Eigen::Index samples);
 
-// A record of any course, such as a force while the speed changes, behind a transfer function: its spectrum times H, with a second
+// (sample) record at `rate` (Hz), such as a force while the speed changes, behind a transfer function: its spectrum times H, a second
 // of silence behind it so that what H draws out does not come back at the beginning. Same length, the mean is left out; without a
 // transfer function the record less its mean. Throws Error(input) for less than two samples or what is not finite.
 Eigen::VectorXd filtered(const Eigen::Ref<const Eigen::VectorXd>& record, double rate,

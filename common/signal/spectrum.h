@@ -41,7 +41,8 @@ struct Separations {
 // negative or non-finite.
 Separations separations(const Eigen::Ref<const Eigen::VectorXd>& force);
 
-// The real signal whose spectrum is that of x times h(turns per sample), h taken at bins 0 to half the rate (periodic over its length).
+// (sample) in the unit of x times h: the signal whose spectrum is that of x times h(turns per sample), from 0 to 1/2, both periodic
+// over their length. Throws Error(numerical) if FFTW makes no plan.
 Eigen::VectorXd multiplied_spectrum(const Eigen::Ref<const Eigen::VectorXd>& x,
                                     const std::function<std::complex<double>(double)>& h);
 

@@ -65,8 +65,8 @@ struct SweepArtifact : MotionParameters {
   std::vector<MatrixRM> tooth_load;  // [speed] (sample, pair) N
   // [gear][speed] (sample, xy) N: as in static.h5, with the bearing's damper; empty for a rigid bearing
   std::array<std::vector<MatrixRM>, 2> bearing_force;
-  // [gear] (speed, sample) Pa: largest tangential stress of all teeth along the root beside the loaded flank; empty for lumped
-  // models
+  // [gear] (speed, sample) Pa: largest tangential stress of the teeth that carry load, along the root beside the loaded flank,
+  // quasi-static in their loads; empty for lumped models
   std::array<MatrixRM, 2> root_stress;
   Eigen::VectorXi periods;   // (speed) mesh periods run
   Eigen::VectorXd residual;  // (speed) relative change of the state over a period at the end

@@ -4,7 +4,8 @@
 
 namespace whine {
 
-// (speed) 1: H_V of gear/losses.h over the mesh periods that are stored. Empty for lumped models.
+// (speed) 1: H_V of gear/losses.h over the mesh periods that are stored. Empty for a sweep without root stress,
+// such as that of a lumped model: an artifact has both or neither.
 Eigen::VectorXd loss_factors(const SweepArtifact& sweep);
 
 }  // namespace whine

@@ -9,8 +9,8 @@
 
 namespace whine {
 
-// Of a planetary train, by how its central members (all but planets) move. mixed: without that structure. train: without planets, or with
-// those of several carriers.
+// Of a planetary train, by how its central members (all but planets) move. mixed: without that structure. train: without
+// planets, or with those of several carriers.
 enum class ModeType { rotational, translational, planet, mixed, train };
 template <>
 inline constexpr const char* kWordsOf<ModeType> = "rotational translational planet mixed train";
@@ -25,8 +25,9 @@ struct ModesArtifact {
   std::vector<MatrixRM> shape;
   MatrixRM
       mesh_deflection;  // (mode, mesh) kg^-1/2: of the springs along the lines of action, positive where they close
-  MatrixRM
-      mesh_energy;  // (mode, mesh) 1: share of the potential energy; 0 of a mode without any, and below 0 where other meshes push through a common body
+  // (mode, mesh) 1: share of the potential energy; 0 of a mode without any, and below 0 where other meshes push through a common
+  // body
+  MatrixRM mesh_energy;
   MatrixRM bearing_energy;     // (mode, body) 1: the same of bearings, and of what holds a rotation
   MatrixRM kinetic_energy;     // (mode, body) 1: share of the kinetic energy
   double rigid_frequency = 0;  // Hz: motions slower than this count as free, with the frequency 0

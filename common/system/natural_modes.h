@@ -22,8 +22,8 @@ inline constexpr double kFreeMotion = 1e-11;
 // Error(numerical) if the eigenproblem is not solved. mesh_stiffness: see rigid_system.
 ModesArtifact natural_modes(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
 
-// Of elastic gears that do not vibrate themselves: M of the gears as rigid bodies, and the frozen stiffness of contact and bodies that
-// their statics have, averaged over the mesh period (modes) and at each phase (frozen_frequency). Throws as above.
+// Of elastic gears that do not vibrate themselves: M of the gears as rigid bodies, and the frozen stiffness of contact and
+// bodies that their statics have, averaged over the mesh period (modes) and at each phase (frozen_frequency). Throws as above.
 ModesArtifact elastic_modes(const SystemStaticArtifact& at_rest);
 
 }  // namespace whine

@@ -51,8 +51,8 @@ struct RigidSystem {
 // Throws Error(input) that names the body or mesh for a radius, inertia, mass or stiffness that is not positive, for a body without
 // a place, and if all freedoms are held.
 //
-// mesh_stiffness: (mesh, mesh) N m-1, of meshes that elastic bodies join (SystemStatics::mesh_stiffness()), symmetric; empty: those of the
-// layout, each by itself. On its diagonal a mesh without load may have 0.
+// mesh_stiffness: (mesh, mesh) N m-1, of meshes that elastic bodies join (SystemStatics::mesh_stiffness()), symmetric; empty:
+// those of the layout, each by itself. On its diagonal a mesh without load may have 0.
 RigidSystem rigid_system(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
 
 // Whether the axis of a body stands on the ground, or on a carrier whose axis stands on the ground. A carrier on a carrier, or on

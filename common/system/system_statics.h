@@ -62,10 +62,10 @@ class SystemStatics {
   // At a phase, 0 to 1, of a mesh period; start: (body) m. One phase after the other: what all mesh periods have in common
   // there is kept. Throws Error(numerical) where there is no equilibrium within the flanks.
   const SystemSolution& solve(double phase, int period, const Eigen::VectorXd& start);
-  // (mesh, mesh) N m-1, of the position that was solved last: K = W^T C^-1 W, contact frozen: C the compliance without bearings of what
-  // carries load, of lines with the slopes of their laws; W by how much each mesh's approach closes it, 1 on the line of action
-  // and at a tip edge the mean of the lever arms over the base radii. Off its diagonal stands what bodies that take part in several
-  // meshes join. A mesh without load has the stiffness 0.
+  // (mesh, mesh) N m-1, of the position that was solved last: K = W^T C^-1 W, contact frozen: C the compliance without bearings
+  // of what carries load, of lines with the slopes of their laws; W by how much each mesh's approach closes it, 1 on the line of
+  // action and at a tip edge the mean of the lever arms over the base radii. Off its diagonal stands what bodies that take part
+  // in several meshes join. A mesh without load has the stiffness 0.
   Eigen::MatrixXd mesh_stiffness() const;
   // [mesh], of strips, of the position that was solved last.
   std::vector<std::vector<ContactZone>> zones() const;
