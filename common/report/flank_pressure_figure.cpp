@@ -105,7 +105,7 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
       "over the mesh periods" +
           (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kMegapascal, 4) + " MPa" : ""),
       text("a tip edge on a flank is a singular contact: it has no largest pressure, so its load is stated (",
-           both ? "d" : "c", "); the edges are sharp in this model"),
+           both ? "d" : "c", "), and the map is white there, as without load"),
       both ? "the map of falling speed differs from that of rising speed"
            : "falling speed has the same map within 1 % of the largest pressure"};
   const auto step = [](const Eigen::VectorXd& x) {

@@ -24,26 +24,6 @@ struct Place {
   Index column = 0;         // pair
 };
 
-// All places of the pairs of a sweep at which two flanks, or a flank and an edge, can touch.
-std::vector<Place> places_of(const SweepArtifact& s, const GearPair& gears) {
-  const int steps = s.time.steps_per_period, count = std::min(kPlaces, steps);
-  std::vector<Place> out;
-  for (Index k = 0; k < s.pair.size(); ++k)
-    for (int i = 0; i < count; ++i) {
-      Place place;
-      place.first = i * steps / count;
-      place.last = (i + 1) * steps / count;
-      place.column = k;
-      place.phase = s.pair[k] + (i + 0.5) / count;
-      place.contact = gears.contact(place.phase);
-      if (!place.contact.on_flank) continue;
-      place.curvature = gears.relative_curvature_radius(place.contact);
-      out.push_back(std::move(place));
-    }
-  std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.phase < b.phase; });
-  return out;
-}
-
 // N: largest over the mesh periods that are stored of the least load at the samples of a place.
 double held_at(const Place& place, const MatrixRM& load, int steps) {
   double held = 0;
@@ -52,6 +32,33 @@ double held_at(const Place& place, const MatrixRM& load, int steps) {
                               .segment(period * steps + place.first, place.last - place.first)
                               .minCoeff());
   return held;
+}
+
+// The places of the path of contact, and those beyond it at which a pair carries load.
+std::vector<Place> places_of(const SweepArtifact& s, const GearPair& gears) {
+  const int steps = s.time.steps_per_period, count = std::min(kPlaces, steps);
+  const auto loaded = [&](const Place& place) {
+    return std::any_of(s.tooth_load.begin(), s.tooth_load.end(),
+                       [&](const MatrixRM& load) { return held_at(place, load, steps) > 0; });
+  };
+  std::vector<Place> out;
+  for (Index k = 0; k < s.pair.size(); ++k)
+    for (int i = 0; i < count; ++i) {
+      Place place;
+      place.first = i * steps / count;
+      place.last = (i + 1) * steps / count;
+      place.column = k;
+      place.phase = s.pair[k] + (i + 0.5) / count;
+      if (const double path = place.phase * gears.base_pitch();
+          (path < gears.path_start() || path > gears.path_end()) && !loaded(place))
+        continue;
+      place.contact = gears.contact(place.phase);
+      if (!place.contact.on_flank) continue;
+      place.curvature = gears.relative_curvature_radius(place.contact);
+      out.push_back(std::move(place));
+    }
+  std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.phase < b.phase; });
+  return out;
 }
 
 }  // namespace

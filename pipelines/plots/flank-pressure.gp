@@ -11,16 +11,18 @@ set border 3 lw 1.6
 set tics out nomirror font ",14"
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
-half_tall = 0.5 * (speed_step > 0 ? speed_step : span)
-half_wide = 0.5 * roll_step
+half_tall = 0.53 * (speed_step > 0 ? speed_step : span)
+half_wide = 0.53 * roll_step
 set palette defined (0 "#f4f1ea", 0.25 "#c9dcea", 0.5 "#6aaed6", 0.75 "#2166ac", 0.9 "#7a1f5c", 1 "#c8201e")
 rows = both == 1 ? 2 : 1
-top(r) = 1 - (100.0 + (r - 1) * (height - 190.0) / rows) / height + lift
-foot(r) = 1 - (100.0 + r * (height - 190.0) / rows - 75) / height + lift
+# Between the title, and axis and notes.
+tall = (height - 250.0) / rows
+top(r) = 1 - (185.0 + (r - 1) * tall) / height + lift
+foot(r) = 1 - (185.0 + r * tall - 45) / height + lift
 do for [r = 1:rows] {
   set tmargin at screen top(r)
   set bmargin at screen foot(r)
-  set lmargin at screen 0.08
+  set lmargin at screen 0.085
   set rmargin at screen 0.5
   unset key
   unset grid
@@ -30,7 +32,7 @@ do for [r = 1:rows] {
   set cblabel "Pressure (MPa)" offset -0.4
   set colorbox user origin screen 0.515, foot(r) size screen 0.012, top(r) - foot(r)
   set xlabel "Roll angle of " . word(labels, 1) . " (deg)" offset 0, 0.3 noenhanced
-  set ylabel "Mesh frequency (Hz)"
+  set ylabel "Mesh frequency (Hz)" offset 1
   set label 1 (r == 1 ? "{/:Bold (a)} speed rising" : "{/:Bold (b)} speed falling") at graph 0, graph 1 offset 0, 0.8 font ",14"
   plot tsv index (r == 1 ? "[map up]" : "[map down]") using 1:4:(half_wide):(half_tall):($5 > 0 ? $5 : NaN) \
     with boxxyerror fs solid 1 noborder lc palette notitle
@@ -38,16 +40,16 @@ do for [r = 1:rows] {
 }
 
 # Half as tall each, whatever the number of maps.
-upper = 1 - 100.0 / height + lift
-lower = 1 - (height - 165.0) / height + lift
+upper = top(1)
+lower = foot(rows)
 middle = 0.5 * (upper + lower)
-gap = 45.0 / height
-set lmargin at screen 0.665
+gap = 40.0 / height
+set lmargin at screen 0.69
 set rmargin at screen 0.985
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set key at graph 0.99, graph 0.98 right top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
+set key at graph 0.99, graph 0.04 right bottom Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
-set xlabel "Mesh frequency (Hz)" offset 0, 0.3 enhanced
+unset xlabel
 if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
   set arrow 1 from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
   set label 11 "f_n" at natural_frequency, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14"
@@ -61,6 +63,7 @@ plot tsv index "[speed up]" using 1:2 with lines lt 1 lw 2.6 lc rgb "#0072b2" ti
   tsv index "[speed down]" using 1:2 with lines lt 1 lw 1.8 dt (10, 5) lc rgb "#d55e00" title "falling", \
   pressure_rest > 0 ? pressure_rest : NaN with lines lt 1 lw 1.4 dt (4, 4) lc rgb "#505050" title "at rest"
 
+set xlabel "Mesh frequency (Hz)" offset 0, 0.3 enhanced
 set tmargin at screen middle - gap
 set bmargin at screen lower
 set yrange [0 : edge_max > 0 ? 1.25 * edge_max : 1]
