@@ -32,8 +32,8 @@ stress_scenes := $(if $(SCENE),$(own_scene),$(paper_scene) fzg-c)
 define stress_rule # scene
 .PHONY: bench-stress-of-$1
 bench-stress: bench-stress-of-$1
-bench-stress-of-$1: $(B)/bin/whine-bench-stress out/$1/params/static.toml $(pair_bodies)
-	@$$< --params out/$1/params/static.toml $(pair_options) --torque 150
+bench-stress-of-$1: $(B)/bin/whine-bench-stress out/$1/params/static.toml out/$1/params/sweep.toml $(pair_bodies)
+	@$$< --params out/$1/params/static.toml --sweep-params out/$1/params/sweep.toml $(pair_options) --torque 150
 endef
 .PHONY: bench-stress
 bench-stress: ## root stress of two pairs at one position beside CalculiX, which `deps-bench` installs (SCENE: of its pair)

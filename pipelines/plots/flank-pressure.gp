@@ -18,7 +18,7 @@ rows = both == 1 ? 2 : 1
 # Between the title, and axis and notes.
 tall = (height - 250.0) / rows
 top(r) = 1 - (185.0 + (r - 1) * tall) / height + lift
-foot(r) = 1 - (185.0 + r * tall - 45) / height + lift
+foot(r) = 1 - (185.0 + r * tall - (r < rows ? 88 : 45)) / height + lift
 do for [r = 1:rows] {
   set tmargin at screen top(r)
   set bmargin at screen foot(r)
@@ -31,7 +31,7 @@ do for [r = 1:rows] {
   set cbrange [0 : pressure_max]
   set cblabel "Pressure (MPa)" offset -0.4
   set colorbox user origin screen 0.515, foot(r) size screen 0.012, top(r) - foot(r)
-  set xlabel "Roll angle of " . word(labels, 1) . " (deg)" offset 0, 0.3 noenhanced
+  set xlabel (r == rows ? "Roll angle of " . word(labels, 1) . " (deg)" : "") offset 0, 0.3 noenhanced
   set ylabel "Mesh frequency (Hz)" offset 1
   set label 1 (r == 1 ? "{/:Bold (a)} speed rising" : "{/:Bold (b)} speed falling") at graph 0, graph 1 offset 0, 0.8 font ",14"
   plot tsv index (r == 1 ? "[map up]" : "[map down]") using 1:4:(half_wide):(half_tall):($5 > 0 ? $5 : NaN) \
@@ -43,7 +43,7 @@ do for [r = 1:rows] {
 upper = top(1)
 lower = foot(rows)
 middle = 0.5 * (upper + lower)
-gap = 40.0 / height
+gap = 44.0 / height
 set lmargin at screen 0.69
 set rmargin at screen 0.985
 set grid lt 1 lc rgb "#e4e4e4" lw 1
@@ -52,7 +52,7 @@ set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
 unset xlabel
 if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
   set arrow 1 from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
-  set label 11 "f_n" at natural_frequency, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14"
+  set label 11 "f_n" at natural_frequency, graph 0.94 offset 0.5, 0 left tc rgb "#505050" font ",14"
 }
 set tmargin at screen upper
 set bmargin at screen middle + gap
@@ -66,7 +66,8 @@ plot tsv index "[speed up]" using 1:2 with lines lt 1 lw 2.6 lc rgb "#0072b2" ti
 set xlabel "Mesh frequency (Hz)" offset 0, 0.3 enhanced
 set tmargin at screen middle - gap
 set bmargin at screen lower
-set yrange [0 : edge_max > 0 ? 1.25 * edge_max : 1]
+set yrange [0 : edge_max > 0 ? 1.4 * edge_max : 1]
+set key left top at graph 0.02, graph 0.98
 set ylabel "Load over a tip edge (N)" offset 0.6
 set label 1 (both == 1 ? "{/:Bold (d)}" : "{/:Bold (c)}") . " pairs that touch at a tip edge: their load"
 array colour[2] = ["#0072b2", "#d55e00"]

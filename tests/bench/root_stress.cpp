@@ -6,7 +6,9 @@
 // Example: whine-bench-stress --params out/fzg-c/params/static.toml --body pinion=out/fzg-c/pinion/body.h5
 //            --body wheel=out/fzg-c/wheel/body.h5 --torque 200
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <ctime>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "io/scene.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/sweep.h"
 #include "system/statics.h"
 
 namespace {
@@ -67,19 +70,43 @@ void compare(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
   }
 }
 
+// CPU of a sweep up with root stress, over that of bodies without tables; the two in turn, the least of each.
+void time_of_sweeps(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+                    const whine::StaticParameters& settings, const whine::SweepParameters& sweeps, double torque) {
+  using namespace whine;
+  constexpr int kTurns = 5;
+  const StaticArtifact s = static_transmission(driver, driven, settings, torque);
+  std::array<BodyArtifact, 2> plain{driver, driven};
+  for (BodyArtifact& body : plain) body.root_stress.clear();
+  double least[2] = {1e30, 1e30};  // s
+  for (int turn = 0; turn < 2 * kTurns; ++turn) {
+    const bool with = turn % 2 == 0;
+    const std::clock_t start = std::clock();
+    const SweepArtifact swept = sweep(with ? driver : plain[0], with ? driven : plain[1], s, s.mean_stiffness,
+                                      sweeps, Direction::up, [](long, long, const std::string&) {});
+    least[turn % 2] = std::min(least[turn % 2], double(std::clock() - start) / CLOCKS_PER_SEC);
+    if (with == (swept.root_stress[0].size() == 0)) fail(Failure::numerical, "root stress where there is none");
+  }
+  std::printf("  sweep up with root stress: CPU %.3f s, %.3f times that without\n", least[0], least[0] / least[1]);
+}
+
 void body(int argc, char** argv) {
   whine::Options options{"Root stress at one position beside CalculiX", "whine-bench-stress"};
-  std::string params, torque;
+  std::string params, sweep_params, torque;
   std::vector<std::string> bodies;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/static.toml").required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--torque", torque, "torque on the driver in N m, above 0").required();
+  options.add("--sweep-params", sweep_params, "stage parameters of the scene, to time a sweep as well");
   options.parse(argc, argv);
   const double load = whine::number_option("--torque", torque);
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
   std::printf("%s\n", params.c_str());
-  compare(whine::read_body(paths[0]), whine::read_body(paths[1]), read, load);
+  const whine::BodyArtifact driver = whine::read_body(paths[0]), driven = whine::read_body(paths[1]);
+  if (!sweep_params.empty())
+    time_of_sweeps(driver, driven, read, whine::read_sweep_parameters(sweep_params), load);
+  compare(driver, driven, read, load);
 }
 
 }  // namespace
