@@ -99,8 +99,7 @@ Eigen::Vector3d section_imbalance(const GearDesign& design, double element, doub
       Eigen::MatrixX2d moved(nodes.rows(), 2);
       for (Eigen::Index k = 0; k < nodes.rows(); ++k)
         moved.row(k) = loaded.displacement.row(loaded.gear.node(0, mesh.element_node(e, k)));
-      const Eigen::Vector3d stress =
-          elasticity * element_strain(nodes, moved, reference.x(), reference.y());
+      const Eigen::Vector3d stress = elasticity * element_strain(nodes, moved, reference.x(), reference.y());
       // What lies towards the tip is pulled by what lies towards the bore, or the rim of a ring.
       const double area = tooth.outwards() * 2 * std::abs(end.x()) / kPlaces * design.face_width;
       carried += area * Eigen::Vector3d(stress[2], stress[1], p.x() * stress[1]);
@@ -321,11 +320,10 @@ TEST_CASE(
   r.pair_phase.cwiseAbs().minCoeff(&middle);
   const double place = r.pair_phase[middle] * pair.base_pitch(),
                compliance = 2 / s.gear[0].material.youngs_modulus;  // plane stress: 1 / E*
-  CHECK(r.flank_pressure(0, middle) ==
-        relative(std::sqrt(150 / pair.gear(0).base_radius() /
-                           (std::numbers::pi * s.face_width() * compliance *
-                            pair.relative_curvature_radius(place))),
-                 5e-3));
+  CHECK(r.flank_pressure(0, middle) == relative(std::sqrt(150 / pair.gear(0).base_radius() /
+                                                          (std::numbers::pi * s.face_width() * compliance *
+                                                           pair.relative_curvature_radius(place))),
+                                                5e-3));
   CHECK(r.flank_roll(middle, 0) == relative(pair.nominal_roll(0, place), 1e-9));
   // Tip edges touch with corner contact only.
   CHECK(r.edge_load[0][0] > 0);

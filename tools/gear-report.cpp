@@ -27,9 +27,10 @@ void body(int argc, char** argv) {
   bool teeth = false;
   options.add("inputs", inputs, "artifacts (.h5) and figures (.png) of one scene").required();
   options.add("--output", output, "page to write (.html); results.tsv stands beside it").required();
-  options.flag("--teeth", teeth,
-              "what the teeth suffer at the first torque: root stress, flank pressure, dynamic factors; figures in "
-              "../report/ of the page, no results.tsv");
+  options.flag(
+      "--teeth", teeth,
+      "what the teeth suffer at the first torque: root stress, flank pressure, dynamic factors; figures in "
+      "../report/ of the page, no results.tsv");
   options.footer(
       "Example:\n"
       "  gear-report --output report/index.html out/parker2000/T150/static.h5 "

@@ -73,11 +73,12 @@ void describe_periods(Codec& c, const GearMeshSpec& mesh, RunupPeriods& a, bool&
   const auto name = [&](int g) { return at + of_body(c, mesh, g, "root_stress_held").substr(1); };
   root_stress = c.optional(name(0), root_stress);
   for (int g = 0; root_stress && g < (c.lists() ? 1 : kSides); ++g)
-    c.dataset({name(g), "Pa",
-               "largest tangential stress along the roots beside the loaded flanks that is held for 1/64 of the "
-               "mesh period, quasi-static in the tooth loads",
-               axis, kStress},
-              &a.root_stress_held[static_cast<size_t>(g)]);
+    c.dataset(
+        {name(g), "Pa",
+         "largest tangential stress along the roots beside the loaded flanks that is held for 1/64 of the "
+         "mesh period, quasi-static in the tooth loads",
+         axis, kStress},
+        &a.root_stress_held[static_cast<size_t>(g)]);
 }
 
 void describe_tail(Codec& c, RunupArtifact& a) {

@@ -169,7 +169,8 @@ Drawings drawings_at_rest() {
         "sweep finds",
         0, 0, draw_root_stress}},
       {"flank-pressure",
-       {"flank pressure over roll angle and speed, loads over tip edges", "static.h5, response.h5 of the sweeps up and down, all of one torque", 3, 0,
+       {"flank pressure over roll angle and speed, loads over tip edges",
+        "static.h5, response.h5 of the sweeps up and down, all of one torque", 3, 0,
         [](const Paths& in, const Frequencies&) {
           return flank_pressure_figure(read_static(in[0]), {read_response(in[1]), read_response(in[2])});
         }}},

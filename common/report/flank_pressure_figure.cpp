@@ -32,12 +32,12 @@ void require_inputs(const StaticArtifact& s, const std::vector<ResponseArtifact>
 }
 
 FigureBlock map_block(const ResponseArtifact& r) {
-  FigureBlock block{text("map ", r.direction),
-                    {"roll_driver [deg]", "roll_driven [deg]", "pair_phase [1]", "mesh_frequency [Hz]",
-                     "pressure [MPa]"},
-                    {},
-                    "",
-                    ""};
+  FigureBlock block{
+      text("map ", r.direction),
+      {"roll_driver [deg]", "roll_driven [deg]", "pair_phase [1]", "mesh_frequency [Hz]", "pressure [MPa]"},
+      {},
+      "",
+      ""};
   block.table = "map";
   block.curve = name_of(r.direction);
   for (Index f = 0; f < r.mesh_frequency.size(); ++f)
@@ -101,16 +101,15 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
     for (const Eigen::VectorXd& load : r->edge_load) edge = std::max(edge, load.maxCoeff());
   }
   figure.notes = {
-      "Hertz's law of the load that a pair holds for 1/64 of a mesh period at each place of the flanks; largest "
+      "Hertz's law of the load that a pair holds for 1/64 of a mesh period at each place of the flanks; "
+      "largest "
       "over the mesh periods" +
           (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kMegapascal, 4) + " MPa" : ""),
       text("a tip edge on a flank is a singular contact: it has no largest pressure, so its load is stated (",
            both ? "d" : "c", "), and the map is white there, as without load"),
       both ? "the map of falling speed differs from that of rising speed"
            : "falling speed has the same map within 1 % of the largest pressure"};
-  const auto step = [](const Eigen::VectorXd& x) {
-    return x.size() > 1 ? std::abs(x[1] - x[0]) : 0.0;
-  };
+  const auto step = [](const Eigen::VectorXd& x) { return x.size() > 1 ? std::abs(x[1] - x[0]) : 0.0; };
   figure.words = {{"labels", text("'", s.mesh.gear[0], "' '", s.mesh.gear[1], "'")}};
   figure.numbers = {{"both", both ? 1.0 : 0.0},
                     {"roll_from", up.flank_roll.col(0).minCoeff() * kDegrees},

@@ -235,8 +235,8 @@ std::string figure(const ReportContent& c, const ReportPicture& picture, const E
   std::string files;
   for (const auto& [end, what] :
        {std::pair{"tsv", "numbers"}, std::pair{"svg", "svg"}, std::pair{"png", "png"}})
-    files += text(files.empty() ? "" : " ", "<a href=\"", html::escaped(c.figure_folder + picture.name), ".", end, "\">", what,
-                  "</a>");
+    files += text(files.empty() ? "" : " ", "<a href=\"", html::escaped(c.figure_folder + picture.name), ".",
+                  end, "\">", what, "</a>");
   return html::figure(picture.name, picture.bytes, kind.title,
                       words + " <span class=\"files\">" + files + "</span>");
 }

@@ -23,7 +23,9 @@ using Eigen::Index;
 constexpr double kMegapascal = 1e-6, kDegrees = 180 / std::numbers::pi;
 constexpr const char* kNone = "–";
 
-std::string megapascal(double stress) { return fixed(stress * kMegapascal, 1); }
+std::string megapascal(double stress) {
+  return fixed(stress * kMegapascal, 1);
+}
 
 // A formula of the standard, or a dash where it is outside of its range.
 std::string formula(const std::function<std::string()>& value) {
@@ -40,11 +42,12 @@ double tangential_force(const StaticArtifact& s, const GearPair& pair) {
 }
 
 WordTable at_rest(const StaticArtifact& s, const GearPair& pair) {
-  WordTable out{text("At rest at ", torque_words(s.torque),
-                     ", beside ISO 6336, method B. sigma_F0 is of a tooth that carries the whole load at the outer "
-                     "point of single contact; sigma_H0 is at the pitch point."),
-                {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"},
-                {}};
+  WordTable out{
+      text("At rest at ", torque_words(s.torque),
+           ", beside ISO 6336, method B. sigma_F0 is of a tooth that carries the whole load at the outer "
+           "point of single contact; sigma_H0 is at the pitch point."),
+      {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"},
+      {}};
   const double force = tangential_force(s, pair);
   const auto both = [&](const char* what, const char* unit, const std::function<std::string(int)>& value) {
     out.rows.push_back({what, unit, formula([&] { return value(0); }), formula([&] { return value(1); })});
@@ -58,9 +61,8 @@ WordTable at_rest(const StaticArtifact& s, const GearPair& pair) {
   both("stress correction factor Y_S", kNone,
        [&](int g) { return fixed(iso_6336_root(pair, g).stress_correction, 3); });
   both("sigma_F0", "MPa", [&](int g) { return megapascal(iso_6336_root_stress(pair, g, force)); });
-  both("root stress over sigma_F0", "1", [&](int g) {
-    return fixed(s.root_stress_max[g] / iso_6336_root_stress(pair, g, force), 3);
-  });
+  both("root stress over sigma_F0", "1",
+       [&](int g) { return fixed(s.root_stress_max[g] / iso_6336_root_stress(pair, g, force), 3); });
   const FlankPressure pressure = flank_pressure(s);
   const auto alike = [&](const char* what, const char* unit, const std::string& value) {
     out.rows.push_back({what, unit, value, value});
@@ -68,8 +70,7 @@ WordTable at_rest(const StaticArtifact& s, const GearPair& pair) {
   alike("largest flank pressure, edges left out", "MPa",
         pressure.smooth > 0 ? megapascal(pressure.smooth) : kNone);
   alike("sigma_H0, ISO 6336-2", "MPa", formula([&] {
-          return megapascal(
-              iso_6336_flank_pressure(pair, {s.gear[0].material, s.gear[1].material}, force));
+          return megapascal(iso_6336_flank_pressure(pair, {s.gear[0].material, s.gear[1].material}, force));
         }));
   alike("loss factor H_V", "1", fixed(s.loss_factor, 4));
   alike("the same of rigid teeth", "1", formula([&] { return fixed(loss_factor_of_rigid_teeth(pair), 4); }));
@@ -96,11 +97,12 @@ double dynamic_factor(const StaticArtifact& s, const ResponseArtifact& r, double
 
 WordTable in_motion(const StaticArtifact& s, const GearPair& pair,
                     const std::array<const ResponseArtifact*, 2>& sweeps) {
-  WordTable out{"In motion: the largest over all speeds, held for 1/64 of a mesh period, with the mesh frequency at "
-                "which it stands, what it is over its value at rest (the dynamic factor), and K_v of ISO 6336-1, "
-                "method B, at that speed.",
-                {"", "speed", "largest", "at (Hz)", "dynamic factor", "K_v there"},
-                {}};
+  WordTable out{
+      "In motion: the largest over all speeds, held for 1/64 of a mesh period, with the mesh frequency at "
+      "which it stands, what it is over its value at rest (the dynamic factor), and K_v of ISO 6336-1, "
+      "method B, at that speed.",
+      {"", "speed", "largest", "at (Hz)", "dynamic factor", "K_v there"},
+      {}};
   const double force = s.torque / pair.gear(0).base_radius();
   for (size_t d = 0; d < sweeps.size(); ++d) {
     const ResponseArtifact& r = *sweeps[d];
@@ -108,15 +110,15 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair,
                          const char* unit) {
       Index top = 0;
       const double most = values.maxCoeff(&top);
-      out.rows.push_back(
-          {what, d == 0 ? "rising" : "falling", fixed(most * scale, scale == 1 ? 0 : 1) + unit,
-           fixed(r.mesh_frequency[top], 0), rest > 0 ? fixed(most / rest, 2) : kNone,
-           pair.internal() ? kNone
-                           : formula([&] { return fixed(dynamic_factor(s, r, r.mesh_frequency[top]), 2); })});
+      out.rows.push_back({what, d == 0 ? "rising" : "falling", fixed(most * scale, scale == 1 ? 0 : 1) + unit,
+                          fixed(r.mesh_frequency[top], 0), rest > 0 ? fixed(most / rest, 2) : kNone,
+                          pair.internal() ? kNone : formula([&] {
+                            return fixed(dynamic_factor(s, r, r.mesh_frequency[top]), 2);
+                          })});
     };
     for (size_t g = 0; g < kSides; ++g)
-      add("root stress of " + s.mesh.gear[g], r.root_stress_held[g],
-          s.root_stress_max[static_cast<Index>(g)], kMegapascal, " MPa");
+      add("root stress of " + s.mesh.gear[g], r.root_stress_held[g], s.root_stress_max[static_cast<Index>(g)],
+          kMegapascal, " MPa");
     add("mesh force", r.mesh_force_held, force, 1, " N");
     add("load of a pair of teeth", r.tooth_load_held, s.tooth_load.maxCoeff(), 1, " N");
     const FlankPressure rest = flank_pressure(s);
@@ -124,26 +126,32 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair,
     for (size_t g = 0; g < kSides; ++g)
       add("load over the tip edge of " + s.mesh.gear[g], r.edge_load[g], 0, 1, " N");
     out.rows.push_back({"loss factor H_V, least to largest", d == 0 ? "rising" : "falling",
-                        fixed(r.loss_factor.minCoeff(), 4) + " to " + fixed(r.loss_factor.maxCoeff(), 4), kNone,
-                        kNone, kNone});
+                        fixed(r.loss_factor.minCoeff(), 4) + " to " + fixed(r.loss_factor.maxCoeff(), 4),
+                        kNone, kNone, kNone});
   }
   return out;
 }
 
 const std::vector<std::string>& limits() {
   static const std::vector<std::string> all{
-      "Root stress is the tangential stress along the root beside the loaded flank of the teeth that carry load. In "
+      "Root stress is the tangential stress along the root beside the loaded flank of the teeth that carry "
+      "load. In "
       "motion it is quasi-static in the tooth loads: the inertia of the body adds none.",
-      "A tip edge on a flank is a singular contact in this model: it has no largest pressure, so its load is stated. "
+      "A tip edge on a flank is a singular contact in this model: it has no largest pressure, so its load is "
+      "stated. "
       "Real edges are rounded and wear.",
-      "Pressure in motion is Hertz's of the load that a pair holds; the start of a linear relief is a ridge that it does "
+      "Pressure in motion is Hertz's of the load that a pair holds; the start of a linear relief is a ridge "
+      "that it does "
       "not resolve.",
-      "K_v is of gears without deviations; sigma_F0 and sigma_H0 have no application, face load or dynamic factors.",
+      "K_v is of gears without deviations; sigma_F0 and sigma_H0 have no application, face load or dynamic "
+      "factors.",
       "Losses are per unit coefficient of friction."};
   return all;
 }
 
-std::string as_html(const WordTable& t) { return html::table(t.caption, t.head, t.rows); }
+std::string as_html(const WordTable& t) {
+  return html::table(t.caption, t.head, t.rows);
+}
 
 }  // namespace
 
@@ -174,8 +182,9 @@ std::string teeth_html(const ReportContent& c) {
   std::string list;
   for (const std::string& limit : limits()) list += html::tagged("li", html::escaped(limit)) + "\n";
   const auto section = [](const char* id, const char* heading, const std::string& inside) {
-    return inside.empty() ? ""
-                          : text("<section id=\"", id, "\">\n<h2>", heading, "</h2>\n", inside, "</section>\n");
+    return inside.empty()
+               ? ""
+               : text("<section id=\"", id, "\">\n<h2>", heading, "</h2>\n", inside, "</section>\n");
   };
   return html::page(
       title, "<p class=\"scene\">What the teeth suffer: scene <code>" + html::escaped(file) + "</code></p>\n",

@@ -84,8 +84,7 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h, double root) {
     plan.n_sharp =
         std::max(3, static_cast<int>(std::ceil(root_length(tooth, plan.t_split, plan.t_land) / root)));
     plan.n_root = plan.n_sharp;
-    if (plan.t_land < 1)
-      plan.n_root += static_cast<int>(std::ceil(root_length(tooth, plan.t_land, 1) / h));
+    if (plan.t_land < 1) plan.n_root += static_cast<int>(std::ceil(root_length(tooth, plan.t_land, 1) / h));
   }
 
   // The tooth region ends on a ring one module below the root, or half way to the bore on a thin rim.

@@ -17,9 +17,9 @@ constexpr int kPlaces = 64;  // in a mesh period
 
 // A place that a pair passes, by its phase.
 struct Place {
-  double phase = 0;        // middle
+  double phase = 0;  // middle
   PairContact contact;
-  double curvature = 0;    // m: relative radius
+  double curvature = 0;     // m: relative radius
   int first = 0, last = 0;  // samples of a mesh period
   Index column = 0;         // pair
 };
@@ -28,9 +28,9 @@ struct Place {
 double held_at(const Place& place, const MatrixRM& load, int steps) {
   double held = 0;
   for (Index period = 0; period * steps < load.rows(); ++period)
-    held = std::max(held, load.col(place.column)
-                              .segment(period * steps + place.first, place.last - place.first)
-                              .minCoeff());
+    held = std::max(
+        held,
+        load.col(place.column).segment(period * steps + place.first, place.last - place.first).minCoeff());
   return held;
 }
 
@@ -85,8 +85,7 @@ void add_flank_pressure(const SweepArtifact& s, ResponseArtifact& r) {
       for (int g = 0; g < kSides; ++g) r.flank_roll(column, g) = place.contact.roll[static_cast<size_t>(g)];
     }
     for (Index f = 0; f < speeds; ++f) {
-      const double load =
-          held_at(place, s.tooth_load[static_cast<size_t>(f)], s.time.steps_per_period);
+      const double load = held_at(place, s.tooth_load[static_cast<size_t>(f)], s.time.steps_per_period);
       if (!(load > 0)) continue;
       int edge = place.contact.corner ? place.contact.tip_gear : -1;
       const double half = std::sqrt(4 * load * place.curvature / (std::numbers::pi * width * modulus));

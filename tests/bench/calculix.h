@@ -99,7 +99,7 @@ class CalculixPair {
     std::vector<std::array<std::size_t, 6>> element;  // corners counter-clockwise, mid-sides
     std::vector<std::size_t> bore;
     std::vector<std::pair<std::size_t, int>> contact;  // element (from 0), side (from 1) on flanks in reach
-    std::vector<std::pair<std::size_t, Vec2>> root;  // node, tangent, from the flank on; of tooth 0
+    std::vector<std::pair<std::size_t, Vec2>> root;    // node, tangent, from the flank on; of tooth 0
     Vec2 centre;
   };
 
@@ -142,7 +142,7 @@ class CalculixPair {
     };
     const double form = tooth.form_roll_angle(), tip = tooth.tip_roll_angle();
     std::vector<int> outer, flank_of_tooth;
-    int root_of_tooth = 0;  // 0
+    int root_of_tooth = 0;          // 0
     std::vector<int> first(teeth);  // point in the tooth space clockwise of the tooth
     const auto placed = [&](int j, Vec2 p, bool mirrored) -> Vec2 {
       if (mirrored) p.x() = -p.x();
@@ -263,7 +263,8 @@ class CalculixPair {
       for (std::size_t tag : tags) {
         int nearest = 0;
         for (int k = 1; k <= kSteps; ++k)
-          if ((on_root(k) - mesh.node.at(tag)).norm() < (on_root(nearest) - mesh.node.at(tag)).norm()) nearest = k;
+          if ((on_root(k) - mesh.node.at(tag)).norm() < (on_root(nearest) - mesh.node.at(tag)).norm())
+            nearest = k;
         along[nearest] = tag;
       }
       for (const auto& [k, tag] : along) {

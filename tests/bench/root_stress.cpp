@@ -26,7 +26,7 @@
 namespace {
 
 constexpr double kContactElement = 0.06e-3;  // m, CalculiX's where the flanks touch
-constexpr double kRootElement = 0.06;            // the same on the roots, over the radius of the rack's tip
+constexpr double kRootElement = 0.06;        // the same on the roots, over the radius of the rack's tip
 
 whine::BodyArtifact in_plane_strain(const whine::BodyArtifact& body) {
   whine::Material material = body.material;
@@ -38,14 +38,17 @@ void compare(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
              whine::StaticParameters settings, double torque) {
   using namespace whine;
   settings.mesh.corner = CornerRule();  // CalculiX leaves no tip edge out
-  const StaticArtifact s = static_transmission(in_plane_strain(driver), in_plane_strain(driven), settings, torque);
+  const StaticArtifact s =
+      static_transmission(in_plane_strain(driver), in_plane_strain(driven), settings, torque);
   Eigen::Index row = 0, pair = 0;
   s.root_stress[0].maxCoeff(&row, &pair);
   const GearPair gears(driver.design, driven.design, settings.mesh.centre_distance);
   const double phase = s.mesh_phase[row] + s.pair[pair];
-  std::printf("  %g N m, plane strain, phase of the pair %.4f, elements of %g and %g mm, load of the pair %.1f N of %.1f N\n",
-              torque, phase, driver.discretisation.element_size * 1e3, driven.discretisation.element_size * 1e3,
-              s.tooth_load(row, pair), torque / gears.gear(0).base_radius());
+  std::printf(
+      "  %g N m, plane strain, phase of the pair %.4f, elements of %g and %g mm, load of the pair %.1f N of "
+      "%.1f N\n",
+      torque, phase, driver.discretisation.element_size * 1e3, driven.discretisation.element_size * 1e3,
+      s.tooth_load(row, pair), torque / gears.gear(0).base_radius());
   if (!CalculixPair::installed()) {
     std::printf("  (no CalculiX to compare with: make deps-bench)\n");
     return;
@@ -57,8 +60,8 @@ void compare(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
                                     .solve(s.transmission_error[row] / gears.gear(0).base_radius());
   // Of the driver, by the reaction of the driven gear: friction takes none.
   const double their_torque = peer.torque * gears.gear(0).base_radius() / gears.gear(1).base_radius();
-  std::printf("  CalculiX: %d nodes, %.4f mm on the roots, CPU %.1f s, torque %+.3f %%\n", peer.nodes, element * 1e3,
-              peer.usage.seconds, 100 * (their_torque / torque - 1));
+  std::printf("  CalculiX: %d nodes, %.4f mm on the roots, CPU %.1f s, torque %+.3f %%\n", peer.nodes,
+              element * 1e3, peer.usage.seconds, 100 * (their_torque / torque - 1));
   for (int g = 0; g < kSides; ++g) {
     const auto& stress = peer.root_stress[static_cast<size_t>(g)];
     // To the torque of Whine, in proportion.
@@ -72,7 +75,8 @@ void compare(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
 
 // CPU of a sweep up with root stress, over that of bodies without tables; the two in turn, the least of each.
 void time_of_sweeps(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
-                    const whine::StaticParameters& settings, const whine::SweepParameters& sweeps, double torque) {
+                    const whine::StaticParameters& settings, const whine::SweepParameters& sweeps,
+                    double torque) {
   using namespace whine;
   constexpr int kTurns = 5;
   const StaticArtifact s = static_transmission(driver, driven, settings, torque);
@@ -85,9 +89,11 @@ void time_of_sweeps(const whine::BodyArtifact& driver, const whine::BodyArtifact
     const SweepArtifact swept = sweep(with ? driver : plain[0], with ? driven : plain[1], s, s.mean_stiffness,
                                       sweeps, Direction::up, [](long, long, const std::string&) {});
     least[turn % 2] = std::min(least[turn % 2], double(std::clock() - start) / CLOCKS_PER_SEC);
-    if (with == (swept.root_stress[0].size() == 0)) fail(Failure::numerical, "root stress where there is none");
+    if (with == (swept.root_stress[0].size() == 0))
+      fail(Failure::numerical, "root stress where there is none");
   }
-  std::printf("  sweep up with root stress: CPU %.3f s, %.3f times that without\n", least[0], least[0] / least[1]);
+  std::printf("  sweep up with root stress: CPU %.3f s, %.3f times that without\n", least[0],
+              least[0] / least[1]);
 }
 
 void body(int argc, char** argv) {
