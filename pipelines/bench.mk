@@ -24,6 +24,21 @@ bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and m
 	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml --torque 150 \
 	  --body pinion=out/$(standard_scene)/pinion/body.h5 --body wheel=out/$(standard_scene)/wheel/body.h5
 
+$(B)/bin/whine-bench-stress: tests/bench/root_stress.cpp tests/bench/calculix.h $(B)/flags $(library) | $(B)/bin/ $(with_deps_bench)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
+
+# Of SCENE, or of the default pair and of 16 and 24 teeth of module 4.5 mm.
+stress_scenes := $(if $(SCENE),$(own_scene),$(paper_scene) fzg-c)
+define stress_rule # scene
+.PHONY: bench-stress-of-$1
+bench-stress: bench-stress-of-$1
+bench-stress-of-$1: $(B)/bin/whine-bench-stress out/$1/params/static.toml out/$1/params/sweep.toml $(pair_bodies)
+	@$$< --params out/$1/params/static.toml --sweep-params out/$1/params/sweep.toml $(pair_options) --torque 150
+endef
+.PHONY: bench-stress
+bench-stress: ## root stress of two pairs at one position beside CalculiX, which `deps-bench` installs (SCENE: of its pair)
+$(if $(filter bench-stress,$(goals)),$(foreach s,$(stress_scenes),$(eval $(call stress_rule,$s))))
+
 $(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(library) | $(B)/bin/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
 

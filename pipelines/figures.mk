@@ -65,6 +65,8 @@ inputs_relief-jumps = $(inputs_fig05)
 inputs_error-budget = out/$1/T$(firstword $2)/error_budget.h5
 inputs_sidebands = out/$1/T$(firstword $2)/static.h5 out/$1/T$(firstword $2)/up/response.h5
 inputs_root-stress = out/$1/T$(firstword $2)/static.h5 $(call both_ways,$1,$(firstword $2),response)
+inputs_root-stress-branches = $(inputs_root-stress) out/$1/T$(firstword $2)/branch.h5
+inputs_flank-pressure = $(inputs_root-stress)
 inputs_crack = out/$1/T$(firstword $2)/static.h5
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
@@ -79,6 +81,7 @@ drawn_as_fig14 := fig16
 drawn_as_fig14-elastic := fig16
 drawn_as_profile-chart := profile
 drawn_as_relief-jumps := fig05
+drawn_as_root-stress-branches := root-stress
 drawn_as_histories := fig08
 drawn_as_history-loads := fig10
 $(foreach d,up down,$(eval drawn_as_runup-$d := runup))
@@ -97,7 +100,7 @@ paper_scenes_crack := $(cracked_scene)
 paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-$(foreach f,profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
+$(foreach f,profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig07-branches fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
 
@@ -106,7 +109,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress bearing-forces error-budget profile-chart sidebands crack
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces error-budget profile-chart sidebands crack
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
@@ -213,6 +216,14 @@ out/$1/report/index.html out/$1/report/results.tsv &: $(report_inputs) out/$1/pa
 	$(B)/bin/gear-report --output out/$1/report/index.html $(report_inputs)
 endef
 
+# What the teeth suffer, of the first torque.
+teeth_shows = root-stress $(if $(filter yes,$(BRANCHES)),root-stress-branches) flank-pressure load-sharing tooth-loads error-budget
+teeth_inputs = $(call report_artifacts,$1,$(firstword $(SCENE_$1_TORQUES))) $(patsubst %,out/$1/report/%.png,$(teeth_shows))
+define teeth_rule # scene
+out/$1/teeth/index.html: $(teeth_inputs) out/$1/params/title.txt $(B)/scenes/$1.mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
+	$(B)/bin/gear-report --teeth --output out/$1/teeth/index.html $(teeth_inputs)
+endef
+
 # The fragment of a scene says its torques: a report depends on the list, too, not only on what stands at each.
 define figure_rules # scene; needs its fragment
 $(if $(filter $(paper_scene),$1),\
@@ -231,6 +242,7 @@ $(if $(filter export,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call expo
   $(eval $(call plan_rule,$(export_plan_file),$(export_plan)))))
 $(if $(filter runup,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call figure_rule,runup-$(WAY),$(runup_figure),$(call inputs_runup,$1)))))
 $(eval $(call report_rule,$1))
+$(eval $(call teeth_rule,$1))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef
 
@@ -245,7 +257,8 @@ report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page
 export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
 	$(call stands,export: $(export_file))
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
-teeth: root-stress load-sharing tooth-loads error-budget ## root stress, tooth loads and load sharing of a pair of intact, equal teeth, and what refining changes in statics, 150 N m (SCENE: its first torque)
+teeth: out/$$(own_scene)/teeth/index.html ## what the teeth of SCENE (default: the paper's) suffer, on one page, out/<scene>/teeth/index.html: root stress, flank pressure, dynamic factors, losses beside ISO 6336, at its first torque; BRANCHES=yes
+	$(call stands,teeth: open $< in a browser)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair
 fig03: ## the contact zone: candidate pairs, inner and outer region, strips and their pressure, 150 N m (SCENE: its first torque)
@@ -274,6 +287,8 @@ waterfall: ## spectra of the dynamic transmission error against mesh frequency, 
 order-cuts: ## order cuts: the first orders of the dynamic transmission error against speed, rising and falling, 150 N m (SCENE: its first torque)
 tooth-loads: ## tooth loads against mesh frequency, and over the mesh period at the resonance, 150 N m (SCENE: its first torque)
 root-stress: ## root stress over the mesh cycle and over speed, dynamic factors beside K_v of ISO 6336-1, 150 N m (SCENE: its first torque)
+root-stress-branches: ## root-stress with the unstable orbits of the branch
+flank-pressure: ## flank pressure over roll angle and speed, both ways, and what tip edges carry, 150 N m (SCENE: its first torque)
 bearing-forces: ## forces on elastic bearings against mesh frequency, 150 N m of parker2000-bearings (SCENE: its first torque)
 profile-chart: ## what is taken off the driving flanks, as an inspection sheet shows it, of the paper's pair with relief from 20.9 deg (SCENE: of its gears)
 relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relief, at both dampings, 150 N m

@@ -52,7 +52,7 @@ variant_file = out/$(own_scene)/variants/$1.toml
 scene_file = $(if $(filter $1,$(study_designs)),$(study_design),$(if $(filter $1,$(compared)),$(firstword $(foreach f,$(compared_files),$(if $(filter $1,$(basename $(notdir $f))),$f))),$(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))))
 
 # that need a scene of a pair, SCENE or the paper's
-pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report export
+pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report teeth export
 path_goals := $(filter out/%,$(goals))
 scenes := $(sort \
   $(if $(filter $(pair_goals) out/bodies/%,$(goals)),$(own_scene)) \
@@ -60,7 +60,7 @@ scenes := $(sort \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
   $(if $(filter bifurcations,$(goals)),$(paper_scene) $(bifurcation_scenes)) \
   $(if $(filter jump-folds,$(goals)),$(paper_scene)) \
-  $(if $(filter $(figures) table1 figures teeth,$(goals)),$(if $(SCENE),$(own_scene),$(shown_scenes))) \
+  $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(shown_scenes))) \
   $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
   $(if $(filter bearing-forces out/figures/bearing-forces%,$(goals)),$(if $(SCENE),$(own_scene),$(bearing_scene))) \
@@ -69,7 +69,7 @@ scenes := $(sort \
   $(if $(filter crack out/figures/crack%,$(goals)),$(if $(SCENE),$(own_scene),$(cracked_scene))) \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes) $(standard_scene) $(calibrated_scene))) \
-  $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
+  $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter bench-stress,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scene) fzg-c)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/% out/compare/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
 $(foreach s,$(filter-out $(variant_scenes) $(bifurcation_scenes) $(study_designs),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\

@@ -352,8 +352,10 @@ drawn() { sed -n 's/^gear-plot //p' calls | sort | tr '\n' ' '; }
 make_ -n SCENE=elsewhere/own.toml figures error-budget
 expect "and are up to date then" ""
 rm -f calls; make_ SCENE=elsewhere/own.toml teeth
-[ "$(drawn)" = "$(printf 'out/own/report/%s ' load-sharing root-stress tooth-loads)" ] && ok "make teeth draws what a tooth suffers" ||
-  wrong "make teeth draws what a tooth suffers" "$(drawn) $(tail -n 1 "$log")"
+[ "$(drawn)" = "$(printf 'out/own/report/%s ' flank-pressure load-sharing root-stress tooth-loads)" ] && [ -e out/own/teeth/index.html ] && ok "make teeth draws what a tooth suffers, on a page" ||
+  wrong "make teeth draws what a tooth suffers, on a page" "$(drawn) $(tail -n 1 "$log")"
+make_ -n SCENE=elsewhere/own.toml BRANCHES=yes teeth
+expect "with the branch: one orbit, one figure and the page" "gear-orbit*1 gear-plot*1 gear-report*1"
 make_ -n SCENE=elsewhere/own.toml jump-map
 expect "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2"
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml

@@ -668,7 +668,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
     CHECK(cause_of_jump(branch, fold + 50, 1).cause == JumpCause::basin);
     // Stable orbits are the sweep's.
     const ResponseArtifact response = whine::response(swept);
-    double apart = 0;
+    double apart = 0, held = 0;
     int compared = 0;
     for (Eigen::Index i = 0; i < response.mesh_frequency.size(); ++i)
       for (Eigen::Index k = 0; k + 1 < branch.mesh_frequency.size(); ++k) {
@@ -678,11 +678,20 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
         const double own = (1 - share) * branch.dte_rms[k] + share * branch.dte_rms[k + 1];
         if (std::abs(own / response.dte_rms[i] - 1) > 0.2) continue;  // the other branch
         apart = std::max(apart, std::abs(own / response.dte_rms[i] - 1));
+        const auto held_apart = [&](const VectorXd& along, double swept_value) {
+          held = std::max(held, std::abs(((1 - share) * along[k] + share * along[k + 1]) / swept_value - 1));
+        };
+        for (size_t g = 0; g < kSides; ++g)
+          held_apart(branch.root_stress_held[g], response.root_stress_held[g][i]);
+        held_apart(branch.tooth_load_held, response.tooth_load_held[i]);
+        held_apart(branch.mesh_force_held, response.mesh_force_held[i]);
         ++compared;
         break;
       }
     CHECK(compared > 20);
     CHECK(apart < 1e-2);
+    MESSAGE("held loads and root stress: " << held);
+    CHECK(held < 2e-2);
   }
   // What is written is read.
   const std::string path = (std::filesystem::temp_directory_path() / "whine-branch-test.h5").string();

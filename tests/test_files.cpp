@@ -395,6 +395,8 @@ RunupArtifact small_runup() {
   p.dte_mean = single(odd_vector(5, 1e-5));
   p.tooth_load_max = single(odd_vector(5, 4e3));
   p.separation_fraction = single(odd_vector(5, 0.01));
+  p.root_stress_held = {single(odd_vector(5, 2e8)), single(odd_vector(5, 1e8))};
+  a.root_stress = true;
   a.least_gap = 1e-10 / 3;
   a.least_force = 1e-4 / 3;
   a.fallbacks = 3;
@@ -422,6 +424,10 @@ ResponseArtifact small_response() {
   a.root_stress_held = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
   a.tooth_load_held = odd_vector(2, 4e3).cwiseAbs();
   a.mesh_force_held = odd_vector(2, 6e3).cwiseAbs();
+  a.pair_phase = odd_vector(3, 0.5);
+  a.flank_roll = odd_matrix(3, 2, 0.3);
+  a.flank_pressure = odd_matrix(2, 3, 1e9).cwiseAbs();
+  a.edge_load = {odd_vector(2, 900).cwiseAbs(), odd_vector(2, 800).cwiseAbs()};
   a.loss_factor = odd_vector(2, 0.1).cwiseAbs();
   a.mesh_force_max = odd_vector(2, 7e3);
   a.separation_fraction = odd_vector(2, 0.1);
@@ -548,6 +554,8 @@ BranchArtifact small_branch() {
   a.inertia[0] = a.inertia[1] = 0.01;
   a.mesh_frequency = odd_vector(2, 2e3);
   a.dte_rms = a.dte_mean = a.residual = odd_vector(2, 1e-6);
+  a.mesh_force_held = a.tooth_load_held = odd_vector(2, 5e3).cwiseAbs();
+  a.root_stress_held = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
   a.dte_harmonic = odd_matrix(2, 3, 1e-6);
   a.floquet_multiplier = {odd_matrix(4, 2, 0.9), odd_matrix(4, 2, 0.7)};
   a.stable = a.steps = a.period_multiple = Eigen::Vector2i(1, 1);
@@ -979,6 +987,8 @@ TEST_CASE("runup.h5 gives back every value bit by bit, and is rejected without s
        {&RunupPeriods::time, &RunupPeriods::mesh_frequency, &RunupPeriods::dte_rms, &RunupPeriods::dte_mean,
         &RunupPeriods::tooth_load_max, &RunupPeriods::separation_fraction})
     CHECK(a.periods.*member == b.periods.*member);
+  CHECK(a.root_stress == b.root_stress);
+  CHECK(a.periods.root_stress_held == b.periods.root_stress_held);
   CHECK(a.least_gap == b.least_gap);
   CHECK(a.least_force == b.least_force);
   CHECK(a.fallbacks == b.fallbacks);
@@ -1124,6 +1134,10 @@ TEST_CASE("response.h5 gives back every value bit by bit") {
   CHECK(a.root_stress_held == b.root_stress_held);
   CHECK(a.tooth_load_held == b.tooth_load_held);
   CHECK(a.mesh_force_held == b.mesh_force_held);
+  CHECK(a.pair_phase == b.pair_phase);
+  CHECK(a.flank_roll == b.flank_roll);
+  CHECK(a.flank_pressure == b.flank_pressure);
+  CHECK(a.edge_load == b.edge_load);
   CHECK(a.loss_factor == b.loss_factor);
   CHECK(a.separation_fraction == b.separation_fraction);
   CHECK(a.separations_per_period == b.separations_per_period);
@@ -1891,7 +1905,8 @@ TEST_CASE("an empty list of matrices is given back as such: a branch without a p
   Folder folder;
   BranchArtifact a = small_branch();
   for (Eigen::VectorXd* v :
-       {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual, &a.fold_frequency, &a.fold_rms})
+       {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual, &a.fold_frequency, &a.fold_rms,
+        &a.mesh_force_held, &a.tooth_load_held, &a.root_stress_held[0], &a.root_stress_held[1]})
     v->resize(0);
   a.dte_harmonic.resize(0, 3);
   a.floquet_multiplier.clear();

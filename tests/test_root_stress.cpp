@@ -12,12 +12,14 @@
 #include "internal_pair.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "report/flank_pressure_figure.h"
 #include "report/root_stress_figure.h"
 #include "signal/response.h"
 #include "solid/loaded_gear.h"
 #include "solid/root_stress.h"
 #include "studies/sweep.h"
 #include "studies/sweep_losses.h"
+#include "studies/sweep_pressure.h"
 #include "system/flank_pressure.h"
 #include "system/root_stress.h"
 
@@ -55,7 +57,82 @@ double largest(const BodyArtifact& body, double share) {
   return under_force(body, share).head(body.root_angle.size()).maxCoeff();
 }
 
+// What the stresses on the straight section between the two points of the root at which its tangent stands at 30 degrees to the
+// centre line carry, over what the force on the flank above it asks of them: less 1. Of the shear force, the normal force (both
+// over the force) and the bending moment about the middle of the section (over itself).
+Eigen::Vector3d section_imbalance(const GearDesign& design, double element, double share) {
+  BodyDiscretisation discretisation;
+  discretisation.element_size = element;
+  const MeshArtifact mesh = make_sector_mesh(design, discretisation);
+  const ToothGeometry tooth(design);
+  const FlankTable table(tooth, 24);
+  const double xi = table.lowest() + share * (table.highest() - table.lowest());
+  constexpr double kForce = 1000;
+  const LoadedGear loaded = loaded_gear(mesh, paper_steel(), {{0, xi, 0.1e-3, kForce}});
+  const RootPoints points = root_points(tooth, 400);
+  Eigen::Index at = 0;
+  (points.angle.array() - std::numbers::pi / 6).abs().minCoeff(&at);
+  const Vec2 end = tooth.root_point(points.parameter[at]);
+  const Eigen::Matrix3d elasticity = plane_elasticity(paper_steel());
+  Eigen::Vector3d carried = Eigen::Vector3d::Zero();
+  constexpr int kPlaces = 400;
+  std::vector<Eigen::Index> across;  // elements that the section cuts
+  const auto nodes_of = [&](Eigen::Index e) {
+    Eigen::MatrixX2d nodes(mesh.element_node.cols(), 2);
+    for (Eigen::Index k = 0; k < nodes.rows(); ++k)
+      nodes.row(k) = mesh.node_position.row(mesh.element_node(e, k));
+    return nodes;
+  };
+  for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e)
+    if (const Eigen::MatrixX2d nodes = nodes_of(e);
+        nodes.col(1).minCoeff() <= end.y() && nodes.col(1).maxCoeff() >= end.y())
+      across.push_back(e);
+  int met = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Vec2 p(end.x() * (1 - (2 * i + 1.0) / kPlaces), end.y());
+    for (const Eigen::Index e : across) {
+      const Eigen::MatrixX2d nodes = nodes_of(e);
+      Vec2 reference;
+      if (nodes.col(0).minCoeff() > p.x() || nodes.col(0).maxCoeff() < p.x() ||
+          !invert_map(nodes, p, reference) || reference.cwiseAbs().maxCoeff() > 1 + 1e-9)
+        continue;
+      Eigen::MatrixX2d moved(nodes.rows(), 2);
+      for (Eigen::Index k = 0; k < nodes.rows(); ++k)
+        moved.row(k) = loaded.displacement.row(loaded.gear.node(0, mesh.element_node(e, k)));
+      const Eigen::Vector3d stress = elasticity * element_strain(nodes, moved, reference.x(), reference.y());
+      // What lies towards the tip is pulled by what lies towards the bore, or the rim of a ring.
+      const double area = tooth.outwards() * 2 * std::abs(end.x()) / kPlaces * design.face_width;
+      carried += area * Eigen::Vector3d(stress[2], stress[1], p.x() * stress[1]);
+      ++met;
+      break;
+    }
+  }
+  CHECK(met == kPlaces);
+  const Vec2 force = -kForce * tooth.flank_normal(xi), arm = tooth.flank_point(xi) - Vec2(0, end.y());
+  const double moment = arm.x() * force.y() - arm.y() * force.x();
+  return {(carried[0] - force.x()) / kForce, (carried[1] - force.y()) / kForce, carried[2] / moment - 1};
+}
+
 }  // namespace
+
+TEST_CASE("root stress: the section at 30 degrees carries the bending moment of the tooth load") {
+  // Errors of the elements: 0.07 % of the moment with 0.4 mm, 0.2 % with 0.8 mm.
+  CHECK(section_imbalance(paper_gear(), 0.4e-3, 0.9).cwiseAbs().maxCoeff() < 1e-3);
+  CHECK(section_imbalance(paper_gear(), 0.8e-3, 0.5).cwiseAbs().maxCoeff() < 4e-3);
+  CHECK(section_imbalance(ring_gear(), 0.8e-3, 0.5).cwiseAbs().maxCoeff() < 4e-3);
+}
+
+TEST_CASE("root stress: a sharp root is read from elements as small as its radius asks for") {
+  GearDesign deep = paper_gear(50, 60e-3);
+  deep.dedendum = 1.75;
+  deep.rack_tip_radius = 0.0636;
+  CHECK(least_root_radius(ToothGeometry(deep)) < 0.25 * deep.module);
+  CHECK(least_root_radius(ToothGeometry(paper_gear())) > 0.25 * deep.module);
+  // Pa N-1, under a force at a fifth of the flank, with elements of 0.1 mm everywhere; 30250 and 30887 without.
+  constexpr double kFinest = 31827;
+  for (const double element : {1.2e-3, 0.8e-3})
+    CHECK(largest(made(deep, element).body, 0.2) == relative(kFinest, 4e-3));
+}
 
 TEST_CASE("root stress: rigid motions give none, an even expansion gives E' times its strain") {
   for (const GearDesign& design : {paper_gear(), ring_gear()})
@@ -234,6 +311,23 @@ TEST_CASE(
   }
   ResponseArtifact r = response(up);
   r.loss_factor = loss_factors(up);
+  add_flank_pressure(up, r);
+  // Hertz's of the loads at rest, strips are within 2.1 % of it; where one pair carries all and clear of the edges.
+  REQUIRE(r.flank_pressure.cols() == r.pair_phase.size());
+  CHECK(r.flank_pressure.maxCoeff() == relative(flank_pressure(s).smooth, 0.03));
+  const GearPair pair(s);
+  Eigen::Index middle = 0;
+  r.pair_phase.cwiseAbs().minCoeff(&middle);
+  const double place = r.pair_phase[middle] * pair.base_pitch(),
+               compliance = 2 / s.gear[0].material.youngs_modulus;  // plane stress: 1 / E*
+  CHECK(r.flank_pressure(0, middle) == relative(std::sqrt(150 / pair.gear(0).base_radius() /
+                                                          (std::numbers::pi * s.face_width() * compliance *
+                                                           pair.relative_curvature_radius(place))),
+                                                5e-3));
+  CHECK(r.flank_roll(middle, 0) == relative(pair.nominal_roll(0, place), 1e-9));
+  // Tip edges touch with corner contact only.
+  CHECK(r.edge_load[0][0] > 0);
+  CHECK(r.edge_load[1][0] > 0);
   CHECK(r.loss_factor[0] == relative(s.loss_factor, 2e-3));
   for (size_t g = 0; g < kSides; ++g) {
     CHECK(r.root_stress_held[g][0] <= r.root_stress_max[g][0]);
@@ -241,6 +335,14 @@ TEST_CASE(
   }
   CHECK(r.tooth_load_held[0] <= r.tooth_load_max[0]);
   CHECK(r.mesh_force_held[0] <= r.mesh_force_max[0]);
+
+  const Figure pressures = flank_pressure_figure(s, {r, [&] {
+                                                       ResponseArtifact other = r;
+                                                       other.direction = Direction::down;
+                                                       return other;
+                                                     }()});
+  CHECK(pressures.blocks.size() == 3);  // one map: falling speed has the same
+  CHECK(pressures.blocks[0].rows.size() == static_cast<size_t>(r.pair_phase.size()));
 
   ResponseArtifact back = r;
   back.direction = Direction::down;

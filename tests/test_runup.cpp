@@ -69,6 +69,8 @@ struct Kept : RunupSink {
          {&RunupPeriods::time, &RunupPeriods::mesh_frequency, &RunupPeriods::dte_rms, &RunupPeriods::dte_mean,
           &RunupPeriods::tooth_load_max, &RunupPeriods::separation_fraction})
       a.*member = joined(a.*member, p.*member);
+    for (size_t g = 0; g < kSides; ++g)
+      a.root_stress_held[g] = joined(a.root_stress_held[g], p.root_stress_held[g]);
     if (other) other->take(p);
   }
   void end(const RunupArtifact& tail) override {
@@ -122,6 +124,10 @@ TEST_CASE("a slow run-up shows the motions of the sweep, in its mesh periods and
     CHECK(here.all.periods.dte_rms[at] == relative(known.rms, 2e-3));
     CHECK(here.all.periods.dte_mean[at] == relative(known.mean, 1e-4));
     CHECK(here.all.periods.tooth_load_max[at] == relative(held_load(periodic.tooth_load[0], 128), 2e-3));
+    REQUIRE(here.all.root_stress);
+    for (size_t g = 0; g < kSides; ++g)
+      CHECK(here.all.periods.root_stress_held[g][at] ==
+            relative(held_load(periodic.root_stress[g].transpose(), 128, 1), 2e-3));
     // Samples: the first order, the mean load, loads of pairs that add up.
     const RunupSamples& s = here.all.samples;
     const VectorXd phase = s.time.unaryExpr([&](double t) { return here.all.mesh_phase(t); });

@@ -2,7 +2,7 @@
 //
 // Reads      static.h5 (their order is that of the torques), impact.h5 and sweep.h5 of one scene, error_budget.h5; figures that
 //            gear-plot has drawn, as .png; params/title.txt in the folder of the scene, if there is one
-// Writes     --output: the page; results.tsv beside it, the numbers of its first table
+// Writes     --output: the page; results.tsv beside it, the numbers of its first table; with --teeth the page alone
 // Equations  none
 // Example    gear-report --output report/index.html out/parker2000/T100/static.h5
 //              out/parker2000/T100/{up,down}/sweep.h5 out/parker2000/report/fig12.png
@@ -14,6 +14,7 @@
 #include "io/publish.h"
 #include "report/report.h"
 #include "report/report_inputs.h"
+#include "report/teeth_page.h"
 
 namespace {
 
@@ -23,15 +24,26 @@ void body(int argc, char** argv) {
   whine::Options options{"Writes the report of a scene from its artifacts and figures", "gear-report"};
   std::vector<std::string> inputs;
   std::string output;
+  bool teeth = false;
   options.add("inputs", inputs, "artifacts (.h5) and figures (.png) of one scene").required();
   options.add("--output", output, "page to write (.html); results.tsv stands beside it").required();
+  options.flag(
+      "--teeth", teeth,
+      "what the teeth suffer at the first torque: root stress, flank pressure, dynamic factors; figures in "
+      "../report/ of the page, no results.tsv");
   options.footer(
       "Example:\n"
       "  gear-report --output report/index.html out/parker2000/T150/static.h5 "
       "out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5");
   options.parse(argc, argv);
 
-  const ReportContent content = read_report_content(inputs);
+  ReportContent content = read_report_content(inputs);
+  if (teeth) {
+    content.figure_folder = "../report/";
+    publish(output, teeth_html(content));
+    tell("gear-report: teeth of ", content.scene, ": ", content.pictures.size(), " figures -> ", output);
+    return;
+  }
   const std::string page = report_html(content), table = report_tsv(content);
   publish((std::filesystem::path(output).parent_path() / "results.tsv").string(), table);
   publish(output, page);

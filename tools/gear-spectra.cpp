@@ -2,7 +2,7 @@
 //
 // Reads      sweep.h5       transmission error and tooth loads over the last mesh period(s) of each speed
 // Writes     response.h5    per speed: mean and RMS of the oscillating DTE, harmonics of the mesh frequency,
-//                           largest loads, separations; the sweep's jumps
+//                           largest loads, root stress and flank pressure, separations; the sweep's jumps
 // Equations  x = r1 theta1 + r2 theta2; mean = <x>, rms^2 = <(x - mean)^2>,
 //            amplitude_k = 2 |<x exp(-2 pi i k f t)>|, over a whole number of periods
 #include <cstdio>
@@ -13,6 +13,7 @@
 #include "io/sweep_codec.h"
 #include "signal/response.h"
 #include "studies/sweep_losses.h"
+#include "studies/sweep_pressure.h"
 
 namespace {
 
@@ -31,6 +32,7 @@ void body(int argc, char** argv) {
   const whine::SweepArtifact sweep = whine::read_sweep(input);
   whine::ResponseArtifact result = whine::response(sweep);
   result.loss_factor = whine::loss_factors(sweep);
+  whine::add_flank_pressure(sweep, result);
   whine::write(output, result, provenance);
 
   Eigen::Index peak = 0;

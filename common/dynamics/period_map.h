@@ -16,6 +16,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,10 @@ class RollingPeriodMap : public PeriodMap {
   }
   std::vector<ContactEvent> events() const override;
   Eigen::VectorXd observable() const override { return period_.transmission_error; }
+  // What peaks() are of a period.
+  using Measure = std::function<Eigen::VectorXd(const RollingDynamics::Period&)>;
+  void measure(Measure of) { measure_ = std::move(of); }
+  Eigen::VectorXd peaks() override { return measure_ ? measure_(period_) : Eigen::VectorXd(); }
 
   // The same period cut at the end of step `cut` (0 to steps - 1): its tangent as if the first steps were those of the period
   // after it. Of an orbit all have the same multipliers.
@@ -101,6 +106,7 @@ class RollingPeriodMap : public PeriodMap {
   bool left_zone_ = false, prepared_ = false;  // prepared: replay_ is of the period applied last
   Eigen::VectorXd unit_;                       // (size) of phase 0
   RollingDynamics::Period period_;
+  Measure measure_;
   std::vector<double> coefficients_;  // (coordinate, kCoefficients)
   std::vector<Replay> replay_;        // (sample)
   std::vector<double> numbers_;       // of all steps

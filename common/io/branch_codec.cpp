@@ -7,7 +7,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"branch", 2};
+constexpr Schema kSchema{"branch", 3};
 
 void describe_points(Codec& c, BranchArtifact& a) {
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);
@@ -19,6 +19,20 @@ void describe_points(Codec& c, BranchArtifact& a) {
              "point harmonic", kSize},
             &a.dte_harmonic);
   c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
+  c.dataset(
+      {"/mesh_force_held", "N",
+       "largest normal force of all pairs together that is held for 1/64 of a mesh period", "point", kLoad},
+      &a.mesh_force_held);
+  c.dataset({"/tooth_load_held", "N", "the same of one pair", "point", kLoad}, &a.tooth_load_held);
+  for (int g = 0; g < (c.lists() ? 1 : kSides); ++g)
+    if (Eigen::VectorXd& stress = a.root_stress_held[static_cast<size_t>(g)];
+        c.optional(of_body(c, a.mesh, g, "root_stress_held"), stress.size() > 0))
+      c.dataset(
+          {of_body(c, a.mesh, g, "root_stress_held"), "Pa",
+           "the same of the tangential stress along the roots beside the loaded flanks, quasi-static in "
+           "the tooth loads",
+           "point", kStress},
+          &stress);
   c.dataset({"/floquet_multiplier", "1",
              "multipliers over the orbit, largest modulus first: real and imaginary part",
              "point multiplier part", kMultiplier},

@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"response", 4};
+constexpr Schema kSchema{"response", 5};
 
 void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
   if (!c.optional(of_body(c, a.mesh, g, "bearing_force_max"), a.bearing_force_max[g].size() > 0)) return;
@@ -19,6 +19,28 @@ void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
              "RMS of the oscillating part of the force of the gear on its bearing, x and y together",
              "mesh_frequency", kForce},
             &a.bearing_force_rms[g]);
+}
+
+// Flank pressure and what tip edges carry.
+void describe_pressure(Codec& c, ResponseArtifact& a) {
+  if (!c.optional("/flank_pressure", a.flank_pressure.size() > 0)) return;
+  c.dataset({"/pair_phase", "1",
+             "places of the flanks by the phase of the pair that touches there, in mesh periods from the "
+             "pitch point",
+             "pair_phase", kSigned},
+            &a.pair_phase);
+  c.dataset({"/flank_roll", "rad", "roll angles of both gears there", "pair_phase gear", kRoll},
+            &a.flank_roll);
+  c.dataset({"/flank_pressure", "Pa",
+             "largest pressure over the mesh periods at a place of the flanks, by Hertz's law of the load "
+             "that a pair holds there; 0: no load, or a tip edge is touched, where pressure is singular",
+             "mesh_frequency pair_phase", kPressure, "sqrt(F E* / (pi b R))"},
+            &a.flank_pressure);
+  for (int g = 0; g < (c.lists() ? 1 : kSides); ++g)
+    c.dataset({of_body(c, a.mesh, g, "edge_load"), "N",
+               "largest load that a pair holds over the tip edge of the gear, for 1/64 of a mesh period",
+               "mesh_frequency", kLoad},
+              &a.edge_load[static_cast<size_t>(g)]);
 }
 
 }  // namespace
@@ -81,6 +103,7 @@ void describe(Codec& c, ResponseArtifact& a) {
                "mean power lost by sliding over the power carried, per unit coefficient of friction", axis,
                kPositive},
               &a.loss_factor);
+  describe_pressure(c, a);
   c.dataset({"/separation_fraction", "1", "share of the period without force", axis, kShare},
             &a.separation_fraction);
   c.dataset({"/separations_per_period", "1", "losses of contact per mesh period", axis, kPositive},

@@ -9,7 +9,7 @@ namespace {
 using namespace ranges;
 using Eigen::Index;
 
-constexpr Schema kSchema{"runup", 1};
+constexpr Schema kSchema{"runup", 2};
 
 void describe_head(Codec& c, RunupArtifact& a) {
   describe_pair(c, a);
@@ -56,7 +56,7 @@ void describe_samples(Codec& c, const GearMeshSpec& mesh, RunupSamples& a) {
           &a.bearing_force[side]);
 }
 
-void describe_periods(Codec& c, RunupPeriods& a) {
+void describe_periods(Codec& c, const GearMeshSpec& mesh, RunupPeriods& a, bool& root_stress) {
   const std::string at = "/mesh_period/";
   const char* const axis = "mesh_period/time";
   c.dataset({at + "time", "s", "time at which a mesh period begins", axis, kTime}, &a.time);
@@ -70,6 +70,15 @@ void describe_periods(Codec& c, RunupPeriods& a) {
             &a.tooth_load_max);
   c.dataset({at + "separation_fraction", "1", "share of the time steps without contact", axis, kShare},
             &a.separation_fraction);
+  const auto name = [&](int g) { return at + of_body(c, mesh, g, "root_stress_held").substr(1); };
+  root_stress = c.optional(name(0), root_stress);
+  for (int g = 0; root_stress && g < (c.lists() ? 1 : kSides); ++g)
+    c.dataset(
+        {name(g), "Pa",
+         "largest tangential stress along the roots beside the loaded flanks that is held for 1/64 of the "
+         "mesh period, quasi-static in the tooth loads",
+         axis, kStress},
+        &a.root_stress_held[static_cast<size_t>(g)]);
 }
 
 void describe_tail(Codec& c, RunupArtifact& a) {
@@ -84,7 +93,7 @@ void describe_tail(Codec& c, RunupArtifact& a) {
 void describe(Codec& c, RunupArtifact& a) {
   describe_head(c, a);
   describe_samples(c, a.mesh, a.samples);
-  describe_periods(c, a.periods);
+  describe_periods(c, a.mesh, a.periods, a.root_stress);
   if (c.in() && (a.samples.size() < 1 || a.periods.size() < 1))
     c.in()->file().reject(text("has ", a.samples.size(), " samples and ", a.periods.size(),
                                " mesh periods, at least one of each is wanted"));
@@ -97,6 +106,7 @@ struct RunupFile::Open {
   ArtifactWriter out;
   Codec codec;
   GearMeshSpec mesh;
+  bool root_stress = false;
   Index samples = 0, periods = 0;            // that will come
   Index samples_here = 0, periods_here = 0;  // that have come
 };
@@ -122,7 +132,7 @@ void RunupFile::begin(const RunupArtifact& head, Index samples, Index periods) {
   file.codec.record(Codec::Record::reserve, samples);
   describe_samples(file.codec, a.mesh, a.samples);
   file.codec.record(Codec::Record::reserve, periods);
-  describe_periods(file.codec, a.periods);
+  describe_periods(file.codec, a.mesh, a.periods, file.root_stress = a.root_stress);
 }
 
 void RunupFile::take(const RunupSamples& samples) {
@@ -134,7 +144,7 @@ void RunupFile::take(const RunupSamples& samples) {
 
 void RunupFile::take(const RunupPeriods& periods) {
   open_->codec.record(Codec::Record::append, open_->periods_here);
-  describe_periods(open_->codec, const_cast<RunupPeriods&>(periods));
+  describe_periods(open_->codec, open_->mesh, const_cast<RunupPeriods&>(periods), open_->root_stress);
   open_->periods_here += periods.size();
 }
 

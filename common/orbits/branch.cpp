@@ -43,6 +43,7 @@ BranchPosition position(const Curve& curve, const CurvePoint& p, double arc) {
   b.multipliers = p.slow.multipliers();
   b.events = p.passed.events;
   b.observable = p.passed.observable;
+  b.peaks = p.passed.peaks;
   return b;
 }
 

@@ -35,7 +35,7 @@ struct BranchPosition {
   double turn = 0;  // parameter component of the unit tangent, in u; changes its sign at a fold
   Eigen::VectorXcd multipliers;
   std::vector<ContactEvent> events;
-  Eigen::VectorXd observable;
+  Eigen::VectorXd observable, peaks;
   bool stable() const { return multipliers.size() == 0 || std::abs(multipliers[0]) < 1; }
 };
 

@@ -38,6 +38,8 @@ class PeriodMap {
   virtual std::vector<ContactEvent> events() const = 0;
   // Of the period applied last: (sample) the observable of the model, m of transmission error. Samples are evenly spaced.
   virtual Eigen::VectorXd observable() const = 0;
+  // Of the period applied last: (quantity) largest values that the model is asked for beside the observable; empty: none.
+  virtual Eigen::VectorXd peaks() { return {}; }
 };
 
 }  // namespace whine

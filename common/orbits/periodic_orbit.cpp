@@ -27,6 +27,8 @@ VectorXd image(PeriodMap& map, const VectorXd& y, int multiple, PeriodicOrbit* p
     const VectorXd observable = map.observable();
     passed->observable.conservativeResize(multiple * observable.size());
     passed->observable.segment(k * observable.size(), observable.size()) = observable;
+    const VectorXd peaks = map.peaks();
+    passed->peaks = k == 0 ? peaks : VectorXd(passed->peaks.cwiseMax(peaks));
   }
   return at;
 }

@@ -23,6 +23,7 @@
 #include "io/system_static_codec.h"
 #include "report/campbell_figure.h"
 #include "report/compare_figures.h"
+#include "report/flank_pressure_figure.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
@@ -106,6 +107,22 @@ Figure draw_responses(const Paths& inputs, const Frequencies&) {
   return response_figure(captions.sweeps, captions.background);
 }
 
+Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
+  std::vector<StaticArtifact> statics;
+  std::vector<ResponseArtifact> sweeps;
+  std::vector<BranchArtifact> branches;
+  for (const std::string& path : inputs)
+    if (is_a("whine/static", path))
+      statics.push_back(read_static(path));
+    else if (is_a("whine/branch", path))
+      branches.push_back(read_branch(path));
+    else
+      sweeps.push_back(read_response(path));
+  if (statics.size() != 1)
+    fail(Failure::usage, "root-stress needs one static.h5; ", statics.size(), " given");
+  return root_stress_figure(statics[0], sweeps, branches);
+}
+
 Drawings drawings_at_rest() {
   return {
       {"fig01",
@@ -148,9 +165,14 @@ Drawings drawings_at_rest() {
         [](const Paths& in, const Frequencies&) { return crack_figure(read_static(in[0])); }}},
       {"root-stress",
        {"root stress over the mesh cycle and over speed, dynamic factors beside K_v",
+        "static.h5, response.h5 of the sweeps up and down, all of one torque; branch.h5, for orbits that no "
+        "sweep finds",
+        0, 0, draw_root_stress}},
+      {"flank-pressure",
+       {"flank pressure over roll angle and speed, loads over tip edges",
         "static.h5, response.h5 of the sweeps up and down, all of one torque", 3, 0,
         [](const Paths& in, const Frequencies&) {
-          return root_stress_figure(read_static(in[0]), {read_response(in[1]), read_response(in[2])});
+          return flank_pressure_figure(read_static(in[0]), {read_response(in[1]), read_response(in[2])});
         }}},
       {"sidebands",
        {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",

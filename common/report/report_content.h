@@ -39,6 +39,8 @@ struct ReportContent {
   std::optional<ErrorBudgetArtifact> budget;
   std::vector<ReportPicture> pictures;
   std::vector<ReportSource> sources;
+  std::string figure_folder =
+      {};  // of the pictures and their numbers, as the page links them: "", "../report/"
 };
 
 // Of the content; nullptr if there is none.

@@ -208,6 +208,13 @@ const std::vector<Explained>& explained() {
              "mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth "
              "load and root stress at a speed, each held for 1/64 of a mesh period, over T / r_b or over the "
              "largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
+      {"root-stress-branches", "motion", "Root stress along the branch",
+       plain("The same with the unstable orbits of the branch, dotted: no sweep finds them, and a branch "
+             "reaches its largest stress where it folds.")},
+      {"flank-pressure", "motion", "Flank pressure over speed",
+       plain("Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds "
+             "there, against roll angle and speed. Where a tip edge runs on a flank the pressure is "
+             "singular, so the load that the edge carries stands beside it.")},
       {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};
   return all;
@@ -228,8 +235,8 @@ std::string figure(const ReportContent& c, const ReportPicture& picture, const E
   std::string files;
   for (const auto& [end, what] :
        {std::pair{"tsv", "numbers"}, std::pair{"svg", "svg"}, std::pair{"png", "png"}})
-    files += text(files.empty() ? "" : " ", "<a href=\"", html::escaped(picture.name), ".", end, "\">", what,
-                  "</a>");
+    files += text(files.empty() ? "" : " ", "<a href=\"", html::escaped(c.figure_folder + picture.name), ".",
+                  end, "\">", what, "</a>");
   return html::figure(picture.name, picture.bytes, kind.title,
                       words + " <span class=\"files\">" + files + "</span>");
 }

@@ -13,6 +13,8 @@
 #include "io/sweep_codec.h"
 #include "signal/response.h"
 #include "studies/sweep.h"
+#include "studies/sweep_losses.h"
+#include "studies/sweep_pressure.h"
 
 namespace whine {
 namespace {
@@ -26,6 +28,13 @@ ReportPicture read_picture(const std::string& path) {
   return picture;
 }
 
+ResponseArtifact with_teeth(const SweepArtifact& sweep) {
+  ResponseArtifact out = response(sweep);
+  out.loss_factor = loss_factors(sweep);
+  add_flank_pressure(sweep, out);
+  return out;
+}
+
 // Of a sweep only what it says: the motions of teeth that differ are large.
 ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
   const SweepArtifact sweep = read_sweep(path);
@@ -34,7 +43,7 @@ ReportSweep read_sweep_of(const ReportContent& content, const std::string& path)
          "; a report is of the elastic pair: give the sweep.h5 in T<torque>/up or T<torque>/down");
   for (const StaticArtifact& statics : content.statics)
     if (statics.torque == sweep.torque)
-      return {response(sweep), remarks(sweep, statics), backlash_left(sweep)};
+      return {with_teeth(sweep), remarks(sweep, statics), backlash_left(sweep)};
   fail(Failure::input, path, ": is at ", sweep.torque, " N m, at which no static.h5 is given; give it, too");
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "gear/iso6336.h"
@@ -72,6 +73,29 @@ FigureBlock speed_block(const ResponseArtifact& r, const AtRest& rest) {
                           r.mesh_force_held[i] / rest.mesh_force, r.tooth_load_held[i] / rest.tooth_load,
                           a / rest.root_stress[0], b / rest.root_stress[1], r.loss_factor[i]});
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
+  }
+  return block;
+}
+
+// Orbits along a branch, stable or not.
+FigureBlock branch_block(const BranchArtifact& b, const StaticArtifact& s, const AtRest& rest) {
+  if (b.torque != s.torque)
+    fail(Failure::input, "root-stress: a branch.h5 of ", b.torque, " N m; static.h5 is of ", s.torque,
+         " N m; give both of one torque");
+  if (b.root_stress_held[0].size() == 0 || b.root_stress_held[1].size() == 0)
+    fail(Failure::input, "root-stress: branch.h5 holds no root stress; make it anew");
+  FigureBlock block{"branch",
+                    {"mesh_frequency [Hz]", "root_stress_driver [MPa]", "root_stress_driven [MPa]",
+                     "factor_mesh_force [1]", "factor_tooth_load [1]", "factor_root_stress_driver [1]",
+                     "factor_root_stress_driven [1]", "stable [1]", "part [1]"},
+                    {}};
+  for (Eigen::Index i = 0; i < b.mesh_frequency.size(); ++i) {
+    if (i > 0 && b.part[i] != b.part[i - 1]) block.rows.emplace_back();
+    const double first = b.root_stress_held[0][i], second = b.root_stress_held[1][i];
+    block.rows.push_back({b.mesh_frequency[i], first * kMegapascal, second * kMegapascal,
+                          b.mesh_force_held[i] / rest.mesh_force, b.tooth_load_held[i] / rest.tooth_load,
+                          first / rest.root_stress[0], second / rest.root_stress[1],
+                          static_cast<double>(b.stable[i]), static_cast<double>(b.part[i])});
   }
   return block;
 }
@@ -165,7 +189,9 @@ FigureBlock dynamic_factor_block(const StaticArtifact& s, const ResponseArtifact
 
 }  // namespace
 
-Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
+// NOLINTNEXTLINE(readability-function-size): blocks and notes of one figure
+Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps,
+                          const std::vector<BranchArtifact>& branches) {
   require_inputs(s, sweeps);
   const GearPair pair(s);
   const AtRest rest{s.torque / pair.gear(0).base_radius(), s.tooth_load.maxCoeff(), s.contact_ratio,
@@ -195,14 +221,18 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
   if (!iso_words.empty())
     figure.notes.push_back("sigma_{F0} of ISO 6336-3, method B, at the outer point of single contact: " +
                            iso_words);
-  for (const ResponseArtifact& r : sweeps) {
-    figure.blocks.push_back(speed_block(r, rest));
-    for (const auto& row : figure.blocks.back().rows)
+  const auto add_motions = [&](FigureBlock block) {
+    for (const auto& row : block.rows)
       if (!row.empty()) {
         high = std::max({high, row[1], row[2]});
         factor = std::max({factor, row[3], row[4], row[5], row[6]});
       }
-  }
+    figure.blocks.push_back(std::move(block));
+  };
+  for (const ResponseArtifact& r : sweeps) add_motions(speed_block(r, rest));
+  if (branches.size() > 1)
+    fail(Failure::input, "root-stress: ", branches.size(), " branch.h5 given, one at most");
+  for (const BranchArtifact& b : branches) add_motions(branch_block(b, s, rest));
   bool stiffness_in_range = true;
   if (factors) figure.blocks.push_back(dynamic_factor_block(s, sweeps[0], resonance, stiffness_in_range));
   std::string beyond;
@@ -223,6 +253,7 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
                     {"path_end", pair.path_end() / pair.base_pitch()},
                     {"stress_max", high},
                     {"factor_max", factor},
+                    {"branches", static_cast<double>(branches.size())},
                     {"frequency_from", sweeps[0].mesh_frequency.minCoeff()},
                     {"frequency_to", sweeps[0].mesh_frequency.maxCoeff()},
                     {"resonance", factors ? resonance : 0},

@@ -2,6 +2,7 @@
 #pragma once
 #include "report/figures.h"
 #include "signal/response_result.h"
+#include "studies/branch_result.h"
 
 namespace whine {
 
@@ -11,6 +12,7 @@ namespace whine {
 // External pairs also show sigma_F0 of ISO 6336-3, method B. What a formula of the standard cannot say is left out, and a note says
 // why, as it does outside of the range in which the formula was tested. Tables: what is drawn, and loss factors. Throws
 // Error(input) for artifacts without root stress, held loads or losses, of another torque, or that are not two sweeps, up and down.
-Figure root_stress_figure(const StaticArtifact& statics, const std::vector<ResponseArtifact>& sweeps);
+Figure root_stress_figure(const StaticArtifact& statics, const std::vector<ResponseArtifact>& sweeps,
+                          const std::vector<BranchArtifact>& branches = {});
 
 }  // namespace whine

@@ -30,7 +30,15 @@ struct ResponseArtifact : MotionParameters {
   // the time step. [gear] (speed) Pa; (speed) N; empty for lumped models
   std::array<Eigen::VectorXd, 2> root_stress_held;
   Eigen::VectorXd tooth_load_held, mesh_force_held;
-  Eigen::VectorXd loss_factor;                 // (speed) H_V, as in static.h5; empty without root stress
+  Eigen::VectorXd loss_factor;  // (speed) H_V, as in static.h5; empty without root stress
+  // Flank pressure (studies/sweep_pressure.h); empty for lumped models. Places of the flanks by the phase of the pair that touches
+  // there, in mesh periods from the pitch point: (place) 1; (place, gear) rad
+  Eigen::VectorXd pair_phase;
+  MatrixRM flank_roll;
+  MatrixRM
+      flank_pressure;  // (speed, place) Pa, largest over the mesh periods; 0: no load, or a tip edge is touched
+  std::array<Eigen::VectorXd, 2>
+      edge_load;  // [gear] (speed) N: largest that a pair carries over the gear's tip edge
   Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
   Eigen::VectorXd separations_per_period;      // (speed) 1
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz

@@ -122,10 +122,18 @@ void HalfSector::build() {
   const int fillet_high = spline(form, fillet, root, 0, p.t_split, p.n_fillet, 1, Curve::root);
   const int centre_tooth = line(split_centre, chord_centre, p.n_flank + p.n_fillet, 1, Curve::centre_line);
   const int chord = line(fillet, chord_centre, p.n_across, q);
-  const int fillet_low = spline(fillet, root_end, root, p.t_split, 1, p.n_root, 1, Curve::root);
-  const int under_edge = line(root_end, ring_edge, p.n_under, 1, Curve::sector_edge);
-  const int under_foot = line(fillet, ring_foot, p.n_under, 1);
-  const int under_centre = line(chord_centre, ring_centre, p.n_under, 1, Curve::centre_line);
+  // From the flank on; of a refined root the sharp part and what follows it.
+  std::vector<int> fillet_low;
+  if (p.t_land < 1) {
+    const int land = point(tooth_.root_point(p.t_land));
+    fillet_low = {spline(fillet, land, root, p.t_split, p.t_land, p.n_sharp, 1, Curve::root),
+                  spline(land, root_end, root, p.t_land, 1, p.n_root - p.n_sharp, 1, Curve::root)};
+  } else {
+    fillet_low = {spline(fillet, root_end, root, p.t_split, 1, p.n_root, 1, Curve::root)};
+  }
+  const int under_edge = line(root_end, ring_edge, p.n_under, p.under_ratio, Curve::sector_edge);
+  const int under_foot = line(fillet, ring_foot, p.n_under, p.under_ratio);
+  const int under_centre = line(chord_centre, ring_centre, p.n_under, p.under_ratio, Curve::centre_line);
   const int ring_root = arc(ring_foot, ring_edge, p.n_root, 1);
   const int ring_tooth = arc(ring_foot, ring_centre, p.n_across, q_ring);
   const int rim_edge = line(ring_edge, bore_edge, p.n_rim, p.rim_ratio, Curve::sector_edge);
@@ -138,7 +146,9 @@ void HalfSector::build() {
   surface({flank_low, fillet_high, chord, -centre_tooth, -across},
           {split, fillet, chord_centre, split_centre}, 1);
   surface({under_foot, ring_tooth, -under_centre, -chord}, {fillet, ring_foot, ring_centre, chord_centre}, 1);
-  surface({under_edge, -ring_root, -under_foot, fillet_low}, {root_end, ring_edge, ring_foot, fillet}, 1);
+  std::vector<int> under_root{under_edge, -ring_root, -under_foot};
+  under_root.insert(under_root.end(), fillet_low.begin(), fillet_low.end());
+  surface(under_root, {root_end, ring_edge, ring_foot, fillet}, 1);
   surface({rim_foot, bore_tooth, -rim_centre, -ring_tooth}, {ring_foot, bore_foot, bore_centre, ring_centre},
           0);
   surface({rim_edge, -bore_root, -rim_foot, ring_root}, {ring_edge, bore_edge, bore_foot, ring_foot}, 0);
@@ -221,10 +231,10 @@ void read_triangles(const std::vector<int>& point, int surface, Triangulation& r
 
 }  // namespace
 
-HalfMesh half_sector_mesh(const ToothGeometry& tooth, double h) {
+HalfMesh half_sector_mesh(const ToothGeometry& tooth, double h, double root) {
   HalfMesh half;
   with_gmsh("the tooth sector", [&] {
-    const SectorPlan plan = plan_sector(tooth, h);
+    const SectorPlan plan = plan_sector(tooth, h, root);
     half = HalfSector(tooth, plan).mesh();
   });
   return half;

@@ -20,8 +20,8 @@ struct HalfMesh {
   std::map<std::pair<int, int>, Curve> edge;  // boundary edges, lower node number first
 };
 
-// Of elements of the size h (m). Throws Error(numerical) if gmsh cannot.
-HalfMesh half_sector_mesh(const ToothGeometry& tooth, double h);
+// Of elements of the size h (m), on the root of the size `root` (m). Throws Error(numerical) if gmsh cannot.
+HalfMesh half_sector_mesh(const ToothGeometry& tooth, double h, double root);
 
 // Triangles that fill a polygon and keep its edges and those of a slit in it.
 struct Triangulation {

@@ -161,7 +161,8 @@ void check_sector_mesh(const MeshArtifact& mesh) {
          " is allowed; lower element_mm");
 }
 
-MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation) {
+MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation,
+                              double root_element) {
   const ToothGeometry tooth(design);
   const double h = discretisation.element_size;
   if (discretisation.element_order != 1 && discretisation.element_order != 2)
@@ -175,7 +176,7 @@ MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation
     fail(Failure::input, "bore_radius_mm = ", design.bore_radius * 1e3,
          " is not above 0: the hub on which the gear turns needs a radius");
 
-  HalfMesh half = half_sector_mesh(tooth, h);
+  HalfMesh half = half_sector_mesh(tooth, h, root_element > 0 ? std::min(root_element, h) : h);
   const ExactBoundary exact(tooth);
   make_exact(half, tooth, exact);
 

@@ -12,10 +12,12 @@
 namespace whine {
 
 // With the sector of the cracked tooth where the design has a crack (solid/crack.h).
+// root_element: m, size of the elements on the root where that is below element_size; 0: element_size.
 // Throws Error(input) for an element size or order that cannot be used, Error(numerical) when the mesh does
 // not keep its promises: positive Jacobian everywhere, sector edges that are images of each other, area of
 // the exact sector.
-MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation);
+MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation,
+                              double root_element = 0);
 
 // The checks alone, for a mesh from anywhere; same errors.
 void check_sector_mesh(const MeshArtifact& mesh);

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -86,6 +87,19 @@ RootPoints root_points(const ToothGeometry& tooth, int points) {
     out.angle[k] = between(angle);
   }
   return out;
+}
+
+double least_root_radius(const ToothGeometry& tooth) {
+  constexpr int kPieces = 100;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 1; i < kPieces; ++i) {
+    const auto at = [&](int k) { return tooth.root_point(static_cast<double>(k) / kPieces); };
+    const Vec2 before = at(i) - at(i - 1), after = at(i + 1) - at(i);
+    const double turn =
+        std::abs(std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after)));
+    if (turn > 0) least = std::min(least, 0.5 * (before.norm() + after.norm()) / turn);
+  }
+  return least;
 }
 
 double RootPoints::place(double s) const {

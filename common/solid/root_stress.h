@@ -33,6 +33,9 @@ struct RootPoints {
 };
 RootPoints root_points(const ToothGeometry& tooth, int points = kRootPoints);
 
+// m: least radius of curvature of the root curve, over steps of 1 % of its parameter.
+double least_root_radius(const ToothGeometry& tooth);
+
 // Reading of the stress along both roots of a tooth sector: rows are the points of the driving flank's side, then those of the
 // other side.
 class RootReader {

@@ -52,7 +52,7 @@ double half_turned(const ToothGeometry& tooth) {
 
 }  // namespace
 
-SectorPlan plan_sector(const ToothGeometry& tooth, double h) {
+SectorPlan plan_sector(const ToothGeometry& tooth, double h, double root) {
   const GearDesign& design = tooth.design();
   SectorPlan plan{};
   const double tip = tooth.tip_roll_angle(), form = tooth.form_roll_angle();
@@ -76,12 +76,29 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h) {
   plan.n_fillet = std::max(3, static_cast<int>(std::ceil(root_length(tooth, 0, plan.t_split) / (0.75 * h))));
   plan.n_root = std::max(3, static_cast<int>(std::ceil(root_length(tooth, plan.t_split, 1) / h)));
 
+  plan.t_land = 1;
+  // The sharp part of the root has elements of its own down to the root circle, which keeps those of size h.
+  if (root < h) {
+    plan.n_fillet = std::max(3, static_cast<int>(std::ceil(root_length(tooth, 0, plan.t_split) / root)));
+    if (tooth.root_corner() < 1) plan.t_land = std::max(tooth.root_corner(), 0.5 * (plan.t_split + 1));
+    plan.n_sharp =
+        std::max(3, static_cast<int>(std::ceil(root_length(tooth, plan.t_split, plan.t_land) / root)));
+    plan.n_root = plan.n_sharp;
+    if (plan.t_land < 1) plan.n_root += static_cast<int>(std::ceil(root_length(tooth, plan.t_land, 1) / h));
+  }
+
   // The tooth region ends on a ring one module below the root, or half way to the bore on a thin rim.
   const double rim = out * (tooth.root_radius() - design.held_radius());
   const double depth = std::min(design.module, 0.5 * rim);
   plan.ring_radius = tooth.root_radius() - out * depth;
   plan.n_under = std::max(2, static_cast<int>(std::ceil(depth / (1.25 * h))));
   const double drop = std::min(-plan.fillet_corner.x() * std::tan(kPi / 9), 0.4 * depth);
+  plan.under_ratio = 1;
+  if (root < h)  // from the size on the root inwards
+    for (plan.n_under = 2; plan.n_under < 1000; ++plan.n_under) {
+      plan.under_ratio = growth_ratio(root, depth, plan.n_under);
+      if (plan.under_ratio < 1.3) break;
+    }
   plan.chord_centre = {0, plan.fillet_corner.y() - out * drop};
   const double half_pitch = kPi / design.teeth;
   const double corner_angle = std::atan2(plan.fillet_corner.y(), plan.fillet_corner.x()) - 0.5 * kPi;

@@ -177,11 +177,16 @@ void BranchFollower::widen() {
   dynamics_.set_zone(zone_of_level(model_, statics_, level_), finest_);
 }
 
+void BranchFollower::new_map(int steps) {
+  map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
+  map_->measure(measure_);
+}
+
 // The orbit into which the pair settles.
 void BranchFollower::begin(double at, int steps) {
   for (level_ = -1; !map_;) {
     widen();
-    map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
+    new_map(steps);
     map_->set_parameter(at);
     RollingDynamics::State state = dynamics_.rest();
     const auto periodic =
@@ -224,7 +229,7 @@ void BranchFollower::begin_swept(Direction direction, double at) {
     break;
   }
   const int steps = steps_at(settings_.time, at);
-  map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
+  new_map(steps);
   map_->set_parameter(at);
   const VectorXd start = map_->flat(state);
   if (!found(start, at, steps)) {
@@ -237,7 +242,7 @@ void BranchFollower::begin_swept(Direction direction, double at) {
 void BranchFollower::resume(const RollingDynamics::State& state, const VectorXd& start, double at, int steps,
                             bool wider) {
   for (;;) {
-    map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
+    new_map(steps);
     map_->set_parameter(at);
     RollingDynamics::State near = state;
     RollingDynamics::Period period;

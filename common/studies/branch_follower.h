@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/period_map.h"
@@ -47,6 +48,8 @@ class BranchFollower {
                     const std::function<void(long, long, const std::string&)>& report);
   // (change of steps) relative change of the orbit there.
   const std::vector<double>& mismatch() const { return mismatch_; }
+  // Of each orbit, its peaks; to be said before the branch is followed.
+  void measure(RollingPeriodMap::Measure of) { measure_ = std::move(of); }
   int level() const { return level_; }  // of the zone, at last
 
  private:
@@ -56,6 +59,7 @@ class BranchFollower {
   void follow_flip(const BranchSegment& from, size_t flip, const Report& report,
                    std::vector<BranchSegment>& segments);
   void widen();
+  void new_map(int steps);
   void begin(double at, int steps);
   void resume(const RollingDynamics::State& state, const Eigen::VectorXd& start, double at, int steps,
               bool wider);
@@ -70,6 +74,7 @@ class BranchFollower {
   int finest_, level_ = -1, multiple_ = 1;
   bool closed_ = false;  // the part followed last, on itself
   std::unique_ptr<RollingPeriodMap> map_;
+  RollingPeriodMap::Measure measure_;
   PeriodicOrbit orbit_;
   std::vector<double> mismatch_;
 };

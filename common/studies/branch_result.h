@@ -1,6 +1,7 @@
 // A branch of periodic orbits.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ struct BranchArtifact : MotionParameters {
   double torque = 0;                                  // N m on the driver
   Eigen::VectorXd mesh_frequency, dte_rms, dte_mean;  // (point) Hz, m, m
   MatrixRM dte_harmonic;                              // (point, harmonic 1..) m, amplitude
+  // (point) N: largest that the mesh, and that one pair, holds for 1/64 of a mesh period
+  Eigen::VectorXd mesh_force_held, tooth_load_held;
+  // [gear] (point) Pa: the same of the root stress, quasi-static in the tooth loads; empty where bodies have no tables
+  std::array<Eigen::VectorXd, 2> root_stress_held;
   std::vector<MatrixRM>
       floquet_multiplier;  // (point) (multiplier, 2) 1: real and imaginary part, largest modulus first
   Eigen::VectorXi stable;  // (point) 1: all multipliers lie inside the unit circle

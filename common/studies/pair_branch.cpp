@@ -9,6 +9,7 @@
 #include "signal/response.h"
 #include "signal/spectrum.h"
 #include "studies/branch_follower.h"
+#include "studies/held_peaks.h"
 
 namespace whine {
 
@@ -45,6 +46,8 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   RollingDynamics dynamics(model, dynamic_parameters(statics, mean_stiffness, stage_settings));
   BranchFollower follower(dynamics, model, statics, stage_settings, BranchFollower::Look::close,
                           plan.tolerance);
+  HeldPeaks peaks(model, stage_settings.time.steps_per_period);
+  follower.measure([&peaks](const RollingDynamics::Period& period) { return peaks.of(period); });
   std::vector<BranchSegment> segments =
       plan.sweep ? follower.follow_from_sweep(*plan.sweep, plan.at, report) : follower.follow(report);
   follower.follow_flips(segments, plan.most_periods, report);
@@ -62,6 +65,8 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   for (const BranchSegment& s : segments) points += static_cast<Eigen::Index>(s.branch.points.size());
   for (VectorXd* x : {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual}) x->resize(points);
   for (Eigen::VectorXi* x : {&a.stable, &a.steps, &a.period_multiple, &a.part}) x->resize(points);
+  for (VectorXd* x : {&a.mesh_force_held, &a.tooth_load_held}) x->resize(points);
+  for (VectorXd& x : a.root_stress_held) x.resize(peaks.root_stress() ? points : 0);
   const int harmonic_count = resolved_harmonics(stage_settings.time.steps_per_period, kResponseHarmonics);
   a.dte_harmonic.resize(points, harmonic_count);
   std::vector<SpecialPoint> special;
@@ -76,6 +81,10 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
       a.dte_rms[i] = h.rms;
       a.dte_mean[i] = h.mean;
       a.dte_harmonic.row(i) = h.amplitude.transpose();
+      a.mesh_force_held[i] = p.peaks[0];
+      a.tooth_load_held[i] = p.peaks[1];
+      for (size_t g = 0; g < kSides; ++g)
+        if (peaks.root_stress()) a.root_stress_held[g][i] = p.peaks[2 + static_cast<Eigen::Index>(g)];
       a.residual[i] = p.residual;
       a.stable[i] = p.stable();
       a.steps[i] = s.steps;

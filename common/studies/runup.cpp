@@ -14,6 +14,7 @@
 #include "gear/pair.h"
 #include "signal/branches.h"
 #include "signal/uniform_sampler.h"
+#include "studies/held_peaks.h"
 #include "studies/sweep.h"
 #include "studies/zone_levels.h"
 
@@ -66,7 +67,10 @@ class Runner {
         sink_(sink),
         report_(report),
         levels_(model, dynamic_parameters(statics, head.mean_stiffness, settings), statics,
-                steps_at(settings.time, std::min(wanted.ramp.from, wanted.ramp.to))) {}
+                steps_at(settings.time, std::min(wanted.ramp.from, wanted.ramp.to))),
+        peaks_(model, settings.time.steps_per_period) {
+    head.root_stress = peaks_.root_stress();
+  }
 
   void run() {
     begin();
@@ -242,8 +246,9 @@ class Runner {
     if (k < 0 || k >= periods_) return;
     const double start = clock_.time(static_cast<double>(k));
     const double most = held_load(period_.pair_load.transpose(), static_cast<int>(period_.pair_load.cols()));
+    const VectorXd peaks = head_.root_stress ? peaks_.of(period_) : VectorXd::Zero(4);
     for (const double x : {start, clock_.frequency(start), std::sqrt(squares / steps), mean, most,
-                           static_cast<double>(parted) / steps})
+                           static_cast<double>(parted) / steps, peaks[2], peaks[3]})
       period_rows_.push_back(x);
   }
 
@@ -251,7 +256,7 @@ class Runner {
   void hand_on(bool last) {
     const MatrixRM fresh = sampler_->take();
     sample_rows_.insert(sample_rows_.end(), fresh.data(), fresh.data() + fresh.size());
-    constexpr Index kPeriodColumns = 6;
+    constexpr Index kPeriodColumns = 8;
     const auto whole = [&](const std::vector<double>& rows, Index columns) {
       const Index count = static_cast<Index>(rows.size()) / columns;
       return last ? std::min(count, kRunupBlock) : count >= kRunupBlock ? kRunupBlock : 0;
@@ -267,7 +272,10 @@ class Runner {
     }
     while (const Index n = whole(period_rows_, kPeriodColumns)) {
       const Eigen::Map<const MatrixRM> rows(period_rows_.data(), n, kPeriodColumns);
-      sink_.take(RunupPeriods{rows.col(0), rows.col(1), rows.col(2), rows.col(3), rows.col(4), rows.col(5)});
+      RunupPeriods periods{rows.col(0), rows.col(1), rows.col(2), rows.col(3), rows.col(4), rows.col(5)};
+      for (size_t g = 0; head_.root_stress && g < kSides; ++g)
+        periods.root_stress_held[g] = rows.col(6 + static_cast<Index>(g));
+      sink_.take(periods);
       drop(period_rows_, n * kPeriodColumns);
     }
   }
@@ -304,6 +312,7 @@ class Runner {
   RunupSink& sink_;
   const std::function<void(long, long, const std::string&)>& report_;
   ZoneLevels levels_;
+  HeldPeaks peaks_;
   Vec2 normal_ = contact_normal(GearPair(head_));
   int level_ = 0, reach_ = 0, channels_ = 0, floating_ = 0;
   long level_since_ = 0;

@@ -29,6 +29,9 @@ struct RunupPeriods {
   Eigen::VectorXd dte_rms, dte_mean;     // m
   Eigen::VectorXd tooth_load_max;        // N: largest that a pair holds for 1/64 of the period
   Eigen::VectorXd separation_fraction;   // 1: share of the time without contact
+  // [gear] Pa: largest root stress that the teeth hold for 1/64 of the period, quasi-static in their loads; empty where bodies
+  // have no tables
+  std::array<Eigen::VectorXd, kSides> root_stress_held = {};
   Eigen::Index size() const { return time.size(); }
 };
 
@@ -45,6 +48,7 @@ struct RunupArtifact : MotionParameters {
   Eigen::VectorXi pair;          // (pair)
   RunupSamples samples;
   RunupPeriods periods;
+  bool root_stress = false;  // periods have it
   // certificate: worst over all steps
   double least_gap = 0, least_force = 0;  // m, N
   int fallbacks = 0;

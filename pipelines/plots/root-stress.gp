@@ -1,6 +1,6 @@
 # Root stress of both gears while a tooth passes through the mesh (a), the largest over speed (b), dynamic factors beside K_v (c).
 # Variables from gear-plot: tsv, heading, note1, note2, ..., notes, height, labels, iso, iso_driver, iso_driven, path_start, path_end,
-# stress_max, factor_max, frequency_from, frequency_to, resonance, natural_frequency; iso: 0 without K_v, iso_driver, iso_driven: 0
+# stress_max, factor_max, frequency_from, frequency_to, resonance, natural_frequency, branches; iso: 0 without K_v, iso_driver, iso_driven: 0
 # without sigma_F0, resonance: Hz at which N = 1.
 set datafile separator tab
 set datafile commentschars "#"
@@ -55,6 +55,11 @@ do for [g = 1:2] {
   drawn = drawn . sprintf('tsv index "[speed down]" using 1:%d with lines lt 1 lw %g dt (10, 5) lc rgb "%s" notitle, ', g + 1, width[g], colour[g]) \
     . sprintf('tsv index "[speed up]" using 1:%d with lines lt 1 lw %g lc rgb "%s" title word(labels, %d), ', g + 1, width[g], colour[g], g)
 }
+# Unstable orbits; the stable ones lie on the sweeps.
+if (branches > 0) {
+  do for [g = 1:2] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 0 ? column(%d) : NaN) with lines lt 1 lw %g dt (2, 4) lc rgb "%s" notitle, ', g + 1, width[g], colour[g]) }
+  drawn = drawn . 'keyentry with lines lt 1 lw 2.6 dt (2, 4) lc rgb "#505050" title "dots: unstable orbits", '
+}
 eval("plot " . drawn . 'keyentry with lines lt 1 lw 2.6 dt (10, 5) lc rgb "#505050" title "dashed: falling"')
 
 set tmargin at screen 0.27 + 0.5 * lift
@@ -73,6 +78,9 @@ drawn = ''
 do for [k = 1:4] {
   drawn = drawn . sprintf('tsv index "[speed down]" using 1:%d with lines lt 1 lw %g dt (10, 5) lc rgb "%s" notitle, ', k + 3, heavy[k], shade[k]) \
     . sprintf('tsv index "[speed up]" using 1:%d with lines lt 1 lw %g lc rgb "%s" title what[%d], ', k + 3, heavy[k], shade[k], k)
+}
+if (branches > 0) {
+  do for [k = 1:4] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 0 ? column(%d) : NaN) with lines lt 1 lw %g dt (2, 4) lc rgb "%s" notitle, ', k + 3, heavy[k], shade[k]) }
 }
 if (iso == 1) { drawn = drawn . 'tsv index "[iso]" using 1:2 with lines lt 1 lw 2.2 dt (4, 4) lc rgb "#aa4499" title "K_v, ISO 6336-1 method B", ' }
 eval("plot " . drawn)

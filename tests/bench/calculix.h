@@ -47,14 +47,18 @@ struct CalculixPosition {
   double torque = 0;  // N m about the driven gear's axis, by the reaction of its bore
   int nodes = 0;      // of both gears, in the plane
   Usage usage;        // of ccx alone
+  // [gear] Pa: tangential stress at the nodes of the root beside the loaded flank of tooth 0, from the flank on; empty unless
+  // roots are asked for
+  std::array<std::vector<double>, 2> root_stress;
 };
 
 class CalculixPair {
  public:
   // material: of both gears, in plane strain; phase: of a pair on the line of action, throws Error(input)
-  // otherwise; element: m, side of the triangles where the flanks touch.
-  CalculixPair(const GearPair& gears, const Material& material, double phase, double element)
-      : gears_(gears), material_(material), phase_(phase), element_(element) {
+  // otherwise; element: m, side of the triangles where the flanks touch; root: the same on the roots of tooth 0 beside the loaded
+  // flanks, 0: as coarse as the rest, and no stress is read.
+  CalculixPair(const GearPair& gears, const Material& material, double phase, double element, double root = 0)
+      : gears_(gears), material_(material), phase_(phase), element_(element), root_(root) {
     if (gears.contact(phase).corner)
       fail(Failure::input, "mesh phase ", phase,
            " has a corner contact; CalculiX is set up from a pair on the line of action");
@@ -84,6 +88,7 @@ class CalculixPair {
     }
     result.usage = wait_for(child, "ccx in " + folder);
     result.torque = read_torque(folder + "/pair.dat", meshes);
+    if (root_ > 0) result.root_stress = read_root_stress(folder + "/pair.frd", meshes);
     fs::remove_all(folder);
     return result;
   }
@@ -94,6 +99,7 @@ class CalculixPair {
     std::vector<std::array<std::size_t, 6>> element;  // corners counter-clockwise, mid-sides
     std::vector<std::size_t> bore;
     std::vector<std::pair<std::size_t, int>> contact;  // element (from 0), side (from 1) on flanks in reach
+    std::vector<std::pair<std::size_t, Vec2>> root;    // node, tangent, from the flank on; of tooth 0
     Vec2 centre;
   };
 
@@ -136,6 +142,7 @@ class CalculixPair {
     };
     const double form = tooth.form_roll_angle(), tip = tooth.tip_roll_angle();
     std::vector<int> outer, flank_of_tooth;
+    int root_of_tooth = 0;          // 0
     std::vector<int> first(teeth);  // point in the tooth space clockwise of the tooth
     const auto placed = [&](int j, Vec2 p, bool mirrored) -> Vec2 {
       if (mirrored) p.x() = -p.x();
@@ -155,8 +162,9 @@ class CalculixPair {
       outer.push_back(geo::addCircleArc(b, axis, c));
       outer.push_back(spline(c, d, 60, [&](double t) { return placed(j, flank(1 - t), false); }));
       flank_of_tooth.push_back(outer.back());
-      outer.push_back(spline(d, first[(j + 1) % teeth], 30,
+      outer.push_back(spline(d, first[(j + 1) % teeth], root_ > 0 ? 200 : 30,
                              [&](double t) { return placed(j, tooth.root_point(t), false); }));
+      if (j == 0) root_of_tooth = outer.back();
     }
     std::vector<int> bore, quarter;
     for (int k = 0; k < 4; ++k)
@@ -175,6 +183,9 @@ class CalculixPair {
       places.emplace_back(number, placed(number, tooth.flank_point(std::min(contact.roll[g], tip)), false));
       touching.push_back(point(places.back().second));
     }
+    std::vector<double> of_root;
+    for (int i = 0; root_ > 0 && i <= 200; ++i)
+      of_root.push_back(point(placed(0, tooth.root_point(i / 200.0), false)));
     geo::synchronize();
     namespace field = gmsh::model::mesh::field;
     const int distance = field::add("Distance"), threshold = field::add("Threshold");
@@ -184,7 +195,20 @@ class CalculixPair {
     field::setNumber(threshold, "DistMin", even * kScale);
     field::setNumber(threshold, "SizeMax", coarse * kScale);
     field::setNumber(threshold, "DistMax", (even + (coarse - element_) / kGrowth) * kScale);
-    field::setAsBackgroundMesh(threshold);
+    if (root_ > 0) {
+      const int from_root = field::add("Distance"), at_root = field::add("Threshold"),
+                least = field::add("Min");
+      field::setNumbers(from_root, "PointsList", of_root);
+      field::setNumber(at_root, "InField", from_root);
+      field::setNumber(at_root, "SizeMin", root_ * kScale);
+      field::setNumber(at_root, "DistMin", 4 * root_ * kScale);
+      field::setNumber(at_root, "SizeMax", coarse * kScale);
+      field::setNumber(at_root, "DistMax", (4 * root_ + (coarse - root_) / kGrowth) * kScale);
+      field::setNumbers(least, "FieldsList", {double(threshold), double(at_root)});
+      field::setAsBackgroundMesh(least);
+    } else {
+      field::setAsBackgroundMesh(threshold);
+    }
     for (const char* off :
          {"Mesh.MeshSizeExtendFromBoundary", "Mesh.MeshSizeFromPoints", "Mesh.MeshSizeFromCurvature"})
       gmsh::option::setNumber(off, 0);
@@ -230,6 +254,24 @@ class CalculixPair {
             near.contains(mesh.element[e][(s + 1) % 3]) && middle_node->second)
           mesh.contact.emplace_back(e, s + 1);
       }
+    if (root_ > 0) {
+      // From the spline onto the root curve's own tangents.
+      constexpr int kSteps = 2000;
+      gmsh::model::mesh::getNodes(tags, at, parameters, 1, root_of_tooth, true, false);
+      std::map<int, std::size_t> along;  // by the nearest of steps on the root curve
+      const auto on_root = [&](int k) { return placed(0, tooth.root_point(double(k) / kSteps), false); };
+      for (std::size_t tag : tags) {
+        int nearest = 0;
+        for (int k = 1; k <= kSteps; ++k)
+          if ((on_root(k) - mesh.node.at(tag)).norm() < (on_root(nearest) - mesh.node.at(tag)).norm())
+            nearest = k;
+        along[nearest] = tag;
+      }
+      for (const auto& [k, tag] : along) {
+        const Vec2 tangent = on_root(std::min(k + 1, kSteps)) - on_root(std::max(k - 1, 0));
+        mesh.root.emplace_back(tag, tangent.normalized());
+      }
+    }
     gmsh::finalize();
     for (auto& [tag, p] : mesh.node) p += middle;
     return mesh;
@@ -277,7 +319,9 @@ class CalculixPair {
         << penalty << "\n";
     out << "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE\nFLANK0, FLANK1\n";
     out << "*STEP\n*STATIC, DIRECT\n1, 1\n*BOUNDARY\nBORE1, 1, 2\nHANDLE, 1, 1, " << rotation << "\n";
-    out << "*NODE PRINT, NSET=BORE1\nRF\n*END STEP\n";
+    out << "*NODE PRINT, NSET=BORE1\nRF\n";
+    if (root_ > 0) out << "*EL FILE, OUTPUT=2D\nS\n";
+    out << "*END STEP\n";
     if (!out) fail(Failure::io, path, " could not be written");
     out.close();
   }
@@ -304,9 +348,35 @@ class CalculixPair {
     return torque;
   }
 
+  // Stress at nodes as CalculiX has it: carried over from the integration points of each element, mean over the elements at a
+  // node. Lines of -1, node, xx, yy, zz, xy, yz, zx in fixed columns, MPa.
+  static std::array<std::vector<double>, 2> read_root_stress(const std::string& path,
+                                                             const std::array<Mesh, 2>& meshes) {
+    std::ifstream in(path);
+    std::map<std::size_t, Eigen::Matrix2d> stress;
+    bool inside = false;
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind(" -4", 0) == 0) inside = line.find("STRESS") != std::string::npos;
+      if (line.rfind(" -3", 0) == 0) inside = false;
+      if (!inside || line.rfind(" -1", 0) != 0 || line.size() < 13 + 4 * 12) continue;
+      const auto value = [&](std::size_t k) { return std::stod(line.substr(13 + 12 * k, 12)); };
+      Eigen::Matrix2d& s = stress[std::stoul(line.substr(3, 10))];
+      s << value(0), value(3), value(3), value(1);
+    }
+    std::array<std::vector<double>, 2> out;
+    for (std::size_t g = 0; g < 2; ++g)
+      for (const auto& [tag, tangent] : meshes[g].root) {
+        const auto found = stress.find(tag + (g == 0 ? 0 : meshes[0].node.rbegin()->first));
+        if (found == stress.end())
+          fail(Failure::numerical, path, " holds no stress at node ", tag, " of gear ", g);
+        out[g].push_back(tangent.dot(found->second * tangent) * 1e6);
+      }
+    return out;
+  }
+
   const GearPair& gears_;
   Material material_;
-  double phase_, element_;
+  double phase_, element_, root_;
 };
 
 }  // namespace whine

@@ -1,0 +1,129 @@
+#include "report/flank_pressure_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "report/response_figures.h"
+#include "system/flank_pressure.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kMegapascal = 1e-6;  // Pa -> MPa
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+void require_inputs(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
+  if (sweeps.size() != 2 || sweeps[0].direction == sweeps[1].direction)
+    fail(Failure::input, "flank-pressure: it needs two response.h5 beside static.h5, up and down; ",
+         sweeps.size(), " given");
+  for (const ResponseArtifact& r : sweeps) {
+    if (r.torque != s.torque)
+      fail(Failure::input, "flank-pressure: a response.h5 of ", r.torque, " N m; static.h5 is of ", s.torque,
+           " N m; give both of one torque");
+    if (r.flank_pressure.size() == 0)
+      fail(Failure::input, "flank-pressure: the response.h5 of the sweep ", r.direction,
+           " holds no flank pressure, which lumped models do not have");
+  }
+}
+
+FigureBlock map_block(const ResponseArtifact& r) {
+  FigureBlock block{
+      text("map ", r.direction),
+      {"roll_driver [deg]", "roll_driven [deg]", "pair_phase [1]", "mesh_frequency [Hz]", "pressure [MPa]"},
+      {},
+      "",
+      ""};
+  block.table = "map";
+  block.curve = name_of(r.direction);
+  for (Index f = 0; f < r.mesh_frequency.size(); ++f)
+    for (Index k = 0; k < r.pair_phase.size(); ++k)
+      block.rows.push_back({r.flank_roll(k, 0) * kDegrees, r.flank_roll(k, 1) * kDegrees, r.pair_phase[k],
+                            r.mesh_frequency[f], r.flank_pressure(f, k) * kMegapascal});
+  return block;
+}
+
+FigureBlock speed_block(const ResponseArtifact& r) {
+  FigureBlock block{text("speed ", r.direction),
+                    {"mesh_frequency [Hz]", "pressure [MPa]", "roll_driver [deg]", "edge_load_driver [N]",
+                     "edge_load_driven [N]"},
+                    {},
+                    "speed",
+                    name_of(r.direction)};
+  const std::vector<bool> broken = broken_after(r);
+  for (Index f = 0; f < r.mesh_frequency.size(); ++f) {
+    Index top = 0;
+    const double most = r.flank_pressure.row(f).maxCoeff(&top);
+    block.rows.push_back({r.mesh_frequency[f], most * kMegapascal, r.flank_roll(top, 0) * kDegrees,
+                          r.edge_load[0][f], r.edge_load[1][f]});
+    if (broken[static_cast<size_t>(f)]) block.rows.emplace_back();
+  }
+  return block;
+}
+
+// 1: largest difference of the two maps over the largest pressure; infinity for other speeds.
+double difference(const ResponseArtifact& up, const ResponseArtifact& down) {
+  const Index speeds = up.mesh_frequency.size();
+  if (down.mesh_frequency.size() != speeds || down.flank_pressure.cols() != up.flank_pressure.cols())
+    return std::numeric_limits<double>::infinity();
+  double off = 0;
+  for (Index f = 0; f < speeds; ++f) {
+    if (up.mesh_frequency[f] != down.mesh_frequency[speeds - 1 - f])
+      return std::numeric_limits<double>::infinity();
+    off = std::max(
+        off, (up.flank_pressure.row(f) - down.flank_pressure.row(speeds - 1 - f)).cwiseAbs().maxCoeff());
+  }
+  return off / std::max(up.flank_pressure.maxCoeff(), down.flank_pressure.maxCoeff());
+}
+
+}  // namespace
+
+Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<ResponseArtifact>& given) {
+  require_inputs(s, given);
+  const bool in_order = given[0].direction == Direction::up;
+  const ResponseArtifact &up = given[in_order ? 0 : 1], &down = given[in_order ? 1 : 0];
+  constexpr double kAlike = 0.01;
+  const bool both = difference(up, down) > kAlike;
+  Figure figure;
+  figure.title = "Flank pressure, " + torque_words(s.torque);
+  figure.height = both ? 1200 : 900;
+  const FlankPressure rest = flank_pressure(s);
+  figure.blocks.push_back(map_block(up));
+  if (both) figure.blocks.push_back(map_block(down));
+  double largest = 0, edge = 0;
+  for (const ResponseArtifact* r : {&up, &down}) {
+    figure.blocks.push_back(speed_block(*r));
+    largest = std::max(largest, r->flank_pressure.maxCoeff());
+    for (const Eigen::VectorXd& load : r->edge_load) edge = std::max(edge, load.maxCoeff());
+  }
+  figure.notes = {
+      "Hertz's law of the load that a pair holds for 1/64 of a mesh period at each place of the flanks; "
+      "largest "
+      "over the mesh periods" +
+          (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kMegapascal, 4) + " MPa" : ""),
+      text("a tip edge on a flank is a singular contact: it has no largest pressure, so its load is stated (",
+           both ? "d" : "c", "), and the map is white there, as without load"),
+      both ? "the map of falling speed differs from that of rising speed"
+           : "falling speed has the same map within 1 % of the largest pressure"};
+  const auto step = [](const Eigen::VectorXd& x) { return x.size() > 1 ? std::abs(x[1] - x[0]) : 0.0; };
+  figure.words = {{"labels", text("'", s.mesh.gear[0], "' '", s.mesh.gear[1], "'")}};
+  figure.numbers = {{"both", both ? 1.0 : 0.0},
+                    {"roll_from", up.flank_roll.col(0).minCoeff() * kDegrees},
+                    {"roll_to", up.flank_roll.col(0).maxCoeff() * kDegrees},
+                    {"roll_step", step(up.flank_roll.col(0)) * kDegrees},
+                    {"speed_step", step(up.mesh_frequency)},
+                    {"pressure_max", largest * kMegapascal},
+                    {"pressure_rest", rest.smooth * kMegapascal},
+                    {"edge_max", edge},
+                    {"frequency_from", up.mesh_frequency.minCoeff()},
+                    {"frequency_to", up.mesh_frequency.maxCoeff()},
+                    {"notes", static_cast<double>(figure.notes.size())},
+                    {"natural_frequency", up.natural_frequency}};
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,16 @@
+// What the teeth of a pair suffer, on one page: root stress, flank pressure, dynamic factors, losses, beside ISO 6336.
+#pragma once
+#include "report/report_content.h"
+#include "report/stiffness_table.h"
+
+namespace whine {
+
+// Of the first torque, in the order in which they stand on the page: at rest, then in motion.
+std::vector<WordTable> teeth_tables(const ReportContent& c);
+
+// The page, with the figures root-stress, root-stress-branches, flank-pressure, load-sharing, tooth-loads and error-budget of those
+// that are given. Throws Error(input) without static.h5, without sweeps up and down at its torque, for cracked teeth and as
+// report_html().
+std::string teeth_html(const ReportContent& c);
+
+}  // namespace whine

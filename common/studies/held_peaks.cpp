@@ -1,0 +1,47 @@
+#include "studies/held_peaks.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "signal/branches.h"
+
+namespace whine {
+namespace {
+
+int samples_of(int steps) {
+  constexpr int kMost = 128;
+  while (steps > kMost && steps % 2 == 0) steps /= 2;
+  return steps;
+}
+
+std::vector<double> phases_of(int samples) {
+  std::vector<double> phases(static_cast<size_t>(samples));
+  for (int n = 0; n < samples; ++n) phases[static_cast<size_t>(n)] = static_cast<double>(n) / samples;
+  return phases;
+}
+
+}  // namespace
+
+HeldPeaks::HeldPeaks(const GearMeshModel& model, int steps)
+    : roots_(model, phases_of(samples_of(steps))), samples_(samples_of(steps)) {}
+
+Eigen::VectorXd HeldPeaks::of(const RollingDynamics::Period& period) {
+  const Eigen::Index pairs = period.pair_load.rows(), stride = period.pair_load.cols() / samples_;
+  const int reach = static_cast<int>(pairs) / 2;
+  pair_ = Eigen::VectorXi::LinSpaced(pairs, -reach, reach);
+  load_.resize(samples_, pairs);
+  along_.resize(samples_, root_stress() ? 3 : 1);
+  for (Eigen::Index n = 0; n < samples_; ++n) {
+    load_.row(n) = period.pair_load.col(n * stride).transpose();
+    along_(n, 0) = load_.row(n).sum();
+    for (int g = 0; root_stress() && g < kSides; ++g)
+      along_(n, 1 + g) = roots_.largest(g, static_cast<size_t>(n), pair_, load_.row(n).transpose()).stress;
+  }
+  Eigen::VectorXd out(along_.cols() + 1);
+  out[0] = held_load(along_.col(0), samples_, 1);
+  out[1] = held_load(load_, samples_);
+  for (Eigen::Index k = 1; k < along_.cols(); ++k) out[k + 1] = held_load(along_.col(k), samples_, 1);
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,122 @@
+// Root stress of a pair at one position beside CalculiX (calculix.h): both gears whole, quadratic triangles, contact of their own,
+// at the rotation that Whine finds for the torque. Plane strain: elements of CalculiX in plane stress change their thickness.
+// The position is that with the largest root stress of the driver, with tip edges in contact whatever the scene says.
+//
+// Reads   params and two body.h5 (their design, material and discretisation); writes a table on standard output.
+// Example: whine-bench-stress --params out/fzg-c/params/static.toml --body pinion=out/fzg-c/pinion/body.h5
+//            --body wheel=out/fzg-c/wheel/body.h5 --torque 200
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/tool.h"
+#include "calculix.h"
+#include "io/body_codec.h"
+#include "io/named_files.h"
+#include "io/scene.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
+
+namespace {
+
+constexpr double kContactElement = 0.06e-3;  // m, CalculiX's where the flanks touch
+constexpr double kRootElement = 0.06;        // the same on the roots, over the radius of the rack's tip
+
+whine::BodyArtifact in_plane_strain(const whine::BodyArtifact& body) {
+  whine::Material material = body.material;
+  material.plane_stress = false;
+  return whine::reduce(whine::make_sector_mesh(body.design, body.discretisation), material, 1);
+}
+
+void compare(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+             whine::StaticParameters settings, double torque) {
+  using namespace whine;
+  settings.mesh.corner = CornerRule();  // CalculiX leaves no tip edge out
+  const StaticArtifact s =
+      static_transmission(in_plane_strain(driver), in_plane_strain(driven), settings, torque);
+  Eigen::Index row = 0, pair = 0;
+  s.root_stress[0].maxCoeff(&row, &pair);
+  const GearPair gears(driver.design, driven.design, settings.mesh.centre_distance);
+  const double phase = s.mesh_phase[row] + s.pair[pair];
+  std::printf(
+      "  %g N m, plane strain, phase of the pair %.4f, elements of %g and %g mm, load of the pair %.1f N of "
+      "%.1f N\n",
+      torque, phase, driver.discretisation.element_size * 1e3, driven.discretisation.element_size * 1e3,
+      s.tooth_load(row, pair), torque / gears.gear(0).base_radius());
+  if (!CalculixPair::installed()) {
+    std::printf("  (no CalculiX to compare with: make deps-bench)\n");
+    return;
+  }
+  const double radius = std::min(driver.design.rack_tip_radius * driver.design.module,
+                                 driven.design.rack_tip_radius * driven.design.module);
+  const double element = std::clamp(kRootElement * radius, 0.01e-3, kContactElement);
+  const CalculixPosition peer = CalculixPair(gears, driver.material, phase, kContactElement, element)
+                                    .solve(s.transmission_error[row] / gears.gear(0).base_radius());
+  // Of the driver, by the reaction of the driven gear: friction takes none.
+  const double their_torque = peer.torque * gears.gear(0).base_radius() / gears.gear(1).base_radius();
+  std::printf("  CalculiX: %d nodes, %.4f mm on the roots, CPU %.1f s, torque %+.3f %%\n", peer.nodes,
+              element * 1e3, peer.usage.seconds, 100 * (their_torque / torque - 1));
+  for (int g = 0; g < kSides; ++g) {
+    const auto& stress = peer.root_stress[static_cast<size_t>(g)];
+    // To the torque of Whine, in proportion.
+    const double theirs = *std::max_element(stress.begin(), stress.end()) * torque / their_torque,
+                 ours = s.root_stress[static_cast<size_t>(g)](row, pair);
+    std::printf("    %-8s largest root stress: Whine %.2f MPa, CalculiX %.2f MPa, difference %+.2f %%\n",
+                settings.mesh.gear[static_cast<size_t>(g)].c_str(), ours * 1e-6, theirs * 1e-6,
+                100 * (ours / theirs - 1));
+  }
+}
+
+// CPU of a sweep up with root stress, over that of bodies without tables; the two in turn, the least of each.
+void time_of_sweeps(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+                    const whine::StaticParameters& settings, const whine::SweepParameters& sweeps,
+                    double torque) {
+  using namespace whine;
+  constexpr int kTurns = 5;
+  const StaticArtifact s = static_transmission(driver, driven, settings, torque);
+  std::array<BodyArtifact, 2> plain{driver, driven};
+  for (BodyArtifact& body : plain) body.root_stress.clear();
+  double least[2] = {1e30, 1e30};  // s
+  for (int turn = 0; turn < 2 * kTurns; ++turn) {
+    const bool with = turn % 2 == 0;
+    const std::clock_t start = std::clock();
+    const SweepArtifact swept = sweep(with ? driver : plain[0], with ? driven : plain[1], s, s.mean_stiffness,
+                                      sweeps, Direction::up, [](long, long, const std::string&) {});
+    least[turn % 2] = std::min(least[turn % 2], double(std::clock() - start) / CLOCKS_PER_SEC);
+    if (with == (swept.root_stress[0].size() == 0))
+      fail(Failure::numerical, "root stress where there is none");
+  }
+  std::printf("  sweep up with root stress: CPU %.3f s, %.3f times that without\n", least[0],
+              least[0] / least[1]);
+}
+
+void body(int argc, char** argv) {
+  whine::Options options{"Root stress at one position beside CalculiX", "whine-bench-stress"};
+  std::string params, sweep_params, torque;
+  std::vector<std::string> bodies;
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/static.toml").required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
+  options.add("--torque", torque, "torque on the driver in N m, above 0").required();
+  options.add("--sweep-params", sweep_params, "stage parameters of the scene, to time a sweep as well");
+  options.parse(argc, argv);
+  const double load = whine::number_option("--torque", torque);
+  const whine::StaticParameters read = whine::read_static_parameters(params);
+  const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
+  std::printf("%s\n", params.c_str());
+  const whine::BodyArtifact driver = whine::read_body(paths[0]), driven = whine::read_body(paths[1]);
+  if (!sweep_params.empty())
+    time_of_sweeps(driver, driven, read, whine::read_sweep_parameters(sweep_params), load);
+  compare(driver, driven, read, load);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
