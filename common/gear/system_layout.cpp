@@ -369,4 +369,15 @@ System on_fixed_carriers(const System& layout) {
   return out;
 }
 
+bool is_ring(const System& system, int body) {
+  for (const System::Mesh& mesh : system.meshes)
+    for (size_t s = 0; s < 2; ++s) {
+      const auto other = static_cast<size_t>(mesh.side[1 - s].body);
+      if (mesh.side[s].body == body && mesh.side[0].sense == mesh.side[1].sense &&
+          system.bodies[static_cast<size_t>(body)].teeth > system.bodies[other].teeth)
+        return true;
+    }
+  return false;
+}
+
 }  // namespace whine

@@ -29,4 +29,7 @@ std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std:
 // Elastic systems (system/system_statics.h) know no carriers and need this form.
 System on_fixed_carriers(const System& layout);
 
+// Whether a body is an internal gear: in its meshes both sides turn in one sense, and it has more teeth.
+bool is_ring(const System& system, int body);
+
 }  // namespace whine

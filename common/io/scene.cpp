@@ -403,7 +403,7 @@ Scene scene_of(const Source& source) {
                                 ? text("there are ", meshes->size(), " [[mesh]] sections, so it")
                                 : std::string("it has [[carrier]] or [[drive]], so it");
     source.reject(
-        text(why, " is the scene of a system, and this stage is for pairs; for systems there is make modes"));
+        text(why, " is the scene of a system, and this stage is for pairs; for systems there is make report"));
   }
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
   top.reject_unknown(
