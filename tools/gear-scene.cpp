@@ -30,7 +30,6 @@
 #include "system/rigid_system.h"
 
 namespace {
-
 using namespace whine;
 
 ScenePlace place_in(const std::string& path) {

@@ -74,9 +74,8 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
 std::string sharing_words(const SystemStaticArtifact& a) {
   std::string out;
   for (const LoadSharing& of : load_sharing(a))
-    out += text(out.empty() ? "load sharing factor (largest share times number of planets): " : ", ", of.name,
-                " ", fixed(of.factor, 3), " at most, ", fixed(of.mean_factor, 3),
-                " in the mean of the most loaded");
+    out += text(out.empty() ? "load sharing factor (largest share times planets): " : ", ", of.name, " ",
+                fixed(of.factor, 3), " (by mean shares ", fixed(of.mean_factor, 3), ")");
   return out;
 }
 
@@ -110,8 +109,8 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
   if (const std::string sharing = sharing_words(a); !sharing.empty()) figure.notes.push_back(sharing);
   figure.notes.emplace_back(
       "transmission error along the line of action, what bearings give way included; mesh force: torque on "
-      "the driving gear "
-      "over its base radius; bearing force: its size, of rigid axes, too");
+      "the driving gear over its base radius");
+  figure.notes.emplace_back("bearing force: its size, of rigid axes, too");
   std::vector<Curve> errors, forces, bearings;
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     errors.push_back({mesh_name(s, m), a.transmission_error.col(static_cast<Index>(m)) * kMicro});
@@ -135,30 +134,37 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
 
 namespace {
 
-// Loads of the tooth pairs of one mesh over the mesh period, its pairs that carry load.
+// Loads of the tooth pairs of one mesh that carry load, over a mesh period of its own: pairs are numbered anew where it begins.
 FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::string& name) {
-  const Index n = a.mesh_phase.size();
-  FigureBlock block{name, {"mesh_phase [1]"}, {}, name};
+  const Index n = a.mesh_phase.size(), pairs = a.pair.size();
+  const auto mesh = static_cast<Index>(m);
+  FigureBlock block{name, {"phase of the mesh [1]"}, {}, name};
   std::vector<Index> loaded;
-  for (Index p = 0; p < a.pair.size(); ++p) {
+  for (Index p = 0; p < pairs; ++p) {
     double most = 0;
-    for (const MatrixRM& load : a.tooth_load) most = std::max(most, load(static_cast<Index>(m), p));
+    for (const MatrixRM& load : a.tooth_load) most = std::max(most, load(mesh, p));
     if (most == 0) continue;
     loaded.push_back(p);
     block.columns.push_back(text("load of pair ", a.pair[p], " [N]"));
   }
-  for (Index i = 0; i <= n; ++i) {
-    std::vector<double> row{i < n ? a.mesh_phase[i] : 1.0};
-    // At its end a pair is where the one that precedes it was at the start.
+  // shift: mesh periods by which the row is moved; a pair is then where the one `shift` before it was.
+  const auto add = [&](double phase, size_t at, Index shift) {
+    std::vector<double> row{phase + static_cast<double>(shift)};
     for (const Index p : loaded) {
-      const auto mesh = static_cast<Index>(m);
-      if (i < n)
-        row.push_back(a.tooth_load[static_cast<size_t>(i)](mesh, p));
-      else
-        row.push_back(p + 1 < a.pair.size() ? a.tooth_load[0](mesh, p + 1) : 0);
+      const Index from = p + shift;
+      row.push_back(from >= 0 && from < pairs ? a.tooth_load[at](mesh, from) : 0);
     }
     block.rows.push_back(row);
+  };
+  std::vector<std::pair<double, size_t>> order;
+  for (Index i = 0; i < n; ++i) {
+    const double own = a.mesh_phase[i] + a.settings.layout.meshes[m].phase;
+    order.emplace_back(own - std::floor(own), static_cast<size_t>(i));
   }
+  std::sort(order.begin(), order.end());
+  add(order.back().first, order.back().second, -1);
+  for (const auto& [phase, at] : order) add(phase, at, 0);
+  add(order.front().first, order.front().second, 1);
   return block;
 }
 
@@ -173,9 +179,9 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
   const Index n = a.mesh_phase.size();
   Figure figure;
   figure.title = "Load sharing among planets, at rest";
-  figure.notes = {
-      bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()), sharing_words(a),
-      "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first mesh"};
+  figure.notes = {bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()), sharing_words(a),
+                  "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first "
+                  "mesh over a period of its own, 0: reference pair at the pitch point"};
   double low = 100, high = 0;
   for (size_t k = 0; k < sharing.size(); ++k) {
     const LoadSharing& of = sharing[k];

@@ -24,6 +24,7 @@ struct Train {
   const System& layout;
   std::vector<const GearDesign*> design;  // [body] nullptr: not known
   std::vector<int> section;               // [mesh] number of its [[mesh]]; empty: not known
+  std::vector<bool> second = {};          // [body] whether it has the second of the two colours
 };
 
 const System::Body& body_of(const System& s, int b) {
@@ -104,17 +105,18 @@ void add_arrow(Blocks& out, const System::Body& body, double r) {
 void add_gear(const Train& t, int b, Blocks& out) {
   const System::Body& body = body_of(t.layout, b);
   const Placement at{body.angle, centre_of(body)};
-  FigureBlock& own = body.on == System::kGround ? out.central : out.planets;
+  FigureBlock& own = t.second[static_cast<size_t>(b)] ? out.planets : out.central;
   if (const GearDesign* design = t.design[static_cast<size_t>(b)]) {
     const ToothGeometry tooth(*design);
     const std::vector<Vec2> contour = gear_contour(tooth, kFlankPoints);
     const auto held = circle_contour(design->held_radius(), kCirclePoints);
+    // The body of a ring lies between two areas.
     add_closed(design->internal ? out.hollow : own, contour, at);
     add_closed(design->internal ? out.rim : out.bores, held, at);
     add_arrow(out, body, 0.5 * (design->held_radius() + tooth.root_radius()));
     return;
   }
-  FigureBlock& circles = body.on == System::kGround ? out.circles : out.planet_circles;
+  FigureBlock& circles = t.second[static_cast<size_t>(b)] ? out.planet_circles : out.circles;
   double radius = 0;
   for (const System::Mesh& mesh : t.layout.meshes)
     for (const System::Side& side : mesh.side)
@@ -221,11 +223,11 @@ size_t add_close_ups(const Train& t, Figure& figure) {
 
 // Places of the panels on the picture in pixels from its top left; its height.
 void place_panels(const Box& e, size_t close_ups, Figure& figure) {
-  constexpr double kTop = 120, kLeft = 110, kWidth = 1600, kClose = 400, kGap = 70;
+  constexpr double kTop = 120, kLeft = 150, kWidth = 1600, kClose = 400, kGap = 70;
   constexpr int kLine = 24;
   const double aspect = (e.right - e.left) / (e.high - e.low);
   const bool beside = aspect < 1.5;
-  double width = close_ups == 0 ? std::min(1300.0, 940 * aspect) : beside ? 940 : 1440, high = width / aspect;
+  double width = close_ups == 0 ? std::min(1300.0, 940 * aspect)        : beside ? 910 : 1400, high = width / aspect;
   const auto count = static_cast<double>(close_ups);
   double left = kLeft, bottom = kTop + high;
   if (close_ups == 0) left = 0.5 * (kWidth - width);
@@ -265,7 +267,16 @@ FigureBlock bodies_block(const System& s) {
   return block;
 }
 
-Figure picture_of(const Train& t, const Eigen::VectorXd& torque) {
+// Gears in mesh have the two colours in turn.
+std::vector<bool> colours_of(const System& s) {
+  std::vector<bool> second(s.bodies.size(), false);
+  for (const System::Mesh& mesh : s.meshes)
+    second[static_cast<size_t>(mesh.side[1].body)] = !second[static_cast<size_t>(mesh.side[0].body)];
+  return second;
+}
+
+Figure picture_of(Train t, const Eigen::VectorXd& torque) {
+  t.second = colours_of(t.layout);
   Figure figure;
   figure.title = "A system of gears";
   Blocks blocks;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "gear/system_layout.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/report_page.h"
@@ -331,11 +332,18 @@ namespace {
 void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
   const System& s = a.settings.layout;
   constexpr double kSmall = 0.01;  // of the largest load of a pair
-  for (size_t m = 0; m < s.meshes.size(); ++m) {
-    const std::string name = mesh_name(s, m);
-    if (const double pressure = largest_load(a.contact_pressure, m); pressure > kHardenedSteelPressure)
+  // Once for all meshes of a [[mesh]].
+  for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
+    const std::string name = a.settings.mesh[k].gear[0] + "-" + a.settings.mesh[k].gear[1];
+    double pressure = 0, edge = 0, most = 0;
+    for (size_t m = 0; m < s.meshes.size(); ++m) {
+      if (a.settings.section[m] != static_cast<int>(k)) continue;
+      pressure = std::max(pressure, largest_load(a.contact_pressure, m));
+      edge = std::max(edge, tip_edge_load(a, m));
+      most = std::max(most, largest_load(a.tooth_load, m));
+    }
+    if (pressure > kHardenedSteelPressure)
       out.push_back(remark(true, name, ": the contact pressure of ", fixed(pressure * 1e-9, 2), kBeyondSteel));
-    const double edge = tip_edge_load(a, m), most = largest_load(a.tooth_load, m);
     if (edge > kSmall * most)
       out.push_back(remark(false, name, ": tip edges of bent teeth carry up to ", fixed(edge, 0), " N, ",
                            fixed(edge / most * kPercent, 0),
@@ -347,6 +355,12 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
                          of.factor > 1.3 ? ". Let a central gear float on a softer [[bearing]], or space the "
                                            "planets equally"
                                          : ""));
+  std::vector<const GearDesign*> design;
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const BodyParameters* drawing = drawing_of(a, static_cast<int>(b));
+    design.push_back(drawing ? &drawing->design : nullptr);
+  }
+  for (const std::string& words : colliding_gears(s, design)) out.push_back({true, words});
   std::string rigid;
   for (const System::Body& body : s.bodies)
     if (!body.bearing.elastic()) rigid += (rigid.empty() ? "" : ", ") + body.name;

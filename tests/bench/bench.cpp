@@ -48,6 +48,7 @@ using Eigen::VectorXd;
 
 constexpr int kRepeats = 21;
 constexpr double kPhase = 0.25;  // two pairs of teeth in contact
+constexpr double kElement = 0.06e-3;  // m, of CalculiX where the flanks touch
 
 struct Times {
   double least = 0, median = 0;  // s per solve
@@ -285,9 +286,9 @@ PositionTimes static_position(const whine::GearMeshModel& model, const whine::St
 
 // The same position by CalculiX, in plane strain: its elements in plane stress change their thickness.
 void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
-                     const whine::StaticParameters& settings, double torque, double phase) {
+                     const whine::StaticParameters& settings, double torque, double phase,
+                     double element) {
   using namespace whine;
-  constexpr double kElement = 0.06e-3;  // m, where the flanks touch
   if (driver.material.youngs_modulus != driven.material.youngs_modulus ||
       driver.material.poisson_ratio != driven.material.poisson_ratio)
     fail(Failure::input, "the gears are of different materials; the comparison with CalculiX knows one");
@@ -309,11 +310,11 @@ void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifac
   }
   const double base_radius = model.kinematics.gear(0).base_radius();
   const CalculixPosition peer =
-      CalculixPair(model.kinematics, driver.material, phase, kElement).solve(whine.rest.x / base_radius);
+      CalculixPair(model.kinematics, driver.material, phase, element).solve(whine.rest.x / base_radius);
   const double force = torque / base_radius, of_peer = peer.torque / model.kinematics.gear(1).base_radius();
   const double off = (force - of_peer) / whine.rest.stiffness / whine.rest.x;
   std::printf("  both gears whole, %d nodes of quadratic triangles, %g mm where the flanks touch\n",
-              peer.nodes, kElement * 1e3);
+              peer.nodes, element * 1e3);
   std::printf("  CPU %.1f s, peak %.0f MB\n", peer.usage.seconds, peer.usage.megabytes);
   std::printf("  transmission error: Whine %.4f micrometres, CalculiX %+.3f %%\n", whine.rest.x * 1e6,
               100 * off);
@@ -474,11 +475,11 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
 }
 
 void positions_beside_calculix(const std::string& params, const std::vector<std::string>& bodies, double torque,
-                               const std::vector<double>& phases) {
+                               const std::vector<double>& phases, double element) {
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
   const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
-  for (const double phase : phases) beside_calculix(driving, following, read, torque, phase);
+  for (const double phase : phases) beside_calculix(driving, following, read, torque, phase, element);
 }
 
 void body(int argc, char** argv) {
@@ -495,13 +496,16 @@ void body(int argc, char** argv) {
       .needs(settings);
   options.add("--torque", torque, "torque on the driver in N m, above 0");
   std::vector<double> phases;
+  double element = kElement * 1e3;
   options
       .add("--position", phases,
            "mesh phases, 0 up to 1, with a pair on the line of action: the static position there beside CalculiX, nothing else")
       .needs(settings);
+  options.add("--element", element, "mm, side of its triangles where the flanks touch, of --position").needs(settings);
   options.parse(argc, argv);
   if (!phases.empty()) {
-    positions_beside_calculix(params, bodies, whine::number_option("--torque", torque), phases);
+    positions_beside_calculix(params, bodies, whine::number_option("--torque", torque), phases,
+                              element * 1e-3);
     return;
   }
 
@@ -526,7 +530,7 @@ void body(int argc, char** argv) {
   if (!sweep_params.empty())
     rolling(driving, following, read, whine::read_sweep_parameters(sweep_params), load);
   reductions(driving);
-  beside_calculix(driving, following, read, load, kPhase);
+  beside_calculix(driving, following, read, load, kPhase, kElement);
 }
 
 }  // namespace
