@@ -231,6 +231,9 @@ rejected "a variant that cannot be" 3 'scene_wide.toml.*bore' "$bin/gear-scene" 
 rm -f map.* scene_variant.toml scene_wide.toml
 rejected "decibels re nothing" 2 '--db 0: it is a length in m above 0' "$bin/gear-plot" waterfall --plots "$plots" --db 0 --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
 rejected "a speed of no gear" 2 'there is no gear carrier; there are pinion, wheel' "$bin/gear-plot" waterfall --plots "$plots" --axis rpm:carrier --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
+rejected "the report of a system without its modes" 3 'no modes.h5 given' "$bin/gear-report" out/scene-inline/system_static.h5 --output x.html
+rejected "two modes.h5 in the report of a system" 2 'a second whine/modes; give one of each' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/../scene-inline/modes.h5 --output x.html
+rejected "load sharing of a system without planets" 3 'stands for those of several planets' "$bin/gear-plot" system-load-sharing --plots "$plots" out/scene-inline/system_static.h5 --output x
 rejected "two static.h5 of one torque in a report" 3 'a static.h5 at 100 N m is given twice' "$bin/gear-report" out/scene/T100/static.h5 out/scene/../scene/T100/static.h5 --output x.html
 mkdir -p other_scene/params other_scene/T100 && cp out/scene/T100/static.h5 other_scene/T100 && echo Other > other_scene/params/title.txt
 rejected "two scenes in an export" 3 'other_scene/T100/static.h5: is of the scene other_scene: Other, artifacts before it are of scene' "$bin/gear-export" --model "$scene_of_paper" \

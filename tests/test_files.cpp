@@ -50,8 +50,8 @@
 #include "io/variant_codec.h"
 #include "io/vtk.h"
 #include "planetary_train.h"
-#include "small_system.h"
 #include "relative.h"
+#include "small_system.h"
 #include "system/natural_modes.h"
 
 using namespace whine;

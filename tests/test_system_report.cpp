@@ -70,7 +70,9 @@ SystemReport report_of(const SystemStaticArtifact& rest) {
 
 }  // namespace
 
-TEST_CASE("the contour of a gear: closed, between tip and root, its teeth are turned images, its flanks involutes") {
+TEST_CASE(
+    "the contour of a gear: closed, between tip and root, its teeth are turned images, its flanks "
+    "involutes") {
   for (const bool internal : {false, true}) {
     GearDesign design = rigid_gear(internal ? 99 : 27, internal);
     if (!internal) design.bore_radius = 10e-3;
@@ -88,7 +90,8 @@ TEST_CASE("the contour of a gear: closed, between tip and root, its teeth are tu
     CHECK(std::max(gear.tip_radius(), gear.root_radius()) == relative(most, 1e-12));
     CHECK(area > kPi * least * least);  // counter-clockwise, once round
     CHECK(area < kPi * most * most);
-    const double step = std::atan2(tooth.back().y(), tooth.back().x()) - std::atan2(tooth.front().y(), tooth.front().x());
+    const double step =
+        std::atan2(tooth.back().y(), tooth.back().x()) - std::atan2(tooth.front().y(), tooth.front().x());
     CHECK(step == relative(2 * kPi / design.teeth, 1e-9));
     // The pitch circle is met where the tooth is as thick as the drawing says.
     const Vec2 form = gear.flank_point(gear.form_roll_angle());
@@ -96,7 +99,8 @@ TEST_CASE("the contour of a gear: closed, between tip and root, its teeth are tu
   }
 }
 
-TEST_CASE("the picture of a system: drawn teeth touch where every mesh is at its phase, arrows turn as bodies do") {
+TEST_CASE(
+    "the picture of a system: drawn teeth touch where every mesh is at its phase, arrows turn as bodies do") {
   const SystemStaticArtifact a = small_system();
   const System& s = a.settings.layout;
   const Figure figure = system_picture(a);
@@ -162,8 +166,9 @@ TEST_CASE("load sharing of a system: the factor of known shares, and a system th
 TEST_CASE("the page of a system holds its sections, its numbers and the words of each figure") {
   const SystemReport r = report_of(small_system());
   const std::string page = system_report_html(r), table = system_report_tsv(r);
-  for (const char* words : {"id=\"gears\"", "id=\"meshes\"", "id=\"rest\"", "id=\"modes-of-system\"", "id=\"provenance\"",
-                            "<figure id=\"load-sharing\">", "sun-planet1", "planet3-ring", "What the numbers mean"})
+  for (const char* words :
+       {"id=\"gears\"", "id=\"meshes\"", "id=\"rest\"", "id=\"modes-of-system\"", "id=\"provenance\"",
+        "<figure id=\"load-sharing\">", "sun-planet1", "planet3-ring", "What the numbers mean"})
     CHECK(page.find(words) != std::string::npos);
   CHECK(page.find("id=\"motion\"") == std::string::npos);
   CHECK(page.find(">nan<") == std::string::npos);
@@ -181,12 +186,14 @@ TEST_CASE("the page of a system holds its sections, its numbers and the words of
     return message_of([&] { system_report_html(changed); });
   };
   CHECK(said(r, [](SystemReport& c) { c.modes.reset(); }).find("no modes.h5 given") != std::string::npos);
-  CHECK(said(r, [](SystemReport& c) { c.pictures.push_back({"fig07", "png"}); })
-            .find("no words for a figure 'fig07'") != std::string::npos);
+  CHECK(said(r, [](SystemReport& c) {
+          c.pictures.push_back({"fig07", "png"});
+        }).find("no words for a figure 'fig07'") != std::string::npos);
   CHECK(said(r, [](SystemReport& c) { c.pictures.push_back(c.pictures[0]); }).find("is given twice") !=
         std::string::npos);
-  CHECK(said(r, [](SystemReport& c) { c.modes = natural_modes(layout_of(planetary_train(4))); })
-            .find("of two systems") != std::string::npos);
+  CHECK(said(r, [](SystemReport& c) {
+          c.modes = natural_modes(layout_of(planetary_train(4)));
+        }).find("of two systems") != std::string::npos);
 }
 
 TEST_CASE("the view of modes: every body moves as a rigid one, and meshes close as the modes say") {
@@ -248,8 +255,11 @@ TEST_CASE("the view of modes: every body moves as a rigid one, and meshes close 
       }
     }
     const double most = a.view.point_data[0].values.rowwise().norm().maxCoeff();
-    CHECK(most == relative(kShownMotion * 0.5 * (a.view.point.col(0).maxCoeff() - a.view.point.col(0).minCoeff()), 0.05));
+    CHECK(most ==
+          relative(kShownMotion * 0.5 * (a.view.point.col(0).maxCoeff() - a.view.point.col(0).minCoeff()),
+                   0.05));
   }
   ModesArtifact none = elastic_modes(rest);
-  CHECK(message_of([&] { add_mode_view(none, {}); }).find("needs a drawing, or none, of each") != std::string::npos);
+  CHECK(message_of([&] { add_mode_view(none, {}); }).find("needs a drawing, or none, of each") !=
+        std::string::npos);
 }

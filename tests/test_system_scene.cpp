@@ -238,7 +238,8 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
         "by its drawing at least");
 }
 
-TEST_CASE("keys that the table marks as those of pairs are rejected in a system, by the reader that knows them") {
+TEST_CASE(
+    "keys that the table marks as those of pairs are rejected in a system, by the reader that knows them") {
   const std::string table = scene_key_table();
   for (const char* section : {"[damping]", "[operation]", "[gear.<name>.error]", "[gear.<name>.crack]"}) {
     const size_t at = table.find(std::string("| `") + section + "`");
@@ -262,7 +263,8 @@ TEST_CASE("keys that the table marks as those of pairs are rejected in a system,
   CHECK(said("[damping]\n").find("take the section out") != std::string::npos);
   CHECK(said("[operation]\n").find("take the section out") != std::string::npos);
   // 30, 60 and 120 teeth.
-  CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").find("after 120 mesh periods") != std::string::npos);
+  CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").find("after 120 mesh periods") !=
+        std::string::npos);
   CHECK(said("[gear.idler.crack]\ndepth_mm = 0.5\n").find("after 120 mesh periods") != std::string::npos);
 }
 
@@ -280,5 +282,6 @@ TEST_CASE("gears that run into each other without a mesh are named, planets and 
   CHECK(layout(0).empty());
   const std::vector<std::string> folded = layout(3.14159265358979);
   REQUIRE(folded.size() == 1);
-  CHECK(folded[0].starts_with("'pinion' and 'wheel' have no mesh and run into each other: their axes are 90 mm apart"));
+  CHECK(folded[0].starts_with(
+      "'pinion' and 'wheel' have no mesh and run into each other: their axes are 90 mm apart"));
 }

@@ -198,8 +198,8 @@ class Layout {
   void check_axis(size_t m, size_t c) const {
     const double distance = scene_.meshes[m].spec.centre_distance, other = pin_radius(c);
     if (other > 0 && !(std::abs(other - distance) < 1e-6 * distance))
-      reject("mesh", m, "[[mesh]] of '", scene_.meshes[m].spec.gear[0], "' and '", scene_.meshes[m].spec.gear[1],
-             "': centre_distance_mm = ", distance * 1e3, ", and ", other * 1e3,
+      reject("mesh", m, "[[mesh]] of '", scene_.meshes[m].spec.gear[0], "' and '",
+             scene_.meshes[m].spec.gear[1], "': centre_distance_mm = ", distance * 1e3, ", and ", other * 1e3,
              " in the other [[mesh]] of the planets of carrier '", scene_.carriers[c].name,
              "': central gears have one axis; give both meshes of a planet one centre distance");
   }
@@ -383,7 +383,8 @@ System on_fixed_carriers(const System& layout) {
 std::vector<std::string> colliding_gears(const System& layout, const std::vector<const GearDesign*>& design) {
   const auto in_mesh = [&](size_t a, size_t b) {
     return std::any_of(layout.meshes.begin(), layout.meshes.end(), [&](const System::Mesh& mesh) {
-      const auto first = static_cast<size_t>(mesh.side[0].body), second = static_cast<size_t>(mesh.side[1].body);
+      const auto first = static_cast<size_t>(mesh.side[0].body),
+                 second = static_cast<size_t>(mesh.side[1].body);
       return (first == a && second == b) || (first == b && second == a);
     });
   };
@@ -397,8 +398,9 @@ std::vector<std::string> colliding_gears(const System& layout, const std::vector
       const double apart = std::hypot(second.centre[0] - first.centre[0], second.centre[1] - first.centre[1]),
                    room = ToothGeometry(*design[a]).tip_radius() + ToothGeometry(*design[b]).tip_radius();
       if (apart < room)
-        out.push_back(text("'", first.name, "' and '", second.name, "' have no mesh and run into each other: their axes are ",
-                           apart * 1e3, " mm apart, their tip circles reach ", room * 1e3,
+        out.push_back(text("'", first.name, "' and '", second.name,
+                           "' have no mesh and run into each other: their axes are ", apart * 1e3,
+                           " mm apart, their tip circles reach ", room * 1e3,
                            " mm; change direction_deg of a [[mesh]], unless they lie side by side"));
     }
   return out;

@@ -9,8 +9,8 @@
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/report_geometry.h"
-#include "report/report_results.h"
 #include "report/report_page.h"
+#include "report/report_results.h"
 #include "report/report_tables.h"
 
 namespace whine {

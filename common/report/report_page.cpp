@@ -43,8 +43,8 @@ std::string remark_items(const std::string& where, const std::vector<Remark>& re
                             html::escaped(where + ": " + remarks[i].words) + ".") +
            "\n";
   if (remarks.size() > kMost)
-    out +=
-        html::tagged("li", html::escaped(text(where, ": ", remarks.size() - kMost, " more of these."))) + "\n";
+    out += html::tagged("li", html::escaped(text(where, ": ", remarks.size() - kMost, " more of these."))) +
+           "\n";
   return out;
 }
 
@@ -56,17 +56,16 @@ std::string remark_list(const std::string& items, bool warned) {
 std::string guide_table(const std::string& caption, const std::vector<GuideRow>& rows,
                         const std::vector<ReportPicture>& pictures) {
   const auto cell = [](const std::string& words) { return "<td>" + words + "</td>"; };
-  std::string out =
-      "<div class=\"wide\"><table class=\"guide\">\n<caption>" + caption +
-      "</caption>\n<thead><tr><th>what</th><th>how to read it</th><th>how far to trust it</th>"
-      "<th>what to do next</th></tr></thead>\n<tbody>\n";
+  std::string out = "<div class=\"wide\"><table class=\"guide\">\n<caption>" + caption +
+                    "</caption>\n<thead><tr><th>what</th><th>how to read it</th><th>how far to trust it</th>"
+                    "<th>what to do next</th></tr></thead>\n<tbody>\n";
   for (const GuideRow& row : rows) {
     std::string links;
     for (const ReportPicture& picture : pictures)
       if ((" " + row.figures + " ").find(" " + picture.name + " ") != std::string::npos)
         links += text(links.empty() ? " (" : ", ", "<a href=\"#", picture.name, "\">", picture.name, "</a>");
-    out += "<tr>" + cell(row.what + links + (links.empty() ? "" : ")")) + cell(row.reading) + cell(row.trust) +
-           cell(row.next) + "</tr>\n";
+    out += "<tr>" + cell(row.what + links + (links.empty() ? "" : ")")) + cell(row.reading) +
+           cell(row.trust) + cell(row.next) + "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }

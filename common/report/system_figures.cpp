@@ -179,9 +179,10 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
   const Index n = a.mesh_phase.size();
   Figure figure;
   figure.title = "Load sharing among planets, at rest";
-  figure.notes = {bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()), sharing_words(a),
-                  "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first "
-                  "mesh over a period of its own, 0: reference pair at the pitch point"};
+  figure.notes = {
+      bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()), sharing_words(a),
+      "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first "
+      "mesh over a period of its own, 0: reference pair at the pitch point"};
   double low = 100, high = 0;
   for (size_t k = 0; k < sharing.size(); ++k) {
     const LoadSharing& of = sharing[k];
@@ -207,11 +208,10 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
     std::string pairs;
     for (size_t j = 1; j < loads.columns.size(); ++j)
       pairs += loads.columns[j].substr(8, loads.columns[j].size() - 8 - 4) + "|";
-    figure.words.insert(figure.words.end(),
-                        {{"name" + row, of.name},
-                         {"labels" + row, labels},
-                         {"pairs" + row, pairs},
-                         {"first" + row, mesh_name(a.settings.layout, of.meshes[0])}});
+    figure.words.insert(figure.words.end(), {{"name" + row, of.name},
+                                             {"labels" + row, labels},
+                                             {"pairs" + row, pairs},
+                                             {"first" + row, mesh_name(a.settings.layout, of.meshes[0])}});
     figure.numbers.insert(figure.numbers.end(),
                           {{"curves" + row, static_cast<double>(shown)},
                            {"equal" + row, kPercent / static_cast<double>(of.meshes.size())},

@@ -16,8 +16,8 @@ Figure system_static_figure(const SystemStaticArtifact& a);
 struct LoadSharing {
   std::string name;            // "sun-planet", its gears
   std::vector<size_t> meshes;  // numbers in the layout, two at least
-  double factor = 0;           // 1: largest share at any phase times number of meshes; 1 where all carry the same
-  double mean_factor = 0;      // 1: the same of the mean over the mesh period
+  double factor = 0;       // 1: largest share at any phase times number of meshes; 1 where all carry the same
+  double mean_factor = 0;  // 1: the same of the mean over the mesh period
 };
 std::vector<LoadSharing> load_sharing(const SystemStaticArtifact& a);
 

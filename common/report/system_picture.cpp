@@ -67,9 +67,8 @@ struct Blocks {
 
   // What there is; the template knows by has_<name>.
   void put(Figure& figure) {
-    for (FigureBlock* block :
-         {&rim, &hollow, &central, &planets, &bores, &circles, &planet_circles, &carrier, &arcs, &heads,
-          &paths}) {
+    for (FigureBlock* block : {&rim, &hollow, &central, &planets, &bores, &circles, &planet_circles, &carrier,
+                               &arcs, &heads, &paths}) {
       figure.numbers.emplace_back("has_" + block->name, block->rows.empty() ? 0 : 1);
       if (block->rows.empty()) continue;
       block->drawing = true;
@@ -227,7 +226,7 @@ void place_panels(const Box& e, size_t close_ups, Figure& figure) {
   constexpr int kLine = 24;
   const double aspect = (e.right - e.left) / (e.high - e.low);
   const bool beside = aspect < 1.5;
-  double width = close_ups == 0 ? std::min(1300.0, 940 * aspect)        : beside ? 910 : 1400, high = width / aspect;
+  double width = close_ups == 0 ? std::min(1300.0, 940 * aspect) : beside ? 910 : 1400, high = width / aspect;
   const auto count = static_cast<double>(close_ups);
   double left = kLeft, bottom = kTop + high;
   if (close_ups == 0) left = 0.5 * (kWidth - width);
@@ -292,13 +291,13 @@ Figure picture_of(Train t, const Eigen::VectorXd& torque) {
   for (size_t b = 0; b < t.layout.bodies.size(); ++b)
     numbers += text(b == 0 ? " " : ", ", b, " ", t.layout.bodies[b].name);
   figure.notes.push_back(bodies_words(t.layout, torque));
-  const bool carriers = std::any_of(t.layout.bodies.begin(), t.layout.bodies.end(), [](const auto& body) {
-    return body.kind == System::BodyKind::carrier;
-  });
-  figure.notes.push_back(torque.size() > 0
-                             ? "unloaded at mesh phase 0; black: paths of contact; below a name its number of teeth"
-                             : "rigid gears: a working pitch circle for each mesh, a tick at each tooth; black: lines of "
-                               "action, two base pitches long; below a name its number of teeth");
+  const bool carriers = std::any_of(t.layout.bodies.begin(), t.layout.bodies.end(),
+                                    [](const auto& body) { return body.kind == System::BodyKind::carrier; });
+  figure.notes.push_back(
+      torque.size() > 0
+          ? "unloaded at mesh phase 0; black: paths of contact; below a name its number of teeth"
+          : "rigid gears: a working pitch circle for each mesh, a tick at each tooth; black: lines of "
+            "action, two base pitches long; below a name its number of teeth");
   figure.notes.push_back(
       text("arrows: senses of rotation", carriers ? ", as the carrier sees them; green: its arms" : ""));
   figure.notes.push_back(numbers);

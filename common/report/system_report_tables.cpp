@@ -93,8 +93,11 @@ std::string bearing_words(const System::Body& body) {
   return body.bearing.elastic() ? shown(body.bearing.stiffness * 1e-6, 4) : "rigid";
 }
 
-std::string held_words(const System& s, size_t b) {
-  return s.held(static_cast<int>(b)) ? "held" : s.torque(static_cast<int>(b)) != 0 ? "driven" : "free";
+// What holds or drives the rotation of a body; statics know the torques.
+std::string held_words(const SystemReport& r, size_t b) {
+  const System& s = layout_of(r);
+  if (s.held(static_cast<int>(b))) return "held";
+  return r.rest && r.rest->torque.col(static_cast<Index>(b)).cwiseAbs().maxCoeff() > 0 ? "torque" : "free";
 }
 
 // Without the sign of what rounds to 0.
@@ -102,21 +105,24 @@ std::string plain(double value, int decimals) {
   return fixed(std::abs(value) < 0.5 * std::pow(10, -decimals) ? 0 : value, decimals);
 }
 
-void add_rest(const SystemStaticArtifact& a, std::vector<SystemNumber>& out) {
+void add_rest(const SystemReport& r, std::vector<SystemNumber>& out) {
+  const SystemStaticArtifact& a = *r.rest;
   const System& s = a.settings.layout;
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     const std::string name = mesh_name(s, m);
     const auto c = static_cast<Index>(m);
     const auto add = [&](const char* quantity, const char* unit, const std::string& value,
-                         const std::string& said = "") { out.push_back({name, quantity, unit, value, said}); };
+                         const std::string& said = "") {
+      out.push_back({name, quantity, unit, value, said});
+    };
     add("contact ratio", "1", fixed(a.contact_ratio[c], 3));
     add("mesh phase", "1", fixed(s.meshes[m].phase, 4));
     add("static transmission error, mean", "µm", significant(a.transmission_error.col(c).mean() * kMicro, 4));
     add("static transmission error, peak to peak", "µm",
         significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3));
     for (Index n = 1; n <= std::min<Index>(3, a.transmission_error_harmonic.rows() - 1); ++n)
-      out.push_back({name, text("static transmission error, harmonic ", n), "µm",
-                     harmonic_words(a, n, c), ""});
+      out.push_back(
+          {name, text("static transmission error, harmonic ", n), "µm", harmonic_words(a, n, c), ""});
     add("mean mesh stiffness, contact frozen", "N/µm", fixed(mean_stiffness(a, m) * 1e-6, 1));
     add("mesh force, mean", "N", fixed(a.mesh_force.col(c).mean(), 1));
     add("mesh force, largest", "N", fixed(a.mesh_force.col(c).maxCoeff(), 1));
@@ -131,7 +137,7 @@ void add_rest(const SystemStaticArtifact& a, std::vector<SystemNumber>& out) {
     const Force f = force_of(a, b);
     const auto c = static_cast<Index>(b);
     const std::string& name = s.bodies[b].name;
-    out.push_back({name, "torque, mean", "N m", plain(a.torque.col(c).mean(), 2), held_words(s, b)});
+    out.push_back({name, "torque, mean", "N m", plain(a.torque.col(c).mean(), 2), held_words(r, b)});
     out.push_back({name, "force on the bearing, mean", "N", plain(f.mean, 1), ""});
     out.push_back({name, "force on the bearing, largest", "N", plain(f.most, 1), ""});
     out.push_back({name, "force on the bearing, RMS of what oscillates", "N", plain(f.rms, 2), ""});
@@ -142,13 +148,12 @@ void add_rest(const SystemStaticArtifact& a, std::vector<SystemNumber>& out) {
 
 std::vector<SystemNumber> system_numbers(const SystemReport& r) {
   std::vector<SystemNumber> out;
-  if (r.rest) add_rest(*r.rest, out);
+  if (r.rest) add_rest(r, out);
   if (r.modes)
     for (Index i = 0; i < r.modes->natural_frequency.size(); ++i)
       out.push_back({text("mode ", i + 1), "natural frequency", "Hz", fixed(r.modes->natural_frequency[i], 1),
-                     r.modes->natural_frequency[i] == 0
-                         ? "free motion"
-                         : name_of(r.modes->type[static_cast<size_t>(i)])});
+                     r.modes->natural_frequency[i] == 0 ? "free motion"
+                                                        : name_of(r.modes->type[static_cast<size_t>(i)])});
   return out;
 }
 
@@ -194,13 +199,14 @@ std::string gear_tables(const SystemReport& r) {
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     const System::Body& body = s.bodies[b];
     rows.push_back({body.name, body.teeth > 0 ? text(body.teeth) : "carrier", sense_words(body),
-                    held_words(s, b), stands_on(s, body), fixed(body.centre[0] * kMilli, 3),
+                    held_words(r, b), stands_on(s, body), fixed(body.centre[0] * kMilli, 3),
                     fixed(body.centre[1] * kMilli, 3), fixed(2 * body.radius * kMilli, 3),
                     body.inertia > 0 ? shown(body.inertia, 4) : "–", bearing_words(body),
                     body.bearing.elastic() ? shown(body.bearing.mass, 4) : "–"});
   }
   return html::table(
-             "The bodies. Sense: of rotation, as the carrier sees it where there is one. Diameter: of the base "
+             "The bodies. Sense: of rotation, as the carrier sees it where there is one. Diameter: of the "
+             "base "
              "circle, "
              "of a carrier of the circle of its pins. The inertia of a body that is held has no meaning.",
              {"body", "teeth", "sense", "rotation", "axis on", "x (mm)", "y (mm)", "diameter (mm)",
@@ -225,14 +231,13 @@ std::string mesh_tables(const SystemReport& r) {
     const GearPair pair = pair_of(a, m);
     geometry.back().push_back(fixed(a.contact_ratio[c], 3));
     geometry.back().push_back(fixed(pair.backlash() * kMilli, 4));
-    rest.push_back({mesh_name(s, m), fixed(a.mesh_force.col(c).mean(), 0),
-                    fixed(a.load_share.col(c).mean() * kPercent, 2),
-                    fixed(a.load_share.col(c).maxCoeff() * kPercent, 2),
-                    significant(a.transmission_error.col(c).mean() * kMicro, 4),
-                    significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3),
-                    harmonic_words(a, 1, c), harmonic_words(a, 2, c),
-                    fixed(mean_stiffness(a, m) * 1e-6, 1), fixed(largest_load(a.tooth_load, m), 0),
-                    fixed(largest_load(a.contact_pressure, m) * 1e-6, 0)});
+    rest.push_back(
+        {mesh_name(s, m), fixed(a.mesh_force.col(c).mean(), 0),
+         fixed(a.load_share.col(c).mean() * kPercent, 2), fixed(a.load_share.col(c).maxCoeff() * kPercent, 2),
+         significant(a.transmission_error.col(c).mean() * kMicro, 4),
+         significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3), harmonic_words(a, 1, c),
+         harmonic_words(a, 2, c), fixed(mean_stiffness(a, m) * 1e-6, 1),
+         fixed(largest_load(a.tooth_load, m), 0), fixed(largest_load(a.contact_pressure, m) * 1e-6, 0)});
   }
   std::vector<std::string> head{"mesh", "centre distance (mm)", "working pressure angle (deg)", "mesh phase"};
   if (r.rest)
@@ -245,7 +250,8 @@ std::string mesh_tables(const SystemReport& r) {
       head, geometry);
   if (!rest.empty())
     out += html::table(
-        "The meshes at rest over the mesh period. Share: of the load of the meshes of one [[mesh]]. STE: static "
+        "The meshes at rest over the mesh period. Share: of the load of the meshes of one [[mesh]]. STE: "
+        "static "
         "transmission error. Stiffness: mean, contact frozen, without bearings.",
         {"mesh", "mean force (N)", "mean share (%)", "largest share (%)", "mean STE (µm)",
          "STE peak to peak (µm)", "harmonic 1 (µm)", "harmonic 2 (µm)", "stiffness (N/µm)",
@@ -262,7 +268,7 @@ std::string force_table(const SystemReport& r) {
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     const Force f = force_of(a, b);
     const auto column = a.torque.col(static_cast<Index>(b));
-    rows.push_back({s.bodies[b].name, held_words(s, b), plain(column.mean(), 2),
+    rows.push_back({s.bodies[b].name, held_words(r, b), plain(column.mean(), 2),
                     plain(peak_to_peak(column), 2), bearing_words(s.bodies[b]), plain(f.mean_x, 1),
                     plain(f.mean_y, 1), plain(f.most, 1), plain(f.rms, 2)});
   }
@@ -283,12 +289,11 @@ std::string modes_table(const SystemReport& r) {
     const double f = a.natural_frequency[i];
     Index most = 0;
     const double share = a.kinetic_energy.row(i).maxCoeff(&most);
-    rows.push_back({text(i + 1), fixed(f, 1),
-                    f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]),
-                    f == 0 ? "–" : fixed(a.mesh_energy.row(i).sum() * kPercent, 1),
-                    f == 0 ? "–" : fixed(a.bearing_energy.row(i).sum() * kPercent, 1),
-                    text(a.layout.bodies[static_cast<size_t>(most)].name, ", ", fixed(share * kPercent, 0),
-                         " %")});
+    rows.push_back(
+        {text(i + 1), fixed(f, 1), f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]),
+         f == 0 ? "–" : fixed(a.mesh_energy.row(i).sum() * kPercent, 1),
+         f == 0 ? "–" : fixed(a.bearing_energy.row(i).sum() * kPercent, 1),
+         text(a.layout.bodies[static_cast<size_t>(most)].name, ", ", fixed(share * kPercent, 0), " %")});
     if (bands)
       rows.back().push_back(f == 0 ? "–"
                                    : text(fixed(a.frozen_frequency.col(i).minCoeff(), 1), " to ",
@@ -303,7 +308,8 @@ std::string modes_table(const SystemReport& r) {
   if (bands) head.emplace_back("over the mesh phases (Hz)");
   return html::table(
       "Natural modes, the meshes at their mean stiffness. Rotational: central gears turn, planets all move "
-      "alike. Translational: central gears move sideways, in pairs of equal frequency. Planet: planets alone. "
+      "alike. Translational: central gears move sideways, in pairs of equal frequency. Planet: planets "
+      "alone. "
       "Mixed: planets that are not alike or not equally spaced. Train: no planets.",
       head, rows);
 }
@@ -316,13 +322,13 @@ std::string settings_table(const SystemReport& r) {
   if (s.fidelity.contact == ContactModel::strips) rows.push_back({"strips", text(s.contact.strips)});
   for (size_t g = 0; g < r.rest->drawing.size(); ++g) {
     const BodyParameters& d = r.rest->drawing[g];
-    rows.push_back({"elements of " + s.body[g].first,
-                    text(shown(d.discretisation.element_size * kMilli, 4), " mm on the flank, order ",
-                         d.discretisation.element_order)});
+    rows.push_back(
+        {"elements of " + s.body[g].first, text(shown(d.discretisation.element_size * kMilli, 4),
+                                                " mm on the flank, order ", d.discretisation.element_order)});
     rows.push_back({"material of " + s.body[g].first,
                     text(shown(d.material.youngs_modulus * 1e-9, 5), " GPa, Poisson's ratio ",
-                         shown(d.material.poisson_ratio, 4), ", ", shown(d.material.density, 6), " kg/m³, plane ",
-                         d.material.plane_stress ? "stress" : "strain")});
+                         shown(d.material.poisson_ratio, 4), ", ", shown(d.material.density, 6),
+                         " kg/m³, plane ", d.material.plane_stress ? "stress" : "strain")});
   }
   return html::table("What the statics were computed with.", {"what", "value"}, rows, "small");
 }
@@ -343,15 +349,16 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
       most = std::max(most, largest_load(a.tooth_load, m));
     }
     if (pressure > kHardenedSteelPressure)
-      out.push_back(remark(true, name, ": the contact pressure of ", fixed(pressure * 1e-9, 2), kBeyondSteel));
+      out.push_back(
+          remark(true, name, ": the contact pressure of ", fixed(pressure * 1e-9, 2), kBeyondSteel));
     if (edge > kSmall * most)
       out.push_back(remark(false, name, ": tip edges of bent teeth carry up to ", fixed(edge, 0), " N, ",
                            fixed(edge / most * kPercent, 0),
                            " % of the largest tooth load; tip relief takes that away"));
   }
   for (const LoadSharing& of : load_sharing(a))
-    out.push_back(remark(of.factor > 1.3, of.name, ": the most loaded of ", of.meshes.size(), " meshes carries up to ",
-                         fixed(of.factor, 3), " times an equal share",
+    out.push_back(remark(of.factor > 1.3, of.name, ": the most loaded of ", of.meshes.size(),
+                         " meshes carries up to ", fixed(of.factor, 3), " times an equal share",
                          of.factor > 1.3 ? ". Let a central gear float on a softer [[bearing]], or space the "
                                            "planets equally"
                                          : ""));
@@ -364,8 +371,7 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
   std::string rigid;
   for (const System::Body& body : s.bodies)
     if (!body.bearing.elastic()) rigid += (rigid.empty() ? "" : ", ") + body.name;
-  if (!rigid.empty())
-    out.push_back(remark(false, "on rigid axes, without motion in x and y: ", rigid));
+  if (!rigid.empty()) out.push_back(remark(false, "on rigid axes, without motion in x and y: ", rigid));
   out.push_back(remark(false, "largest unbalance of a torque over the largest mesh force: ",
                        shown(a.torque_residual.maxCoeff(), 2)));
 }
@@ -373,15 +379,19 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
 void remark_modes(const ModesArtifact& a, std::vector<Remark>& out) {
   const auto mixed = std::count(a.type.begin(), a.type.end(), ModeType::mixed);
   if (mixed > 0)
-    out.push_back(remark(false, mixed,
-                         " modes are mixed: the planets are not alike or not equally spaced, so that modes are "
-                         "neither purely rotational nor translational"));
+    out.push_back(
+        remark(false, mixed,
+               " modes are mixed: the planets are not alike or not equally spaced, so that modes are "
+               "neither purely rotational nor translational"));
   if (a.frozen_frequency.size() > 0)
-    out.push_back(remark(false,
-                         "elastic modes of the gear bodies themselves are left out; frequencies near or above the "
-                         "lowest of a body (eigenfrequency in its body.h5) are not to be trusted"));
-  out.push_back(remark(false, "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size 2 "
-                              "times its speed over the natural frequency"));
+    out.push_back(
+        remark(false,
+               "elastic modes of the gear bodies themselves are left out; frequencies near or above the "
+               "lowest of a body (eigenfrequency in its body.h5) are not to be trusted"));
+  out.push_back(
+      remark(false,
+             "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size 2 "
+             "times its speed over the natural frequency"));
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ std::vector<SystemNumber> system_numbers(const SystemReport& r);
 
 // Tables as HTML; "" where there is nothing to say. gear_tables: of elastic gears their drawings, of rigid ones what is known.
 std::string gear_tables(const SystemReport& r);
-std::string mesh_tables(const SystemReport& r);    // data of the meshes, and what they do at rest
-std::string force_table(const SystemReport& r);    // torques, forces on bearings and pins
+std::string mesh_tables(const SystemReport& r);  // data of the meshes, and what they do at rest
+std::string force_table(const SystemReport& r);  // torques, forces on bearings and pins
 std::string modes_table(const SystemReport& r);
 std::string settings_table(const SystemReport& r);
 std::string system_remarks(const SystemReport& r);

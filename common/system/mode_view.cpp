@@ -124,8 +124,8 @@ void add_mode_view(ModesArtifact& a, const std::vector<const GearDesign*>& desig
       add_carrier(s, b, drawing);
     else
       add_gear(s, b, design[static_cast<size_t>(b)], drawing);
-  const auto points = static_cast<Index>(drawing.point.size()), cells = static_cast<Index>(drawing.cell.size()),
-             lines = static_cast<Index>(drawing.line.size());
+  const auto points = static_cast<Index>(drawing.point.size()),
+             cells = static_cast<Index>(drawing.cell.size()), lines = static_cast<Index>(drawing.line.size());
   ModesArtifact::View& view = a.view;
   view = {};
   view.point.resize(points, 2);
@@ -160,7 +160,8 @@ void add_mode_view(ModesArtifact& a, const std::vector<const GearDesign*>& desig
       moved(i, 0) = shape(b, 1) - turn * (view.point(i, 1) - body.centre[1]);
       moved(i, 1) = shape(b, 2) + turn * (view.point(i, 0) - body.centre[0]);
     }
-    if (const double most = moved.rowwise().norm().maxCoeff(); most > 0) moved *= kShownMotion * radius / most;
+    if (const double most = moved.rowwise().norm().maxCoeff(); most > 0)
+      moved *= kShownMotion * radius / most;
     view.point_data.push_back({mode_name(a, mode), "m", moved});
   }
 }

@@ -41,8 +41,8 @@ struct ModesArtifact {
   // for looking; written, never read: gears as quadrilaterals between their teeth and the circle on which they are held, carriers as
   // lines to their pins, displacements of each mode
   struct View {
-    MatrixRM point;         // (point, 2) m
-    MatrixRMi cell, line;   // (cell, 4), (line, 2)
+    MatrixRM point;                                            // (point, 2) m
+    MatrixRMi cell, line;                                      // (cell, 4), (line, 2)
     std::vector<LoadedArtifact::Field> point_data, cell_data;  // (point, 2) m; (cell and line, 1)
   } view;
 };

@@ -47,7 +47,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kRepeats = 21;
-constexpr double kPhase = 0.25;  // two pairs of teeth in contact
+constexpr double kPhase = 0.25;       // two pairs of teeth in contact
 constexpr double kElement = 0.06e-3;  // m, of CalculiX where the flanks touch
 
 struct Times {
@@ -286,8 +286,7 @@ PositionTimes static_position(const whine::GearMeshModel& model, const whine::St
 
 // The same position by CalculiX, in plane strain: its elements in plane stress change their thickness.
 void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
-                     const whine::StaticParameters& settings, double torque, double phase,
-                     double element) {
+                     const whine::StaticParameters& settings, double torque, double phase, double element) {
   using namespace whine;
   if (driver.material.youngs_modulus != driven.material.youngs_modulus ||
       driver.material.poisson_ratio != driven.material.poisson_ratio)
@@ -474,8 +473,8 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
       }
 }
 
-void positions_beside_calculix(const std::string& params, const std::vector<std::string>& bodies, double torque,
-                               const std::vector<double>& phases, double element) {
+void positions_beside_calculix(const std::string& params, const std::vector<std::string>& bodies,
+                               double torque, const std::vector<double>& phases, double element) {
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
   const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
@@ -499,9 +498,11 @@ void body(int argc, char** argv) {
   double element = kElement * 1e3;
   options
       .add("--position", phases,
-           "mesh phases, 0 up to 1, with a pair on the line of action: the static position there beside CalculiX, nothing else")
+           "mesh phases, 0 up to 1, with a pair on the line of action: the static position there beside "
+           "CalculiX, nothing else")
       .needs(settings);
-  options.add("--element", element, "mm, side of its triangles where the flanks touch, of --position").needs(settings);
+  options.add("--element", element, "mm, side of its triangles where the flanks touch, of --position")
+      .needs(settings);
   options.parse(argc, argv);
   if (!phases.empty()) {
     positions_beside_calculix(params, bodies, whine::number_option("--torque", torque), phases,
@@ -525,8 +526,7 @@ void body(int argc, char** argv) {
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
   const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
-  static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, kPhase,
-                  params.c_str());
+  static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, kPhase, params.c_str());
   if (!sweep_params.empty())
     rolling(driving, following, read, whine::read_sweep_parameters(sweep_params), load);
   reductions(driving);

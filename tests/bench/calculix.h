@@ -45,9 +45,10 @@ inline Usage wait_for(pid_t child, const std::string& what) {
 }
 
 struct CalculixPosition {
-  double torque = 0;  // N m about the driven gear's axis, by the reaction of its bore or rim; positive under load
-  int nodes = 0;      // of both gears, in the plane
-  Usage usage;        // of ccx alone
+  double torque =
+      0;          // N m about the driven gear's axis, by the reaction of its bore or rim; positive under load
+  int nodes = 0;  // of both gears, in the plane
+  Usage usage;    // of ccx alone
 };
 
 class CalculixPair {
