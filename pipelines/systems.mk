@@ -58,8 +58,8 @@ $(if $(filter system-static,$(goals)),$(if $(filter rigid,$(SCENE_$(elastic_scen
   $(error SCENE=$(SCENE): its gears are rigid; system-static needs elastic ones$(,) for it there is: make SCENE=$(SCENE) modes)))
 of_systems := report $(if $(call has_planets,$(own_scene)),load-sharing)
 $(if $(SCENE_$(own_scene)_SYSTEM),$(if $(filter load-sharing,$(filter-out $(of_systems),$(goals))),\
-  $(error load-sharing: SCENE=$(SCENE) $(if $(filter rigid,$(SCENE_$(own_scene)_SYSTEM)),has rigid gears$(,) of which there are natural modes alone,has no planets that share a load) \
-    : say make SCENE=$(SCENE) report)))
+  $(error load-sharing: SCENE=$(SCENE) $(if $(filter rigid,$(SCENE_$(own_scene)_SYSTEM)),has rigid gears$(,) of which there are natural modes alone,has no planets that share a load); \
+    for it there is: make SCENE=$(SCENE) report)))
 $(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter-out $(of_systems),$(filter $(pair_goals) figures teeth $(figures) table1 animation,$(goals))),\
   $(error $g: SCENE=$(SCENE) is a system of several meshes$(,) carriers or drives; for it there is: make SCENE=$(SCENE) report$(,) \
     or of it $(if $(filter elastic,$(SCENE_$(own_scene)_SYSTEM)),system-static )modes)))
