@@ -39,6 +39,11 @@ endef
 bench-stress: ## root stress of two pairs at one position beside CalculiX, which `deps-bench` installs (SCENE: of its pair)
 $(if $(filter bench-stress,$(goals)),$(foreach s,$(stress_scenes),$(eval $(call stress_rule,$s))))
 
+# One static position of an internal pair beside CalculiX: three mesh phases, of which the middle one has two pairs of teeth in contact.
+.PHONY: bench-internal
+bench-internal: $(B)/bin/whine-bench $(call pair_bodies,$(internal_scene)) ## static positions of a planet in a ring beside CalculiX, if `deps-bench` has installed it
+	@$< --params out/$(internal_scene)/params/static.toml $(call pair_options,$(internal_scene)) --torque 200 --position 0 --position 0.25 --position 0.5
+
 $(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(library) | $(B)/bin/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
 

@@ -19,6 +19,7 @@ graded_scene := parker2000-grade5
 relief_scenes := $(foreach s,$(standard_scene) $(calibrated_scene),$(foreach r,20_9 22_2 23_6,$s-relief-$r))
 cracked_scene := parker2000-crack
 bearing_scene := parker2000-bearings
+internal_scene := internal-pair
 # of rigid bodies; see systems.mk
 system_scene := lin-parker-planetary
 # of elastic ones

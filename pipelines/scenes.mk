@@ -5,8 +5,9 @@
 #   SCENE_S_GEARS, SCENE_S_DRIVER, SCENE_S_DRIVEN, SCENE_S_BODY_<gear>, SCENE_S_TORQUES, SCENE_S_REFERENCE_TORQUE,
 #   SCENE_S_RINGS_DOWN (no: with its [fidelity], or its teeth, there is no gear-impact), SCENE_S_TEETH (alike, or differ and
 #   cracked), SCENE_S_MODIFIED (yes: flanks are not as designed), SCENE_S_BEARINGS (rigid or elastic), BODIES.
-# Of a scene of several meshes it says SCENE_S_SYSTEM := rigid instead, and writes out/S/params/system.toml; or := elastic with
-# SCENE_S_SYSTEM_GEARS, SCENE_S_BODY_<gear> and BODIES, and writes out/S/params/system_static.toml.
+# Of a scene of several meshes it says SCENE_S_PLANETS (yes: a [[mesh]] stands for those of several), SCENE_S_SYSTEM := rigid, and
+# writes out/S/params/system.toml; or SCENE_S_SYSTEM := elastic with SCENE_S_SYSTEM_GEARS, SCENE_S_BODY_<gear> and BODIES, and
+# writes out/S/params/system_static.toml.
 # Make remakes a fragment before anything else, under -n as well (gear-scene itself is then compiled, too). This
 # happens in every run and costs milliseconds: times cannot tell a scene of the same name in another folder, one that
 # went back in time, or deleted stage parameters. All that it writes keeps its time if its content stays.
@@ -64,12 +65,12 @@ scenes := $(sort \
   $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
   $(if $(filter bearing-forces out/figures/bearing-forces%,$(goals)),$(if $(SCENE),$(own_scene),$(bearing_scene))) \
-  $(if $(filter modes,$(goals)),$(if $(SCENE),$(own_scene),$(system_scene))) \
+  $(if $(filter modes mode-shapes,$(goals)),$(if $(SCENE),$(own_scene),$(system_scene))) \
   $(if $(filter system-static,$(goals)),$(if $(SCENE),$(own_scene),$(elastic_system_scene))) \
   $(if $(filter crack out/figures/crack%,$(goals)),$(if $(SCENE),$(own_scene),$(cracked_scene))) \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes) $(standard_scene) $(calibrated_scene))) \
-  $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter bench-stress,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scene) fzg-c)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
+  $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter bench-stress,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scene) fzg-c)) $(if $(filter bench-internal,$(goals)),$(internal_scene)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/% out/compare/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
 $(foreach s,$(filter-out $(variant_scenes) $(bifurcation_scenes) $(study_designs),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\

@@ -1,8 +1,12 @@
 # Systems: scenes of several meshes, carriers or drives.
 #
-#   rigid gears    out/S/params/system.toml -> out/S/modes.h5 -> out/S/report/{modes,campbell}.png
-#   elastic gears  out/S/params/system_static.toml and the bodies -> out/S/system_static.h5 -> out/S/report/system-static.png,
-#                  out/S/modes.h5 -> out/S/report/{modes,campbell}.png
+#   rigid gears    out/S/params/system.toml -> out/S/modes.h5 -> out/S/report/{system,modes,campbell}.png
+#   elastic gears  out/S/params/system_static.toml and the bodies -> out/S/system_static.h5
+#                  -> out/S/report/{system,system-static,load-sharing}.png, out/S/modes.h5 -> out/S/report/{modes,campbell}.png
+#   both           out/S/report/index.html, the page of these
+#
+# A figure of another stage, of motion say, is a row of inputs_of_<figure> with its name in system_shows, and a row in
+# common/report/system_report.cpp.
 
 define rigid_rules # scene
 out/$1/modes.h5: out/$1/params/system.toml $(call id,gear-modes) | $(B)/bin/gear-modes
@@ -17,27 +21,51 @@ out/$1/system_static.h5: out/$1/params/system_static.toml $(system_bodies) $(cal
 
 out/$1/modes.h5: out/$1/system_static.h5 $(call id,gear-modes) | $(B)/bin/gear-modes
 	$$(call run,modes) --static $$< --output $$@ $$(call landed,modes)
-$(eval $(call figure_rule,system-static,out/$1/report/system-static,out/$1/system_static.h5))
+endef
+
+# $1 scene: figures of its report, and what each is drawn from
+has_planets = $(and $(filter elastic,$(SCENE_$1_SYSTEM)),$(filter yes,$(SCENE_$1_PLANETS)))
+system_shows = system $(if $(filter elastic,$(SCENE_$1_SYSTEM)),system-static) $(if $(call has_planets,$1),load-sharing) modes campbell
+inputs_of_system = $(if $(filter elastic,$(SCENE_$1_SYSTEM)),$(inputs_of_system-static),$(inputs_of_modes))
+inputs_of_system-static = out/$1/system_static.h5
+inputs_of_load-sharing = out/$1/system_static.h5
+inputs_of_modes = out/$1/modes.h5
+inputs_of_campbell = out/$1/modes.h5
+system_artifacts = $(if $(filter elastic,$(SCENE_$1_SYSTEM)),out/$1/system_static.h5) out/$1/modes.h5
+# Load sharing of a pair, among its teeth, has a template of its own.
+drawn_of_system = $(if $(filter load-sharing,$1),system-load-sharing,$1)
+
+define system_report_rule # scene
+out/$1/report/index.html out/$1/report/results.tsv &: $(system_artifacts) $(patsubst %,out/$1/report/%.png,$(system_shows)) \
+    out/$1/params/title.txt $(B)/scenes/$1.mk $(call id,gear-report) | $(B)/bin/gear-report
+	$(B)/bin/gear-report --output out/$1/report/index.html $(system_artifacts) $(patsubst %,out/$1/report/%.png,$(system_shows))
 endef
 
 define system_rules # scene
 $(eval $(call $(SCENE_$1_SYSTEM)_rules,$1))
-$(foreach f,modes campbell,$(eval $(call figure_rule,$f,out/$1/report/$f,out/$1/modes.h5)))
+$(foreach f,$(system_shows),$(eval $(call figure_rule,$(call drawn_of_system,$f),out/$1/report/$f,$(call inputs_of_$f,$1))))
+$(eval $(call system_report_rule,$1))
 endef
 $(foreach s,$(scenes),$(if $(SCENE_$s_SYSTEM),$(eval $(call system_rules,$s))))
 
 modes_scene := $(if $(SCENE),$(own_scene),$(system_scene))
 elastic_scene := $(if $(SCENE),$(own_scene),$(elastic_system_scene))
 # A fragment is empty until make has remade it, then make starts again.
-system_goals := $(filter modes system-static,$(goals))
+system_goals := $(filter modes mode-shapes system-static,$(goals))
 $(if $(system_goals),$(if $(SCENE_$(modes_scene)_GEARS),\
-  $(error SCENE=$(SCENE): it is a pair; $(if $(filter modes,$(goals)),modes are,system-static is) of systems$(,) scenes of several meshes$(,) carriers or drives)))
+  $(error SCENE=$(SCENE): it is a pair; $(if $(filter modes mode-shapes,$(goals)),modes are,system-static is) of systems$(,) scenes of several meshes$(,) carriers or drives)))
 $(if $(filter system-static,$(goals)),$(if $(filter rigid,$(SCENE_$(elastic_scene)_SYSTEM)),\
   $(error SCENE=$(SCENE): its gears are rigid; system-static needs elastic ones$(,) for it there is: make SCENE=$(SCENE) modes)))
-$(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter $(pair_goals) figures teeth $(figures) table1 animation,$(goals)),\
-  $(error $g: SCENE=$(SCENE) is a system of several meshes$(,) carriers or drives; for it there is: make SCENE=$(SCENE) \
-    $(if $(filter elastic,$(SCENE_$(own_scene)_SYSTEM)),system-static )modes)))
+of_systems := report $(if $(call has_planets,$(own_scene)),load-sharing)
+$(if $(SCENE_$(own_scene)_SYSTEM),$(if $(filter load-sharing,$(filter-out $(of_systems),$(goals))),\
+  $(error load-sharing: SCENE=$(SCENE) $(if $(filter rigid,$(SCENE_$(own_scene)_SYSTEM)),has rigid gears$(,) of which there are natural modes alone,has no planets that share a load); \
+    for it there is: make SCENE=$(SCENE) report)))
+$(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter-out $(of_systems),$(filter $(pair_goals) figures teeth $(figures) table1 animation,$(goals))),\
+  $(error $g: SCENE=$(SCENE) is a system of several meshes$(,) carriers or drives; for it there is: make SCENE=$(SCENE) report$(,) \
+    or of it $(if $(filter elastic,$(SCENE_$(own_scene)_SYSTEM)),system-static )modes)))
 
-.PHONY: modes system-static
+.PHONY: modes mode-shapes system-static
 modes: out/$(modes_scene)/modes.h5 $(foreach f,modes campbell,$(foreach e,tsv svg png,out/$(modes_scene)/report/$f.$e)) ## natural frequencies and mode shapes of a system, SCENE (default: a planetary train of rigid gears), out/<scene>/report/modes.png, and a Campbell diagram, campbell.png
 system-static: out/$(elastic_scene)/system_static.h5 $(foreach e,tsv svg png,out/$(elastic_scene)/report/system-static.$e) ## a system of elastic gears at rest, SCENE (default: a planetary train): transmission errors, load sharing, bearing forces, out/<scene>/report/system-static.png
+mode-shapes: out/$(modes_scene)/modes.h5 ## the gears of a system moved by each natural mode, for ParaView, SCENE (default: a planetary train of rigid gears), out/<scene>/modes.hdf
+	$(call stands,mode-shapes: open $(<:.h5=.hdf) in ParaView$(,) choose the array of a mode in Warp By Vector)

@@ -65,6 +65,8 @@ stage_system=("$bin/gear-system-static" --params out/scene-inline/params/system_
   --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --output out/scene-inline/system_static.h5)
 stage_elastic_modes=("$bin/gear-modes" --static out/scene-inline/system_static.h5 --output out/scene-inline/modes.h5)
 stage_system_plot=("$bin/gear-plot" system-static --plots "$plots" --output system out/scene-inline/system_static.h5)
+stage_picture=("$bin/gear-plot" system --plots "$plots" --output system-picture out/scene-inline/system_static.h5)
+stage_rigid_picture=("$bin/gear-plot" system --plots "$plots" --output system-rigid out/scene-train/modes.h5)
 stage_campbell=("$bin/gear-plot" campbell --plots "$plots" --output campbell out/scene-inline/modes.h5)
 lumped() { echo "$bin/gear-lumped --model $1 --static out/scene/T100/static.h5 --params out/scene/params/lumped.toml --direction up \
   --output out/scene/T100/$1/up/sweep.h5"; }
@@ -77,7 +79,8 @@ chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
     $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && "${stage_runup[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
     "${stage_train[@]}" && "${stage_modes[@]}" && "${stage_modes_plot[@]}" &&
-    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}"
+    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
+    "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/system_static.h5 out/scene-inline/modes.h5
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
@@ -163,7 +166,7 @@ found=$(grep -o -E -- '--output out/[^ ]*' examples/all | tr '\n' ' ')
 if /usr/bin/python3 -c 'from vtkmodules.vtkIOHDF import vtkHDFReader' 2> /dev/null && command -v h5dump > /dev/null; then
   at=examples/out/parker2000
   load=$(h5dump -d /tooth_load -y -w 0 examples/loaded.h5 | awk '/DATA/ { on = 1; next } on && /}/ { exit } on { gsub(",", " "); for (i = 1; i <= NF; i++) sum += $i } END { print sum }')
-  /usr/bin/python3 "$tests/vtk_reads.py" $at/pinion/mesh.hdf $at/pinion/body.hdf examples/loaded.hdf "$load" 0.0254 2> said || wrong "VTK reads the artifacts" "$(tail -n 1 said)"
+  /usr/bin/python3 "$tests/vtk_reads.py" $at/pinion/mesh.hdf $at/pinion/body.hdf examples/loaded.hdf "$load" 0.0254 out/scene-inline/modes.hdf 2> said || wrong "VTK reads the artifacts" "$(tail -n 1 said)"
 else echo "skipped: VTK reads mesh, mode shapes and loaded gears (make deps-vtk installs it)"; fi
 rm -rf examples
 
@@ -229,6 +232,9 @@ rejected "a variant that cannot be" 3 'scene_wide.toml.*bore' "$bin/gear-scene" 
 rm -f map.* scene_variant.toml scene_wide.toml
 rejected "decibels re nothing" 2 '--db 0: it is a length in m above 0' "$bin/gear-plot" waterfall --plots "$plots" --db 0 --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
 rejected "a speed of no gear" 2 'there is no gear carrier; there are pinion, wheel' "$bin/gear-plot" waterfall --plots "$plots" --axis rpm:carrier --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
+rejected "the report of a system without its modes" 3 'no modes.h5 given' "$bin/gear-report" out/scene-inline/system_static.h5 --output x.html
+rejected "two modes.h5 in the report of a system" 2 'a second whine/modes; give one of each' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/../scene-inline/modes.h5 --output x.html
+rejected "load sharing of a system without planets" 3 'stands for those of several planets' "$bin/gear-plot" system-load-sharing --plots "$plots" out/scene-inline/system_static.h5 --output x
 rejected "two static.h5 of one torque in a report" 3 'a static.h5 at 100 N m is given twice' "$bin/gear-report" out/scene/T100/static.h5 out/scene/../scene/T100/static.h5 --output x.html
 mkdir -p other_scene/params other_scene/T100 && cp out/scene/T100/static.h5 other_scene/T100 && echo Other > other_scene/params/title.txt
 rejected "two scenes in an export" 3 'other_scene/T100/static.h5: is of the scene other_scene: Other, artifacts before it are of scene' "$bin/gear-export" --model "$scene_of_paper" \

@@ -406,6 +406,17 @@ expect "a system of elastic gears: three bodies, its statics, its modes" "gear-m
 cp data/scenes/three-in-line.toml inline.toml; make_ SCENE=inline.toml system-static modes; sed -i 's/^torque_Nm = 60.0/torque_Nm = 50.0/' inline.toml
 make_ -n SCENE=inline.toml system-static modes
 expect "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear-system-static*1"
+make_ -n SCENE=inline.toml report
+expect "the report of a system: its picture, the page" "gear-modes*1 gear-plot*4 gear-report*1 gear-system-static*1"
+make_ SCENE=inline.toml report; make_ -n SCENE=inline.toml report mode-shapes
+expect "and it is up to date then" ""
+grep -q 'open out/inline/modes.hdf in ParaView' <(make_ SCENE=inline.toml mode-shapes; cat "$log") && ok "mode shapes for ParaView stand beside the modes" || wrong "mode shapes for ParaView stand beside the modes" "$(tail -n 1 "$log")"
+make_ -n SCENE=inline.toml load-sharing
+grep -q 'load-sharing: SCENE=inline.toml has no planets that share a load' "$log" && ok "load sharing needs planets" || wrong "load sharing needs planets" "$(tail -n 1 "$log")"
+make_ -n SCENE=data/scenes/oh58-planetary.toml load-sharing
+expect "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-system-static*1"
+make_ -n SCENE=train.toml report
+expect "the report of rigid gears: modes, their figures, the picture" "gear-modes*1 gear-plot*3 gear-report*1"
 make_ -n SCENE=data/scenes/lin-parker-planetary.toml system-static
 grep -q 'its gears are rigid; system-static needs elastic ones' "$log" && ok "statics of a system reject rigid gears" || wrong "statics of a system reject rigid gears" "$(tail -n 1 "$log")"
 make_ -n SCENE=train.toml static

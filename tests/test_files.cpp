@@ -51,6 +51,7 @@
 #include "io/vtk.h"
 #include "planetary_train.h"
 #include "relative.h"
+#include "small_system.h"
 #include "system/natural_modes.h"
 
 using namespace whine;
@@ -721,53 +722,6 @@ TEST_CASE("modes.h5 gives back every value bit by bit") {
   for (size_t i = 0; i < a.layout.bodies.size(); ++i)
     CHECK(a.layout.bodies[i].name == b.layout.bodies[i].name);
 }
-
-namespace {
-
-// Sun, three planets and ring at two phases, numbers without meaning.
-SystemStaticArtifact small_system() {
-  SystemScene scene = planetary_train(3);
-  scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
-  // Of sun and planet, one of them in two meshes, and none of the ring.
-  FlankModification relieved, crowned;
-  relieved.tip.amount = 20e-6;
-  relieved.tip.length = 1.5e-3;
-  crowned.crowning = 5e-6;
-  for (SystemScene::Mesh& mesh : scene.meshes)
-    for (size_t g = 0; g < kSides; ++g) {
-      if (mesh.spec.gear[g] == "sun") mesh.spec.modification[g] = relieved;
-      if (mesh.spec.gear[g] == "planet") mesh.spec.modification[g] = crowned;
-    }
-  scene.contact = {4, 2};
-  const SystemStaticParameters settings = static_parameters_of(scene, layout_of(scene));
-  const auto bodies = static_cast<Eigen::Index>(settings.layout.bodies.size()),
-             meshes = static_cast<Eigen::Index>(settings.layout.meshes.size());
-  SystemStaticArtifact a;
-  a.settings = settings;
-  for (const SystemScene::Gear& gear : scene.gears) {
-    a.drawing.push_back({gear.design, Material{206e9, 0.3, 7850, true}, {}});
-    a.drawing.back().design.bore_radius = gear.design.internal ? 0 : 10e-3;
-    a.drawing.back().discretisation.element_size = 1e-3;
-  }
-  a.contact_ratio = Eigen::VectorXd::LinSpaced(meshes, 1.4, 1.8);
-  a.mesh_phase = Eigen::Vector2d(0, 0.5);
-  a.rotation = MatrixRM::Constant(2, bodies, 1.25e-6);
-  a.torque = MatrixRM::Constant(2, bodies, -12.5);
-  a.transmission_error = a.mesh_deflection = MatrixRM::Constant(2, meshes, 2.5e-6);
-  a.mesh_force = MatrixRM::Constant(2, meshes, 1000.5);
-  a.load_share = MatrixRM::Constant(2, meshes, 1.0 / 3);
-  a.pair = Eigen::Vector3i(-1, 0, 1);
-  a.translation.assign(2, MatrixRM::Constant(bodies, 2, 1e-6 / 3));
-  a.bearing_force.assign(2, MatrixRM::Constant(bodies, 2, 100.0 / 3));
-  a.tooth_load.assign(2, MatrixRM::Constant(meshes, 3, 1000.0 / 3));
-  a.contact_pressure.assign(2, MatrixRM::Constant(meshes, 3, 1e9 / 3));
-  a.mesh_stiffness.assign(2, MatrixRM::Identity(meshes, meshes) * 5e8);
-  a.least_gap = a.least_force = a.torque_residual = Eigen::Vector2d(0, 1e-13);
-  a.transmission_error_harmonic = MatrixRM::Constant(1, meshes, 2.5e-6);
-  return a;
-}
-
-}  // namespace
 
 TEST_CASE("system_static.h5 gives back every value bit by bit") {
   Folder folder;

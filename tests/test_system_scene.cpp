@@ -9,6 +9,7 @@
 
 #include "gear/scene_geometry.h"
 #include "gear/system_layout.h"
+#include "io/scene.h"
 #include "io/system_scene.h"
 #include "planetary_train.h"
 #include "relative.h"
@@ -235,4 +236,52 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
         "belongs to gears in motion");
   check({{"bore_radius_mm = 20.0", "bore_radius_mm = 20.0\ntotal_inertia_kgm2 = 1e-4"}}, nullptr,
         "by its drawing at least");
+}
+
+TEST_CASE(
+    "keys that the table marks as those of pairs are rejected in a system, by the reader that knows them") {
+  const std::string table = scene_key_table();
+  for (const char* section : {"[damping]", "[operation]", "[gear.<name>.error]", "[gear.<name>.crack]"}) {
+    const size_t at = table.find(std::string("| `") + section + "`");
+    REQUIRE(at != std::string::npos);
+    CHECK(table.substr(at, table.find('\n', at) - at).find("of pairs alone: ") != std::string::npos);
+  }
+  std::ifstream elastic("data/scenes/three-in-line.toml");
+  std::ostringstream whole;
+  whole << elastic.rdbuf();
+  const SceneFile file;
+  const auto said = [&](const std::string& added) {
+    const std::string path = file.path(whole.str() + added);
+    try {
+      read_system_scene(path);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(said("").empty());
+  CHECK(said("[damping]\n").find("take the section out") != std::string::npos);
+  CHECK(said("[operation]\n").find("take the section out") != std::string::npos);
+  // 30, 60 and 120 teeth.
+  CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").find("after 120 mesh periods") !=
+        std::string::npos);
+  CHECK(said("[gear.idler.crack]\ndepth_mm = 0.5\n").find("after 120 mesh periods") != std::string::npos);
+}
+
+TEST_CASE("gears that run into each other without a mesh are named, planets and meshes are not") {
+  const auto layout = [](double direction) {
+    SystemScene scene = read_system_scene("data/scenes/three-in-line.toml");
+    scene.meshes[1].direction = direction;
+    const System system = layout_of(scene);
+    std::vector<const GearDesign*> design;
+    for (const std::string& name : gears_of(scene, system))
+      for (const SystemScene::Gear& gear : scene.gears)
+        if (gear.name == name) design.push_back(&gear.design);
+    return colliding_gears(system, design);
+  };
+  CHECK(layout(0).empty());
+  const std::vector<std::string> folded = layout(3.14159265358979);
+  REQUIRE(folded.size() == 1);
+  CHECK(folded[0].starts_with(
+      "'pinion' and 'wheel' have no mesh and run into each other: their axes are 90 mm apart"));
 }

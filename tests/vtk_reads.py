@@ -1,6 +1,6 @@
 """Whether VTK itself, and so ParaView, sees in artifacts what is in them: cells, areas, displacements, pressures.
 
-    vtk_reads.py MESH.hdf BODY.hdf LOADED.hdf TOOTH_LOAD FACE_WIDTH     (N, of all pairs; m)
+    vtk_reads.py MESH.hdf BODY.hdf LOADED.hdf TOOTH_LOAD FACE_WIDTH MODES.hdf    (N, of all pairs; m; modes of three gears in line)
 
 One line per claim, as tests/run counts them. Reads with vtkHDFReader alone, nothing of ours.
 """
@@ -72,3 +72,15 @@ claim("loaded.hdf: displacements of micrometres, stresses of megapascals, no hol
       and 1e6 < points["principal_stress_largest"].max() < 2e9
       and all((values == values).all() for values in points.values()),
       (moved.max(), points["von_mises_stress"].max(), points["principal_stress_largest"].max()))
+
+system = read(sys.argv[6])
+arrays = system.GetPointData()
+shapes = {arrays.GetArrayName(i): numbers(arrays.GetArray(i)) for i in range(arrays.GetNumberOfArrays())}
+number = numbers(system.GetCellData().GetArray("body"))
+claim("modes.hdf: every cell is of a body, no two of which lie on each other", set(number) == {0, 1, 2} and
+      sizes(system, "Area").min() > 0, (set(number), sizes(system, "Area").min()))
+# The largest displacement is a twentieth of half the width of the drawing.
+least, most = system.GetBounds()[:2]
+largest = [math.sqrt((values ** 2).sum(1).max()) / (0.05 * 0.5 * (most - least)) for values in shapes.values()]
+claim("modes.hdf: mode shapes of one largest displacement", len(shapes) > 2 and all(name.startswith("mode_") for name in shapes)
+      and all(abs(size - 1) < 1e-5 for size in largest), largest)

@@ -1,9 +1,11 @@
 // gear-modes: natural frequencies and mode shapes of a system of gears and carriers.
 //
 // Reads   params (the system as laid out: bodies, bearings, meshes, what is held) or, of elastic gears, system_static.h5
-// Writes  modes.h5   natural frequencies, types, shapes, where the energy of each mode is
+// Writes  modes.h5   natural frequencies, types, shapes, where the energy of each mode is; under /VTKHDF the gears with what each mode
+//                    moves them by, for ParaView (modes.hdf is a link to it)
 // Equations: K v = w^2 M v, meshes frozen, at their mean stiffness (common/system/natural_modes.h)
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -11,6 +13,7 @@
 #include "io/provenance.h"
 #include "io/system_scene.h"
 #include "io/system_static_codec.h"
+#include "system/mode_view.h"
 #include "system/natural_modes.h"
 
 namespace {
@@ -34,9 +37,20 @@ void body(int argc, char** argv) {
     whine::fail(whine::Failure::usage, "give --params or --static; see --help");
   const whine::Provenance provenance =
       whine::made_by(argc, argv, {statics.empty() ? "params=" + params : "static=" + statics});
-  const whine::ModesArtifact result = statics.empty()
-                                          ? whine::natural_modes(whine::read_system_parameters(params))
-                                          : whine::elastic_modes(whine::read_system_static(statics));
+  whine::ModesArtifact result;
+  if (statics.empty()) {
+    result = whine::natural_modes(whine::read_system_parameters(params));
+    whine::add_mode_view(result, std::vector<const whine::GearDesign*>(result.layout.bodies.size(), nullptr));
+  } else {
+    const whine::SystemStaticArtifact rest = whine::read_system_static(statics);
+    result = whine::elastic_modes(rest);
+    std::vector<const whine::GearDesign*> design;
+    for (size_t b = 0; b < result.layout.bodies.size(); ++b) {
+      const whine::BodyParameters* drawing = whine::drawing_of(rest, static_cast<int>(b));
+      design.push_back(drawing ? &drawing->design : nullptr);
+    }
+    whine::add_mode_view(result, design);
+  }
   whine::write(output, result, provenance);
   std::string first;
   int still = 0;

@@ -2,6 +2,7 @@
 //
 // Reads      static.h5 (their order is that of the torques), impact.h5 and sweep.h5 of one scene, error_budget.h5; figures that
 //            gear-plot has drawn, as .png; params/title.txt in the folder of the scene, if there is one
+//            of a system of several meshes: modes.h5 and, of elastic gears, system_static.h5
 // Writes     --output: the page; results.tsv beside it, the numbers of its first table; with --teeth the page alone
 // Equations  none
 // Example    gear-report --output report/index.html out/parker2000/T100/static.h5
@@ -37,6 +38,19 @@ void body(int argc, char** argv) {
       "out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5");
   options.parse(argc, argv);
 
+  const auto publish_both = [&](const std::string& page, const std::string& table) {
+    publish((std::filesystem::path(output).parent_path() / "results.tsv").string(), table);
+    publish(output, page);
+  };
+  if (is_of_system(inputs)) {
+    if (teeth) fail(Failure::input, "--teeth is of pairs; a system of several meshes has its whole report");
+    const SystemReport report = read_system_report(inputs);
+    const std::string page = system_report_html(report);
+    publish_both(page, system_report_tsv(report));
+    tell("gear-report: ", report.scene, ": ", report.modes->layout.bodies.size(), " bodies, ",
+         report.pictures.size(), " figures, ", page.size() / 1000, " kB -> ", output);
+    return;
+  }
   ReportContent content = read_report_content(inputs);
   if (teeth) {
     content.figure_folder = "../report/";
@@ -44,9 +58,8 @@ void body(int argc, char** argv) {
     tell("gear-report: teeth of ", content.scene, ": ", content.pictures.size(), " figures -> ", output);
     return;
   }
-  const std::string page = report_html(content), table = report_tsv(content);
-  publish((std::filesystem::path(output).parent_path() / "results.tsv").string(), table);
-  publish(output, page);
+  const std::string page = report_html(content);
+  publish_both(page, report_tsv(content));
   tell("gear-report: ", content.scene, ": ", content.statics.size(), " torques, ", content.sweeps.size(),
        " sweeps, ", content.pictures.size(), " figures, ", page.size() / 1000, " kB -> ", output);
 }

@@ -30,7 +30,6 @@
 #include "system/rigid_system.h"
 
 namespace {
-
 using namespace whine;
 
 ScenePlace place_in(const std::string& path) {
@@ -57,7 +56,8 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
     publish_if_changed(home + "/params/system_static.toml", statics);
   }
   publish_if_changed(home + "/params/title.txt", scene.title + "\n");
-  publish(output, system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene))));
+  publish(output, system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
+                                  layout.meshes.size() > scene.meshes.size()));
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 

@@ -179,6 +179,7 @@ class Layout {
       add_input_gear(system_, first->name, first->design, first->bearing);
       system_.bodies.back().inertia = inertia_of(*first);
     }
+    if (carrier >= 0) check_axis(m, static_cast<size_t>(carrier));
     const size_t planets = carrier < 0 ? 1 : positions_[static_cast<size_t>(carrier)].size();
     for (size_t n = 0; n < planets; ++n) {
       const auto called = [&](const SystemScene::Gear& gear) {
@@ -191,6 +192,16 @@ class Layout {
       take_one(m, *first, called(*first), *second, called(*second), direction);
     }
     if (carrier >= 0) check_neighbours(static_cast<size_t>(carrier));
+  }
+
+  // Sun, ring and carrier have one axis, so all meshes of a planet have one centre distance.
+  void check_axis(size_t m, size_t c) const {
+    const double distance = scene_.meshes[m].spec.centre_distance, other = pin_radius(c);
+    if (other > 0 && !(std::abs(other - distance) < 1e-6 * distance))
+      reject("mesh", m, "[[mesh]] of '", scene_.meshes[m].spec.gear[0], "' and '",
+             scene_.meshes[m].spec.gear[1], "': centre_distance_mm = ", distance * 1e3, ", and ", other * 1e3,
+             " in the other [[mesh]] of the planets of carrier '", scene_.carriers[c].name,
+             "': central gears have one axis; give both meshes of a planet one centre distance");
   }
 
   void take_one(size_t m, const SystemScene::Gear& first, const std::string& on,
@@ -367,6 +378,43 @@ System on_fixed_carriers(const System& layout) {
     out.drives.push_back(drive);
   }
   return out;
+}
+
+std::vector<std::string> colliding_gears(const System& layout, const std::vector<const GearDesign*>& design) {
+  const auto in_mesh = [&](size_t a, size_t b) {
+    return std::any_of(layout.meshes.begin(), layout.meshes.end(), [&](const System::Mesh& mesh) {
+      const auto first = static_cast<size_t>(mesh.side[0].body),
+                 second = static_cast<size_t>(mesh.side[1].body);
+      return (first == a && second == b) || (first == b && second == a);
+    });
+  };
+  std::vector<std::string> out;
+  for (size_t b = 0; b < layout.bodies.size(); ++b)
+    for (size_t a = 0; a < b; ++a) {
+      const System::Body &first = layout.bodies[a], &second = layout.bodies[b];
+      const bool planets = first.on != System::kGround && second.on != System::kGround;
+      if (!design[a] || !design[b] || design[a]->internal || design[b]->internal || planets || in_mesh(a, b))
+        continue;
+      const double apart = std::hypot(second.centre[0] - first.centre[0], second.centre[1] - first.centre[1]),
+                   room = ToothGeometry(*design[a]).tip_radius() + ToothGeometry(*design[b]).tip_radius();
+      if (apart < room)
+        out.push_back(text("'", first.name, "' and '", second.name,
+                           "' have no mesh and run into each other: their axes are ", apart * 1e3,
+                           " mm apart, their tip circles reach ", room * 1e3,
+                           " mm; change direction_deg of a [[mesh]], unless they lie side by side"));
+    }
+  return out;
+}
+
+bool is_ring(const System& system, int body) {
+  for (const System::Mesh& mesh : system.meshes)
+    for (size_t s = 0; s < 2; ++s) {
+      const auto other = static_cast<size_t>(mesh.side[1 - s].body);
+      if (mesh.side[s].body == body && mesh.side[0].sense == mesh.side[1].sense &&
+          system.bodies[static_cast<size_t>(body)].teeth > system.bodies[other].teeth)
+        return true;
+    }
+  return false;
 }
 
 }  // namespace whine

@@ -86,7 +86,7 @@ std::vector<Key> make_keys() {
      "of an internal gear, which needs it: radius outside which the ring is as good as rigid, its housing; what lies between it and the root circle bends and twists",
      [](V& v) -> Slot { return &v.design.rim_outer_radius; }},
     {Part::inertia, "gear", "total_inertia_kgm2", kInertia, "0.0", 0, 1e9, false, "",
-     "inertia of the whole gear about its axis; what the body lacks is lumped on the hub. 0: as drawn, the body between bore and tip alone",
+     "inertia of the whole gear about its axis; what the body lacks is lumped on the hub. 0: as drawn, the body between bore and tip alone; a system with body = \"rigid\" needs it, or equivalent_mass_kg",
      [](V& v) -> Slot { return &v.total_inertia; }},
     {Part::reference, "gear", "material", kNone, nullptr, 0, 0, false, "",
      "name of a [material.<name>] section",
@@ -210,7 +210,7 @@ std::vector<Key> make_keys() {
      [](V& v) -> Slot { return choice_slot(v.mesh.contact_plane); }},
 
     {Part::bearing_gear, "bearing", "gear", kNone, nullptr, 0, 0, false, "",
-     "name of the gear that it carries; a gear without a bearing turns on a rigid axis",
+     "name of the gear that it carries, in a system with body = \"rigid\" also of a carrier; without a bearing it turns on a rigid axis",
      [](V& v) -> Slot { return &v.bearing_gear; }},
     {Part::bearing, "bearing", "stiffness_N_um", kNewtonPerMicrometre, nullptr, 0, 1e6, true, "",
      "radial stiffness of all that carries the gear (bearings, shaft, housing), alike in all directions",
@@ -220,7 +220,7 @@ std::vector<Key> make_keys() {
      "radial viscous damping of the same",
      [](V& v) -> Slot { return &v.bearing.damping; }},
     {Part::bearing, "bearing", "mass_kg", kKilogram, "0.0", 0, 1e6, false, "",
-     "mass of all that moves with the gear's hub, its body included; 0: as drawn, the body between bore and tip alone",
+     "mass of all that moves with the gear's hub, its body included; 0: as drawn, the body between bore and tip alone; of a system with body = \"rigid\" it is required",
      [](V& v) -> Slot { return &v.bearing.mass; }},
 
     {Part::damping, "damping", "rayleigh_mass_per_s", kPerSecond, "0.0", 0, 1e6, false, "",
@@ -248,7 +248,7 @@ std::vector<Key> make_keys() {
      "slower, a mesh period takes more than 250000 time steps at the default rate; the static stage is the limit of zero speed"},
 
     {Part::level, "fidelity", "body", kNone, "modal", 0, 0, false, kWordsOf<BodyModel>,
-     "what of the elastic body moves by itself",
+     "what of the elastic body moves by itself; rigid: of systems alone, one spring for each mesh, natural modes only",
      [](V& v) -> Slot { return choice_slot(v.fidelity.body); }},
     {Part::contact_level, "fidelity", "contact", kNone, "strips", 0, 0, false, kWordsOf<ContactModel>,
      "contact of a tooth pair: one force and Hertz's closed law, or pressure on strips",
@@ -539,7 +539,7 @@ std::string scene_key_table() {
       range = "true, false, or " + range + " (degrees)";
     const std::string fallback = !key.fallback ? "required" : *key.fallback ? key.fallback : "none";
     out << "| `" << label << "` | `" << key.name << "` | " << fallback << " | " << range << " | "
-        << key.meaning << " |\n";
+        << (of_pairs(key.part) ? "of pairs alone: " : "") << key.meaning << " |\n";
   }
   return out.str();
 }

@@ -167,6 +167,12 @@ inline bool of_systems(Part part) {
   return part == Part::rigid_gear || part == Part::carrier || part == Part::drive || part == Part::train_mesh;
 }
 
+// Whether keys of a part are those of pairs, which scenes of systems reject; the table of keys says so.
+inline bool of_pairs(Part part) {
+  return part == Part::error || part == Part::error_file || part == Part::crack || part == Part::damping ||
+         part == Part::load || part == Part::operation || part == Part::time;
+}
+
 // What such sections hold of gear g of a mesh, into the values and back.
 void take_gear(KeyValues& values, const GearMeshSpec& mesh, int g);
 void put_gear(const KeyValues& values, GearMeshSpec& mesh, int g);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "io/codec.h"
 #include "io/layout_codec.h"
+#include "io/vtk.h"
 
 namespace whine {
 namespace {
@@ -60,6 +61,9 @@ void describe(Codec& c, ModesArtifact& a) {
                "mesh_phase mode", kFrequency},
               &a.frozen_frequency);
   }
+  if (c.out() && a.view.point.rows() > 0)
+    put_vtk(c.out()->file(),
+            {a.view.point, a.view.cell, {}, {}, a.view.line, a.view.point_data, a.view.cell_data});
   if (!c.in()) return;
   if (static_cast<Eigen::Index>(a.type.size()) != a.natural_frequency.size())
     c.in()->file().reject("dataset /mode_type has not one word for each mode");
@@ -70,6 +74,7 @@ void write(const std::string& path, const ModesArtifact& a, const Provenance& pr
       path, kSchema,
       text("Natural modes: ", a.layout.bodies.size(), " bodies, ", a.layout.meshes.size(), " meshes"), a,
       provenance);
+  if (a.view.point.rows() > 0) link_for_paraview(path);
 }
 
 ModesArtifact read_modes(const std::string& path) {

@@ -402,8 +402,8 @@ Scene scene_of(const Source& source) {
     const std::string why = meshes && meshes->size() > 1
                                 ? text("there are ", meshes->size(), " [[mesh]] sections, so it")
                                 : std::string("it has [[carrier]] or [[drive]], so it");
-    source.reject(
-        text(why, " is the scene of a system, and this stage is for pairs; for systems there is make modes"));
+    source.reject(text(
+        why, " is the scene of a system, and this stage is for pairs; for systems there is make report"));
   }
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
   top.reject_unknown(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 
 #include "gear/system_layout.h"
 #include "io/scene_sections.h"
@@ -23,7 +24,9 @@ std::vector<const toml::table*> list_of(const Source& source, const std::string&
   return out;
 }
 
-void reject_unlike_teeth(const Source& source, const toml::table& table, const SceneGear& gear, bool rigid) {
+// hunting: mesh periods after which the same teeth meet again.
+void reject_unlike_teeth(const Source& source, const toml::table& table, const SceneGear& gear, bool rigid,
+                         long hunting) {
   for (const char* key : {"modification", "error", "crack"}) {
     const toml::node* node = table.get(key);
     if (node && rigid)
@@ -33,7 +36,9 @@ void reject_unlike_teeth(const Source& source, const toml::table& table, const S
     if (node && key != std::string("modification"))
       source.reject(*node, text("[gear.", gear.name, ".", key,
                                 "]: a gear of a system (several meshes, carriers or drives) has no '", key,
-                                "' so far, its teeth are all alike; take the section out"));
+                                "' so far: with it the same teeth meet again after ", hunting,
+                                " mesh periods, the least common multiple of the numbers of teeth, and a "
+                                "system at rest is computed over one; take the section out"));
   }
 }
 
@@ -41,11 +46,13 @@ void take_gears(const Source& source, SystemScene& scene) {
   Scene gears;
   const bool rigid = scene.rigid();
   read_gears(source, gears, rigid);
+  long hunting = 1;
+  for (const SceneGear& own : gears.gears) hunting = std::lcm(hunting, long{own.design.teeth});
   for (const SceneGear& own : gears.gears) {
     SystemScene::Gear gear;
     static_cast<SceneGear&>(gear) = own;
     const toml::table* table = source.section("gear")->get(own.name)->as_table();
-    reject_unlike_teeth(source, *table, own, rigid);
+    reject_unlike_teeth(source, *table, own, rigid, hunting);
     if (!rigid) {
       scene.gears.push_back(gear);
       continue;

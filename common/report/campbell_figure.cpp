@@ -21,10 +21,14 @@ Figure campbell_figure(const ModesArtifact& a) {
                 "crossings"};
   const bool bands = a.frozen_frequency.size() > 0;
   double highest = 0;
+  bool outside = false;  // a line that lies outside of its band
   for (Index i = 0; i < a.natural_frequency.size(); ++i) {
     const double f = a.natural_frequency[i];
     if (f == 0) continue;
     const double number = static_cast<double>(i + 1);
+    outside =
+        outside ||
+        (bands && (f < a.frozen_frequency.col(i).minCoeff() || f > a.frozen_frequency.col(i).maxCoeff()));
     highest = std::max(highest, bands ? a.frozen_frequency.col(i).maxCoeff() : f);
     modes.rows.push_back({number, f, bands ? a.frozen_frequency.col(i).minCoeff() : f,
                           bands ? a.frozen_frequency.col(i).maxCoeff() : f,
@@ -41,6 +45,7 @@ Figure campbell_figure(const ModesArtifact& a) {
   figure.numbers = {{"highest", highest},
                     {"harmonics", static_cast<double>(kCampbellHarmonics)},
                     {"bands", bands ? 1.0 : 0.0},
+                    {"notes", outside ? 3.0 : 2.0},
                     {"rotational", count(ModeType::rotational)},
                     {"translational", count(ModeType::translational)},
                     {"planet", count(ModeType::planet)},
@@ -50,6 +55,11 @@ Figure campbell_figure(const ModesArtifact& a) {
       text(a.layout.bodies.size(), " bodies, ", a.layout.meshes.size(), " meshes; ",
            bands ? "lines: mean stiffness of the meshes, bands: frozen contact at all mesh phases"
                  : "meshes at their mean stiffness"));
+  if (outside)
+    figure.notes.emplace_back(
+        "a line may lie outside its band: at one phase the meshes differ from planet to planet, which parts "
+        "near "
+        "frequencies; their mean stiffness does not");
   figure.notes.emplace_back(
       "points: mesh frequencies at which a harmonic of the meshes meets a natural frequency; frame of the "
       "carrier at rest, without "

@@ -9,6 +9,7 @@
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/report_geometry.h"
+#include "report/report_page.h"
 #include "report/report_results.h"
 #include "report/report_tables.h"
 
@@ -225,7 +226,7 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
   inside += "</section>\n";
   for (const Design& d : designs)
     inside += "<section>\n<h2>" + html::escaped(d.name) + "</h2>\n" + remarks_list(d.content) +
-              provenance_table(d.content) + "</section>\n";
+              provenance_table(d.content.sources) + "</section>\n";
   return html::page(names, "<ul>\n" + list + "</ul>\n", inside);
 }
 

@@ -39,6 +39,7 @@
 #include "report/static_figures.h"
 #include "report/study_figure.h"
 #include "report/system_figures.h"
+#include "report/system_picture.h"
 #include "signal/response.h"
 
 namespace whine {
@@ -345,6 +346,19 @@ Drawings drawings_of_systems() {
        {"a system at rest: transmission errors, forces of meshes, forces on bearings", "system_static.h5", 1,
         0,
         [](const Paths& in, const Frequencies&) { return system_static_figure(read_system_static(in[0])); }}},
+      {"system-load-sharing",
+       {"how the planets of a system share the load over the mesh period, and the loads of its tooth pairs",
+        "system_static.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return system_load_sharing_figure(read_system_static(in[0]));
+        }}},
+      {"system",
+       {"a system as it stands: gears at their places, teeth in mesh, senses of rotation",
+        "system_static.h5, or of rigid gears modes.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return is_a("whine/modes", in[0]) ? system_picture(read_modes(in[0]))
+                                            : system_picture(read_system_static(in[0]));
+        }}},
   };
 }
 

@@ -10,6 +10,7 @@
 #include "report/report_figures.h"
 #include "report/report_geometry.h"
 #include "report/report_guide.h"
+#include "report/report_page.h"
 #include "report/report_results.h"
 #include "report/report_tables.h"
 
@@ -67,14 +68,7 @@ std::string report_tsv(const ReportContent& c) {
 
 std::string report_html(const ReportContent& c) {
   require_whole(c);
-  const size_t colon = c.scene.find(": ");
-  const std::string file = c.scene.substr(0, colon),
-                    title = colon == std::string::npos ? c.scene : c.scene.substr(colon + 2);
-
-  struct Section {
-    std::string id, heading, inside;
-  };
-  std::vector<Section> sections;
+  std::vector<ReportSection> sections;
   const auto add = [&](const char* id, const char* heading, const std::string& inside) {
     if (!inside.empty()) sections.push_back({id, heading, inside});
   };
@@ -88,18 +82,9 @@ std::string report_html(const ReportContent& c) {
   add("motion", "In motion", figures_of(c, "motion"));
   add("errors", "What the errors are", figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : ""));
   add("parameters", "Parameters", parameters_table(c));
-  add("provenance", "Provenance", provenance_table(c));
+  add("provenance", "Provenance", provenance_table(c.sources));
 
-  std::string contents, inside;
-  for (const Section& s : sections) {
-    contents += text("<li><a href=\"#", s.id, "\">", html::escaped(s.heading), "</a></li>\n");
-    inside += text("<section id=\"", s.id, "\">\n<h2>", html::escaped(s.heading), "</h2>\n", s.inside,
-                   "</section>\n");
-  }
-  return html::page(
-      title,
-      "<p class=\"scene\">Gear whine report of the scene <code>" + html::escaped(file) + "</code></p>\n",
-      "<nav aria-label=\"Contents\"><ol>\n" + contents + "</ol></nav>\n" + inside);
+  return report_page(c.scene, sections);
 }
 
 }  // namespace whine

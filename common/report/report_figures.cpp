@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/report_page.h"
 #include "report/response_figures.h"
 
 namespace whine {
@@ -232,13 +233,7 @@ std::string figure(const ReportContent& c, const ReportPicture& picture, const E
       !paper.empty() && of_paper(c.statics[0].gear[0].design) && of_paper(c.statics[0].gear[1].design))
     words += text(" ", picture.name, " shows of this pair what ", paper, " of P2000 ",
                   paper.starts_with("Figures") ? "show" : "shows", " of its own.");
-  std::string files;
-  for (const auto& [end, what] :
-       {std::pair{"tsv", "numbers"}, std::pair{"svg", "svg"}, std::pair{"png", "png"}})
-    files += text(files.empty() ? "" : " ", "<a href=\"", html::escaped(c.figure_folder + picture.name), ".",
-                  end, "\">", what, "</a>");
-  return html::figure(picture.name, picture.bytes, kind.title,
-                      words + " <span class=\"files\">" + files + "</span>");
+  return picture_html(picture, kind.title, words, c.figure_folder);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "report/figures.h"
+#include "report/report_page.h"
 
 namespace whine {
 namespace {
@@ -134,23 +135,10 @@ constexpr Row kRows[] = {
      "Some per cent for a straight crack of one depth over the face width.", ""},
 };
 
-std::string cell(const std::string& words) {
-  return "<td>" + words + "</td>";
-}
-
 bool has_picture(const ReportContent& c, const std::string& names) {
   return std::any_of(c.pictures.begin(), c.pictures.end(), [&](const ReportPicture& picture) {
     return (" " + names + " ").find(" " + picture.name + " ") != std::string::npos;
   });
-}
-
-// Links to the figures of a row that are on the page.
-std::string links(const ReportContent& c, const std::string& names) {
-  std::string out;
-  for (const ReportPicture& picture : c.pictures)
-    if ((" " + names + " ").find(" " + picture.name + " ") != std::string::npos)
-      out += text(out.empty() ? " (" : ", ", "<a href=\"#", picture.name, "\">", picture.name, "</a>");
-  return out.empty() ? "" : out + ")";
 }
 
 }  // namespace
@@ -184,16 +172,13 @@ std::string guide_to_numbers(const ReportContent& c) {
                 " % of the peak-to-peak transmission error and ",
                 shown(c.budget->refinement.harmonic_change.col(0).cwiseAbs().sum() * kPercent, 2),
                 " % of its first harmonic: more digits than these have no meaning.</p>\n");
-  out +=
-      "<div class=\"wide\"><table class=\"guide\">\n<caption>Numerical errors are those that the defaults "
-      "leave on "
-      "the pair of P2000; your own pair's stand in the error budget.</caption>\n<thead><tr><th>what</th>"
-      "<th>how to read it</th><th>how far to trust it</th><th>what to do next</th></tr></thead>\n<tbody>\n";
+  std::vector<GuideRow> rows;
   for (const Row& row : kRows)
-    if (there(row))
-      out += "<tr>" + cell(row.what + links(c, row.figures)) + cell(row.reading) + cell(row.trust) +
-             cell(row.next) + "</tr>\n";
-  return out + "</tbody></table></div>\n";
+    if (there(row)) rows.push_back({row.figures, row.what, row.reading, row.trust, row.next});
+  return out + guide_table(
+                   "Numerical errors are those that the defaults leave on the pair of P2000; your own pair's "
+                   "stand in the error budget.",
+                   rows, c.pictures);
 }
 
 }  // namespace whine

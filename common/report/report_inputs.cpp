@@ -6,11 +6,13 @@
 #include "base/tool.h"
 #include "io/error_budget_codec.h"
 #include "io/impact_codec.h"
+#include "io/modes_codec.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/static_codec.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
+#include "io/system_static_codec.h"
 #include "signal/response.h"
 #include "studies/sweep.h"
 #include "studies/sweep_losses.h"
@@ -47,7 +49,52 @@ ReportSweep read_sweep_of(const ReportContent& content, const std::string& path)
   fail(Failure::input, path, ": is at ", sweep.torque, " N m, at which no static.h5 is given; give it, too");
 }
 
+// Where an artifact comes from; all are of one scene.
+template <class Content>
+void take_source(const std::string& path, Content& content) {
+  require_fresh(path);
+  content.sources.push_back({recorded_path(path), sha256_of_file(path), read_origin(path)});
+  const std::string scene = scene_words(path);
+  if (content.scene.empty()) content.scene = scene;
+  if (!scene.empty() && scene != content.scene)
+    fail(Failure::input, path, ": is of the scene ", scene, ", artifacts before it are of ", content.scene,
+         "; give artifacts of one scene");
+}
+
 }  // namespace
+
+bool is_of_system(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (path.ends_with(".png")) continue;
+    const std::string schema = read_origin(path).schema;
+    if (schema == "whine/system_static" || schema == "whine/modes") return true;
+  }
+  return false;
+}
+
+SystemReport read_system_report(const std::vector<std::string>& paths) {
+  SystemReport report;
+  for (const std::string& path : paths) {
+    if (path.ends_with(".png")) {
+      report.pictures.push_back(read_picture(path));
+      continue;
+    }
+    take_source(path, report);
+    const std::string& schema = report.sources.back().origin.schema;
+    const bool rest = schema == "whine/system_static";
+    if (!rest && schema != "whine/modes")
+      fail(Failure::usage, path, ": is ", schema,
+           "; the report of a system is made of system_static.h5 and modes.h5");
+    if (rest ? report.rest.has_value() : report.modes.has_value())
+      fail(Failure::usage, path, ": a second ", schema, "; give one of each");
+    if (rest)
+      report.rest = read_system_static(path);
+    else
+      report.modes = read_modes(path);
+  }
+  if (report.scene.empty()) report.scene = "system of gears";
+  return report;
+}
 
 ReportContent read_report_content(const std::vector<std::string>& paths) {
   // Sweeps last: what they warn of depends on the statics at their torque.
@@ -58,13 +105,7 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
       content.pictures.push_back(read_picture(path));
       continue;
     }
-    require_fresh(path);
-    content.sources.push_back({recorded_path(path), sha256_of_file(path), read_origin(path)});
-    const std::string scene = scene_words(path);
-    if (content.scene.empty()) content.scene = scene;
-    if (!scene.empty() && scene != content.scene)
-      fail(Failure::input, path, ": is of the scene ", scene, ", artifacts before it are of ", content.scene,
-           "; give artifacts of one scene");
+    take_source(path, content);
     const std::string& schema = content.sources.back().origin.schema;
     if (schema == "whine/static") {
       content.statics.push_back(read_static(path));

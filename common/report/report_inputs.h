@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "report/report_content.h"
+#include "report/system_report.h"
 
 namespace whine {
 
@@ -12,5 +13,12 @@ namespace whine {
 // lumped model or one without the static.h5 of its torque, artifacts of several scenes or as require_one_pair, and as the
 // readers of artifacts do.
 ReportContent read_report_content(const std::vector<std::string>& paths);
+
+// Whether one of the files is an artifact of a system of several meshes.
+bool is_of_system(const std::vector<std::string>& paths);
+
+// The same of a system: system_static.h5 and modes.h5, or of rigid gears modes.h5 alone, and figures. Throws as above, and
+// Error(usage) for an artifact that is given twice.
+SystemReport read_system_report(const std::vector<std::string>& paths);
 
 }  // namespace whine

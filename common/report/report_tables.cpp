@@ -13,6 +13,7 @@
 #include "io/summary.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/report_page.h"
 #include "report/stiffness_table.h"
 
 namespace whine {
@@ -190,42 +191,11 @@ std::string parameters_table(const ReportContent& c) {
       "small");
 }
 
-std::string provenance_table(const ReportContent& c) {
-  html::Rows rows;
-  std::vector<std::string> history;
-  for (const ReportSource& source : c.sources) {
-    std::string inputs;
-    for (const InputRecord& input : source.origin.inputs)
-      inputs += text(inputs.empty() ? "" : "; ", input.role, " ", input.path, " (",
-                     input.sha256.substr(0, 12), ")");
-    rows.push_back({source.path, source.sha256,
-                    source.origin.tool + " " + source.origin.version + ": " + source.origin.command, inputs});
-    for (const std::string& stage : source.origin.history)
-      if (std::find(history.begin(), history.end(), stage) == history.end()) history.push_back(stage);
-  }
-  std::string out = html::table(
-      "Artifacts, the SHA-256 of each file, the command that made it, and its inputs with the first "
-      "digits of their SHA-256. `gear-inspect` says of each whether it is still what these inputs give.",
-      {"artifact", "SHA-256", "made by", "from"}, rows, "small code");
-  html::Rows earlier;
-  for (const std::string& stage : history) earlier.push_back({stage});
-  if (!earlier.empty()) out += html::table("Stages before these.", {"command"}, earlier, "small code");
-  return out + html::paragraph(text("This page was written by gear-report ", kVersion, "."));
-}
-
 std::string remarks_list(const ReportContent& c) {
-  constexpr size_t kMost = 12;  // of one artifact
   std::string out;
   bool warned = false;
   const auto add = [&](const std::string& where, const std::vector<Remark>& remarks) {
-    for (size_t i = 0; i < std::min(remarks.size(), kMost); ++i)
-      out += html::tagged(remarks[i].warning ? "li class=\"warning\"" : "li",
-                          (remarks[i].warning ? "<strong>Warning.</strong> " : "") +
-                              html::escaped(where + ": " + remarks[i].words) + ".") +
-             "\n";
-    if (remarks.size() > kMost)
-      out += html::tagged("li", html::escaped(text(where, ": ", remarks.size() - kMost, " more of these."))) +
-             "\n";
+    out += remark_items(where, remarks);
     for (const Remark& remark : remarks) warned = warned || remark.warning;
   };
   for (const StaticArtifact& s : c.statics) add("at rest, " + torque_words(s.torque), remarks(s));
@@ -256,8 +226,7 @@ std::string remarks_list(const ReportContent& c) {
   if (c.budget && !c.budget->choice_missing.empty())
     out +=
         html::tagged("li", html::escaped("error budget: not computed: " + c.budget->choice_missing)) + "\n";
-  return (warned ? "" : html::paragraph("No stage warns of anything.")) +
-         (out.empty() ? "" : html::tagged("ul class=\"remarks\"", "\n" + out) + "\n");
+  return remark_list(out, warned);
 }
 
 }  // namespace whine

@@ -10,7 +10,6 @@ std::string natural_frequencies_table(const ReportContent& c);
 std::string budget_table(const ErrorBudgetArtifact& b);
 // Values of driver and driven gear side by side, of what is no gear's in the first column.
 std::string parameters_table(const ReportContent& c);
-std::string provenance_table(const ReportContent& c);
 std::string remarks_list(const ReportContent& c);
 
 }  // namespace whine

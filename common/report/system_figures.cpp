@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "report/system_picture.h"
 #include "signal/spectrum.h"
 #include "system/rigid_system.h"
 
@@ -14,19 +15,6 @@ using Eigen::Index;
 namespace {
 
 constexpr size_t kMostLines = 12;  // colours and dashes of the template
-
-std::string system_words(const SystemStaticArtifact& a) {
-  const System& s = a.settings.layout;
-  std::string out;
-  for (size_t b = 0; b < s.bodies.size(); ++b) {
-    const auto column = static_cast<Index>(b);
-    const System::Body& body = s.bodies[b];
-    if (body.on != System::kGround) continue;
-    out += text(out.empty() ? "" : ", ", body.name, body.teeth > 0 ? text(" (", body.teeth, " teeth) ") : " ",
-                fixed(a.torque.col(column).mean(), 1), " N m", s.held(static_cast<int>(b)) ? " held" : "");
-  }
-  return out;
-}
 
 struct Curve {
   std::string name;
@@ -85,38 +73,44 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
 // How far the meshes of one [[mesh]] are from sharing the load equally; "" where none has several.
 std::string sharing_words(const SystemStaticArtifact& a) {
   std::string out;
-  const std::vector<int>& section = a.settings.section;
-  for (size_t m = 0; m < section.size(); ++m) {
-    const auto alike = std::count(section.begin(), section.end(), section[m]);
-    if (alike < 2 ||
-        std::find(section.begin(), section.end(), section[m]) != section.begin() + static_cast<Index>(m))
-      continue;
-    double most = 0, mean = 0;
-    for (size_t other = 0; other < section.size(); ++other)
-      if (section[other] == section[m]) {
-        most = std::max(most, a.load_share.col(static_cast<Index>(other)).maxCoeff());
-        mean = std::max(mean, a.load_share.col(static_cast<Index>(other)).mean());
-      }
-    const auto& gears = a.settings.mesh[static_cast<size_t>(section[m])].gear;
-    out += text(out.empty() ? "load sharing factor (largest share times number of planets): " : ", ",
-                gears[0], "-", gears[1], " ", fixed(most * static_cast<double>(alike), 3), " at most, ",
-                fixed(mean * static_cast<double>(alike), 3), " in the mean of the most loaded");
-  }
+  for (const LoadSharing& of : load_sharing(a))
+    out += text(out.empty() ? "load sharing factor (largest share times planets): " : ", ", of.name, " ",
+                fixed(of.factor, 3), " (by mean shares ", fixed(of.mean_factor, 3), ")");
   return out;
 }
 
 }  // namespace
 
+std::vector<LoadSharing> load_sharing(const SystemStaticArtifact& a) {
+  std::vector<LoadSharing> out;
+  const std::vector<int>& section = a.settings.section;
+  for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
+    const auto& gears = a.settings.mesh[k].gear;
+    LoadSharing of{gears[0] + "-" + gears[1], {}, 0, 0};
+    for (size_t m = 0; m < section.size(); ++m)
+      if (section[m] == static_cast<int>(k)) of.meshes.push_back(m);
+    const auto alike = static_cast<double>(of.meshes.size());
+    if (alike < 2) continue;
+    for (const size_t m : of.meshes) {
+      const auto share = a.load_share.col(static_cast<Index>(m));
+      of.factor = std::max(of.factor, share.maxCoeff() * alike);
+      of.mean_factor = std::max(of.mean_factor, share.mean() * alike);
+    }
+    out.push_back(of);
+  }
+  return out;
+}
+
 Figure system_static_figure(const SystemStaticArtifact& a) {
   const System& s = a.settings.layout;
   Figure figure;
   figure.title = "A system at rest: transmission errors, mesh forces, bearing forces";
-  figure.notes.push_back(system_words(a));
+  figure.notes.push_back(bodies_words(s, a.torque.colwise().mean().transpose()));
   if (const std::string sharing = sharing_words(a); !sharing.empty()) figure.notes.push_back(sharing);
   figure.notes.emplace_back(
       "transmission error along the line of action, what bearings give way included; mesh force: torque on "
-      "the driving gear "
-      "over its base radius; bearing force: its size, of rigid axes, too");
+      "the driving gear over its base radius");
+  figure.notes.emplace_back("bearing force: its size, of rigid axes, too");
   std::vector<Curve> errors, forces, bearings;
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     errors.push_back({mesh_name(s, m), a.transmission_error.col(static_cast<Index>(m)) * kMicro});
@@ -135,6 +129,102 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
                               static_cast<double>(resolved_harmonics(a.mesh_phase.size(), kShownHarmonics)));
   figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
   figure.height = 1640;
+  return figure;
+}
+
+namespace {
+
+// Loads of the tooth pairs of one mesh that carry load, over a mesh period of its own: pairs are numbered anew where it begins.
+FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::string& name) {
+  const Index n = a.mesh_phase.size(), pairs = a.pair.size();
+  const auto mesh = static_cast<Index>(m);
+  FigureBlock block{name, {"phase of the mesh [1]"}, {}, name};
+  std::vector<Index> loaded;
+  for (Index p = 0; p < pairs; ++p) {
+    double most = 0;
+    for (const MatrixRM& load : a.tooth_load) most = std::max(most, load(mesh, p));
+    if (most == 0) continue;
+    loaded.push_back(p);
+    block.columns.push_back(text("load of pair ", a.pair[p], " [N]"));
+  }
+  // shift: mesh periods by which the row is moved; a pair is then where the one `shift` before it was.
+  const auto add = [&](double phase, size_t at, Index shift) {
+    std::vector<double> row{phase + static_cast<double>(shift)};
+    for (const Index p : loaded) {
+      const Index from = p + shift;
+      row.push_back(from >= 0 && from < pairs ? a.tooth_load[at](mesh, from) : 0);
+    }
+    block.rows.push_back(row);
+  };
+  std::vector<std::pair<double, size_t>> order;
+  for (Index i = 0; i < n; ++i) {
+    const double own = a.mesh_phase[i] + a.settings.layout.meshes[m].phase;
+    order.emplace_back(own - std::floor(own), static_cast<size_t>(i));
+  }
+  std::sort(order.begin(), order.end());
+  add(order.back().first, order.back().second, -1);
+  for (const auto& [phase, at] : order) add(phase, at, 0);
+  add(order.front().first, order.front().second, 1);
+  return block;
+}
+
+}  // namespace
+
+Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
+  const std::vector<LoadSharing> sharing = load_sharing(a);
+  if (sharing.empty())
+    fail(Failure::input,
+         "figure: no [[mesh]] of the system stands for those of several planets, so none shares its load "
+         "with another; system-static has the forces of all meshes");
+  const Index n = a.mesh_phase.size();
+  Figure figure;
+  figure.title = "Load sharing among planets, at rest";
+  figure.notes = {
+      bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()), sharing_words(a),
+      "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first "
+      "mesh over a period of its own, 0: reference pair at the pitch point"};
+  double low = 100, high = 0;
+  for (size_t k = 0; k < sharing.size(); ++k) {
+    const LoadSharing& of = sharing[k];
+    const std::string row = std::to_string(k + 1);
+    const size_t shown = std::min(of.meshes.size(), kMostLines);
+    FigureBlock shares{"share " + of.name, {"mesh_phase [1]"}, {}, "share " + of.name};
+    std::string labels;
+    for (size_t i = 0; i < shown; ++i) {
+      const std::string name = mesh_name(a.settings.layout, of.meshes[i]);
+      shares.columns.push_back("share of the load " + name + " [%]");
+      labels += name + " ";
+      const auto column = a.load_share.col(static_cast<Index>(of.meshes[i]));
+      low = std::min(low, column.minCoeff() * kPercent);
+      high = std::max(high, column.maxCoeff() * kPercent);
+    }
+    for (Index i = 0; i <= n; ++i) {
+      std::vector<double> values{i < n ? a.mesh_phase[i] : 1.0};
+      for (size_t j = 0; j < shown; ++j)
+        values.push_back(a.load_share(i < n ? i : 0, static_cast<Index>(of.meshes[j])) * kPercent);
+      shares.rows.push_back(values);
+    }
+    const FigureBlock loads = pair_loads(a, of.meshes[0], "loads " + of.name);
+    std::string pairs;
+    for (size_t j = 1; j < loads.columns.size(); ++j)
+      pairs += loads.columns[j].substr(8, loads.columns[j].size() - 8 - 4) + "|";
+    figure.words.insert(figure.words.end(), {{"name" + row, of.name},
+                                             {"labels" + row, labels},
+                                             {"pairs" + row, pairs},
+                                             {"first" + row, mesh_name(a.settings.layout, of.meshes[0])}});
+    figure.numbers.insert(figure.numbers.end(),
+                          {{"curves" + row, static_cast<double>(shown)},
+                           {"equal" + row, kPercent / static_cast<double>(of.meshes.size())},
+                           {"loads" + row, static_cast<double>(loads.columns.size() - 1)}});
+    figure.blocks.push_back(shares);
+    figure.blocks.push_back(loads);
+  }
+  const double room = std::max(0.12 * (high - low), 0.5);
+  figure.numbers.insert(figure.numbers.end(), {{"rows", static_cast<double>(sharing.size())},
+                                               {"low", low - room},
+                                               {"high", high + room},
+                                               {"notes", static_cast<double>(figure.notes.size())}});
+  figure.height = 190 + 470 * static_cast<int>(sharing.size());
   return figure;
 }
 

@@ -12,6 +12,7 @@
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/report_figures.h"
+#include "report/report_page.h"
 #include "report/report_tables.h"
 #include "system/flank_pressure.h"
 

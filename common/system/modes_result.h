@@ -6,6 +6,7 @@
 
 #include "base/matrix.h"
 #include "model/system.h"
+#include "system/loaded_result.h"
 
 namespace whine {
 
@@ -36,6 +37,14 @@ struct ModesArtifact {
   MatrixRM frozen_frequency;   // (phase, mode) Hz
 
   System layout;
+
+  // for looking; written, never read: gears as quadrilaterals between their teeth and the circle on which they are held, carriers as
+  // lines to their pins, displacements of each mode
+  struct View {
+    MatrixRM point;                                            // (point, 2) m
+    MatrixRMi cell, line;                                      // (cell, 4), (line, 2)
+    std::vector<LoadedArtifact::Field> point_data, cell_data;  // (point, 2) m; (cell and line, 1)
+  } view;
 };
 
 }  // namespace whine

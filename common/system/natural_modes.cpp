@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi, kAtRest = 1e-12;
+constexpr double kPi = std::numbers::pi, kAtRest = 1e-5;
 
 // [planet] of the only carrier, by angle about its axis; empty if there is none or more than one.
 std::vector<int> planets_of(const System& layout) {

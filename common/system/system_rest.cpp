@@ -40,7 +40,12 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<BodyA
     if (body.kind == System::BodyKind::carrier) continue;
     const BodyArtifact& drawn = body_of(settings, bodies, settings.gear[b]);
     if (body.inertia == 0) body.inertia = drawn.inertia;
-    if (body.bearing.elastic() && body.bearing.mass == 0) body.bearing.mass = drawn.mass;
+    if (!body.bearing.elastic()) continue;
+    if (body.bearing.mass == 0) body.bearing.mass = drawn.mass;
+    if (body.bearing.mass < drawn.mass)
+      fail(Failure::input, "mass_kg = ", body.bearing.mass, " in the [[bearing]] of '", settings.gear[b],
+           "' lies below the mass of its own body, ", drawn.mass,
+           " kg: it is that of all that moves with the hub; raise it, or leave it out");
   }
 }
 

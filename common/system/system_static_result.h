@@ -35,4 +35,12 @@ struct SystemStaticArtifact {
   MatrixRM transmission_error_harmonic;  // (harmonic, mesh) m; the first row is the mean
 };
 
+// Of the gear that a body is; nullptr: of a carrier.
+inline const BodyParameters* drawing_of(const SystemStaticArtifact& a, int body) {
+  const std::string& gear = a.settings.gear[static_cast<size_t>(body)];
+  for (size_t g = 0; g < a.settings.body.size() && g < a.drawing.size(); ++g)
+    if (a.settings.body[g].first == gear) return &a.drawing[g];
+  return nullptr;
+}
+
 }  // namespace whine

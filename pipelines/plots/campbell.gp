@@ -1,9 +1,9 @@
 # Campbell diagram: natural frequencies (lines; bands over the mesh phases), harmonics of the mesh frequency, their crossings.
-# Variables from gear-plot: tsv, heading, note1, note2, highest, harmonics, bands, and how many modes are rotational, translational, planet,
+# Variables from gear-plot: tsv, heading, note1.., notes, highest, harmonics, bands, and how many modes are rotational, translational, planet,
 # mixed, train.
 set datafile separator tab
 set datafile commentschars "#"
-lift = room(2)
+lift = room(notes)
 
 array colour[5] = ["#0072b2", "#d55e00", "#009e73", "#555555", "#0072b2"]
 array number[5] = [rotational, translational, planet, mixed, train]

@@ -47,7 +47,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kRepeats = 21;
-constexpr double kPhase = 0.25;  // two pairs of teeth in contact
+constexpr double kPhase = 0.25;       // two pairs of teeth in contact
+constexpr double kElement = 0.06e-3;  // m, of CalculiX where the flanks touch
 
 struct Times {
   double least = 0, median = 0;  // s per solve
@@ -229,7 +230,7 @@ struct PositionTimes {
   whine::Equilibrium rest;
 };
 PositionTimes static_position(const whine::GearMeshModel& model, const whine::StaticParameters& settings,
-                              double torque, const char* what) {
+                              double torque, double phase, const char* what) {
   using namespace whine;
   const double load = torque / model.kinematics.gear(0).base_radius(), depth = 1e-3;
   const CandidateZone range = candidate_zone(
@@ -250,7 +251,7 @@ PositionTimes static_position(const whine::GearMeshModel& model, const whine::St
   };
   MeshPosition position;
   MatrixXd a;
-  prepare(kPhase, position, a);
+  prepare(phase, position, a);
   const VectorXd approach = position.strip_lever[0] / model.kinematics.gear(0).base_radius();
   const auto rest = [&](double force, double start) {
     const Equilibrium e = equilibrium(a, position.gap, approach, force, start, active, solver);
@@ -268,11 +269,11 @@ PositionTimes static_position(const whine::GearMeshModel& model, const whine::St
                   },
                   [&] {
                     for (int i = 0; i < kCount; ++i)
-                      prepare(kPhase, position, a), active = ActiveSet(), rest(load, 0);
+                      prepare(phase, position, a), active = ActiveSet(), rest(load, 0);
                   }},
                  {kCount, kCount, kCount});
   const char* names[] = {"warm, 1 % other load", "cold", "cold, with its compliance"};
-  std::printf("Static solves at mesh phase %g, %s: %g N m, %d strips; microseconds\n", kPhase, what, torque,
+  std::printf("Static solves at mesh phase %g, %s: %g N m, %d strips; microseconds\n", phase, what, torque,
               position.strips());
   std::printf("  %-26s %10s %10s %12s\n", "", "minimum", "median", "per second");
   for (int m = 0; m < 3; ++m)
@@ -285,9 +286,8 @@ PositionTimes static_position(const whine::GearMeshModel& model, const whine::St
 
 // The same position by CalculiX, in plane strain: its elements in plane stress change their thickness.
 void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
-                     const whine::StaticParameters& settings, double torque) {
+                     const whine::StaticParameters& settings, double torque, double phase, double element) {
   using namespace whine;
-  constexpr double kElement = 0.06e-3;  // m, where the flanks touch
   if (driver.material.youngs_modulus != driven.material.youngs_modulus ||
       driver.material.poisson_ratio != driven.material.poisson_ratio)
     fail(Failure::input, "the gears are of different materials; the comparison with CalculiX knows one");
@@ -301,7 +301,7 @@ void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifac
     return result;
   };
   const GearMeshModel model(in_plane_strain(driver), in_plane_strain(driven), settings.mesh);
-  const PositionTimes whine = static_position(model, settings, torque, "plane strain");
+  const PositionTimes whine = static_position(model, settings, torque, phase, "plane strain");
   std::printf("The same position by CalculiX\n");
   if (!CalculixPair::installed()) {
     std::printf("  (no CalculiX to compare with: make deps-bench)\n");
@@ -309,10 +309,11 @@ void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifac
   }
   const double base_radius = model.kinematics.gear(0).base_radius();
   const CalculixPosition peer =
-      CalculixPair(model.kinematics, driver.material, kPhase, kElement).solve(whine.rest.x / base_radius);
-  const double off = (torque - peer.torque) / base_radius / whine.rest.stiffness / whine.rest.x;
+      CalculixPair(model.kinematics, driver.material, phase, element).solve(whine.rest.x / base_radius);
+  const double force = torque / base_radius, of_peer = peer.torque / model.kinematics.gear(1).base_radius();
+  const double off = (force - of_peer) / whine.rest.stiffness / whine.rest.x;
   std::printf("  both gears whole, %d nodes of quadratic triangles, %g mm where the flanks touch\n",
-              peer.nodes, kElement * 1e3);
+              peer.nodes, element * 1e3);
   std::printf("  CPU %.1f s, peak %.0f MB\n", peer.usage.seconds, peer.usage.megabytes);
   std::printf("  transmission error: Whine %.4f micrometres, CalculiX %+.3f %%\n", whine.rest.x * 1e6,
               100 * off);
@@ -472,6 +473,14 @@ void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
       }
 }
 
+void positions_beside_calculix(const std::string& params, const std::vector<std::string>& bodies,
+                               double torque, const std::vector<double>& phases, double element) {
+  const whine::StaticParameters read = whine::read_static_parameters(params);
+  const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
+  const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
+  for (const double phase : phases) beside_calculix(driving, following, read, torque, phase, element);
+}
+
 void body(int argc, char** argv) {
   whine::Options options{"Times complementarity, static positions and reductions", "whine-bench"};
   std::string params, torque = "150";
@@ -485,7 +494,21 @@ void body(int argc, char** argv) {
   options.add("--sweep-params", sweep_params, "stage parameters of the scene: out/<scene>/params/sweep.toml")
       .needs(settings);
   options.add("--torque", torque, "torque on the driver in N m, above 0");
+  std::vector<double> phases;
+  double element = kElement * 1e3;
+  options
+      .add("--position", phases,
+           "mesh phases, 0 up to 1, with a pair on the line of action: the static position there beside "
+           "CalculiX, nothing else")
+      .needs(settings);
+  options.add("--element", element, "mm, side of its triangles where the flanks touch, of --position")
+      .needs(settings);
   options.parse(argc, argv);
+  if (!phases.empty()) {
+    positions_beside_calculix(params, bodies, whine::number_option("--torque", torque), phases,
+                              element * 1e-3);
+    return;
+  }
 
   std::printf(
       "Complementarity: two pairs of n / 2 strips, gaps that move; microseconds, %d repeats in turn\n",
@@ -503,11 +526,11 @@ void body(int argc, char** argv) {
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
   const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
-  static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, params.c_str());
+  static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, kPhase, params.c_str());
   if (!sweep_params.empty())
     rolling(driving, following, read, whine::read_sweep_parameters(sweep_params), load);
   reductions(driving);
-  beside_calculix(driving, following, read, load);
+  beside_calculix(driving, following, read, load, kPhase, kElement);
 }
 
 }  // namespace

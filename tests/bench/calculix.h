@@ -1,6 +1,7 @@
 // One static position of two whole gears by CalculiX (Dhondt, The Finite Element Method for Three-dimensional
 // Thermomechanical Applications, 2004): quadratic triangles in plane strain, fine where the flanks touch, bore of the driven
-// gear fixed, bore of the driver turned as a rigid ring, contact of surfaces by a penalty that is stiff against the teeth.
+// gear fixed, bore of the driver turned as a rigid ring, contact of surfaces by a penalty that is stiff against the teeth. The driven
+// gear may be internal: its rim is then fixed, and it works with its trailing flanks.
 #pragma once
 #include <gmsh.h>
 #include <sys/resource.h>
@@ -44,7 +45,7 @@ inline Usage wait_for(pid_t child, const std::string& what) {
 }
 
 struct CalculixPosition {
-  double torque = 0;  // N m about the driven gear's axis, by the reaction of its bore
+  double torque = 0;  // N m about the driven gear's axis, by the reaction of its bore or rim; positive under load
   int nodes = 0;      // of both gears, in the plane
   Usage usage;        // of ccx alone
   // [gear] Pa: tangential stress at the nodes of the root beside the loaded flank of tooth 0, from the flank on; empty unless
@@ -62,6 +63,11 @@ class CalculixPair {
     if (gears.contact(phase).corner)
       fail(Failure::input, "mesh phase ", phase,
            " has a corner contact; CalculiX is set up from a pair on the line of action");
+    if (gears.ring() == 0)
+      fail(Failure::input, "the driver is an internal gear; CalculiX is set up for one that is driven");
+    const double off = centre(1).norm() / gears.centre_distance() - 1;
+    if (std::abs(off) > 1e-9)
+      fail(Failure::numerical, "the gears stand at another centre distance than that of the pair, by ", off);
   }
 
   static bool installed() { return std::system("command -v ccx > /dev/null 2>&1") == 0; }
@@ -105,16 +111,21 @@ class CalculixPair {
 
   static double angle_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
+  // Whether gear g works with the flank that trails in counter-clockwise rotation, the mirror image of flank_point().
+  bool trails(int g) const { return g == 1 && gears_.internal(); }
+  static Vec2 as_it_works(bool trailing, const Vec2& p) { return {trailing ? -p.x() : p.x(), p.y()}; }
+
   // The common normal of the flanks lies along x; the driver's centre is the origin.
   double turn(int g) const {
-    const Vec2 normal = gears_.gear(g).flank_normal(gears_.contact(phase_).roll[g]);
+    const Vec2 normal = as_it_works(trails(g), gears_.gear(g).flank_normal(gears_.contact(phase_).roll[g]));
     return (g == 0 ? 0 : std::numbers::pi) - angle_of(normal);
   }
   Vec2 centre(int g) const {
     if (g == 0) return Vec2::Zero();
     const PairContact contact = gears_.contact(phase_);
     const Vec2 touch = Eigen::Rotation2Dd(turn(0)) * gears_.gear(0).flank_point(contact.roll[0]);
-    return touch - Eigen::Rotation2Dd(turn(1)) * gears_.gear(1).flank_point(contact.roll[1]);
+    return touch -
+           Eigen::Rotation2Dd(turn(1)) * as_it_works(trails(1), gears_.gear(1).flank_point(contact.roll[1]));
   }
 
   Mesh mesh(int g) const {
@@ -144,9 +155,11 @@ class CalculixPair {
     std::vector<int> outer, flank_of_tooth;
     int root_of_tooth = 0;          // 0
     std::vector<int> first(teeth);  // point in the tooth space clockwise of the tooth
-    const auto placed = [&](int j, Vec2 p, bool mirrored) -> Vec2 {
-      if (mirrored) p.x() = -p.x();
-      return Eigen::Rotation2Dd(turned + 2 * std::numbers::pi * j / teeth) * p;
+    const auto placed = [&](int j, const Vec2& p, bool mirrored) -> Vec2 {
+      return Eigen::Rotation2Dd(turned + 2 * std::numbers::pi * j / teeth) * as_it_works(mirrored, p);
+    };
+    const auto on_flank = [&](double roll) {
+      return tooth.flank_point(std::clamp(roll, tooth.least_roll_angle(), tooth.largest_roll_angle()));
     };
     for (int j = 0; j < teeth; ++j) first[j] = point(placed(j, tooth.root_point(1), true));
     const int axis = point({0, 0});
@@ -159,19 +172,22 @@ class CalculixPair {
       outer.push_back(
           spline(first[j], a, 30, [&](double t) { return placed(j, tooth.root_point(1 - t), true); }));
       outer.push_back(spline(a, b, 60, [&](double t) { return placed(j, flank(t), true); }));
+      if (trails(g)) flank_of_tooth.push_back(outer.back());
       outer.push_back(geo::addCircleArc(b, axis, c));
       outer.push_back(spline(c, d, 60, [&](double t) { return placed(j, flank(1 - t), false); }));
-      flank_of_tooth.push_back(outer.back());
+      if (!trails(g)) flank_of_tooth.push_back(outer.back());
       outer.push_back(spline(d, first[(j + 1) % teeth], root_ > 0 ? 200 : 30,
                              [&](double t) { return placed(j, tooth.root_point(t), false); }));
       if (j == 0) root_of_tooth = outer.back();
     }
     std::vector<int> bore, quarter;
     for (int k = 0; k < 4; ++k)
-      quarter.push_back(point(tooth.design().bore_radius *
+      quarter.push_back(point(tooth.design().held_radius() *
                               Vec2(std::cos(k * std::numbers::pi / 2), std::sin(k * std::numbers::pi / 2))));
     for (int k = 0; k < 4; ++k) bore.push_back(geo::addCircleArc(quarter[k], axis, quarter[(k + 1) % 4]));
-    const int surface = geo::addPlaneSurface({geo::addCurveLoop(outer), geo::addCurveLoop(bore)});
+    std::vector<int> loops{geo::addCurveLoop(outer), geo::addCurveLoop(bore)};
+    if (tooth.internal()) std::swap(loops[0], loops[1]);
+    const int surface = geo::addPlaneSurface(loops);
     geo::remove({{0, axis}});
 
     // Where pairs touch, or would a little later.
@@ -179,8 +195,8 @@ class CalculixPair {
     std::vector<double> touching;
     for (int pair = -1; pair <= 1; ++pair) {
       const PairContact contact = gears_.contact(phase_ + pair);
-      const int number = ((g == 0 ? pair : -pair) + teeth) % teeth;
-      places.emplace_back(number, placed(number, tooth.flank_point(std::min(contact.roll[g], tip)), false));
+      const int number = ((g == 0 || trails(g) ? pair : -pair) + teeth) % teeth;
+      places.emplace_back(number, placed(number, on_flank(contact.roll[g]), trails(g)));
       touching.push_back(point(places.back().second));
     }
     std::vector<double> of_root;
@@ -242,8 +258,7 @@ class CalculixPair {
       gmsh::model::mesh::getNodes(tags, at, parameters, 1, flank_of_tooth[number], true, false);
       for (std::size_t tag : tags) {  // from the spline onto the involute
         Vec2& p = mesh.node.at(tag);
-        p = placed(number, tooth.flank_point(std::clamp(tooth.roll_angle_at_radius(p.norm()), form, tip)),
-                   false);
+        p = placed(number, on_flank(tooth.roll_angle_at_radius(p.norm())), trails(g));
         near[tag] = (p - place).norm() < reach;
       }
     }
@@ -345,7 +360,7 @@ class CalculixPair {
     if (count != meshes[1].bore.size())
       fail(Failure::numerical, path, " holds ", count, " reactions, the driven bore has ",
            meshes[1].bore.size(), " nodes");
-    return torque;
+    return trails(1) ? -torque : torque;
   }
 
   // Stress at nodes as CalculiX has it: carried over from the integration points of each element, mean over the elements at a

@@ -1,0 +1,97 @@
+#include "report/report_page.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/tool.h"
+#include "report/html.h"
+
+namespace whine {
+
+std::string report_page(const std::string& scene, const std::vector<ReportSection>& sections) {
+  const size_t colon = scene.find(": ");
+  const std::string file = scene.substr(0, colon),
+                    title = colon == std::string::npos ? scene : scene.substr(colon + 2);
+  std::string contents, inside;
+  for (const ReportSection& s : sections) {
+    contents += text("<li><a href=\"#", s.id, "\">", html::escaped(s.heading), "</a></li>\n");
+    inside += text("<section id=\"", s.id, "\">\n<h2>", html::escaped(s.heading), "</h2>\n", s.inside,
+                   "</section>\n");
+  }
+  return html::page(
+      title,
+      "<p class=\"scene\">Gear whine report of the scene <code>" + html::escaped(file) + "</code></p>\n",
+      "<nav aria-label=\"Contents\"><ol>\n" + contents + "</ol></nav>\n" + inside);
+}
+
+std::string picture_html(const ReportPicture& picture, const std::string& title, const std::string& words,
+                         const std::string& folder) {
+  std::string files;
+  for (const auto& [end, what] :
+       {std::pair{"tsv", "numbers"}, std::pair{"svg", "svg"}, std::pair{"png", "png"}})
+    files += text(files.empty() ? "" : " ", "<a href=\"", html::escaped(folder + picture.name), ".", end,
+                  "\">", what, "</a>");
+  return html::figure(picture.name, picture.bytes, title,
+                      words + " <span class=\"files\">" + files + "</span>");
+}
+
+std::string remark_items(const std::string& where, const std::vector<Remark>& remarks) {
+  constexpr size_t kMost = 12;  // of one artifact
+  std::string out;
+  for (size_t i = 0; i < std::min(remarks.size(), kMost); ++i)
+    out += html::tagged(remarks[i].warning ? "li class=\"warning\"" : "li",
+                        (remarks[i].warning ? "<strong>Warning.</strong> " : "") +
+                            html::escaped(where + ": " + remarks[i].words) + ".") +
+           "\n";
+  if (remarks.size() > kMost)
+    out += html::tagged("li", html::escaped(text(where, ": ", remarks.size() - kMost, " more of these."))) +
+           "\n";
+  return out;
+}
+
+std::string remark_list(const std::string& items, bool warned) {
+  return (warned ? "" : html::paragraph("No stage warns of anything.")) +
+         (items.empty() ? "" : html::tagged("ul class=\"remarks\"", "\n" + items) + "\n");
+}
+
+std::string guide_table(const std::string& caption, const std::vector<GuideRow>& rows,
+                        const std::vector<ReportPicture>& pictures) {
+  const auto cell = [](const std::string& words) { return "<td>" + words + "</td>"; };
+  std::string out = "<div class=\"wide\"><table class=\"guide\">\n<caption>" + caption +
+                    "</caption>\n<thead><tr><th>what</th><th>how to read it</th><th>how far to trust it</th>"
+                    "<th>what to do next</th></tr></thead>\n<tbody>\n";
+  for (const GuideRow& row : rows) {
+    std::string links;
+    for (const ReportPicture& picture : pictures)
+      if ((" " + row.figures + " ").find(" " + picture.name + " ") != std::string::npos)
+        links += text(links.empty() ? " (" : ", ", "<a href=\"#", picture.name, "\">", picture.name, "</a>");
+    out += "<tr>" + cell(row.what + links + (links.empty() ? "" : ")")) + cell(row.reading) +
+           cell(row.trust) + cell(row.next) + "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string provenance_table(const std::vector<ReportSource>& sources) {
+  html::Rows rows;
+  std::vector<std::string> history;
+  for (const ReportSource& source : sources) {
+    std::string inputs;
+    for (const InputRecord& input : source.origin.inputs)
+      inputs += text(inputs.empty() ? "" : "; ", input.role, " ", input.path, " (",
+                     input.sha256.substr(0, 12), ")");
+    rows.push_back({source.path, source.sha256,
+                    source.origin.tool + " " + source.origin.version + ": " + source.origin.command, inputs});
+    for (const std::string& stage : source.origin.history)
+      if (std::find(history.begin(), history.end(), stage) == history.end()) history.push_back(stage);
+  }
+  std::string out = html::table(
+      "Artifacts, the SHA-256 of each file, the command that made it, and its inputs with the first "
+      "digits of their SHA-256. `gear-inspect` says of each whether it is still what these inputs give.",
+      {"artifact", "SHA-256", "made by", "from"}, rows, "small code");
+  html::Rows earlier;
+  for (const std::string& stage : history) earlier.push_back({stage});
+  if (!earlier.empty()) out += html::table("Stages before these.", {"command"}, earlier, "small code");
+  return out + html::paragraph(text("This page was written by gear-report ", kVersion, "."));
+}
+
+}  // namespace whine

@@ -1,0 +1,36 @@
+// What the pages of pairs and of systems have in common: sections, figures, remarks, provenance.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "report/report_content.h"
+
+namespace whine {
+
+struct ReportSection {
+  std::string id, heading, inside;  // inside: marks
+};
+
+// A whole document with a list of contents. scene: "file: title".
+std::string report_page(const std::string& scene, const std::vector<ReportSection>& sections);
+
+// A figure with links to its files. words: marks; folder: of the figures, from the page, with its slash.
+std::string picture_html(const ReportPicture& picture, const std::string& title, const std::string& words,
+                         const std::string& folder = "");
+
+// Items of a list, at most a dozen of one place; the list with what stands above it.
+std::string remark_items(const std::string& where, const std::vector<Remark>& remarks);
+std::string remark_list(const std::string& items, bool warned);
+
+// A row of "What the numbers mean".
+struct GuideRow {
+  std::string figures;  // names of those that it is about, blank between
+  std::string what, reading, trust, next;
+};
+// With links to the figures that are on the page.
+std::string guide_table(const std::string& caption, const std::vector<GuideRow>& rows,
+                        const std::vector<ReportPicture>& pictures);
+
+std::string provenance_table(const std::vector<ReportSource>& sources);
+
+}  // namespace whine

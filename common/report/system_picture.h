@@ -1,0 +1,18 @@
+// A system as it stands: its gears at their places with their teeth in mesh, names, senses of rotation, paths of contact.
+#pragma once
+#include "report/figures.h"
+#include "system/modes_result.h"
+#include "system/system_static_result.h"
+
+namespace whine {
+
+// Elastic gears have the teeth of their drawing, unloaded at mesh phase 0, and a close-up of the first mesh of each [[mesh]]. Rigid
+// gears, of which teeth, base circles and meshes are known, have the working pitch circle of each mesh with a tick at each tooth.
+// Lengths in mm. Throws Error(input) for a system without gears.
+Figure system_picture(const SystemStaticArtifact& at_rest);
+Figure system_picture(const ModesArtifact& modes);
+
+// "sun (27 teeth) 400.0 N m, ring (99 teeth) -1466.7 N m held": bodies on the ground. torque: (body) N m, mean; empty: not known.
+std::string bodies_words(const System& system, const Eigen::VectorXd& torque);
+
+}  // namespace whine

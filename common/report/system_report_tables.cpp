@@ -1,0 +1,414 @@
+#include "report/system_report_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "gear/pair.h"
+#include "gear/system_layout.h"
+#include "report/figures.h"
+#include "report/html.h"
+#include "report/report_page.h"
+#include "report/system_figures.h"
+#include "report/system_picture.h"
+#include "system/rigid_system.h"
+#include "system/statics.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+const System& layout_of(const SystemReport& r) {
+  return r.rest ? r.rest->settings.layout : r.modes->layout;
+}
+
+GearPair pair_of(const SystemStaticArtifact& a, size_t m) {
+  const System::Mesh& mesh = a.settings.layout.meshes[m];
+  return {drawing_of(a, mesh.side[0].body)->design, drawing_of(a, mesh.side[1].body)->design,
+          mesh.centre_distance};
+}
+
+double largest_load(const std::vector<MatrixRM>& of, size_t m) {
+  double most = 0;
+  for (const MatrixRM& at : of) most = std::max(most, at.row(static_cast<Index>(m)).maxCoeff());
+  return most;
+}
+
+// N: largest load of a pair of a mesh whose tip edge touches, off the line of action.
+double tip_edge_load(const SystemStaticArtifact& a, size_t m) {
+  const auto row = static_cast<Index>(m);
+  double most = 0;
+  for (size_t i = 0; i < a.tooth_load.size(); ++i)
+    for (Index p = 0; p < a.pair.size(); ++p)
+      if (a.contact_pressure[i](row, p) == 0) most = std::max(most, a.tooth_load[i](row, p));
+  return most;
+}
+
+// µm
+std::string harmonic_words(const SystemStaticArtifact& a, Index n, Index mesh) {
+  if (n >= a.transmission_error_harmonic.rows()) return "–";
+  return significant(a.transmission_error_harmonic(n, mesh) * kMicro, 3);
+}
+
+double mean_stiffness(const SystemStaticArtifact& a, size_t m) {
+  const auto at = static_cast<Index>(m);
+  double sum = 0;
+  for (const MatrixRM& k : a.mesh_stiffness) sum += k(at, at);
+  return sum / static_cast<double>(a.mesh_stiffness.size());
+}
+
+struct Force {
+  double mean_x, mean_y, mean, most, rms;  // N; rms: of what oscillates
+};
+
+Force force_of(const SystemStaticArtifact& a, size_t b) {
+  Force f{};
+  const auto row = static_cast<Index>(b);
+  const auto n = static_cast<double>(a.bearing_force.size());
+  for (const MatrixRM& at : a.bearing_force) {
+    f.mean_x += at(row, 0) / n;
+    f.mean_y += at(row, 1) / n;
+    f.most = std::max(f.most, at.row(row).norm());
+  }
+  for (const MatrixRM& at : a.bearing_force)
+    f.rms += (std::pow(at(row, 0) - f.mean_x, 2) + std::pow(at(row, 1) - f.mean_y, 2)) / n;
+  f.rms = std::sqrt(f.rms);
+  f.mean = std::hypot(f.mean_x, f.mean_y);
+  return f;
+}
+
+std::string sense_words(const System::Body& body) {
+  return body.sense > 0 ? "counter-clockwise" : "clockwise";
+}
+
+std::string stands_on(const System& s, const System::Body& body) {
+  return body.on == System::kGround ? "ground" : s.bodies[static_cast<size_t>(body.on)].name;
+}
+
+std::string bearing_words(const System::Body& body) {
+  return body.bearing.elastic() ? shown(body.bearing.stiffness * 1e-6, 4) : "rigid";
+}
+
+// What holds or drives the rotation of a body; statics know the torques.
+std::string held_words(const SystemReport& r, size_t b) {
+  const System& s = layout_of(r);
+  if (s.held(static_cast<int>(b))) return "held";
+  return r.rest && r.rest->torque.col(static_cast<Index>(b)).cwiseAbs().maxCoeff() > 0 ? "torque" : "free";
+}
+
+// Without the sign of what rounds to 0.
+std::string plain(double value, int decimals) {
+  return fixed(std::abs(value) < 0.5 * std::pow(10, -decimals) ? 0 : value, decimals);
+}
+
+void add_rest(const SystemReport& r, std::vector<SystemNumber>& out) {
+  const SystemStaticArtifact& a = *r.rest;
+  const System& s = a.settings.layout;
+  for (size_t m = 0; m < s.meshes.size(); ++m) {
+    const std::string name = mesh_name(s, m);
+    const auto c = static_cast<Index>(m);
+    const auto add = [&](const char* quantity, const char* unit, const std::string& value,
+                         const std::string& said = "") {
+      out.push_back({name, quantity, unit, value, said});
+    };
+    add("contact ratio", "1", fixed(a.contact_ratio[c], 3));
+    add("mesh phase", "1", fixed(s.meshes[m].phase, 4));
+    add("static transmission error, mean", "µm", significant(a.transmission_error.col(c).mean() * kMicro, 4));
+    add("static transmission error, peak to peak", "µm",
+        significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3));
+    for (Index n = 1; n <= std::min<Index>(3, a.transmission_error_harmonic.rows() - 1); ++n)
+      out.push_back(
+          {name, text("static transmission error, harmonic ", n), "µm", harmonic_words(a, n, c), ""});
+    add("mean mesh stiffness, contact frozen", "N/µm", fixed(mean_stiffness(a, m) * 1e-6, 1));
+    add("mesh force, mean", "N", fixed(a.mesh_force.col(c).mean(), 1));
+    add("mesh force, largest", "N", fixed(a.mesh_force.col(c).maxCoeff(), 1));
+    add("share of the load, largest", "%", fixed(a.load_share.col(c).maxCoeff() * kPercent, 2));
+    add("static tooth load, largest", "N", fixed(largest_load(a.tooth_load, m), 0));
+    add("static contact pressure inside a flank, largest", "MPa",
+        fixed(largest_load(a.contact_pressure, m) * 1e-6, 0));
+  }
+  for (const LoadSharing& of : load_sharing(a))
+    out.push_back({of.name, "load sharing factor", "1", fixed(of.factor, 3), ""});
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const Force f = force_of(a, b);
+    const auto c = static_cast<Index>(b);
+    const std::string& name = s.bodies[b].name;
+    out.push_back({name, "torque, mean", "N m", plain(a.torque.col(c).mean(), 2), held_words(r, b)});
+    out.push_back({name, "force on the bearing, mean", "N", plain(f.mean, 1), ""});
+    out.push_back({name, "force on the bearing, largest", "N", plain(f.most, 1), ""});
+    out.push_back({name, "force on the bearing, RMS of what oscillates", "N", plain(f.rms, 2), ""});
+  }
+}
+
+}  // namespace
+
+std::vector<SystemNumber> system_numbers(const SystemReport& r) {
+  std::vector<SystemNumber> out;
+  if (r.rest) add_rest(r, out);
+  if (r.modes)
+    for (Index i = 0; i < r.modes->natural_frequency.size(); ++i)
+      out.push_back({text("mode ", i + 1), "natural frequency", "Hz", fixed(r.modes->natural_frequency[i], 1),
+                     r.modes->natural_frequency[i] == 0 ? "free motion"
+                                                        : name_of(r.modes->type[static_cast<size_t>(i)])});
+  return out;
+}
+
+namespace {
+
+// Of the gears as they are drawn, a column for each.
+std::string drawings_table(const SystemStaticArtifact& a) {
+  std::vector<std::string> head{"", "unit"};
+  std::vector<ToothGeometry> gears;
+  for (size_t g = 0; g < a.drawing.size(); ++g) {
+    head.push_back(a.settings.body[g].first);
+    gears.emplace_back(a.drawing[g].design);
+  }
+  html::Rows rows;
+  const auto all = [&](const std::string& what, const std::string& unit, const auto& value) {
+    rows.push_back({what, unit});
+    for (const ToothGeometry& gear : gears) rows.back().push_back(value(gear));
+  };
+  using G = const ToothGeometry&;
+  const auto mm = [](double length) { return fixed(length * kMilli, 3); };
+  all("kind", "–", [](G g) { return std::string(g.internal() ? "internal" : "external"); });
+  all("teeth", "–", [](G g) { return text(g.design().teeth); });
+  all("module", "mm", [](G g) { return shown(g.design().module * kMilli, 7); });
+  all("pressure angle of the rack", "deg",
+      [](G g) { return shown(g.design().pressure_angle * kDegrees, 6); });
+  all("profile shift", "modules", [](G g) { return shown(g.design().profile_shift, 6); });
+  all("base diameter", "mm", [&](G g) { return mm(2 * g.base_radius()); });
+  all("reference diameter", "mm", [&](G g) { return mm(2 * g.pitch_radius()); });
+  all("tip diameter", "mm", [&](G g) { return mm(2 * g.tip_radius()); });
+  all("root diameter", "mm", [&](G g) { return mm(2 * g.root_radius()); });
+  all("tooth thickness at the tip", "mm", [&](G g) { return mm(g.thickness_at_radius(g.tip_radius())); });
+  all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
+  all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
+      [&](G g) { return mm(2 * g.design().held_radius()); });
+  return html::table("The gears as the scene has them.", head, rows);
+}
+
+}  // namespace
+
+std::string gear_tables(const SystemReport& r) {
+  const System& s = layout_of(r);
+  html::Rows rows;
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const System::Body& body = s.bodies[b];
+    rows.push_back({body.name, body.teeth > 0 ? text(body.teeth) : "carrier", sense_words(body),
+                    held_words(r, b), stands_on(s, body), fixed(body.centre[0] * kMilli, 3),
+                    fixed(body.centre[1] * kMilli, 3), fixed(2 * body.radius * kMilli, 3),
+                    body.inertia > 0 ? shown(body.inertia, 4) : "–", bearing_words(body),
+                    body.bearing.elastic() ? shown(body.bearing.mass, 4) : "–"});
+  }
+  return html::table(
+             "The bodies. Sense: of rotation, as the carrier sees it where there is one. Diameter: of the "
+             "base "
+             "circle, "
+             "of a carrier of the circle of its pins. The inertia of a body that is held has no meaning.",
+             {"body", "teeth", "sense", "rotation", "axis on", "x (mm)", "y (mm)", "diameter (mm)",
+              "inertia (kg m²)", "bearing (N/µm)", "mass on it (kg)"},
+             rows, "small") +
+         (r.rest ? drawings_table(*r.rest) : "");
+}
+
+std::string mesh_tables(const SystemReport& r) {
+  const System& s = layout_of(r);
+  html::Rows geometry, rest;
+  for (size_t m = 0; m < s.meshes.size(); ++m) {
+    const System::Mesh& mesh = s.meshes[m];
+    const auto c = static_cast<Index>(m);
+    geometry.push_back({mesh_name(s, m), fixed(mesh.centre_distance * kMilli, 3),
+                        fixed(mesh.pressure_angle * kDegrees, 3), fixed(mesh.phase, 4)});
+    if (!r.rest) {
+      geometry.back().push_back(fixed(mesh.stiffness * 1e-6, 1));
+      continue;
+    }
+    const SystemStaticArtifact& a = *r.rest;
+    const GearPair pair = pair_of(a, m);
+    geometry.back().push_back(fixed(a.contact_ratio[c], 3));
+    geometry.back().push_back(fixed(pair.backlash() * kMilli, 4));
+    rest.push_back(
+        {mesh_name(s, m), fixed(a.mesh_force.col(c).mean(), 0),
+         fixed(a.load_share.col(c).mean() * kPercent, 2), fixed(a.load_share.col(c).maxCoeff() * kPercent, 2),
+         significant(a.transmission_error.col(c).mean() * kMicro, 4),
+         significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3), harmonic_words(a, 1, c),
+         harmonic_words(a, 2, c), fixed(mean_stiffness(a, m) * 1e-6, 1),
+         fixed(largest_load(a.tooth_load, m), 0), fixed(largest_load(a.contact_pressure, m) * 1e-6, 0)});
+  }
+  std::vector<std::string> head{"mesh", "centre distance (mm)", "working pressure angle (deg)", "mesh phase"};
+  if (r.rest)
+    head.insert(head.end(), {"contact ratio", "backlash along the line of action (mm)"});
+  else
+    head.emplace_back("stiffness (N/µm)");
+  std::string out = html::table(
+      "The meshes, the driving side first. Mesh phase: by what share of a mesh period each is ahead of the "
+      "first one.",
+      head, geometry);
+  if (!rest.empty())
+    out += html::table(
+        "The meshes at rest over the mesh period. Share: of the load of the meshes of one [[mesh]]. STE: "
+        "static "
+        "transmission error. Stiffness: mean, contact frozen, without bearings.",
+        {"mesh", "mean force (N)", "mean share (%)", "largest share (%)", "mean STE (µm)",
+         "STE peak to peak (µm)", "harmonic 1 (µm)", "harmonic 2 (µm)", "stiffness (N/µm)",
+         "largest tooth load (N)", "largest pressure (MPa)"},
+        rest, "small");
+  return out;
+}
+
+std::string force_table(const SystemReport& r) {
+  if (!r.rest) return "";
+  const SystemStaticArtifact& a = *r.rest;
+  const System& s = a.settings.layout;
+  html::Rows rows;
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const Force f = force_of(a, b);
+    const auto column = a.torque.col(static_cast<Index>(b));
+    rows.push_back({s.bodies[b].name, held_words(r, b), plain(column.mean(), 2),
+                    plain(peak_to_peak(column), 2), bearing_words(s.bodies[b]), plain(f.mean_x, 1),
+                    plain(f.mean_y, 1), plain(f.most, 1), plain(f.rms, 2)});
+  }
+  return html::table(
+      "Torques, in the sense in which each body turns, and forces on bearings and pins over the mesh period, "
+      "of rigid axes, too. RMS: of what oscillates, which a housing hears.",
+      {"body", "rotation", "mean torque (N m)", "its peak to peak (N m)", "bearing (N/µm)",
+       "mean force x (N)", "mean force y (N)", "largest force (N)", "RMS (N)"},
+      rows);
+}
+
+std::string modes_table(const SystemReport& r) {
+  if (!r.modes) return "";
+  const ModesArtifact& a = *r.modes;
+  const bool bands = a.frozen_frequency.size() > 0;
+  html::Rows rows;
+  for (Index i = 0; i < a.natural_frequency.size(); ++i) {
+    const double f = a.natural_frequency[i];
+    Index most = 0;
+    const double share = a.kinetic_energy.row(i).maxCoeff(&most);
+    rows.push_back(
+        {text(i + 1), fixed(f, 1), f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]),
+         f == 0 ? "–" : fixed(a.mesh_energy.row(i).sum() * kPercent, 1),
+         f == 0 ? "–" : fixed(a.bearing_energy.row(i).sum() * kPercent, 1),
+         text(a.layout.bodies[static_cast<size_t>(most)].name, ", ", fixed(share * kPercent, 0), " %")});
+    if (bands)
+      rows.back().push_back(f == 0 ? "–"
+                                   : text(fixed(a.frozen_frequency.col(i).minCoeff(), 1), " to ",
+                                          fixed(a.frozen_frequency.col(i).maxCoeff(), 1)));
+  }
+  std::vector<std::string> head{"mode",
+                                "natural frequency (Hz)",
+                                "type",
+                                "energy in the meshes (%)",
+                                "energy in bearings and holds (%)",
+                                "moves most (share of the kinetic energy)"};
+  if (bands) head.emplace_back("over the mesh phases (Hz)");
+  return html::table(
+      "Natural modes, the meshes at their mean stiffness. Rotational: central gears turn, planets all move "
+      "alike. Translational: central gears move sideways, in pairs of equal frequency. Planet: planets "
+      "alone. "
+      "Mixed: planets that are not alike or not equally spaced. Train: no planets.",
+      head, rows);
+}
+
+std::string settings_table(const SystemReport& r) {
+  if (!r.rest) return "";
+  const SystemStaticParameters& s = r.rest->settings;
+  html::Rows rows{{"contact of a tooth pair ([fidelity] contact)", name_of(s.fidelity.contact)},
+                  {"positions per mesh period", text(s.contact.positions)}};
+  if (s.fidelity.contact == ContactModel::strips) rows.push_back({"strips", text(s.contact.strips)});
+  for (size_t g = 0; g < r.rest->drawing.size(); ++g) {
+    const BodyParameters& d = r.rest->drawing[g];
+    rows.push_back(
+        {"elements of " + s.body[g].first, text(shown(d.discretisation.element_size * kMilli, 4),
+                                                " mm on the flank, order ", d.discretisation.element_order)});
+    rows.push_back({"material of " + s.body[g].first,
+                    text(shown(d.material.youngs_modulus * 1e-9, 5), " GPa, Poisson's ratio ",
+                         shown(d.material.poisson_ratio, 4), ", ", shown(d.material.density, 6),
+                         " kg/m³, plane ", d.material.plane_stress ? "stress" : "strain")});
+  }
+  return html::table("What the statics were computed with.", {"what", "value"}, rows, "small");
+}
+
+namespace {
+
+void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
+  const System& s = a.settings.layout;
+  constexpr double kSmall = 0.01;  // of the largest load of a pair
+  // Once for all meshes of a [[mesh]].
+  for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
+    const std::string name = a.settings.mesh[k].gear[0] + "-" + a.settings.mesh[k].gear[1];
+    double pressure = 0, edge = 0, most = 0;
+    for (size_t m = 0; m < s.meshes.size(); ++m) {
+      if (a.settings.section[m] != static_cast<int>(k)) continue;
+      pressure = std::max(pressure, largest_load(a.contact_pressure, m));
+      edge = std::max(edge, tip_edge_load(a, m));
+      most = std::max(most, largest_load(a.tooth_load, m));
+    }
+    if (pressure > kHardenedSteelPressure)
+      out.push_back(
+          remark(true, name, ": the contact pressure of ", fixed(pressure * 1e-9, 2), kBeyondSteel));
+    if (edge > kSmall * most)
+      out.push_back(remark(false, name, ": tip edges of bent teeth carry up to ", fixed(edge, 0), " N, ",
+                           fixed(edge / most * kPercent, 0),
+                           " % of the largest tooth load; tip relief takes that away"));
+  }
+  for (const LoadSharing& of : load_sharing(a))
+    out.push_back(remark(of.factor > 1.3, of.name, ": the most loaded of ", of.meshes.size(),
+                         " meshes carries up to ", fixed(of.factor, 3), " times an equal share",
+                         of.factor > 1.3 ? ". Let a central gear float on a softer [[bearing]], or space the "
+                                           "planets equally"
+                                         : ""));
+  std::vector<const GearDesign*> design;
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const BodyParameters* drawing = drawing_of(a, static_cast<int>(b));
+    design.push_back(drawing ? &drawing->design : nullptr);
+  }
+  for (const std::string& words : colliding_gears(s, design)) out.push_back({true, words});
+  std::string rigid;
+  for (const System::Body& body : s.bodies)
+    if (!body.bearing.elastic()) rigid += (rigid.empty() ? "" : ", ") + body.name;
+  if (!rigid.empty()) out.push_back(remark(false, "on rigid axes, without motion in x and y: ", rigid));
+  out.push_back(remark(false, "largest unbalance of a torque over the largest mesh force: ",
+                       shown(a.torque_residual.maxCoeff(), 2)));
+}
+
+void remark_modes(const ModesArtifact& a, std::vector<Remark>& out) {
+  const auto mixed = std::count(a.type.begin(), a.type.end(), ModeType::mixed);
+  if (mixed > 0)
+    out.push_back(
+        remark(false, mixed,
+               " modes are mixed: the planets are not alike or not equally spaced, so that modes are "
+               "neither purely rotational nor translational"));
+  if (a.frozen_frequency.size() > 0)
+    out.push_back(
+        remark(false,
+               "elastic modes of the gear bodies themselves are left out; frequencies near or above the "
+               "lowest of a body (eigenfrequency in its body.h5) are not to be trusted"));
+  out.push_back(
+      remark(false,
+             "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size 2 "
+             "times its speed over the natural frequency"));
+}
+
+}  // namespace
+
+std::string system_remarks(const SystemReport& r) {
+  std::string items;
+  bool warned = false;
+  const auto add = [&](const char* where, const std::vector<Remark>& remarks) {
+    items += remark_items(where, remarks);
+    for (const Remark& one : remarks) warned = warned || one.warning;
+  };
+  std::vector<Remark> rest, modes;
+  if (r.rest) remark_rest(*r.rest, rest);
+  if (r.modes) remark_modes(*r.modes, modes);
+  add("at rest", rest);
+  add("natural modes", modes);
+  return remark_list(items, warned);
+}
+
+}  // namespace whine
