@@ -195,7 +195,7 @@ std::string teeth_html(const ReportContent& c) {
                   figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : "")) +
           section("limits", "Limits", html::tagged("ul", "\n" + list)) +
           section("gears", "The gears", gears_table(c)) +
-          section("provenance", "Provenance", provenance_table(c)));
+          section("provenance", "Provenance", provenance_table(c.sources)));
 }
 
 }  // namespace whine
