@@ -31,6 +31,7 @@ void body(int argc, char** argv) {
   const whine::SweepArtifact sweep = whine::read_sweep(input);
   whine::ResponseArtifact result = whine::response(sweep);
   result.loss_factor = whine::loss_factors(sweep);
+  result.friction = sweep.friction;
   whine::write(output, result, provenance);
 
   Eigen::Index peak = 0;

@@ -103,6 +103,12 @@ constexpr Row kRows[] = {
      "follows "
      "as at rest: the inertia of the body, kept modes included, adds none.",
      "Raise element_order or lower element_mm if its line is above 1 %."},
+    {Needs::motion, "efficiency", "Efficiency, power lost by friction",
+     "What friction between the flanks takes, at rest and in motion; the loss factor H_V is apart from the "
+     "coefficient of friction.",
+     "Proportional to the coefficient of friction, which formulas give to 20 to 35 %; H_V itself to a few "
+     "per cent. Oil, bearings and windage are left out.",
+     "Compare designs by H_V; it depends on no coefficient."},
     {Needs::motion, "bearing-forces", "Forces on the bearings",
      "What each gear presses its bearing with, spring and damper together; the oscillating part is what a "
      "housing "

@@ -6,6 +6,7 @@
 
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "signal/friction_losses.h"
 
 namespace whine {
 
@@ -31,6 +32,7 @@ struct ResponseArtifact : MotionParameters {
   std::array<Eigen::VectorXd, 2> root_stress_held;
   Eigen::VectorXd tooth_load_held, mesh_force_held;
   Eigen::VectorXd loss_factor;                 // (speed) H_V, as in static.h5; empty without root stress
+  FrictionLosses friction;
   Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
   Eigen::VectorXd separations_per_period;      // (speed) 1
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
