@@ -27,7 +27,8 @@ const BodyArtifact& coarse_body() {
   return paper_body(40e-3, 1.2e-3, 12);
 }
 
-StaticParameters statics_with(double coefficient, ContactModel contact, bool corner, double smoothing = 0.01) {
+StaticParameters statics_with(double coefficient, ContactModel contact, bool corner,
+                              double smoothing = 0.01) {
   StaticParameters settings = paper_statics(32);
   settings.fidelity.contact = contact;
   settings.mesh.corner.enabled = corner;
@@ -88,16 +89,18 @@ TEST_CASE("friction: Schlenk's formula by hand, and what it needs") {
   friction.roughness = 0.4e-6;
   friction.lubricant_factor = 0.9;
   const double rb = pair.gear(0).base_radius(), alpha = 20 * std::numbers::pi / 180;
-  const double force = 300 / rb / 20, speed = 2 * (2 * std::numbers::pi * 1000 / 30) * 45e-3 * std::sin(alpha),
+  const double force = 300 / rb / 20,
+               speed = 2 * (2 * std::numbers::pi * 1000 / 30) * 45e-3 * std::sin(alpha),
                rho = 1 / (1 / (45 * std::sin(alpha)) + 1 / (67.5 * std::sin(alpha)));
   CHECK(force > 150);
-  CHECK(friction_coefficient(pair, 20e-3, friction, 300, 1000) ==
-        relative(0.048 * std::pow(force / (speed * rho), 0.2) * std::pow(15, -0.05) * std::pow(0.4, 0.25) * 0.9,
-                 1e-12));
+  CHECK(
+      friction_coefficient(pair, 20e-3, friction, 300, 1000) ==
+      relative(0.048 * std::pow(force / (speed * rho), 0.2) * std::pow(15, -0.05) * std::pow(0.4, 0.25) * 0.9,
+               1e-12));
   CHECK(friction_coefficient(pair, 20e-3, friction, 1, 1000) ==
         relative(friction_coefficient(pair, 20e-3, friction, 2, 1000), 1e-12));  // below 150 N/mm
-  CHECK_THROWS_WITH_AS(friction_coefficient(pair, 20e-3, friction, 300, 0), doctest::Contains("static_frequency_Hz"),
-                       Error);
+  CHECK_THROWS_WITH_AS(friction_coefficient(pair, 20e-3, friction, 300, 0),
+                       doctest::Contains("static_frequency_Hz"), Error);
 }
 
 namespace {
@@ -177,7 +180,8 @@ TEST_CASE("friction at rest: work put in less work given is the integral of mu s
         CHECK(std::abs(150 - (driven + moment[1]) - loss - (driver - driven)) < 1e-9 * 150);
         given += driven + moment[1];
       }
-      if (!corner) CHECK(given / static_cast<double>(s.mesh_phase.size()) == relative(150 * s.efficiency, 1e-9));
+      if (!corner)
+        CHECK(given / static_cast<double>(s.mesh_phase.size()) == relative(150 * s.efficiency, 1e-9));
       CHECK(s.efficiency == relative(1 - s.friction_loss.mean() / 150, 1e-12));
       CHECK(s.efficiency > 0.99);
       CHECK(s.efficiency < 0.997);
@@ -225,15 +229,19 @@ TEST_CASE("friction at rest: losses over mu tend to the loss factor, of first or
   }
 }
 
-TEST_CASE("friction at rest: equal gears see each other's moment with the opposite sign as the phase runs back") {
+TEST_CASE(
+    "friction at rest: equal gears see each other's moment with the opposite sign as the phase runs back") {
   const StaticArtifact s = at_rest(statics_with(1e-4, ContactModel::strips, false));
   const Index n = s.mesh_phase.size();
   const double most = s.friction_moment[0].cwiseAbs().maxCoeff();
-  for (Index i = 1; i < n; ++i) CHECK(std::abs(s.friction_moment[0][i] + s.friction_moment[1][n - i]) < 2e-3 * most);
+  for (Index i = 1; i < n; ++i)
+    CHECK(std::abs(s.friction_moment[0][i] + s.friction_moment[1][n - i]) < 2e-3 * most);
   CHECK(s.friction_moment[0].minCoeff() < -0.2 * most);
 }
 
-TEST_CASE("friction at rest on elastic bearings: the whole problem holds, and its force lies off the line of action") {
+TEST_CASE(
+    "friction at rest on elastic bearings: the whole problem holds, and its force lies off the line of "
+    "action") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     StaticParameters settings = statics_with(0.08, contact, false);
     settings.mesh.bearing = {Bearing{100e6}, Bearing{60e6}};
@@ -258,7 +266,8 @@ TEST_CASE("friction at rest on elastic bearings: the whole problem holds, and it
         Index first = 0;
         for (const ContactZone& zone : zones[0]) {
           for (Index i = 0; i < zone.force.size(); ++i)
-            if (zone.force[i] > 0) worst = std::max(worst, std::abs(zone.separation[i] + friction.row(first + i).dot(p)));
+            if (zone.force[i] > 0)
+              worst = std::max(worst, std::abs(zone.separation[i] + friction.row(first + i).dot(p)));
           first += zone.force.size();
         }
         CHECK(worst < 1e-15);
@@ -312,8 +321,11 @@ TEST_CASE("friction: the section of a scene, and what it is rejected with") {
   CHECK(oil.mesh.friction.roughness == relative(0.4e-6, 1e-12));
   CHECK(contains(file.rejection(with_section("[friction]\nsmoothing = 0.01\n")), "x.toml:23: 'coefficient'"));
   CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.5\n")), "x.toml:24"));
-  CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.05\nroughness_um = 1\n")), "schlenk"));
-  CHECK(contains(file.rejection(with_section("[friction]\nlaw = \"schlenk\"\nroughness_um = 1\n")), "viscosity_mPas"));
-  CHECK(contains(file.rejection(with_section("[friction]\nlaw = \"schlenk\"\ncoefficient = 0.1\n")), "coefficient"));
+  CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.05\nroughness_um = 1\n")),
+                 "schlenk"));
+  CHECK(contains(file.rejection(with_section("[friction]\nlaw = \"schlenk\"\nroughness_um = 1\n")),
+                 "viscosity_mPas"));
+  CHECK(contains(file.rejection(with_section("[friction]\nlaw = \"schlenk\"\ncoefficient = 0.1\n")),
+                 "coefficient"));
   CHECK(contains(file.rejection(with_section("[friction]\nmu = 0.05\n")), "x.toml:24"));
 }

@@ -37,7 +37,8 @@ StaticParameters with_friction(double coefficient, ContactModel contact, bool be
 struct Rig {
   Rig(double coefficient, ContactModel contact, BodyModel body = BodyModel::modal, bool bearings = false,
       double eta = 4e-6)
-      : statics(static_transmission(coarse_body(), coarse_body(), with_friction(coefficient, contact, bearings), 150)),
+      : statics(static_transmission(coarse_body(), coarse_body(),
+                                    with_friction(coefficient, contact, bearings), 150)),
         model(coarse_body(), coarse_body(), statics.mesh),
         dynamics(model, [&] {
           ImpactParameters settings;
@@ -74,7 +75,8 @@ double left_over(const EnergyBalance& l) {
 
 }  // namespace
 
-TEST_CASE("friction in motion: the energy balance closes with what friction takes, where contact is lost, too") {
+TEST_CASE(
+    "friction in motion: the energy balance closes with what friction takes, where contact is lost, too") {
   for (const auto contact : {ContactModel::strips, ContactModel::line})
     for (const bool bearings : {false, true}) {
       Rig rig(kFriction, contact, BodyModel::modal, bearings);
@@ -86,8 +88,9 @@ TEST_CASE("friction in motion: the energy balance closes with what friction take
         least = std::min(least, rig.period.pair_load.colwise().sum().minCoeff());
         loads += rig.period.pair_load.sum() / 128;
       }
-      INFO(contact << ", bearings " << bearings << ": " << left_over(balance) << " J of " << balance.throughput
-                   << ", friction " << balance.friction << " J, rolling " << balance.friction_rolling);
+      INFO(contact << ", bearings " << bearings << ": " << left_over(balance) << " J of "
+                   << balance.throughput << ", friction " << balance.friction << " J, rolling "
+                   << balance.friction_rolling);
       if (!bearings) CHECK(least == 0);
       CHECK(balance.friction > 0);
       CHECK(std::abs(left_over(balance)) < 1e-9 * balance.friction);
@@ -97,7 +100,9 @@ TEST_CASE("friction in motion: the energy balance closes with what friction take
     }
 }
 
-TEST_CASE("friction in motion: work put in less work given is the integral of mu N v, by the motion of rigid gears") {
+TEST_CASE(
+    "friction in motion: work put in less work given is the integral of mu N v, by the motion of rigid "
+    "gears") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     constexpr int kSteps = 128;
     constexpr double kFrequency = 2500;
@@ -115,8 +120,12 @@ TEST_CASE("friction in motion: work put in less work given is the integral of mu
       struct {
         VectorXd load;
         double error;
-      } sample{step == kSteps ? VectorXd(now.pair_load.col(0)) : step == 0 ? VectorXd(before.pair_load.col(0)) : VectorXd(now.pair_load.col(step)),
-               step == kSteps ? now.transmission_error[0] : step == 0 ? before.transmission_error[0] : now.transmission_error[step]};
+      } sample{step == kSteps ? VectorXd(now.pair_load.col(0))
+               : step == 0    ? VectorXd(before.pair_load.col(0))
+                              : VectorXd(now.pair_load.col(step)),
+               step == kSteps ? now.transmission_error[0]
+               : step == 0    ? before.transmission_error[0]
+                              : now.transmission_error[step]};
       return sample;
     };
     struct Moments {
@@ -172,7 +181,10 @@ TEST_CASE("friction in motion: the problem of every step holds as a whole") {
     ActiveSet fresh;
     VectorXd force = VectorXd::Zero(p.size()), gap = force, shift = force;
     solve_with_friction(
-        shift, scale, [&](const VectorXd& by) { return solver.solve(problem.compliance, problem.offset + by, fresh, force, gap); },
+        shift, scale,
+        [&](const VectorXd& by) {
+          return solver.solve(problem.compliance, problem.offset + by, fresh, force, gap);
+        },
         [&] { return VectorXd(problem.friction * force); });
     CHECK((force - p).norm() < 1e-8 * p.norm() + 1e-12);
   }
@@ -209,12 +221,14 @@ TEST_CASE("friction in motion: the tangent of the period map is that of central 
 }
 
 TEST_CASE("friction in motion: slow and light, losses are those at rest; a sweep keeps them") {
-  const StaticArtifact s = static_transmission(coarse_body(), coarse_body(), with_friction(kFriction, ContactModel::line), 150);
+  const StaticArtifact s =
+      static_transmission(coarse_body(), coarse_body(), with_friction(kFriction, ContactModel::line), 150);
   SweepParameters settings = paper_sweep(100, 100, 1);
   settings.fidelity.contact = ContactModel::line;
   settings.fidelity.body = BodyModel::lagged;
   settings.time.min_sample_rate = 20e3;
-  const SweepArtifact slow = sweep(coarse_body(), coarse_body(), s, s.mean_stiffness, settings, Direction::up, no_report);
+  const SweepArtifact slow =
+      sweep(coarse_body(), coarse_body(), s, s.mean_stiffness, settings, Direction::up, no_report);
   INFO("efficiency " << slow.friction.efficiency[0] << ", at rest " << s.efficiency);
   CHECK(1 - slow.friction.efficiency[0] == relative(1 - s.efficiency, 0.01));
   CHECK(slow.friction.coefficient[0] == kFriction);

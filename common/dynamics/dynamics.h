@@ -122,9 +122,9 @@ class RollingDynamics {
   // The contact problem of each step of a period of strips integrated from `state`: what integrate() hands to its solver.
   struct ContactProblem {
     Eigen::MatrixXd compliance;  // (strip, strip) m N-1
-    Eigen::MatrixXd friction;    // (strip, strip) m N-1: what friction adds to it, not symmetric; empty without
-    Eigen::VectorXd offset;      // (strip) m: gap without new contact force
-    ActiveSet active;            // of the solution
+    Eigen::MatrixXd friction;  // (strip, strip) m N-1: what friction adds to it, not symmetric; empty without
+    Eigen::VectorXd offset;    // (strip) m: gap without new contact force
+    ActiveSet active;          // of the solution
   };
   std::vector<ContactProblem> contact_problems(State& state);
   // What a step at phase i / (steps of the range) works on; whole lanes.
@@ -199,8 +199,8 @@ class RollingDynamics {
     double stored_dropped = 0;          // J: change of G R G / 2 by it
     double dropped = 0;                 // J: that, and the work of loads that went with it
     Eigen::VectorXd p, d, local;        // (strip) N, m, m: local p
-    Eigen::VectorXd friction;           // (coordinate) of friction, less what contact_work has of the same forces
-    double sliding_power = 0;           // W: that the rolling puts into friction
+    Eigen::VectorXd friction;  // (coordinate) of friction, less what contact_work has of the same forces
+    double sliding_power = 0;  // W: that the rolling puts into friction
     Eigen::Matrix4Xd shape_force, shape_displacement;  // (shape row and zeros, pair): of p on modes; of z
     double at_once = 0;  // J: stored by half-planes, laws and all else that is instantaneous
   };

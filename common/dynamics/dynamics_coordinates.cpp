@@ -281,7 +281,8 @@ void RollingDynamics::slide(Position& position) const {
     for (size_t c = 0; c < coordinates_.size(); ++c) {
       double along = 0;
       for (size_t g = 0; g < kSides; ++g) along += coordinates_[c].hub[g] * sliding.lever[g];
-      if (const int g = coordinates_[c].gear; g >= 0) along += model_.across(g, contact).dot(coordinates_[c].shift);
+      if (const int g = coordinates_[c].gear; g >= 0)
+        along += model_.across(g, contact).dot(coordinates_[c].shift);
       position.friction(j, static_cast<Eigen::Index>(c)) = sliding.direction * along;
     }
   }
@@ -293,8 +294,9 @@ void RollingDynamics::set_friction(double mesh_frequency) {
   const double kept = 1 - parameters_.loss_per_friction * friction_;
   for (Eigen::Index i = 0; i < torque_force_.size(); ++i) {
     const Coordinate& c = coordinates_[static_cast<size_t>(i)];
-    torque_force_[i] = parameters_.torque * (c.hub[0] + kept * c.hub[1] * model_.kinematics.gear(1).base_radius() /
-                                                            model_.kinematics.gear(0).base_radius());
+    torque_force_[i] =
+        parameters_.torque * (c.hub[0] + kept * c.hub[1] * model_.kinematics.gear(1).base_radius() /
+                                             model_.kinematics.gear(0).base_radius());
   }
 }
 

@@ -180,8 +180,9 @@ void RollingDynamics::fill_friction(Instant& now) const {
   const Position& position = positions_[now.position];
   now.friction.setZero();
   now.sliding_power = 0;
-  const double turning = 2 * std::numbers::pi /
-                         (step_ * steps_ * model_.kinematics.gear(0).design().teeth);  // rad s-1, of the driver
+  const double turning =
+      2 * std::numbers::pi /
+      (step_ * steps_ * model_.kinematics.gear(0).design().teeth);  // rad s-1, of the driver
   for (size_t j = 0; j < position.mesh.pairs.size(); ++j) {
     const auto pair = static_cast<Eigen::Index>(j);
     const int first = position.mesh.first_strip[j];
@@ -193,7 +194,8 @@ void RollingDynamics::fill_friction(Instant& now) const {
 
 // With mean forces, as all of the balance: the rolling puts in its share at the nominal speed, the vibration the rest, and the
 // two are what friction takes.
-void RollingDynamics::record_friction(const Instant& a, const Instant& b, EnergyBalance& energy_balance) const {
+void RollingDynamics::record_friction(const Instant& a, const Instant& b,
+                                      EnergyBalance& energy_balance) const {
   const double rolling = 0.5 * step_ * (a.sliding_power + b.sliding_power),
                vibration = 0.5 * (a.friction + b.friction).dot(b.at.z - a.at.z);
   energy_balance.friction_rolling += rolling;

@@ -107,8 +107,10 @@ bool RollingDynamics::record_contact(const StepKernel::End& end, int position, P
     drift += corners_[position].drift_lever[j] * end.carried[j];
   }
   if (friction_ > 0) {  // beside the difference of the torques
-    for (int j = 0; j < frame.present; ++j) drift += friction_ * corners_[position].slide_lever[j] * end.carried[j];
-    drift -= parameters_.torque / model_.kinematics.gear(0).base_radius() * parameters_.loss_per_friction * friction_;
+    for (int j = 0; j < frame.present; ++j)
+      drift += friction_ * corners_[position].slide_lever[j] * end.carried[j];
+    drift -= parameters_.torque / model_.kinematics.gear(0).base_radius() * parameters_.loss_per_friction *
+             friction_;
   }
   period.drift_force = std::max(period.drift_force, std::abs(drift));
   return true;

@@ -158,8 +158,8 @@ MatrixXd RollingPeriodMap::node_forces(int sample) const {
       if (dynamics_.lines())
         block.setConstant(response(i, j));
       else
-        block.colwise() = StepKernel::shape_basis() * response.block<StepKernel::kShapeRows, 1>(
-                                                          i * StepKernel::kShapeRows, j);
+        block.colwise() = StepKernel::shape_basis() *
+                          response.block<StepKernel::kShapeRows, 1>(i * StepKernel::kShapeRows, j);
     }
   MatrixXd whole = without * added;
   whole.diagonal().array() += 1;
@@ -237,13 +237,14 @@ RollingPeriodMap::Replay RollingPeriodMap::prepare(int sample) {
   r.row = r.load = place(static_cast<Eigen::Index>(n) * r.rows);
   const MatrixXd rows = basis.topRows(mesh.nodes()).transpose() * position.participation;
   Eigen::Map<MatrixXd>(&numbers_[r.row], r.rows, n) = rows;
-  if (dynamics_.friction() > 0) {  // of a pair's force as a whole, which is its first row's over that row's norm
+  if (dynamics_.friction() >
+      0) {  // of a pair's force as a whole, which is its first row's over that row's norm
     r.load = place(static_cast<Eigen::Index>(n) * r.rows);
     Eigen::Map<MatrixXd> load(&numbers_[r.load], r.rows, n);
     load = rows;
     for (int j = 0; j < r.present; ++j)
-      load.row(j * rows_of_pair) += dynamics_.friction() * std::sqrt(static_cast<double>(r.nodes_of_pair)) *
-                                    position.friction.row(j);
+      load.row(j * rows_of_pair) +=
+          dynamics_.friction() * std::sqrt(static_cast<double>(r.nodes_of_pair)) * position.friction.row(j);
   }
 
   MatrixXd reading = MatrixXd::Zero(r.nodes, fields_);  // (node, residual field) m N-1

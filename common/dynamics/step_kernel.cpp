@@ -492,8 +492,8 @@ StepKernel::End StepKernel::finish_with(Model model, int sample, int next) {
   const bool ahead = next >= 0;
   End end;
   if (ahead) relax(false);
-  end.certificate = friction_ > 0 ? slide(model, frame, steps_[sample])
-                                  : model.solve(frame, steps_[sample], reading_);
+  end.certificate =
+      friction_ > 0 ? slide(model, frame, steps_[sample]) : model.solve(frame, steps_[sample], reading_);
   for (int j = 0; j < frame.present; ++j) {
     const Contact contact = model.carried(frame, j, end.carried[j]);
     if (contact != Contact::held) end.contact = contact;

@@ -49,7 +49,7 @@ struct StepPosition {
   Eigen::MatrixXd participation;              // (node, coordinate) h
   Eigen::MatrixXd relaxed;                    // (node, node) m N-1: of both gears, when nothing moves
   std::vector<Eigen::MatrixXd> field_weight;  // [side] (node, field) V
-  Eigen::MatrixXd friction;      // (pair, coordinate) s T: per mu and force of the pair; empty without friction
+  Eigen::MatrixXd friction;  // (pair, coordinate) s T: per mu and force of the pair; empty without friction
   Eigen::VectorXd sliding_loss;  // (pair) m rad-1: s v per angle of the driver, as `friction`
 };
 
@@ -105,13 +105,14 @@ class StepKernel {
       int slot = 0;
       bool low_is_edge = false, high_is_edge = false;
     };
-    int present = 0, of_pair = 0;    // pairs; strips of a pair
-    size_t gap = 0;                  // (strip)
-    size_t at_once = 0;              // of strips: StripCompliance::at_nodes, of what is instantaneous
-    size_t shape = 0;                // (pair, coordinate, shape row), four coordinates side by side
-    size_t line = 0;                 // of lines: (pair) LineRecord
-    size_t load = 0, load_apart = 0;  // rows that forces act through, of a pair and the next: as shape, L of h
-    size_t friction = 0;              // (pair, coordinate) StepPosition::friction
+    int present = 0, of_pair = 0;  // pairs; strips of a pair
+    size_t gap = 0;                // (strip)
+    size_t at_once = 0;            // of strips: StripCompliance::at_nodes, of what is instantaneous
+    size_t shape = 0;              // (pair, coordinate, shape row), four coordinates side by side
+    size_t line = 0;               // of lines: (pair) LineRecord
+    size_t load = 0,
+           load_apart = 0;           // rows that forces act through, of a pair and the next: as shape, L of h
+    size_t friction = 0;             // (pair, coordinate) StepPosition::friction
     std::span<const HertzLine> law;  // of lines: (pair)
     std::array<Pair, kMostPairs> pair;
   };

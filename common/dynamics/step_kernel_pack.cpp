@@ -100,9 +100,10 @@ size_t StepKernel::place_matrix(const Eigen::Ref<const MatrixXd>& m) {
 // Of a position, without candidate zones.
 size_t StepKernel::numbers(const StepPosition& position) const {
   const int pairs = static_cast<int>(position.mesh.pairs.size());
-  const size_t friction = position.friction.size() == 0
-                              ? 0
-                              : static_cast<size_t>(pairs * (system_.lines ? 2 : 1 + kShapeRows) * coordinates_);
+  const size_t friction =
+      position.friction.size() == 0
+          ? 0
+          : static_cast<size_t>(pairs * (system_.lines ? 2 : 1 + kShapeRows) * coordinates_);
   if (system_.lines) return friction + static_cast<size_t>(pairs) * static_cast<size_t>(record().size());
   return friction + static_cast<size_t>(position.mesh.strips()) +
          static_cast<size_t>(pairs) *
@@ -357,7 +358,8 @@ MatrixXd StepKernel::friction_response(const Frame& frame) const {
       for (int c = 0; c < coordinates_; ++c) {
         const int lane = c % kLanes, first = c - lane;
         const double half =
-            0.5 * friction_ * coefficients_.number[Coefficients::place(Coefficients::bq, first, coordinates_) + lane];
+            0.5 * friction_ *
+            coefficients_.number[Coefficients::place(Coefficients::bq, first, coordinates_) + lane];
         for (int r = 0; r < rows; ++r)
           out(i * rows + r, j) += half * read[first * rows + r * kLanes + lane] * friction[c];
       }

@@ -31,8 +31,9 @@ double friction_coefficient(const GearPair& pair, double face_width, const Frict
                             double mesh_frequency) {
   if (friction.law == FrictionLaw::constant) return friction.coefficient;
   if (!(mesh_frequency > 0) || !(torque > 0))
-    fail(Failure::input, "Schlenk's coefficient of friction needs a torque and a mesh frequency above 0, given are ",
-         torque, " N m and ", mesh_frequency, " Hz; set static_frequency_Hz in [friction]");
+    fail(Failure::input,
+         "Schlenk's coefficient of friction needs a torque and a mesh frequency above 0, given are ", torque,
+         " N m and ", mesh_frequency, " Hz; set static_frequency_Hz in [friction]");
   constexpr double kLeastLoad = 150;  // N mm-1
   const double base = pair.gear(0).base_radius(), alpha = pair.working_pressure_angle();
   const double turns = 2 * std::numbers::pi * mesh_frequency / pair.gear(0).design().teeth;  // rad s-1
@@ -45,10 +46,9 @@ double friction_coefficient(const GearPair& pair, double face_width, const Frict
 }
 
 std::string in_words(const Friction& f) {
-  return text(f.law == FrictionLaw::constant
-                  ? text("coefficient ", f.coefficient)
-                  : text("Schlenk's formula, ", f.viscosity * 1e3, " mPa s, Ra ", f.roughness * 1e6, " µm, X_L ",
-                         f.lubricant_factor),
+  return text(f.law == FrictionLaw::constant ? text("coefficient ", f.coefficient)
+                                             : text("Schlenk's formula, ", f.viscosity * 1e3, " mPa s, Ra ",
+                                                    f.roughness * 1e6, " µm, X_L ", f.lubricant_factor),
               ", smoothed over ", f.smoothing * 100, " % of the speed of the pitch line");
 }
 

@@ -102,8 +102,8 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
     if (of_operation(key) || !stands(key.part)) continue;
     const std::string section(key.section), first = in_scene_unit(driver, key),
                                             second = in_scene_unit(driven, key);
-    const bool of_gears =
-        section != "mesh" && section != "friction" && section != "damping" && section != "fidelity" && section != "discretisation";
+    const bool of_gears = section != "mesh" && section != "friction" && section != "damping" &&
+                          section != "fidelity" && section != "discretisation";
     if (!first.empty() || !second.empty())
       out.push_back({section, key.name, {first, of_gears || first != second ? second : ""}, key.meaning});
   }

@@ -200,9 +200,9 @@ void show(Lines& lines, const StaticArtifact& a) {
     add(lines, "root stress of " + a.mesh.gear[g], a.root_stress_max[g] * 1e-6, " MPa at a tangent of ",
         a.root_stress_angle[g] * 180 / std::numbers::pi, " deg, phase of its pair ", a.root_stress_phase[g]);
   add(lines, "loss factor", a.loss_factor,
-      a.friction_loss.size() > 0
-          ? text("; efficiency ", a.efficiency * 100, " % at a coefficient of friction of ", a.friction_coefficient)
-          : "");
+      a.friction_loss.size() > 0 ? text("; efficiency ", a.efficiency * 100,
+                                        " % at a coefficient of friction of ", a.friction_coefficient)
+                                 : "");
   add(lines, "certificate", a.mesh_phase.size(), " positions; least gap ", a.least_gap * 1e6,
       " µm, least force ", a.least_force, " N, torque residual ", a.torque_residual);
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");

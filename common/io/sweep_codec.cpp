@@ -87,8 +87,8 @@ void describe_speed_by_speed(Codec& c, SweepArtifact& a) {
              a.energy, i, kLines);
   describe_friction(c, a.friction);
   if (c.optional("/energy/friction", a.friction_work.size() > 0)) {
-    c.dataset({"/energy/friction_rolling", "J", "work of the prescribed rolling against friction, over the stored periods",
-               axis, kEnergy},
+    c.dataset({"/energy/friction_rolling", "J",
+               "work of the prescribed rolling against friction, over the stored periods", axis, kEnergy},
               &a.friction_rolling);
     c.dataset({"/energy/friction", "J", "taken by friction, over the stored periods", axis, kEnergy},
               &a.friction_work);

@@ -12,7 +12,8 @@
 namespace whine {
 namespace {
 
-const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, double torque, Direction direction) {
+const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, double torque,
+                                 Direction direction) {
   const ResponseArtifact* found = nullptr;
   for (const ResponseArtifact& r : sweeps) {
     if (r.torque != torque || r.direction != direction) continue;
@@ -30,8 +31,8 @@ const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, do
 
 FigureBlock speed_block(const std::string& name, const ResponseArtifact& r) {
   FigureBlock block{name,
-                    {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]", "friction_coefficient [1]",
-                     "loss_factor [1]"},
+                    {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]",
+                     "friction_coefficient [1]", "loss_factor [1]"},
                     {},
                     text("speed-T", shown(r.torque, 6)),
                     name_of(r.direction)};
@@ -55,7 +56,8 @@ std::optional<double> rigid_loss_factor(const GearPair& pair) {
 
 }  // namespace
 
-Figure efficiency_figure(const std::vector<StaticArtifact>& statics, const std::vector<ResponseArtifact>& sweeps) {
+Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
+                         const std::vector<ResponseArtifact>& sweeps) {
   constexpr size_t kMostTorques = 6;
   if (statics.empty() || statics.size() > kMostTorques || sweeps.size() != 2 * statics.size())
     fail(Failure::input, "efficiency: it needs static.h5 and two response.h5, up and down, at each of 1 to ",
@@ -93,8 +95,8 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics, const std::
     most = std::max(most, s.efficiency * 100);
     rest.rows.push_back({s.torque, s.friction_coefficient, s.efficiency * 100, s.loss_factor});
     if (rigid) rest.rows.back().push_back(*rigid);
-    at_rest += text(t ? ", " : "", fixed(s.efficiency * 100, 3), " % at ", torque_words(s.torque), " (coefficient ",
-                    fixed(s.friction_coefficient, 4), ")");
+    at_rest += text(t ? ", " : "", fixed(s.efficiency * 100, 3), " % at ", torque_words(s.torque),
+                    " (coefficient ", fixed(s.friction_coefficient, 4), ")");
     factors += text(t ? ", " : "", fixed(s.loss_factor, 4));
   }
   FigureBlock cycle{"cycle",
@@ -116,7 +118,8 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics, const std::
                   text("loss factor H_V at rest, without the coefficient: ", factors,
                        rigid ? text("; of rigid teeth ", fixed(*rigid, 4)) : "")};
   figure.shafts = shafts_of(first);
-  figure.words = {{"labels", labels}, {"gears", text("'", first.mesh.gear[0], "' '", first.mesh.gear[1], "'")}};
+  figure.words = {{"labels", labels},
+                  {"gears", text("'", first.mesh.gear[0], "' '", first.mesh.gear[1], "'")}};
   const ResponseArtifact& up = sweep_at(sweeps, first.torque, Direction::up);
   figure.numbers = {{"curves", static_cast<double>(statics.size())},
                     {"power_max", power},

@@ -9,6 +9,7 @@ namespace whine {
 // moments of friction about both axes over a mesh period at rest, at the first torque (c). A table of each sweep, and one at rest
 // with the loss factor H_V apart from the coefficient of friction, and that of rigid teeth. Throws Error(input) for artifacts
 // without friction, and unless there is one static.h5 and two sweeps, up and down, at each torque; of 6 torques at most.
-Figure efficiency_figure(const std::vector<StaticArtifact>& statics, const std::vector<ResponseArtifact>& sweeps);
+Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
+                         const std::vector<ResponseArtifact>& sweeps);
 
 }  // namespace whine

@@ -210,8 +210,10 @@ const std::vector<Explained>& explained() {
              "largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
       {"efficiency", "motion", "Losses by friction",
        plain("Efficiency of the mesh (a) and the mean power that friction between the flanks takes (b) over "
-             "speed, rising and falling; dotted: the efficiency at rest, by kinematics. Moments of friction about "
-             "the two axes while the teeth pass through the mesh at rest (c). Oil, bearings and windage are left "
+             "speed, rising and falling; dotted: the efficiency at rest, by kinematics. Moments of friction "
+             "about "
+             "the two axes while the teeth pass through the mesh at rest (c). Oil, bearings and windage are "
+             "left "
              "out, and so is what the dampers of the vibration take.")},
       {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};

@@ -31,7 +31,7 @@ struct ResponseArtifact : MotionParameters {
   // the time step. [gear] (speed) Pa; (speed) N; empty for lumped models
   std::array<Eigen::VectorXd, 2> root_stress_held;
   Eigen::VectorXd tooth_load_held, mesh_force_held;
-  Eigen::VectorXd loss_factor;                 // (speed) H_V, as in static.h5; empty without root stress
+  Eigen::VectorXd loss_factor;  // (speed) H_V, as in static.h5; empty without root stress
   FrictionLosses friction;
   Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
   Eigen::VectorXd separations_per_period;      // (speed) 1

@@ -40,7 +40,7 @@ struct StaticArtifact : PairParameters {
   // where it acts as the normal force does: against the rotation of the driver, with that of the driven gear
   Eigen::VectorXd friction_loss;
   std::array<Eigen::VectorXd, 2> friction_moment;
-  double efficiency = 1;  // 1 - mean friction_loss / torque
+  double efficiency = 1;                        // 1 - mean friction_loss / torque
   Eigen::VectorXd transmission_error_harmonic;  // (harmonic 0..) m: mean, then amplitudes
   Eigen::VectorXd stiffness_harmonic;           // (harmonic 0..) N m-1, of the secant stiffness
   // (order 0..) m: mean, then amplitudes of the harmonics of the hunting frequency, up to those above; empty for teeth that

@@ -513,7 +513,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     reached.push_back(sweeper.state());
     const auto row = static_cast<Eigen::Index>(steady.size()) - 1;
     store_orbit(steady.back(), f, row, result);
-    if (model.friction.acts()) result.friction.coefficient[row] = model.coefficient_of_friction(statics.torque, f);
+    if (model.friction.acts())
+      result.friction.coefficient[row] = model.coefficient_of_friction(statics.torque, f);
     report(static_cast<long>(steady.size()), speeds, text(f, " Hz, ", steady.back().periods, " periods"));
   }
   std::vector<BranchJump> jumps;

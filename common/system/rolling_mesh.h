@@ -114,7 +114,8 @@ struct GearMeshModel {
   // 1: mu of the friction under `torque` (N m, on side 0) at a mesh frequency (Hz); 0 without.
   double coefficient_of_friction(double torque, double mesh_frequency) const {
     if (!friction.acts()) return 0;
-    const double width = std::min(kinematics.gear(0).design().face_width, kinematics.gear(1).design().face_width);
+    const double width =
+        std::min(kinematics.gear(0).design().face_width, kinematics.gear(1).design().face_width);
     return friction_coefficient(kinematics, width, friction, torque, mesh_frequency);
   }
   // Of gear g: outward displacement of its flank per unit translation of its hub, in the frame of placed().

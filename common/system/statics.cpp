@@ -35,12 +35,14 @@ SystemModel loaded_system(const BodyArtifact& driver, const BodyArtifact& driven
 }
 
 // What friction takes at a position, and its moments about the axes.
-void store_friction(const SystemModel& system, const SystemSolution& solution, const SystemPosition& position, int row,
-                    StaticArtifact& result) {
+void store_friction(const SystemModel& system, const SystemSolution& solution, const SystemPosition& position,
+                    int row, StaticArtifact& result) {
   if (!(system.friction > 0)) return;
-  for (VectorXd* v : {&result.friction_loss, &result.friction_moment[0], &result.friction_moment[1]}) (*v)[row] = 0;
+  for (VectorXd* v : {&result.friction_loss, &result.friction_moment[0], &result.friction_moment[1]})
+    (*v)[row] = 0;
   for (const ContactSegment& segment : position.segment) {
-    const double force = system.friction * solution.equilibrium.p.segment(segment.first_strip, segment.strips).sum();
+    const double force =
+        system.friction * solution.equilibrium.p.segment(segment.first_strip, segment.strips).sum();
     result.friction_loss[row] += force * segment.sliding.loss();
     for (size_t s = 0; s < kSides; ++s)
       result.friction_moment[s][row] += force * segment.sliding.direction * segment.sliding.lever[s];

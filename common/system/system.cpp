@@ -304,7 +304,11 @@ class Contact {
   // friction: friction_compliance(); `slides`: L is not D.
   Contact(const SystemPosition& position, const MatrixXd& compliance, const MatrixXd& friction, bool slides,
           ComplementaritySolver& solver)
-      : compliance_(compliance), friction_(friction), slides_(slides), solver_(solver), d_(position.strips()) {
+      : compliance_(compliance),
+        friction_(friction),
+        slides_(slides),
+        solver_(solver),
+        d_(position.strips()) {
     for (const MeshPosition& mesh : position.mesh) law_.insert(law_.end(), mesh.law.begin(), mesh.law.end());
   }
   StillContact solve(const VectorXd& e, const MatrixXd& displacement, const MatrixXd& load, VectorXd& p) {
@@ -365,7 +369,8 @@ class Contact {
       const auto row = static_cast<Index>(i);
       a(row, row) += law_[static_cast<size_t>(active[i])].at(p[active[i]]).slope;
     }
-    return load(active, Eigen::all).transpose() * a.partialPivLu().solve(MatrixXd(displacement(active, Eigen::all)));
+    return load(active, Eigen::all).transpose() *
+           a.partialPivLu().solve(MatrixXd(displacement(active, Eigen::all)));
   }
 
   const MatrixXd &compliance_, &friction_;
@@ -431,11 +436,11 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
     return out;
   };
   if (freedoms == 1 && force[0] > 0) {
-    const Equilibrium one =
-        equilibrium(position.gap, displacement.col(0), load.col(0), force[0], x[0], [&](const VectorXd& e, VectorXd& p) {
-          const StillContact held = contact.solve(e, displacement, load, p);
-          return FixedContact{held.certificate, held.stiffness(0, 0)};
-        });
+    const Equilibrium one = equilibrium(position.gap, displacement.col(0), load.col(0), force[0], x[0],
+                                        [&](const VectorXd& e, VectorXd& p) {
+                                          const StillContact held = contact.solve(e, displacement, load, p);
+                                          return FixedContact{held.certificate, held.stiffness(0, 0)};
+                                        });
     x[0] = one.x;
     out.p = one.p;
     out.stiffness = MatrixXd::Constant(1, 1, one.stiffness);
@@ -499,7 +504,8 @@ Vec2 bearing_force(const SystemModel& system, const SystemPosition& position, in
   Vec2 sum(0, 0);
   for (const ContactSegment& segment : position.segment)
     if (const int side = system.side_of(b, segment.mesh); side >= 0)
-      sum -= closing_sign(side) * p.segment(segment.first_strip, segment.strips).sum() * pressing(system, segment);
+      sum -= closing_sign(side) * p.segment(segment.first_strip, segment.strips).sum() *
+             pressing(system, segment);
   return sum;
 }
 
