@@ -354,6 +354,8 @@ expect "and are up to date then" ""
 rm -f calls; make_ SCENE=elsewhere/own.toml teeth
 [ "$(drawn)" = "$(printf 'out/own/report/%s ' load-sharing root-stress tooth-loads)" ] && ok "make teeth draws what a tooth suffers" ||
   wrong "make teeth draws what a tooth suffers" "$(drawn) $(tail -n 1 "$log")"
+make_ -n SCENE=elsewhere/own.toml efficiency
+expect "losses by friction are drawn from statics and both sweeps at each torque" "gear-plot*1"
 make_ -n SCENE=elsewhere/own.toml jump-map
 expect "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2"
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml

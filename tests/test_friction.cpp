@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "contact/friction.h"
 #include "gear/iso6336_strength.h"
+#include "internal_pair.h"
 #include "io/static_codec.h"
 #include "paper_pair.h"
 #include "relative.h"
@@ -68,6 +69,30 @@ TEST_CASE("friction: sliding on the line of action is that of the kinematics, wh
   const double end = pair.path_end() / pair.base_pitch(), start = pair.path_start() / pair.base_pitch();
   CHECK(sliding_of(pair, pair.contact(end + 0.02), 1e-6).speed > pair.sliding(pair.path_end()));
   CHECK(sliding_of(pair, pair.contact(start - 0.02), 1e-6).speed < pair.sliding(pair.path_start()));
+}
+
+TEST_CASE("friction: lever arms are those of the tangent about the axes, of external and internal pairs") {
+  const GearPair pairs[] = {unequal(false), unequal(true),
+                            GearPair(planet_gear(), ring_gear(), kInternalDistance),
+                            GearPair(ring_gear(), planet_gear(), kInternalDistance)};
+  for (const GearPair& pair : pairs)
+    for (const double share : {0.1, 0.4, 0.6, 0.9}) {
+      const double path = pair.path_start() + share * (pair.path_end() - pair.path_start());
+      const PairSliding s = sliding_of(pair, pair.contact(path / pair.base_pitch()), 0.01);
+      const Vec2 normal = contact_normal(pair),
+                 point = Vec2(0, pair.gear(0).base_radius() / std::cos(pair.working_pressure_angle())) +
+                         path * normal,
+                 tangent(-normal.y(), normal.x());
+      for (int g = 0; g < 2; ++g) {
+        const Vec2 arm = point - placed(pair, g).centre;
+        const double turns = g == 1 && !pair.internal() ? -1 : 1;  // counter-clockwise
+        CHECK(s.lever[static_cast<size_t>(g)] ==
+              relative(turns * (arm.x() * tangent.y() - arm.y() * tangent.x()), 1e-9));
+        CHECK(turns * (arm.x() * normal.y() - arm.y() * normal.x()) ==
+              relative(pair.gear(g).base_radius(), 1e-9));
+      }
+      CHECK(std::abs(s.speed) == relative(std::abs(pair.sliding(path)), 1e-9));
+    }
 }
 
 TEST_CASE("friction: with the driver driven, levers change places and the sliding its sign") {
