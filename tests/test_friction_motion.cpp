@@ -180,13 +180,18 @@ TEST_CASE("friction in motion: the problem of every step holds as a whole") {
     ComplementaritySolver solver;
     ActiveSet fresh;
     VectorXd force = VectorXd::Zero(p.size()), gap = force, shift = force;
+    int solves = 0;
     solve_with_friction(
         shift, scale,
         [&](const VectorXd& by) {
+          ++solves;
           return solver.solve(problem.compliance, problem.offset + by, fresh, force, gap);
         },
         [&] { return VectorXd(problem.friction * force); });
+    INFO(solves << " solves; friction adds " << problem.friction.norm() / problem.compliance.norm()
+                << " of the compliance");
     CHECK((force - p).norm() < 1e-8 * p.norm() + 1e-12);
+    CHECK(solves <= 6);
   }
   CHECK(problems == 64);
 }
