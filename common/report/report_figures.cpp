@@ -144,6 +144,17 @@ std::string of_bearings(const ReportContent& c) {
          ", and the largest force, beside the load at rest.";
 }
 
+std::string of_losses(const ReportContent& c) {
+  return "Efficiency of the mesh (a) and the mean power that friction between the flanks takes (b) over "
+         "speed, "
+         "rising and falling; dotted: the efficiency at rest, by kinematics. Moments of friction about the "
+         "two "
+         "axes while the teeth pass through the mesh at rest (c). Oil, bearings and windage are left out, "
+         "and so "
+         "is what the dampers of the vibration take." +
+         beyond_words(c, 0);
+}
+
 std::string of_budget(const ReportContent& c) {
   if (!c.budget) return "";
   return text("Error budget of the statics at ", torque_words(c.budget->torque),
@@ -208,13 +219,7 @@ const std::vector<Explained>& explained() {
              "mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth "
              "load and root stress at a speed, each held for 1/64 of a mesh period, over T / r_b or over the "
              "largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
-      {"efficiency", "motion", "Losses by friction",
-       plain("Efficiency of the mesh (a) and the mean power that friction between the flanks takes (b) over "
-             "speed, rising and falling; dotted: the efficiency at rest, by kinematics. Moments of friction "
-             "about "
-             "the two axes while the teeth pass through the mesh at rest (c). Oil, bearings and windage are "
-             "left "
-             "out, and so is what the dampers of the vibration take.")},
+      {"efficiency", "motion", "Losses by friction", of_losses},
       {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};
   return all;
