@@ -124,6 +124,8 @@ TEST_CASE("friction: Schlenk's formula by hand, and what it needs") {
                1e-12));
   CHECK(friction_coefficient(pair, 20e-3, friction, 1, 1000) ==
         relative(friction_coefficient(pair, 20e-3, friction, 2, 1000), 1e-12));  // below 150 N/mm
+  CHECK_THROWS_WITH_AS(friction_coefficient(pair, 20e-3, friction, 300, 1e-4),
+                       doctest::Contains("at most 0.3 is allowed"), Error);
   CHECK_THROWS_WITH_AS(friction_coefficient(pair, 20e-3, friction, 300, 0),
                        doctest::Contains("static_frequency_Hz"), Error);
 }

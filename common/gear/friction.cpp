@@ -40,9 +40,16 @@ double friction_coefficient(const GearPair& pair, double face_width, const Frict
   const double line_load = std::max(kLeastLoad, torque / base / face_width * 1e-3),          // N mm-1
       sum_of_speeds = 2 * turns * base * std::tan(alpha),                                    // m s-1
       curvature = pair.relative_curvature_radius(0.0) * 1e3;                                 // mm
-  return 0.048 * std::pow(line_load / (sum_of_speeds * curvature), 0.2) *
-         std::pow(friction.viscosity * 1e3, -0.05) * std::pow(friction.roughness * 1e6, 0.25) *
-         friction.lubricant_factor;
+  const double coefficient = 0.048 * std::pow(line_load / (sum_of_speeds * curvature), 0.2) *
+                             std::pow(friction.viscosity * 1e3, -0.05) *
+                             std::pow(friction.roughness * 1e6, 0.25) * friction.lubricant_factor;
+  constexpr double kMost = 0.3;  // as of a coefficient that a scene gives
+  if (!(coefficient <= kMost))
+    fail(Failure::input, "Schlenk's formula gives a coefficient of friction of ", coefficient, " at ",
+         mesh_frequency, " Hz, at most ", kMost,
+         " is allowed; check viscosity_mPas, roughness_um, lubricant_factor and static_frequency_Hz of "
+         "[friction], or raise the speed");
+  return coefficient;
 }
 
 std::string in_words(const Friction& f) {

@@ -32,7 +32,8 @@ PairSliding sliding_of(const GearPair& pair, const PairContact& contact, double 
 // with F_bt = T / r_b1 over the face width b on which the teeth meet in N/mm, v_sum = 2 v_t sin(alpha_w) in m/s and the
 // relative radius of curvature rho in mm, both at the pitch point, eta in mPa s and Ra in micrometres. It is a fit to tests of
 // external gears between about 1 and 50 m/s and with 150 N/mm or more; smaller line loads count as 150 N/mm. Source: Schlenk,
-// dissertation, TU Muenchen 1994, as Niemann and Winter, Maschinenelemente 2, give it.
+// dissertation, TU Muenchen 1994, as Niemann and Winter, Maschinenelemente 2, give it. Throws Error(input) if torque or speed of
+// Schlenk's formula is not above 0 or the coefficient above 0.3.
 double friction_coefficient(const GearPair& pair, double face_width, const Friction& friction, double torque,
                             double mesh_frequency);
 
