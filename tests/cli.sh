@@ -515,7 +515,7 @@ if "$bin/gear-static" --params friction.toml "${pair[@]}" --torque 100 --output 
 rejected "a lumped model with friction" 3 "knows no friction" "$bin/gear-lumped" --model secant --static friction.h5 \
   --params out/scene/params/sweep.toml --direction up --output lumped.h5
 rejected "losses of a pair without friction" 3 'needs a section \[friction\]' "$bin/gear-plot" efficiency --plots "$plots" --output losses \
-  out/scene/T100/static.h5 out/scene/T100/up/response.h5 out/scene/T100/down/response.h5
+  out/scene/T100/static.h5 out/scene/T100/up/response.h5 out/scene/T100/up/response.h5
 rejected "a figure of a crack without one" 3 "no tooth has a crack" "$bin/gear-plot" crack --plots "$plots" --output crack out/scene/T100/static.h5
 rm -rf said crack.* cracked.mk "$(readlink -f $cracked/pinion)" $cracked
 
