@@ -20,6 +20,7 @@ relief_scenes := $(foreach s,$(standard_scene) $(calibrated_scene),$(foreach r,2
 cracked_scene := parker2000-crack
 bearing_scene := parker2000-bearings
 internal_scene := internal-pair
+friction_scene := fzg-c-friction
 # of rigid bodies; see systems.mk
 system_scene := lin-parker-planetary
 # of elastic ones
@@ -68,6 +69,7 @@ inputs_sidebands = out/$1/T$(firstword $2)/static.h5 out/$1/T$(firstword $2)/up/
 inputs_root-stress = out/$1/T$(firstword $2)/static.h5 $(call both_ways,$1,$(firstword $2),response)
 inputs_root-stress-branches = $(inputs_root-stress) out/$1/T$(firstword $2)/branch.h5
 inputs_flank-pressure = $(inputs_root-stress)
+inputs_efficiency = $(foreach t,$(call each,$2),out/$1/T$t/static.h5 $(call both_ways,$1,$t,response))
 inputs_crack = out/$1/T$(firstword $2)/static.h5
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
@@ -99,18 +101,20 @@ $(foreach f,fig05 fig07 fig05-branches fig07-branches fig07-600 fig08 fig09 fig1
 paper_scenes_sidebands := $(graded_scene)
 paper_scenes_crack := $(cracked_scene)
 paper_scenes_bearing-forces := $(bearing_scene)
+paper_scenes_efficiency := $(friction_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
 $(foreach f,profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack,$(eval paper_torques_$f := 150))
 $(foreach f,fig01 fig07 fig07-branches fig12 fig13 load-sharing fig14 fig14-elastic fig16 table1,$(eval paper_torques_$f := 100 200 300))
 paper_torques_fig07-600 := 300 600
+paper_torques_efficiency := 100 200 300
 
 report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 # at the paper's own speeds, torques or levels
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces error-budget profile-chart sidebands crack
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget profile-chart sidebands crack
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs_$1,$(or $(paper_scenes_$1),$(paper_scene)),$(paper_torques_$1))
 
@@ -137,7 +141,7 @@ $(if $(AXIS),$(if $(filter rpm:%,$(AXIS)),$(if $(filter 1,$(words $(AXIS))),,$(e
   $(error AXIS=$(AXIS): it is rpm:<gear>$(,) such as rpm:pinion or rpm:driver)))
 $(if $(DB),$(if $(shell awk -v x='$(DB)' 'BEGIN { if (x ~ /^[0-9.]+([eE][-+]?[0-9]+)?$$/ && x + 0 > 0) print "yes" }'),,\
   $(error DB=$(DB): it is the length in m that is 0 dB$(,) such as 1e-6)))
-speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces compare-motion runup-up runup-down
+speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency compare-motion runup-up runup-down
 level_figures := order-cuts compare-motion runup-up runup-down
 # A figure that would not take them is not drawn without them.
 not_drawn_with = $(filter-out $1,$(filter $(figures) table1 histories multipliers fold-curves jump-map sensitivity harris-map branches modes,$(goals)))
@@ -207,7 +211,7 @@ report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),fig12 fig13 load-sharing error-budget) \
   $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 \
   $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),fig05-branches multipliers)) order-cuts waterfall tooth-loads $(if $(call teeth,$1,alike),root-stress) \
-  $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
+  $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
   $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
 report_inputs = $(call report_artifacts,$1,$(SCENE_$1_TORQUES)) $(patsubst %,out/$1/report/%.png,$(report_shows))
@@ -290,6 +294,7 @@ tooth-loads: ## tooth loads against mesh frequency, and over the mesh period at 
 root-stress: ## root stress over the mesh cycle and over speed, dynamic factors beside K_v of ISO 6336-1, 150 N m (SCENE: its first torque)
 root-stress-branches: ## root-stress with the unstable orbits of the branch
 flank-pressure: ## flank pressure over roll angle and speed, both ways, and what tip edges carry, 150 N m (SCENE: its first torque)
+efficiency: ## losses by friction and efficiency against speed and torque, moments of friction over a mesh period, 100 to 300 N m of fzg-c-friction (SCENE with [friction]: its torques)
 bearing-forces: ## forces on elastic bearings against mesh frequency, 150 N m of parker2000-bearings (SCENE: its first torque)
 profile-chart: ## what is taken off the driving flanks, as an inspection sheet shows it, of the paper's pair with relief from 20.9 deg (SCENE: of its gears)
 relief-jumps: ## which jumps of Figure 5 remain with 10 micrometres of tip relief, at both dampings, 150 N m

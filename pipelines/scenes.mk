@@ -4,7 +4,7 @@
 # keys of each distinct gear (out/bodies/<hash>/body.toml), the links out/S/<gear>, and a fragment of make:
 #   SCENE_S_GEARS, SCENE_S_DRIVER, SCENE_S_DRIVEN, SCENE_S_BODY_<gear>, SCENE_S_TORQUES, SCENE_S_REFERENCE_TORQUE,
 #   SCENE_S_RINGS_DOWN (no: with its [fidelity], or its teeth, there is no gear-impact), SCENE_S_TEETH (alike, or differ and
-#   cracked), SCENE_S_MODIFIED (yes: flanks are not as designed), SCENE_S_BEARINGS (rigid or elastic), BODIES.
+#   cracked), SCENE_S_MODIFIED (yes: flanks are not as designed), SCENE_S_BEARINGS (rigid or elastic), SCENE_S_FRICTION (yes, no), BODIES.
 # Of a scene of several meshes it says SCENE_S_PLANETS (yes: a [[mesh]] stands for those of several), SCENE_S_SYSTEM := rigid, and
 # writes out/S/params/system.toml; or SCENE_S_SYSTEM := elastic with SCENE_S_SYSTEM_GEARS, SCENE_S_BODY_<gear> and BODIES, and
 # writes out/S/params/system_static.toml.
@@ -65,6 +65,7 @@ scenes := $(sort \
   $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
   $(if $(filter bearing-forces out/figures/bearing-forces%,$(goals)),$(if $(SCENE),$(own_scene),$(bearing_scene))) \
+  $(if $(filter efficiency out/figures/efficiency%,$(goals)),$(if $(SCENE),$(own_scene),$(friction_scene))) \
   $(if $(filter modes mode-shapes,$(goals)),$(if $(SCENE),$(own_scene),$(system_scene))) \
   $(if $(filter system-static,$(goals)),$(if $(SCENE),$(own_scene),$(elastic_system_scene))) \
   $(if $(filter crack out/figures/crack%,$(goals)),$(if $(SCENE),$(own_scene),$(cracked_scene))) \

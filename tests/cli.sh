@@ -516,6 +516,13 @@ rejected "a lumped model of a cracked tooth" 3 "50 mesh periods, because a tooth
   --params $cracked/params/sweep.toml --direction up --output $cracked/T100/lumped.h5
 rejected "root stress without two sweeps of one torque" 3 'two response.h5 beside static.h5, up and down' "$bin/gear-plot" root-stress --plots "$plots" --output root \
   out/scene/T100/static.h5 out/scene/T100/up/response.h5 out/scene/T100/up/response.h5
+{ cat out/scene/params/static.toml; printf '\n[friction]\nlaw = "constant"\ncoefficient = 0.05\nsmoothing = 0.01\nviscosity = 0.0\nroughness = 0.0\nlubricant_factor = 1.0\nstatic_frequency = 0.0\n'; } > friction.toml
+if "$bin/gear-static" --params friction.toml "${pair[@]}" --torque 100 --output friction.h5 > said 2>&1 && "$bin/gear-inspect" friction.h5 > said 2>&1 &&
+  grep -q 'efficiency 99[.][0-9]* % at a coefficient of friction of 0.05' said; then ok "friction at rest has an efficiency"; else wrong "friction at rest has an efficiency" "$(tail -n 1 said)"; fi
+rejected "a lumped model with friction" 3 "knows no friction" "$bin/gear-lumped" --model secant --static friction.h5 \
+  --params out/scene/params/sweep.toml --direction up --output lumped.h5
+rejected "losses of a pair without friction" 3 'needs a section \[friction\]' "$bin/gear-plot" efficiency --plots "$plots" --output losses \
+  out/scene/T100/static.h5 out/scene/T100/up/response.h5 out/scene/T100/up/response.h5
 rejected "a figure of a crack without one" 3 "no tooth has a crack" "$bin/gear-plot" crack --plots "$plots" --output crack out/scene/T100/static.h5
 rm -rf said crack.* cracked.mk "$(readlink -f $cracked/pinion)" $cracked
 

@@ -356,6 +356,8 @@ rm -f calls; make_ SCENE=elsewhere/own.toml teeth
   wrong "make teeth draws what a tooth suffers, on a page" "$(drawn) $(tail -n 1 "$log")"
 make_ -n SCENE=elsewhere/own.toml BRANCHES=yes teeth
 expect "with the branch: one orbit, one figure and the page" "gear-orbit*1 gear-plot*1 gear-report*1"
+make_ -n SCENE=elsewhere/own.toml efficiency
+expect "losses by friction are drawn from statics and both sweeps at each torque" "gear-plot*1"
 make_ -n SCENE=elsewhere/own.toml jump-map
 expect "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2"
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml

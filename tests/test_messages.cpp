@@ -40,7 +40,7 @@ TEST_CASE("an unknown key is rejected with the key that its word means") {
   // What there is no key for says why.
   CHECK(contains(rejection("helix_angle_deg = 15"),
                  "x.toml:3: unknown key 'helix_angle_deg' in [gear.pinion]: gears are spur gears for now"));
-  CHECK(contains(rejection("friction_coefficient = 0.05"), "teeth slide without friction"));
+  CHECK(contains(rejection("friction_coefficient = 0.05"), "did you mean 'coefficient' of [friction]?"));
   // --set and studies take the same words.
   const auto set = [&](const std::string& change) -> std::string {
     try {

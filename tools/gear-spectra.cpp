@@ -33,6 +33,7 @@ void body(int argc, char** argv) {
   whine::ResponseArtifact result = whine::response(sweep);
   result.loss_factor = whine::loss_factors(sweep);
   whine::add_flank_pressure(sweep, result);
+  result.friction = sweep.friction;
   whine::write(output, result, provenance);
 
   Eigen::Index peak = 0;

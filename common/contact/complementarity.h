@@ -73,6 +73,7 @@ struct Certificate {
   int iterations = 0;      // sets tried, a kept one included
   int degenerate = 0;      // strips that touch without force, within the tolerances
   bool fallback = false;   // Lawson-Hanson was needed
+  double coupling = 0;     // m: by how much the gaps are off by friction, see contact/friction.h
   bool shifted =
       false;  // A is singular to round-off on the active strips: A + shift I was factorised instead
 };

@@ -34,7 +34,8 @@ DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_
           {settings.inertia.begin(), settings.inertia.end()},
           mean_stiffness,
           settings.damping,
-          settings.fidelity};
+          settings.fidelity,
+          statics.friction_coefficient > 0 ? (1 - statics.efficiency) / statics.friction_coefficient : 0};
 }
 
 MotionBounds::MotionBounds(const GearMeshModel& model, const StaticArtifact& statics, double widening) {
@@ -117,6 +118,7 @@ void RollingDynamics::set_zone(const CandidateZone& range, int steps, const Zone
   set_hunting_gaps(beside.gaps);
   share_zones(system);
   kernel_.set_zone(std::move(system), positions_);
+  if (friction_ > 0) kernel_.set_friction(friction_, torque_force_);
   size_energy_balance();
 }
 
@@ -141,6 +143,9 @@ void RollingDynamics::place_positions(const CandidateZone& range, int steps) {
       const PairContact& contact = mesh.pairs[j].contact;
       corners_[i].drift_lever[j] = contact.lever[0] / model_.kinematics.gear(0).base_radius() -
                                    contact.lever[1] / model_.kinematics.gear(1).base_radius();
+      if (!model_.friction.acts()) continue;
+      const PairSliding sliding = sliding_of(model_.kinematics, contact, model_.friction.smoothing);
+      corners_[i].slide_lever[j] = sliding.loss() / model_.kinematics.gear(0).base_radius();
     }
   }
   for (Position& position : positions_)
@@ -200,6 +205,7 @@ void RollingDynamics::fill_position(Position& position, const StepSystem& system
                                     const std::vector<std::vector<MatrixXd>>& tables) const {
   const MeshPosition& mesh = position.mesh;
   position.participation = participation(mesh);
+  slide(position);
   MatrixXd left_out = MatrixXd::Zero(mesh.nodes(), mesh.nodes());
   if (!lines()) {
     const StepKernel::ShapeBasis& basis = StepKernel::shape_basis();
@@ -307,6 +313,11 @@ void RollingDynamics::pass_speed(double mesh_frequency, int steps) {
   steps_ = steps;
   stride_ = finest / steps;
   const double h = step_ = 1 / (mesh_frequency * steps);
+  if (model_.friction.acts()) {
+    const double before = friction_;
+    set_friction(mesh_frequency);
+    if (friction_ != before) kernel_.set_friction(friction_, torque_force_);
+  }
   std::vector<Propagator> propagators;
   for (size_t i = 0; i < coordinates_.size(); ++i) {
     const Coordinate& c = coordinates_[i];
@@ -382,6 +393,7 @@ RollingDynamics::State RollingDynamics::rest() {
   state.pair = pair_stamp_;
   state.force = torque_force_ - position.participation.transpose() * nodes;
   state.z = flexibility().cwiseProduct(state.force);
+  if (friction_ > 0) state.force = force_of(position, nodes);
   state.z[0] = e.x;
   state.v = VectorXd::Zero(state.z.size());
   state.p = e.p;

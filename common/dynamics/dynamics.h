@@ -16,6 +16,9 @@
 //   few of them hold; R - V V^T R V V^T is instantaneous.
 // With body = "full" the modes are all that the mesh has and nothing relaxes. What the half-plane adds to their flexibility
 // between points of a flank, it being no finite element, is instantaneous: undamped_depth is then without meaning.
+// With friction forces act on hubs along L = h + mu s T (gear/friction.h), its direction s and T of the nominal kinematics; what
+// tangential forces do to the elastic bodies is left out. Torques are then T on the driver and T r_b2 / r_b1 (1 - loss) on the
+// driven gear, the loss that at rest. Nothing slides at a fixed phase: rest() and natural frequencies are without friction.
 // Gap of a strip: d = e - h z + U + A_local p >= 0 with p >= 0, p . d = 0 at the end of each step (Eq. 18).
 // With contact = "line" a pair is one strip on one node, and Hertz's law of its force stands in for the half-planes in
 // A_local p. It is relative to the undamped depth and is instantaneous, as they do.
@@ -52,6 +55,8 @@ struct DynamicParameters {
   double mean_stiffness = 0;    // N m-1, sets the bearing dampers
   Damping damping;
   Fidelity fidelity;
+  // 1: share of the power that friction takes at rest over the coefficient of friction; the driven gear's torque is less by it
+  double loss_per_friction = 0;
 };
 
 // Those of the pair of `statics` at its torque, in motion; mean_stiffness: N m-1, sets the bearing dampers.
@@ -117,8 +122,9 @@ class RollingDynamics {
   // The contact problem of each step of a period of strips integrated from `state`: what integrate() hands to its solver.
   struct ContactProblem {
     Eigen::MatrixXd compliance;  // (strip, strip) m N-1
-    Eigen::VectorXd offset;      // (strip) m: gap without new contact force
-    ActiveSet active;            // of the solution
+    Eigen::MatrixXd friction;  // (strip, strip) m N-1: what friction adds to it, not symmetric; empty without
+    Eigen::VectorXd offset;    // (strip) m: gap without new contact force
+    ActiveSet active;          // of the solution
   };
   std::vector<ContactProblem> contact_problems(State& state);
   // What a step at phase i / (steps of the range) works on; whole lanes.
@@ -155,6 +161,7 @@ class RollingDynamics {
   int hunting_periods() const { return hunting_; }  // see hunting_periods() of the model
   int reach() const { return reach_; }              // largest |pair| that can touch
   double bearing_damper(int g) const;               // N m s
+  double friction() const { return friction_; }     // 1: coefficient at this speed
   const StepKernel& kernel() const { return kernel_; }
   const std::vector<StepPosition>& positions() const { return positions_; }
   double static_deflection() const { return static_deflection_; }  // m, transmission error of rest()
@@ -192,6 +199,8 @@ class RollingDynamics {
     double stored_dropped = 0;          // J: change of G R G / 2 by it
     double dropped = 0;                 // J: that, and the work of loads that went with it
     Eigen::VectorXd p, d, local;        // (strip) N, m, m: local p
+    Eigen::VectorXd friction;  // (coordinate) of friction, less what contact_work has of the same forces
+    double sliding_power = 0;  // W: that the rolling puts into friction
     Eigen::Matrix4Xd shape_force, shape_displacement;  // (shape row and zeros, pair): of p on modes; of z
     double at_once = 0;  // J: stored by half-planes, laws and all else that is instantaneous
   };
@@ -225,6 +234,8 @@ class RollingDynamics {
   ContactWork contact_work(const Instant& before, const Instant& after);
   ModalWork modal_work(const Instant& before, const Instant& after) const;
   RelaxationWork relaxation_work(const Instant& before, const Instant& after) const;
+  void fill_friction(Instant& now) const;
+  void record_friction(const Instant& before, const Instant& after, EnergyBalance& energy_balance) const;
   void record_step(const Instant& before, const Instant& after, EnergyBalance& energy_balance);
   DampingIntegrals damping_integrals() const;
   double relaxation() const { return relaxation_; }
@@ -257,6 +268,9 @@ class RollingDynamics {
   std::vector<int> modes_of(int g) const;
   void weigh_coordinates();
   double rayleigh_damping(double frequency) const;  // s-1 of rad s-1
+  void slide(Position& position) const;             // fills what friction needs
+  void set_friction(double mesh_frequency);
+  Eigen::VectorXd force_of(const Position& position, const Eigen::VectorXd& nodes) const;  // (coordinate)
   // Of set_zone.
   void place_positions(const CandidateZone& range, int steps);
   void require_zone_memory(int steps, const ZoneMemory& beside);
@@ -297,6 +311,7 @@ class RollingDynamics {
   Eigen::VectorXd error_weight_, torque_force_, frequency_squared_;
   // (coordinate) m: by how much the flanks close on the line of action, translations of the hubs included
   Eigen::VectorXd closing_weight_;
+  double friction_ = 0;         // 1: coefficient at this speed
   double rigid_frequency_ = 0;  // rad s-1: sqrt(mean stiffness / reduced mass)
   int reach_ = 1, steps_ = 0, stride_ = 1;
   std::vector<Position> positions_;
@@ -310,6 +325,7 @@ class RollingDynamics {
   // By position: what a pair's force does on the rigid rotation that is projected out; gaps of tip edges.
   struct Corners {
     double drift_lever[kMostPairs] = {};  // 1: a1 / r1 - a2 / r2
+    double slide_lever[kMostPairs] = {};  // 1: s (t1 / r1 - t2 / r2), per coefficient of friction
     double next_gap = 0, lost_gap = 0;    // m
   };
   std::vector<Corners> corners_;

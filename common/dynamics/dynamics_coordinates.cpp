@@ -40,6 +40,7 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
   }
   first_coordinate_.push_back(static_cast<int>(coordinates_.size()));
   weigh_coordinates();
+  if (model_.friction.acts()) set_friction(model_.friction.static_frequency);
 }
 
 void RollingDynamics::require_bodies() const {
@@ -265,6 +266,46 @@ void RollingDynamics::add_sway(int g, const std::vector<int>& columns) {
       coordinates_.push_back(c);
     }
   }
+}
+
+// Of the moments of friction about the axes and, on bearings, of its force across the normal.
+void RollingDynamics::slide(Position& position) const {
+  if (!model_.friction.acts()) return;
+  const auto pairs = static_cast<Eigen::Index>(position.mesh.pairs.size());
+  position.friction = MatrixXd::Zero(pairs, static_cast<Eigen::Index>(coordinates_.size()));
+  position.sliding_loss.resize(pairs);
+  for (Eigen::Index j = 0; j < pairs; ++j) {
+    const PairContact& contact = position.mesh.pairs[static_cast<size_t>(j)].contact;
+    const PairSliding sliding = sliding_of(model_.kinematics, contact, model_.friction.smoothing);
+    position.sliding_loss[j] = sliding.loss();
+    for (size_t c = 0; c < coordinates_.size(); ++c) {
+      double along = 0;
+      for (size_t g = 0; g < kSides; ++g) along += coordinates_[c].hub[g] * sliding.lever[g];
+      if (const int g = coordinates_[c].gear; g >= 0)
+        along += model_.across(g, contact).dot(coordinates_[c].shift);
+      position.friction(j, static_cast<Eigen::Index>(c)) = sliding.direction * along;
+    }
+  }
+}
+
+// The coefficient at a speed, and the torques that go with it.
+void RollingDynamics::set_friction(double mesh_frequency) {
+  friction_ = model_.coefficient_of_friction(parameters_.torque, mesh_frequency);
+  const double kept = 1 - parameters_.loss_per_friction * friction_;
+  for (Eigen::Index i = 0; i < torque_force_.size(); ++i) {
+    const Coordinate& c = coordinates_[static_cast<size_t>(i)];
+    torque_force_[i] =
+        parameters_.torque * (c.hub[0] + kept * c.hub[1] * model_.kinematics.gear(1).base_radius() /
+                                             model_.kinematics.gear(0).base_radius());
+  }
+}
+
+VectorXd RollingDynamics::force_of(const Position& position, const VectorXd& nodes) const {
+  VectorXd out = torque_force_ - position.participation.transpose() * nodes;
+  for (size_t j = 0; friction_ > 0 && j < position.mesh.pairs.size(); ++j)
+    out -= friction_ * nodes(position.mesh.nodes_of(j)).sum() *
+           position.friction.row(static_cast<Eigen::Index>(j)).transpose();
+  return out;
 }
 
 double RollingDynamics::bearing_damper(int g) const {

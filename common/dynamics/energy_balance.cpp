@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "dynamics/dynamics.h"
@@ -115,7 +116,8 @@ void RollingDynamics::size_energy_balance() {
   }
   EnergyBalanceWorkspace& l = balance_work_;
   for (Instant& instant : l.instants) {
-    for (VectorXd* x : {&instant.at.z, &instant.at.v, &instant.at.force}) x->setZero(coordinates);
+    for (VectorXd* x : {&instant.at.z, &instant.at.v, &instant.at.force, &instant.friction})
+      x->setZero(coordinates);
     for (VectorXd* x :
          {&instant.at.relaxed, &instant.at.load, &instant.field, &instant.moved_load, &instant.dropped_field})
       x->setZero(fields);
@@ -168,8 +170,37 @@ void RollingDynamics::fill(Instant& now, const Instant* before, int position, co
     now.shape_force.col(pair) = kernel_.collect(position, pair, p + mesh.first_strip[j], unused);
     now.shape_displacement.col(pair) = kernel_.reading(position, pair, now.at.z.data());
   }
+  if (friction_ > 0) fill_friction(now);
   now.at_once = 0.5 * now.p.head(strips).dot(now.local.head(strips));
   for (size_t j = 0; j < mesh.law.size(); ++j) now.at_once += stored(mesh.law[j], p[j]);
+}
+
+// Coordinates that friction moves do not turn with their gear: a renaming leaves them.
+void RollingDynamics::fill_friction(Instant& now) const {
+  const Position& position = positions_[now.position];
+  now.friction.setZero();
+  now.sliding_power = 0;
+  const double turning =
+      2 * std::numbers::pi /
+      (step_ * steps_ * model_.kinematics.gear(0).design().teeth);  // rad s-1, of the driver
+  for (size_t j = 0; j < position.mesh.pairs.size(); ++j) {
+    const auto pair = static_cast<Eigen::Index>(j);
+    const int first = position.mesh.first_strip[j];
+    const double force = friction_ * now.p.segment(first, position.mesh.first_strip[j + 1] - first).sum();
+    now.friction.head(position.friction.cols()) += force * position.friction.row(pair).transpose();
+    now.sliding_power += force * position.sliding_loss[pair] * turning;
+  }
+}
+
+// With mean forces, as all of the balance: the rolling puts in its share at the nominal speed, the vibration the rest, and the
+// two are what friction takes.
+void RollingDynamics::record_friction(const Instant& a, const Instant& b,
+                                      EnergyBalance& energy_balance) const {
+  const double rolling = 0.5 * step_ * (a.sliding_power + b.sliding_power),
+               vibration = 0.5 * (a.friction + b.friction).dot(b.at.z - a.at.z);
+  energy_balance.friction_rolling += rolling;
+  energy_balance.friction += rolling + vibration;
+  energy_balance.throughput += std::abs(rolling);
 }
 
 // Teeth get the names that they have in the next mesh period. One of each gear is no longer followed.
@@ -355,6 +386,11 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, EnergyBala
   energy_balance.dropped += contact.dropped;
   energy_balance.throughput += std::abs(modes.torque) + std::abs(contact.rolling);
   double& balance = balance_work_.balance;
+  if (friction_ > 0) {
+    const double rolling = energy_balance.friction_rolling, taken = energy_balance.friction;
+    record_friction(a, b, energy_balance);
+    balance += (energy_balance.friction - taken) - (energy_balance.friction_rolling - rolling);
+  }
   balance += modes.kinetic + modes.modal + relaxed.residual + local + modes.damping + relaxed.damping -
              modes.torque - contact.rolling - contact.switching - contact.cutting - contact.dropped +
              relaxed.averaging;

@@ -5,7 +5,7 @@ namespace whine {
 
 // J, summed over the steps of a period. Every line is computed by itself, none as what is left of the others. With mean
 // forces p' = (p_n + p_n+1)/2:
-//   d(storage) + modal_damping + lag_damping = torque + rolling + switching + cutting + forgetting - averaging.
+//   d(storage) + modal_damping + lag_damping + friction = torque + rolling + friction_rolling + switching + cutting + forgetting - averaging.
 struct EnergyBalance {
   double kinetic = 0, modal = 0;  // change of: energy of motion; of the kept modes' springs
   // Change of: residual flexibility; half-planes, lines' laws and all else that is instantaneous.
@@ -22,7 +22,10 @@ struct EnergyBalance {
   // The relaxed load of a tooth that is no longer followed, about a mesh period after its load: minus the energy G R G / 2
   // that goes with it, plus the work of the mean contact forces on the displacement that it took away.
   double dropped = 0;
-  double throughput = 0;  // sum of |torque| + |rolling| per step
+  // Of a pair with friction, else 0: work of the prescribed rolling against friction, and all that friction takes,
+  // integral of mu s N v with the vibration in v.
+  double friction_rolling = 0, friction = 0;
+  double throughput = 0;  // sum of |torque| + |rolling|, of both rollings with friction, per step
   double imbalance = 0;   // largest |sum of the imbalance so far|
 
   double storage() const { return kinetic + modal + residual + local; }

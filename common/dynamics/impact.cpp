@@ -113,8 +113,11 @@ class FixedPhasePair {
       fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
     require_like_teeth(statics.mesh, "a pair at a fixed mesh phase (gear-impact, gear-jump-map)");
     require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
-    const GearMeshModel model(driver, driven, statics.mesh);
+    GearMeshSpec still = statics.mesh;
+    still.friction = {};  // nothing slides at a fixed phase
+    const GearMeshModel model(driver, driven, still);
     DynamicParameters parameters = dynamic_parameters(statics, mean_stiffness, settings);
+    parameters.loss_per_friction = 0;
     parameters.damping.rayleigh_stiffness = 0;
     RollingDynamics dynamics(model, parameters);
     // As a sweep begins, so that the strips are the same.

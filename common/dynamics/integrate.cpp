@@ -106,6 +106,12 @@ bool RollingDynamics::record_contact(const StepKernel::End& end, int position, P
     period.pair_load(frame.pair[j].slot, sample_) = end.carried[j];
     drift += corners_[position].drift_lever[j] * end.carried[j];
   }
+  if (friction_ > 0) {  // beside the difference of the torques
+    for (int j = 0; j < frame.present; ++j)
+      drift += friction_ * corners_[position].slide_lever[j] * end.carried[j];
+    drift -= parameters_.torque / model_.kinematics.gear(0).base_radius() * parameters_.loss_per_friction *
+             friction_;
+  }
   period.drift_force = std::max(period.drift_force, std::abs(drift));
   return true;
 }
@@ -164,9 +170,22 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
 // Of the step at hand.
 RollingDynamics::ContactProblem RollingDynamics::contact_problem() const {
   const StripCompliance a = kernel_.compliance(sample_);
-  ContactProblem problem{MatrixXd(a.size(), a.size()), kernel_.e().head(a.size()),
+  ContactProblem problem{MatrixXd(a.size(), a.size()), MatrixXd(), kernel_.e().head(a.size()),
                          kernel_.step(sample_).active};
   a.assemble(problem.compliance.data());
+  if (!(friction_ > 0)) return problem;
+  const MeshPosition& mesh = positions_[sample_ * stride_].mesh;
+  const MatrixXd& response = kernel_.step(sample_).friction;
+  problem.friction.resize(a.size(), a.size());
+  for (size_t i = 0; i < mesh.pairs.size(); ++i)
+    for (size_t j = 0; j < mesh.pairs.size(); ++j)
+      problem.friction
+          .block(mesh.first_strip[i], mesh.first_strip[j], mesh.pairs[i].size(), mesh.pairs[j].size())
+          .colwise() = mesh.pairs[i].interpolation *
+                       (StepKernel::shape_basis() * response.block<StepKernel::kShapeRows, 1>(
+                                                        static_cast<Eigen::Index>(i) * StepKernel::kShapeRows,
+                                                        static_cast<Eigen::Index>(j)));
+  problem.offset -= problem.friction * kernel_.p().head(a.size());
   return problem;
 }
 

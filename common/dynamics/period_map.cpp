@@ -93,7 +93,7 @@ State RollingPeriodMap::state(const VectorXd& y) const {
   state.pair = dynamics_.pair_stamp_;
   state.z = own.head(n);
   state.v = own.segment(n, n);
-  state.force = dynamics_.torque_force_ - position.participation.transpose() * nodes;
+  state.force = dynamics_.force_of(position, nodes);
   state.load.assign(position.field_weight.size(),
                     MatrixXd::Zero(StepKernel::kFields, 2 * dynamics_.reach_ + 1));
   state.relaxed = state.load;
@@ -147,6 +147,26 @@ std::vector<ContactEvent> RollingPeriodMap::events() const {
 }
 
 MatrixXd RollingPeriodMap::node_forces(int sample) const {
+  const MatrixXd without = node_forces_without_friction(sample);
+  if (!(dynamics_.friction() > 0)) return without;
+  const MatrixXd& response = dynamics_.kernel_.step(sample).friction;  // (shape row, pair)
+  const Eigen::Index pairs = response.cols(), of_pair = without.rows() / std::max<Eigen::Index>(pairs, 1);
+  MatrixXd added = MatrixXd::Zero(without.rows(), without.rows());
+  for (Eigen::Index i = 0; i < pairs; ++i)
+    for (Eigen::Index j = 0; j < pairs; ++j) {
+      auto block = added.block(i * of_pair, j * of_pair, of_pair, of_pair);
+      if (dynamics_.lines())
+        block.setConstant(response(i, j));
+      else
+        block.colwise() = StepKernel::shape_basis() *
+                          response.block<StepKernel::kShapeRows, 1>(i * StepKernel::kShapeRows, j);
+    }
+  MatrixXd whole = without * added;
+  whole.diagonal().array() += 1;
+  return whole.partialPivLu().solve(without);
+}
+
+MatrixXd RollingPeriodMap::node_forces_without_friction(int sample) const {
   const Position& position = this->position(sample);
   const StepKernel::Step& step = dynamics_.kernel_.step(sample);
   const MeshPosition& mesh = position.mesh;
@@ -214,9 +234,18 @@ RollingPeriodMap::Replay RollingPeriodMap::prepare(int sample) {
     numbers_.resize(at + static_cast<size_t>(count));
     return at;
   };
-  r.row = place(static_cast<Eigen::Index>(n) * r.rows);
-  Eigen::Map<MatrixXd>(&numbers_[r.row], r.rows, n) =
-      basis.topRows(mesh.nodes()).transpose() * position.participation;
+  r.row = r.load = place(static_cast<Eigen::Index>(n) * r.rows);
+  const MatrixXd rows = basis.topRows(mesh.nodes()).transpose() * position.participation;
+  Eigen::Map<MatrixXd>(&numbers_[r.row], r.rows, n) = rows;
+  if (dynamics_.friction() >
+      0) {  // of a pair's force as a whole, which is its first row's over that row's norm
+    r.load = place(static_cast<Eigen::Index>(n) * r.rows);
+    Eigen::Map<MatrixXd> load(&numbers_[r.load], r.rows, n);
+    load = rows;
+    for (int j = 0; j < r.present; ++j)
+      load.row(j * rows_of_pair) +=
+          dynamics_.friction() * std::sqrt(static_cast<double>(r.nodes_of_pair)) * position.friction.row(j);
+  }
 
   MatrixXd reading = MatrixXd::Zero(r.nodes, fields_);  // (node, residual field) m N-1
   for (int g = 0; g < dynamics_.gears() && fields_ > 0; ++g)
@@ -276,7 +305,7 @@ void RollingPeriodMap::pass(const Replay& before, const Replay& next, int rows_n
   constexpr int kMost = 2 * kMostPairs;
   const int rows_before = kBefore < 0 ? before.rows : kBefore;
   if (kNext >= 0) rows_next = kNext;
-  const double *row = numbers_.data() + before.row, *read = numbers_.data() + next.row,
+  const double *row = numbers_.data() + before.load, *read = numbers_.data() + next.row,
                *coefficient = coefficients_.data();
   double *z = z_.data(), *v = v_.data();
   R half[kBefore < 0 ? kMost : kBefore], sum[kNext < 0 ? kMost : kNext + 1] = {};
@@ -408,7 +437,7 @@ void RollingPeriodMap::push(const Replay& at, double sign) {
   for (int c = 0; c < coordinates_; ++c) {
     R push{}, z = R::at(&z_[c * kWide]), v = R::at(&v_[c * kWide]);
     for (int r = 0; r < at.rows; ++r)
-      push.add(numbers_[at.row + static_cast<size_t>(c * at.rows + r)], R::at(&half_[r * kWide]));
+      push.add(numbers_[at.load + static_cast<size_t>(c * at.rows + r)], R::at(&half_[r * kWide]));
     const double* coefficient = &coefficients_[c * kCoefficients];
     z.add(-sign * coefficient[6], push);
     v.add(-sign * coefficient[1], push);

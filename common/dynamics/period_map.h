@@ -72,7 +72,7 @@ class RollingPeriodMap : public PeriodMap {
   struct Replay {
     int rows = 0, nodes = 0;  // shape rows of all pairs; nodes of all pairs
     int present = 0, nodes_of_pair = 0;
-    size_t row = 0;  // (coordinate, row)
+    size_t row = 0, load = 0;  // (coordinate, row): that gaps are read through, that forces act through
     size_t solve =
         0;  // (four nodes; residual field, then row; node): node forces of what modes and relaxed loads move
     size_t shape = 0;  // (node, row) halved: forces on shape rows of node forces
@@ -84,7 +84,9 @@ class RollingPeriodMap : public PeriodMap {
   int of_gear() const { return fields_ / dynamics_.gears(); }  // fields
   int channels(int cut) const;                                 // nodes of all pairs at a step
   Eigen::VectorXd units(int cut) const;
-  Eigen::MatrixXd node_forces(int sample) const;  // (node, node) N m-1: W^T A_FF^-1 W
+  // (node, node) N m-1: W^T A_FF^-1 W = S; of A + W E W^T with friction, (1 + S E)^-1 S.
+  Eigen::MatrixXd node_forces(int sample) const;
+  Eigen::MatrixXd node_forces_without_friction(int sample) const;
   Replay prepare(int sample);
   void prepare_replay();
   Eigen::MatrixXd replayed(int cut, const Eigen::MatrixXd& directions);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/friction.h"
+
 namespace whine {
 
 using Eigen::VectorXd;
@@ -293,14 +295,14 @@ struct StepKernel::StripContact {
   // After `carried` of all pairs, force: (pair) N. Fills the loads of the pairs that have force; `share` of it goes to the
   // relaxed load.
   void spread(const Frame& frame, const double* force, double share, ModalLoad& on_modes) {
-    const double* stream = kernel.stream_.data();
+    const double *stream = kernel.stream_.data(), *rows = stream + frame.load;
     double *load = kernel.vectors_.load.data(), *relaxed = kernel.vectors_.relaxed.data();
     const int present = frame.present;
     on_modes.count = 0;
     for (int j = 0; j < present; ++j) {
       if (force[j] == 0) continue;
       const double* own = &kernel.nodes_[j * kPairNodes];
-      on_modes.add(stream + frame.shape + j * kShapeRows * coordinates, kShape.moments(own));
+      on_modes.add(rows + j * kShapeRows * coordinates, kShape.moments(own));
       for (int side = 0; side < kSides; ++side)
         dot_columns(load + side * fields + frame.pair[j].slot * kFields,
                     stream + frame.pair[j].field + side * kPairNodes * kFields, kPairNodes, kFields, own,
@@ -410,11 +412,11 @@ struct StepKernel::LineContact {
   void spread(const Frame& frame, const double* force, double share, ModalLoad& on_modes) const {
     const int present = frame.present, fields = record.fields;
     double *load = kernel.vectors_.load.data(), *relaxed = kernel.vectors_.relaxed.data();
-    const double* line = kernel.stream_.data() + frame.line;
+    const double *line = kernel.stream_.data() + frame.line, *rows = kernel.stream_.data() + frame.load;
     on_modes.count = 0;
-    for (int j = 0; j < present; ++j, line += record.size()) {
+    for (int j = 0; j < present; ++j, line += record.size(), rows += frame.load_apart) {
       if (force[j] == 0) continue;
-      on_modes.add(line + LineRecord::kShape, Lanes{force[j]});
+      on_modes.add(rows, Lanes{force[j]});
       for (int side = 0; side < kSides; ++side) {
         const int at = side * fields + frame.pair[j].slot * kFields;
         for (int k = 0; k < kFields; k += kLanes) {
@@ -456,13 +458,42 @@ void StepKernel::begin(int sample) {
   system_.lines ? begin_with(LineContact(*this), sample) : begin_with(StripContact(*this), sample);
 }
 
+// The contact of a step with friction: gaps are read with what friction of the forces found last moves.
+template <class Model>
+Certificate StepKernel::slide(Model& model, const Frame& frame, Step& step) {
+  constexpr int kRows = Model::kRows;
+  using Shift = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPairs * kRows, 1>;
+  const ModalReading without = reading_;
+  PairVector gaps;  // of lines, which take what modes move off them in place
+  if (kRows == 1) gaps = e_.head(frame.present);
+  double scale = 1e-9;  // m, of a pair that nothing moves
+  for (int j = 0; j < frame.present; ++j)
+    for (int r = 0; r < kRows; ++r) scale = std::max(scale, std::abs(without.moved[j][r]));
+  Shift shift = Shift::Zero(frame.present * kRows);
+  return solve_with_friction(
+      shift, scale,
+      [&](const Shift& by) {
+        for (int j = 0; j < frame.present; ++j)
+          for (int r = 0; r < kRows; ++r) reading_.moved[j][r] = without.moved[j][r] - by[j * kRows + r];
+        if (kRows == 1) e_.head(frame.present) = gaps;
+        return model.solve(frame, step, reading_);
+      },
+      [&] {
+        PairVector force(frame.present);
+        for (int j = 0; j < frame.present; ++j)
+          force[j] = kRows == 1 ? p_[j] : p_.segment(j * frame.of_pair, frame.of_pair).sum();
+        return Shift(step.friction * force);
+      });
+}
+
 template <class Model>
 StepKernel::End StepKernel::finish_with(Model model, int sample, int next) {
   const Frame& frame = this->frame(position_of(sample));
   const bool ahead = next >= 0;
   End end;
   if (ahead) relax(false);
-  end.certificate = model.solve(frame, steps_[sample], reading_);
+  end.certificate =
+      friction_ > 0 ? slide(model, frame, steps_[sample]) : model.solve(frame, steps_[sample], reading_);
   for (int j = 0; j < frame.present; ++j) {
     const Contact contact = model.carried(frame, j, end.carried[j]);
     if (contact != Contact::held) end.contact = contact;

@@ -8,6 +8,8 @@
 //   A  = H + W (B + from_new R + h (bq / 2) h^T) W^T                        H: half-planes, B: at_once, R: relaxed
 //   d  = A p + e >= 0,  p >= 0,  d . p = 0                                  of lines with Hertz's law of p in place of H
 //   n  = W^T p,  l = V^T n,  z = z* - (bq / 2) h^T n,  v = v* - (a12 / 2) h^T n,  g = g* + from_new l.
+// With friction forces act on modes through L = h + mu s T in place of h (T of a pair's force as a whole, gear/friction.h), and
+// gaps are still read through h: A + h (bq / 2) (L - h)^T is not symmetric, and the step solved by solve_with_friction().
 // W: (strip, node) interpolation; V: (node, field) of a pair; C: coupling of the fields of two teeth of a gear; lines have a
 // node per pair and W = 1. step_kernel_reference.h has the same equations in plain matrices; tests/test_step_kernel.cpp
 // compares them.
@@ -47,6 +49,8 @@ struct StepPosition {
   Eigen::MatrixXd participation;              // (node, coordinate) h
   Eigen::MatrixXd relaxed;                    // (node, node) m N-1: of both gears, when nothing moves
   std::vector<Eigen::MatrixXd> field_weight;  // [side] (node, field) V
+  Eigen::MatrixXd friction;  // (pair, coordinate) s T: per mu and force of the pair; empty without friction
+  Eigen::VectorXd sliding_loss;  // (pair) m rad-1: s v per angle of the driver, as `friction`
 };
 
 // What all positions share.
@@ -101,11 +105,14 @@ class StepKernel {
       int slot = 0;
       bool low_is_edge = false, high_is_edge = false;
     };
-    int present = 0, of_pair = 0;    // pairs; strips of a pair
-    size_t gap = 0;                  // (strip)
-    size_t at_once = 0;              // of strips: StripCompliance::at_nodes, of what is instantaneous
-    size_t shape = 0;                // (pair, coordinate, shape row), four coordinates side by side
-    size_t line = 0;                 // of lines: (pair) LineRecord
+    int present = 0, of_pair = 0;  // pairs; strips of a pair
+    size_t gap = 0;                // (strip)
+    size_t at_once = 0;            // of strips: StripCompliance::at_nodes, of what is instantaneous
+    size_t shape = 0;              // (pair, coordinate, shape row), four coordinates side by side
+    size_t line = 0;               // of lines: (pair) LineRecord
+    size_t load = 0,
+           load_apart = 0;           // rows that forces act through, of a pair and the next: as shape, L of h
+    size_t friction = 0;             // (pair, coordinate) StepPosition::friction
     std::span<const HertzLine> law;  // of lines: (pair)
     std::array<Pair, kMostPairs> pair;
   };
@@ -123,6 +130,8 @@ class StepKernel {
     ActiveSet active;
     PairVector force;  // (pair) N, of lines: what they carried here last; empty: not known
     LineStart start;   // of lines, at this speed
+    // (shape row of all pairs, pair) what friction of a pair's force moves at the end of a step, per N; empty without
+    Eigen::MatrixXd friction;
   };
   // State vectors in whole lanes; fields of all teeth of one side after the other.
   struct Vectors {
@@ -142,6 +151,8 @@ class StepKernel {
   void set_zone(StepSystem system, const std::vector<StepPosition>& positions);
   // (strip) m: of the teeth that meet there now.
   void set_gap(int position, const Eigen::VectorXd& gap);
+  // 1: coefficient of friction from the next set_speed on; torque_force: as in StepSystem. For positions with friction.
+  void set_friction(double coefficient, const Eigen::VectorXd& torque_force);
   // `steps` a divisor of the number of positions. Active strips, or forces, of a step at the same phase stay as a first guess.
   void set_speed(std::vector<Propagator> propagators, const Relaxation& relaxed, int steps,
                  const std::vector<StepPosition>& positions);
@@ -251,6 +262,9 @@ class StepKernel {
   struct StripContact;
   struct LineContact;
   template <class Model>
+  Certificate slide(Model& model, const Frame& frame, Step& step);
+  Eigen::MatrixXd friction_response(const Frame& frame) const;
+  template <class Model>
   void begin_with(Model model, int sample);
   template <class Model>
   End finish_with(Model model, int sample, int next);
@@ -265,6 +279,7 @@ class StepKernel {
   using Window =
       std::optional<std::pair<size_t, size_t>>;  // places of interpolation and half-plane, once laid down
   void pack_strips(const StepPosition& position, Frame& frame, std::vector<Window>& zones);
+  void pack_loads(const StepPosition& position, Frame& frame);
   static void put_at_nodes(const Eigen::MatrixXd& at_nodes, double* to);
   void size_steps(int steps);
   void add_response(const Frame& frame, Eigen::MatrixXd& at_nodes) const;
@@ -277,6 +292,7 @@ class StepKernel {
 
   StepSystem system_;
   int coordinates_ = 0, stride_ = 1;
+  double friction_ = 0;  // 1: coefficient
   HubLanes hubs_;
   std::vector<Frame> frames_;
   std::pmr::vector<double> stream_{&huge_pages()};  // so lanes stand in one cache line

@@ -52,6 +52,7 @@ void StepKernel::set_zone(StepSystem system, const std::vector<StepPosition>& po
       pack_lines(positions[i], frame);
     else
       pack_strips(positions[i], frame, zones);
+    pack_loads(positions[i], frame);
   }
   size_workspaces(positions);
 }
@@ -99,8 +100,12 @@ size_t StepKernel::place_matrix(const Eigen::Ref<const MatrixXd>& m) {
 // Of a position, without candidate zones.
 size_t StepKernel::numbers(const StepPosition& position) const {
   const int pairs = static_cast<int>(position.mesh.pairs.size());
-  if (system_.lines) return static_cast<size_t>(pairs) * static_cast<size_t>(record().size());
-  return static_cast<size_t>(position.mesh.strips()) +
+  const size_t friction =
+      position.friction.size() == 0
+          ? 0
+          : static_cast<size_t>(pairs * (system_.lines ? 2 : 1 + kShapeRows) * coordinates_);
+  if (system_.lines) return friction + static_cast<size_t>(pairs) * static_cast<size_t>(record().size());
+  return friction + static_cast<size_t>(position.mesh.strips()) +
          static_cast<size_t>(pairs) *
              static_cast<size_t>(kPairNodes * pairs * kZoneNodes + kShapeRows * coordinates_ +
                                  kSides * kPairNodes * kFields);
@@ -163,6 +168,39 @@ void StepKernel::pack_strips(const StepPosition& position, Frame& frame, std::ve
                            kPairNodes, kFields)
           .topRows<kZoneNodes>() = position.field_weight[side].middleRows<kZoneNodes>(j * kZoneNodes);
   }
+}
+
+// Rows that forces act through: those that gaps are read through, or others with friction.
+void StepKernel::pack_loads(const StepPosition& position, Frame& frame) {
+  const int of_pair = (system_.lines ? 1 : kShapeRows) * coordinates_;
+  frame.load = system_.lines ? frame.line + LineRecord::kShape : frame.shape;
+  frame.load_apart = static_cast<size_t>(system_.lines ? record().size() : of_pair);
+  if (position.friction.size() == 0) return;
+  frame.friction = place(frame.present * coordinates_);
+  for (int j = 0; j < frame.present; ++j)
+    Eigen::Map<Eigen::RowVectorXd>(&stream_[frame.friction + static_cast<size_t>(j * coordinates_)],
+                                   position.friction.cols()) = position.friction.row(j);
+  frame.load = place(frame.present * of_pair);
+  frame.load_apart = static_cast<size_t>(of_pair);
+}
+
+// A pair's force as a whole is the first row's, over that row's norm.
+void StepKernel::set_friction(double coefficient, const VectorXd& torque_force) {
+  friction_ = coefficient;
+  system_.torque_force = torque_force;
+  const int rows = system_.lines ? 1 : kShapeRows;
+  const double share = coefficient * (system_.lines ? 1.0 : std::sqrt(static_cast<double>(kZoneNodes)));
+  for (const Frame& frame : frames_)
+    for (int j = 0; j < frame.present; ++j) {
+      const double *shape = shape_of(frame, j),
+                   *friction = &stream_[frame.friction + static_cast<size_t>(j * coordinates_)];
+      double* load = &stream_[frame.load + static_cast<size_t>(j) * frame.load_apart];
+      for (int c = 0; c < coordinates_; c += kLanes)
+        for (int r = 0; r < rows; ++r) {
+          lanes(load + c * rows + r * kLanes) = lanes(shape + c * rows + r * kLanes);
+          if (r == 0) lanes(load + c * rows) += share * lanes(friction + c);
+        }
+    }
 }
 
 void StepKernel::set_gap(int position, const VectorXd& gap) {
@@ -254,6 +292,7 @@ void StepKernel::set_speed(std::vector<Propagator> propagators, const Relaxation
     step.start.forget();
     at_nodes = position.at_once + relaxed_step_.from_new * position.relaxed;
     add_response(frame(position_of(i)), at_nodes);
+    if (friction_ > 0) step.friction = friction_response(frame(position_of(i)));
     if (system_.lines)
       step.compliance = at_nodes;
     else
@@ -306,6 +345,26 @@ void StepKernel::add_response(const Frame& frame, MatrixXd& at_nodes) const {
       at_nodes.block<kZoneNodes, kZoneNodes>(i * kZoneNodes, j * kZoneNodes) += share;
       if (i != j) at_nodes.block<kZoneNodes, kZoneNodes>(j * kZoneNodes, i * kZoneNodes) += share.transpose();
     }
+}
+
+// h (bq / 2) (L - h)^T, (shape row of all pairs, pair).
+MatrixXd StepKernel::friction_response(const Frame& frame) const {
+  const int rows = system_.lines ? 1 : kShapeRows;
+  MatrixXd out = MatrixXd::Zero(frame.present * rows, frame.present);
+  for (int i = 0; i < frame.present; ++i)
+    for (int j = 0; j < frame.present; ++j) {
+      const double *read = shape_of(frame, i),
+                   *friction = &stream_[frame.friction + static_cast<size_t>(j * coordinates_)];
+      for (int c = 0; c < coordinates_; ++c) {
+        const int lane = c % kLanes, first = c - lane;
+        const double half =
+            0.5 * friction_ *
+            coefficients_.number[Coefficients::place(Coefficients::bq, first, coordinates_) + lane];
+        for (int r = 0; r < rows; ++r)
+          out(i * rows + r, j) += half * read[first * rows + r * kLanes + lane] * friction[c];
+      }
+    }
+  return out;
 }
 
 StripCompliance StepKernel::strip_compliance(const Frame& frame, const double* at_nodes) const {

@@ -278,6 +278,7 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
   if (part != Part::mesh) return;
   if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
     parameters(section, values, Part::contact_plane);
+  if (values.mesh.friction.acts()) parameters("friction", values, Part::friction);
   for (const GearSection& own : kGearSections)
     for (int g = 0; g < kSides; ++g) {
       KeyValues of_gear;
@@ -402,6 +403,8 @@ void ArtifactReader::parameters(const std::string& section, KeyValues& values, P
   if (part != Part::mesh) return;
   const SectionSource mesh(*this, section);
   if (mesh.has("contact_plane")) set_parameters(values, Part::contact_plane, mesh);
+  if (const SectionSource friction(*this, "friction"); friction.has("law"))
+    set_parameters(values, Part::friction, friction);
   for (int g = 0; g < kSides; ++g) {
     KeyValues of_gear;
     for (const GearSection& own : kGearSections) {

@@ -28,6 +28,7 @@ constexpr Unit kSecond{"_s", "s"};
 constexpr Unit kHertz{"_Hz", "Hz"};
 constexpr Unit kKilohertz{"_kHz", "Hz", 1000};
 constexpr Unit kNewtonSecondPerMetre{"_Ns_m", "N s m-1"};
+constexpr Unit kMillipascalSecond{"_mPas", "Pa s", 1, 1000};
 
 // NOLINTNEXTLINE(readability-function-size): a table of data
 std::vector<Key> make_keys() {
@@ -222,6 +223,28 @@ std::vector<Key> make_keys() {
     {Part::bearing, "bearing", "mass_kg", kKilogram, "0.0", 0, 1e6, false, "",
      "mass of all that moves with the gear's hub, its body included; 0: as drawn, the body between bore and tip alone; of a system with body = \"rigid\" it is required",
      [](V& v) -> Slot { return &v.bearing.mass; }},
+
+    {Part::friction, "friction", "law", kNone, "constant", 0, 0, false, kWordsOf<FrictionLaw>,
+     "coefficient of friction: a number, or Schlenk's formula of load, speed, oil and roughness",
+     [](V& v) -> Slot { return choice_slot(v.mesh.friction.law); }},
+    {Part::friction, "friction", "coefficient", kNone, "0.0", 0, 0.3, false, "",
+     "of law = \"constant\": friction force over normal force; 0: no friction",
+     [](V& v) -> Slot { return &v.mesh.friction.coefficient; }},
+    {Part::friction, "friction", "smoothing", kNone, "0.01", 1e-6, 1, false, "",
+     "sliding speed v0 over the speed of the pitch line: friction is mu N v / sqrt(v^2 + v0^2), and so changes its sign smoothly at the pitch point",
+     [](V& v) -> Slot { return &v.mesh.friction.smoothing; }},
+    {Part::friction, "friction", "viscosity_mPas", kMillipascalSecond, "0.0", 0, 1e6, false, "",
+     "of law = \"schlenk\", which requires it: dynamic viscosity of the oil at the temperature of the mesh",
+     [](V& v) -> Slot { return &v.mesh.friction.viscosity; }},
+    {Part::friction, "friction", "roughness_um", kMicrometre, "0.0", 0, 100, false, "",
+     "of law = \"schlenk\", which requires it: arithmetic roughness Ra of the flanks, mean of both gears",
+     [](V& v) -> Slot { return &v.mesh.friction.roughness; }},
+    {Part::friction, "friction", "lubricant_factor", kNone, "1.0", 0.1, 10, false, "",
+     "of law = \"schlenk\": X_L, 1 for mineral oils",
+     [](V& v) -> Slot { return &v.mesh.friction.lubricant_factor; }},
+    {Part::friction, "friction", "static_frequency_Hz", kHertz, "0.0", 0, 1e6, false, "",
+     "of law = \"schlenk\", which requires it: mesh frequency that the pair at rest stands for",
+     [](V& v) -> Slot { return &v.mesh.friction.static_frequency; }},
 
     {Part::damping, "damping", "rayleigh_mass_per_s", kPerSecond, "0.0", 0, 1e6, false, "",
      "mu of Eq. 21: multiplies the mass matrix",

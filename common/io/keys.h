@@ -62,6 +62,7 @@ enum class Part {
   material,
   mesh,
   contact_plane,  // of a mesh; stage parameters or an artifact hold it only where it is not that of the bodies
+  friction,       // of a mesh; stage parameters or an artifact hold it only where it acts
   damping,
   load,           // torque
   operation,      // speeds

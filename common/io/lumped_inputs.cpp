@@ -26,6 +26,7 @@ LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& r
   const StaticArtifact& at_torque = inputs.at_torque;
   require_like_teeth(at_torque.mesh, "a lumped model");
   require_rigid_bearings(at_torque.mesh, "a lumped model");
+  require_no_friction(at_torque.mesh, "a lumped model");
   if (at_torque.hunting_periods > 1)
     fail(Failure::input, statics, " holds ", at_torque.hunting_periods,
          " mesh periods, because a tooth is cracked: a lumped model takes teeth that are all alike; use a "

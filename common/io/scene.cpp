@@ -375,6 +375,36 @@ void read_mesh_section(const Source& source, Scene& scene) {
   }
 }
 
+void read_friction(const Source& source, GearMeshSpec& mesh) {
+  const toml::table* table = source.section("friction");
+  if (!table) return;
+  const SectionReader reader(source, Dialect::scene, *table, "friction", "friction");
+  reader.reject_unknown();
+  KeyValues values;
+  reader.read(values, {Part::friction}, false);
+  mesh.friction = values.mesh.friction;
+  const auto reject_key = [&](const char* key, const auto&... why) {
+    const toml::node* at = table->get(key);
+    source.reject(at ? *at : static_cast<const toml::node&>(*table),
+                  text("'", key, "' in [friction] ", why...));
+  };
+  const bool constant = mesh.friction.law == FrictionLaw::constant;
+  if (constant && !table->get("coefficient"))
+    reject_key("coefficient",
+               "is not given: law = \"constant\" requires it; give a number, 0.05 for example");
+  if (!constant && table->get("coefficient"))
+    reject_key("coefficient",
+               "is given beside law = \"schlenk\", which computes it; take one of the two out");
+  for (const auto& [key, value] : {std::pair{"viscosity_mPas", mesh.friction.viscosity},
+                                   std::pair{"roughness_um", mesh.friction.roughness},
+                                   std::pair{"static_frequency_Hz", mesh.friction.static_frequency}}) {
+    if (constant && table->get(key))
+      reject_key(key, "has a meaning with law = \"schlenk\" only; take it out");
+    if (!constant && !(value > 0))
+      reject_key(key, "must be given and above 0: law = \"schlenk\" requires it");
+  }
+}
+
 }  // namespace
 
 bool is_system(const Source& source) {
@@ -406,8 +436,8 @@ Scene scene_of(const Source& source) {
         why, " is the scene of a system, and this stage is for pairs; for systems there is make report"));
   }
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
-  top.reject_unknown(
-      {"gear", "material", "bearing", "mesh", "damping", "operation", "fidelity", "discretisation"});
+  top.reject_unknown({"gear", "material", "bearing", "mesh", "friction", "damping", "operation", "fidelity",
+                      "discretisation"});
   std::vector<std::string> missing;
   for (const char* name : {"gear", "material", "mesh", "operation"}) {
     if (source.root().get(name)) continue;
@@ -425,6 +455,7 @@ Scene scene_of(const Source& source) {
   read_gears(source, scene, false);
   read_bearings(source, scene);
   read_mesh_section(source, scene);
+  read_friction(source, scene.mesh);
   const std::set<Part> rest = {Part::damping,    Part::load,          Part::operation,
                                Part::level,      Part::contact_level, Part::body,
                                Part::near_field, Part::contact,       Part::time};

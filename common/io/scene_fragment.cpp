@@ -90,6 +90,7 @@ std::string scene_fragment(const Scene& scene, const std::string& path, const st
                     : "alike")
       << (cracked ? " cracked" : "") << "\n";
   out << name("MODIFIED") << " := " << (modified ? "yes" : "no") << "\n";
+  out << name("FRICTION") << " := " << (scene.mesh.friction.acts() ? "yes" : "no") << "\n";
   out << name("BEARINGS") << " := " << (scene.mesh.on_bearings() ? "elastic" : "rigid") << "\n";
   out << "BODIES +=";
   for (const auto& hash : different(bodies)) out << " " << hash;

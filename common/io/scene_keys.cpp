@@ -86,6 +86,8 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
         return !driver.design.internal || !driven.design.internal;
       case Part::rim:
         return driver.design.internal || driven.design.internal;
+      case Part::friction:
+        return driver.mesh.friction.acts();
       case Part::crack:
         return driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
       default:
@@ -100,8 +102,8 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
     if (of_operation(key) || !stands(key.part)) continue;
     const std::string section(key.section), first = in_scene_unit(driver, key),
                                             second = in_scene_unit(driven, key);
-    const bool of_gears =
-        section != "mesh" && section != "damping" && section != "fidelity" && section != "discretisation";
+    const bool of_gears = section != "mesh" && section != "friction" && section != "damping" &&
+                          section != "fidelity" && section != "discretisation";
     if (!first.empty() || !second.empty())
       out.push_back({section, key.name, {first, of_gears || first != second ? second : ""}, key.meaning});
   }

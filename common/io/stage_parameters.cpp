@@ -108,6 +108,7 @@ void add_static(StageParametersText& out, const Scene& scene, KeyValues& values,
   // Left out where contact has the bodies' plane state, as all stage parameters had before there was a choice.
   if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
     out.add("mesh", "mesh", values, {Part::contact_plane});
+  if (values.mesh.friction.acts()) out.add("friction", "friction", values, {Part::friction});
   for (const GearSection& own : kGearSections)
     for (int g = 0; g < kSides; ++g) {
       take_gear(values, scene.mesh, g);
@@ -247,6 +248,8 @@ StaticParameters read_static(const Source& source) {
   read_parameter_section(source, "mesh", "mesh", {Part::mesh}, values);
   if (source.section("mesh")->contains("contact_plane"))
     read_parameter_section(source, "mesh", "mesh", {Part::contact_plane}, values);
+  if (source.section("friction"))
+    read_parameter_section(source, "friction", "friction", {Part::friction}, values);
   read_parameter_section(source, "fidelity", "fidelity", {Part::contact_level}, values);
   read_parameter_section(source, "discretisation", "discretisation", {Part::contact}, values);
   StaticParameters out{values.mesh, values.fidelity, values.contact};

@@ -79,6 +79,30 @@ void describe_root_stress(Codec& c, StaticArtifact& a) {
             &a.loss_factor);
 }
 
+// Left out of flanks without friction.
+void describe_friction(Codec& c, StaticArtifact& a) {
+  if (!c.optional("/friction_loss", a.friction_loss.size() > 0)) return;
+  c.dataset({"/friction_coefficient", "1", "coefficient of friction", "", kPositive},
+            &a.friction_coefficient);
+  c.dataset({"/friction_loss", "N m", "work that friction takes per angle (rad) of the driver", "mesh_phase",
+             kMoment, "sum of mu s F (t1 - t2 z1 / z2)"},
+            &a.friction_loss);
+  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
+    c.dataset(
+        {of_body(c, a.mesh, g, "friction_moment"), "N m",
+         "moment of friction about the axis of the gear, positive where it acts as the normal force does: "
+         "against the rotation of the driver, with that of the driven gear",
+         "mesh_phase", kMoment, "sum of mu s F t"},
+        &a.friction_moment[g]);
+  c.dataset({"/efficiency",
+             "1",
+             "of the mesh at rest: work given by the driven gear over that put into the driver",
+             "",
+             {0, 1},
+             "1 - mean friction_loss / torque"},
+            &a.efficiency);
+}
+
 }  // namespace
 
 void describe(Codec& c, StaticArtifact& a) {
@@ -88,6 +112,7 @@ void describe(Codec& c, StaticArtifact& a) {
             &a.contact_ratio);
   describe_curves(c, a);
   describe_root_stress(c, a);
+  describe_friction(c, a);
   c.dataset({"/transmission_error_harmonic", "m",
              "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic", kLength},
             &a.transmission_error_harmonic);

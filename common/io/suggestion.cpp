@@ -21,7 +21,7 @@ struct Synonym {
 constexpr Synonym kSynonyms[] = {
     {"helixangle helix beta spiralangle", "",
      "gears are spur gears for now, helical ones are not computed; take the line out if the angle is 0"},
-    {"frictioncoefficient friction", "", "teeth slide without friction; take the line out"},
+    {"frictioncoefficient coefficientoffriction friction cof", "coefficient"},
     {"bearingstiffness shaftstiffness supportstiffness", "",
      "axes are rigid: gears turn and do nothing else; take the line out"},
     {"leadcrowning leadslope helixslope helixcrowning", "",

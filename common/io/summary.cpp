@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "gear/friction.h"
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
 #include "io/error_budget_codec.h"
@@ -171,6 +172,7 @@ void show(Lines& lines, const StaticArtifact& a) {
   add(lines, "corner contact", corner_rule(a.mesh));
   add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
+  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
   show_discretisation(lines, a);
@@ -197,7 +199,10 @@ void show(Lines& lines, const StaticArtifact& a) {
   for (int g = 0; g < a.root_stress_max.size(); ++g)
     add(lines, "root stress of " + a.mesh.gear[g], a.root_stress_max[g] * 1e-6, " MPa at a tangent of ",
         a.root_stress_angle[g] * 180 / std::numbers::pi, " deg, phase of its pair ", a.root_stress_phase[g]);
-  add(lines, "loss factor", a.loss_factor);
+  add(lines, "loss factor", a.loss_factor,
+      a.friction_loss.size() > 0 ? text("; efficiency ", a.efficiency * 100,
+                                        " % at a coefficient of friction of ", a.friction_coefficient)
+                                 : "");
   add(lines, "certificate", a.mesh_phase.size(), " positions; least gap ", a.least_gap * 1e6,
       " µm, least force ", a.least_force, " N, torque residual ", a.torque_residual);
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
@@ -206,6 +211,7 @@ void show(Lines& lines, const StaticArtifact& a) {
 void show(Lines& lines, const LoadedArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", mesh phase ", a.mesh_phase);
   show_modification(lines, a.mesh);
+  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
   show_discretisation(lines, a);
   add(lines, "transmission error", a.transmission_error * 1e6, " µm");
   for (Eigen::Index i = 0; i < a.pair.size(); ++i)
@@ -278,6 +284,7 @@ void show(Lines& lines, const SweepArtifact& a) {
   add(lines, "corner contact", corner_rule(a.mesh));
   add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
+  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
   if (a.mesh_frequency.size() > 0) {
@@ -445,6 +452,7 @@ namespace {
 void show(Lines& lines, const HarrisMapArtifact& a) {
   show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
+  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
   add(lines, "torque", a.torque.size(), " from ", a.torque[0], " to ", a.torque[a.torque.size() - 1], " N m");
@@ -465,6 +473,7 @@ void show(Lines& lines, const HarrisMapArtifact& a) {
 void show(Lines& lines, const VariantArtifact& a) {
   show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
+  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
   add(lines, "torque", a.torque, " N m");
   if (!a.directions.empty())
     add(lines, "speeds", a.frequency_from, " to ", a.frequency_to, " Hz, ", a.directions.size(),

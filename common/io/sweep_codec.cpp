@@ -85,6 +85,14 @@ void describe_speed_by_speed(Codec& c, SweepArtifact& a) {
     c.column({text("/energy/", kEnergyLines[i].name), "J",
               text(kEnergyLines[i].meaning, ", over the stored periods"), axis, kEnergy},
              a.energy, i, kLines);
+  describe_friction(c, a.friction);
+  if (c.optional("/energy/friction", a.friction_work.size() > 0)) {
+    c.dataset({"/energy/friction_rolling", "J",
+               "work of the prescribed rolling against friction, over the stored periods", axis, kEnergy},
+              &a.friction_rolling);
+    c.dataset({"/energy/friction", "J", "taken by friction, over the stored periods", axis, kEnergy},
+              &a.friction_work);
+  }
   c.dataset(
       {"/drift_force", "N", "largest force that the output must supply to hold the mean speed", axis, kForce},
       &a.drift_force);

@@ -224,6 +224,10 @@ SystemScene read_system_scene(const std::string& path) {
                       "] stands in a scene of a system (several meshes, carriers or drives), of which "
                       "statics and natural modes are computed so far, its torques those of [[drive]]; take "
                       "the section out"));
+  if (const toml::node* node = source.root().get("friction"))
+    source.reject(*node,
+                  "[friction] stands in a scene of a system (several meshes, carriers or drives), whose "
+                  "meshes have no friction so far; take the section out");
   top.reject_unknown(
       {"gear", "material", "bearing", "mesh", "carrier", "drive", "fidelity", "discretisation"});
   for (const char* name : {"gear", "mesh"})

@@ -27,6 +27,11 @@ void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage) 
            " N/um; take a scene without [[bearing]]");
 }
 
+void require_no_friction(const GearMeshSpec& mesh, const std::string& stage) {
+  if (mesh.friction.acts())
+    fail(Failure::input, stage, " knows no friction, and the scene has [friction]; take the section out");
+}
+
 void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
                       const std::string& stage) {
   for (int g = 0; g < 2; ++g)

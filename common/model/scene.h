@@ -37,6 +37,24 @@ enum class ContactPlane { strain, stress, body };
 template <>
 inline constexpr const char* kWordsOf<ContactPlane> = "strain stress body";
 
+// Where the coefficient of friction comes from: a number, or Schlenk's formula (gear/friction.h).
+enum class FrictionLaw { constant, schlenk };
+template <>
+inline constexpr const char* kWordsOf<FrictionLaw> = "constant schlenk";
+
+// Coulomb friction between the flanks, mu s N, s = v / sqrt(v^2 + v_0^2), v the sliding speed of the kinematics.
+struct Friction {
+  FrictionLaw law = FrictionLaw::constant;
+  double coefficient = 0;       // 1, of FrictionLaw::constant; 0: no friction
+  double smoothing = 0.01;      // 1: v_0 over the speed of the pitch line
+  double viscosity = 0;         // Pa s, these of Schlenk's formula: of the oil in the mesh,
+  double roughness = 0;         // m: Ra, mean of both flanks,
+  double lubricant_factor = 1;  // 1: X_L,
+  double static_frequency = 0;  // Hz: mesh frequency that the pair at rest stands for
+
+  bool acts() const { return law != FrictionLaw::constant || coefficient > 0; }
+};
+
 struct GearMeshSpec {
   std::array<std::string, kSides> gear;  // names: driver, driven gear
   double centre_distance = 0;            // m
@@ -45,6 +63,7 @@ struct GearMeshSpec {
   std::array<FlankModification, kSides> modification = {};  // of each gear
   std::array<ToothErrors, kSides> errors = {};
   std::array<Bearing, kSides> bearing = {};
+  Friction friction = {};
 
   bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
 };
@@ -121,6 +140,7 @@ struct Scene {
 void require_like_teeth(const GearMeshSpec& mesh,
                         const std::string& stage);  // ... teeth that differ from each other,
 void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage);  // ... elastic bearings,
+void require_no_friction(const GearMeshSpec& mesh, const std::string& stage);     // ... friction,
 void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
                       const std::string& stage);  // ... internal gears.
 

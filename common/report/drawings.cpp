@@ -23,6 +23,7 @@
 #include "io/system_static_codec.h"
 #include "report/campbell_figure.h"
 #include "report/compare_figures.h"
+#include "report/efficiency_figure.h"
 #include "report/flank_pressure_figure.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
@@ -124,6 +125,17 @@ Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
   return root_stress_figure(statics[0], sweeps, branches);
 }
 
+Figure draw_efficiency(const Paths& inputs, const Frequencies&) {
+  std::vector<StaticArtifact> statics;
+  std::vector<ResponseArtifact> sweeps;
+  for (const std::string& path : inputs)
+    if (is_a("whine/static", path))
+      statics.push_back(read_static(path));
+    else
+      sweeps.push_back(read_response(path));
+  return efficiency_figure(statics, sweeps);
+}
+
 Drawings drawings_at_rest() {
   return {
       {"fig01",
@@ -164,6 +176,10 @@ Drawings drawings_at_rest() {
        {"the mark of a cracked tooth in the static transmission error, and its orders",
         "static.h5 of a pair with a crack", 1, 0,
         [](const Paths& in, const Frequencies&) { return crack_figure(read_static(in[0])); }}},
+      {"efficiency",
+       {"losses and efficiency over speed, moments of friction over a mesh period",
+        "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]",
+        0, 0, draw_efficiency}},
       {"root-stress",
        {"root stress over the mesh cycle and over speed, dynamic factors beside K_v",
         "static.h5, response.h5 of the sweeps up and down, all of one torque; branch.h5, for orbits that no "

@@ -145,6 +145,17 @@ std::string of_bearings(const ReportContent& c) {
          ", and the largest force, beside the load at rest.";
 }
 
+std::string of_losses(const ReportContent& c) {
+  return "Efficiency of the mesh (a) and the mean power that friction between the flanks takes (b) over "
+         "speed, "
+         "rising and falling; dotted: the efficiency at rest, by kinematics. Moments of friction about the "
+         "two "
+         "axes while the teeth pass through the mesh at rest (c). Oil, bearings and windage are left out, "
+         "and so "
+         "is what the dampers of the vibration take." +
+         beyond_words(c, 0);
+}
+
 std::string of_budget(const ReportContent& c) {
   if (!c.budget) return "";
   return text("Error budget of the statics at ", torque_words(c.budget->torque),
@@ -216,6 +227,7 @@ const std::vector<Explained>& explained() {
        plain("Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds "
              "there, against roll angle and speed. Where a tip edge runs on a flank the pressure is "
              "singular, so the load that the edge carries stands beside it.")},
+      {"efficiency", "motion", "Losses by friction", of_losses},
       {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};
   return all;

@@ -112,6 +112,12 @@ constexpr Row kRows[] = {
      "here "
      "and round in metal.",
      "A load over an edge asks for tip relief: make harris-map."},
+    {Needs::motion, "efficiency", "Efficiency, power lost by friction",
+     "What friction between the flanks takes, at rest and in motion; the loss factor H_V is apart from the "
+     "coefficient of friction.",
+     "Proportional to the coefficient of friction, which formulas give to 20 to 35 %; H_V itself to a few "
+     "per cent. Oil, bearings and windage are left out.",
+     "Compare designs by H_V; it depends on no coefficient."},
     {Needs::motion, "bearing-forces", "Forces on the bearings",
      "What each gear presses its bearing with, spring and damper together; the oscillating part is what a "
      "housing "

@@ -50,6 +50,10 @@ void add_statics(const StaticArtifact& s, const Adder& add) {
         fixed(s.root_stress_max[g] * 1e-6, 1));
   add("loss factor H_V at rest (power lost over power carried and coefficient of friction)", "1",
       fixed(s.loss_factor, 4));
+  if (s.friction_loss.size() > 0) {
+    add("coefficient of friction at rest", "1", fixed(s.friction_coefficient, 4));
+    add("efficiency at rest (friction between the flanks alone)", "%", fixed(s.efficiency * kPercent, 3));
+  }
 }
 
 void add_ring_down(const ImpactArtifact& a, const Adder& add) {

@@ -6,6 +6,7 @@
 
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "signal/friction_losses.h"
 
 namespace whine {
 
@@ -39,6 +40,7 @@ struct ResponseArtifact : MotionParameters {
       flank_pressure;  // (speed, place) Pa, largest over the mesh periods; 0: no load, or a tip edge is touched
   std::array<Eigen::VectorXd, 2>
       edge_load;  // [gear] (speed) N: largest that a pair carries over the gear's tip edge
+  FrictionLosses friction;
   Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
   Eigen::VectorXd separations_per_period;      // (speed) 1
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz

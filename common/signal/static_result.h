@@ -35,6 +35,12 @@ struct StaticArtifact : PairParameters {
       root_stress_angle;  // (gear) rad: of the root's tangent there against the centre line of the tooth
   Eigen::VectorXd root_stress_phase;  // (gear) 1: mesh phase of the loaded pair then, 0 at the pitch point
   double loss_factor = 0;             // H_V: mean power lost by sliding, over mu times the power carried
+  double friction_coefficient = 0;    // 1; 0: no friction, and what follows is empty
+  // (phase) N m: work that friction takes per angle of the driver; [gear] (phase) N m: moment of friction about its axis, positive
+  // where it acts as the normal force does: against the rotation of the driver, with that of the driven gear
+  Eigen::VectorXd friction_loss;
+  std::array<Eigen::VectorXd, 2> friction_moment;
+  double efficiency = 1;                        // 1 - mean friction_loss / torque
   Eigen::VectorXd transmission_error_harmonic;  // (harmonic 0..) m: mean, then amplitudes
   Eigen::VectorXd stiffness_harmonic;           // (harmonic 0..) N m-1, of the secant stiffness
   // (order 0..) m: mean, then amplitudes of the harmonics of the hunting frequency, up to those above; empty for teeth that

@@ -7,6 +7,7 @@
 
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "signal/friction_losses.h"
 
 namespace whine {
 
@@ -74,6 +75,10 @@ struct SweepArtifact : MotionParameters {
   Eigen::VectorXi period_multiple;
   Eigen::VectorXd energy_imbalance;  // (speed) relative to the input energy of the stored periods
   MatrixRM energy;                   // (speed, line of kEnergyLines) J over the stored periods
+  FrictionLosses friction;
+  // (speed) J over the stored periods: work of the prescribed rolling against friction, and all that friction takes; they stand
+  // beside the works and the dampers of `energy`. Empty without friction.
+  Eigen::VectorXd friction_rolling, friction_work;
   // (speed) N: largest force that the output must supply to hold the mean speed
   Eigen::VectorXd drift_force;
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz

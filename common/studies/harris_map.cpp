@@ -381,6 +381,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
   require_plan(plan);
   require_like_teeth(statics.mesh, "a Harris map");
   require_rigid_bearings(statics.mesh, "a Harris map");
+  require_no_friction(statics.mesh, "a Harris map");
   require_external(statics.mesh, driver.design, driven.design, "a Harris map");
   if (hunting_periods(GearMeshModel(driver, driven, statics.mesh)) > 1)
     fail(Failure::input,

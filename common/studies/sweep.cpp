@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -367,6 +368,12 @@ void store_orbit(const Orbit& orbit, double mesh_frequency, Eigen::Index row, Sw
   a.energy_imbalance[row] = l.imbalance / l.throughput;
   a.energy.row(row) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
       l.relaxation_damping, l.switching, l.cutting, l.averaging, l.dropped;  // kEnergyLines
+  if (a.friction.power.size() == 0) return;
+  a.friction_rolling[row] = l.friction_rolling;
+  a.friction_work[row] = l.friction;
+  a.friction.power[row] = l.friction * mesh_frequency / static_cast<double>(orbit.record.size());
+  const double turning = 2 * std::numbers::pi * mesh_frequency / a.gear[0].design.teeth;  // rad s-1
+  a.friction.efficiency[row] = 1 - a.friction.power[row] / (a.torque * turning);
 }
 
 // The samples of one speed, pairs up to `reach`; its orbit repeats to fill a row of `longest` mesh periods.
@@ -491,6 +498,10 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   for (VectorXd* v : {&result.mesh_frequency, &result.residual, &result.energy_imbalance}) v->resize(speeds);
   for (Eigen::VectorXi* v : {&result.periods, &result.period_multiple}) v->resize(speeds);
   result.energy.resize(speeds, kEnergyLines.size());
+  if (model.friction.acts())
+    for (VectorXd* v : {&result.friction.coefficient, &result.friction.power, &result.friction.efficiency,
+                        &result.friction_rolling, &result.friction_work})
+      v->resize(speeds);
 
   const bool integrate = settings.time.steady_state == SteadyState::integrate;
   std::vector<Orbit> steady;
@@ -500,7 +511,10 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     steady.push_back(integrate ? sweeper.run(f) : run_on(sweeper, motions, reached, f));
     motions.push_back(branch_motion(f, steady.back()));
     reached.push_back(sweeper.state());
-    store_orbit(steady.back(), f, static_cast<Eigen::Index>(steady.size()) - 1, result);
+    const auto row = static_cast<Eigen::Index>(steady.size()) - 1;
+    store_orbit(steady.back(), f, row, result);
+    if (model.friction.acts())
+      result.friction.coefficient[row] = model.coefficient_of_friction(statics.torque, f);
     report(static_cast<long>(steady.size()), speeds, text(f, " Hz, ", steady.back().periods, " periods"));
   }
   std::vector<BranchJump> jumps;

@@ -109,6 +109,7 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
                            const BodyArtifact& driver, const BodyArtifact& driven,
                            const StaticArtifact& statics, double phase, int period) {
   require_rigid_bearings(statics.mesh, "the view of loaded gears");
+  require_no_friction(statics.mesh, "the view of loaded gears");
   require_external(statics.mesh, statics.gear[0].design, statics.gear[1].design, "the view of loaded gears");
   const std::vector<ContactZone> zones = contact_zones(driver, driven, statics, phase, period);
   const GearPair gears(statics);

@@ -28,6 +28,7 @@ GearMeshModel::GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, c
       deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0]),
                 FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1])},
       bearing(mesh.bearing),
+      friction(mesh.friction),
       layout(placed) {}
 
 Vec2 GearMeshModel::outward_in_system(int g, const PairContact& contact) const {
@@ -436,7 +437,7 @@ MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& positi
 Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& approach, double load,
                         double start, ActiveSet& active, ComplementaritySolver& solver) {
   VectorXd d(gap.size()), reduced, response;
-  return equilibrium(gap, approach, load, start, [&](const VectorXd& e, VectorXd& p) {
+  return equilibrium(gap, approach, approach, load, start, [&](const VectorXd& e, VectorXd& p) {
     FixedContact fixed;
     fixed.certificate = solver.solve(a, e, active, p, d);
     const int k = static_cast<int>(active.strips.size());
@@ -451,14 +452,14 @@ Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& 
 Equilibrium equilibrium(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& gap,
                         const VectorXd& approach, double load, double start) {
   VectorXd d(gap.size());
-  return equilibrium(gap, approach, load, start, [&](const VectorXd& e, VectorXd& force) {
+  return equilibrium(gap, approach, approach, load, start, [&](const VectorXd& e, VectorXd& force) {
     const Certificate certificate = solve_line_contact(c, law, e, force, d);
     return FixedContact{certificate, line_contact_stiffness(c, law, approach, force)};
   });
 }
 
-Equilibrium equilibrium(const VectorXd& gap, const VectorXd& approach, double load, double start,
-                        const ContactSolve& solve) {
+Equilibrium equilibrium(const VectorXd& gap, const VectorXd& approach, const VectorXd& loading, double load,
+                        double start, const ContactSolve& solve) {
   const int n = static_cast<int>(gap.size());
   Equilibrium result;
   result.p = VectorXd::Zero(n);
@@ -474,7 +475,7 @@ Equilibrium equilibrium(const VectorXd& gap, const VectorXd& approach, double lo
     const FixedContact fixed = solve(e, result.p);
     result.certificate = fixed.certificate;
     result.stiffness = fixed.stiffness;
-    const double excess = approach.dot(result.p) - load;
+    const double excess = loading.dot(result.p) - load;
     if (!std::isfinite(excess) || !std::isfinite(result.stiffness))
       fail(Failure::numerical, "static equilibrium: the contact at x = ", x, " m carries ", excess + load,
            " N with a stiffness of ", result.stiffness, " N/m: the compliance holds no number");

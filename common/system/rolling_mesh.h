@@ -1,6 +1,7 @@
 // Two elastic gears in mesh at given positions: strips, gaps and compliance, ready for statics and dynamics.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -12,6 +13,7 @@
 #include "contact/half_plane_strip.h"
 #include "contact/line_contact.h"
 #include "contact/strips.h"
+#include "gear/friction.h"
 #include "gear/pair.h"
 #include "model/system.h"
 #include "solid/flank_table.h"
@@ -105,12 +107,26 @@ struct GearMeshModel {
   CornerRule corner;
   std::array<FlankDeviation, 2> deviation;  // [side]
   std::array<Bearing, 2> bearing;           // [side]
+  Friction friction;
   System::Mesh layout;
 
   bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
+  // 1: mu of the friction under `torque` (N m, on side 0) at a mesh frequency (Hz); 0 without.
+  double coefficient_of_friction(double torque, double mesh_frequency) const {
+    if (!friction.acts()) return 0;
+    const double width =
+        std::min(kinematics.gear(0).design().face_width, kinematics.gear(1).design().face_width);
+    return friction_coefficient(kinematics, width, friction, torque, mesh_frequency);
+  }
   // Of gear g: outward displacement of its flank per unit translation of its hub, in the frame of placed().
   Vec2 outward(int g, const PairContact& contact = {}) const {
     return (g == 0 ? 1.0 : -1.0) * contact_normal(kinematics, contact);
+  }
+  // The direction of gear g in which friction acts as its contact normal does: outward() turned by 90 degrees, so that forces
+  // p move its hub by -p (outward + mu s across).
+  Vec2 across(int g, const PairContact& contact = {}) const {
+    const Vec2 n = outward(g, contact);
+    return {-n.y(), n.x()};
   }
   // The same in the frame of the system.
   Vec2 outward_in_system(int g, const PairContact& contact = {}) const;
@@ -237,27 +253,27 @@ Eigen::MatrixXd contact_compliance(const GearMeshModel& model, const MeshPositio
 Eigen::MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period);
 
 // Equilibrium of a contact with one rigid freedom x: d = A p + gap - approach x >= 0, p >= 0, p . d = 0,
-// approach . p = load (Eq. 18, Eq. 19, Eq. 20).
+// loading . p = load (Eq. 18, Eq. 19, Eq. 20); without friction loading = approach.
 struct Equilibrium {
   double x = 0;          // m if approach is 1: the rigid freedom
   double stiffness = 0;  // d load / d x at this position, contact changes included
   Eigen::VectorXd p;     // (strip) N
   Certificate certificate;
-  double residual = 0;  // |approach . p - load| / load
+  double residual = 0;  // |loading . p - load| / load
 };
 
 // A contact whose rigid freedom is held, so that its gaps are e (m): fills the forces p (N), start and result.
 struct FixedContact {
   Certificate certificate;
-  double stiffness = 0;  // d (approach . p) / d x
+  double stiffness = 0;  // d (loading . p) / d x
 };
 using ContactSolve = std::function<FixedContact(const Eigen::VectorXd& e, Eigen::VectorXd& p)>;
 
 // load > 0. Newton on a monotone function between brackets, until the load is met to 1e-12. Where neighbouring doubles x
 // already carry loads that differ by more (loads so small that the gaps are round-off), the nearest one is taken if it
 // meets the load to 1e-10; `residual` says what was reached. Throws Error(numerical) with the residual otherwise.
-Equilibrium equilibrium(const Eigen::VectorXd& gap, const Eigen::VectorXd& approach, double load,
-                        double start, const ContactSolve& solve);
+Equilibrium equilibrium(const Eigen::VectorXd& gap, const Eigen::VectorXd& approach,
+                        const Eigen::VectorXd& loading, double load, double start, const ContactSolve& solve);
 
 // The same for d = A p + e.
 Equilibrium equilibrium(const Eigen::MatrixXd& a, const Eigen::VectorXd& gap, const Eigen::VectorXd& approach,

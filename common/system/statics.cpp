@@ -30,7 +30,23 @@ SystemModel loaded_system(const BodyArtifact& driver, const BodyArtifact& driven
                           double torque) {
   SystemModel system(driver, driven, mesh);
   system.layout.drives.push_back({0, System::DriveKind::torque, torque});
+  system.friction = system.mesh[0].coefficient_of_friction(torque, mesh.friction.static_frequency);
   return system;
+}
+
+// What friction takes at a position, and its moments about the axes.
+void store_friction(const SystemModel& system, const SystemSolution& solution, const SystemPosition& position,
+                    int row, StaticArtifact& result) {
+  if (!(system.friction > 0)) return;
+  for (VectorXd* v : {&result.friction_loss, &result.friction_moment[0], &result.friction_moment[1]})
+    (*v)[row] = 0;
+  for (const ContactSegment& segment : position.segment) {
+    const double force =
+        system.friction * solution.equilibrium.p.segment(segment.first_strip, segment.strips).sum();
+    result.friction_loss[row] += force * segment.sliding.loss();
+    for (size_t s = 0; s < kSides; ++s)
+      result.friction_moment[s][row] += force * segment.sliding.direction * segment.sliding.lever[s];
+  }
 }
 
 // Of the only mesh, one whole hunting period; where and how contact wants more than the range holds, if it does.
@@ -67,6 +83,7 @@ std::string solve_period(const SystemModel& system, const std::vector<CandidateZ
       // In series on the line of action; that a corner's normal is tilted against it is left out here.
       result.stiffness_tangent[i] = 1 / (1 / result.stiffness_tangent[i] - 1 / bearing.stiffness);
     }
+    store_friction(system, solution, statics.position(), i, result);
     result.torque_residual = std::max(result.torque_residual, e.residual);
     result.least_gap = std::min(result.least_gap, e.certificate.least_gap);
     result.least_force = std::min(result.least_force, e.certificate.least_force);
@@ -143,6 +160,10 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   for (VectorXd* v : {&result.mesh_phase, &result.transmission_error, &result.unloaded_error,
                       &result.stiffness_secant, &result.stiffness_tangent})
     v->resize(positions * result.hunting_periods);
+  result.friction_coefficient = system.friction;
+  if (system.friction > 0)
+    for (VectorXd* v : {&result.friction_loss, &result.friction_moment[0], &result.friction_moment[1]})
+      v->resize(positions * result.hunting_periods);
   for (size_t b = 0; b < system.body.size(); ++b)
     if (system.layout.bodies[b].bearing.elastic())
       result.bearing_force[b].resize(positions * result.hunting_periods, 2);
@@ -169,6 +190,7 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   store_root_stress(model, result);
   result.loss_factor =
       loss_factor(model.kinematics, result.pair, result.mesh_phase, result.tooth_load, torque);
+  if (system.friction > 0) result.efficiency = 1 - result.friction_loss.mean() / torque;
   result.backlash_margin =
       driver.design.tooth_thinning + driven.design.tooth_thinning > 0
           ? model.kinematics.backlash() +

@@ -1,11 +1,13 @@
 #include "system/system.h"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
+#include "contact/friction.h"
 #include "gear/train.h"
 #include "system/rigid_system.h"
 
@@ -79,6 +81,28 @@ MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int per
   return {ahead - whole, period + static_cast<int>(whole)};
 }
 
+namespace {
+
+// L = D + mu s T: moments about the axes and forces across the normal.
+void add_friction(const SystemModel& system, SystemPosition& position) {
+  for (const ContactSegment& segment : position.segment) {
+    const GearMeshModel& model = system.mesh[static_cast<size_t>(segment.mesh)];
+    const double share = system.friction * segment.sliding.direction;
+    const auto own = Eigen::seqN(segment.first_strip, segment.strips);
+    const Vec2 across(-segment.normal.y(), segment.normal.x());
+    for (int s = 0; s < kSides; ++s) {
+      const auto side = static_cast<size_t>(s);
+      const int b = model.layout.side[side].body;
+      position.load.rotation.col(b)(own).array() +=
+          closing_sign(s) * share * segment.sliding.lever[side] / model.kinematics.gear(s).base_radius();
+      MatrixXd& rows = position.load.translation[static_cast<size_t>(b)];
+      if (rows.size() > 0) rows(own, Eigen::all).rowwise() += closing_sign(s) * share * across.transpose();
+    }
+  }
+}
+
+}  // namespace
+
 SystemPosition join(const SystemModel& system, double phase, int period,
                     std::vector<MeshPosition> positions) {
   SystemPosition out;
@@ -118,6 +142,8 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       segment.gap = strips.contact.gap;
       segment.normal = model.outward_in_system(0, strips.contact);
       segment.lever = strips.contact.lever;
+      if (system.friction > 0)
+        segment.sliding = sliding_of(model.kinematics, strips.contact, model.friction.smoothing);
       segment.width = std::min(model.kinematics.gear(0).design().face_width,
                                model.kinematics.gear(1).design().face_width);
       segment.first_strip = first + position.first_strip[j];
@@ -133,6 +159,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
   }
   out.displacement = map;
   out.load = std::move(map);
+  if (system.friction > 0) add_friction(system, out);
   return out;
 }
 
@@ -201,9 +228,21 @@ MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& pos
       }
   for (size_t b = 0; b < system.body.size(); ++b)
     if (const Bearing& bearing = system.layout.bodies[b].bearing; bearing.elastic())
-      a +=
-          position.displacement.translation[b] * position.load.translation[b].transpose() / bearing.stiffness;
+      a += position.displacement.translation[b] * position.displacement.translation[b].transpose() /
+           bearing.stiffness;
   return a;
+}
+
+MatrixXd friction_compliance(const SystemModel& system, const SystemPosition& position) {
+  MatrixXd out;
+  for (size_t b = 0; system.friction > 0 && b < system.body.size(); ++b) {
+    const Bearing& bearing = system.layout.bodies[b].bearing;
+    if (!bearing.elastic()) continue;
+    const MatrixXd &read = position.displacement.translation[b], &pushed = position.load.translation[b];
+    if (out.size() == 0) out.setZero(position.strips(), position.strips());
+    out += read * (pushed - read).transpose() / bearing.stiffness;
+  }
+  return out;
 }
 
 LoadBalance load_balance(const System& layout) {
@@ -262,13 +301,24 @@ struct StillContact {
 
 class Contact {
  public:
-  Contact(const SystemPosition& position, const MatrixXd& compliance, ComplementaritySolver& solver)
-      : compliance_(compliance), solver_(solver), d_(position.strips()) {
+  // friction: friction_compliance(); `slides`: L is not D.
+  Contact(const SystemPosition& position, const MatrixXd& compliance, const MatrixXd& friction, bool slides,
+          ComplementaritySolver& solver)
+      : compliance_(compliance),
+        friction_(friction),
+        slides_(slides),
+        solver_(solver),
+        d_(position.strips()) {
     for (const MeshPosition& mesh : position.mesh) law_.insert(law_.end(), mesh.law.begin(), mesh.law.end());
   }
   StillContact solve(const VectorXd& e, const MatrixXd& displacement, const MatrixXd& load, VectorXd& p) {
     const Index freedoms = displacement.cols();
     StillContact out;
+    if (slides_) {
+      out.certificate = sliding(e, p);
+      out.stiffness = sliding_stiffness(displacement, load, p);
+      return out;
+    }
     if (!law_.empty()) {
       out.certificate = solve_line_contact(compliance_, law_, e, p, d_);
       // The form is quadratic: k(a, b) = (k(a + b) - k(a) - k(b)) / 2.
@@ -297,7 +347,34 @@ class Contact {
   }
 
  private:
-  const MatrixXd& compliance_;
+  Certificate sliding(const VectorXd& e, VectorXd& p) {
+    const auto under = [&](const VectorXd& gap) {
+      return law_.empty() ? solver_.solve(compliance_, gap, active_, p, d_)
+                          : solve_line_contact(compliance_, law_, gap, p, d_);
+    };
+    if (friction_.size() == 0) return under(e);
+    VectorXd shift = friction_ * p;
+    return solve_with_friction(
+        shift, e.cwiseAbs().maxCoeff(), [&](const VectorXd& by) { return under(e + by); },
+        [&] { return VectorXd(friction_ * p); });
+  }
+  // L^T (A + E)^-1 D over what carries load, of lines with the slopes of their laws.
+  MatrixXd sliding_stiffness(const MatrixXd& displacement, const MatrixXd& load, const VectorXd& p) const {
+    std::vector<Index> active;
+    for (Index i = 0; i < p.size(); ++i)
+      if (p[i] > 0) active.push_back(i);
+    MatrixXd a = compliance_(active, active);
+    if (friction_.size() > 0) a += friction_(active, active);
+    for (size_t i = 0; !law_.empty() && i < active.size(); ++i) {
+      const auto row = static_cast<Index>(i);
+      a(row, row) += law_[static_cast<size_t>(active[i])].at(p[active[i]]).slope;
+    }
+    return load(active, Eigen::all).transpose() *
+           a.partialPivLu().solve(MatrixXd(displacement(active, Eigen::all)));
+  }
+
+  const MatrixXd &compliance_, &friction_;
+  bool slides_;
   ComplementaritySolver& solver_;
   std::vector<HertzLine> law_;
   ActiveSet active_;
@@ -349,7 +426,8 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
     force[i] = system.layout.torque(b) / system.base_radius(b);
     x[i] = start[b];
   }
-  Contact contact(position, compliance, solver);
+  const MatrixXd friction = friction_compliance(system, position);
+  Contact contact(position, compliance, friction, system.friction > 0, solver);
   SystemEquilibrium out;
   out.x = VectorXd::Zero(static_cast<Index>(system.body.size()));
   out.p = VectorXd::Zero(position.strips());
@@ -358,11 +436,11 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
     return out;
   };
   if (freedoms == 1 && force[0] > 0) {
-    const Equilibrium one =
-        equilibrium(position.gap, displacement.col(0), force[0], x[0], [&](const VectorXd& e, VectorXd& p) {
-          const StillContact held = contact.solve(e, displacement, load, p);
-          return FixedContact{held.certificate, held.stiffness(0, 0)};
-        });
+    const Equilibrium one = equilibrium(position.gap, displacement.col(0), load.col(0), force[0], x[0],
+                                        [&](const VectorXd& e, VectorXd& p) {
+                                          const StillContact held = contact.solve(e, displacement, load, p);
+                                          return FixedContact{held.certificate, held.stiffness(0, 0)};
+                                        });
     x[0] = one.x;
     out.p = one.p;
     out.stiffness = MatrixXd::Constant(1, 1, one.stiffness);
@@ -410,12 +488,24 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
        " of the largest mesh load ", scale, " N after ", kSteps, " steps");
 }
 
+namespace {
+
+// From the first side's flank to the second's: the direction of a contact's force per normal force, friction included.
+Vec2 pressing(const SystemModel& system, const ContactSegment& segment) {
+  if (!(system.friction > 0)) return segment.normal;
+  return segment.normal +
+         system.friction * segment.sliding.direction * Vec2(-segment.normal.y(), segment.normal.x());
+}
+
+}  // namespace
+
 Vec2 bearing_force(const SystemModel& system, const SystemPosition& position, int b,
                    const Eigen::Ref<const VectorXd>& p) {
   Vec2 sum(0, 0);
   for (const ContactSegment& segment : position.segment)
     if (const int side = system.side_of(b, segment.mesh); side >= 0)
-      sum -= closing_sign(side) * p.segment(segment.first_strip, segment.strips).sum() * segment.normal;
+      sum -= closing_sign(side) * p.segment(segment.first_strip, segment.strips).sum() *
+             pressing(system, segment);
   return sum;
 }
 

@@ -5,7 +5,8 @@
 //   d = e + A p - D x,   d >= 0, p >= 0, d . p = 0 (Eq. 18),   L^T p = f (Eq. 20),
 // e the gaps of the unloaded flanks, D the displacement map (by how much a motion closes them), L the load map (what forces do
 // to a motion), f_b = T_b / r_b. A holds the half-planes, the bodies (between all strips that touch one body, of whatever mesh
-// and flank) and the bearings. Without friction L = D.
+// and flank) and the bearings. Without friction L = D; with it L = D + mu s T (gear/friction.h), of which A takes what the
+// bearings give way. What tangential forces do to the elastic bodies is left out.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -19,6 +20,7 @@ namespace whine {
 
 struct SystemModel {
   System layout;
+  double friction = 0;  // 1: coefficient of friction of the only mesh
   std::vector<SideGears::Shared> body;
   std::vector<GearMeshModel> mesh;
 
@@ -46,6 +48,7 @@ struct ContactSegment {
   Vec2 normal = Vec2::Zero();       // from the first side's flank to the second's, in the frame of the system
   std::array<double, 2> lever{};    // [side] m
   double width = 0;                 // m along the face
+  PairSliding sliding;              // of meshes with friction, else 0
   int first_strip = 0, strips = 0;  // in the row of all strips
 };
 
@@ -84,9 +87,12 @@ SystemPosition join(const SystemModel& system, double phase, int period, std::ve
 using SystemTables = std::vector<std::array<std::vector<Eigen::MatrixXd>, 2>>;
 SystemTables compliance_tables(const SystemModel& system, std::span<const double> depth);
 
-// (strip, strip) m N-1: A above; without cracks. Of lines their laws are not in it.
+// (strip, strip) m N-1: A above, its symmetric part without friction; without cracks. Of lines their laws are not in it.
 Eigen::MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& position,
                                    const SystemTables& tables, std::span<const double> depth);
+
+// (strip, strip) m N-1: what friction adds to A by way of elastic bearings, not symmetric; empty where it adds nothing.
+Eigen::MatrixXd friction_compliance(const SystemModel& system, const SystemPosition& position);
 
 // The balance of torques alone: sum over the meshes of a free body of closing sign times load = T / r.
 struct LoadBalance {

@@ -267,8 +267,8 @@ MatrixXd SystemStatics::mesh_stiffness() const {
   MatrixXd a = cracked_here_ ? with_cracks_ : compliance_;
   for (size_t b = 0; b < system_.body.size(); ++b)
     if (const Bearing& bearing = system_.layout.bodies[b].bearing; bearing.elastic())
-      a -=
-          position.displacement.translation[b] * position.load.translation[b].transpose() / bearing.stiffness;
+      a -= position.displacement.translation[b] * position.displacement.translation[b].transpose() /
+           bearing.stiffness;
   MatrixXd closing = MatrixXd::Zero(position.strips(), meshes);
   for (size_t m = 0; m < position.mesh.size(); ++m) {
     const auto own = position.strips_of(m);

@@ -67,6 +67,7 @@ class SystemStatics {
   // action and at a tip edge the mean of the lever arms over the base radii. Off its diagonal stands what bodies that take part
   // in several meshes join. A mesh without load has the stiffness 0.
   Eigen::MatrixXd mesh_stiffness() const;
+  const SystemPosition& position() const { return *position_; }  // that was solved last
   // [mesh], of strips, of the position that was solved last.
   std::vector<std::vector<ContactZone>> zones() const;
 

@@ -1,0 +1,137 @@
+#include "report/efficiency_figure.h"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+#include "base/error.h"
+#include "gear/friction.h"
+#include "gear/iso6336_strength.h"
+#include "report/response_figures.h"
+
+namespace whine {
+namespace {
+
+const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, double torque,
+                                 Direction direction) {
+  const ResponseArtifact* found = nullptr;
+  for (const ResponseArtifact& r : sweeps) {
+    if (r.torque != torque || r.direction != direction) continue;
+    if (found) fail(Failure::input, "efficiency: two sweeps ", direction, " at ", torque, " N m; give one");
+    found = &r;
+  }
+  if (!found)
+    fail(Failure::input, "efficiency: no response.h5 of the sweep ", direction, " at ", torque,
+         " N m, of which there is a static.h5; give both sweeps of each torque");
+  if (found->friction.power.size() != found->mesh_frequency.size() || found->friction.power.size() == 0)
+    fail(Failure::input, "efficiency: the response.h5 of the sweep ", direction, " at ", torque,
+         " N m holds no losses by friction; the scene needs a section [friction]");
+  return *found;
+}
+
+FigureBlock speed_block(const std::string& name, const ResponseArtifact& r) {
+  FigureBlock block{name,
+                    {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]",
+                     "friction_coefficient [1]", "loss_factor [1]"},
+                    {},
+                    text("speed-T", shown(r.torque, 6)),
+                    name_of(r.direction)};
+  const std::vector<bool> broken = broken_after(r);
+  for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
+    block.rows.push_back({r.mesh_frequency[i], r.friction.efficiency[i] * 100, r.friction.power[i],
+                          r.friction.coefficient[i], r.loss_factor.size() > 0 ? r.loss_factor[i] : 0});
+    if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
+  }
+  return block;
+}
+
+std::optional<double> rigid_loss_factor(const GearPair& pair) {
+  try {
+    return loss_factor_of_rigid_teeth(pair);
+  } catch (const Error& error) {
+    if (error.kind() != Failure::input && error.kind() != Failure::numerical) throw;
+  }
+  return {};
+}
+
+}  // namespace
+
+Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
+                         const std::vector<ResponseArtifact>& sweeps) {
+  constexpr size_t kMostTorques = 6;
+  if (statics.empty() || statics.size() > kMostTorques || sweeps.size() != 2 * statics.size())
+    fail(Failure::input, "efficiency: it needs static.h5 and two response.h5, up and down, at each of 1 to ",
+         kMostTorques, " torques; given are ", statics.size(), " and ", sweeps.size());
+  const StaticArtifact& first = statics[0];
+  if (first.friction_loss.size() == 0)
+    fail(Failure::input, "efficiency: static.h5 holds no friction; the scene needs a section [friction]");
+  const GearPair pair(first);
+  const std::optional<double> rigid = rigid_loss_factor(pair);
+  Figure figure;
+  figure.title = "Losses by friction";
+  figure.height = 1300;
+  FigureBlock rest{"rest",
+                   {"torque [N m]", "friction_coefficient [1]", "efficiency [%]", "loss_factor [1]"},
+                   {},
+                   "rest",
+                   ""};
+  if (rigid) rest.columns.emplace_back("loss_factor_rigid [1]");
+  double power = 0, least = 100, most = 0;
+  std::string labels, at_rest, factors;
+  for (size_t t = 0; t < statics.size(); ++t) {
+    const StaticArtifact& s = statics[t];
+    labels += text(t ? " '" : "'", torque_words(s.torque), "'");
+    for (const Direction direction : {Direction::up, Direction::down}) {
+      figure.blocks.push_back(
+          speed_block(text(t + 1, " ", direction), sweep_at(sweeps, s.torque, direction)));
+      for (const std::vector<double>& row : figure.blocks.back().rows) {
+        if (row.empty()) continue;
+        least = std::min(least, row[1]);
+        most = std::max(most, row[1]);
+        power = std::max(power, row[2]);
+      }
+    }
+    least = std::min(least, s.efficiency * 100);
+    most = std::max(most, s.efficiency * 100);
+    rest.rows.push_back({s.torque, s.friction_coefficient, s.efficiency * 100, s.loss_factor});
+    if (rigid) rest.rows.back().push_back(*rigid);
+    at_rest += text(t ? ", " : "", fixed(s.efficiency * 100, 3), " % at ", torque_words(s.torque),
+                    " (coefficient ", fixed(s.friction_coefficient, 4), ")");
+    factors += text(t ? ", " : "", fixed(s.loss_factor, 4));
+  }
+  FigureBlock cycle{"cycle",
+                    {"mesh_phase [1]", "friction_moment_driver [N m]", "friction_moment_driven [N m]",
+                     "friction_loss [N m]"},
+                    {},
+                    "cycle",
+                    ""};
+  const Eigen::Index positions = std::min<Eigen::Index>(first.contact.positions, first.friction_loss.size());
+  for (Eigen::Index i = 0; i <= positions; ++i) {  // the first mesh period, closed
+    const Eigen::Index at = i % positions;
+    cycle.rows.push_back({first.mesh_phase[at] + (i == positions ? 1.0 : 0.0), first.friction_moment[0][at],
+                          first.friction_moment[1][at], first.friction_loss[at]});
+  }
+  figure.blocks.push_back(cycle);
+  figure.blocks.push_back(rest);
+  figure.notes = {"friction between the flanks alone: " + in_words(first.mesh.friction),
+                  "at rest (kinematics): " + at_rest,
+                  text("loss factor H_V at rest, without the coefficient: ", factors,
+                       rigid ? text("; of rigid teeth ", fixed(*rigid, 4)) : "")};
+  figure.shafts = shafts_of(first);
+  figure.words = {{"labels", labels},
+                  {"gears", text("'", first.mesh.gear[0], "' '", first.mesh.gear[1], "'")}};
+  const ResponseArtifact& up = sweep_at(sweeps, first.torque, Direction::up);
+  figure.numbers = {{"curves", static_cast<double>(statics.size())},
+                    {"power_max", power},
+                    {"efficiency_min", least},
+                    {"efficiency_max", most},
+                    {"frequency_from", up.mesh_frequency.minCoeff()},
+                    {"frequency_to", up.mesh_frequency.maxCoeff()},
+                    {"notes", static_cast<double>(figure.notes.size())},
+                    {"natural_frequency", up.natural_frequency}};
+  for (size_t t = 0; t < statics.size(); ++t)
+    figure.numbers.emplace_back(text("rest", t + 1), statics[t].efficiency * 100);
+  return figure;
+}
+
+}  // namespace whine

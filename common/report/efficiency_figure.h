@@ -1,0 +1,15 @@
+// Losses by friction between the flanks.
+#pragma once
+#include "report/figures.h"
+#include "signal/response_result.h"
+
+namespace whine {
+
+// Efficiency (a) and power lost (b) over mesh frequency at each torque, both sweep directions, with the efficiency at rest; the
+// moments of friction about both axes over a mesh period at rest, at the first torque (c). A table of each sweep, and one at rest
+// with the loss factor H_V apart from the coefficient of friction, and that of rigid teeth. Throws Error(input) for artifacts
+// without friction, and unless there is one static.h5 and two sweeps, up and down, at each torque; of 6 torques at most.
+Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
+                         const std::vector<ResponseArtifact>& sweeps);
+
+}  // namespace whine

@@ -1,0 +1,67 @@
+# Efficiency (a) and power lost (b) over speed at each torque, both sweep directions; moments of friction over a mesh period (c).
+# Variables from gear-plot: tsv, heading, note1, note2, ..., notes, height, labels, gears, curves, rest1, rest2, ..., power_max,
+# efficiency_min, efficiency_max, frequency_from, frequency_to, natural_frequency.
+set datafile separator tab
+set datafile commentschars "#"
+lift = room(notes)
+
+array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
+set multiplot title heading offset 0, -0.3
+set border 3 lw 1.6
+set tics out nomirror font ",14"
+set mxtics 5
+set grid lt 1 lc rgb "#e4e4e4" lw 1
+set lmargin at screen 0.09
+set rmargin at screen 0.78
+set key at graph 1.01, graph 0.98 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
+
+span = frequency_to - frequency_from
+span = span > 0 ? span : 0.2 * frequency_to
+set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
+set xlabel speed_label offset 0, 0.3
+if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
+  set arrow from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
+  set label 11 "f_n" at natural_frequency, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14"
+}
+set tmargin at screen 0.87 + 0.5 * lift
+set bmargin at screen 0.67 + 0.5 * lift
+range = efficiency_max - efficiency_min
+range = range > 0 ? range : 0.1
+set yrange [efficiency_min - 0.08 * range : efficiency_max + 0.12 * range]
+set ylabel "Efficiency (%)"
+set label 1 "{/:Bold (a)} efficiency of the mesh, friction alone; dotted: at rest" at graph 0, graph 1 offset 0, 0.8 font ",14"
+drawn = ''
+do for [t = 1:curves] {
+  drawn = drawn . sprintf('tsv index "[%d down]" using 1:2 with lines lt 1 lw 2 dt (10, 5) lc rgb "%s" notitle, ', t, colour[t]) \
+    . sprintf('tsv index "[%d up]" using 1:2 with lines lt 1 lw 2 lc rgb "%s" title word(labels, %d), ', t, colour[t], t) \
+    . sprintf('rest%d with lines lt 1 lw 2.2 dt (3, 4) lc rgb "%s" notitle, ', t, colour[t])
+}
+eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050" title "dashed: falling"')
+
+set tmargin at screen 0.56 + 0.5 * lift
+set bmargin at screen 0.36 + 0.5 * lift
+set yrange [0 : 1.08 * power_max]
+set ylabel "Power lost (W)"
+set label 1 "{/:Bold (b)} mean power that friction takes"
+drawn = ''
+do for [t = 1:curves] {
+  drawn = drawn . sprintf('tsv index "[%d down]" using 1:3 with lines lt 1 lw 2 dt (10, 5) lc rgb "%s" notitle, ', t, colour[t]) \
+    . sprintf('tsv index "[%d up]" using 1:3 with lines lt 1 lw 2 lc rgb "%s" title word(labels, %d), ', t, colour[t], t)
+}
+eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050" title "dashed: falling"')
+
+unset arrow
+unset label 11
+set tmargin at screen 0.25 + 0.5 * lift
+set bmargin at screen 0.08 + 0.8 * lift
+set xrange [0 : 1]
+set yrange [* : *]
+set xlabel "Mesh phase (mesh periods)" offset 0, 0.3
+set ylabel "Moment (N m)"
+set label 1 sprintf("{/:Bold (c)} at rest, %s: moments of friction about the axes, positive where they act as the normal force does", word(labels, 1))
+plot 0 with lines lt 1 lw 1 lc rgb "#9a9a9a" notitle, \
+  tsv index "[cycle]" using 1:2 with lines lt 1 lw 2.4 lc rgb "#0072b2" title word(gears, 1), \
+  tsv index "[cycle]" using 1:3 with lines lt 1 lw 2.4 lc rgb "#d55e00" title word(gears, 2), \
+  tsv index "[cycle]" using 1:4 with lines lt 1 lw 2.4 dt (4, 3) lc rgb "#444444" title "work lost per angle"
+eval(below)
+unset multiplot

@@ -1,0 +1,264 @@
+// Friction in motion: energy, losses, the problems of the steps, the tangent of the period map.
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "contact/friction.h"
+#include "dynamics/period_map.h"
+#include "paper_pair.h"
+#include "relative.h"
+#include "signal/response.h"
+
+using namespace whine;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kFriction = 0.06;
+
+const BodyArtifact& coarse_body() {
+  return paper_body(40e-3, 1.2e-3, 12);
+}
+
+StaticParameters with_friction(double coefficient, ContactModel contact, bool bearings = false) {
+  StaticParameters settings = paper_statics(32);
+  settings.fidelity.contact = contact;
+  settings.mesh.friction.coefficient = coefficient;
+  if (bearings) settings.mesh.bearing = {Bearing{200e6, 500, 0}, Bearing{120e6, 700, 0}};
+  return settings;
+}
+
+// The paper's pair at 150 N m on coarse elements, from rest, on a candidate zone that holds the motion.
+struct Rig {
+  Rig(double coefficient, ContactModel contact, BodyModel body = BodyModel::modal, bool bearings = false,
+      double eta = 4e-6)
+      : statics(static_transmission(coarse_body(), coarse_body(),
+                                    with_friction(coefficient, contact, bearings), 150)),
+        model(coarse_body(), coarse_body(), statics.mesh),
+        dynamics(model, [&] {
+          ImpactParameters settings;
+          settings.inertia = {0.0148, 0.0148};
+          settings.damping.rayleigh_stiffness = eta;
+          settings.fidelity.body = body;
+          settings.fidelity.contact = contact;
+          return dynamic_parameters(statics, statics.mean_stiffness, settings);
+        }()) {}
+
+  void start(double frequency, int steps, int periods) {
+    for (double wide = 1; wide < 50; wide *= 1.6) {
+      dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics, wide)), steps);
+      state = dynamics.rest();
+      dynamics.set_speed(frequency, steps);
+      int done = 0;
+      while (done < periods && dynamics.integrate(state, period)) ++done;
+      if (done == periods) return;
+    }
+    FAIL("no candidate zone holds the motion");
+  }
+
+  StaticArtifact statics;
+  GearMeshModel model;
+  RollingDynamics dynamics;
+  RollingDynamics::State state;
+  RollingDynamics::Period period;
+};
+
+double left_over(const EnergyBalance& l) {
+  return l.storage() + l.modal_damping + l.relaxation_damping + l.friction - l.torque - l.rolling -
+         l.friction_rolling - l.switching - l.cutting - l.dropped + l.averaging;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "friction in motion: the energy balance closes with what friction takes, where contact is lost, too") {
+  for (const auto contact : {ContactModel::strips, ContactModel::line})
+    for (const bool bearings : {false, true}) {
+      Rig rig(kFriction, contact, BodyModel::modal, bearings);
+      rig.start(2900, 128, 40);
+      EnergyBalance balance;
+      double least = 1, loads = 0;
+      for (int i = 0; i < 20; ++i) {
+        REQUIRE(rig.dynamics.integrate(rig.state, rig.period, &balance));
+        least = std::min(least, rig.period.pair_load.colwise().sum().minCoeff());
+        loads += rig.period.pair_load.sum() / 128;
+      }
+      INFO(contact << ", bearings " << bearings << ": " << left_over(balance) << " J of "
+                   << balance.throughput << ", friction " << balance.friction << " J, rolling "
+                   << balance.friction_rolling);
+      if (!bearings) CHECK(least == 0);
+      CHECK(balance.friction > 0);
+      CHECK(std::abs(left_over(balance)) < 1e-9 * balance.friction);
+      CHECK(balance.imbalance < 1e-9 * balance.throughput);
+      // The mean force is that of the torque.
+      CHECK(loads / 20 == relative(150 / rig.model.kinematics.gear(0).base_radius(), 0.05));
+    }
+}
+
+TEST_CASE(
+    "friction in motion: work put in less work given is the integral of mu N v, by the motion of rigid "
+    "gears") {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
+    constexpr int kSteps = 128;
+    constexpr double kFrequency = 2500;
+    Rig rig(kFriction, contact, BodyModel::rigid, false, 0);
+    rig.start(kFrequency, kSteps, 30);
+    const GearPair& pair = rig.model.kinematics;
+    EnergyBalance balance;
+    RollingDynamics::Period before = rig.period, now;
+    REQUIRE(rig.dynamics.integrate(rig.state, now, &balance));
+    // Equal gears and inertias: both turn by half of the transmission error.
+    const double rb = pair.gear(0).base_radius(), turn = 2 * std::numbers::pi / 50 / kSteps;
+    double loss = 0, in = 0, out = 0;
+    const int reach = static_cast<int>(now.pair_load.rows()) / 2;
+    const auto at = [&](int step) {  // sample 0 of a period is its end, in the names of the next
+      struct {
+        VectorXd load;
+        double error;
+      } sample{step == kSteps ? VectorXd(now.pair_load.col(0))
+               : step == 0    ? VectorXd(before.pair_load.col(0))
+                              : VectorXd(now.pair_load.col(step)),
+               step == kSteps ? now.transmission_error[0]
+               : step == 0    ? before.transmission_error[0]
+                              : now.transmission_error[step]};
+      return sample;
+    };
+    struct Moments {
+      double driver = 0, driven = 0, first = 0, second = 0;  // contact; friction
+    };
+    const auto moments = [&](int step) {
+      Moments m;
+      const auto sample = at(step);
+      for (int slot = 0; slot < sample.load.size(); ++slot) {
+        if (!(sample.load[slot] > 0)) continue;
+        const PairContact touch = pair.contact(static_cast<double>(step % kSteps) / kSteps + slot - reach);
+        const PairSliding slides = sliding_of(pair, touch, 0.01);
+        m.driver += sample.load[slot] * touch.lever[0];
+        m.driven += sample.load[slot] * touch.lever[1];
+        m.first += kFriction * sample.load[slot] * slides.direction * slides.lever[0];
+        m.second += kFriction * sample.load[slot] * slides.direction * slides.lever[1];
+      }
+      return m;
+    };
+    for (int step = 1; step <= kSteps; ++step) {
+      const Moments a = moments(step - 1), b = moments(step);
+      const double half = 0.5 * (at(step).error - at(step - 1).error) / (2 * rb);  // of a mean of two moments
+      const double driver = 0.5 * turn + half, driven = 0.5 * turn - half;
+      loss += (a.first + b.first) * driver - (a.second + b.second) * driven;
+      in += (a.driver + b.driver + a.first + b.first) * driver;
+      out += (a.driven + b.driven + a.second + b.second) * driven;
+    }
+    INFO(contact << ": " << balance.friction << " J, by the motion " << loss << " J");
+    CHECK(balance.friction == relative(loss, 1e-9));
+    // What the mesh takes: friction, and what the normal forces do on gaps that close and open.
+    CHECK(in - out > 0.5 * loss);
+  }
+}
+
+TEST_CASE("friction in motion: the problem of every step holds as a whole") {
+  Rig rig(0.1, ContactModel::strips, BodyModel::modal, true);
+  rig.start(2500, 64, 10);
+  int problems = 0;
+  for (const RollingDynamics::ContactProblem& problem : rig.dynamics.contact_problems(rig.state)) {
+    REQUIRE(problem.friction.size() > 0);
+    const std::vector<int>& active = problem.active.strips;
+    const MatrixXd whole = problem.compliance + problem.friction;
+    VectorXd p = VectorXd::Zero(whole.rows());
+    if (!active.empty())
+      p(active) = -MatrixXd(whole(active, active)).partialPivLu().solve(VectorXd(problem.offset(active)));
+    const VectorXd d = whole * p + problem.offset;
+    const double scale = problem.offset.cwiseAbs().maxCoeff();
+    CHECK(p.minCoeff() >= 0);
+    CHECK(d.minCoeff() > -1e-10 * scale);
+    ++problems;
+    // The iteration finds the same from nothing.
+    ComplementaritySolver solver;
+    ActiveSet fresh;
+    VectorXd force = VectorXd::Zero(p.size()), gap = force, shift = force;
+    int solves = 0;
+    solve_with_friction(
+        shift, scale,
+        [&](const VectorXd& by) {
+          ++solves;
+          return solver.solve(problem.compliance, problem.offset + by, fresh, force, gap);
+        },
+        [&] { return VectorXd(problem.friction * force); });
+    INFO(solves << " solves; friction adds " << problem.friction.norm() / problem.compliance.norm()
+                << " of the compliance");
+    CHECK((force - p).norm() < 1e-8 * p.norm() + 1e-12);
+    CHECK(solves <= 6);
+  }
+  CHECK(problems == 64);
+}
+
+TEST_CASE("friction in motion: the tangent of the period map is that of central differences") {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
+    Rig rig(0.1, contact, BodyModel::modal, true, 7.7e-6);
+    rig.start(1100, 64, 6);
+    RollingPeriodMap map(rig.dynamics, 64);
+    map.set_parameter(1100);
+    VectorXd y = map.flat(rig.state);
+    for (int i = 0; i < 4; ++i) y = map.apply(y);
+    map.apply(y);
+    const auto sets = map.active_sets();
+    const MatrixXd tangent = map.tangent();
+    int compared = 0;
+    for (int which = 0; which < 3; ++which) {
+      VectorXd direction(map.size());
+      for (int i = 0; i < direction.size(); ++i) direction[i] = std::sin(1.0 + 2.3 * i * (which + 1) + which);
+      direction *= 1e-7 / direction.norm();
+      const VectorXd ahead = map.apply(y + direction);
+      const bool same = map.active_sets() == sets;
+      const VectorXd behind = map.apply(y - direction);
+      if (!same || map.active_sets() != sets) continue;
+      ++compared;
+      const VectorXd expected = 0.5 * (ahead - behind);
+      INFO(contact << ", direction " << which);
+      CHECK((tangent * direction - expected).norm() < 1e-6 * expected.norm());
+    }
+    CHECK(compared > 0);
+  }
+}
+
+TEST_CASE("friction in motion: slow and light, losses are those at rest; a sweep keeps them") {
+  const StaticArtifact s =
+      static_transmission(coarse_body(), coarse_body(), with_friction(kFriction, ContactModel::line), 150);
+  SweepParameters settings = paper_sweep(100, 100, 1);
+  settings.fidelity.contact = ContactModel::line;
+  settings.fidelity.body = BodyModel::lagged;
+  settings.time.min_sample_rate = 20e3;
+  const SweepArtifact slow =
+      sweep(coarse_body(), coarse_body(), s, s.mean_stiffness, settings, Direction::up, no_report);
+  INFO("efficiency " << slow.friction.efficiency[0] << ", at rest " << s.efficiency);
+  CHECK(1 - slow.friction.efficiency[0] == relative(1 - s.efficiency, 0.01));
+  CHECK(slow.friction.coefficient[0] == kFriction);
+  const double turning = 2 * std::numbers::pi * 100 / 50;
+  CHECK(slow.friction.power[0] == relative((1 - slow.friction.efficiency[0]) * 150 * turning, 1e-12));
+  CHECK(slow.energy_imbalance[0] < 1e-9);
+  const std::string path = (std::filesystem::temp_directory_path() / "whine-friction-sweep.h5").string();
+  write(path, slow, Provenance());
+  const SweepArtifact read = read_sweep(path);
+  std::filesystem::remove(path);
+  CHECK(read.friction.power == slow.friction.power);
+  CHECK(read.friction_work == slow.friction_work);
+  CHECK(read.friction_rolling == slow.friction_rolling);
+}
+
+TEST_CASE("friction in motion: losses over mu tend to a limit of first order") {
+  const auto loss = [](double mu) {
+    Rig rig(mu, ContactModel::line, BodyModel::lagged, false, 7.7e-6);
+    rig.start(2000, 64, 60);
+    EnergyBalance balance;
+    REQUIRE(rig.dynamics.integrate(rig.state, rig.period, &balance));
+    return balance.friction / mu;
+  };
+  const double limit = loss(1e-5), fine = loss(0.01) - limit, coarse = loss(0.02) - limit;
+  INFO("over mu " << limit << " J, off by " << fine << ", " << coarse);
+  CHECK(std::abs(fine) < 0.02 * limit);
+  CHECK(coarse / fine == relative(2, 0.1));
+}
