@@ -25,6 +25,7 @@
 #include "io/study_codec.h"
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
 #include "io/variant_codec.h"
 
 namespace whine {
@@ -377,6 +378,24 @@ void show(Lines& lines, const SystemStaticArtifact& a) {
   add(lines, "residual", a.torque_residual.maxCoeff(), " of the largest mesh force");
 }
 
+void show(Lines& lines, const SystemSweepArtifact& a) {
+  const System& s = a.settings.layout;
+  add(lines, "model", "body ", a.settings.fidelity.body, ", contact ", a.settings.fidelity.contact, ", ", a.direction,
+      ", ", a.mesh_frequency.size(), " speeds from ", a.mesh_frequency.minCoeff(), " to ",
+      a.mesh_frequency.maxCoeff(), " Hz");
+  for (size_t m = 0; m < s.meshes.size(); ++m) {
+    const auto column = static_cast<Eigen::Index>(m);
+    add(lines, "mesh", s.bodies[static_cast<size_t>(s.meshes[m].side[0].body)].name, " and ",
+        s.bodies[static_cast<size_t>(s.meshes[m].side[1].body)].name, ": RMS up to ",
+        a.dte_rms.col(column).maxCoeff() * 1e6, " µm, force up to ", a.mesh_force_max.col(column).maxCoeff(),
+        " N, without force up to ", a.separation_fraction.col(column).maxCoeff() * 100, " % of the time");
+  }
+  for (size_t b = 0; b < s.bodies.size(); ++b)
+    add(lines, "body", s.bodies[b].name, ": bearing force up to ",
+        a.bearing_force_max.col(static_cast<Eigen::Index>(b)).maxCoeff(), " N");
+  add(lines, "energy", "imbalance up to ", a.energy_imbalance.maxCoeff(), " of the throughput");
+}
+
 void show(Lines& lines, const FoldCurvesArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -541,6 +560,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_modes(path));
   } else if (schema == "whine/system_static") {
     show(lines, read_system_static(path));
+  } else if (schema == "whine/system_sweep") {
+    show(lines, read_system_sweep(path));
   } else if (schema == "whine/runup") {
     show(lines, read_runup(path));
   } else if (schema == "whine/branch") {

@@ -21,6 +21,7 @@
 #include "io/summary.h"
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
 #include "report/campbell_figure.h"
 #include "report/compare_figures.h"
 #include "report/fold_curve_figure.h"
@@ -38,6 +39,7 @@
 #include "report/static_figures.h"
 #include "report/study_figure.h"
 #include "report/system_figures.h"
+#include "report/system_sweep_figure.h"
 #include "signal/response.h"
 
 namespace whine {
@@ -323,6 +325,10 @@ Drawings drawings_of_systems() {
        {"a system at rest: transmission errors, forces of meshes, forces on bearings", "system_static.h5", 1,
         0,
         [](const Paths& in, const Frequencies&) { return system_static_figure(read_system_static(in[0])); }}},
+      {"system-sweep",
+       {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",
+        "system_sweep.h5 of one system, rising, falling or both", 0, 0,
+        [](const Paths& in, const Frequencies&) { return system_sweep_figure(read_all(in, read_system_sweep)); }}},
   };
 }
 
