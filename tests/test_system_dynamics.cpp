@@ -1,19 +1,23 @@
 // Systems in motion: the limits of rest and of a pair, energy, periodic motions, what equal planets do to each other.
 #include <doctest/doctest.h>
 
-#include <ctime>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
+#include "base/dense.h"
+#include "gear/train.h"
 #include "gear/system_layout.h"
 #include "io/system_scene.h"
+#include "orbits/periodic_orbit.h"
 #include "orbits/settle.h"
 #include "planetary_train.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "signal/spectrum.h"
+#include "system/rigid_system.h"
 
 using namespace whine;
 using Eigen::Index;
@@ -136,6 +140,7 @@ SystemModel train(const std::array<int, 3>& teeth, int planets = 3) {
   for (System::Body& body : layout.bodies) {
     bodies.push_back(train_body(body.teeth, body.teeth == teeth[2]));
     body.inertia = 1.02 * bodies.back().inertia;
+    if (body.bearing.elastic()) body.bearing.mass = bodies.back().mass;
   }
   std::vector<GearMeshSpec> specs;
   for (const System::Mesh& mesh : layout.meshes)
@@ -145,50 +150,199 @@ SystemModel train(const std::array<int, 3>& teeth, int planets = 3) {
 
 }  // namespace
 
-TEST_CASE("at rest the dynamic model of a planetary train is its statics; at low speed its motion is") {
-  const SystemModel system = train({26, 37, 100});
-  SystemDynamics dynamics(system, motion_of(system, 4e8, 1e-6));
-  constexpr int kSteps = 32;
-  dynamics.set_positions(std::vector<double>(6, 60e-6), kSteps);
-  const std::vector<SystemSolution> statics = rest_over_period(system, ContactModel::line, 8, kSteps);
-  const double load = 300 / system.base_radius(0) / 3;
-  for (int i = 0; i < kSteps; i += 5) {
-    const VectorXd p = dynamics.rest_forces(i);
-    double total = 0;
-    for (const LoadedSegment& at : statics[static_cast<size_t>(i)].loads) total += at.force;
-    MESSAGE("" << p.sum() << " " << total);
+namespace {
+
+constexpr int kSteps = 48;  // threes, over which planets hand their motion on
+
+// Three equal planets, 26, 37 and 100 teeth: a third of a mesh period apart.
+struct Planetary {
+  explicit Planetary(double eta = 1e-6, int steps = kSteps, double gap = 60e-6)
+      : system(train({26, 37, 100})), dynamics(system, motion_of(system, 4e8, eta)) {
+    dynamics.set_positions(std::vector<double>(6, gap), steps);
+  }
+  SystemModel system;
+  SystemDynamics dynamics;
+};
+
+Planetary& planetary() {
+  static Planetary out;
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a planetary train: forces at rest are those of its statics, and so is slow motion, to the first order of the speed") {
+  Planetary& rig = planetary();
+  const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
+  for (int i = 0; i < 16; i += 5) {
+    const VectorXd p = rig.dynamics.rest_forces(3 * i);
     for (int m = 0; m < 6; ++m) {
       double own = 0;
       for (const LoadedSegment& at : statics[static_cast<size_t>(i)].loads) own += at.mesh == m ? at.force : 0;
-      CHECK(p.segment(m * dynamics.pairs(), dynamics.pairs()).sum() == relative(own, 1e-6));
+      CHECK(p.segment(m * rig.dynamics.pairs(), rig.dynamics.pairs()).sum() == relative(own, 1e-9));
     }
   }
+  constexpr int kFine = 192;
+  Planetary slow(1e-6, kFine);
+  SystemDynamics::State state = slow.dynamics.rest();
   SystemDynamics::Period period;
-  for (const int steps : {256, 512}) {
-    SystemDynamics slow(system, motion_of(system, 4e8, 1e-6));
-    slow.set_positions(std::vector<double>(6, 60e-6), steps);
-    SystemDynamics::State state = slow.rest();
-    for (const double frequency : {80.0, 40.0}) {
-    slow.set_speed(frequency, steps);
-    for (int n = 0; n < 3; ++n) REQUIRE(slow.integrate(state, period));
-    double worst = 0;
-    for (int i = 0; i < kSteps; ++i)
+  std::vector<double> off;
+  for (const double frequency : {80.0, 40.0}) {
+    slow.dynamics.set_speed(frequency, kFine);
+    for (int n = 0; n < 3; ++n) REQUIRE(slow.dynamics.integrate(state, period));
+    off.push_back(0);
+    for (int i = 0; i < 16; ++i)
       for (int m = 0; m < 6; ++m)
-        worst = std::max(worst, std::abs(period.transmission_error(m, i * steps / kSteps) -
-                                         statics[static_cast<size_t>(i)].transmission_error[static_cast<size_t>(m)]));
-    MESSAGE("" << steps << " " << frequency << " Hz: " << worst << " m of " << statics[0].transmission_error[0] << " load " << load);
+        off.back() = std::max(off.back(), std::abs(period.transmission_error(m, i * kFine / 16) -
+                                                   statics[static_cast<size_t>(i)].transmission_error[static_cast<size_t>(m)]));
+  }
+  CHECK(off[0] < 0.004 * statics[0].transmission_error[0]);
+  CHECK(off[1] < 0.55 * off[0]);
+}
+
+TEST_CASE("a planetary train that loses contact: energy closes, runs repeat byte by byte") {
+  SystemDynamics& dynamics = planetary().dynamics;
+  std::vector<SystemDynamics::State> ends;
+  for (int run = 0; run < 2; ++run) {
+    SystemDynamics::State state = dynamics.rest();
+    SystemDynamics::Period period;
+    SystemEnergyBalance energy;
+    dynamics.set_speed(7000, kSteps);
+    for (int n = 0; n < 30; ++n) REQUIRE(dynamics.integrate(state, period));
+    int parted = 0;
+    for (int n = 0; n < 5; ++n) {
+      REQUIRE(dynamics.integrate(state, period, &energy));
+      parted += static_cast<int>((period.mesh_force.array() == 0).count());
+      CHECK(energy.imbalance < 1e-12 * energy.throughput);
+      CHECK(period.least_gap > -1e-13);
+      CHECK(period.least_force >= 0);
+    }
+    CHECK(parted > 0);
+    CHECK(energy.bearing_damping.head(4).minCoeff() > 0);
+    CHECK(energy.relaxation_damping > 0);
+    ends.push_back(state);
+  }
+  CHECK(ends[0].z == ends[1].z);
+  CHECK(ends[0].relaxed == ends[1].relaxed);
+  CHECK(ends[0].p == ends[1].p);
+}
+
+TEST_CASE("a planetary train is a period map: tangent, settled motion, orbit, and what equal planets suppress") {
+  SystemDynamics& dynamics = planetary().dynamics;
+  SystemPeriodMap map(dynamics, kSteps);
+  map.set_parameter(2600);
+  const SettledMotion plain = settle(map, map.rest(), {1e-10, 3000, false}), quick = settle(map, map.rest(), {1e-10, 3000, true});
+  REQUIRE(plain.multiple == 1);
+  REQUIRE(quick.multiple == 1);
+  CHECK(quick.periods < plain.periods);
+  CHECK((plain.start - quick.start).norm() < 1e-7);
+  // Along a direction in which no contact changes.
+  const VectorXd end = map.apply(quick.start);
+  VectorXd along = VectorXd::Zero(map.size());
+  for (Index i = 0; i < 2 * dynamics.coordinates().size(); ++i) along[i] = std::sin(1.0 + static_cast<double>(i));
+  const MatrixXd slope = map.tangent_times(along);
+  const double h = 1e-6;
+  const VectorXd quotient = (map.apply(quick.start + h * along) - map.apply(quick.start - h * along)) / (2 * h);
+  CHECK((slope - quotient).norm() < 1e-5 * quotient.norm());
+  const OrbitSearch orbit = find_orbit(map, plain.start, 1, {1e-9, 25});
+  INFO(orbit.failure);
+  CHECK(orbit.found());
+  CHECK((orbit.orbit.start - quick.start).norm() < 1e-7);
+  CHECK(orbit.orbit.multipliers().cwiseAbs()[0] < 1);
+
+  // z_s / N is not whole: harmonic l turns the sun only where z_s l / N is, and pushes its bearing only where it is not.
+  map.apply(quick.start);
+  const SystemDynamics::Period& period = map.period();
+  const VectorXd turn = period.transmission_error.topRows(3).colwise().sum(), push = period.bearing_force[0].row(0);
+  const Harmonics turns = harmonics(turn, 6), pushes = harmonics(push, 6);
+  double most_turn = turns.amplitude.maxCoeff(), most_push = pushes.amplitude.maxCoeff();
+  for (const int l : {1, 2, 4, 5}) {
+    CHECK(turns.amplitude[l - 1] < 1e-6 * most_turn);
+    CHECK(pushes.amplitude[l - 1] > 0);
+  }
+  for (const int l : {3, 6}) CHECK(pushes.amplitude[l - 1] < 1e-6 * most_push);
+  CHECK(most_turn > 1e-8);
+  CHECK(most_push > 1);
+}
+
+TEST_CASE("frozen contact: the natural frequencies of the train of rigid bodies, lowered by what elastic bodies add") {
+  Planetary& rig = planetary();
+  const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
+  for (const int i : {0, 3}) {
+    const VectorXd own = rig.dynamics.frozen_frequencies(3 * i);
+    const RigidSystem rigid = rigid_system(rig.system.layout, statics[static_cast<size_t>(i)].mesh_stiffness);
+    const SymmetricEigen eigen = symmetric_eigenvalues(
+        MatrixXd(rigid.mass.diagonal().cwiseSqrt().cwiseInverse().asDiagonal() * rigid.stiffness *
+                 rigid.mass.diagonal().cwiseSqrt().cwiseInverse().asDiagonal()));
+    const VectorXd other = eigen.values.cwiseMax(0.0).cwiseSqrt() / (2 * kPi);
+    for (Index n = 0; n < 5; ++n) {
+      MESSAGE("" << own[n] << " " << other[n]);
+      CHECK(own[n] == relative(other[n], 0.03));
     }
   }
-  SystemDynamics::State state = dynamics.rest();
-  SystemEnergyBalance energy;
-  for (const double f : {1000., 2000., 2500., 3000., 4000., 5000., 6000., 7000., 8000.}) {
-  dynamics.set_speed(f, kSteps);
-  const auto from = std::clock();
-  for (int n = 0; n < 100; ++n) REQUIRE(dynamics.integrate(state, period));
-  const double us = 1e6 * static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
-  REQUIRE(dynamics.integrate(state, period, &energy));
-  double rms = 0;
-  for (int m = 0; m < 6; ++m) rms = std::max(rms, std::sqrt((period.transmission_error.row(m).array() - period.transmission_error.row(m).mean()).square().mean()));
-  MESSAGE("" << f << " Hz " << us / 100 / kSteps << " us a step, " << dynamics.most_contacts() << " contacts, " << dynamics.coordinates().size() << " coordinates, relaxed " << dynamics.relaxed_size() << " imbalance " << energy.imbalance/energy.throughput << " rms " << rms*1e6 << " least mesh force " << period.mesh_force.minCoeff());
+}
+
+TEST_CASE("a third gear without torque: the first two move as a pair") {
+  const std::array<int, 3> teeth{26, 37, 26};
+  const auto gears = [&](size_t count) {
+    System layout;
+    const double distance = 0.5 * 63 * kModule;
+    GearDesign design = rigid_gear(26);
+    design.bore_radius = 8 * kModule;
+    GearDesign idler = rigid_gear(37);
+    idler.bore_radius = 13.5 * kModule;
+    add_input_gear(layout, "a", design);
+    add_driven_gear(layout, 0, design, "b", idler, distance, 0.3);
+    if (count == 3) add_driven_gear(layout, 1, idler, "c", design, distance, 1.5);
+    layout.drives = {{0, System::DriveKind::torque, kTorque}, {1, System::DriveKind::torque, -kTorque * 37 / 26}};
+    std::vector<BodyArtifact> bodies;
+    std::vector<GearMeshSpec> specs;
+    for (size_t b = 0; b < count; ++b) {
+      bodies.push_back(train_body(teeth[b], false));
+      layout.bodies[b].inertia = 1.5 * bodies.back().inertia;
+    }
+    for (size_t m = 0; m + 1 < count; ++m) {
+      GearMeshSpec spec;
+      spec.gear = {layout.bodies[m].name, layout.bodies[m + 1].name};
+      spec.centre_distance = distance;
+      specs.push_back(spec);
+    }
+    return SystemModel(layout, bodies, specs);
+  };
+  const SystemModel pair = gears(2), idler = gears(3);
+  SystemMotion motion = motion_of(pair, 4e8, 3e-6);
+  motion.damping.bearing_ratio = 0.02;
+  SystemDynamics one(pair, motion), three(idler, motion);
+  one.set_positions({60e-6}, kSteps);
+  three.set_positions({60e-6, 60e-6}, kSteps);
+  SystemDynamics::State a = one.rest(), b = three.rest();
+  SystemDynamics::Period p, q;
+  one.set_speed(2600, kSteps);
+  three.set_speed(2600, kSteps);
+  for (int n = 0; n < 400; ++n) {
+    REQUIRE(one.integrate(a, p));
+    REQUIRE(three.integrate(b, q));
   }
+  CHECK(q.mesh_force.row(1).maxCoeff() == 0);
+  CHECK((p.transmission_error.row(0) - q.transmission_error.row(0)).norm() < 1e-9 * p.transmission_error.row(0).norm());
+  CHECK(q.drift_force < 0.05 * kTorque / pair.base_radius(0));
+}
+
+TEST_CASE("stiff bearings: rigid axes, to the first order of their flexibility") {
+  const auto errors = [&](double stiffness) {
+    std::array<Bearing, 2> bearing;
+    if (stiffness > 0) bearing = {Bearing{stiffness, 0.02 * std::sqrt(stiffness), 0}, Bearing{stiffness, 0.02 * std::sqrt(stiffness), 0}};
+    const SystemModel system = turning_pair(bearing);
+    SystemDynamics dynamics(system, motion_of(system, 463e6));
+    dynamics.set_positions({50e-6}, 64);
+    SystemDynamics::State state = dynamics.rest();
+    SystemDynamics::Period period;
+    dynamics.set_speed(1300, 64);
+    for (int n = 0; n < 60; ++n) REQUIRE(dynamics.integrate(state, period));
+    return VectorXd(period.transmission_error.row(0));
+  };
+  const VectorXd rigid = errors(0);
+  const double one = (errors(4e11) - rigid).norm() / rigid.norm(), two = (errors(8e11) - rigid).norm() / rigid.norm();
+  CHECK(one < 0.01);
+  CHECK(two / one == relative(0.5, 0.05));
 }

@@ -1,4 +1,6 @@
 // The positions of a mesh period of a system: contacts, what coordinates and relaxed loads move there, compliance.
+#include "dynamics/system_dynamics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/progress.h"
-#include "dynamics/system_dynamics.h"
 #include "system/rigid_system.h"
 
 namespace whine {

@@ -12,12 +12,13 @@ set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
 of(i) = colour[(i - 1) % 6 + 1]
-dashes(i) = i > 6 ? "(10, 5)" : "solid"
+# Meshes that are alike lie on each other: dashes let the one below show.
+dashes(i) = i > 6 ? "(10, 5)" : i > 4 ? "(4, 8)" : i > 2 ? "(14, 14)" : "solid"
 mark(i) = i > 6 ? 4 : 6
 row = ((1 - lift) * height - 100) / 3
 span = frequency_to - frequency_from
 set xrange [frequency_from - 0.01 * span : frequency_to + 0.01 * span]
-set lmargin at screen 0.085
+set lmargin at screen 0.1
 set rmargin at screen 0.83
 do for [k = 1:3] {
   quantity = value(sprintf("quantity%d", k))
@@ -26,7 +27,6 @@ do for [k = 1:3] {
   labels = value(sprintf("labels%d", k))
   largest = value(sprintf("most%d", k))
   curves = int(value(sprintf("curves%d", k)))
-  # Curves lie on each other where meshes are alike: what is drawn first shows on either side of what is drawn on it.
   thick(i) = 1.6 + 0.7 * (curves - i)
   set tmargin at screen 1 - (112.0 + row * (k - 1)) / height
   set bmargin at screen 1 - (row + 5.0 + row * (k - 1)) / height
