@@ -2,9 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <numbers>
 
+#include "base/error.h"
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "base/dense.h"
@@ -265,7 +267,7 @@ TEST_CASE("a planetary train is a period map: tangent, settled motion, orbit, an
   CHECK(most_push > 1);
 }
 
-TEST_CASE("frozen contact: the natural frequencies of the train of rigid bodies, lowered by what elastic bodies add") {
+TEST_CASE("frozen contact: the lowest natural frequencies are those of the train of rigid bodies") {
   Planetary& rig = planetary();
   const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
   for (const int i : {0, 3}) {
@@ -276,8 +278,7 @@ TEST_CASE("frozen contact: the natural frequencies of the train of rigid bodies,
                  rigid.mass.diagonal().cwiseSqrt().cwiseInverse().asDiagonal()));
     const VectorXd other = eigen.values.cwiseMax(0.0).cwiseSqrt() / (2 * kPi);
     for (Index n = 0; n < 5; ++n) {
-      MESSAGE("" << own[n] << " " << other[n]);
-      CHECK(own[n] == relative(other[n], 0.03));
+      CHECK(own[n] == relative(other[n], 0.003));
     }
   }
 }
@@ -305,6 +306,8 @@ TEST_CASE("a third gear without torque: the first two move as a pair") {
       GearMeshSpec spec;
       spec.gear = {layout.bodies[m].name, layout.bodies[m + 1].name};
       spec.centre_distance = distance;
+      // Tip edges act with lever arms of their own, and would roll the two gears away from the third.
+      spec.corner.enabled = false;
       specs.push_back(spec);
     }
     return SystemModel(layout, bodies, specs);
@@ -324,8 +327,9 @@ TEST_CASE("a third gear without torque: the first two move as a pair") {
     REQUIRE(three.integrate(b, q));
   }
   CHECK(q.mesh_force.row(1).maxCoeff() == 0);
-  CHECK((p.transmission_error.row(0) - q.transmission_error.row(0)).norm() < 1e-9 * p.transmission_error.row(0).norm());
-  CHECK(q.drift_force < 0.05 * kTorque / pair.base_radius(0));
+  // An idler has the fields of both its flanks.
+  CHECK((p.transmission_error.row(0) - q.transmission_error.row(0)).norm() < 1e-5 * p.transmission_error.row(0).norm());
+  CHECK(q.drift_force < 1e-9 * kTorque / pair.base_radius(0));
 }
 
 TEST_CASE("stiff bearings: rigid axes, to the first order of their flexibility") {
@@ -345,4 +349,23 @@ TEST_CASE("stiff bearings: rigid axes, to the first order of their flexibility")
   const double one = (errors(4e11) - rigid).norm() / rigid.norm(), two = (errors(8e11) - rigid).norm() / rigid.norm();
   CHECK(one < 0.01);
   CHECK(two / one == relative(0.5, 0.05));
+}
+
+// CPU time of a step over the number of meshes; the numbers of common/dynamics/README.md:
+//   build/bin/whine-tests --no-skip -tc='time of a step of planetary trains*'
+TEST_CASE("time of a step of planetary trains over the number of meshes" * doctest::skip()) {
+  for (const int planets : {1, 2, 3, 6}) {
+    const SystemModel system = train({27, 36, 99}, planets);
+    SystemDynamics dynamics(system, motion_of(system, 4e8, 2e-6));
+    dynamics.set_positions(std::vector<double>(system.mesh.size(), 40e-6), kSteps);
+    SystemDynamics::State state = dynamics.rest();
+    SystemDynamics::Period period;
+    dynamics.set_speed(2500, kSteps);
+    constexpr int kPeriods = 100;
+    const auto from = std::clock();
+    for (int n = 0; n < kPeriods; ++n) REQUIRE(dynamics.integrate(state, period));
+    const double taken = static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC / (kPeriods * kSteps);
+    MESSAGE(text(system.mesh.size(), " meshes, ", dynamics.most_contacts(), " pairs in reach, ",
+                 dynamics.coordinates().size(), " coordinates: ", taken * 1e6, " us a step"));
+  }
 }
