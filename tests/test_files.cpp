@@ -829,10 +829,12 @@ TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
     *x = MatrixRM::Constant(2, bodies, value *= 0.9);
   a.transmission_error.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 3));
   a.mesh_force.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 3));
-  a.bearing_force.assign(static_cast<size_t>(bodies), std::vector<MatrixRM>(2, MatrixRM::Constant(4, 2, 1e2 / 3)));
+  a.bearing_force.assign(static_cast<size_t>(bodies),
+                         std::vector<MatrixRM>(2, MatrixRM::Constant(4, 2, 1e2 / 3)));
   a.periods = Eigen::Vector2i(20, 30);
   a.period_multiple = Eigen::Vector2i(1, 0);
-  for (Eigen::VectorXd* x : {&a.residual, &a.energy_imbalance, &a.drift_force}) *x = Eigen::Vector2d(1e-6, value *= 0.9);
+  for (Eigen::VectorXd* x : {&a.residual, &a.energy_imbalance, &a.drift_force})
+    *x = Eigen::Vector2d(1e-6, value *= 0.9);
   a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kSystemEnergyLines.size()), -1.0 / 7);
   a.least_gap = -1e-15;
   write("system_sweep.h5", a, kMade);
@@ -844,9 +846,9 @@ TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
         &SystemSweepArtifact::bearing_force_rms, &SystemSweepArtifact::energy, &SystemSweepArtifact::rolling,
         &SystemSweepArtifact::bearing_damping})
     CHECK(a.*member == b.*member);
-  for (const auto member : {&SystemSweepArtifact::torque, &SystemSweepArtifact::mesh_frequency,
-                            &SystemSweepArtifact::residual, &SystemSweepArtifact::energy_imbalance,
-                            &SystemSweepArtifact::drift_force})
+  for (const auto member :
+       {&SystemSweepArtifact::torque, &SystemSweepArtifact::mesh_frequency, &SystemSweepArtifact::residual,
+        &SystemSweepArtifact::energy_imbalance, &SystemSweepArtifact::drift_force})
     CHECK(a.*member == b.*member);
   CHECK(a.transmission_error == b.transmission_error);
   CHECK(a.mesh_force == b.mesh_force);

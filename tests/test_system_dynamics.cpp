@@ -6,17 +6,17 @@
 #include <map>
 #include <numbers>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
-#include "base/dense.h"
-#include "gear/train.h"
 #include "gear/system_layout.h"
+#include "gear/train.h"
 #include "io/system_scene.h"
 #include "orbits/periodic_orbit.h"
 #include "orbits/settle.h"
-#include "planetary_train.h"
 #include "paper_pair.h"
+#include "planetary_train.h"
 #include "relative.h"
 #include "signal/spectrum.h"
 #include "system/rigid_system.h"
@@ -116,7 +116,8 @@ const BodyArtifact& train_body(int teeth, bool internal) {
   BodyDiscretisation coarse;
   coarse.element_size = 2.5e-3;
   coarse.modes = 15;
-  return known[teeth] = reduce(make_sector_mesh(design, coarse), Material{206e9, 0.3, 7850, true}, coarse.modes);
+  return known[teeth] =
+             reduce(make_sector_mesh(design, coarse), Material{206e9, 0.3, 7850, true}, coarse.modes);
 }
 
 // Sun, planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held.
@@ -132,7 +133,8 @@ SystemModel train(const std::array<int, 3>& teeth, int planets = 3) {
   }
   scene.gears[2].bearing = {};
   scene.carriers[0].bearing = {};
-  for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * kModule;
+  for (SystemScene::Mesh& mesh : scene.meshes)
+    mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * kModule;
   scene.drives = {{"sun", System::DriveKind::torque, kTorque, 0},
                   {"ring", System::DriveKind::held, 0, 0},
                   {"carrier", System::DriveKind::held, 0, 0}};
@@ -173,14 +175,17 @@ Planetary& planetary() {
 
 }  // namespace
 
-TEST_CASE("a planetary train: forces at rest are those of its statics, and so is slow motion, to the first order of the speed") {
+TEST_CASE(
+    "a planetary train: forces at rest are those of its statics, and so is slow motion, to the first order "
+    "of the speed") {
   Planetary& rig = planetary();
   const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
   for (int i = 0; i < 16; i += 5) {
     const VectorXd p = rig.dynamics.rest_forces(3 * i);
     for (int m = 0; m < 6; ++m) {
       double own = 0;
-      for (const LoadedSegment& at : statics[static_cast<size_t>(i)].loads) own += at.mesh == m ? at.force : 0;
+      for (const LoadedSegment& at : statics[static_cast<size_t>(i)].loads)
+        own += at.mesh == m ? at.force : 0;
       CHECK(p.segment(m * rig.dynamics.pairs(), rig.dynamics.pairs()).sum() == relative(own, 1e-9));
     }
   }
@@ -195,8 +200,9 @@ TEST_CASE("a planetary train: forces at rest are those of its statics, and so is
     off.push_back(0);
     for (int i = 0; i < 16; ++i)
       for (int m = 0; m < 6; ++m)
-        off.back() = std::max(off.back(), std::abs(period.transmission_error(m, i * kFine / 16) -
-                                                   statics[static_cast<size_t>(i)].transmission_error[static_cast<size_t>(m)]));
+        off.back() = std::max(
+            off.back(), std::abs(period.transmission_error(m, i * kFine / 16) -
+                                 statics[static_cast<size_t>(i)].transmission_error[static_cast<size_t>(m)]));
   }
   CHECK(off[0] < 0.004 * statics[0].transmission_error[0]);
   CHECK(off[1] < 0.55 * off[0]);
@@ -229,11 +235,13 @@ TEST_CASE("a planetary train that loses contact: energy closes, runs repeat byte
   CHECK(ends[0].p == ends[1].p);
 }
 
-TEST_CASE("a planetary train is a period map: tangent, settled motion, orbit, and what equal planets suppress") {
+TEST_CASE(
+    "a planetary train is a period map: tangent, settled motion, orbit, and what equal planets suppress") {
   SystemDynamics& dynamics = planetary().dynamics;
   SystemPeriodMap map(dynamics, kSteps);
   map.set_parameter(2600);
-  const SettledMotion plain = settle(map, map.rest(), {1e-10, 3000, false}), quick = settle(map, map.rest(), {1e-10, 3000, true});
+  const SettledMotion plain = settle(map, map.rest(), {1e-10, 3000, false}),
+                      quick = settle(map, map.rest(), {1e-10, 3000, true});
   REQUIRE(plain.multiple == 1);
   REQUIRE(quick.multiple == 1);
   CHECK(quick.periods < plain.periods);
@@ -241,10 +249,12 @@ TEST_CASE("a planetary train is a period map: tangent, settled motion, orbit, an
   // Along a direction in which no contact changes.
   const VectorXd end = map.apply(quick.start);
   VectorXd along = VectorXd::Zero(map.size());
-  for (Index i = 0; i < 2 * dynamics.coordinates().size(); ++i) along[i] = std::sin(1.0 + static_cast<double>(i));
+  for (Index i = 0; i < 2 * dynamics.coordinates().size(); ++i)
+    along[i] = std::sin(1.0 + static_cast<double>(i));
   const MatrixXd slope = map.tangent_times(along);
   const double h = 1e-6;
-  const VectorXd quotient = (map.apply(quick.start + h * along) - map.apply(quick.start - h * along)) / (2 * h);
+  const VectorXd quotient =
+      (map.apply(quick.start + h * along) - map.apply(quick.start - h * along)) / (2 * h);
   CHECK((slope - quotient).norm() < 1e-5 * quotient.norm());
   const OrbitSearch orbit = find_orbit(map, plain.start, 1, {1e-9, 25});
   INFO(orbit.failure);
@@ -255,7 +265,8 @@ TEST_CASE("a planetary train is a period map: tangent, settled motion, orbit, an
   // z_s / N is not whole: harmonic l turns the sun only where z_s l / N is, and pushes its bearing only where it is not.
   map.apply(quick.start);
   const SystemDynamics::Period& period = map.period();
-  const VectorXd turn = period.transmission_error.topRows(3).colwise().sum(), push = period.bearing_force[0].row(0);
+  const VectorXd turn = period.transmission_error.topRows(3).colwise().sum(),
+                 push = period.bearing_force[0].row(0);
   const Harmonics turns = harmonics(turn, 6), pushes = harmonics(push, 6);
   double most_turn = turns.amplitude.maxCoeff(), most_push = pushes.amplitude.maxCoeff();
   for (const int l : {1, 2, 4, 5}) {
@@ -295,7 +306,8 @@ TEST_CASE("a third gear without torque: the first two move as a pair") {
     add_input_gear(layout, "a", design);
     add_driven_gear(layout, 0, design, "b", idler, distance, 0.3);
     if (count == 3) add_driven_gear(layout, 1, idler, "c", design, distance, 1.5);
-    layout.drives = {{0, System::DriveKind::torque, kTorque}, {1, System::DriveKind::torque, -kTorque * 37 / 26}};
+    layout.drives = {{0, System::DriveKind::torque, kTorque},
+                     {1, System::DriveKind::torque, -kTorque * 37 / 26}};
     std::vector<BodyArtifact> bodies;
     std::vector<GearMeshSpec> specs;
     for (size_t b = 0; b < count; ++b) {
@@ -328,14 +340,17 @@ TEST_CASE("a third gear without torque: the first two move as a pair") {
   }
   CHECK(q.mesh_force.row(1).maxCoeff() == 0);
   // An idler has the fields of both its flanks.
-  CHECK((p.transmission_error.row(0) - q.transmission_error.row(0)).norm() < 1e-5 * p.transmission_error.row(0).norm());
+  CHECK((p.transmission_error.row(0) - q.transmission_error.row(0)).norm() <
+        1e-5 * p.transmission_error.row(0).norm());
   CHECK(q.drift_force < 1e-9 * kTorque / pair.base_radius(0));
 }
 
 TEST_CASE("stiff bearings: rigid axes, to the first order of their flexibility") {
   const auto errors = [&](double stiffness) {
     std::array<Bearing, 2> bearing;
-    if (stiffness > 0) bearing = {Bearing{stiffness, 0.02 * std::sqrt(stiffness), 0}, Bearing{stiffness, 0.02 * std::sqrt(stiffness), 0}};
+    if (stiffness > 0)
+      bearing = {Bearing{stiffness, 0.02 * std::sqrt(stiffness), 0},
+                 Bearing{stiffness, 0.02 * std::sqrt(stiffness), 0}};
     const SystemModel system = turning_pair(bearing);
     SystemDynamics dynamics(system, motion_of(system, 463e6));
     dynamics.set_positions({50e-6}, 64);
@@ -346,7 +361,8 @@ TEST_CASE("stiff bearings: rigid axes, to the first order of their flexibility")
     return VectorXd(period.transmission_error.row(0));
   };
   const VectorXd rigid = errors(0);
-  const double one = (errors(4e11) - rigid).norm() / rigid.norm(), two = (errors(8e11) - rigid).norm() / rigid.norm();
+  const double one = (errors(4e11) - rigid).norm() / rigid.norm(),
+               two = (errors(8e11) - rigid).norm() / rigid.norm();
   CHECK(one < 0.01);
   CHECK(two / one == relative(0.5, 0.05));
 }

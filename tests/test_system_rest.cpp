@@ -335,7 +335,10 @@ TEST_CASE(
     std::ostringstream whole;
     whole << in.rdbuf();
     std::string scene_text = whole.str();
-    scene_text.insert(scene_text.find("\nmesh_frequency_Hz") == std::string::npos ? scene_text.size() : scene_text.find("\nmesh_frequency_Hz") + 1, more);
+    scene_text.insert(scene_text.find("\nmesh_frequency_Hz") == std::string::npos
+                          ? scene_text.size()
+                          : scene_text.find("\nmesh_frequency_Hz") + 1,
+                      more);
     try {
       read_system_scene(file.path(scene_text));
     } catch (const Error& error) {
@@ -344,8 +347,8 @@ TEST_CASE(
     return std::string();
   };
   CHECK(reads(kTrain, "torque_Nm = 5.0\n").find("those of [[drive]]") != std::string::npos);
-  CHECK(reads("data/scenes/lin-parker-planetary.toml", "[damping]\n").find("belongs to elastic gears in motion") !=
-        std::string::npos);
+  CHECK(reads("data/scenes/lin-parker-planetary.toml", "[damping]\n")
+            .find("belongs to elastic gears in motion") != std::string::npos);
 }
 
 namespace {

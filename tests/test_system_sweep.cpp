@@ -45,7 +45,8 @@ const Train& train() {
       gear.material = {206e9, 0.3, 7850, true};
       gear.equivalent_mass = 0;
       gear.bearing = {stiffness[g], stiffness[g] > 0 ? 500.0 : 0.0, 0};
-      train.bodies.push_back(reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes));
+      train.bodies.push_back(
+          reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes));
     }
     scene.carriers[0].bearing = {};
     for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * kModule;
@@ -80,7 +81,8 @@ SystemSweepArtifact swept(Direction direction) {
 
 }  // namespace
 
-TEST_CASE("sweep of a planetary train: contact is lost, energy closes, both ways meet, two runs are identical") {
+TEST_CASE(
+    "sweep of a planetary train: contact is lost, energy closes, both ways meet, two runs are identical") {
   const SystemSweepArtifact up = swept(Direction::up), down = swept(Direction::down);
   REQUIRE(up.mesh_frequency.size() == 4);
   CHECK(up.separation_fraction.maxCoeff() > 0.01);
@@ -98,9 +100,9 @@ TEST_CASE("sweep of a planetary train: contact is lost, energy closes, both ways
     CHECK(up.mesh_force[static_cast<size_t>(i)].leftCols(3).rowwise().sum().mean() ==
           relative(300 / up.settings.layout.bodies[0].radius, 0.01));
     // Pins and sun and ring: the carrier has the sum of its pins.
-    CHECK(up.bearing_force[5][static_cast<size_t>(i)] ==
-          up.bearing_force[1][static_cast<size_t>(i)] + up.bearing_force[2][static_cast<size_t>(i)] +
-              up.bearing_force[3][static_cast<size_t>(i)]);
+    CHECK(up.bearing_force[5][static_cast<size_t>(i)] == up.bearing_force[1][static_cast<size_t>(i)] +
+                                                             up.bearing_force[2][static_cast<size_t>(i)] +
+                                                             up.bearing_force[3][static_cast<size_t>(i)]);
   }
   CHECK(bytes_of(up) == bytes_of(swept(Direction::up)));
 }

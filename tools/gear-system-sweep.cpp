@@ -26,7 +26,8 @@ void body(int argc, char** argv) {
                          "gear-system-sweep"};
   std::string params, way, output;
   std::vector<std::string> bodies;
-  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/system_sweep.toml").required();
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/system_sweep.toml")
+      .required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--direction", way, "up or down").required().one_of({"up", "down"});
   options.add("--output", output, "system_sweep.h5 to write").required();
@@ -48,8 +49,8 @@ void body(int argc, char** argv) {
     whine::require_body(gears.back(), settings.body[g].second, settings.body[g].first, paths[g]);
   }
   std::optional<whine::Progress> progress;
-  const whine::SystemSweepArtifact result = whine::system_sweep(
-      settings, gears, direction, [&](long done, long total, const std::string& note) {
+  const whine::SystemSweepArtifact result =
+      whine::system_sweep(settings, gears, direction, [&](long done, long total, const std::string& note) {
         if (!progress) progress.emplace(whine::text("gear-system-sweep ", direction), total);
         progress->update(done, note);
       });
@@ -59,10 +60,11 @@ void body(int argc, char** argv) {
   whine::tell("gear-system-sweep: ", direction, ", ", result.mesh_frequency.size(), " speeds, ",
               result.periods.sum(), " mesh periods, RMS of the transmission error up to ",
               result.dte_rms.maxCoeff() * 1e6, " µm, contact lost at ",
-              (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(), " speeds, bearing forces up to ",
-              result.bearing_force_max.maxCoeff(), " N -> ", output);
+              (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
+              " speeds, bearing forces up to ", result.bearing_force_max.maxCoeff(), " N -> ", output);
   if (const auto other = (result.period_multiple.array() == 0).count(); other > 0)
-    whine::tell("gear-system-sweep: at ", other, " speeds the motion does not become periodic; raise damping or "
+    whine::tell("gear-system-sweep: at ", other,
+                " speeds the motion does not become periodic; raise damping or "
                 "lower periodicity in [discretisation]");
 }
 

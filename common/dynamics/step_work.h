@@ -11,9 +11,9 @@ namespace whine::step_work {
 // Gauss-Legendre on (0, 1).
 inline constexpr int kPoints = 6;
 inline constexpr double kNode[kPoints] = {0.033765242898423975, 0.16939530676686776, 0.3806904069584015,
-                                   0.6193095930415985,   0.8306046932331322,  0.966234757101576};
+                                          0.6193095930415985,   0.8306046932331322,  0.966234757101576};
 inline constexpr double kWeight[kPoints] = {0.08566224618958487, 0.18038078652406947, 0.23395696728634569,
-                                     0.23395696728634569, 0.18038078652406947, 0.08566224618958487};
+                                            0.23395696728634569, 0.18038078652406947, 0.08566224618958487};
 
 inline HertzLine::Point at(const HertzLine& law, double force) {
   return force > 0 ? law.at(force) : HertzLine::Point{};
@@ -33,7 +33,8 @@ inline double bent(const HertzLine& law, double from, double to) {
 }
 
 // N m, switching and rolling: what a line's law stores while the force and the law change, less the mean force's work.
-inline std::pair<double, double> law_work(const HertzLine& law0, const HertzLine& law1, double p0, double p1) {
+inline std::pair<double, double> law_work(const HertzLine& law0, const HertzLine& law1, double p0,
+                                          double p1) {
   const HertzLine::Point old0 = at(law0, p0), old1 = at(law0, p1), new0 = at(law1, p0), new1 = at(law1, p1);
   return {0.5 * (bent(p0, old0, p1, old1) + bent(p0, new0, p1, new1)),
           0.25 * (p1 - p0) * (new1.indentation - old1.indentation - (new0.indentation - old0.indentation)) -

@@ -108,7 +108,8 @@ class Builder {
     for (Index c = 0; c < out_.rigid; ++c) {
       double torque = 0;
       for (const int b : free) torque += system_.layout.torque(b) * out_.rotation(b, c);
-      add(0, motion_.damping.rayleigh_mass + 2 * motion_.damping.bearing_ratio * motion_.axis_frequency, torque);
+      add(0, motion_.damping.rayleigh_mass + 2 * motion_.damping.bearing_ratio * motion_.axis_frequency,
+          torque);
     }
   }
 
@@ -130,8 +131,9 @@ class Builder {
            " needs; raise modes in [fidelity]");
     std::vector<int> out;
     for (int i = 0; i < body.eigenfrequency.size(); ++i) {
-      const bool first = (turns && i == torsional) ||
-                         (sways && (i == swaying || i == system_.body[static_cast<size_t>(b)]->partner(swaying)));
+      const bool first =
+          (turns && i == torsional) ||
+          (sways && (i == swaying || i == system_.body[static_cast<size_t>(b)]->partner(swaying)));
       if (motion_.fidelity.body == BodyModel::modal || first) out.push_back(i);
     }
     return out;
@@ -147,7 +149,7 @@ class Builder {
     std::vector<Index> torsional, swaying, others;  // rows of `columns`
     for (size_t i = 0; i < share.kept.size(); ++i) {
       const int diameters = body.nodal_diameter[share.kept[i]];
-      (diameters == 0 && turns    ? torsional
+      (diameters == 0 && turns   ? torsional
        : diameters == 1 && sways ? swaying
                                  : others)
           .push_back(static_cast<Index>(i));
@@ -188,11 +190,12 @@ class Builder {
     }
     const SymmetricEigen eigen = symmetric_eigen(stiffness, mass);
     if (!eigen.converged || !(eigen.values[1] > 0))
-      fail(Failure::numerical, "the ", k, " torsional modes of '", at.name, "' have no frequencies at an inertia of ",
-           at.inertia, " kg m2; rebuild body.h5");
+      fail(Failure::numerical, "the ", k, " torsional modes of '", at.name,
+           "' have no frequencies at an inertia of ", at.inertia, " kg m2; rebuild body.h5");
     share.hub = eigen.vectors.row(0).tail(k);
     for (Index i = 0; i < k; ++i) {
-      for (Index j = 0; j < k; ++j) share.columns(rows[static_cast<size_t>(j)], i) = eigen.vectors(j + 1, i + 1);
+      for (Index j = 0; j < k; ++j)
+        share.columns(rows[static_cast<size_t>(j)], i) = eigen.vectors(j + 1, i + 1);
       const double w2 = eigen.values[i + 1];
       add(std::sqrt(w2), rayleigh(w2), share.hub[i] * system_.layout.torque(b));
     }
@@ -259,8 +262,9 @@ SystemCoordinates coordinates_of(const SystemModel& system, const SystemMotion& 
   return Builder(system, motion).build();
 }
 
-VectorXd SystemCoordinates::participation(const SystemModel& system, int b, const ToothFlank& flank, double phase,
-                                          const Eigen::RowVectorXd& weights, const Vec2& outward) const {
+VectorXd SystemCoordinates::participation(const SystemModel& system, int b, const ToothFlank& flank,
+                                          double phase, const Eigen::RowVectorXd& weights,
+                                          const Vec2& outward) const {
   const Share& own = body[static_cast<size_t>(b)];
   const ElasticGear& gear = *system.body[static_cast<size_t>(b)];
   const BodyArtifact& modes = gear.body();

@@ -30,7 +30,7 @@ struct SystemMotion {
 double axis_frequency(const SystemModel& system, const Eigen::MatrixXd& mean_stiffness);
 
 struct SystemCoordinates {
-  struct Share {  // of one body
+  struct Share {               // of one body
     int first = 0, count = 0;  // its elastic coordinates
     int torsional = 0;         // the first of them, which turn the hub
     int swaying = 0;           // of them, which move the hub; they follow
@@ -39,14 +39,14 @@ struct SystemCoordinates {
     Eigen::VectorXd hub;       // (torsional) rad per unit, in the body's own sense
     Eigen::MatrixXd shift;     // (xy, swaying) m per unit, in the frame of the system
   };
-  int rigid = 0;              // rotations come first
-  Eigen::MatrixXd rotation;   // (body, rigid) rad per unit, in the body's own sense
-  Eigen::MatrixXd rolling;    // (body, null vector) m: r theta, 1 at most; what is projected out
+  int rigid = 0;             // rotations come first
+  Eigen::MatrixXd rotation;  // (body, rigid) rad per unit, in the body's own sense
+  Eigen::MatrixXd rolling;   // (body, null vector) m: r theta, 1 at most; what is projected out
   std::vector<Share> body;
-  Eigen::VectorXd frequency;  // (coordinate) rad s-1
-  Eigen::VectorXd damping;    // (coordinate) s-1
-  Eigen::VectorXd of_bearing; // (coordinate) s-1: share of a bearing's damper in it
-  Eigen::VectorXd torque;     // (coordinate): constant force of the drives
+  Eigen::VectorXd frequency;   // (coordinate) rad s-1
+  Eigen::VectorXd damping;     // (coordinate) s-1
+  Eigen::VectorXd of_bearing;  // (coordinate) s-1: share of a bearing's damper in it
+  Eigen::VectorXd torque;      // (coordinate): constant force of the drives
   std::vector<StepSystem::Turn> turns;
 
   int size() const { return static_cast<int>(frequency.size()); }

@@ -26,11 +26,13 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
   for (const GearMeshModel& mesh : system.mesh)
     for (const FlankDeviation& flank : mesh.deviation)
       if (flank.repeats() > 1)
-        fail(Failure::input, "teeth of a gear differ from each other; systems in motion have teeth that are all alike");
+        fail(Failure::input,
+             "teeth of a gear differ from each other; systems in motion have teeth that are all alike");
   const VectorXd loads = mesh_loads(system);
   load_of_mesh_ = loads.cwiseMax(1e-3 * loads.maxCoeff());
   for (int b = 0; b < static_cast<int>(system.body.size()); ++b) radius_.push_back(system.base_radius(b));
-  for (const GearMeshModel& mesh : system.mesh) outward_.push_back({mesh.outward_in_system(0), mesh.outward_in_system(1)});
+  for (const GearMeshModel& mesh : system.mesh)
+    outward_.push_back({mesh.outward_in_system(0), mesh.outward_in_system(1)});
 }
 
 double SystemDynamics::moved(const Position& position, int k, const VectorXd& z) const {
@@ -55,7 +57,8 @@ double SystemDynamics::read(const Position& position, int k, const VectorXd& rel
 }
 
 // y -= weight h force, by coordinate.
-void SystemDynamics::push(const Position& position, int k, double force, const VectorXd& weight, VectorXd& y) const {
+void SystemDynamics::push(const Position& position, int k, double force, const VectorXd& weight,
+                          VectorXd& y) const {
   const Contact& contact = position.contact[static_cast<size_t>(k)];
   const int rigid = coordinates_.rigid;
   y.head(rigid) -= force * weight.head(rigid).cwiseProduct(position.rigid.col(k));
@@ -67,7 +70,8 @@ void SystemDynamics::push(const Position& position, int k, double force, const V
 }
 
 // fields += factor V S p
-void SystemDynamics::load(const Position& position, const VectorXd& p, double factor, VectorXd& fields) const {
+void SystemDynamics::load(const Position& position, const VectorXd& p, double factor,
+                          VectorXd& fields) const {
   for (int k = 0; k < position.size(); ++k)
     for (size_t s = 0; s < 2; ++s)
       fields.segment<kFields>(position.contact[static_cast<size_t>(k)].load_at[s]) +=
@@ -90,7 +94,8 @@ MatrixXd SystemDynamics::modal_compliance(const Position& position, const Vector
 void SystemDynamics::set_speed(double mesh_frequency, int steps) {
   const int finest = static_cast<int>(positions_.size()) - 1;
   if (steps <= 0 || finest % steps != 0)
-    fail(Failure::numerical, steps, " steps per period do not divide the ", finest, " positions of a mesh period");
+    fail(Failure::numerical, steps, " steps per period do not divide the ", finest,
+         " positions of a mesh period");
   mesh_frequency_ = mesh_frequency;
   steps_ = steps;
   stride_ = finest / steps;
@@ -104,8 +109,8 @@ void SystemDynamics::set_speed(double mesh_frequency, int steps) {
   relaxed_step_ = relaxation_step(relaxation_, step_);
   for (int i = 0; i <= steps_; ++i) {
     Position& position = positions_[static_cast<size_t>(i * stride_)];
-    position.compliance = position.at_once + relaxed_step_.from_new * position.relaxed +
-                          modal_compliance(position, 0.5 * bq_);
+    position.compliance =
+        position.at_once + relaxed_step_.from_new * position.relaxed + modal_compliance(position, 0.5 * bq_);
   }
   for (VectorXd* x : {&z_, &v_, &force_, &mean_, &before_}) x->setZero(n);
   for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
@@ -128,15 +133,14 @@ SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
   require_hertz_range(position.law, out.p);
   if (!z) return out;
   *z = coordinates_.torque;
-  for (int k = 0; k < position.size(); ++k)
-    push(position, k, out.p[k], VectorXd::Ones(z->size()), *z);
+  for (int k = 0; k < position.size(); ++k) push(position, k, out.p[k], VectorXd::Ones(z->size()), *z);
   *z = z->cwiseProduct(flexibility);
   // x_b = r_b theta_b; unit modal mass, so the shares of a rotation are its own shape times the inertias.
   for (int c = 0; c < coordinates_.rigid; ++c)
     for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
       if (!system_.layout.held(b))
-        (*z)[c] += coordinates_.rotation(b, c) * system_.layout.bodies[static_cast<size_t>(b)].inertia * out.x[b] /
-                   system_.base_radius(b);
+        (*z)[c] += coordinates_.rotation(b, c) * system_.layout.bodies[static_cast<size_t>(b)].inertia *
+                   out.x[b] / system_.base_radius(b);
   return out;
 }
 
@@ -154,14 +158,16 @@ SystemDynamics::State SystemDynamics::rest() {
   state.v = VectorXd::Zero(state.z.size());
   state.p = VectorXd::Zero(slots());
   state.relaxed = VectorXd::Zero(relaxed_size());
-  for (int k = 0; k < positions_[0].size(); ++k) state.p[positions_[0].contact[static_cast<size_t>(k)].slot] = at.p[k];
+  for (int k = 0; k < positions_[0].size(); ++k)
+    state.p[positions_[0].contact[static_cast<size_t>(k)].slot] = at.p[k];
   load(positions_[0], at.p, 1, state.relaxed);
   return state;
 }
 
 void SystemDynamics::take(const State& state) {
   if (steps_ == 0) fail(Failure::input, "a period is integrated at a speed; set it first");
-  if (state.z.size() != coordinates_.size() || state.relaxed.size() != relaxed_size() || state.p.size() != slots())
+  if (state.z.size() != coordinates_.size() || state.relaxed.size() != relaxed_size() ||
+      state.p.size() != slots())
     fail(Failure::input, "the start state, of ", state.z.size(), " coordinates and ", state.p.size(),
          " slots, is of another system: this one has ", coordinates_.size(), " and ", slots());
   z_ = state.z;
@@ -212,15 +218,16 @@ void SystemDynamics::step(const Position& position) {
 
 // False if a tip edge that was left out would touch.
 bool SystemDynamics::record(const Position& position, int sample, Period& period) const {
-  for (int m = 0; m < meshes(); ++m)
-    period.mesh_force(m, sample) = period.largest_tooth_force(m, sample) = 0;
+  for (int m = 0; m < meshes(); ++m) period.mesh_force(m, sample) = period.largest_tooth_force(m, sample) = 0;
   period.drift.setZero();
-  for (int b = 0; b < static_cast<int>(system_.body.size()); ++b) period.bearing_force[static_cast<size_t>(b)].col(sample).setZero();
+  for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
+    period.bearing_force[static_cast<size_t>(b)].col(sample).setZero();
   for (int k = 0; k < position.size(); ++k) {
     const Contact& contact = position.contact[static_cast<size_t>(k)];
     if (!(p_[k] > 0)) continue;
     period.mesh_force(contact.mesh, sample) += contact.lever[0] * p_[k];
-    period.largest_tooth_force(contact.mesh, sample) = std::max(period.largest_tooth_force(contact.mesh, sample), p_[k]);
+    period.largest_tooth_force(contact.mesh, sample) =
+        std::max(period.largest_tooth_force(contact.mesh, sample), p_[k]);
     period.drift += p_[k] * position.drift.col(k);
     for (size_t s = 0; s < 2; ++s)
       period.bearing_force[static_cast<size_t>(contact.body[s])].col(sample) -=
@@ -231,7 +238,8 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
   for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
     if (const Bearing& bearing = system_.layout.bodies[static_cast<size_t>(b)].bearing; bearing.elastic())
       period.bearing_force[static_cast<size_t>(b)].col(sample) =
-          bearing.stiffness * coordinates_.translation_of(b, z_) + bearing.damping * coordinates_.translation_of(b, v_);
+          bearing.stiffness * coordinates_.translation_of(b, z_) +
+          bearing.damping * coordinates_.translation_of(b, v_);
   period.least_gap = std::min(period.least_gap, certificate_.least_gap);
   period.least_force = std::min(period.least_force, certificate_.least_force);
   bool inside = true;
@@ -240,15 +248,17 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
     for (int s = 0; s < kSides; ++s) {
       const int b = system_.layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(s)].body;
       error += closing_sign(s) * radius_[static_cast<size_t>(b)] * coordinates_.rotation_of(b, z_);
-      closing += outward_[static_cast<size_t>(m)][static_cast<size_t>(s)].dot(coordinates_.translation_of(b, z_));
+      closing +=
+          outward_[static_cast<size_t>(m)][static_cast<size_t>(s)].dot(coordinates_.translation_of(b, z_));
     }
     period.transmission_error(m, sample) = error;
     closing += error;
     if (closing > position.lost_gap[static_cast<size_t>(m)])
-      fail_outside_range(Failure::numerical, "the deflection ", closing * 1e6, " micrometres closes the gap of ",
-                         position.lost_gap[static_cast<size_t>(m)] * 1e6,
-                         " micrometres of a tip edge that would touch below the involute; lower the torque or set "
-                         "corner_contact = false");
+      fail_outside_range(
+          Failure::numerical, "the deflection ", closing * 1e6, " micrometres closes the gap of ",
+          position.lost_gap[static_cast<size_t>(m)] * 1e6,
+          " micrometres of a tip edge that would touch below the involute; lower the torque or set "
+          "corner_contact = false");
     inside = inside && !(closing > position.next_gap[static_cast<size_t>(m)]);
   }
   return inside;

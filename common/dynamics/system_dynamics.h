@@ -38,12 +38,12 @@ class SystemDynamics {
   };
   // What one mesh period showed; sample i at phase i / steps, sample 0 that of its end.
   struct Period {
-    Eigen::MatrixXd transmission_error;          // (mesh, step) m
-    Eigen::MatrixXd mesh_force;                  // (mesh, step) N: torque on the driving body over its base radius
-    Eigen::MatrixXd largest_tooth_force;         // (mesh, step) N
-    std::vector<Eigen::Matrix2Xd> bearing_force; // [body] (xy, step) N, see bearing_force()
-    Eigen::VectorXd drift;   // (null vector) N: of the last sample
-    double drift_force = 0;  // N: largest force that must be supplied to hold the mean speed
+    Eigen::MatrixXd transmission_error;   // (mesh, step) m
+    Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque on the driving body over its base radius
+    Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
+    std::vector<Eigen::Matrix2Xd> bearing_force;  // [body] (xy, step) N, see bearing_force()
+    Eigen::VectorXd drift;                        // (null vector) N: of the last sample
+    double drift_force = 0;                 // N: largest force that must be supplied to hold the mean speed
     double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
   };
 
@@ -85,24 +85,24 @@ class SystemDynamics {
   friend class SystemPeriodMap;
   friend class SystemEnergyRecord;
   struct Contact {
-    int mesh = 0, slot = 0;            // slot of all
-    std::array<int, 2> body{};         // [side]
-    std::array<int, 2> load_at{};      // [side] where its fields stand in all relaxed loads
-    std::array<double, 2> lever{};     // [side] closing per r theta of its body
-    Vec2 normal = Vec2::Zero();        // from the first side's flank to the second's
+    int mesh = 0, slot = 0;         // slot of all
+    std::array<int, 2> body{};      // [side]
+    std::array<int, 2> load_at{};   // [side] where its fields stand in all relaxed loads
+    std::array<double, 2> lever{};  // [side] closing per r theta of its body
+    Vec2 normal = Vec2::Zero();     // from the first side's flank to the second's
   };
   struct Position {
     std::vector<Contact> contact;
-    std::vector<HertzLine> law;                // (contact)
-    Eigen::VectorXd gap;                       // (contact) m
-    Eigen::MatrixXd rigid;                     // (rigid rotation, contact): h
-    std::array<Eigen::MatrixXd, 2> elastic;    // [side] (coordinate of its body, contact): h
-    std::array<Eigen::MatrixXd, 2> field;      // [side] (field, contact): V^T S^T
-    std::array<Eigen::MatrixXd, 2> reading;    // [side] (relaxed load of its body, contact) m N-1: W^T
-    Eigen::MatrixXd at_once, relaxed;          // (contact, contact) m N-1: A, and W V S
-    Eigen::MatrixXd compliance;                // (contact, contact) m N-1: of a step at the speed
-    Eigen::MatrixXd drift;                     // (null vector, contact): of forces
-    std::vector<double> next_gap, lost_gap;    // (mesh) m, see PairsInReach
+    std::vector<HertzLine> law;              // (contact)
+    Eigen::VectorXd gap;                     // (contact) m
+    Eigen::MatrixXd rigid;                   // (rigid rotation, contact): h
+    std::array<Eigen::MatrixXd, 2> elastic;  // [side] (coordinate of its body, contact): h
+    std::array<Eigen::MatrixXd, 2> field;    // [side] (field, contact): V^T S^T
+    std::array<Eigen::MatrixXd, 2> reading;  // [side] (relaxed load of its body, contact) m N-1: W^T
+    Eigen::MatrixXd at_once, relaxed;        // (contact, contact) m N-1: A, and W V S
+    Eigen::MatrixXd compliance;              // (contact, contact) m N-1: of a step at the speed
+    Eigen::MatrixXd drift;                   // (null vector, contact): of forces
+    std::vector<double> next_gap, lost_gap;  // (mesh) m, see PairsInReach
     int size() const { return static_cast<int>(contact.size()); }
   };
   SystemPosition positioned(int i) const;
@@ -111,10 +111,12 @@ class SystemDynamics {
   Position filled(const SystemPosition& at, int shift);
   Eigen::MatrixXd residual(int b, const ToothFlank& read, const ToothFlank& loaded) const;
   Eigen::MatrixXd modal_compliance(const Position& position, const Eigen::VectorXd& weight) const;
-  Eigen::VectorXd participation(const Position& position, int k) const;  // (coordinate) h of contact k, in full
+  Eigen::VectorXd participation(const Position& position,
+                                int k) const;  // (coordinate) h of contact k, in full
   double moved(const Position& position, int k, const Eigen::VectorXd& z) const;
   double read(const Position& position, int k, const Eigen::VectorXd& relaxed) const;
-  void push(const Position& position, int k, double force, const Eigen::VectorXd& weight, Eigen::VectorXd& y) const;
+  void push(const Position& position, int k, double force, const Eigen::VectorXd& weight,
+            Eigen::VectorXd& y) const;
   void load(const Position& position, const Eigen::VectorXd& p, double factor, Eigen::VectorXd& fields) const;
   void take(const State& state);
   void step(const Position& position);
@@ -131,16 +133,18 @@ class SystemDynamics {
   SystemCoordinates coordinates_;
   double depth_, relaxation_;
   Eigen::VectorXd load_of_mesh_;
-  std::vector<double> radius_;               // [body] m
-  std::vector<std::array<Vec2, 2>> outward_; // [mesh][side]
-  std::vector<Position> positions_;         // (step + 1): the last one is the first one in the names of the period before
-  std::vector<double> corner_gap_;          // [mesh] m
-  int first_ = 0, last_ = 0;                // pairs that may touch
-  std::vector<std::vector<int>> meshes_of_; // [body]
-  std::vector<int> relaxed_first_;          // (body + 1)
-  std::vector<Eigen::MatrixXd> fields_;     // [body] (flank, field) V
-  std::vector<std::vector<Eigen::MatrixXd>> tables_;  // [body][slot of it times their number + slot] (flank, flank) m N-1: R
-  std::vector<Eigen::MatrixXd> coupling_;   // [body] (relaxed load, relaxed load) m N-1: C
+  std::vector<double> radius_;                // [body] m
+  std::vector<std::array<Vec2, 2>> outward_;  // [mesh][side]
+  std::vector<Position>
+      positions_;  // (step + 1): the last one is the first one in the names of the period before
+  std::vector<double> corner_gap_;           // [mesh] m
+  int first_ = 0, last_ = 0;                 // pairs that may touch
+  std::vector<std::vector<int>> meshes_of_;  // [body]
+  std::vector<int> relaxed_first_;           // (body + 1)
+  std::vector<Eigen::MatrixXd> fields_;      // [body] (flank, field) V
+  std::vector<std::vector<Eigen::MatrixXd>>
+      tables_;  // [body][slot of it times their number + slot] (flank, flank) m N-1: R
+  std::vector<Eigen::MatrixXd> coupling_;  // [body] (relaxed load, relaxed load) m N-1: C
   int most_contacts_ = 0;
 
   double mesh_frequency_ = 0, step_ = 0;

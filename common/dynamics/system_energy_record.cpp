@@ -48,7 +48,8 @@ SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, SystemEne
     });
 }
 
-double SystemEnergyRecord::field_at(const SystemDynamics::Position& position, int k, const VectorXd& field) const {
+double SystemEnergyRecord::field_at(const SystemDynamics::Position& position, int k,
+                                    const VectorXd& field) const {
   const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
   double out = 0;
   for (size_t s = 0; s < 2; ++s)
@@ -78,8 +79,8 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
   for (int k = 0; k < n; ++k) {
     const HertzLine& law = position.law[static_cast<size_t>(k)];
     now.stored += step_work::stored(law, now.p[k]);
-    now.d[k] = position.gap[k] - of_.moved(position, k, now.z) + field_at(position, k, now.field) + now.local[k] +
-               step_work::at(law, now.p[k]).indentation;
+    now.d[k] = position.gap[k] - of_.moved(position, k, now.z) + field_at(position, k, now.field) +
+               now.local[k] + step_work::at(law, now.p[k]).indentation;
   }
 }
 
@@ -100,11 +101,13 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
   double bearing = 0, drive = 0;
   for (Index n = 0; n < balance_->drive.size(); ++n) {
     const SystemCoordinates::Share& own = c.body[static_cast<size_t>(n)];
-    const double taken = c.of_bearing.segment(own.first, own.count).dot(squared.segment(own.first, own.count));
+    const double taken =
+        c.of_bearing.segment(own.first, own.count).dot(squared.segment(own.first, own.count));
     balance_->bearing_damping[n] += taken;
     bearing += taken;
     const int body = static_cast<int>(n);
-    const double work = of_.system_.layout.torque(body) * (c.rotation_of(body, b.z) - c.rotation_of(body, a.z));
+    const double work =
+        of_.system_.layout.torque(body) * (c.rotation_of(body, b.z) - c.rotation_of(body, a.z));
     if (of_.system_.layout.held(body)) continue;
     balance_->drive[n] += work;
     drive += work;
@@ -125,7 +128,8 @@ double SystemEnergyRecord::relaxation(const Instant& a, const Instant& b) {
     const VectorXd behind = a.load - a.relaxed, change = b.load - a.load, moved_behind = a.moved - a.field,
                    moved_change = b.moved - a.moved;
     const double change2 = change.dot(moved_change);
-    damping = decay2_ * behind.dot(moved_behind) + 2 * mixed2_ * behind.dot(moved_change) + growth2_ * change2;
+    damping =
+        decay2_ * behind.dot(moved_behind) + 2 * mixed2_ * behind.dot(moved_change) + growth2_ * change2;
     exact = decay_ * a.load.dot(moved_behind) + growth_ * a.load.dot(moved_change) +
             late_decay_ * change.dot(moved_behind) + late_growth_ * change2;
   }
@@ -163,8 +167,8 @@ double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
     const double p1 = b.p[l];
     if (p0 == 0 && p1 == 0) continue;
     const auto [law_switching, law_rolling] = law_work(law, to.law[static_cast<size_t>(l)], p0, p1);
-    const double new_z0 = of_.moved(to, l, a.z), old_z0 = of_.moved(from, k, a.z), new_z1 = of_.moved(to, l, b.z),
-                 old_z1_any = of_.moved(from, k, b.z);
+    const double new_z0 = of_.moved(to, l, a.z), old_z0 = of_.moved(from, k, a.z),
+                 new_z1 = of_.moved(to, l, b.z), old_z1_any = of_.moved(from, k, b.z);
     double rolling = 0.5 * (p0 * (new_z1 - old_z1_any) + p1 * (new_z0 - old_z0));
     rolling -= 0.5 * (p0 * (field_at(to, l, b.field) - field_at(from, k, b.field)) +
                       p1 * (field_at(to, l, a.field) - field_at(from, k, a.field)));

@@ -23,7 +23,8 @@ SystemPeriodMap::SystemPeriodMap(SystemDynamics& dynamics, int steps) : dynamics
   for (Index i = 0; i < n; ++i)
     unit_[i] = scale / (i < coordinates.rigid ? dynamics.motion_.axis_frequency : coordinates.frequency[i]);
   unit_.segment(n, n).setConstant(scale);
-  unit_.segment(2 * n, loads).setConstant(rest.p.maxCoeff() * std::sqrt(static_cast<double>(SystemDynamics::kFields)));
+  unit_.segment(2 * n, loads)
+      .setConstant(rest.p.maxCoeff() * std::sqrt(static_cast<double>(SystemDynamics::kFields)));
   unit_.tail(slots).setConstant(rest.p.maxCoeff());
   rest_ = flat(rest);
 }
@@ -63,7 +64,8 @@ MatrixXd SystemPeriodMap::tangent() {
 // The equations of SystemDynamics::step, linear in what moves.
 MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
   SystemDynamics& of = dynamics_;
-  const Index n = of.coordinates().size(), loads = of.relaxed_size(), slots = of.slots(), many = directions.cols();
+  const Index n = of.coordinates().size(), loads = of.relaxed_size(), slots = of.slots(),
+              many = directions.cols();
   const MatrixXd start = unit_.asDiagonal() * directions;
   MatrixXd z = start.topRows(n), v = start.middleRows(n, n), relaxed = start.middleRows(2 * n, loads),
            force = MatrixXd::Zero(n, many), load = MatrixXd::Zero(loads, many), p = start.bottomRows(slots);
@@ -76,7 +78,8 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
       if (p.row(contact.slot).isZero(0)) continue;
       force -= of.participation(position, k) * p.row(contact.slot);
       for (size_t s = 0; s < 2; ++s)
-        load.middleRows<SystemDynamics::kFields>(contact.load_at[s]) += position.field[s].col(k) * p.row(contact.slot);
+        load.middleRows<SystemDynamics::kFields>(contact.load_at[s]) +=
+            position.field[s].col(k) * p.row(contact.slot);
     }
   };
   spread(of.at(0));

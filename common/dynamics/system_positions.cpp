@@ -28,7 +28,8 @@ ToothFlank flank_of(const SystemModel& system, const ContactSegment& segment, si
 
 // Orthonormal, (flank, field): the loads of a flank that its own displacements, and before all those of other flanks, depend on
 // most; as relaxed_fields of pairs.
-MatrixXd fields_of(const MatrixXd& own, const std::vector<MatrixXd>& others, int most, const std::string& name) {
+MatrixXd fields_of(const MatrixXd& own, const std::vector<MatrixXd>& others, int most,
+                   const std::string& name) {
   constexpr double kWeight = 1e6, kMostRemainder = 1e-3;
   MatrixXd importance = own * own;
   for (const MatrixXd& r : others) importance += kWeight * (r * r.transpose() + r.transpose() * r);
@@ -126,7 +127,8 @@ void SystemDynamics::couple() {
         if (flank[i].tooth != flank[j].tooth || flank[i].side != flank[j].side)
           others.push_back(table[i * n + j]);
       }
-    const MatrixXd v = fields_of(table[0], others, kFields, system_.layout.bodies[static_cast<size_t>(b)].name);
+    const MatrixXd v =
+        fields_of(table[0], others, kFields, system_.layout.bodies[static_cast<size_t>(b)].name);
     MatrixXd c(static_cast<Index>(n) * kFields, static_cast<Index>(n) * kFields);
     for (size_t i = 0; i < n; ++i)
       for (size_t j = 0; j < n; ++j)
@@ -147,7 +149,8 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
   int most = 0, most_loads = 0;
   for (int b = 0; b < bodies; ++b) {
     most = std::max(most, coordinates_.body[static_cast<size_t>(b)].count);
-    most_loads = std::max(most_loads, relaxed_first_[static_cast<size_t>(b) + 1] - relaxed_first_[static_cast<size_t>(b)]);
+    most_loads = std::max(
+        most_loads, relaxed_first_[static_cast<size_t>(b) + 1] - relaxed_first_[static_cast<size_t>(b)]);
   }
   out.gap = at.gap;
   out.rigid = MatrixXd::Zero(coordinates_.rigid, n);
@@ -181,9 +184,9 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
       out.rigid.col(k) += arm * coordinates_.rotation.row(b).transpose();
       out.drift.col(k) += contact.lever[s] * coordinates_.rolling.row(b).transpose();
       const RowVectorXd weights = at.displacement.flank[m][s].row(node);
-      out.elastic[s].col(k).head(share.count) = coordinates_.participation(
-          system_, b, flank_of(system_, segment, s, -shift), phase, weights,
-          closing_sign(static_cast<int>(s)) * segment.normal);
+      out.elastic[s].col(k).head(share.count) =
+          coordinates_.participation(system_, b, flank_of(system_, segment, s, -shift), phase, weights,
+                                     closing_sign(static_cast<int>(s)) * segment.normal);
       out.elastic[s].col(k).head(share.torsional) += arm * share.hub;
       const auto& list = meshes_of_[own];
       const auto place = static_cast<int>(std::find(list.begin(), list.end(), segment.mesh) - list.begin());
@@ -200,10 +203,12 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
     for (Index l = 0; l < n; ++l)
       for (size_t s = 0; s < 2; ++s)
         for (size_t t = 0; t < 2; ++t) {
-          const Contact &read = out.contact[static_cast<size_t>(k)], &loaded = out.contact[static_cast<size_t>(l)];
+          const Contact &read = out.contact[static_cast<size_t>(k)],
+                        &loaded = out.contact[static_cast<size_t>(l)];
           if (read.body[s] != loaded.body[t]) continue;
           const int b = read.body[s], base = relaxed_first_[static_cast<size_t>(b)];
-          const double soft = out.reading[s].col(k).segment<kFields>(loaded.load_at[t] - base).dot(out.field[t].col(l));
+          const double soft =
+              out.reading[s].col(k).segment<kFields>(loaded.load_at[t] - base).dot(out.field[t].col(l));
           const auto weights = [&](const Contact& contact, size_t side, Index row) -> RowVectorXd {
             const auto m = static_cast<size_t>(contact.mesh);
             return at.displacement.flank[m][side].row(row - at.first_strip[m]);
@@ -211,8 +216,9 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
           const int slots = static_cast<int>(coupling_[static_cast<size_t>(b)].rows()) / kFields,
                     row = (read.load_at[s] - base) / kFields, column = (loaded.load_at[t] - base) / kFields;
           const double whole =
-              weights(read, s, k).dot(tables_[static_cast<size_t>(b)][static_cast<size_t>(row * slots + column)] *
-                                      weights(loaded, t, l).transpose());
+              weights(read, s, k)
+                  .dot(tables_[static_cast<size_t>(b)][static_cast<size_t>(row * slots + column)] *
+                       weights(loaded, t, l).transpose());
           out.relaxed(k, l) += soft;
           out.at_once(k, l) += whole - soft;
         }
@@ -229,12 +235,14 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   find_slots(placed);
   couple();
   constexpr double kMostMemory = 12e9;  // bytes
-  const double numbers = steps * static_cast<double>(most_contacts_) *
-                         (2.0 * (coordinates_.size() + relaxed_size()) / static_cast<double>(system_.body.size()) +
-                          3.0 * most_contacts_);
+  const double numbers =
+      steps * static_cast<double>(most_contacts_) *
+      (2.0 * (coordinates_.size() + relaxed_size()) / static_cast<double>(system_.body.size()) +
+       3.0 * most_contacts_);
   if (8 * numbers > kMostMemory)
-    fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers, " GB, at most ",
-         1e-9 * kMostMemory, " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
+    fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
+         " GB, at most ", 1e-9 * kMostMemory,
+         " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
   for (int i = 0; i < steps; ++i) {
     report_step("mesh positions", i, steps);
     positions_[static_cast<size_t>(i)] = filled(placed[static_cast<size_t>(i)], 0);

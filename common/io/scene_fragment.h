@@ -22,7 +22,8 @@ std::vector<std::string> different(const BodyHashes& bodies);
 std::string checked_scene_stem(const std::string& path);
 
 // Of a system; bodies: of elastic gears, empty of rigid ones; moves: it has speeds.
-std::string system_fragment(const std::string& path, const std::string& stem, const BodyHashes& bodies, bool moves);
+std::string system_fragment(const std::string& path, const std::string& stem, const BodyHashes& bodies,
+                            bool moves);
 
 // path: of the scene; stem: its name without folder and extension, which the variables carry.
 std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,

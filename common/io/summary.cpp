@@ -379,20 +379,11 @@ void show(Lines& lines, const SystemStaticArtifact& a) {
 }
 
 void show(Lines& lines, const SystemSweepArtifact& a) {
-  const System& s = a.settings.layout;
-  add(lines, "model", "body ", a.settings.fidelity.body, ", contact ", a.settings.fidelity.contact, ", ", a.direction,
-      ", ", a.mesh_frequency.size(), " speeds from ", a.mesh_frequency.minCoeff(), " to ",
-      a.mesh_frequency.maxCoeff(), " Hz");
-  for (size_t m = 0; m < s.meshes.size(); ++m) {
-    const auto column = static_cast<Eigen::Index>(m);
-    add(lines, "mesh", s.bodies[static_cast<size_t>(s.meshes[m].side[0].body)].name, " and ",
-        s.bodies[static_cast<size_t>(s.meshes[m].side[1].body)].name, ": RMS up to ",
-        a.dte_rms.col(column).maxCoeff() * 1e6, " µm, force up to ", a.mesh_force_max.col(column).maxCoeff(),
-        " N, without force up to ", a.separation_fraction.col(column).maxCoeff() * 100, " % of the time");
-  }
-  for (size_t b = 0; b < s.bodies.size(); ++b)
-    add(lines, "body", s.bodies[b].name, ": bearing force up to ",
-        a.bearing_force_max.col(static_cast<Eigen::Index>(b)).maxCoeff(), " N");
+  add(lines, "model", "body ", a.settings.fidelity.body, ", contact ", a.settings.fidelity.contact, ", ",
+      a.direction, ", ", a.mesh_frequency.size(), " speeds from ", a.mesh_frequency.minCoeff(), " Hz");
+  add(lines, "meshes", a.dte_rms.cols(), ": RMS up to ", a.dte_rms.maxCoeff() * 1e6, " µm, force up to ",
+      a.mesh_force_max.maxCoeff(), " N, without force up to ", a.separation_fraction.maxCoeff() * 100, " %");
+  add(lines, "bearings", "force up to ", a.bearing_force_max.maxCoeff(), " N");
   add(lines, "energy", "imbalance up to ", a.energy_imbalance.maxCoeff(), " of the throughput");
 }
 

@@ -175,14 +175,15 @@ void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) 
   static const toml::table kNothing;
   if (const toml::node* node = source.root().at_path("operation.torque_Nm").node())
     source.reject(*node,
-                  "'torque_Nm' in [operation] is of pairs: the torques of a system are those of [[drive]]; take it out");
+                  "'torque_Nm' in [operation] is of pairs: the torques of a system are those of [[drive]]; "
+                  "take it out");
   const bool moves = source.root().get("operation") != nullptr;
   for (const char* name : {"fidelity", "discretisation", "damping", "operation"}) {
     const toml::table* table = source.section(name);
     const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
     reader.reject_unknown();
-    std::set<Part> parts = {Part::level, Part::contact_level, Part::body, Part::near_field, Part::contact,
-                            Part::damping, Part::time};
+    std::set<Part> parts = {Part::level,   Part::contact_level, Part::body, Part::near_field,
+                            Part::contact, Part::damping,       Part::time};
     if (moves) parts.insert(Part::operation);
     reader.read(values, parts, false);
   }
@@ -197,7 +198,10 @@ void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) 
         *node, "[discretisation] belongs to elastic gears, and those of this scene are rigid; take it out");
   for (const char* name : {"operation", "damping"})
     if (const toml::node* node = source.root().get(name); node && scene.rigid())
-      source.reject(*node, text("[", name, "] belongs to elastic gears in motion, and those of this scene are rigid; take it out"));
+      source.reject(
+          *node,
+          text("[", name,
+               "] belongs to elastic gears in motion, and those of this scene are rigid; take it out"));
   if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
 }
 
@@ -216,8 +220,8 @@ SystemScene read_system_scene(const std::string& path) {
   if (source.is_stage_parameters())
     source.reject("holds stage parameters, which gear-scene wrote from a scene; give the scene itself");
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
-  top.reject_unknown(
-      {"gear", "material", "bearing", "mesh", "carrier", "drive", "damping", "operation", "fidelity", "discretisation"});
+  top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "drive", "damping", "operation",
+                      "fidelity", "discretisation"});
   for (const char* name : {"gear", "mesh"})
     if (!source.root().get(name))
       source.reject(text("the scene of a system lacks ",

@@ -55,7 +55,8 @@ namespace {
 using Parts = std::set<Part>;
 
 // values: with what a motion needs, if `moving`.
-std::string parameters_text(const char* stage, const SystemStaticParameters& p, KeyValues values, bool moving) {
+std::string parameters_text(const char* stage, const SystemStaticParameters& p, KeyValues values,
+                            bool moving) {
   StageParametersText out(stage);
   for (size_t m = 0; m < p.mesh.size(); ++m) {
     values.mesh = p.mesh[m];
@@ -72,8 +73,10 @@ std::string parameters_text(const char* stage, const SystemStaticParameters& p, 
     out.add("damping", "damping", values, {Part::damping});
     out.add("operation", "operation", values, {Part::operation});
   }
-  out.add("fidelity", "fidelity", values, moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level});
-  out.add("discretisation", "discretisation", values, moving ? Parts{Part::contact, Part::time} : Parts{Part::contact});
+  out.add("fidelity", "fidelity", values,
+          moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level});
+  out.add("discretisation", "discretisation", values,
+          moving ? Parts{Part::contact, Part::time} : Parts{Part::contact});
   for (const auto& [gear, hash] : p.body) out.add_line("bodies", gear, hash);
   for (size_t b = 0; b < p.gear.size(); ++b)
     if (!p.gear[b].empty()) out.add_line("gear_of", p.layout.bodies[b].name, p.gear[b]);
@@ -107,15 +110,23 @@ std::string system_sweep_parameters(const SystemSweepParameters& p) {
   return parameters_text(kSweepStage, p, values, true);
 }
 
+std::vector<std::pair<std::string, std::string>> elastic_parameters(const SystemScene& scene,
+                                                                    const System& layout) {
+  std::vector<std::pair<std::string, std::string>> out{
+      {"system_static.toml", system_static_parameters(static_parameters_of(scene, layout))}};
+  if (scene.operation.frequency_to > 0)
+    out.emplace_back("system_sweep.toml", system_sweep_parameters(sweep_parameters_of(scene, layout)));
+  return out;
+}
+
 std::string system_parameters_for(const std::string& scene, const std::string& path) {
   const SystemScene read = read_system_scene(scene);
   const std::filesystem::path place(path);
   const std::string name = place.filename().string();
   if (name == "system.toml" && read.rigid()) return system_parameters(layout_in(read, scene));
-  if (name == "system_static.toml" && !read.rigid())
-    return system_static_parameters(static_parameters_of(read, layout_in(read, scene)));
-  if (name == "system_sweep.toml" && !read.rigid() && read.operation.frequency_to > 0)
-    return system_sweep_parameters(sweep_parameters_of(read, layout_in(read, scene)));
+  if (!read.rigid())
+    for (const auto& [own, words] : elastic_parameters(read, layout_in(read, scene)))
+      if (name == own) return words;
   const std::string folder = place.parent_path().filename().string();
   for (const auto& [gear, settings] : body_parameters_of(read))
     if (name == "body.toml" && (folder == body_hash(settings) || folder == gear)) return settings;
@@ -158,7 +169,8 @@ SystemStaticParameters parameters_from(const Source& source, KeyValues& values, 
   SectionReader(source, Dialect::settings, section("discretisation"), "discretisation", "discretisation")
       .read(values, moving ? Parts{Part::contact, Part::time} : Parts{Part::contact}, false);
   if (moving)
-    for (const auto& [name, part] : {std::pair{"damping", Part::damping}, std::pair{"operation", Part::operation}})
+    for (const auto& [name, part] :
+         {std::pair{"damping", Part::damping}, std::pair{"operation", Part::operation}})
       SectionReader(source, Dialect::settings, section(name), name, name).read(values, {part}, false);
   out.fidelity = values.fidelity;
   out.contact = values.contact;

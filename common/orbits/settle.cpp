@@ -16,9 +16,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kColumns = 4;       // differences, as many multipliers go at once
-constexpr double kClose = 1e-2;   // change per period below which the motion counts as close
-constexpr int kLongestPause = 64; // periods of plain iteration after proposals that gained nothing
+constexpr int kColumns = 4;        // differences, as many multipliers go at once
+constexpr double kClose = 1e-2;    // change per period below which the motion counts as close
+constexpr int kLongestPause = 64;  // periods of plain iteration after proposals that gained nothing
 
 class Acceleration {
  public:

@@ -328,7 +328,9 @@ Drawings drawings_of_systems() {
       {"system-sweep",
        {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",
         "system_sweep.h5 of one system, rising, falling or both", 0, 0,
-        [](const Paths& in, const Frequencies&) { return system_sweep_figure(read_all(in, read_system_sweep)); }}},
+        [](const Paths& in, const Frequencies&) {
+          return system_sweep_figure(read_all(in, read_system_sweep));
+        }}},
   };
 }
 

@@ -22,7 +22,8 @@ struct Quantity {
 };
 constexpr Quantity kQuantities[] = {
     {"dte_rms", "RMS of the transmission error", "µm", kMicro, &SystemSweepArtifact::dte_rms, false},
-    {"separation_fraction", "Time without contact", "%", kPercent, &SystemSweepArtifact::separation_fraction, false},
+    {"separation_fraction", "Time without contact", "%", kPercent, &SystemSweepArtifact::separation_fraction,
+     false},
     {"bearing_force_rms", "Bearing force, RMS", "N", 1, &SystemSweepArtifact::bearing_force_rms, true}};
 
 std::vector<std::string> names_of(const System& s, bool bodies) {
@@ -41,7 +42,8 @@ FigureBlock block_of(const Quantity& q, const SystemSweepArtifact& a, size_t cur
   for (size_t i = 0; i < curves; ++i) block.columns.push_back(text(q.name, " ", names[i], " [", q.unit, "]"));
   std::vector<Index> order(static_cast<size_t>(a.mesh_frequency.size()));
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](Index x, Index y) { return a.mesh_frequency[x] < a.mesh_frequency[y]; });
+  std::sort(order.begin(), order.end(),
+            [&](Index x, Index y) { return a.mesh_frequency[x] < a.mesh_frequency[y]; });
   for (const Index i : order) {
     std::vector<double> row{a.mesh_frequency[i]};
     for (size_t c = 0; c < curves; ++c) row.push_back((a.*q.values)(i, static_cast<Index>(c)) * q.scale);
@@ -70,16 +72,19 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
   const SystemSweepArtifact& a = sweeps.front();
   const System& s = a.settings.layout;
   for (const SystemSweepArtifact& other : sweeps)
-    if (other.settings.layout.meshes.size() != s.meshes.size() || other.settings.layout.bodies.size() != s.bodies.size())
+    if (other.settings.layout.meshes.size() != s.meshes.size() ||
+        other.settings.layout.bodies.size() != s.bodies.size())
       fail(Failure::input, "the sweeps are of systems with ", s.meshes.size(), " and ",
            other.settings.layout.meshes.size(), " meshes; give those of one system, rising and falling");
   Figure figure;
   figure.title = "A system over its speeds: vibration, contact loss, forces on bearings";
   figure.notes.push_back(torque_words_of(a));
-  figure.notes.push_back(text("body \"", a.settings.fidelity.body, "\", contact \"", a.settings.fidelity.contact,
-                              "\", damping ", shown(a.settings.damping.rayleigh_stiffness, 3), " s x stiffness + ",
+  figure.notes.push_back(text("body \"", a.settings.fidelity.body, "\", contact \"",
+                              a.settings.fidelity.contact, "\", damping ",
+                              shown(a.settings.damping.rayleigh_stiffness, 3), " s x stiffness + ",
                               shown(a.settings.damping.rayleigh_mass, 3), " 1/s x mass"));
-  figure.notes.emplace_back("lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces");
+  figure.notes.emplace_back(
+      "lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces");
   int row_number = 0;
   double from = a.mesh_frequency.minCoeff(), to = a.mesh_frequency.maxCoeff();
   for (const Quantity& q : kQuantities) {
@@ -97,11 +102,12 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
     std::string labels;
     for (size_t i = 0; i < curves; ++i) labels += "'" + names[i] + "' ";
     const std::string row = std::to_string(++row_number);
-    for (const auto& [name, value] : {std::pair{"curves", static_cast<double>(curves)},
-                                      std::pair{"most", most > 0 ? 1.06 * most : 1.0}})
+    for (const auto& [name, value] :
+         {std::pair{"curves", static_cast<double>(curves)}, std::pair{"most", most > 0 ? 1.06 * most : 1.0}})
       figure.numbers.emplace_back(name + row, value);
-    for (const auto& [name, word] : {std::pair{"quantity", std::string(q.name)}, std::pair{"axis", std::string(q.axis)},
-                                     std::pair{"unit", std::string(q.unit)}, std::pair{"labels", labels}})
+    for (const auto& [name, word] :
+         {std::pair{"quantity", std::string(q.name)}, std::pair{"axis", std::string(q.axis)},
+          std::pair{"unit", std::string(q.unit)}, std::pair{"labels", labels}})
       figure.words.emplace_back(name + row, word);
   }
   for (const Direction way : {Direction::up, Direction::down}) {

@@ -22,8 +22,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kRestPositions = 32;     // of the statics that come first
-constexpr double kBeyondStatics = 2.5; // deflection that tip edges are looked for, over that of rest
+constexpr int kRestPositions = 32;      // of the statics that come first
+constexpr double kBeyondStatics = 2.5;  // deflection that tip edges are looked for, over that of rest
 
 struct Rest {
   MatrixXd stiffness;              // (mesh, mesh) N m-1, mean
@@ -47,9 +47,11 @@ Rest rest_of(const SystemModel& system, int strips) {
 }
 
 std::vector<double> speeds_of(const SystemSweepParameters& p, Direction direction) {
-  const long count = std::lround(std::floor((p.frequency_to - p.frequency_from) / p.frequency_step + 1e-9)) + 1;
+  const long count =
+      std::lround(std::floor((p.frequency_to - p.frequency_from) / p.frequency_step + 1e-9)) + 1;
   std::vector<double> out;
-  for (long i = 0; i < count; ++i) out.push_back(p.frequency_from + static_cast<double>(i) * p.frequency_step);
+  for (long i = 0; i < count; ++i)
+    out.push_back(p.frequency_from + static_cast<double>(i) * p.frequency_step);
   if (direction == Direction::down) std::reverse(out.begin(), out.end());
   return out;
 }
@@ -58,9 +60,16 @@ std::vector<double> speeds_of(const SystemSweepParameters& p, Direction directio
 class Recorded {
  public:
   Recorded(const SystemSweepArtifact& of, size_t meshes, size_t bodies)
-      : settings_(of.settings), sum_(VectorXd::Zero(static_cast<Index>(meshes))), squares_(sum_), most_(sum_),
-        tooth_(sum_), share_(sum_), parted_(sum_), force_sum_(MatrixXd::Zero(2, static_cast<Index>(bodies))),
-        force_squares_(VectorXd::Zero(static_cast<Index>(bodies))), force_most_(force_squares_) {}
+      : settings_(of.settings),
+        sum_(VectorXd::Zero(static_cast<Index>(meshes))),
+        squares_(sum_),
+        most_(sum_),
+        tooth_(sum_),
+        share_(sum_),
+        parted_(sum_),
+        force_sum_(MatrixXd::Zero(2, static_cast<Index>(bodies))),
+        force_squares_(VectorXd::Zero(static_cast<Index>(bodies))),
+        force_most_(force_squares_) {}
 
   // forces: [body] (xy, step), carriers too
   void take(const SystemDynamics::Period& period, const std::vector<Eigen::Matrix2Xd>& forces) {
@@ -90,15 +99,16 @@ class Recorded {
   }
   void give(Index row, SystemSweepArtifact& out) const {
     out.dte_mean.row(row) = sum_ / count_;
-    out.dte_rms.row(row) =
-        (squares_ / count_ - (sum_ / count_).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+    out.dte_rms.row(row) = (squares_ / count_ - (sum_ / count_).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
     out.mesh_force_max.row(row) = most_;
     out.tooth_force_max.row(row) = tooth_;
     out.load_share_max.row(row) = share_.cwiseMin(1.0);
     out.separation_fraction.row(row) = parted_ / count_;
     out.bearing_force_max.row(row) = force_most_;
     out.bearing_force_rms.row(row) =
-        (force_squares_ / count_ - (force_sum_ / count_).colwise().squaredNorm().transpose()).cwiseMax(0.0).cwiseSqrt();
+        (force_squares_ / count_ - (force_sum_ / count_).colwise().squaredNorm().transpose())
+            .cwiseMax(0.0)
+            .cwiseSqrt();
   }
 
  private:
@@ -134,12 +144,15 @@ class SystemRig {
       SystemPeriodMap map(*dynamics_, steps_at(settings_.time, frequency));
       map.set_parameter(frequency);
       try {
-        const SettledMotion motion =
-            settle(map, map.flat(state_),
-                   {settings_.time.periodicity, 3000, settings_.time.steady_state == SteadyState::extrapolate});
+        const SettledMotion motion = settle(
+            map, map.flat(state_),
+            {settings_.time.periodicity, 3000, settings_.time.steady_state == SteadyState::extrapolate});
         state_ = map.state(motion.start);
-        if (!record(motion, row, out)) throw ModelRangeError(Failure::numerical, "contact leaves the tip edges");
-        return motion.multiple == 1 ? "" : motion.multiple == 0 ? "not periodic" : text(motion.multiple, " periods");
+        if (!record(motion, row, out))
+          throw ModelRangeError(Failure::numerical, "contact leaves the tip edges");
+        return motion.multiple == 1   ? ""
+               : motion.multiple == 0 ? "not periodic"
+                                      : text(motion.multiple, " periods");
       } catch (const ModelRangeError& error) {
         if ((!map.left_zone() && !left_) || widenings_ > kWidenings)
           fail_as(error, "at a mesh frequency of ", frequency, " Hz, ", error.what());
@@ -220,8 +233,8 @@ class SystemRig {
   static void take(const SystemEnergyBalance& e, Index row, SystemSweepArtifact& out) {
     Eigen::RowVectorXd lines(static_cast<Index>(kSystemEnergyLines.size()));
     lines << e.kinetic + e.modal + e.residual + e.local, e.drive.sum(), e.rolling.sum(), e.modal_damping,
-        e.bearing_damping.sum(), e.relaxation_damping, e.switching.sum(), e.cutting.sum(), e.averaging, e.dropped,
-        e.throughput;
+        e.bearing_damping.sum(), e.relaxation_damping, e.switching.sum(), e.cutting.sum(), e.averaging,
+        e.dropped, e.throughput;
     out.energy.row(row) += lines;
     out.rolling.row(row) += e.rolling;
     out.bearing_damping.row(row).head(e.bearing_damping.size()) += e.bearing_damping;
@@ -239,8 +252,8 @@ class SystemRig {
 
 }  // namespace
 
-SystemSweepArtifact system_sweep(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies,
-                                 Direction direction,
+SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
+                                 const std::vector<BodyArtifact>& bodies, Direction direction,
                                  const std::function<void(long, long, const std::string&)>& report) {
   SystemRig rig(settings, bodies);
   const std::vector<double> speeds = speeds_of(settings, direction);
@@ -258,10 +271,11 @@ SystemSweepArtifact system_sweep(const SystemSweepParameters& settings, const st
   for (int b = 0; b < all; ++b) out.torque[b] = settings.layout.torque(b);
   out.axis_frequency = rig.motion().axis_frequency / (2 * std::numbers::pi);
   out.mesh_frequency = Eigen::Map<const VectorXd>(speeds.data(), n);
-  for (MatrixRM* x : {&out.dte_rms, &out.dte_mean, &out.mesh_force_max, &out.tooth_force_max, &out.load_share_max,
-                      &out.separation_fraction, &out.rolling})
+  for (MatrixRM* x : {&out.dte_rms, &out.dte_mean, &out.mesh_force_max, &out.tooth_force_max,
+                      &out.load_share_max, &out.separation_fraction, &out.rolling})
     x->setZero(n, meshes);
-  for (MatrixRM* x : {&out.bearing_force_max, &out.bearing_force_rms, &out.bearing_damping}) x->setZero(n, all);
+  for (MatrixRM* x : {&out.bearing_force_max, &out.bearing_force_rms, &out.bearing_damping})
+    x->setZero(n, all);
   out.energy.setZero(n, static_cast<Index>(kSystemEnergyLines.size()));
   for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
   out.periods.setZero(n);

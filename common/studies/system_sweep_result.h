@@ -31,27 +31,28 @@ inline constexpr std::array<SystemEnergyLine, 11> kSystemEnergyLines{
 struct SystemSweepArtifact {
   SystemSweepParameters settings;  // with the inertias and masses that were used
   Direction direction = Direction::up;
-  Eigen::VectorXd torque;         // (body) N m of its drive, mean; of what is held at rest
-  double axis_frequency = 0;      // Hz, see axis_frequency(): of the rigid train on its mean stiffnesses
-  Eigen::VectorXd mesh_frequency; // (speed) Hz
+  Eigen::VectorXd torque;          // (body) N m of its drive, mean; of what is held at rest
+  double axis_frequency = 0;       // Hz, see axis_frequency(): of the rigid train on its mean stiffnesses
+  Eigen::VectorXd mesh_frequency;  // (speed) Hz
   // Over the recorded mesh periods: (speed, mesh)
-  MatrixRM dte_rms, dte_mean;                  // m: of the dynamic transmission error
-  MatrixRM mesh_force_max, tooth_force_max;    // N
-  MatrixRM load_share_max;                     // 1: largest share of the meshes of one [[mesh]]
-  MatrixRM separation_fraction;                // 1: of the steps, without force
+  MatrixRM dte_rms, dte_mean;                     // m: of the dynamic transmission error
+  MatrixRM mesh_force_max, tooth_force_max;       // N
+  MatrixRM load_share_max;                        // 1: largest share of the meshes of one [[mesh]]
+  MatrixRM separation_fraction;                   // 1: of the steps, without force
   MatrixRM bearing_force_max, bearing_force_rms;  // (speed, body) N: of its size; of the oscillating part
   // Of the last mesh period
-  std::vector<MatrixRM> transmission_error;       // [speed] (sample, mesh) m
-  std::vector<MatrixRM> mesh_force;               // [speed] (sample, mesh) N
+  std::vector<MatrixRM> transmission_error;          // [speed] (sample, mesh) m
+  std::vector<MatrixRM> mesh_force;                  // [speed] (sample, mesh) N
   std::vector<std::vector<MatrixRM>> bearing_force;  // [body][speed] (sample, xy) N
-  Eigen::VectorXi periods;           // (speed) mesh periods run
-  Eigen::VectorXi period_multiple;   // (speed) mesh periods after which the motion repeats; 0: it does not within the limit
-  Eigen::VectorXd residual;          // (speed) relative change of the state over them
-  Eigen::VectorXd energy_imbalance;  // (speed) relative to the throughput
-  MatrixRM energy;                   // (speed, line of kSystemEnergyLines) J over the recorded periods
-  MatrixRM rolling;                  // (speed, mesh) J
-  MatrixRM bearing_damping;          // (speed, body) J
-  Eigen::VectorXd drift_force;       // (speed) N
+  Eigen::VectorXi periods;                           // (speed) mesh periods run
+  Eigen::VectorXi
+      period_multiple;  // (speed) mesh periods after which the motion repeats; 0: it does not within the limit
+  Eigen::VectorXd residual;               // (speed) relative change of the state over them
+  Eigen::VectorXd energy_imbalance;       // (speed) relative to the throughput
+  MatrixRM energy;                        // (speed, line of kSystemEnergyLines) J over the recorded periods
+  MatrixRM rolling;                       // (speed, mesh) J
+  MatrixRM bearing_damping;               // (speed, body) J
+  Eigen::VectorXd drift_force;            // (speed) N
   double least_gap = 0, least_force = 0;  // m, N: worst certificate
 };
 

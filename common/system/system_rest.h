@@ -19,7 +19,8 @@ void check_at_rest(const SystemScene& scene, const System& layout);
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies);
 
 // Inertias and masses as the gears are drawn, where the scene does not say them.
-void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies, System& layout);
+void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
+                 System& layout);
 
 // bodies: [gear] of settings.body. Throws Error(input) for a carrier that may turn, torques that are not balanced and what
 // SystemModel rejects, and what rest_over_period throws.
