@@ -109,6 +109,7 @@ class SystemDynamics {
   void find_slots(const std::vector<SystemPosition>& placed);
   void couple();
   Position filled(const SystemPosition& at, int shift);
+  void relate(Position& position, const SystemPosition& at) const;
   Eigen::MatrixXd residual(int b, const ToothFlank& read, const ToothFlank& loaded) const;
   Eigen::MatrixXd modal_compliance(const Position& position, const Eigen::VectorXd& weight) const;
   Eigen::VectorXd participation(const Position& position,

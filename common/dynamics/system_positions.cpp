@@ -198,17 +198,26 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
     }
     out.contact.push_back(contact);
   }
-  out.at_once = out.relaxed = out.compliance = MatrixXd::Zero(n, n);
+  relate(out, at);
+  return out;
+}
+
+// What contacts move at each other by way of the bodies that they share.
+void SystemDynamics::relate(Position& position, const SystemPosition& at) const {
+  const Index n = position.size();
+  position.at_once = position.relaxed = position.compliance = MatrixXd::Zero(n, n);
   for (Index k = 0; k < n; ++k)
     for (Index l = 0; l < n; ++l)
       for (size_t s = 0; s < 2; ++s)
         for (size_t t = 0; t < 2; ++t) {
-          const Contact &read = out.contact[static_cast<size_t>(k)],
-                        &loaded = out.contact[static_cast<size_t>(l)];
+          const Contact &read = position.contact[static_cast<size_t>(k)],
+                        &loaded = position.contact[static_cast<size_t>(l)];
           if (read.body[s] != loaded.body[t]) continue;
           const int b = read.body[s], base = relaxed_first_[static_cast<size_t>(b)];
-          const double soft =
-              out.reading[s].col(k).segment<kFields>(loaded.load_at[t] - base).dot(out.field[t].col(l));
+          const double soft = position.reading[s]
+                                  .col(k)
+                                  .segment<kFields>(loaded.load_at[t] - base)
+                                  .dot(position.field[t].col(l));
           const auto weights = [&](const Contact& contact, size_t side, Index row) -> RowVectorXd {
             const auto m = static_cast<size_t>(contact.mesh);
             return at.displacement.flank[m][side].row(row - at.first_strip[m]);
@@ -219,12 +228,11 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
               weights(read, s, k)
                   .dot(tables_[static_cast<size_t>(b)][static_cast<size_t>(row * slots + column)] *
                        weights(loaded, t, l).transpose());
-          out.relaxed(k, l) += soft;
-          out.at_once(k, l) += whole - soft;
+          position.relaxed(k, l) += soft;
+          position.at_once(k, l) += whole - soft;
         }
-  out.at_once = (0.5 * (out.at_once + out.at_once.transpose())).eval();
-  out.relaxed = (0.5 * (out.relaxed + out.relaxed.transpose())).eval();
-  return out;
+  position.at_once = (0.5 * (position.at_once + position.at_once.transpose())).eval();
+  position.relaxed = (0.5 * (position.relaxed + position.relaxed.transpose())).eval();
 }
 
 void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int steps) {

@@ -379,12 +379,9 @@ void show(Lines& lines, const SystemStaticArtifact& a) {
 }
 
 void show(Lines& lines, const SystemSweepArtifact& a) {
-  add(lines, "model", "body ", a.settings.fidelity.body, ", contact ", a.settings.fidelity.contact, ", ",
-      a.direction, ", ", a.mesh_frequency.size(), " speeds from ", a.mesh_frequency.minCoeff(), " Hz");
-  add(lines, "meshes", a.dte_rms.cols(), ": RMS up to ", a.dte_rms.maxCoeff() * 1e6, " µm, force up to ",
-      a.mesh_force_max.maxCoeff(), " N, without force up to ", a.separation_fraction.maxCoeff() * 100, " %");
-  add(lines, "bearings", "force up to ", a.bearing_force_max.maxCoeff(), " N");
-  add(lines, "energy", "imbalance up to ", a.energy_imbalance.maxCoeff(), " of the throughput");
+  add(lines, "speeds", a.mesh_frequency.size(), " ", a.direction);
+  add(lines, "meshes", "RMS to ", a.dte_rms.maxCoeff() * 1e6, " µm, forces to ", a.mesh_force_max.maxCoeff(),
+      " N");
 }
 
 void show(Lines& lines, const FoldCurvesArtifact& a) {

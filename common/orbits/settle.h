@@ -2,8 +2,7 @@
 //
 // y <- P(y) until the state repeats to `periodicity`. Close to a periodic motion Anderson's method (Fang and Saad, Numer. Linear
 // Algebra Appl. 16 (2009) 197, type II) takes out as many slow multipliers as it has differences. It is used only where the
-// multipliers that the differences show lie inside the unit circle, and a proposal counts only if the map comes closer from there:
-// an unstable motion is left again.
+// multipliers that the differences show lie inside the unit circle, and a proposal counts only if the map comes closer from there.
 #pragma once
 #include <Eigen/Core>
 
