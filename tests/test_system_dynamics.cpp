@@ -13,6 +13,7 @@
 #include "gear/system_layout.h"
 #include "gear/train.h"
 #include "io/system_scene.h"
+#include "memory.h"
 #include "orbits/periodic_orbit.h"
 #include "orbits/settle.h"
 #include "paper_pair.h"
@@ -217,6 +218,11 @@ TEST_CASE("a planetary train that loses contact: energy closes, runs repeat byte
     SystemEnergyBalance energy;
     dynamics.set_speed(7000, kSteps);
     for (int n = 0; n < 30; ++n) REQUIRE(dynamics.integrate(state, period));
+#ifdef WHINE_COUNTS_MEMORY
+    const long before = memory_requests;
+    REQUIRE(dynamics.integrate(state, period));
+    CHECK(memory_requests == before);
+#endif
     int parted = 0;
     for (int n = 0; n < 5; ++n) {
       REQUIRE(dynamics.integrate(state, period, &energy));
@@ -370,7 +376,7 @@ TEST_CASE("stiff bearings: rigid axes, to the first order of their flexibility")
 // CPU time of a step over the number of meshes; the numbers of common/dynamics/README.md:
 //   build/bin/whine-tests --no-skip -tc='time of a step of planetary trains*'
 TEST_CASE("time of a step of planetary trains over the number of meshes" * doctest::skip()) {
-  for (const int planets : {1, 2, 3, 6}) {
+  for (const int planets : {1, 2, 3}) {
     const SystemModel system = train({27, 36, 99}, planets);
     SystemDynamics dynamics(system, motion_of(system, 4e8, 2e-6));
     dynamics.set_positions(std::vector<double>(system.mesh.size(), 40e-6), kSteps);
