@@ -179,6 +179,13 @@ void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) 
                   "take it out");
   const bool moves = source.root().get("operation") != nullptr;
   for (const char* name : {"fidelity", "discretisation", "damping", "operation"}) {
+    const std::string section(name);
+    if (const toml::node* node = source.root().get(section);
+        node && values.fidelity.body == BodyModel::rigid && (section == "damping" || section == "operation"))
+      source.reject(*node,
+                    text("[", section,
+                         "] belongs to elastic gears in motion, and those of this scene are rigid; take it "
+                         "out"));
     const toml::table* table = source.section(name);
     const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
     reader.reject_unknown();
@@ -196,12 +203,6 @@ void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) 
   if (const toml::node* node = source.root().get("discretisation"); node && scene.rigid())
     source.reject(
         *node, "[discretisation] belongs to elastic gears, and those of this scene are rigid; take it out");
-  for (const char* name : {"operation", "damping"})
-    if (const toml::node* node = source.root().get(name); node && scene.rigid())
-      source.reject(
-          *node,
-          text("[", name,
-               "] belongs to elastic gears in motion, and those of this scene are rigid; take it out"));
   if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
 }
 
