@@ -419,6 +419,13 @@ make_ -n SCENE=data/scenes/oh58-planetary.toml load-sharing
 expect "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-system-static*1"
 make_ -n SCENE=train.toml report
 expect "the report of rigid gears: modes, their figures, the picture" "gear-modes*1 gear-plot*3 gear-report*1"
+make_ -n SCENE=inline.toml system-sweep
+expect "its motion: a sweep each way" "gear-plot*1 gear-system-sweep*2"
+make_ SCENE=inline.toml system-static modes system-sweep; sed -i 's/^rayleigh_stiffness_s = 3e-6/rayleigh_stiffness_s = 4e-6/' inline.toml
+make_ -n SCENE=inline.toml system-static modes system-sweep
+expect "another damping of a system redoes its sweeps alone" "gear-plot*1 gear-system-sweep*2"
+sed '/^\[operation\]/,$d' inline.toml > still.toml; make_ -n SCENE=still.toml system-sweep
+grep -q 'it says no speeds; write \[operation\]' "$log" && ok "a sweep of a system without speeds is rejected" || wrong "a sweep of a system without speeds is rejected" "$(tail -n 1 "$log")"
 make_ -n SCENE=data/scenes/lin-parker-planetary.toml system-static
 grep -q 'its gears are rigid; system-static needs elastic ones' "$log" && ok "statics of a system reject rigid gears" || wrong "statics of a system reject rigid gears" "$(tail -n 1 "$log")"
 make_ -n SCENE=train.toml static

@@ -47,6 +47,7 @@
 #include "io/sweep_codec.h"
 #include "io/system_scene.h"
 #include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
 #include "io/variant_codec.h"
 #include "io/vtk.h"
 #include "planetary_train.h"
@@ -769,6 +770,57 @@ TEST_CASE("system_static.h5 gives back every value bit by bit") {
   write("system_static.h5", wrong, kMade);
   CHECK_THROWS_AS(read_system_static("system_static.h5"), Error);
   write("system_static.h5", a, kMade);
+}
+
+TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
+  Folder folder;
+  SystemSweepArtifact a;
+  static_cast<SystemStaticParameters&>(a.settings) = small_system().settings;
+  a.settings.damping.rayleigh_stiffness = 2e-6;
+  a.direction = Direction::down;
+  const auto bodies = static_cast<Eigen::Index>(a.settings.layout.bodies.size()),
+             meshes = static_cast<Eigen::Index>(a.settings.layout.meshes.size());
+  a.torque = Eigen::VectorXd::LinSpaced(bodies, -1, 1) / 3;
+  a.axis_frequency = 1e4 / 3;
+  a.mesh_frequency = Eigen::Vector2d(2000, 1000);
+  double value = 1.0 / 3;
+  for (MatrixRM* x : {&a.dte_rms, &a.dte_mean, &a.load_share_max, &a.separation_fraction, &a.mesh_force_max,
+                      &a.tooth_force_max, &a.rolling})
+    *x = MatrixRM::Constant(2, meshes, value *= 0.9);
+  for (MatrixRM* x : {&a.bearing_force_max, &a.bearing_force_rms, &a.bearing_damping})
+    *x = MatrixRM::Constant(2, bodies, value *= 0.9);
+  a.transmission_error.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 3));
+  a.mesh_force.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 3));
+  a.bearing_force.assign(static_cast<size_t>(bodies),
+                         std::vector<MatrixRM>(2, MatrixRM::Constant(4, 2, 1e2 / 3)));
+  a.periods = Eigen::Vector2i(20, 30);
+  a.period_multiple = Eigen::Vector2i(1, 0);
+  for (Eigen::VectorXd* x : {&a.residual, &a.energy_imbalance, &a.drift_force})
+    *x = Eigen::Vector2d(1e-6, value *= 0.9);
+  a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kSystemEnergyLines.size()), -1.0 / 7);
+  a.least_gap = -1e-15;
+  write("system_sweep.h5", a, kMade);
+  const SystemSweepArtifact b = read_system_sweep("system_sweep.h5");
+  for (const auto member :
+       {&SystemSweepArtifact::dte_rms, &SystemSweepArtifact::dte_mean, &SystemSweepArtifact::mesh_force_max,
+        &SystemSweepArtifact::tooth_force_max, &SystemSweepArtifact::load_share_max,
+        &SystemSweepArtifact::separation_fraction, &SystemSweepArtifact::bearing_force_max,
+        &SystemSweepArtifact::bearing_force_rms, &SystemSweepArtifact::energy, &SystemSweepArtifact::rolling,
+        &SystemSweepArtifact::bearing_damping})
+    CHECK(a.*member == b.*member);
+  for (const auto member :
+       {&SystemSweepArtifact::torque, &SystemSweepArtifact::mesh_frequency, &SystemSweepArtifact::residual,
+        &SystemSweepArtifact::energy_imbalance, &SystemSweepArtifact::drift_force})
+    CHECK(a.*member == b.*member);
+  CHECK(a.transmission_error == b.transmission_error);
+  CHECK(a.mesh_force == b.mesh_force);
+  CHECK(a.bearing_force == b.bearing_force);
+  CHECK(a.periods == b.periods);
+  CHECK(a.period_multiple == b.period_multiple);
+  CHECK(a.axis_frequency == b.axis_frequency);
+  CHECK(a.least_gap == b.least_gap);
+  CHECK(a.direction == b.direction);
+  CHECK(a.settings.damping.rayleigh_stiffness == b.settings.damping.rayleigh_stiffness);
 }
 
 TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is rejected with its dataset") {

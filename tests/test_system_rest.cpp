@@ -324,7 +324,33 @@ TEST_CASE(
             .find("the same teeth meet again after 10395 mesh periods") != std::string::npos);
   CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n").find("whose axis is rigid") !=
         std::string::npos);
-  CHECK(said("[operation]\n").find("statics and natural modes are computed so far") != std::string::npos);
+  CHECK(said("[fidelity]\ncontact = \"line\"\n").empty());
+  // Motion: what the statics do not depend on is in parameters of its own.
+  const SystemSweepParameters motion = sweep_parameters_of(scene, layout_in(scene, kTrain));
+  CHECK(motion.frequency_to == 6000);
+  const std::string moving = system_sweep_parameters(motion);
+  CHECK(system_sweep_parameters(read_system_sweep_parameters(file.path(moving))) == moving);
+  CHECK_THROWS_AS(read_system_static_parameters(file.path(moving)), Error);
+  CHECK_THROWS_AS(read_system_sweep_parameters(file.path(text)), Error);
+  const auto reads = [&](const char* start, const std::string& more) {
+    std::ifstream in(start);
+    std::ostringstream whole;
+    whole << in.rdbuf();
+    std::string scene_text = whole.str();
+    scene_text.insert(scene_text.find("\nmesh_frequency_Hz") == std::string::npos
+                          ? scene_text.size()
+                          : scene_text.find("\nmesh_frequency_Hz") + 1,
+                      more);
+    try {
+      read_system_scene(file.path(scene_text));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(reads(kTrain, "torque_Nm = 5.0\n").find("those of [[drive]]") != std::string::npos);
+  CHECK(reads("data/scenes/lin-parker-planetary.toml", "[damping]\n")
+            .find("belongs to elastic gears in motion") != std::string::npos);
 }
 
 namespace {

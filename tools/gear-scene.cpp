@@ -3,9 +3,8 @@
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml
 //                                                        stage parameters in SI, replaced only if they change
-//            <out>/<scene>/params/system.toml            of several meshes and rigid gears; system_static.toml: elastic ones
-//            <out>/<scene>/params/title.txt              what figures call it
-//            <out>/<scene>/params/scene.txt              path of the scene, from the working folder
+//            <out>/<scene>/params/system.toml            of systems of rigid gears; system_{static,sweep}.toml: elastic ones
+//            <out>/<scene>/params/{title,scene}.txt      what figures call it; path of the scene, from the working folder
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
@@ -52,12 +51,12 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
     check_inertia(scene, place_in(path));
     check_at_rest_in(scene, layout, path);
     record_scene(home, path);
-    const std::string statics = system_static_parameters(static_parameters_of(scene, layout));
-    publish_if_changed(home + "/params/system_static.toml", statics);
+    for (const auto& [name, words] : elastic_parameters(scene, layout))
+      publish_if_changed(home + "/params/" + name, words);
   }
   publish_if_changed(home + "/params/title.txt", scene.title + "\n");
   publish(output, system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
-                                  layout.meshes.size() > scene.meshes.size()));
+                                  layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 

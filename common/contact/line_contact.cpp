@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kRoundOff = 16 * std::numeric_limits<double>::epsilon();
 
-// Most: kMostPairs, for which no memory is taken, or any number (Eigen::Dynamic): the meshes of a system at rest.
+// Most: kMostPairs or kMostContacts, for which no memory is taken, or any number (Eigen::Dynamic).
 template <int Most>
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Most, 1>;
 template <int Most>
@@ -324,8 +324,9 @@ Certificate solve_line_contact(const Eigen::Ref<const MatrixXd>& c, std::span<co
   if (follow_start(c, law, e, start, force, d, certificate)) return certificate;
   if (!e.allFinite() || !c.allFinite()) fail(Failure::numerical, "line contact: a number is not finite");
   start.forget();
-  return e.size() > kMostPairs ? solve_by_energy<Eigen::Dynamic>(c, law, e, force, d)
-                               : solve_by_energy<kMostPairs>(c, law, e, force, d);
+  return e.size() > kMostContacts ? solve_by_energy<Eigen::Dynamic>(c, law, e, force, d)
+         : e.size() > kMostPairs  ? solve_by_energy<kMostContacts>(c, law, e, force, d)
+                                  : solve_by_energy<kMostPairs>(c, law, e, force, d);
 }
 
 double line_contact_stiffness(const Eigen::Ref<const MatrixXd>& c, std::span<const HertzLine> law,

@@ -6,7 +6,7 @@
 // fall; a pair comes in only at the least energy of the others, so that no set of pairs comes back (as in Lawson and
 // Hanson, Solving Least Squares Problems, 1974, chapter 23). Up to three pairs that carry at the start are first followed
 // by themselves by plain Newton steps, each of n laws and an n x n inverse: enough while no pair comes or goes, and
-// the last step needs no look back, for the slope of a law changes by less than C / F. Up to kMostPairs take no memory.
+// the last step needs no look back, for the slope of a law changes by less than C / F. Up to kMostContacts take no memory.
 #pragma once
 #include <Eigen/Core>
 #include <span>
@@ -16,7 +16,8 @@
 
 namespace whine {
 
-inline constexpr int kMostPairs = 8;  // of one mesh in motion; at rest there may be more
+inline constexpr int kMostPairs = 8;      // of one mesh in motion; at rest there may be more
+inline constexpr int kMostContacts = 64;  // of all meshes of a system in motion: more take memory
 using PairVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPairs, 1>;
 using PairMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostPairs, kMostPairs>;
 

@@ -20,6 +20,7 @@
 #include "io/study_codec.h"
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
 #include "io/variant_codec.h"
 
 namespace whine {
@@ -51,7 +52,8 @@ std::string dataset_list() {
          lines<FoldCurvesArtifact>("fold_curves_*.h5") + lines<JumpMapArtifact>("jump_map_*.h5") +
          lines<HarrisMapArtifact>("harris_map.h5") + lines<VariantArtifact>("ab12....h5") +
          lines<StudyArtifact>("study.h5") + lines<ModesArtifact>("modes.h5") +
-         lines<SystemStaticArtifact>("system_static.h5") + lines<ReadingsArtifact>("readings.h5");
+         lines<SystemStaticArtifact>("system_static.h5") + lines<SystemSweepArtifact>("system_sweep.h5") +
+         lines<ReadingsArtifact>("readings.h5");
 }
 
 }  // namespace whine

@@ -45,12 +45,13 @@ std::string checked_scene_stem(const std::string& path) {
 }
 
 std::string system_fragment(const std::string& path, const std::string& stem, const BodyHashes& bodies,
-                            bool planets) {
+                            bool planets, bool moves) {
   std::ostringstream out;
   out << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\nSCENE_" << stem
       << "_SYSTEM := " << (bodies.empty() ? "rigid" : "elastic") << "\nSCENE_" << stem
       << "_PLANETS := " << (planets ? "yes" : "no") << "\n";
   if (bodies.empty()) return out.str();
+  if (moves) out << "SCENE_" << stem << "_SYSTEM_MOVES := yes\n";
   out << "SCENE_" << stem << "_SYSTEM_GEARS :=";
   for (const auto& [gear, hash] : bodies) out << " " << gear;
   out << "\n";

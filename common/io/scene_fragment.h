@@ -21,9 +21,10 @@ std::vector<std::string> different(const BodyHashes& bodies);
 // Name of a scene's file without folder and extension: it names a folder, a make variable and a goal. Error(input) if it cannot.
 std::string checked_scene_stem(const std::string& path);
 
-// Of a system; bodies: of elastic gears, empty of rigid ones; planets: whether a [[mesh]] stands for those of several.
+// Of a system; bodies: of elastic gears, empty of rigid ones; planets: whether a [[mesh]] stands for those of several; moves: it has
+// speeds.
 std::string system_fragment(const std::string& path, const std::string& stem, const BodyHashes& bodies,
-                            bool planets);
+                            bool planets, bool moves);
 
 // path: of the scene; stem: its name without folder and extension, which the variables carry.
 std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,

@@ -26,6 +26,7 @@
 #include "io/study_codec.h"
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
 #include "io/variant_codec.h"
 
 namespace whine {
@@ -384,6 +385,12 @@ void show(Lines& lines, const SystemStaticArtifact& a) {
   add(lines, "residual", a.torque_residual.maxCoeff(), " of the largest mesh force");
 }
 
+void show(Lines& lines, const SystemSweepArtifact& a) {
+  add(lines, "speeds", a.mesh_frequency.size(), " ", a.direction);
+  add(lines, "meshes", "RMS to ", a.dte_rms.maxCoeff() * 1e6, " µm, forces to ", a.mesh_force_max.maxCoeff(),
+      " N");
+}
+
 void show(Lines& lines, const FoldCurvesArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -550,6 +557,8 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_modes(path));
   } else if (schema == "whine/system_static") {
     show(lines, read_system_static(path));
+  } else if (schema == "whine/system_sweep") {
+    show(lines, read_system_sweep(path));
   } else if (schema == "whine/runup") {
     show(lines, read_runup(path));
   } else if (schema == "whine/branch") {

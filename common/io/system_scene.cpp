@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
+#include <set>
 
 #include "gear/system_layout.h"
 #include "io/scene_sections.h"
@@ -176,23 +177,33 @@ void take_drives(const Source& source, SystemScene& scene) {
   }
 }
 
-// [fidelity] and [discretisation].
+// [fidelity], [discretisation], [damping] and [operation].
 void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) {
   static const toml::table kNothing;
-  for (const char* name : {"fidelity", "discretisation"}) {
+  if (const toml::node* node = source.root().at_path("operation.torque_Nm").node())
+    source.reject(*node,
+                  "'torque_Nm' in [operation] is of pairs: the torques of a system are those of [[drive]]; "
+                  "take it out");
+  const bool moves = source.root().get("operation") != nullptr;
+  for (const char* name : {"fidelity", "discretisation", "damping", "operation"}) {
+    const std::string section(name);
+    if (const toml::node* node = source.root().get(section);
+        node && values.fidelity.body == BodyModel::rigid && (section == "damping" || section == "operation"))
+      source.reject(*node,
+                    text("[", section,
+                         "] belongs to elastic gears in motion, and those of this scene are rigid; take it "
+                         "out"));
     const toml::table* table = source.section(name);
     const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
     reader.reject_unknown();
-    reader.read(values, {Part::level, Part::contact_level, Part::body, Part::near_field, Part::contact},
-                false);
+    std::set<Part> parts = {Part::level,   Part::contact_level, Part::body, Part::near_field,
+                            Part::contact, Part::damping,       Part::time};
+    if (moves) parts.insert(Part::operation);
+    reader.read(values, parts, false);
   }
-  if (const toml::table* table = source.section("discretisation"))
-    for (const Key& key : scene_keys())
-      if (key.section == std::string("discretisation") && key.part == Part::time)
-        if (const toml::node* node = table->get(key.name))
-          source.reject(*node, text("'", key.name,
-                                    "' in [discretisation] belongs to gears in motion; statics and natural "
-                                    "modes of systems are computed so far, take it out"));
+  scene.operation = values.operation;
+  scene.damping = values.damping;
+  scene.time = values.time;
   scene.fidelity = values.fidelity;
   scene.body = values.body;
   scene.contact = values.contact;
@@ -217,19 +228,12 @@ SystemScene read_system_scene(const std::string& path) {
   if (source.is_stage_parameters())
     source.reject("holds stage parameters, which gear-scene wrote from a scene; give the scene itself");
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
-  for (const char* name : {"operation", "damping"})
-    if (const toml::node* node = source.root().get(name))
-      source.reject(
-          *node, text("[", name,
-                      "] stands in a scene of a system (several meshes, carriers or drives), of which "
-                      "statics and natural modes are computed so far, its torques those of [[drive]]; take "
-                      "the section out"));
   if (const toml::node* node = source.root().get("friction"))
     source.reject(*node,
                   "[friction] stands in a scene of a system (several meshes, carriers or drives), whose "
                   "meshes have no friction so far; take the section out");
-  top.reject_unknown(
-      {"gear", "material", "bearing", "mesh", "carrier", "drive", "fidelity", "discretisation"});
+  top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "drive", "damping", "operation",
+                      "fidelity", "discretisation"});
   for (const char* name : {"gear", "mesh"})
     if (!source.root().get(name))
       source.reject(text("the scene of a system lacks ",

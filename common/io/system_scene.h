@@ -32,6 +32,14 @@ BodySettings body_parameters_of(const SystemScene& scene);
 SystemStaticParameters static_parameters_of(const SystemScene& scene, const System& layout);
 std::string system_static_parameters(const SystemStaticParameters& parameters);
 SystemStaticParameters read_system_static_parameters(const std::string& path);
+// Of elastic systems in motion: the same with damping, speeds and time steps. Only of scenes with [operation].
+SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System& layout);
+std::string system_sweep_parameters(const SystemSweepParameters& parameters);
+SystemSweepParameters read_system_sweep_parameters(const std::string& path);
+
+// Names and texts of the stage parameters of an elastic system: of its statics and, with [operation], of its sweeps.
+std::vector<std::pair<std::string, std::string>> elastic_parameters(const SystemScene& scene,
+                                                                    const System& layout);
 
 // The stage parameters that the scene gives now for the path of earlier ones; empty if none of it stand there.
 std::string system_parameters_for(const std::string& scene, const std::string& path);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "gear/system_layout.h"
@@ -13,7 +15,7 @@
 namespace whine {
 namespace {
 
-constexpr const char* kStage = "the statics of a system";
+constexpr const char *kStage = "the statics of a system", *kSweepStage = "a sweep of a system";
 constexpr int kPositions = 128;  // where the scene leaves them open
 
 std::string mesh_label(size_t number) {
@@ -48,9 +50,14 @@ SystemStaticParameters static_parameters_of(const SystemScene& scene, const Syst
   return out;
 }
 
-std::string system_static_parameters(const SystemStaticParameters& p) {
-  StageParametersText out(kStage);
-  KeyValues values;
+namespace {
+
+using Parts = std::set<Part>;
+
+// values: with what a motion needs, if `moving`.
+std::string parameters_text(const char* stage, const SystemStaticParameters& p, KeyValues values,
+                            bool moving) {
+  StageParametersText out(stage);
   for (size_t m = 0; m < p.mesh.size(); ++m) {
     values.mesh = p.mesh[m];
     out.add("mesh", mesh_label(m), values, {Part::mesh, Part::contact_plane});
@@ -62,12 +69,54 @@ std::string system_static_parameters(const SystemStaticParameters& p) {
   }
   values.fidelity = p.fidelity;
   values.contact = p.contact;
-  out.add("fidelity", "fidelity", values, {Part::contact_level});
-  out.add("discretisation", "discretisation", values, {Part::contact});
+  if (moving) {
+    out.add("damping", "damping", values, {Part::damping});
+    out.add("operation", "operation", values, {Part::operation});
+  }
+  out.add("fidelity", "fidelity", values,
+          moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level});
+  out.add("discretisation", "discretisation", values,
+          moving ? Parts{Part::contact, Part::time} : Parts{Part::contact});
   for (const auto& [gear, hash] : p.body) out.add_line("bodies", gear, hash);
   for (size_t b = 0; b < p.gear.size(); ++b)
     if (!p.gear[b].empty()) out.add_line("gear_of", p.layout.bodies[b].name, p.gear[b]);
   return out.text() + layout_text(p.layout);
+}
+
+}  // namespace
+
+std::string system_static_parameters(const SystemStaticParameters& p) {
+  return parameters_text(kStage, p, {}, false);
+}
+
+SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System& layout) {
+  SystemSweepParameters out;
+  static_cast<SystemStaticParameters&>(out) = static_parameters_of(scene, layout);
+  out.damping = scene.damping;
+  out.frequency_from = scene.operation.frequency_from;
+  out.frequency_to = scene.operation.frequency_to;
+  out.frequency_step = scene.operation.frequency_step;
+  out.time = scene.time;
+  return out;
+}
+
+std::string system_sweep_parameters(const SystemSweepParameters& p) {
+  KeyValues values;
+  values.damping = p.damping;
+  values.operation.frequency_from = p.frequency_from;
+  values.operation.frequency_to = p.frequency_to;
+  values.operation.frequency_step = p.frequency_step;
+  values.time = p.time;
+  return parameters_text(kSweepStage, p, values, true);
+}
+
+std::vector<std::pair<std::string, std::string>> elastic_parameters(const SystemScene& scene,
+                                                                    const System& layout) {
+  std::vector<std::pair<std::string, std::string>> out{
+      {"system_static.toml", system_static_parameters(static_parameters_of(scene, layout))}};
+  if (scene.operation.frequency_to > 0)
+    out.emplace_back("system_sweep.toml", system_sweep_parameters(sweep_parameters_of(scene, layout)));
+  return out;
 }
 
 std::string system_parameters_for(const std::string& scene, const std::string& path) {
@@ -75,21 +124,19 @@ std::string system_parameters_for(const std::string& scene, const std::string& p
   const std::filesystem::path place(path);
   const std::string name = place.filename().string();
   if (name == "system.toml" && read.rigid()) return system_parameters(layout_in(read, scene));
-  if (name == "system_static.toml" && !read.rigid())
-    return system_static_parameters(static_parameters_of(read, layout_in(read, scene)));
+  if (!read.rigid())
+    for (const auto& [own, words] : elastic_parameters(read, layout_in(read, scene)))
+      if (name == own) return words;
   const std::string folder = place.parent_path().filename().string();
   for (const auto& [gear, settings] : body_parameters_of(read))
     if (name == "body.toml" && (folder == body_hash(settings) || folder == gear)) return settings;
   return "";
 }
 
-SystemStaticParameters read_system_static_parameters(const std::string& path) {
-  const Source source(path,
-                      "stage parameters are out/<scene>/params/system_static.toml, made with: make "
-                      "system-static SCENE=...");
-  if (!source.is_stage_parameters() || source.stage_of() != kStage)
-    source.reject(
-        "is not what the statics of a system depend on: give out/<scene>/params/system_static.toml");
+namespace {
+
+// values: what a motion needs, if `moving`.
+SystemStaticParameters parameters_from(const Source& source, KeyValues& values, bool moving) {
   SystemStaticParameters out;
   out.layout = layout_from(source);
   const auto section = [&](const std::string& name) -> const toml::table& {
@@ -104,7 +151,6 @@ SystemStaticParameters read_system_static_parameters(const std::string& path) {
   std::stable_sort(out.body.begin(), out.body.end(), [&](const auto& a, const auto& b) {
     return bodies.get(a.first)->source().begin.line < bodies.get(b.first)->source().begin.line;
   });
-  KeyValues values;
   for (size_t m = 0; m == 0 || source.section(mesh_label(m)); ++m) {
     SectionReader(source, Dialect::settings, section(mesh_label(m)), "mesh", mesh_label(m))
         .read(values, {Part::mesh, Part::contact_plane}, false);
@@ -119,9 +165,13 @@ SystemStaticParameters read_system_static_parameters(const std::string& path) {
     out.modify(gear, own.modification);
   }
   SectionReader(source, Dialect::settings, section("fidelity"), "fidelity", "fidelity")
-      .read(values, {Part::contact_level}, false);
+      .read(values, moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level}, false);
   SectionReader(source, Dialect::settings, section("discretisation"), "discretisation", "discretisation")
-      .read(values, {Part::contact}, false);
+      .read(values, moving ? Parts{Part::contact, Part::time} : Parts{Part::contact}, false);
+  if (moving)
+    for (const auto& [name, part] :
+         {std::pair{"damping", Part::damping}, std::pair{"operation", Part::operation}})
+      SectionReader(source, Dialect::settings, section(name), name, name).read(values, {part}, false);
   out.fidelity = values.fidelity;
   out.contact = values.contact;
   const toml::table& gear_of = section("gear_of");
@@ -138,6 +188,36 @@ SystemStaticParameters read_system_static_parameters(const std::string& path) {
   } catch (const Error& error) {
     source.reject(error.what());
   }
+  return out;
+}
+
+}  // namespace
+
+SystemStaticParameters read_system_static_parameters(const std::string& path) {
+  const Source source(path,
+                      "stage parameters are out/<scene>/params/system_static.toml, made with: make "
+                      "system-static SCENE=...");
+  if (!source.is_stage_parameters() || source.stage_of() != kStage)
+    source.reject(
+        "is not what the statics of a system depend on: give out/<scene>/params/system_static.toml");
+  KeyValues values;
+  return parameters_from(source, values, false);
+}
+
+SystemSweepParameters read_system_sweep_parameters(const std::string& path) {
+  const Source source(path,
+                      "stage parameters are out/<scene>/params/system_sweep.toml, made with: make "
+                      "system-sweep SCENE=...");
+  if (!source.is_stage_parameters() || source.stage_of() != kSweepStage)
+    source.reject("is not what a sweep of a system depends on: give out/<scene>/params/system_sweep.toml");
+  KeyValues values;
+  SystemSweepParameters out;
+  static_cast<SystemStaticParameters&>(out) = parameters_from(source, values, true);
+  out.damping = values.damping;
+  out.frequency_from = values.operation.frequency_from;
+  out.frequency_to = values.operation.frequency_to;
+  out.frequency_step = values.operation.frequency_step;
+  out.time = values.time;
   return out;
 }
 

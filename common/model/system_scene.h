@@ -43,6 +43,10 @@ struct SystemScene {
   // Of elastic bodies, of which natural modes need statics first.
   BodyDiscretisation body;
   ContactDiscretisation contact;
+  // Of elastic bodies in motion: speeds (the torques are those of the drives; no speeds: no motion is asked for), damping, time steps.
+  Operation operation;
+  Damping damping;
+  TimeDiscretisation time;
 
   bool rigid() const { return fidelity.body == BodyModel::rigid; }
 };

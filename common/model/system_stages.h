@@ -40,4 +40,11 @@ struct SystemStaticParameters {
   }
 };
 
+// For gear-system-sweep; `fidelity` holds the level of the bodies as well. Contact in motion is of lines.
+struct SystemSweepParameters : SystemStaticParameters {
+  Damping damping;
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
+  TimeDiscretisation time;
+};
+
 }  // namespace whine

@@ -21,6 +21,7 @@
 #include "io/summary.h"
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
 #include "report/campbell_figure.h"
 #include "report/compare_figures.h"
 #include "report/efficiency_figure.h"
@@ -41,6 +42,7 @@
 #include "report/study_figure.h"
 #include "report/system_figures.h"
 #include "report/system_picture.h"
+#include "report/system_sweep_figure.h"
 #include "signal/response.h"
 
 namespace whine {
@@ -374,6 +376,12 @@ Drawings drawings_of_systems() {
         [](const Paths& in, const Frequencies&) {
           return is_a("whine/modes", in[0]) ? system_picture(read_modes(in[0]))
                                             : system_picture(read_system_static(in[0]));
+        }}},
+      {"system-sweep",
+       {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",
+        "system_sweep.h5 of one system, rising, falling or both", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return system_sweep_figure(read_all(in, read_system_sweep));
         }}},
   };
 }

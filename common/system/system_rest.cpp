@@ -21,8 +21,9 @@ const BodyArtifact& body_of(const SystemStaticParameters& settings, const std::v
   fail(Failure::input, "[gear.", gear, "] has no body");
 }
 
-// Bodies of a layout on fixed carriers stand in the order of the whole one, whose carriers come last.
-SystemModel model_of(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies) {
+}  // namespace
+
+SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies) {
   const System layout = on_fixed_carriers(settings.layout);
   std::vector<BodyArtifact> of_body;
   for (size_t b = 0; b < layout.bodies.size(); ++b)
@@ -32,7 +33,6 @@ SystemModel model_of(const SystemStaticParameters& settings, const std::vector<B
   return {layout, of_body, specs};
 }
 
-// Inertias and masses as the gears are drawn, where the scene does not say them.
 void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
                  System& layout) {
   for (size_t b = 0; b < layout.bodies.size(); ++b) {
@@ -48,6 +48,8 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<BodyA
            " kg: it is that of all that moves with the hub; raise it, or leave it out");
   }
 }
+
+namespace {
 
 void take_pairs(const std::vector<SystemSolution>& solutions, Index meshes, SystemStaticArtifact& out) {
   int lowest = -1, highest = 1;
@@ -169,7 +171,7 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
 
 SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
                                     const std::vector<BodyArtifact>& bodies) {
-  const SystemModel system = model_of(settings, bodies);
+  const SystemModel system = elastic_system(settings, bodies);
   for (const GearMeshModel& mesh : system.mesh)
     for (const FlankDeviation& flank : mesh.deviation)
       if (flank.repeats() > 1)

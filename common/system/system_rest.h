@@ -5,6 +5,7 @@
 
 #include "model/system_scene.h"
 #include "solid/reduced_body.h"
+#include "system/system.h"
 #include "system/system_static_result.h"
 
 namespace whine {
@@ -12,6 +13,14 @@ namespace whine {
 // What can be told of a scene before its bodies are made. Throws SystemSceneError with the section that is wrong: a carrier that may
 // turn, meshes of different contact_plane, torques that are not balanced, that pull a mesh apart or that no mesh carries.
 void check_at_rest(const SystemScene& scene, const System& layout);
+
+// The system that the settings describe, its carriers held; bodies: [gear] of settings.body. Bodies stand in the order of
+// settings.layout, whose carriers come last.
+SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies);
+
+// Inertias and masses as the gears are drawn, where the scene does not say them.
+void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
+                 System& layout);
 
 // bodies: [gear] of settings.body. Throws Error(input) for a carrier that may turn, torques that are not balanced and what
 // SystemModel rejects, and what rest_over_period throws.

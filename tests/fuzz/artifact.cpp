@@ -24,6 +24,7 @@
 #include "io/summary.h"
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
 #include "io/variant_codec.h"
 
 using namespace whine;
@@ -56,6 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] { read_fold_curves(path); });
   rejected_or_read([&] { read_modes(path); });
   rejected_or_read([&] { read_system_static(path); });
+  rejected_or_read([&] { read_system_sweep(path); });
   rejected_or_read([&] { read_jump_map(path); });
   rejected_or_read([&] { read_harris_map(path); });
   rejected_or_read([&] { read_variant(path); });

@@ -1,0 +1,363 @@
+#include "dynamics/system_dynamics.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/dense.h"
+#include "base/error.h"
+#include "base/model_range.h"
+#include "dynamics/system_energy_record.h"
+#include "system/rigid_system.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& motion)
+    : system_(system),
+      motion_(motion),
+      coordinates_(coordinates_of(system, motion)),
+      depth_(motion.damping.undamped_depth),
+      relaxation_(motion.fidelity.body == BodyModel::quasi_static ? 0 : motion.damping.rayleigh_stiffness) {
+  for (const GearMeshModel& mesh : system.mesh)
+    for (const FlankDeviation& flank : mesh.deviation)
+      if (flank.repeats() > 1)
+        fail(Failure::input,
+             "teeth of a gear differ from each other; systems in motion have teeth that are all alike");
+  const VectorXd loads = mesh_loads(system);
+  load_of_mesh_ = loads.cwiseMax(1e-3 * loads.maxCoeff());
+  for (int b = 0; b < static_cast<int>(system.body.size()); ++b) radius_.push_back(system.base_radius(b));
+  for (const GearMeshModel& mesh : system.mesh)
+    outward_.push_back({mesh.outward_in_system(0), mesh.outward_in_system(1)});
+}
+
+double SystemDynamics::moved(const Position& position, int k, const VectorXd& z) const {
+  const Contact& contact = position.contact[static_cast<size_t>(k)];
+  double out = position.rigid.col(k).dot(z.head(coordinates_.rigid));
+  for (size_t s = 0; s < 2; ++s) {
+    const SystemCoordinates::Share& own = coordinates_.body[static_cast<size_t>(contact.body[s])];
+    out += position.elastic[s].col(k).head(own.count).dot(z.segment(own.first, own.count));
+  }
+  return out;
+}
+
+double SystemDynamics::read(const Position& position, int k, const VectorXd& relaxed) const {
+  const Contact& contact = position.contact[static_cast<size_t>(k)];
+  double out = 0;
+  for (size_t s = 0; s < 2; ++s) {
+    const auto b = static_cast<size_t>(contact.body[s]);
+    const int first = relaxed_first_[b], size = relaxed_first_[b + 1] - first;
+    out += position.reading[s].col(k).head(size).dot(relaxed.segment(first, size));
+  }
+  return out;
+}
+
+// y -= weight h force, by coordinate.
+void SystemDynamics::push(const Position& position, int k, double force, const VectorXd& weight,
+                          VectorXd& y) const {
+  const Contact& contact = position.contact[static_cast<size_t>(k)];
+  const int rigid = coordinates_.rigid;
+  y.head(rigid) -= force * weight.head(rigid).cwiseProduct(position.rigid.col(k));
+  for (size_t s = 0; s < 2; ++s) {
+    const SystemCoordinates::Share& own = coordinates_.body[static_cast<size_t>(contact.body[s])];
+    y.segment(own.first, own.count) -=
+        force * weight.segment(own.first, own.count).cwiseProduct(position.elastic[s].col(k).head(own.count));
+  }
+}
+
+// fields += factor V S p
+void SystemDynamics::load(const Position& position, const VectorXd& p, double factor,
+                          VectorXd& fields) const {
+  for (int k = 0; k < position.size(); ++k)
+    for (size_t s = 0; s < 2; ++s)
+      fields.segment<kFields>(position.contact[static_cast<size_t>(k)].load_at[s]) +=
+          (factor * p[k]) * position.field[s].col(k);
+}
+
+VectorXd SystemDynamics::participation(const Position& position, int k) const {
+  VectorXd out = VectorXd::Zero(coordinates_.size());
+  push(position, k, -1, VectorXd::Ones(out.size()), out);
+  return out;
+}
+
+// (contact, contact) h diag(weight) h^T
+MatrixXd SystemDynamics::modal_compliance(const Position& position, const VectorXd& weight) const {
+  MatrixXd h(coordinates_.size(), position.size());
+  for (int k = 0; k < position.size(); ++k) h.col(k) = participation(position, k);
+  return h.transpose() * weight.asDiagonal() * h;
+}
+
+void SystemDynamics::set_speed(double mesh_frequency, int steps) {
+  const int finest = static_cast<int>(positions_.size()) - 1;
+  if (steps <= 0 || finest % steps != 0)
+    fail(Failure::numerical, steps, " steps per period do not divide the ", finest,
+         " positions of a mesh period");
+  mesh_frequency_ = mesh_frequency;
+  steps_ = steps;
+  stride_ = finest / steps;
+  step_ = 1 / (mesh_frequency * steps);
+  const Index n = coordinates_.size();
+  for (VectorXd* x : {&a11_, &a12_, &a21_, &a22_, &bq_, &bv_}) x->resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const Propagator a = exact_propagator(coordinates_.frequency[i], coordinates_.damping[i], step_);
+    a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq, bv_[i] = a.bv;
+  }
+  relaxed_step_ = relaxation_step(relaxation_, step_);
+  for (int i = 0; i <= steps_; ++i) {
+    Position& position = positions_[static_cast<size_t>(i * stride_)];
+    position.compliance =
+        position.at_once + relaxed_step_.from_new * position.relaxed + modal_compliance(position, 0.5 * bq_);
+  }
+  for (VectorXd* x : {&z_, &v_, &force_, &mean_, &before_}) x->setZero(n);
+  for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
+  p_of_slot_.setZero(slots());
+  forces_.setZero(steps_ + 1, slots());
+}
+
+// Elastic coordinates follow their force, z = (torque - h p) / w^2, so that they are compliances; rotations carry the load.
+SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
+  const Position& position = positions_[static_cast<size_t>(i)];
+  SystemPosition at = positioned(i);
+  VectorXd flexibility = coordinates_.frequency.cwiseAbs2().cwiseInverse();
+  flexibility.head(coordinates_.rigid).setZero();
+  const MatrixXd compliance = position.at_once + position.relaxed + modal_compliance(position, flexibility);
+  const VectorXd by_torque = flexibility.cwiseProduct(coordinates_.torque);
+  for (int k = 0; k < position.size(); ++k) at.gap[k] -= moved(position, k, by_torque);
+  ComplementaritySolver solver;
+  const SystemEquilibrium out =
+      equilibrium(system_, at, compliance, VectorXd::Zero(static_cast<Index>(system_.body.size())), solver);
+  require_hertz_range(position.law, out.p);
+  if (!z) return out;
+  *z = coordinates_.torque;
+  for (int k = 0; k < position.size(); ++k) push(position, k, out.p[k], VectorXd::Ones(z->size()), *z);
+  *z = z->cwiseProduct(flexibility);
+  // x_b = r_b theta_b; unit modal mass, so the shares of a rotation are its own shape times the inertias.
+  for (int c = 0; c < coordinates_.rigid; ++c)
+    for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
+      if (!system_.layout.held(b))
+        (*z)[c] += coordinates_.rotation(b, c) * system_.layout.bodies[static_cast<size_t>(b)].inertia *
+                   out.x[b] / system_.base_radius(b);
+  return out;
+}
+
+VectorXd SystemDynamics::rest_forces(int i) {
+  const SystemEquilibrium at = equilibrium_at(i, nullptr);
+  VectorXd out = VectorXd::Zero(slots());
+  const Position& position = positions_[static_cast<size_t>(i)];
+  for (int k = 0; k < position.size(); ++k) out[position.contact[static_cast<size_t>(k)].slot] = at.p[k];
+  return out;
+}
+
+SystemDynamics::State SystemDynamics::rest() {
+  State state;
+  const SystemEquilibrium at = equilibrium_at(0, &state.z);
+  state.v = VectorXd::Zero(state.z.size());
+  state.p = VectorXd::Zero(slots());
+  state.relaxed = VectorXd::Zero(relaxed_size());
+  for (int k = 0; k < positions_[0].size(); ++k)
+    state.p[positions_[0].contact[static_cast<size_t>(k)].slot] = at.p[k];
+  load(positions_[0], at.p, 1, state.relaxed);
+  return state;
+}
+
+void SystemDynamics::take(const State& state) {
+  if (steps_ == 0) fail(Failure::input, "a period is integrated at a speed; set it first");
+  if (state.z.size() != coordinates_.size() || state.relaxed.size() != relaxed_size() ||
+      state.p.size() != slots())
+    fail(Failure::input, "the start state, of ", state.z.size(), " coordinates and ", state.p.size(),
+         " slots, is of another system: this one has ", coordinates_.size(), " and ", slots());
+  z_ = state.z;
+  v_ = state.v;
+  relaxed_ = state.relaxed;
+  p_of_slot_ = state.p;
+  const Position& position = at(0);
+  force_ = coordinates_.torque;
+  before_.setOnes();
+  load_.setZero();
+  for (int k = 0; k < position.size(); ++k) {
+    p_[k] = state.p[position.contact[static_cast<size_t>(k)].slot];
+    if (p_[k] != 0) push(position, k, p_[k], before_, force_);
+  }
+  load(position, p_, 1, load_);
+}
+
+// Contact forces, from what the coordinates and relaxed loads are without them.
+void SystemDynamics::solve(const Position& position) {
+  const int n = position.size();
+  for (int k = 0; k < n; ++k) {
+    e_[k] = position.gap[k] - moved(position, k, z_) + read(position, k, relaxed_);
+    p_[k] = p_of_slot_[position.contact[static_cast<size_t>(k)].slot];
+  }
+  certificate_ = solve_line_contact(position.compliance, position.law, e_.head(n), p_.head(n), d_.head(n));
+  p_of_slot_.setZero();
+  for (int k = 0; k < n; ++k) p_of_slot_[position.contact[static_cast<size_t>(k)].slot] = p_[k];
+}
+
+void SystemDynamics::step(const Position& position) {
+  mean_ = 0.5 * (force_ + coordinates_.torque);
+  before_ = z_;
+  z_ = a11_.cwiseProduct(before_) + a12_.cwiseProduct(v_) + bq_.cwiseProduct(mean_);
+  v_ = a21_.cwiseProduct(before_) + a22_.cwiseProduct(v_) + bv_.cwiseProduct(mean_);
+  relaxed_ = relaxed_step_.decay * relaxed_ + relaxed_step_.from_old * load_;
+  solve(position);
+  force_.setZero();
+  before_.setOnes();
+  load_.setZero();
+  for (int k = 0; k < position.size(); ++k)
+    if (p_[k] > 0) push(position, k, p_[k], before_, force_);
+  z_ += 0.5 * bq_.cwiseProduct(force_);
+  v_ += 0.5 * bv_.cwiseProduct(force_);
+  force_ += coordinates_.torque;
+  load(position, p_, 1, load_);
+  relaxed_ += relaxed_step_.from_new * load_;
+}
+
+// False if a tip edge that was left out would touch.
+bool SystemDynamics::record(const Position& position, int sample, Period& period) const {
+  for (int m = 0; m < meshes(); ++m) period.mesh_force(m, sample) = period.largest_tooth_force(m, sample) = 0;
+  period.drift.setZero();
+  for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
+    period.bearing_force[static_cast<size_t>(b)].col(sample).setZero();
+  for (int k = 0; k < position.size(); ++k) {
+    const Contact& contact = position.contact[static_cast<size_t>(k)];
+    if (!(p_[k] > 0)) continue;
+    period.mesh_force(contact.mesh, sample) += contact.lever[0] * p_[k];
+    period.largest_tooth_force(contact.mesh, sample) =
+        std::max(period.largest_tooth_force(contact.mesh, sample), p_[k]);
+    period.drift += p_[k] * position.drift.col(k);
+    for (size_t s = 0; s < 2; ++s)
+      period.bearing_force[static_cast<size_t>(contact.body[s])].col(sample) -=
+          closing_sign(static_cast<int>(s)) * p_[k] * contact.normal;
+  }
+  for (Index c = 0; c < period.drift.size(); ++c)
+    period.drift_force = std::max(period.drift_force, std::abs(period.drift[c]));
+  for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
+    if (const Bearing& bearing = system_.layout.bodies[static_cast<size_t>(b)].bearing; bearing.elastic())
+      period.bearing_force[static_cast<size_t>(b)].col(sample) =
+          bearing.stiffness * coordinates_.translation_of(b, z_) +
+          bearing.damping * coordinates_.translation_of(b, v_);
+  period.least_gap = std::min(period.least_gap, certificate_.least_gap);
+  period.least_force = std::min(period.least_force, certificate_.least_force);
+  bool inside = true;
+  for (int m = 0; m < meshes(); ++m) {
+    double error = 0, closing = 0;
+    for (int s = 0; s < kSides; ++s) {
+      const int b = system_.layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(s)].body;
+      error += closing_sign(s) * radius_[static_cast<size_t>(b)] * coordinates_.rotation_of(b, z_);
+      closing +=
+          outward_[static_cast<size_t>(m)][static_cast<size_t>(s)].dot(coordinates_.translation_of(b, z_));
+    }
+    period.transmission_error(m, sample) = error;
+    closing += error;
+    if (closing > position.lost_gap[static_cast<size_t>(m)])
+      fail_outside_range(
+          Failure::numerical, "the deflection ", closing * 1e6, " micrometres closes the gap of ",
+          position.lost_gap[static_cast<size_t>(m)] * 1e6,
+          " micrometres of a tip edge that would touch below the involute; lower the torque or set "
+          "corner_contact = false");
+    inside = inside && !(closing > position.next_gap[static_cast<size_t>(m)]);
+  }
+  return inside;
+}
+
+// Teeth get the names that they have in the next mesh period: pair i becomes i + 1.
+void SystemDynamics::rename() {
+  for (VectorXd* y : {&z_, &v_})
+    for (const StepSystem::Turn& turn : coordinates_.turns) {
+      if (turn.sine < 0) {
+        (*y)[turn.cosine] *= -1;
+        continue;
+      }
+      const double cosine = (*y)[turn.cosine], sine = (*y)[turn.sine];
+      (*y)[turn.cosine] = turn.c * cosine + turn.s * sine;
+      (*y)[turn.sine] = turn.c * sine - turn.s * cosine;
+    }
+  const auto shift = [&](double* of, int size) {  // blocks of `size` numbers, the slots of one mesh
+    std::copy_backward(of, of + (pairs() - 1) * size, of + pairs() * size);
+    std::fill(of, of + size, 0.0);
+  };
+  for (int m = 0; m < meshes(); ++m) shift(&p_of_slot_[m * pairs()], 1);
+  for (int block = 0; block * pairs() * kFields < relaxed_size(); ++block)
+    shift(&relaxed_[block * pairs() * kFields], kFields);
+}
+
+bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance* balance) {
+  take(state);
+  const Index bodies = static_cast<Index>(system_.body.size());
+  for (MatrixXd* x : {&period.transmission_error, &period.mesh_force, &period.largest_tooth_force})
+    x->resize(meshes(), steps_);
+  period.bearing_force.resize(static_cast<size_t>(bodies));
+  for (Eigen::Matrix2Xd& x : period.bearing_force) x.resize(2, steps_);
+  period.drift.resize(coordinates_.rolling.cols());
+  period.drift_force = period.least_gap = period.least_force = 0;
+  forces_.row(0) = p_of_slot_;
+  SystemEnergyRecord record_of(*this, balance);
+  int i = 0;
+  try {
+    if (balance) record_of.start(at(0));
+    for (i = 1; i <= steps_; ++i) {
+      step(at(i));
+      forces_.row(i) = p_of_slot_;
+      require_hertz_range(at(i).law, p_.head(at(i).size()));
+      if (!record(at(i), i % steps_, period)) return false;
+      if (balance) record_of.step(at(i));
+    }
+  } catch (const Error& error) {
+    fail_as(error, "at mesh phase ", static_cast<double>(i) / steps_, " ", error.what());
+  }
+  rename();
+  if (balance) record_of.finish();
+  state.z = z_;
+  state.v = v_;
+  state.relaxed = relaxed_;
+  state.p = p_of_slot_;
+  return true;
+}
+
+SystemDynamics::State SystemDynamics::fitted(const State& state, const SystemDynamics& of) const {
+  State out = state;
+  out.p = VectorXd::Zero(slots());
+  out.relaxed = VectorXd::Zero(relaxed_size());
+  const int blocks = relaxed_size() / (pairs() * kFields);
+  for (int pair = std::max(first_, of.first_); pair <= std::min(last_, of.last_); ++pair) {
+    for (int m = 0; m < meshes(); ++m)
+      out.p[m * pairs() + pair - first_] = state.p[m * of.pairs() + pair - of.first_];
+    for (int block = 0; block < blocks; ++block)
+      out.relaxed.segment<kFields>((block * pairs() + pair - first_) * kFields) =
+          state.relaxed.segment<kFields>((block * of.pairs() + pair - of.first_) * kFields);
+  }
+  return out;
+}
+
+double SystemDynamics::energy(const State& difference) const {
+  double out = difference.v.squaredNorm();
+  out += difference.z.cwiseProduct(coordinates_.frequency).squaredNorm();
+  out += std::pow(motion_.axis_frequency, 2) * difference.z.head(coordinates_.rigid).squaredNorm();
+  return 0.5 * out;
+}
+
+VectorXd SystemDynamics::frozen_frequencies(int i) {
+  const Position& position = positions_[static_cast<size_t>(i)];
+  const SystemEquilibrium rest = equilibrium_at(i, nullptr);
+  std::vector<Index> active;
+  MatrixXd compliance = position.at_once + position.relaxed;
+  for (Index k = 0; k < position.size(); ++k)
+    if (rest.p[k] > 0) {
+      compliance(k, k) += position.law[static_cast<size_t>(k)].at(rest.p[k]).slope;
+      active.push_back(k);
+    }
+  MatrixXd h(coordinates_.size(), static_cast<Index>(active.size()));
+  for (size_t k = 0; k < active.size(); ++k)
+    h.col(static_cast<Index>(k)) = participation(position, static_cast<int>(active[k]));
+  MatrixXd stiffness = h * MatrixXd(compliance(active, active)).ldlt().solve(MatrixXd(h.transpose()));
+  stiffness.diagonal() += coordinates_.frequency.cwiseAbs2();
+  const SymmetricEigen eigen = symmetric_eigenvalues(stiffness);
+  if (!eigen.converged) fail(Failure::numerical, "the frozen natural frequencies were not found");
+  return eigen.values.cwiseMax(0.0).cwiseSqrt() / (2 * std::numbers::pi);
+}
+
+}  // namespace whine

@@ -1,0 +1,163 @@
+// A system of elastic bodies and meshes in motion at constant mean speed: one force per pair of teeth, Hertz's law.
+//
+// With z of system_coordinates.h, h_k what z moves at contact k, p_k its force, F_b the relaxed loads of body b in kFields fields
+// of each flank that may touch, W_k what a contact reads of them,
+//   z" + c z' + w^2 z = torque - sum_k h_k p_k
+//   eta F' + F = sum_k V S_k p_k
+//   d_k = e_k - h_k z + W_k F + sum_l A_kl p_l + law_k(p_k) >= 0, p >= 0, p . d = 0 at the end of each step (Eq. 18)
+// W_k = S_k V C_b, C_b = V^T R V between all flanks of a body that may touch, of whatever mesh; R is the flexibility of the body less
+// that of its kept modes. A is what V leaves out of R (1e-4 of it), instantaneous as Hertz's law relative to the undamped depth is.
+// Steps are exact for a mean force and for relaxed loads that are linear in the step.
+//
+// Pairs of a mesh are numbered by the mesh period of the system: a pair that is number i in one is i + 1 in the next. At the end
+// of a mesh period relaxed loads move on by one tooth, and doublets that turn with their gear turn back by one. A slot is
+// (mesh, pair). All that depends on the position is computed once for the steps of a period; no step takes memory.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "dynamics/propagator.h"
+#include "dynamics/system_coordinates.h"
+#include "dynamics/system_energy.h"
+#include "system/system_statics.h"
+
+namespace whine {
+
+class SystemDynamics {
+ public:
+  static constexpr int kFields = 12;  // of a flank, as of pairs
+
+  // Throws as coordinates_of(), and Error(input) for teeth that differ from each other.
+  SystemDynamics(const SystemModel& system, const SystemMotion& motion);
+
+  struct State {
+    Eigen::VectorXd z, v;     // (coordinate)
+    Eigen::VectorXd relaxed;  // (body, slot, field): relaxed loads
+    Eigen::VectorXd p;        // (slot) N
+  };
+  // What one mesh period showed; sample i at phase i / steps, sample 0 that of its end.
+  struct Period {
+    Eigen::MatrixXd transmission_error;   // (mesh, step) m
+    Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque on the driving body over its base radius
+    Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
+    std::vector<Eigen::Matrix2Xd> bearing_force;  // [body] (xy, step) N, see bearing_force()
+    Eigen::VectorXd drift;                        // (null vector) N: of the last sample
+    double drift_force = 0;                 // N: largest force that must be supplied to hold the mean speed
+    double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
+  };
+
+  // corner_gap: [mesh] m, tip edges that are farther off are left out; steps: positions of a mesh period. Throws Error(input)
+  // if the positions take more than 12 GB, Error(numerical) if the fields leave more than 1e-3 of a residual flexibility.
+  void set_positions(const std::vector<double>& corner_gap, int steps);
+  // mesh frequency: Hz; steps per period must divide those of the positions.
+  void set_speed(double mesh_frequency, int steps);
+  // Static equilibrium at phase 0, at rest. The same forces as those of SystemStatics.
+  State rest();
+  // Forces (slot) of equilibrium at phase i / positions; statics of this model.
+  Eigen::VectorXd rest_forces(int i);
+  // Integrates one mesh period and renames the teeth, so that the state can be compared with the one before. False if a mesh
+  // deflects so far that a tip edge which was left out would touch; the state is then undefined. Throws Error(numerical), with the mesh
+  // phase, if the contact of a step has no certified solution or is beyond Hertz's law.
+  bool integrate(State& state, Period& period, SystemEnergyBalance* balance = nullptr);
+  // A state of other positions, whose slots may be others.
+  State fitted(const State& state, const SystemDynamics& of) const;
+
+  const SystemModel& system() const { return system_; }
+  const SystemCoordinates& coordinates() const { return coordinates_; }
+  int meshes() const { return static_cast<int>(system_.mesh.size()); }
+  int slots() const { return meshes() * pairs(); }
+  int pairs() const { return last_ - first_ + 1; }  // of a mesh
+  int relaxed_size() const { return relaxed_first_.back(); }
+  int steps() const { return steps_; }
+  double mesh_frequency() const { return mesh_frequency_; }
+  int most_contacts() const { return most_contacts_; }
+  const Eigen::VectorXd& mean_load() const { return load_of_mesh_; }  // (mesh) N
+  // (step + 1, slot) N: forces at the ends of the steps of the period integrated last, in its names; row 0: at its start.
+  const Eigen::MatrixXd& forces() const { return forces_; }
+  // J: what the coordinates and relaxed loads of a state store, of a difference of states a squared distance.
+  double energy(const State& difference) const;
+  // Natural frequencies (coordinate, Hz, ascending) with contact frozen as it is at rest at phase i / positions; residual
+  // flexibility instantaneous.
+  Eigen::VectorXd frozen_frequencies(int i);
+
+ private:
+  friend class SystemPeriodMap;
+  friend class SystemEnergyRecord;
+  struct Contact {
+    int mesh = 0, slot = 0;         // slot of all
+    std::array<int, 2> body{};      // [side]
+    std::array<int, 2> load_at{};   // [side] where its fields stand in all relaxed loads
+    std::array<double, 2> lever{};  // [side] closing per r theta of its body
+    Vec2 normal = Vec2::Zero();     // from the first side's flank to the second's
+  };
+  struct Position {
+    std::vector<Contact> contact;
+    std::vector<HertzLine> law;              // (contact)
+    Eigen::VectorXd gap;                     // (contact) m
+    Eigen::MatrixXd rigid;                   // (rigid rotation, contact): h
+    std::array<Eigen::MatrixXd, 2> elastic;  // [side] (coordinate of its body, contact): h
+    std::array<Eigen::MatrixXd, 2> field;    // [side] (field, contact): V^T S^T
+    std::array<Eigen::MatrixXd, 2> reading;  // [side] (relaxed load of its body, contact) m N-1: W^T
+    Eigen::MatrixXd at_once, relaxed;        // (contact, contact) m N-1: A, and W V S
+    Eigen::MatrixXd compliance;              // (contact, contact) m N-1: of a step at the speed
+    Eigen::MatrixXd drift;                   // (null vector, contact): of forces
+    std::vector<double> next_gap, lost_gap;  // (mesh) m, see PairsInReach
+    int size() const { return static_cast<int>(contact.size()); }
+  };
+  SystemPosition positioned(int i) const;
+  void find_slots(const std::vector<SystemPosition>& placed);
+  void couple();
+  Position filled(const SystemPosition& at, int shift);
+  void relate(Position& position, const SystemPosition& at) const;
+  Eigen::MatrixXd residual(int b, const ToothFlank& read, const ToothFlank& loaded) const;
+  Eigen::MatrixXd modal_compliance(const Position& position, const Eigen::VectorXd& weight) const;
+  Eigen::VectorXd participation(const Position& position,
+                                int k) const;  // (coordinate) h of contact k, in full
+  double moved(const Position& position, int k, const Eigen::VectorXd& z) const;
+  double read(const Position& position, int k, const Eigen::VectorXd& relaxed) const;
+  void push(const Position& position, int k, double force, const Eigen::VectorXd& weight,
+            Eigen::VectorXd& y) const;
+  void load(const Position& position, const Eigen::VectorXd& p, double factor, Eigen::VectorXd& fields) const;
+  void take(const State& state);
+  void step(const Position& position);
+  void solve(const Position& position);
+  bool record(const Position& position, int sample, Period& period) const;
+  void rename();
+  const Position& at(int step) const {  // of the speed's steps
+    return positions_[static_cast<size_t>(step * stride_)];
+  }
+  SystemEquilibrium equilibrium_at(int i, Eigen::VectorXd* z);
+
+  const SystemModel& system_;
+  SystemMotion motion_;
+  SystemCoordinates coordinates_;
+  double depth_, relaxation_;
+  Eigen::VectorXd load_of_mesh_;
+  std::vector<double> radius_;                // [body] m
+  std::vector<std::array<Vec2, 2>> outward_;  // [mesh][side]
+  std::vector<Position>
+      positions_;  // (step + 1): the last one is the first one in the names of the period before
+  std::vector<double> corner_gap_;           // [mesh] m
+  int first_ = 0, last_ = 0;                 // pairs that may touch
+  std::vector<std::vector<int>> meshes_of_;  // [body]
+  std::vector<int> relaxed_first_;           // (body + 1)
+  std::vector<Eigen::MatrixXd> fields_;      // [body] (flank, field) V
+  std::vector<std::vector<Eigen::MatrixXd>>
+      tables_;  // [body][slot of it times their number + slot] (flank, flank) m N-1: R
+  std::vector<Eigen::MatrixXd> coupling_;  // [body] (relaxed load, relaxed load) m N-1: C
+  int most_contacts_ = 0;
+
+  double mesh_frequency_ = 0, step_ = 0;
+  int steps_ = 0, stride_ = 1;
+  Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, bv_;  // (coordinate)
+  Relaxation relaxed_step_{};
+
+  // The state of a step.
+  Eigen::VectorXd z_, v_, force_, relaxed_, load_, mean_, before_;
+  Eigen::VectorXd e_, p_, d_, p_of_slot_;  // e_, p_, d_: (contact)
+  Certificate certificate_;
+  Eigen::MatrixXd forces_;
+};
+
+}  // namespace whine

@@ -1,0 +1,26 @@
+// Where the energy of an integrated mesh period of a system goes; as energy_balance.h, of each mesh, drive and bearing.
+#pragma once
+#include <Eigen/Core>
+
+namespace whine {
+
+// J, summed over the steps of a period. Every line is computed by itself, none as what is left of the others:
+//   d(kinetic + modal + residual + local) + modal_damping + bearing_damping + relaxation_damping
+//     = drive + rolling + switching + cutting + dropped - averaging.
+struct SystemEnergyBalance {
+  // Changes of what is stored: motion; kept modes and bearings; residual flexibility; Hertz's laws and all that is instantaneous.
+  double kinetic = 0, modal = 0, residual = 0, local = 0;
+  Eigen::VectorXd drive;            // (body) work of its torque on the vibration
+  Eigen::VectorXd rolling;          // (mesh) of the prescribed rolling
+  double modal_damping = 0;         // Rayleigh's, and the dampers of the axes
+  Eigen::VectorXd bearing_damping;  // (body)
+  double relaxation_damping = 0;
+  Eigen::VectorXd switching;  // (mesh) of the scheme, see EnergyBalance
+  Eigen::VectorXd cutting;    // (mesh) pairs that are taken out, or let in, under force
+  double averaging = 0;       // of the scheme
+  double dropped = 0;  // relaxed loads of teeth that are no longer followed, and starts that are no solution
+  double throughput = 0;  // sum of |drive| + |rolling| per step
+  double imbalance = 0;   // largest |sum of the lines so far|
+};
+
+}  // namespace whine

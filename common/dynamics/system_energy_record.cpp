@@ -1,0 +1,221 @@
+#include "dynamics/system_energy_record.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/step_work.h"
+
+namespace whine {
+
+using namespace step_work;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, SystemEnergyBalance* balance)
+    : of_(dynamics), balance_(balance) {
+  if (!balance) return;
+  const auto bodies = static_cast<Index>(of_.system_.body.size());
+  *balance = {};
+  for (VectorXd* x : {&balance->drive, &balance->bearing_damping}) x->setZero(bodies);
+  for (VectorXd* x : {&balance->rolling, &balance->switching, &balance->cutting}) x->setZero(of_.meshes());
+  // v = a22 v0 + bv (mean force - w^2 z0) within a step, and load - relaxed = a (load0 - relaxed0) + b (load1 - load0).
+  const Index n = of_.coordinates_.size();
+  for (VectorXd* x : {&speed_, &mixed_, &push_}) x->setZero(n);
+  const double step = of_.step_;
+  for (Index c = 0; c < n; ++c) {
+    const double frequency = of_.coordinates_.frequency[c], damping = of_.coordinates_.damping[c];
+    const auto add = [&](double t, double weight) {
+      const Propagator part = exact_propagator(frequency, damping, t);
+      speed_[c] += weight * part.a22 * part.a22;
+      mixed_[c] += weight * part.a22 * part.bv;
+      push_[c] += weight * part.bv * part.bv;
+    };
+    if (damping > 4 * frequency)
+      graded_quadrature(step, frequency + damping, add);
+    else
+      quadrature(step, frequency + damping, add);
+  }
+  if (const double eta = of_.relaxation_; eta > 0)
+    quadrature(step, 1 / eta, [&](double t, double weight) {
+      const double decay = std::exp(-t / eta), growth = -(eta / step) * std::expm1(-t / eta);
+      decay2_ += weight * decay * decay / eta;
+      mixed2_ += weight * decay * growth / eta;
+      growth2_ += weight * growth * growth / eta;
+      decay_ += weight * decay / eta;
+      growth_ += weight * growth / eta;
+      late_decay_ += weight * t / step * decay / eta;
+      late_growth_ += weight * t / step * growth / eta;
+    });
+}
+
+double SystemEnergyRecord::field_at(const SystemDynamics::Position& position, int k,
+                                    const VectorXd& field) const {
+  const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
+  double out = 0;
+  for (size_t s = 0; s < 2; ++s)
+    out += position.field[s].col(k).dot(field.segment<SystemDynamics::kFields>(contact.load_at[s]));
+  return out;
+}
+
+void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& position) const {
+  const int n = position.size();
+  now.position = &position;
+  now.z = of_.z_;
+  now.v = of_.v_;
+  now.force = of_.force_;
+  now.relaxed = of_.relaxed_;
+  now.load = of_.load_;
+  now.field.resize(of_.relaxed_size());
+  now.moved.resize(of_.relaxed_size());
+  for (size_t b = 0; b < of_.coupling_.size(); ++b) {
+    const int first = of_.relaxed_first_[b], size = of_.relaxed_first_[b + 1] - first;
+    now.field.segment(first, size) = of_.coupling_[b] * now.relaxed.segment(first, size);
+    now.moved.segment(first, size) = of_.coupling_[b] * now.load.segment(first, size);
+  }
+  now.p = of_.p_.head(n);
+  now.local = position.at_once * now.p;
+  now.stored = 0.5 * now.p.dot(now.local);
+  now.d.resize(n);
+  for (int k = 0; k < n; ++k) {
+    const HertzLine& law = position.law[static_cast<size_t>(k)];
+    now.stored += step_work::stored(law, now.p[k]);
+    now.d[k] = position.gap[k] - of_.moved(position, k, now.z) + field_at(position, k, now.field) +
+               now.local[k] + step_work::at(law, now.p[k]).indentation;
+  }
+}
+
+void SystemEnergyRecord::start(const SystemDynamics::Position& position) {
+  fill(now_, position);
+}
+
+// Of forces (mean) on coordinates: kinetic and elastic energy, dampers, drives. Result: what is left of them.
+double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
+  const SystemCoordinates& c = of_.coordinates_;
+  const auto w2 = c.frequency.array().square();
+  const double kinetic = 0.5 * (b.v.squaredNorm() - a.v.squaredNorm()),
+               modal = 0.5 * (w2 * (b.z.array().square() - a.z.array().square())).sum();
+  const auto push = 0.5 * (a.force.array() + b.force.array()) - w2 * a.z.array();
+  const VectorXd squared = speed_.array() * a.v.array().square() + 2 * mixed_.array() * a.v.array() * push +
+                           push_.array() * push.square();  // integrals of v^2
+  const double damping = (c.damping - c.of_bearing).dot(squared);
+  double bearing = 0, drive = 0;
+  for (Index n = 0; n < balance_->drive.size(); ++n) {
+    const SystemCoordinates::Share& own = c.body[static_cast<size_t>(n)];
+    const double taken =
+        c.of_bearing.segment(own.first, own.count).dot(squared.segment(own.first, own.count));
+    balance_->bearing_damping[n] += taken;
+    bearing += taken;
+    const int body = static_cast<int>(n);
+    const double work =
+        of_.system_.layout.torque(body) * (c.rotation_of(body, b.z) - c.rotation_of(body, a.z));
+    if (of_.system_.layout.held(body)) continue;
+    balance_->drive[n] += work;
+    drive += work;
+  }
+  balance_->kinetic += kinetic;
+  balance_->modal += modal;
+  balance_->modal_damping += damping;
+  balance_->throughput += std::abs(drive);
+  return kinetic + modal + damping + bearing - drive;
+}
+
+// Relaxed loads F: energy F C F / 2, dissipation eta F' C F', loads linear in the step.
+double SystemEnergyRecord::relaxation(const Instant& a, const Instant& b) {
+  const double stored = 0.5 * (b.relaxed.dot(b.field) - a.relaxed.dot(a.field));
+  const VectorXd mean = 0.5 * (a.load + b.load);
+  double damping = 0, exact = mean.dot(b.moved - a.moved);
+  if (of_.relaxation_ > 0) {
+    const VectorXd behind = a.load - a.relaxed, change = b.load - a.load, moved_behind = a.moved - a.field,
+                   moved_change = b.moved - a.moved;
+    const double change2 = change.dot(moved_change);
+    damping =
+        decay2_ * behind.dot(moved_behind) + 2 * mixed2_ * behind.dot(moved_change) + growth2_ * change2;
+    exact = decay_ * a.load.dot(moved_behind) + growth_ * a.load.dot(moved_change) +
+            late_decay_ * change.dot(moved_behind) + late_growth_ * change2;
+  }
+  const double averaging = mean.dot(b.field - a.field) - exact;
+  balance_->residual += stored;
+  balance_->relaxation_damping += damping;
+  balance_->averaging += averaging;
+  return stored + damping + averaging;
+}
+
+// With p . d = 0 at both ends the mean force does no work on d but where contact opens or closes within the step (switching); what
+// gaps, h and W change by themselves is rolling. Contacts are those of one slot at both ends.
+double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
+  const SystemDynamics::Position &from = *a.position, &to = *b.position;
+  const auto find = [](const SystemDynamics::Position& in, int slot) {
+    for (int k = 0; k < in.size(); ++k)
+      if (in.contact[static_cast<size_t>(k)].slot == slot) return k;
+    return -1;
+  };
+  double all = 0;
+  VectorXd rolled = VectorXd::Zero(of_.meshes());
+  for (int k = 0; k < from.size(); ++k) {
+    const SystemDynamics::Contact& contact = from.contact[static_cast<size_t>(k)];
+    const HertzLine& law = from.law[static_cast<size_t>(k)];
+    const double p0 = a.p[k], old_z1 = p0 != 0 ? of_.moved(from, k, b.z) : 0;
+    const int l = find(to, contact.slot);
+    if (l < 0) {
+      if (p0 == 0) continue;
+      const double cut =
+          bent(law, p0, 0) + 0.5 * p0 * (from.gap[k] - old_z1 + field_at(from, k, b.field) - a.d[k]);
+      balance_->cutting[contact.mesh] += cut;
+      all += cut;
+      continue;
+    }
+    const double p1 = b.p[l];
+    if (p0 == 0 && p1 == 0) continue;
+    const auto [law_switching, law_rolling] = law_work(law, to.law[static_cast<size_t>(l)], p0, p1);
+    const double new_z0 = of_.moved(to, l, a.z), old_z0 = of_.moved(from, k, a.z),
+                 new_z1 = of_.moved(to, l, b.z), old_z1_any = of_.moved(from, k, b.z);
+    double rolling = 0.5 * (p0 * (new_z1 - old_z1_any) + p1 * (new_z0 - old_z0));
+    rolling -= 0.5 * (p0 * (field_at(to, l, b.field) - field_at(from, k, b.field)) +
+                      p1 * (field_at(to, l, a.field) - field_at(from, k, a.field)));
+    rolling -= 0.5 * (p0 + p1) * (to.gap[l] - from.gap[k]) + 0.5 * (p0 * b.local[l] - p1 * a.local[k]);
+    rolling += law_rolling;
+    const double switching = law_switching + 0.5 * (p0 * b.d[l] - p1 * a.d[k]),
+                 no_solution = 0.5 * (p1 * b.d[l] - p0 * a.d[k]);
+    rolled[contact.mesh] += rolling;
+    balance_->switching[contact.mesh] += switching;
+    balance_->dropped += no_solution;
+    all += rolling + switching + no_solution;
+  }
+  for (int l = 0; l < to.size(); ++l) {
+    const SystemDynamics::Contact& contact = to.contact[static_cast<size_t>(l)];
+    const double p1 = b.p[l];
+    if (p1 == 0 || find(from, contact.slot) >= 0) continue;
+    const double cut = bent(to.law[static_cast<size_t>(l)], 0, p1) -
+                       0.5 * p1 * (to.gap[l] - of_.moved(to, l, a.z) + field_at(to, l, a.field) - b.d[l]);
+    balance_->cutting[contact.mesh] += cut;
+    all += cut;
+  }
+  balance_->rolling += rolled;
+  balance_->throughput += std::abs(rolled.sum());
+  return all;
+}
+
+void SystemEnergyRecord::step(const SystemDynamics::Position& position) {
+  std::swap(before_, now_);
+  fill(now_, position);
+  sum_ += modes(before_, now_) + relaxation(before_, now_) - contact(before_, now_);
+  const double local = now_.stored - before_.stored;
+  balance_->local += local;
+  sum_ += local;
+  balance_->imbalance = std::max(balance_->imbalance, std::abs(sum_));
+}
+
+// Relaxed loads of teeth that are no longer followed take their energy with them.
+void SystemEnergyRecord::finish() {
+  double left = 0;
+  for (size_t b = 0; b < of_.coupling_.size(); ++b) {
+    const int first = of_.relaxed_first_[b], size = of_.relaxed_first_[b + 1] - first;
+    const auto relaxed = of_.relaxed_.segment(first, size);
+    left += 0.5 * relaxed.dot(of_.coupling_[b] * relaxed);
+  }
+  const double lost = left - 0.5 * now_.relaxed.dot(now_.field);
+  balance_->residual += lost;
+  balance_->dropped += lost;
+}
+
+}  // namespace whine

@@ -1,0 +1,40 @@
+// Keeps the energy balance of a period of SystemDynamics while it is integrated.
+#pragma once
+#include <vector>
+
+#include "dynamics/system_dynamics.h"
+
+namespace whine {
+
+class SystemEnergyRecord {
+ public:
+  // balance: null records nothing.
+  SystemEnergyRecord(const SystemDynamics& dynamics, SystemEnergyBalance* balance);
+  void start(const SystemDynamics::Position& position);
+  void step(const SystemDynamics::Position& position);
+  void finish();  // after the teeth have been renamed
+
+ private:
+  // What a step is reckoned from, at one end of it.
+  struct Instant {
+    const SystemDynamics::Position* position = nullptr;
+    Eigen::VectorXd z, v, force, relaxed, load;
+    Eigen::VectorXd field, moved;  // C relaxed, C load
+    Eigen::VectorXd p, d, local;   // (contact) N, m, m
+    double stored = 0;             // J: at once
+  };
+  void fill(Instant& now, const SystemDynamics::Position& position) const;
+  double modes(const Instant& a, const Instant& b);
+  double relaxation(const Instant& a, const Instant& b);
+  double contact(const Instant& a, const Instant& b);
+  double field_at(const SystemDynamics::Position& position, int k, const Eigen::VectorXd& field) const;
+
+  const SystemDynamics& of_;
+  SystemEnergyBalance* balance_;
+  Instant before_, now_;
+  double sum_ = 0;
+  Eigen::VectorXd speed_, mixed_, push_;  // (coordinate) integrals over a step, see DampingIntegrals
+  double decay2_ = 0, mixed2_ = 0, growth2_ = 0, decay_ = 0, growth_ = 0, late_decay_ = 0, late_growth_ = 0;
+};
+
+}  // namespace whine

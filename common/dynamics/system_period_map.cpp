@@ -1,0 +1,149 @@
+#include "dynamics/system_period_map.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/model_range.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using State = SystemDynamics::State;
+
+SystemPeriodMap::SystemPeriodMap(SystemDynamics& dynamics, int steps) : dynamics_(dynamics), steps_(steps) {
+  const State rest = dynamics.rest();
+  const Index n = rest.z.size(), loads = rest.relaxed.size(), slots = rest.p.size();
+  const double scale = std::sqrt(2 * dynamics.energy(rest));
+  unit_.resize(2 * n + loads + slots);
+  const SystemCoordinates& coordinates = dynamics.coordinates();
+  for (Index i = 0; i < n; ++i)
+    unit_[i] = scale / (i < coordinates.rigid ? dynamics.motion_.axis_frequency : coordinates.frequency[i]);
+  unit_.segment(n, n).setConstant(scale);
+  unit_.segment(2 * n, loads)
+      .setConstant(rest.p.maxCoeff() * std::sqrt(static_cast<double>(SystemDynamics::kFields)));
+  unit_.tail(slots).setConstant(rest.p.maxCoeff());
+  rest_ = flat(rest);
+}
+
+void SystemPeriodMap::set_parameter(double mesh_frequency) {
+  dynamics_.set_speed(mesh_frequency, steps_);
+}
+
+VectorXd SystemPeriodMap::flat(const State& state) const {
+  VectorXd y(unit_.size());
+  y << state.z, state.v, state.relaxed, state.p;
+  return y.cwiseQuotient(unit_);
+}
+
+State SystemPeriodMap::state(const VectorXd& y) const {
+  if (y.size() != unit_.size())
+    fail(Failure::numerical, "a state of ", y.size(), " numbers does not fit positions with ", unit_.size());
+  const VectorXd own = y.cwiseProduct(unit_);
+  const Index n = dynamics_.coordinates().size(), loads = dynamics_.relaxed_size();
+  return {own.head(n), own.segment(n, n), own.segment(2 * n, loads), own.tail(own.size() - 2 * n - loads)};
+}
+
+VectorXd SystemPeriodMap::apply(const VectorXd& y) {
+  State state = this->state(y);
+  if (!dynamics_.integrate(state, period_)) {
+    left_zone_ = true;
+    fail_outside_range(Failure::numerical, "at ", parameter(),
+                       " Hz a mesh deflects beyond the tip edges that are looked at; take more of them");
+  }
+  return flat(state);
+}
+
+MatrixXd SystemPeriodMap::tangent() {
+  return tangent_times(MatrixXd::Identity(size(), size()));
+}
+
+// The equations of SystemDynamics::step, linear in what moves.
+MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
+  SystemDynamics& of = dynamics_;
+  const Index n = of.coordinates().size(), loads = of.relaxed_size(), slots = of.slots(),
+              many = directions.cols();
+  const MatrixXd start = unit_.asDiagonal() * directions;
+  MatrixXd z = start.topRows(n), v = start.middleRows(n, n), relaxed = start.middleRows(2 * n, loads),
+           force = MatrixXd::Zero(n, many), load = MatrixXd::Zero(loads, many), p = start.bottomRows(slots);
+  const VectorXd ones = VectorXd::Ones(n);
+  const auto spread = [&](const SystemDynamics::Position& position) {  // of p
+    force.setZero();
+    load.setZero();
+    for (int k = 0; k < position.size(); ++k) {
+      const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
+      if (p.row(contact.slot).isZero(0)) continue;
+      force -= of.participation(position, k) * p.row(contact.slot);
+      for (size_t s = 0; s < 2; ++s)
+        load.middleRows<SystemDynamics::kFields>(contact.load_at[s]) +=
+            position.field[s].col(k) * p.row(contact.slot);
+    }
+  };
+  spread(of.at(0));
+  for (int i = 1; i <= steps_; ++i) {
+    const SystemDynamics::Position& position = of.at(i);
+    const MatrixXd old = z;
+    z = of.a11_.asDiagonal() * old + of.a12_.asDiagonal() * v + (0.5 * of.bq_).asDiagonal() * force;
+    v = (of.a21_.asDiagonal() * old + of.a22_.asDiagonal() * v + (0.5 * of.bv_).asDiagonal() * force).eval();
+    relaxed = of.relaxed_step_.decay * relaxed + of.relaxed_step_.from_old * load;
+    std::vector<Index> active;
+    for (int k = 0; k < position.size(); ++k)
+      if (of.forces()(i, position.contact[static_cast<size_t>(k)].slot) > 0) active.push_back(k);
+    MatrixXd tangent = position.compliance(active, active), e(static_cast<Index>(active.size()), many);
+    for (size_t a = 0; a < active.size(); ++a) {
+      const auto k = static_cast<int>(active[a]);
+      const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
+      const auto row = static_cast<Index>(a);
+      tangent(row, row) += position.law[static_cast<size_t>(k)].at(of.forces()(i, contact.slot)).slope;
+      e.row(row) = -of.participation(position, k).transpose() * z;
+      for (size_t s = 0; s < 2; ++s) {
+        const auto b = static_cast<size_t>(contact.body[s]);
+        const Index first = of.relaxed_first_[b], count = of.relaxed_first_[b + 1] - first;
+        e.row(row) += position.reading[s].col(k).head(count).transpose() * relaxed.middleRows(first, count);
+      }
+    }
+    p.setZero();
+    if (!active.empty()) {
+      const MatrixXd forces = -tangent.llt().solve(e);
+      for (size_t a = 0; a < active.size(); ++a)
+        p.row(position.contact[static_cast<size_t>(active[a])].slot) = forces.row(static_cast<Index>(a));
+    }
+    spread(position);
+    z += (0.5 * of.bq_).asDiagonal() * force;
+    v += (0.5 * of.bv_).asDiagonal() * force;
+    relaxed += of.relaxed_step_.from_new * load;
+  }
+  MatrixXd out(directions.rows(), many);
+  for (Index c = 0; c < many; ++c) {
+    of.z_ = z.col(c);
+    of.v_ = v.col(c);
+    of.relaxed_ = relaxed.col(c);
+    of.p_of_slot_ = p.col(c);
+    of.rename();
+    out.col(c) = flat({of.z_, of.v_, of.relaxed_, of.p_of_slot_});
+  }
+  return out;
+}
+
+std::vector<ContactEvent> SystemPeriodMap::events() const {
+  std::vector<ContactEvent> out;
+  const MatrixXd& force = dynamics_.forces();
+  for (int i = 1; i <= steps_; ++i)
+    for (Index slot = 0; slot < force.cols(); ++slot) {
+      const double before = force(i - 1, slot), now = force(i, slot);
+      if ((before > 0) != (now > 0))
+        out.push_back({static_cast<int>(slot), now > 0, static_cast<double>(i % steps_) / steps_});
+    }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const ContactEvent& a, const ContactEvent& b) { return a.phase < b.phase; });
+  return out;
+}
+
+VectorXd SystemPeriodMap::observable() const {
+  return period_.transmission_error.row(0);
+}
+
+}  // namespace whine

@@ -1,0 +1,263 @@
+// The positions of a mesh period of a system: contacts, what coordinates and relaxed loads move there, compliance.
+#include "dynamics/system_dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/dense.h"
+#include "base/error.h"
+#include "base/progress.h"
+#include "system/rigid_system.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// The kind of flank of the body on one side, which differs from that on the other where one of them is internal.
+ToothFlank flank_of(const SystemModel& system, const ContactSegment& segment, size_t side, int shift) {
+  const System::Side& at = system.layout.meshes[static_cast<size_t>(segment.mesh)].side[side];
+  return {segment.tooth[side] + shift * at.sense, at.flank};
+}
+
+// Orthonormal, (flank, field): the loads of a flank that its own displacements, and before all those of other flanks, depend on
+// most; as relaxed_fields of pairs.
+MatrixXd fields_of(const MatrixXd& own, const std::vector<MatrixXd>& others, int most,
+                   const std::string& name) {
+  constexpr double kWeight = 1e6, kMostRemainder = 1e-3;
+  MatrixXd importance = own * own;
+  for (const MatrixXd& r : others) importance += kWeight * (r * r.transpose() + r.transpose() * r);
+  const SymmetricEigen eigen = symmetric_eigen(importance);
+  if (!eigen.converged)
+    fail(Failure::numerical, "the residual fields of '", name, "' were not found; rebuild body.h5");
+  const MatrixXd v = eigen.vectors.rightCols(std::min<Index>(most, own.rows())).rowwise().reverse();
+  const auto rest = [&](const MatrixXd& r) {
+    return (r - v * (v.transpose() * r * v) * v.transpose()).norm() / own.norm();
+  };
+  double worst = own.norm() > 0 ? rest(own) : 0;
+  for (const MatrixXd& r : others) worst = std::max(worst, rest(r));
+  if (!(worst <= kMostRemainder))
+    fail(Failure::numerical, "the ", v.cols(), " residual fields of '", name, "' leave ", worst,
+         " of a tooth's residual flexibility instantaneous, above ", kMostRemainder,
+         "; rebuild body.h5 with more modes or finer elements");
+  return v;
+}
+
+}  // namespace
+
+SystemPosition SystemDynamics::positioned(int i) const {
+  const int steps = static_cast<int>(positions_.size()) - 1;
+  const double phase = static_cast<double>(i) / steps;
+  std::vector<MeshPosition> meshes;
+  for (int m = 0; m < this->meshes(); ++m) {
+    const MeshInstant at = mesh_instant(system_, m, phase, 0);
+    meshes.push_back(make_line_position(system_.mesh[static_cast<size_t>(m)], at.phase,
+                                        corner_gap_[static_cast<size_t>(m)], depth_,
+                                        shared_force(load_of_mesh_[m]), at.period));
+  }
+  return join(system_, phase, 0, std::move(meshes));
+}
+
+// m N-1, inward: what the kept modes of a body leave between two of its flanks.
+MatrixXd SystemDynamics::residual(int b, const ToothFlank& read, const ToothFlank& loaded) const {
+  const ElasticGear& gear = *system_.body[static_cast<size_t>(b)];
+  const BodyArtifact& body = gear.body();
+  MatrixXd out = gear.compliance(read, loaded, depth_);
+  // Shapes on the two teeth, of all modes in turn.
+  const auto on = [&](const ToothFlank& flank, int column) -> VectorXd {
+    const MatrixRM& shape = flank.side == FlankSide::leading ? body.flank_mode : body.back_flank_mode;
+    const int partner = gear.partner(column);
+    const double angle = gear.tooth_angle(column) * flank.tooth;
+    if (partner == column) return std::cos(angle) * shape.col(column);
+    const double sign = body.component[column] == 0 ? -1 : 1;
+    return std::cos(angle) * shape.col(column) + sign * std::sin(angle) * shape.col(partner);
+  };
+  for (const int column : coordinates_.body[static_cast<size_t>(b)].kept) {
+    const double w = 2 * std::numbers::pi * body.eigenfrequency[column];
+    out -= on(read, column) * on(loaded, column).transpose() / (w * w);
+  }
+  return out;
+}
+
+// The pairs that may touch, numbered as in the first mesh period, at the end of it, too.
+void SystemDynamics::find_slots(const std::vector<SystemPosition>& placed) {
+  first_ = last_ = 0;
+  most_contacts_ = 0;
+  for (const SystemPosition& at : placed) {
+    most_contacts_ = std::max(most_contacts_, static_cast<int>(at.segment.size()));
+    for (const ContactSegment& segment : at.segment) {
+      const int pair = segment.pair - mesh_instant(system_, segment.mesh, at.phase, 0).period;
+      first_ = std::min(first_, pair - 1);
+      last_ = std::max(last_, pair);
+    }
+  }
+  meshes_of_.assign(system_.body.size(), {});
+  relaxed_first_ = {0};
+  for (int b = 0; b < static_cast<int>(system_.body.size()); ++b) {
+    for (int m = 0; m < meshes(); ++m)
+      if (system_.side_of(b, m) >= 0) meshes_of_[static_cast<size_t>(b)].push_back(m);
+    relaxed_first_.push_back(relaxed_first_.back() +
+                             static_cast<int>(meshes_of_[static_cast<size_t>(b)].size()) * pairs() * kFields);
+  }
+}
+
+// Fields of each body and what loads in them move: the same at all positions.
+void SystemDynamics::couple() {
+  fields_.clear();
+  tables_.clear();
+  coupling_.clear();
+  for (int b = 0; b < static_cast<int>(system_.body.size()); ++b) {
+    std::vector<ToothFlank> flank;  // of each slot
+    for (const int m : meshes_of_[static_cast<size_t>(b)]) {
+      const System::Side& side =
+          system_.layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(system_.side_of(b, m))];
+      for (int pair = first_; pair <= last_; ++pair) flank.push_back({side.tooth(pair), side.flank});
+    }
+    const auto n = flank.size();
+    std::vector<MatrixXd> table(n * n), others;
+    for (size_t i = 0; i < n; ++i)
+      for (size_t j = 0; j < n; ++j) {
+        table[i * n + j] = residual(b, flank[i], flank[j]);
+        if (flank[i].tooth != flank[j].tooth || flank[i].side != flank[j].side)
+          others.push_back(table[i * n + j]);
+      }
+    const MatrixXd v =
+        fields_of(table[0], others, kFields, system_.layout.bodies[static_cast<size_t>(b)].name);
+    MatrixXd c(static_cast<Index>(n) * kFields, static_cast<Index>(n) * kFields);
+    for (size_t i = 0; i < n; ++i)
+      for (size_t j = 0; j < n; ++j)
+        c.block<kFields, kFields>(static_cast<Index>(i) * kFields, static_cast<Index>(j) * kFields) =
+            v.transpose() * table[i * n + j] * v;
+    fields_.push_back(v);
+    tables_.push_back(std::move(table));
+    coupling_.push_back(0.5 * (c + c.transpose()));
+  }
+}
+
+// shift: 1 at the end of the mesh period, whose teeth are then one further than where `at` has them.
+SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int shift) {
+  Position out;
+  const auto n = static_cast<Index>(at.segment.size());
+  const double phase = at.phase + shift;
+  const int bodies = static_cast<int>(system_.body.size());
+  int most = 0, most_loads = 0;
+  for (int b = 0; b < bodies; ++b) {
+    most = std::max(most, coordinates_.body[static_cast<size_t>(b)].count);
+    most_loads = std::max(
+        most_loads, relaxed_first_[static_cast<size_t>(b) + 1] - relaxed_first_[static_cast<size_t>(b)]);
+  }
+  out.gap = at.gap;
+  out.rigid = MatrixXd::Zero(coordinates_.rigid, n);
+  out.drift = MatrixXd::Zero(coordinates_.rolling.cols(), n);
+  for (size_t s = 0; s < 2; ++s) {
+    out.elastic[s] = MatrixXd::Zero(most, n);
+    out.field[s] = MatrixXd::Zero(kFields, n);
+    out.reading[s] = MatrixXd::Zero(most_loads, n);
+  }
+  for (const MeshPosition& mesh : at.mesh) {
+    out.law.insert(out.law.end(), mesh.law.begin(), mesh.law.end());
+    out.next_gap.push_back(mesh.next_corner_gap);
+    out.lost_gap.push_back(mesh.lost_corner_gap);
+  }
+  for (Index k = 0; k < n; ++k) {
+    const ContactSegment& segment = at.segment[static_cast<size_t>(k)];
+    const auto m = static_cast<size_t>(segment.mesh);
+    Contact contact;
+    contact.mesh = segment.mesh;
+    contact.normal = segment.normal;
+    const int pair = segment.pair - mesh_instant(system_, segment.mesh, at.phase, 0).period - shift;
+    contact.slot = segment.mesh * pairs() + pair - first_;
+    const Index node = k - at.first_strip[m];
+    for (size_t s = 0; s < 2; ++s) {
+      const int b = system_.layout.meshes[m].side[s].body;
+      const auto own = static_cast<size_t>(b);
+      const SystemCoordinates::Share& share = coordinates_.body[own];
+      contact.body[s] = b;
+      contact.lever[s] = at.displacement.rotation(k, b);
+      const double arm = contact.lever[s] * system_.base_radius(b);
+      out.rigid.col(k) += arm * coordinates_.rotation.row(b).transpose();
+      out.drift.col(k) += contact.lever[s] * coordinates_.rolling.row(b).transpose();
+      const RowVectorXd weights = at.displacement.flank[m][s].row(node);
+      out.elastic[s].col(k).head(share.count) =
+          coordinates_.participation(system_, b, flank_of(system_, segment, s, -shift), phase, weights,
+                                     closing_sign(static_cast<int>(s)) * segment.normal);
+      out.elastic[s].col(k).head(share.torsional) += arm * share.hub;
+      const auto& list = meshes_of_[own];
+      const auto place = static_cast<int>(std::find(list.begin(), list.end(), segment.mesh) - list.begin());
+      const int local = (place * pairs() + pair - first_) * kFields;
+      contact.load_at[s] = relaxed_first_[own] + local;
+      out.field[s].col(k) = fields_[own].transpose() * weights.transpose();
+      const MatrixXd& c = coupling_[own];
+      out.reading[s].col(k).head(c.rows()) = c.middleCols(local, kFields) * out.field[s].col(k);
+    }
+    out.contact.push_back(contact);
+  }
+  relate(out, at);
+  return out;
+}
+
+// What contacts move at each other by way of the bodies that they share.
+void SystemDynamics::relate(Position& position, const SystemPosition& at) const {
+  const Index n = position.size();
+  position.at_once = position.relaxed = position.compliance = MatrixXd::Zero(n, n);
+  for (Index k = 0; k < n; ++k)
+    for (Index l = 0; l < n; ++l)
+      for (size_t s = 0; s < 2; ++s)
+        for (size_t t = 0; t < 2; ++t) {
+          const Contact &read = position.contact[static_cast<size_t>(k)],
+                        &loaded = position.contact[static_cast<size_t>(l)];
+          if (read.body[s] != loaded.body[t]) continue;
+          const int b = read.body[s], base = relaxed_first_[static_cast<size_t>(b)];
+          const double soft = position.reading[s]
+                                  .col(k)
+                                  .segment<kFields>(loaded.load_at[t] - base)
+                                  .dot(position.field[t].col(l));
+          const auto weights = [&](const Contact& contact, size_t side, Index row) -> RowVectorXd {
+            const auto m = static_cast<size_t>(contact.mesh);
+            return at.displacement.flank[m][side].row(row - at.first_strip[m]);
+          };
+          const int slots = static_cast<int>(coupling_[static_cast<size_t>(b)].rows()) / kFields,
+                    row = (read.load_at[s] - base) / kFields, column = (loaded.load_at[t] - base) / kFields;
+          const double whole =
+              weights(read, s, k)
+                  .dot(tables_[static_cast<size_t>(b)][static_cast<size_t>(row * slots + column)] *
+                       weights(loaded, t, l).transpose());
+          position.relaxed(k, l) += soft;
+          position.at_once(k, l) += whole - soft;
+        }
+  position.at_once = (0.5 * (position.at_once + position.at_once.transpose())).eval();
+  position.relaxed = (0.5 * (position.relaxed + position.relaxed.transpose())).eval();
+}
+
+void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int steps) {
+  corner_gap_ = corner_gap;
+  positions_.assign(static_cast<size_t>(steps) + 1, {});
+  std::vector<SystemPosition> placed;
+  for (int i = 0; i < steps; ++i) placed.push_back(positioned(i));
+  find_slots(placed);
+  couple();
+  constexpr double kMostMemory = 12e9;  // bytes
+  const double numbers =
+      steps * static_cast<double>(most_contacts_) *
+      (2.0 * (coordinates_.size() + relaxed_size()) / static_cast<double>(system_.body.size()) +
+       3.0 * most_contacts_);
+  if (8 * numbers > kMostMemory)
+    fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
+         " GB, at most ", 1e-9 * kMostMemory,
+         " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
+  for (int i = 0; i < steps; ++i) {
+    report_step("mesh positions", i, steps);
+    positions_[static_cast<size_t>(i)] = filled(placed[static_cast<size_t>(i)], 0);
+  }
+  positions_.back() = filled(placed[0], 1);
+  for (VectorXd* x : {&e_, &p_, &d_}) x->setZero(most_contacts_);
+  steps_ = 0;
+}
+
+}  // namespace whine

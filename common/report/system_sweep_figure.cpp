@@ -1,0 +1,125 @@
+#include "report/system_sweep_figure.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "system/rigid_system.h"
+
+namespace whine {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr size_t kMostLines = 12;  // colours and dashes of the template
+
+struct Quantity {
+  const char *name, *axis, *unit;
+  double scale;
+  MatrixRM SystemSweepArtifact::*values;  // (speed, mesh or body)
+  bool of_bodies;
+};
+constexpr Quantity kQuantities[] = {
+    {"dte_rms", "RMS of the transmission error", "µm", kMicro, &SystemSweepArtifact::dte_rms, false},
+    {"separation_fraction", "Time without contact", "%", kPercent, &SystemSweepArtifact::separation_fraction,
+     false},
+    {"bearing_force_rms", "Bearing force, RMS", "N", 1, &SystemSweepArtifact::bearing_force_rms, true}};
+
+std::vector<std::string> names_of(const System& s, bool bodies) {
+  std::vector<std::string> out;
+  if (!bodies)
+    for (size_t m = 0; m < s.meshes.size(); ++m) out.push_back(mesh_name(s, m));
+  for (const System::Body& body : s.bodies)
+    if (bodies) out.push_back(body.name + (body.on != System::kGround ? " (pin)" : ""));
+  return out;
+}
+
+FigureBlock block_of(const Quantity& q, const SystemSweepArtifact& a, size_t curves) {
+  const std::vector<std::string> names = names_of(a.settings.layout, q.of_bodies);
+  const std::string way = name_of(a.direction);
+  FigureBlock block{text(q.name, " ", way), {"mesh_frequency [Hz]"}, {}, text(q.name, "_", way)};
+  for (size_t i = 0; i < curves; ++i) block.columns.push_back(text(q.name, " ", names[i], " [", q.unit, "]"));
+  std::vector<Index> order(static_cast<size_t>(a.mesh_frequency.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](Index x, Index y) { return a.mesh_frequency[x] < a.mesh_frequency[y]; });
+  for (const Index i : order) {
+    std::vector<double> row{a.mesh_frequency[i]};
+    for (size_t c = 0; c < curves; ++c) row.push_back((a.*q.values)(i, static_cast<Index>(c)) * q.scale);
+    block.rows.push_back(row);
+  }
+  return block;
+}
+
+std::string torque_words_of(const SystemSweepArtifact& a) {
+  const System& s = a.settings.layout;
+  std::string out;
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const System::Body& body = s.bodies[b];
+    if (body.on != System::kGround) continue;
+    const double torque = a.torque[static_cast<Index>(b)];
+    out += text(out.empty() ? "" : ", ", body.name, body.teeth > 0 ? text(" (", body.teeth, " teeth)") : "",
+                torque != 0 ? text(" ", fixed(torque, 1), " N m") : "",
+                s.held(static_cast<int>(b)) ? " held" : "");
+  }
+  return out;
+}
+
+}  // namespace
+
+Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
+  const SystemSweepArtifact& a = sweeps.front();
+  const System& s = a.settings.layout;
+  for (const SystemSweepArtifact& other : sweeps)
+    if (other.settings.layout.meshes.size() != s.meshes.size() ||
+        other.settings.layout.bodies.size() != s.bodies.size())
+      fail(Failure::input, "the sweeps are of systems with ", s.meshes.size(), " and ",
+           other.settings.layout.meshes.size(), " meshes; give those of one system, rising and falling");
+  Figure figure;
+  figure.title = "A system over its speeds: vibration, contact loss, forces on bearings";
+  figure.notes.push_back(torque_words_of(a));
+  figure.notes.push_back(text("body \"", a.settings.fidelity.body, "\", contact \"",
+                              a.settings.fidelity.contact, "\", damping ",
+                              shown(a.settings.damping.rayleigh_stiffness, 3), " s x stiffness + ",
+                              shown(a.settings.damping.rayleigh_mass, 3), " 1/s x mass"));
+  figure.notes.emplace_back(
+      "lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces");
+  int row_number = 0;
+  double from = a.mesh_frequency.minCoeff(), to = a.mesh_frequency.maxCoeff();
+  for (const Quantity& q : kQuantities) {
+    std::vector<std::string> names = names_of(s, q.of_bodies);
+    if (names.size() > kMostLines)
+      figure.notes.push_back(text(q.axis, ": the first ", kMostLines, " of ", names.size(), " curves"));
+    const size_t curves = std::min(names.size(), kMostLines);
+    double most = 0;
+    for (const SystemSweepArtifact& sweep : sweeps) {
+      figure.blocks.push_back(block_of(q, sweep, curves));
+      most = std::max(most, (sweep.*q.values).leftCols(static_cast<Index>(curves)).maxCoeff() * q.scale);
+      from = std::min(from, sweep.mesh_frequency.minCoeff());
+      to = std::max(to, sweep.mesh_frequency.maxCoeff());
+    }
+    std::string labels;
+    for (size_t i = 0; i < curves; ++i) labels += "'" + names[i] + "' ";
+    const std::string row = std::to_string(++row_number);
+    for (const auto& [name, value] :
+         {std::pair{"curves", static_cast<double>(curves)}, std::pair{"most", most > 0 ? 1.06 * most : 1.0}})
+      figure.numbers.emplace_back(name + row, value);
+    for (const auto& [name, word] :
+         {std::pair{"quantity", std::string(q.name)}, std::pair{"axis", std::string(q.axis)},
+          std::pair{"unit", std::string(q.unit)}, std::pair{"labels", labels}})
+      figure.words.emplace_back(name + row, word);
+  }
+  for (const Direction way : {Direction::up, Direction::down}) {
+    double there = 0;
+    for (const SystemSweepArtifact& sweep : sweeps) there += sweep.direction == way;
+    figure.numbers.emplace_back(text("sweeps_", name_of(way)), there);
+  }
+  figure.numbers.emplace_back("frequency_from", from);
+  figure.numbers.emplace_back("frequency_to", to);
+  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
+  figure.height = 1640;
+  return figure;
+}
+
+}  // namespace whine

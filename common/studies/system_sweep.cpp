@@ -1,0 +1,293 @@
+#include "studies/system_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "base/error.h"
+#include "base/model_range.h"
+#include "dynamics/system_period_map.h"
+#include "orbits/recurrence.h"
+#include "orbits/settle.h"
+#include "studies/sweep.h"
+#include "system/system_rest.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kRestPositions = 32;      // of the statics that come first
+constexpr double kBeyondStatics = 2.5;  // deflection that tip edges are looked for, over that of rest
+
+struct Rest {
+  MatrixXd stiffness;              // (mesh, mesh) N m-1, mean
+  std::vector<double> deflection;  // [mesh] m, largest
+};
+
+Rest rest_of(const SystemModel& system, int strips) {
+  Rest out;
+  const auto meshes = static_cast<Index>(system.mesh.size());
+  out.stiffness = MatrixXd::Zero(meshes, meshes);
+  out.deflection.assign(system.mesh.size(), 0);
+  for (const SystemSolution& at : rest_over_period(system, ContactModel::line, strips, kRestPositions)) {
+    out.stiffness += at.mesh_stiffness / kRestPositions;
+    for (size_t m = 0; m < system.mesh.size(); ++m)
+      out.deflection[m] = std::max(out.deflection[m], at.deflection[m]);
+  }
+  // A mesh without load has none of its own: that of a loaded one.
+  const double most = *std::max_element(out.deflection.begin(), out.deflection.end());
+  for (double& deflection : out.deflection) deflection = std::max(deflection, 0.1 * most);
+  return out;
+}
+
+std::vector<double> speeds_of(const SystemSweepParameters& p, Direction direction) {
+  const long count =
+      std::lround(std::floor((p.frequency_to - p.frequency_from) / p.frequency_step + 1e-9)) + 1;
+  std::vector<double> out;
+  for (long i = 0; i < count; ++i)
+    out.push_back(p.frequency_from + static_cast<double>(i) * p.frequency_step);
+  if (direction == Direction::down) std::reverse(out.begin(), out.end());
+  return out;
+}
+
+// Statistics over the steps of all recorded periods.
+class Recorded {
+ public:
+  Recorded(const SystemSweepArtifact& of, size_t meshes, size_t bodies)
+      : settings_(of.settings),
+        sum_(VectorXd::Zero(static_cast<Index>(meshes))),
+        squares_(sum_),
+        most_(sum_),
+        tooth_(sum_),
+        share_(sum_),
+        parted_(sum_),
+        force_sum_(MatrixXd::Zero(2, static_cast<Index>(bodies))),
+        force_squares_(VectorXd::Zero(static_cast<Index>(bodies))),
+        force_most_(force_squares_) {}
+
+  // forces: [body] (xy, step), carriers too
+  void take(const SystemDynamics::Period& period, const std::vector<Eigen::Matrix2Xd>& forces) {
+    const Index steps = period.mesh_force.cols();
+    count_ += static_cast<double>(steps);
+    for (Index i = 0; i < steps; ++i) {
+      std::vector<double> carried(settings_.mesh.size(), 0.0);
+      for (Index m = 0; m < sum_.size(); ++m)
+        carried[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])] += period.mesh_force(m, i);
+      for (Index m = 0; m < sum_.size(); ++m) {
+        const double error = period.transmission_error(m, i), force = period.mesh_force(m, i),
+                     all = carried[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])];
+        sum_[m] += error;
+        squares_[m] += error * error;
+        most_[m] = std::max(most_[m], force);
+        tooth_[m] = std::max(tooth_[m], period.largest_tooth_force(m, i));
+        if (all > 0) share_[m] = std::max(share_[m], force / all);
+        parted_[m] += period.largest_tooth_force(m, i) > 0 ? 0 : 1;
+      }
+    }
+    for (size_t b = 0; b < forces.size(); ++b) {
+      const auto body = static_cast<Index>(b);
+      force_sum_.col(body) += forces[b].rowwise().sum();
+      force_squares_[body] += forces[b].squaredNorm();
+      force_most_[body] = std::max(force_most_[body], forces[b].colwise().norm().maxCoeff());
+    }
+  }
+  void give(Index row, SystemSweepArtifact& out) const {
+    out.dte_mean.row(row) = sum_ / count_;
+    out.dte_rms.row(row) = (squares_ / count_ - (sum_ / count_).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+    out.mesh_force_max.row(row) = most_;
+    out.tooth_force_max.row(row) = tooth_;
+    out.load_share_max.row(row) = share_.cwiseMin(1.0);
+    out.separation_fraction.row(row) = parted_ / count_;
+    out.bearing_force_max.row(row) = force_most_;
+    out.bearing_force_rms.row(row) =
+        (force_squares_ / count_ - (force_sum_ / count_).colwise().squaredNorm().transpose())
+            .cwiseMax(0.0)
+            .cwiseSqrt();
+  }
+
+ private:
+  const SystemSweepParameters& settings_;
+  VectorXd sum_, squares_, most_, tooth_, share_, parted_;
+  MatrixXd force_sum_;
+  VectorXd force_squares_, force_most_;
+  double count_ = 0;
+};
+
+// The system from speed to speed.
+class SystemRig {
+ public:
+  SystemRig(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies)
+      : system_(elastic_system(settings, bodies)), settings_(settings) {
+    take_masses(settings, bodies, system_.layout);
+    rest_ = rest_of(system_, settings.contact.strips);
+    motion_.damping = settings.damping;
+    motion_.fidelity = settings.fidelity;
+    motion_.fidelity.contact = ContactModel::line;
+    motion_.axis_frequency = axis_frequency(system_, rest_.stiffness);
+    widen();
+    state_ = dynamics_->rest();
+  }
+
+  const SystemModel& system() const { return system_; }
+  const SystemMotion& motion() const { return motion_; }
+
+  // The periodic motion at a speed, into row `row`.
+  std::string run(double frequency, Index row, SystemSweepArtifact& out) {
+    const SystemDynamics::State start = state_;
+    for (;;) {
+      SystemPeriodMap map(*dynamics_, steps_at(settings_.time, frequency));
+      map.set_parameter(frequency);
+      try {
+        const SettledMotion motion = settle(
+            map, map.flat(state_),
+            {settings_.time.periodicity, 3000, settings_.time.steady_state == SteadyState::extrapolate});
+        state_ = map.state(motion.start);
+        if (!record(motion, row, out))
+          throw ModelRangeError(Failure::numerical, "contact leaves the tip edges");
+        return motion.multiple == 1   ? ""
+               : motion.multiple == 0 ? "not periodic"
+                                      : text(motion.multiple, " periods");
+      } catch (const ModelRangeError& error) {
+        if ((!map.left_zone() && !left_) || widenings_ > kWidenings)
+          fail_as(error, "at a mesh frequency of ", frequency, " Hz, ", error.what());
+        const std::unique_ptr<SystemDynamics> before = std::move(dynamics_);
+        widen();
+        state_ = dynamics_->fitted(start, *before);
+      } catch (const Error& error) {
+        fail_as(error, "at a mesh frequency of ", frequency, " Hz, ", error.what());
+      }
+    }
+  }
+
+ private:
+  // Looks at tip edges that are farther off than before. What is looked at and does not touch changes no force.
+  void widen() {
+    std::vector<double> gap;
+    for (const double deflection : rest_.deflection)
+      gap.push_back(kBeyondStatics * deflection * std::pow(kWidening, widenings_));
+    ++widenings_;
+    dynamics_ = std::make_unique<SystemDynamics>(system_, motion_);
+    dynamics_->set_positions(gap, steps_at(settings_.time, settings_.frequency_from));
+  }
+
+  // [body of the settings] (xy, step): those of carriers are the sums of their pins.
+  std::vector<Eigen::Matrix2Xd> bearing_forces(const SystemDynamics::Period& period) const {
+    std::vector<Eigen::Matrix2Xd> out = period.bearing_force;
+    out.resize(settings_.layout.bodies.size(), Eigen::Matrix2Xd::Zero(2, period.mesh_force.cols()));
+    for (size_t b = 0; b < period.bearing_force.size(); ++b)
+      if (const int on = settings_.layout.bodies[b].on; on != System::kGround)
+        out[static_cast<size_t>(on)] += period.bearing_force[b];
+    return out;
+  }
+
+  // False if contact leaves the tip edges that are looked at.
+  bool record(const SettledMotion& motion, Index row, SystemSweepArtifact& out) {
+    const int periods = motion.multiple > 0 ? motion.multiple : Recurrence<VectorXd>::kMostMultiple;
+    Recorded recorded(out, system_.mesh.size(), settings_.layout.bodies.size());
+    SystemEnergyBalance energy;
+    double imbalance = 0;
+    SystemDynamics::Period period;
+    out.energy.row(row).setZero();
+    out.rolling.row(row).setZero();
+    out.bearing_damping.row(row).setZero();
+    out.drift_force[row] = 0;
+    std::vector<Eigen::Matrix2Xd> forces;
+    left_ = false;
+    for (int n = 0; n < periods; ++n) {
+      if (!dynamics_->integrate(state_, period, &energy)) {
+        left_ = true;
+        return false;
+      }
+      forces = bearing_forces(period);
+      recorded.take(period, forces);
+      take(energy, row, out);
+      imbalance += energy.imbalance;
+      out.drift_force[row] = std::max(out.drift_force[row], period.drift_force);
+      out.least_gap = std::min(out.least_gap, period.least_gap);
+      out.least_force = std::min(out.least_force, period.least_force);
+    }
+    recorded.give(row, out);
+    out.periods[row] = motion.periods;
+    out.period_multiple[row] = motion.multiple;
+    out.residual[row] = motion.residual;
+    out.energy_imbalance[row] = imbalance / out.energy(row, 10);
+    const Index samples = settings_.time.steps_per_period, stride = period.mesh_force.cols() / samples;
+    const auto at = static_cast<size_t>(row);
+    const auto sampled = [&](const auto& of) -> MatrixRM {
+      MatrixRM rows(samples, of.rows());
+      for (Index i = 0; i < samples; ++i) rows.row(i) = of.col(i * stride).transpose();
+      return rows;
+    };
+    out.transmission_error[at] = sampled(period.transmission_error);
+    out.mesh_force[at] = sampled(period.mesh_force);
+    for (size_t b = 0; b < forces.size(); ++b) out.bearing_force[b][at] = sampled(forces[b]);
+    return true;
+  }
+
+  static void take(const SystemEnergyBalance& e, Index row, SystemSweepArtifact& out) {
+    Eigen::RowVectorXd lines(static_cast<Index>(kSystemEnergyLines.size()));
+    lines << e.kinetic + e.modal + e.residual + e.local, e.drive.sum(), e.rolling.sum(), e.modal_damping,
+        e.bearing_damping.sum(), e.relaxation_damping, e.switching.sum(), e.cutting.sum(), e.averaging,
+        e.dropped, e.throughput;
+    out.energy.row(row) += lines;
+    out.rolling.row(row) += e.rolling;
+    out.bearing_damping.row(row).head(e.bearing_damping.size()) += e.bearing_damping;
+  }
+
+  SystemModel system_;
+  const SystemSweepParameters& settings_;
+  Rest rest_;
+  SystemMotion motion_;
+  std::unique_ptr<SystemDynamics> dynamics_;
+  SystemDynamics::State state_;
+  int widenings_ = 0;
+  bool left_ = false;
+};
+
+}  // namespace
+
+SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
+                                 const std::vector<BodyArtifact>& bodies, Direction direction,
+                                 const std::function<void(long, long, const std::string&)>& report) {
+  SystemRig rig(settings, bodies);
+  const std::vector<double> speeds = speeds_of(settings, direction);
+  const auto n = static_cast<Index>(speeds.size()), meshes = static_cast<Index>(rig.system().mesh.size()),
+             all = static_cast<Index>(settings.layout.bodies.size());
+  SystemSweepArtifact out;
+  out.settings = settings;
+  out.settings.fidelity = rig.motion().fidelity;
+  for (size_t b = 0; b < rig.system().layout.bodies.size(); ++b) {
+    out.settings.layout.bodies[b].inertia = rig.system().layout.bodies[b].inertia;
+    out.settings.layout.bodies[b].bearing.mass = rig.system().layout.bodies[b].bearing.mass;
+  }
+  out.direction = direction;
+  out.torque.setZero(all);
+  for (int b = 0; b < all; ++b) out.torque[b] = settings.layout.torque(b);
+  out.axis_frequency = rig.motion().axis_frequency / (2 * std::numbers::pi);
+  out.mesh_frequency = Eigen::Map<const VectorXd>(speeds.data(), n);
+  for (MatrixRM* x : {&out.dte_rms, &out.dte_mean, &out.mesh_force_max, &out.tooth_force_max,
+                      &out.load_share_max, &out.separation_fraction, &out.rolling})
+    x->setZero(n, meshes);
+  for (MatrixRM* x : {&out.bearing_force_max, &out.bearing_force_rms, &out.bearing_damping})
+    x->setZero(n, all);
+  out.energy.setZero(n, static_cast<Index>(kSystemEnergyLines.size()));
+  for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
+  out.periods.setZero(n);
+  out.period_multiple.setZero(n);
+  out.transmission_error.resize(speeds.size());
+  out.mesh_force.resize(speeds.size());
+  out.bearing_force.assign(settings.layout.bodies.size(), std::vector<MatrixRM>(speeds.size()));
+  for (Index i = 0; i < n; ++i) {
+    const std::string note = rig.run(speeds[static_cast<size_t>(i)], i, out);
+    report(i + 1, n, text(speeds[static_cast<size_t>(i)], " Hz", note.empty() ? "" : ", ", note));
+  }
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,393 @@
+// Systems in motion: the limits of rest and of a pair, energy, periodic motions, what equal planets do to each other.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <ctime>
+#include <map>
+#include <numbers>
+
+#include "base/dense.h"
+#include "base/error.h"
+#include "dynamics/system_dynamics.h"
+#include "dynamics/system_period_map.h"
+#include "gear/system_layout.h"
+#include "gear/train.h"
+#include "io/system_scene.h"
+#include "memory.h"
+#include "orbits/periodic_orbit.h"
+#include "orbits/settle.h"
+#include "paper_pair.h"
+#include "planetary_train.h"
+#include "relative.h"
+#include "signal/spectrum.h"
+#include "system/rigid_system.h"
+
+using namespace whine;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const BodyArtifact& coarse_body() {
+  return paper_body(40e-3, 1.2e-3, 12);
+}
+
+// The pair of P2000 as a system whose gears both turn.
+SystemModel turning_pair(const std::array<Bearing, 2>& bearing = {}) {
+  GearMeshSpec spec = paper_statics(16).mesh;
+  spec.bearing = bearing;
+  SystemModel system(coarse_body(), coarse_body(), spec);
+  system.layout.drives = {{0, System::DriveKind::torque, 150}, {1, System::DriveKind::torque, -150}};
+  for (System::Body& body : system.layout.bodies) body.inertia = 0.0148;
+  return system;
+}
+
+SystemMotion motion_of(const SystemModel& system, double stiffness, double eta = 7.7e-6) {
+  SystemMotion motion;
+  motion.damping.rayleigh_stiffness = eta;
+  motion.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  const auto meshes = static_cast<Index>(system.mesh.size());
+  motion.axis_frequency = axis_frequency(system, stiffness * MatrixXd::Identity(meshes, meshes));
+  return motion;
+}
+
+}  // namespace
+
+TEST_CASE("a pair by the system's equations moves as by those of pairs, on rigid axes and on bearings") {
+  for (const bool floats : {false, true}) {
+    CAPTURE(floats);
+    const std::array<Bearing, 2> bearing =
+        floats ? std::array{Bearing{200e6, 500, 0}, Bearing{120e6, 800, 0}} : std::array<Bearing, 2>{};
+    const SystemModel system = turning_pair(bearing);
+    SystemDynamics dynamics(system, motion_of(system, 463e6));
+    constexpr int kSteps = 64;
+    dynamics.set_positions({50e-6}, kSteps);
+    SystemDynamics::State state = dynamics.rest();
+
+    StaticParameters statics = paper_statics(16);
+    statics.mesh.bearing = bearing;
+    const GearMeshModel model(coarse_body(), coarse_body(), statics.mesh);
+    RollingDynamics pair(model, paper_parameters(463e6, BodyModel::modal, ContactModel::line));
+    CandidateZone zone;
+    zone.corner_gap = 50e-6;
+    pair.set_zone(zone, kSteps);
+    RollingDynamics::State rolling = pair.rest();
+    SystemDynamics::Period a;
+    RollingDynamics::Period b;
+    for (const double frequency : {2500.0, 1300.0}) {
+      dynamics.set_speed(frequency, kSteps);
+      pair.set_speed(frequency, kSteps);
+      for (int n = 0; n < 40; ++n) {
+        REQUIRE(dynamics.integrate(state, a));
+        REQUIRE(pair.integrate(rolling, b));
+      }
+      SystemEnergyBalance energy;
+      EnergyBalance pair_energy;
+      REQUIRE(dynamics.integrate(state, a, &energy));
+      REQUIRE(pair.integrate(rolling, b, &pair_energy));
+      const VectorXd one = a.transmission_error.row(0), other = b.transmission_error;
+      const double rms = std::sqrt((other.array() - other.mean()).square().mean());
+      // Residual fields of their own, and what other teeth read of them: 12 fields in place of 8.
+      CHECK((one - other).norm() < 1e-5 * rms * std::sqrt(static_cast<double>(kSteps)));
+      CHECK(a.drift_force == relative(b.drift_force, 1e-4));
+      CHECK(energy.imbalance < 1e-12 * energy.throughput);
+      CHECK(energy.modal_damping + energy.bearing_damping.sum() == relative(pair_energy.modal_damping, 1e-4));
+      CHECK(energy.relaxation_damping == relative(pair_energy.relaxation_damping, 1e-4));
+      CHECK(energy.rolling.sum() == relative(pair_energy.rolling, 1e-4));
+      CHECK(energy.switching.sum() == relative(pair_energy.switching, 1e-3));
+      if (floats) CHECK(energy.bearing_damping.minCoeff() > 0);
+    }
+  }
+}
+
+namespace {
+
+constexpr double kTorque = 300, kModule = 2.776e-3;
+
+// Coarse bodies, each reduced once.
+const BodyArtifact& train_body(int teeth, bool internal) {
+  static std::map<int, BodyArtifact> known;
+  const auto at = known.find(teeth);
+  if (at != known.end()) return at->second;
+  GearDesign design = rigid_gear(teeth, internal);
+  if (!internal) design.bore_radius = (0.5 * teeth - 5) * kModule;
+  BodyDiscretisation coarse;
+  coarse.element_size = 2.5e-3;
+  coarse.modes = 15;
+  return known[teeth] =
+             reduce(make_sector_mesh(design, coarse), Material{206e9, 0.3, 7850, true}, coarse.modes);
+}
+
+// Sun, planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held.
+SystemModel train(const std::array<int, 3>& teeth, int planets = 3) {
+  SystemScene scene = planetary_train(planets);
+  const std::array stiffness{2e7, 3e8, 0.0};
+  for (size_t g = 0; g < 3; ++g) {
+    SystemScene::Gear& gear = scene.gears[g];
+    gear.design = rigid_gear(teeth[g], g == 2);
+    if (g < 2) gear.design.bore_radius = (0.5 * teeth[g] - 5) * kModule;
+    gear.equivalent_mass = 0;
+    gear.bearing = {stiffness[g], g == 0 ? 500.0 : 2000.0, 0};
+  }
+  scene.gears[2].bearing = {};
+  scene.carriers[0].bearing = {};
+  for (SystemScene::Mesh& mesh : scene.meshes)
+    mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * kModule;
+  scene.drives = {{"sun", System::DriveKind::torque, kTorque, 0},
+                  {"ring", System::DriveKind::held, 0, 0},
+                  {"carrier", System::DriveKind::held, 0, 0}};
+  scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  System layout = on_fixed_carriers(layout_of(scene));
+  std::vector<BodyArtifact> bodies;
+  for (System::Body& body : layout.bodies) {
+    bodies.push_back(train_body(body.teeth, body.teeth == teeth[2]));
+    body.inertia = 1.02 * bodies.back().inertia;
+    if (body.bearing.elastic()) body.bearing.mass = bodies.back().mass;
+  }
+  std::vector<GearMeshSpec> specs;
+  for (const System::Mesh& mesh : layout.meshes)
+    specs.push_back(scene.meshes[mesh.side[0].body == 0 ? 0 : 1].spec);
+  return {layout, bodies, specs};
+}
+
+}  // namespace
+
+namespace {
+
+constexpr int kSteps = 48;  // threes, over which planets hand their motion on
+
+// Three equal planets, 26, 37 and 100 teeth: a third of a mesh period apart.
+struct Planetary {
+  explicit Planetary(double eta = 1e-6, int steps = kSteps, double gap = 60e-6)
+      : system(train({26, 37, 100})), dynamics(system, motion_of(system, 4e8, eta)) {
+    dynamics.set_positions(std::vector<double>(6, gap), steps);
+  }
+  SystemModel system;
+  SystemDynamics dynamics;
+};
+
+Planetary& planetary() {
+  static Planetary out;
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a planetary train: forces at rest are those of its statics, and so is slow motion, to the first order "
+    "of the speed") {
+  Planetary& rig = planetary();
+  const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
+  for (int i = 0; i < 16; i += 5) {
+    const VectorXd p = rig.dynamics.rest_forces(3 * i);
+    for (int m = 0; m < 6; ++m) {
+      double own = 0;
+      for (const LoadedSegment& at : statics[static_cast<size_t>(i)].loads)
+        own += at.mesh == m ? at.force : 0;
+      CHECK(p.segment(m * rig.dynamics.pairs(), rig.dynamics.pairs()).sum() == relative(own, 1e-9));
+    }
+  }
+  constexpr int kFine = 192;
+  Planetary slow(1e-6, kFine);
+  SystemDynamics::State state = slow.dynamics.rest();
+  SystemDynamics::Period period;
+  std::vector<double> off;
+  for (const double frequency : {80.0, 40.0}) {
+    slow.dynamics.set_speed(frequency, kFine);
+    for (int n = 0; n < 3; ++n) REQUIRE(slow.dynamics.integrate(state, period));
+    off.push_back(0);
+    for (int i = 0; i < 16; ++i)
+      for (int m = 0; m < 6; ++m)
+        off.back() = std::max(
+            off.back(), std::abs(period.transmission_error(m, i * kFine / 16) -
+                                 statics[static_cast<size_t>(i)].transmission_error[static_cast<size_t>(m)]));
+  }
+  CHECK(off[0] < 0.004 * statics[0].transmission_error[0]);
+  CHECK(off[1] < 0.55 * off[0]);
+}
+
+TEST_CASE("a planetary train that loses contact: energy closes, runs repeat byte by byte") {
+  SystemDynamics& dynamics = planetary().dynamics;
+  std::vector<SystemDynamics::State> ends;
+  for (int run = 0; run < 2; ++run) {
+    SystemDynamics::State state = dynamics.rest();
+    SystemDynamics::Period period;
+    SystemEnergyBalance energy;
+    dynamics.set_speed(7000, kSteps);
+    for (int n = 0; n < 30; ++n) REQUIRE(dynamics.integrate(state, period));
+#ifdef WHINE_COUNTS_MEMORY
+    const long before = memory_requests;
+    REQUIRE(dynamics.integrate(state, period));
+    CHECK(memory_requests == before);
+#endif
+    int parted = 0;
+    for (int n = 0; n < 5; ++n) {
+      REQUIRE(dynamics.integrate(state, period, &energy));
+      parted += static_cast<int>((period.mesh_force.array() == 0).count());
+      CHECK(energy.imbalance < 1e-12 * energy.throughput);
+      CHECK(period.least_gap > -1e-13);
+      CHECK(period.least_force >= 0);
+    }
+    CHECK(parted > 0);
+    CHECK(energy.bearing_damping.head(4).minCoeff() > 0);
+    CHECK(energy.relaxation_damping > 0);
+    ends.push_back(state);
+  }
+  CHECK(ends[0].z == ends[1].z);
+  CHECK(ends[0].relaxed == ends[1].relaxed);
+  CHECK(ends[0].p == ends[1].p);
+}
+
+TEST_CASE(
+    "a planetary train is a period map: tangent, settled motion, orbit, and what equal planets suppress") {
+  SystemDynamics& dynamics = planetary().dynamics;
+  SystemPeriodMap map(dynamics, kSteps);
+  map.set_parameter(2600);
+  const SettledMotion plain = settle(map, map.rest(), {1e-10, 3000, false}),
+                      quick = settle(map, map.rest(), {1e-10, 3000, true});
+  REQUIRE(plain.multiple == 1);
+  REQUIRE(quick.multiple == 1);
+  CHECK(quick.periods < plain.periods);
+  CHECK((plain.start - quick.start).norm() < 1e-7);
+  // Along a direction in which no contact changes.
+  const VectorXd end = map.apply(quick.start);
+  VectorXd along = VectorXd::Zero(map.size());
+  for (Index i = 0; i < 2 * dynamics.coordinates().size(); ++i)
+    along[i] = std::sin(1.0 + static_cast<double>(i));
+  const MatrixXd slope = map.tangent_times(along);
+  const double h = 1e-6;
+  const VectorXd quotient =
+      (map.apply(quick.start + h * along) - map.apply(quick.start - h * along)) / (2 * h);
+  CHECK((slope - quotient).norm() < 1e-5 * quotient.norm());
+  const OrbitSearch orbit = find_orbit(map, plain.start, 1, {1e-9, 25});
+  INFO(orbit.failure);
+  CHECK(orbit.found());
+  CHECK((orbit.orbit.start - quick.start).norm() < 1e-7);
+  CHECK(orbit.orbit.multipliers().cwiseAbs()[0] < 1);
+
+  // z_s / N is not whole: harmonic l turns the sun only where z_s l / N is, and pushes its bearing only where it is not.
+  map.apply(quick.start);
+  const SystemDynamics::Period& period = map.period();
+  const VectorXd turn = period.transmission_error.topRows(3).colwise().sum(),
+                 push = period.bearing_force[0].row(0);
+  const Harmonics turns = harmonics(turn, 6), pushes = harmonics(push, 6);
+  double most_turn = turns.amplitude.maxCoeff(), most_push = pushes.amplitude.maxCoeff();
+  for (const int l : {1, 2, 4, 5}) {
+    CHECK(turns.amplitude[l - 1] < 1e-6 * most_turn);
+    CHECK(pushes.amplitude[l - 1] > 0);
+  }
+  for (const int l : {3, 6}) CHECK(pushes.amplitude[l - 1] < 1e-6 * most_push);
+  CHECK(most_turn > 1e-8);
+  CHECK(most_push > 1);
+}
+
+TEST_CASE("frozen contact: the lowest natural frequencies are those of the train of rigid bodies") {
+  Planetary& rig = planetary();
+  const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
+  for (const int i : {0, 3}) {
+    const VectorXd own = rig.dynamics.frozen_frequencies(3 * i);
+    const RigidSystem rigid = rigid_system(rig.system.layout, statics[static_cast<size_t>(i)].mesh_stiffness);
+    const SymmetricEigen eigen = symmetric_eigenvalues(
+        MatrixXd(rigid.mass.diagonal().cwiseSqrt().cwiseInverse().asDiagonal() * rigid.stiffness *
+                 rigid.mass.diagonal().cwiseSqrt().cwiseInverse().asDiagonal()));
+    const VectorXd other = eigen.values.cwiseMax(0.0).cwiseSqrt() / (2 * kPi);
+    for (Index n = 0; n < 5; ++n) {
+      CHECK(own[n] == relative(other[n], 0.003));
+    }
+  }
+}
+
+TEST_CASE("a third gear without torque: the first two move as a pair") {
+  const std::array<int, 3> teeth{26, 37, 26};
+  const auto gears = [&](size_t count) {
+    System layout;
+    const double distance = 0.5 * 63 * kModule;
+    GearDesign design = rigid_gear(26);
+    design.bore_radius = 8 * kModule;
+    GearDesign idler = rigid_gear(37);
+    idler.bore_radius = 13.5 * kModule;
+    add_input_gear(layout, "a", design);
+    add_driven_gear(layout, 0, design, "b", idler, distance, 0.3);
+    if (count == 3) add_driven_gear(layout, 1, idler, "c", design, distance, 1.5);
+    layout.drives = {{0, System::DriveKind::torque, kTorque},
+                     {1, System::DriveKind::torque, -kTorque * 37 / 26}};
+    std::vector<BodyArtifact> bodies;
+    std::vector<GearMeshSpec> specs;
+    for (size_t b = 0; b < count; ++b) {
+      bodies.push_back(train_body(teeth[b], false));
+      layout.bodies[b].inertia = 1.5 * bodies.back().inertia;
+    }
+    for (size_t m = 0; m + 1 < count; ++m) {
+      GearMeshSpec spec;
+      spec.gear = {layout.bodies[m].name, layout.bodies[m + 1].name};
+      spec.centre_distance = distance;
+      // Tip edges act with lever arms of their own, and would roll the two gears away from the third.
+      spec.corner.enabled = false;
+      specs.push_back(spec);
+    }
+    return SystemModel(layout, bodies, specs);
+  };
+  const SystemModel pair = gears(2), idler = gears(3);
+  SystemMotion motion = motion_of(pair, 4e8, 3e-6);
+  motion.damping.bearing_ratio = 0.02;
+  SystemDynamics one(pair, motion), three(idler, motion);
+  one.set_positions({60e-6}, kSteps);
+  three.set_positions({60e-6, 60e-6}, kSteps);
+  SystemDynamics::State a = one.rest(), b = three.rest();
+  SystemDynamics::Period p, q;
+  one.set_speed(2600, kSteps);
+  three.set_speed(2600, kSteps);
+  for (int n = 0; n < 400; ++n) {
+    REQUIRE(one.integrate(a, p));
+    REQUIRE(three.integrate(b, q));
+  }
+  CHECK(q.mesh_force.row(1).maxCoeff() == 0);
+  // An idler has the fields of both its flanks.
+  CHECK((p.transmission_error.row(0) - q.transmission_error.row(0)).norm() <
+        1e-5 * p.transmission_error.row(0).norm());
+  CHECK(q.drift_force < 1e-9 * kTorque / pair.base_radius(0));
+}
+
+TEST_CASE("stiff bearings: rigid axes, to the first order of their flexibility") {
+  const auto errors = [&](double stiffness) {
+    std::array<Bearing, 2> bearing;
+    if (stiffness > 0)
+      bearing = {Bearing{stiffness, 0.02 * std::sqrt(stiffness), 0},
+                 Bearing{stiffness, 0.02 * std::sqrt(stiffness), 0}};
+    const SystemModel system = turning_pair(bearing);
+    SystemDynamics dynamics(system, motion_of(system, 463e6));
+    dynamics.set_positions({50e-6}, 64);
+    SystemDynamics::State state = dynamics.rest();
+    SystemDynamics::Period period;
+    dynamics.set_speed(1300, 64);
+    for (int n = 0; n < 60; ++n) REQUIRE(dynamics.integrate(state, period));
+    return VectorXd(period.transmission_error.row(0));
+  };
+  const VectorXd rigid = errors(0);
+  const double one = (errors(4e11) - rigid).norm() / rigid.norm(),
+               two = (errors(8e11) - rigid).norm() / rigid.norm();
+  CHECK(one < 0.01);
+  CHECK(two / one == relative(0.5, 0.05));
+}
+
+// CPU time of a step over the number of meshes; the numbers of common/dynamics/README.md:
+//   build/bin/whine-tests --no-skip -tc='time of a step of planetary trains*'
+TEST_CASE("time of a step of planetary trains over the number of meshes" * doctest::skip()) {
+  for (const int planets : {1, 2, 3}) {
+    const SystemModel system = train({27, 36, 99}, planets);
+    SystemDynamics dynamics(system, motion_of(system, 4e8, 2e-6));
+    dynamics.set_positions(std::vector<double>(system.mesh.size(), 40e-6), kSteps);
+    SystemDynamics::State state = dynamics.rest();
+    SystemDynamics::Period period;
+    dynamics.set_speed(2500, kSteps);
+    constexpr int kPeriods = 100;
+    const auto from = std::clock();
+    for (int n = 0; n < kPeriods; ++n) REQUIRE(dynamics.integrate(state, period));
+    const double taken = static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC / (kPeriods * kSteps);
+    MESSAGE(text(system.mesh.size(), " meshes, ", dynamics.most_contacts(), " pairs in reach, ",
+                 dynamics.coordinates().size(), " coordinates: ", taken * 1e6, " us a step"));
+  }
+}

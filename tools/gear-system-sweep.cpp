@@ -1,0 +1,75 @@
+// gear-system-sweep: the dynamic response of a system of elastic gears at a series of speeds, each started from the state of the
+// one before.
+//
+// Reads   params (the system as laid out, meshes, damping, speeds, fidelity, time), body.h5 of every gear
+// Writes  system_sweep.h5   transmission error, force and load sharing of each mesh, forces on bearings and pins, energy
+// Equations: common/dynamics/system_dynamics.h (Eq. 1-6 in modes of the hub-fixed bodies, Eq. 18 at the end of each step)
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/tool.h"
+#include "io/body_codec.h"
+#include "io/fit.h"
+#include "io/named_files.h"
+#include "io/provenance.h"
+#include "io/system_scene.h"
+#include "io/system_sweep_codec.h"
+#include "studies/system_sweep.h"
+
+namespace {
+
+void body(int argc, char** argv) {
+  whine::Options options{"Speed sweep of a system of elastic gears, with contact solved at every step",
+                         "gear-system-sweep"};
+  std::string params, way, output;
+  std::vector<std::string> bodies;
+  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/system_sweep.toml")
+      .required();
+  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
+  options.add("--direction", way, "up or down").required().one_of({"up", "down"});
+  options.add("--output", output, "system_sweep.h5 to write").required();
+  options.footer(
+      "Example:\n"
+      "  gear-system-sweep --params out/three-in-line/params/system_sweep.toml --body "
+      "pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body "
+      "wheel=out/three-in-line/wheel/body.h5 --direction up --output system_sweep.h5");
+  options.parse(argc, argv);
+  const whine::Direction direction = whine::choice_of<whine::Direction>(way).value();
+
+  const whine::NamedFiles files("--body", bodies);
+  const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
+  const whine::SystemSweepParameters settings = whine::read_system_sweep_parameters(params);
+  std::vector<whine::BodyArtifact> gears;
+  const std::vector<std::string> paths = files.of(settings.gears(), "system");
+  for (size_t g = 0; g < paths.size(); ++g) {
+    gears.push_back(whine::read_body(paths[g]));
+    whine::require_body(gears.back(), settings.body[g].second, settings.body[g].first, paths[g]);
+  }
+  std::optional<whine::Progress> progress;
+  const whine::SystemSweepArtifact result =
+      whine::system_sweep(settings, gears, direction, [&](long done, long total, const std::string& note) {
+        if (!progress) progress.emplace(whine::text("gear-system-sweep ", direction), total);
+        progress->update(done, note);
+      });
+  progress.reset();
+
+  whine::write(output, result, provenance);
+  whine::tell("gear-system-sweep: ", direction, ", ", result.mesh_frequency.size(), " speeds, ",
+              result.periods.sum(), " mesh periods, RMS of the transmission error up to ",
+              result.dte_rms.maxCoeff() * 1e6, " µm, contact lost at ",
+              (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
+              " speeds, bearing forces up to ", result.bearing_force_max.maxCoeff(), " N -> ", output);
+  if (const auto other = (result.period_multiple.array() == 0).count(); other > 0)
+    whine::tell("gear-system-sweep: at ", other,
+                " speeds the motion does not become periodic; raise damping or "
+                "lower periodicity in [discretisation]");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return whine::run_tool(argc, argv, body);
+}
