@@ -240,7 +240,7 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
 TEST_CASE(
     "keys that the table marks as those of pairs are rejected in a system, by the reader that knows them") {
   const std::string table = scene_key_table();
-  for (const char* section : {"[damping]", "[operation]", "[gear.<name>.error]", "[gear.<name>.crack]"}) {
+  for (const char* section : {"[friction]", "[gear.<name>.error]", "[gear.<name>.crack]"}) {
     const size_t at = table.find(std::string("| `") + section + "`");
     REQUIRE(at != std::string::npos);
     CHECK(table.substr(at, table.find('\n', at) - at).find("of pairs alone: ") != std::string::npos);
@@ -259,8 +259,7 @@ TEST_CASE(
     return std::string();
   };
   CHECK(said("").empty());
-  CHECK(said("[damping]\n").find("take the section out") != std::string::npos);
-  CHECK(said("[operation]\n").find("take the section out") != std::string::npos);
+  CHECK(said("[friction]\ncoefficient = 0.05\n").find("take the section out") != std::string::npos);
   // 30, 60 and 120 teeth.
   CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").find("after 120 mesh periods") !=
         std::string::npos);

@@ -14,7 +14,7 @@
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/publish.h"
-#include "io/summary.h"
+#include "io/scene_words.h"
 #include "io/sweep_codec.h"
 #include "report/animation.h"
 #include "report/gnuplot.h"

@@ -11,7 +11,7 @@
 
 #include "base/tool.h"
 #include "io/publish.h"
-#include "io/summary.h"
+#include "io/scene_words.h"
 #include "report/compare.h"
 #include "report/report_inputs.h"
 

@@ -55,8 +55,9 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
       publish_if_changed(home + "/params/" + name, words);
   }
   publish_if_changed(home + "/params/title.txt", scene.title + "\n");
-  publish(output, system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
-                                  layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
+  publish(output,
+          system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
+                          layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 
@@ -575,35 +573,6 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
   }
   return lines;
-}
-
-std::string scene_words(const std::string& path) {
-  constexpr size_t kMostBytes = 160;
-  namespace fs = std::filesystem;
-  for (fs::path folder = fs::path(path).lexically_normal().parent_path(); folder.has_filename();
-       folder = folder.parent_path()) {
-    std::ifstream file(folder / "params" / "title.txt");
-    std::string title;
-    if (!file) continue;
-    std::getline(file, title);
-    const std::string name = folder.filename().string();
-    std::string words = title.empty() || title == name ? name : name + ": " + title;
-    if (words.size() > kMostBytes) {
-      size_t end = kMostBytes;
-      while (end > 0 && (static_cast<unsigned char>(words[end]) & 0xC0) == 0x80) --end;  // amid a character
-      words = words.substr(0, end) + "...";
-    }
-    return words;
-  }
-  return "";
-}
-
-std::string design_name(const std::string& path) {
-  const std::string scene = scene_words(path);
-  if (scene.empty())
-    fail(Failure::input, path,
-         ": lies in no folder of a scene, so its design has no name; give out/<scene>/...");
-  return scene.substr(0, scene.find(": "));
 }
 
 }  // namespace whine

@@ -45,9 +45,10 @@ inline Usage wait_for(pid_t child, const std::string& what) {
 }
 
 struct CalculixPosition {
-  double torque = 0;  // N m about the driven gear's axis, by the reaction of its bore or rim; positive under load
-  int nodes = 0;      // of both gears, in the plane
-  Usage usage;        // of ccx alone
+  double torque =
+      0;          // N m about the driven gear's axis, by the reaction of its bore or rim; positive under load
+  int nodes = 0;  // of both gears, in the plane
+  Usage usage;    // of ccx alone
   // [gear] Pa: tangential stress at the nodes of the root beside the loaded flank of tooth 0, from the flank on; empty unless
   // roots are asked for
   std::array<std::vector<double>, 2> root_stress;
