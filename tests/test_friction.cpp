@@ -350,6 +350,8 @@ TEST_CASE("friction: the section of a scene, and what it is rejected with") {
   CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.5\n")), "x.toml:24"));
   CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.05\nroughness_um = 1\n")),
                  "schlenk"));
+  CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.05\nlubricant_factor = 1\n")),
+                 "schlenk"));
   CHECK(contains(file.rejection(with_section("[friction]\nlaw = \"schlenk\"\nroughness_um = 1\n")),
                  "viscosity_mPas"));
   CHECK(contains(file.rejection(with_section("[friction]\nlaw = \"schlenk\"\ncoefficient = 0.1\n")),

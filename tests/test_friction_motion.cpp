@@ -249,6 +249,29 @@ TEST_CASE("friction in motion: slow and light, losses are those at rest; a sweep
   CHECK(read.friction_rolling == slow.friction_rolling);
 }
 
+TEST_CASE("friction in motion: with Schlenk's formula the energy balance closes at every speed") {
+  StaticParameters statics = with_friction(0, ContactModel::line);
+  Friction& friction = statics.mesh.friction;
+  friction.law = FrictionLaw::schlenk;
+  friction.viscosity = 0.015;
+  friction.roughness = 0.5e-6;
+  friction.static_frequency = 600;
+  const StaticArtifact s = static_transmission(coarse_body(), coarse_body(), statics, 150);
+  SweepParameters settings = paper_sweep(800, 1400, 600);
+  settings.fidelity.contact = ContactModel::line;
+  settings.fidelity.body = BodyModel::lagged;
+  settings.time.min_sample_rate = 20e3;
+  const SweepArtifact swept =
+      sweep(coarse_body(), coarse_body(), s, s.mean_stiffness, settings, Direction::up, no_report);
+  REQUIRE(swept.energy_imbalance.size() == 2);
+  CHECK(s.friction_coefficient > swept.friction.coefficient[0]);
+  CHECK(swept.friction.coefficient[0] > swept.friction.coefficient[1]);
+  for (Index row = 0; row < 2; ++row) {
+    INFO(swept.mesh_frequency[row] << " Hz: " << swept.energy_imbalance[row]);
+    CHECK(swept.energy_imbalance[row] < 1e-9);
+  }
+}
+
 TEST_CASE("friction in motion: losses over mu tend to a limit of first order") {
   const auto loss = [](double mu) {
     Rig rig(mu, ContactModel::line, BodyModel::lagged, false, 7.7e-6);

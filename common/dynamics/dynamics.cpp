@@ -118,7 +118,7 @@ void RollingDynamics::set_zone(const CandidateZone& range, int steps, const Zone
   set_hunting_gaps(beside.gaps);
   share_zones(system);
   kernel_.set_zone(std::move(system), positions_);
-  if (friction_ > 0) kernel_.set_friction(friction_, torque_force_);
+  if (model_.friction.acts()) kernel_.set_friction(friction_, torque_force_);
   size_energy_balance();
 }
 
@@ -313,11 +313,7 @@ void RollingDynamics::pass_speed(double mesh_frequency, int steps) {
   steps_ = steps;
   stride_ = finest / steps;
   const double h = step_ = 1 / (mesh_frequency * steps);
-  if (model_.friction.acts()) {
-    const double before = friction_;
-    set_friction(mesh_frequency);
-    if (friction_ != before) kernel_.set_friction(friction_, torque_force_);
-  }
+  if (model_.friction.acts()) set_friction(mesh_frequency);
   std::vector<Propagator> propagators;
   for (size_t i = 0; i < coordinates_.size(); ++i) {
     const Coordinate& c = coordinates_[i];

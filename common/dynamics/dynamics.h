@@ -18,7 +18,7 @@
 // between points of a flank, it being no finite element, is instantaneous: undamped_depth is then without meaning.
 // With friction forces act on hubs along L = h + mu s T (gear/friction.h), its direction s and T of the nominal kinematics; what
 // tangential forces do to the elastic bodies is left out. Torques are then T on the driver and T r_b2 / r_b1 (1 - loss) on the
-// driven gear, the loss that at rest. Nothing slides at a fixed phase: rest() and natural frequencies are without friction.
+// driven gear, the loss that at rest. Natural frequencies are without friction, rest() but for its torques and `force`.
 // Gap of a strip: d = e - h z + U + A_local p >= 0 with p >= 0, p . d = 0 at the end of each step (Eq. 18).
 // With contact = "line" a pair is one strip on one node, and Hertz's law of its force stands in for the half-planes in
 // A_local p. It is relative to the undamped depth and is instantaneous, as they do.

@@ -289,7 +289,9 @@ void RollingDynamics::slide(Position& position) const {
 }
 
 // The coefficient at a speed, and the torques that go with it.
+// The coefficient and the torques, here, in the kernel and in the energy balance. Before set_zone, which hands them on, here only.
 void RollingDynamics::set_friction(double mesh_frequency) {
+  const double before = friction_;
   friction_ = model_.coefficient_of_friction(parameters_.torque, mesh_frequency);
   const double kept = 1 - parameters_.loss_per_friction * friction_;
   for (Eigen::Index i = 0; i < torque_force_.size(); ++i) {
@@ -298,6 +300,9 @@ void RollingDynamics::set_friction(double mesh_frequency) {
         parameters_.torque * (c.hub[0] + kept * c.hub[1] * model_.kinematics.gear(1).base_radius() /
                                              model_.kinematics.gear(0).base_radius());
   }
+  if (positions_.empty() || friction_ == before) return;
+  kernel_.set_friction(friction_, torque_force_);
+  balance_work_.torque.head(torque_force_.size()) = torque_force_;
 }
 
 VectorXd RollingDynamics::force_of(const Position& position, const VectorXd& nodes) const {

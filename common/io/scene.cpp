@@ -397,6 +397,7 @@ void read_friction(const Source& source, GearMeshSpec& mesh) {
                "is given beside law = \"schlenk\", which computes it; take one of the two out");
   for (const auto& [key, value] : {std::pair{"viscosity_mPas", mesh.friction.viscosity},
                                    std::pair{"roughness_um", mesh.friction.roughness},
+                                   std::pair{"lubricant_factor", mesh.friction.lubricant_factor},
                                    std::pair{"static_frequency_Hz", mesh.friction.static_frequency}}) {
     if (constant && table->get(key))
       reject_key(key, "has a meaning with law = \"schlenk\" only; take it out");

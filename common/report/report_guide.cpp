@@ -115,8 +115,8 @@ constexpr Row kRows[] = {
     {Needs::motion, "efficiency", "Efficiency, power lost by friction",
      "What friction between the flanks takes, at rest and in motion; the loss factor H_V is apart from the "
      "coefficient of friction.",
-     "Proportional to the coefficient of friction, which formulas give to 20 to 35 %; H_V itself to a few "
-     "per cent. Oil, bearings and windage are left out.",
+     "Proportional to the coefficient of friction, which formulas give to 20 to 35 %; H_V is that of "
+     "the loads: where they jump with the speed, so does it. Oil, bearings and windage are left out.",
      "Compare designs by H_V; it depends on no coefficient."},
     {Needs::motion, "bearing-forces", "Forces on the bearings",
      "What each gear presses its bearing with, spring and damper together; the oscillating part is what a "
@@ -130,7 +130,7 @@ constexpr Row kRows[] = {
      "What each refinement of the computation alone changes. Add the lines: the sum bounds the numerical "
      "error "
      "of the statics.",
-     "It tells nothing of what is not modelled: shafts, friction, lead errors, heat.",
+     "It tells nothing of what is not modelled: shafts, what friction does to the bodies, lead errors, heat.",
      "A line above 1 %: refine that key of [discretisation]."},
     {Needs::nothing, "fig01", "Mesh of the pair",
      "The finite elements that carry the bending; flanks in contact are exact.",
