@@ -7,7 +7,6 @@
 
 #include "dynamics/steady_state.h"
 #include "failure_of.h"
-#include "orbits/periodic_motion.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/branch_end.h"
@@ -416,32 +415,4 @@ TEST_CASE("candidate contact zones of one sweep share one limit of memory") {
   CHECK(own > 128 * 8.0 * 11 * 2 * (6 + 2));
   CHECK(!rejected(12e9 - own));
   CHECK(rejected(12e9 - own + 1));
-}
-
-namespace {
-
-// Two coordinates: a slow one that dies away, and one that leaves its unstable rest slower still, for +-sqrt(0.05).
-struct UnstableRest : PeriodMap {
-  int size() const override { return 2; }
-  void set_parameter(double) override {}
-  double parameter() const override { return 0; }
-  VectorXd apply(const VectorXd& y) override {
-    return Eigen::Vector2d(0.95 * y[0], (1.05 - y[1] * y[1]) * y[1]);
-  }
-  Eigen::MatrixXd tangent() override { return {}; }
-  std::vector<ContactEvent> events() const override { return {}; }
-  VectorXd observable() const override { return {}; }
-};
-
-}  // namespace
-
-TEST_CASE("iterates of a period map: an unstable motion that a proposal hits is left again") {
-  UnstableRest map;
-  for (const bool accelerate : {false, true}) {
-    CAPTURE(accelerate);
-    const PeriodicMotion motion =
-        find_periodic_motion(map, Eigen::Vector2d(1e-3, 1e-12), {1e-9, 3000, accelerate});
-    CHECK(motion.multiple == 1);
-    CHECK(motion.state[1] == relative(std::sqrt(0.05), 1e-6));
-  }
 }
