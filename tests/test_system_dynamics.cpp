@@ -14,8 +14,8 @@
 #include "gear/train.h"
 #include "io/system_scene.h"
 #include "memory.h"
+#include "orbits/periodic_motion.h"
 #include "orbits/periodic_orbit.h"
-#include "orbits/settle.h"
 #include "paper_pair.h"
 #include "planetary_train.h"
 #include "relative.h"
@@ -195,7 +195,7 @@ TEST_CASE(
   SystemDynamics::State state = slow.dynamics.rest();
   SystemDynamics::Period period;
   std::vector<double> off;
-  for (const double frequency : {80.0, 40.0}) {
+  for (const double frequency : {80.0, 40.0, 20.0}) {
     slow.dynamics.set_speed(frequency, kFine);
     for (int n = 0; n < 3; ++n) REQUIRE(slow.dynamics.integrate(state, period));
     off.push_back(0);
@@ -205,71 +205,66 @@ TEST_CASE(
             off.back(), std::abs(period.transmission_error(m, i * kFine / 16) -
                                  statics[static_cast<size_t>(i)].transmission_error[static_cast<size_t>(m)]));
   }
-  CHECK(off[0] < 0.004 * statics[0].transmission_error[0]);
+  CHECK(off[0] < 0.003 * statics[0].transmission_error[0]);
   CHECK(off[1] < 0.55 * off[0]);
+  CHECK(off[2] < 0.55 * off[1]);
 }
 
-TEST_CASE("a planetary train that loses contact: energy closes, runs repeat byte by byte") {
+TEST_CASE("a planetary train that loses contact: energy closes, p . d and dropped loads included") {
   SystemDynamics& dynamics = planetary().dynamics;
-  std::vector<SystemDynamics::State> ends;
-  for (int run = 0; run < 2; ++run) {
-    SystemDynamics::State state = dynamics.rest();
-    SystemDynamics::Period period;
-    SystemEnergyBalance energy;
-    dynamics.set_speed(7000, kSteps);
-    for (int n = 0; n < 30; ++n) REQUIRE(dynamics.integrate(state, period));
+  SystemDynamics::State state = dynamics.rest();
+  SystemDynamics::Period period;
+  SystemEnergyBalance energy;
+  dynamics.set_speed(7000, kSteps);
+  for (int n = 0; n < 30; ++n) REQUIRE(dynamics.integrate(state, period));
 #ifdef WHINE_COUNTS_MEMORY
-    const long before = memory_requests;
-    REQUIRE(dynamics.integrate(state, period));
-    CHECK(memory_requests == before);
+  const long before = memory_requests;
+  REQUIRE(dynamics.integrate(state, period));
+  CHECK(memory_requests == before);
 #endif
-    int parted = 0;
-    for (int n = 0; n < 5; ++n) {
-      REQUIRE(dynamics.integrate(state, period, &energy));
-      parted += static_cast<int>((period.mesh_force.array() == 0).count());
-      CHECK(energy.imbalance < 1e-12 * energy.throughput);
-      CHECK(period.least_gap > -1e-13);
-      CHECK(period.least_force >= 0);
-    }
-    CHECK(parted > 0);
-    CHECK(energy.bearing_damping.head(4).minCoeff() > 0);
-    CHECK(energy.relaxation_damping > 0);
-    ends.push_back(state);
+  int parted = 0;
+  for (int n = 0; n < 5; ++n) {
+    REQUIRE(dynamics.integrate(state, period, &energy));
+    parted += static_cast<int>((period.mesh_force.array() == 0).count());
+    CHECK(energy.imbalance < 1e-12 * energy.throughput);
+    CHECK(std::abs(energy.dropped) < 1e-9 * energy.throughput);
+    CHECK(energy.cutting.cwiseAbs().sum() < 1e-9 * energy.throughput);
+    CHECK(period.least_gap > -1e-13);
   }
-  CHECK(ends[0].z == ends[1].z);
-  CHECK(ends[0].relaxed == ends[1].relaxed);
-  CHECK(ends[0].p == ends[1].p);
+  CHECK(parted > 0);
+  CHECK(energy.bearing_damping.head(4).minCoeff() > 0);
+  CHECK(energy.relaxation_damping > 0);
 }
 
 TEST_CASE(
-    "a planetary train is a period map: tangent, settled motion, orbit, and what equal planets suppress") {
+    "a planetary train is a period map: tangent, periodic motion, orbit, and what equal planets suppress") {
   SystemDynamics& dynamics = planetary().dynamics;
   SystemPeriodMap map(dynamics, kSteps);
   map.set_parameter(2600);
-  const SettledMotion plain = settle(map, map.rest(), {1e-10, 3000, false}),
-                      quick = settle(map, map.rest(), {1e-10, 3000, true});
+  const PeriodicMotion plain = find_periodic_motion(map, map.rest(), {1e-10, 3000, false}),
+                       quick = find_periodic_motion(map, map.rest(), {1e-10, 3000, true});
   REQUIRE(plain.multiple == 1);
   REQUIRE(quick.multiple == 1);
   CHECK(quick.periods < plain.periods);
-  CHECK((plain.start - quick.start).norm() < 1e-7);
+  CHECK((plain.state - quick.state).norm() < 1e-7);
   // Along a direction in which no contact changes.
-  const VectorXd end = map.apply(quick.start);
+  const VectorXd end = map.apply(quick.state);
   VectorXd along = VectorXd::Zero(map.size());
   for (Index i = 0; i < 2 * dynamics.coordinates().size(); ++i)
     along[i] = std::sin(1.0 + static_cast<double>(i));
   const MatrixXd slope = map.tangent_times(along);
   const double h = 1e-6;
   const VectorXd quotient =
-      (map.apply(quick.start + h * along) - map.apply(quick.start - h * along)) / (2 * h);
+      (map.apply(quick.state + h * along) - map.apply(quick.state - h * along)) / (2 * h);
   CHECK((slope - quotient).norm() < 1e-5 * quotient.norm());
-  const OrbitSearch orbit = find_orbit(map, plain.start, 1, {1e-9, 25});
+  const OrbitSearch orbit = find_orbit(map, plain.state, 1, {1e-9, 25});
   INFO(orbit.failure);
   CHECK(orbit.found());
-  CHECK((orbit.orbit.start - quick.start).norm() < 1e-7);
+  CHECK((orbit.orbit.start - quick.state).norm() < 1e-7);
   CHECK(orbit.orbit.multipliers().cwiseAbs()[0] < 1);
 
   // z_s / N is not whole: harmonic l turns the sun only where z_s l / N is, and pushes its bearing only where it is not.
-  map.apply(quick.start);
+  map.apply(quick.state);
   const SystemDynamics::Period& period = map.period();
   const VectorXd turn = period.transmission_error.topRows(3).colwise().sum(),
                  push = period.bearing_force[0].row(0);
@@ -277,7 +272,7 @@ TEST_CASE(
   double most_turn = turns.amplitude.maxCoeff(), most_push = pushes.amplitude.maxCoeff();
   for (const int l : {1, 2, 4, 5}) {
     CHECK(turns.amplitude[l - 1] < 1e-6 * most_turn);
-    CHECK(pushes.amplitude[l - 1] > 0);
+    CHECK(pushes.amplitude[l - 1] > 1e-3 * most_push);
   }
   for (const int l : {3, 6}) CHECK(pushes.amplitude[l - 1] < 1e-6 * most_push);
   CHECK(most_turn > 1e-8);

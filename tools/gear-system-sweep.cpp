@@ -62,10 +62,13 @@ void body(int argc, char** argv) {
               result.dte_rms.maxCoeff() * 1e6, " µm, contact lost at ",
               (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
               " speeds, bearing forces up to ", result.bearing_force_max.maxCoeff(), " N -> ", output);
-  if (const auto other = (result.period_multiple.array() == 0).count(); other > 0)
-    whine::tell("gear-system-sweep: at ", other,
-                " speeds the motion does not become periodic; raise damping or "
-                "lower periodicity in [discretisation]");
+  std::string speeds;
+  for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
+    if (result.period_multiple[i] == 0)
+      speeds += whine::text(speeds.empty() ? "" : ", ", result.mesh_frequency[i]);
+  if (!speeds.empty())
+    whine::tell("gear-system-sweep: the motion does not become periodic at ", speeds,
+                " Hz; raise damping, or periodicity in [discretisation]");
 }
 
 }  // namespace

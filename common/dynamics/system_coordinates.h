@@ -8,7 +8,7 @@
 //   planetary train: of its carrier, which is held), M0 = [[m, G^T], [G, 1]], K0 = diag(k, w^2). Of the damper of the bearing the
 //   diagonal is kept; modes of one pair have the same one, as bearings are alike in all directions.
 // - All other modes turn with their gear; doublets turn back by a tooth at the end of a mesh period.
-// Coriolis and centrifugal terms are left out.
+// Coriolis and centrifugal terms are left out: nothing where the carrier stands still, see README.md where it turns.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

@@ -56,6 +56,21 @@ double SystemDynamics::read(const Position& position, int k, const VectorXd& rel
   return out;
 }
 
+// Throws if Hertz's law does not hold for a force, or its width leaves the flanks.
+void SystemDynamics::require_range(const Position& position, const Eigen::Ref<const VectorXd>& force) const {
+  for (int k = 0; k < position.size(); ++k) {
+    const auto at = static_cast<size_t>(k);
+    const HertzLine& law = position.law[at];
+    const double width = law.width(force[k]);
+    if (force[k] <= law.largest_force() && width <= position.facing[at]) continue;
+    fail_outside_range(Failure::numerical, "a pair of teeth of ",
+                       mesh_name(system_.layout, static_cast<size_t>(position.contact[at].mesh)), " carries ",
+                       force[k], " N on a width of ", width * 1e3, " mm; its flanks face each other over ",
+                       position.facing[at] * 1e3, " mm, and Hertz's law holds up to ", law.largest_force(),
+                       " N; lower the torque, or raise undamped_depth_mm");
+  }
+}
+
 // y -= weight h force, by coordinate.
 void SystemDynamics::push(const Position& position, int k, double force, const VectorXd& weight,
                           VectorXd& y) const {
@@ -130,7 +145,7 @@ SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
   ComplementaritySolver solver;
   const SystemEquilibrium out =
       equilibrium(system_, at, compliance, VectorXd::Zero(static_cast<Index>(system_.body.size())), solver);
-  require_hertz_range(position.law, out.p);
+  require_range(position, out.p);
   if (!z) return out;
   *z = coordinates_.torque;
   for (int k = 0; k < position.size(); ++k) push(position, k, out.p[k], VectorXd::Ones(z->size()), *z);
@@ -302,7 +317,7 @@ bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance
     for (i = 1; i <= steps_; ++i) {
       step(at(i));
       forces_.row(i) = p_of_slot_;
-      require_hertz_range(at(i).law, p_.head(at(i).size()));
+      require_range(at(i), p_.head(at(i).size()));
       if (!record(at(i), i % steps_, period)) return false;
       if (balance) record_of.step(at(i));
     }

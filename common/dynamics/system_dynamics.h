@@ -94,6 +94,7 @@ class SystemDynamics {
   struct Position {
     std::vector<Contact> contact;
     std::vector<HertzLine> law;              // (contact)
+    std::vector<double> facing;              // (contact) m: width over which its flanks face each other
     Eigen::VectorXd gap;                     // (contact) m
     Eigen::MatrixXd rigid;                   // (rigid rotation, contact): h
     std::array<Eigen::MatrixXd, 2> elastic;  // [side] (coordinate of its body, contact): h
@@ -106,6 +107,7 @@ class SystemDynamics {
     int size() const { return static_cast<int>(contact.size()); }
   };
   SystemPosition positioned(int i) const;
+  void require_range(const Position& position, const Eigen::Ref<const Eigen::VectorXd>& force) const;
   void find_slots(const std::vector<SystemPosition>& placed);
   void couple();
   Position filled(const SystemPosition& at, int shift);

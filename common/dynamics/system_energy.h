@@ -16,9 +16,11 @@ struct SystemEnergyBalance {
   Eigen::VectorXd bearing_damping;  // (body)
   double relaxation_damping = 0;
   Eigen::VectorXd switching;  // (mesh) of the scheme, see EnergyBalance
-  Eigen::VectorXd cutting;    // (mesh) pairs that are taken out, or let in, under force
+  Eigen::VectorXd cutting;    // (mesh) pairs that a corner rule removes or adds while they carry force
   double averaging = 0;       // of the scheme
-  double dropped = 0;  // relaxed loads of teeth that are no longer followed, and starts that are no solution
+  // Relaxed loads of teeth that are no longer followed; the renaming of teeth adds the same to `residual`, so that it is not checked.
+  // And -p . d / 2 of a start that violates the contact conditions. p . d of the steps themselves is imbalance.
+  double dropped = 0;
   double throughput = 0;  // sum of |drive| + |rolling| per step
   double imbalance = 0;   // largest |sum of the lines so far|
 };

@@ -86,9 +86,10 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
 
 void SystemEnergyRecord::start(const SystemDynamics::Position& position) {
   fill(now_, position);
+  first_step_ = true;
 }
 
-// Of forces (mean) on coordinates: kinetic and elastic energy, dampers, drives. Result: what is left of them.
+// Kinetic and elastic energy, dampers, drives. Result: imbalance of the modal equations under mean forces.
 double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
   const SystemCoordinates& c = of_.coordinates_;
   const auto w2 = c.frequency.array().square();
@@ -141,7 +142,8 @@ double SystemEnergyRecord::relaxation(const Instant& a, const Instant& b) {
 }
 
 // With p . d = 0 at both ends the mean force does no work on d but where contact opens or closes within the step (switching); what
-// gaps, h and W change by themselves is rolling. Contacts are those of one slot at both ends.
+// gaps, h and W change by themselves is rolling. p . d of a solved step is booked nowhere: it is imbalance. That of the state in which
+// the period starts is `dropped`. Contacts are those of one slot at both ends.
 double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
   const SystemDynamics::Position &from = *a.position, &to = *b.position;
   const auto find = [](const SystemDynamics::Position& in, int slot) {
@@ -175,11 +177,11 @@ double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
     rolling -= 0.5 * (p0 + p1) * (to.gap[l] - from.gap[k]) + 0.5 * (p0 * b.local[l] - p1 * a.local[k]);
     rolling += law_rolling;
     const double switching = law_switching + 0.5 * (p0 * b.d[l] - p1 * a.d[k]),
-                 no_solution = 0.5 * (p1 * b.d[l] - p0 * a.d[k]);
+                 of_start = first_step_ ? -0.5 * p0 * a.d[k] : 0;
     rolled[contact.mesh] += rolling;
     balance_->switching[contact.mesh] += switching;
-    balance_->dropped += no_solution;
-    all += rolling + switching + no_solution;
+    balance_->dropped += of_start;
+    all += rolling + switching + of_start;
   }
   for (int l = 0; l < to.size(); ++l) {
     const SystemDynamics::Contact& contact = to.contact[static_cast<size_t>(l)];
@@ -202,6 +204,7 @@ void SystemEnergyRecord::step(const SystemDynamics::Position& position) {
   const double local = now_.stored - before_.stored;
   balance_->local += local;
   sum_ += local;
+  first_step_ = false;
   balance_->imbalance = std::max(balance_->imbalance, std::abs(sum_));
 }
 

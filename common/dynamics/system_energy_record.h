@@ -15,7 +15,7 @@ class SystemEnergyRecord {
   void finish();  // after the teeth have been renamed
 
  private:
-  // What a step is reckoned from, at one end of it.
+  // State at one end of a step.
   struct Instant {
     const SystemDynamics::Position* position = nullptr;
     Eigen::VectorXd z, v, force, relaxed, load;
@@ -33,6 +33,7 @@ class SystemEnergyRecord {
   SystemEnergyBalance* balance_;
   Instant before_, now_;
   double sum_ = 0;
+  bool first_step_ = true;
   Eigen::VectorXd speed_, mixed_, push_;  // (coordinate) integrals over a step, see DampingIntegrals
   double decay2_ = 0, mixed2_ = 0, growth2_ = 0, decay_ = 0, growth_ = 0, late_decay_ = 0, late_growth_ = 0;
 };

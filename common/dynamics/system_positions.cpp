@@ -94,7 +94,7 @@ void SystemDynamics::find_slots(const std::vector<SystemPosition>& placed) {
     for (const ContactSegment& segment : at.segment) {
       const int pair = segment.pair - mesh_instant(system_, segment.mesh, at.phase, 0).period;
       first_ = std::min(first_, pair - 1);
-      last_ = std::max(last_, pair);
+      last_ = std::max(last_, pair + 1);  // its relaxed loads after contact
     }
   }
   meshes_of_.assign(system_.body.size(), {});
@@ -162,6 +162,7 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
   }
   for (const MeshPosition& mesh : at.mesh) {
     out.law.insert(out.law.end(), mesh.law.begin(), mesh.law.end());
+    for (const PairStrips& pair : mesh.pairs) out.facing.push_back(pair.contact.x_max - pair.contact.x_min);
     out.next_gap.push_back(mesh.next_corner_gap);
     out.lost_gap.push_back(mesh.lost_corner_gap);
   }

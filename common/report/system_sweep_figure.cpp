@@ -24,7 +24,8 @@ constexpr Quantity kQuantities[] = {
     {"dte_rms", "RMS of the transmission error", "µm", kMicro, &SystemSweepArtifact::dte_rms, false},
     {"separation_fraction", "Time without contact", "%", kPercent, &SystemSweepArtifact::separation_fraction,
      false},
-    {"bearing_force_rms", "Bearing force, RMS", "N", 1, &SystemSweepArtifact::bearing_force_rms, true}};
+    {"bearing_force_rms", "Bearing force, oscillating (RMS)", "N", 1, &SystemSweepArtifact::bearing_force_rms,
+     true}};
 
 std::vector<std::string> names_of(const System& s, bool bodies) {
   std::vector<std::string> out;

@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "dynamics/system_period_map.h"
+#include "orbits/periodic_motion.h"
 #include "orbits/recurrence.h"
-#include "orbits/settle.h"
 #include "studies/sweep.h"
 #include "system/system_rest.h"
 
@@ -144,10 +144,10 @@ class SystemRig {
       SystemPeriodMap map(*dynamics_, steps_at(settings_.time, frequency));
       map.set_parameter(frequency);
       try {
-        const SettledMotion motion = settle(
+        const PeriodicMotion motion = find_periodic_motion(
             map, map.flat(state_),
             {settings_.time.periodicity, 3000, settings_.time.steady_state == SteadyState::extrapolate});
-        state_ = map.state(motion.start);
+        state_ = map.state(motion.state);
         if (!record(motion, row, out))
           throw ModelRangeError(Failure::numerical, "contact leaves the tip edges");
         return motion.multiple == 1   ? ""
@@ -187,7 +187,7 @@ class SystemRig {
   }
 
   // False if contact leaves the tip edges that are looked at.
-  bool record(const SettledMotion& motion, Index row, SystemSweepArtifact& out) {
+  bool record(const PeriodicMotion& motion, Index row, SystemSweepArtifact& out) {
     const int periods = motion.multiple > 0 ? motion.multiple : Recurrence<VectorXd>::kMostMultiple;
     Recorded recorded(out, system_.mesh.size(), settings_.layout.bodies.size());
     SystemEnergyBalance energy;

@@ -1,4 +1,4 @@
-#include "orbits/settle.h"
+#include "orbits/periodic_motion.h"
 
 #include <algorithm>
 #include <deque>
@@ -23,6 +23,7 @@ constexpr int kLongestPause = 64;  // periods of plain iteration after proposals
 class Acceleration {
  public:
   void take(const VectorXd& start, const VectorXd& end) {
+    in_a_row_ = known_ && start == end_ ? in_a_row_ + 1 : 1;
     if (known_) {
       starts_.push_back(start - start_);
       ends_.push_back(end - end_);
@@ -38,7 +39,10 @@ class Acceleration {
   void forget() { *this = {}; }
   bool ready() const { return static_cast<int>(starts_.size()) == kColumns; }
   std::optional<VectorXd> propose() const {
-    constexpr double kAlike = 1e-3;  // columns of unit length that differ by less say nothing new
+    constexpr double kAlike = 1e-3;  // columns of unit length that differ by less are linearly dependent
+    // Periods in a row come to show the largest multipliers; of others one may seem smaller than it is, by some hundredths.
+    constexpr double kSurelyInside = 0.9;
+    const double most = in_a_row_ > kColumns ? 1 : kSurelyInside;
     MatrixXd start(start_.size(), kColumns), end = start;
     for (Index i = 0; i < kColumns; ++i) {
       const double length = (ends_[static_cast<size_t>(i)] - starts_[static_cast<size_t>(i)]).norm();
@@ -47,29 +51,36 @@ class Acceleration {
       end.col(i) = ends_[static_cast<size_t>(i)] / length;
     }
     const GeneralEigenvalues multipliers = general_eigenvalues(least_squares(start, end, kAlike));
-    if (!multipliers.converged || !(multipliers.values.cwiseAbs().maxCoeff() < 1)) return std::nullopt;
+    if (!multipliers.converged || !(multipliers.values.cwiseAbs().maxCoeff() < most)) return std::nullopt;
     return end_ - end * least_squares(end - start, end_ - start_, kAlike);
   }
 
  private:
   bool known_ = false;
+  int in_a_row_ = 0;  // periods, each from the end of the one before
   VectorXd start_, end_;
   std::deque<VectorXd> starts_, ends_;
 };
 
 }  // namespace
 
-SettledMotion settle(PeriodMap& map, const VectorXd& start, const SettleOptions& options) {
-  SettledMotion out;
+PeriodicMotion find_periodic_motion(PeriodMap& map, const VectorXd& start,
+                                    const PeriodicMotionOptions& options) {
+  PeriodicMotion out;
   VectorXd y = start, integrated;
   Acceleration acceleration;
   Recurrence<VectorXd> recurrence(options.periodicity, y);
-  bool pending = false;  // y descends from a proposal
+  bool pending = false;       // y descends from a proposal
+  bool extrapolated = false;  // y may descend from one, also where another one was rejected since
   double change_before = 0;
   int pause = 0, patience = 0;
-  const auto reject = [&] {
+  const auto distance = [](const VectorXd& a, const VectorXd& b) { return (a - b).norm(); };
+  const auto iterate_on = [&] {
     pause = patience = std::min(2 * patience + kColumns, kLongestPause);
     acceleration.forget();
+  };
+  const auto reject = [&] {
+    iterate_on();
     pending = false;
     y = integrated;
     recurrence.restart(y);
@@ -83,15 +94,32 @@ SettledMotion settle(PeriodMap& map, const VectorXd& start, const SettleOptions&
       reject();
       continue;
     }
-    recurrence.compare(y, n, [](const VectorXd& a, const VectorXd& b) { return (a - b).norm(); });
+    recurrence.compare(y, n, distance);
     const double change = recurrence.change(1);
     if (pending && change > change_before) {
       reject();
       continue;
     }
     const int multiple = recurrence.multiple();
+    if (extrapolated && multiple == 1 && n < options.most_periods && change > 0) {
+      // A proposal may have hit an unstable motion: then the next period is a step away from it.
+      recurrence.keep(y, n++);
+      y = map.apply(y);
+      recurrence.compare(y, n, distance);
+      if (recurrence.change(1) > change) {
+        recurrence.keep(y, n);
+        iterate_on();
+        pending = false;
+        continue;
+      }
+      out.state = y;
+      out.multiple = 1;
+      out.periods = n;
+      out.residual = recurrence.change(1);
+      return out;
+    }
     if (multiple > 0 || n >= options.most_periods) {
-      out.start = y;
+      out.state = y;
       out.multiple = multiple;
       out.periods = n;
       out.residual = recurrence.change(std::max(multiple, 1));
@@ -108,7 +136,7 @@ SettledMotion settle(PeriodMap& map, const VectorXd& start, const SettleOptions&
     if (const auto proposed = acceleration.propose()) {
       integrated = y;
       change_before = change;
-      pending = true;
+      pending = extrapolated = true;
       y = *proposed;
       recurrence.restart(y);
     }
