@@ -101,7 +101,7 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
     for (const Eigen::VectorXd& load : r->edge_load) edge = std::max(edge, load.maxCoeff());
   }
   figure.notes = {
-      "Hertz's law of the load that a pair holds for 1/64 of a mesh period at each place of the flanks; "
+      "Hertz's law of the least load of a pair over 1/64 of a mesh period at each place of the flanks; "
       "largest "
       "over the mesh periods" +
           (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kMegapascal, 4) + " MPa" : ""),

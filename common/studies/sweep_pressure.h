@@ -3,8 +3,9 @@
 //   p_H = sqrt(F E* / (pi b R)),   a = sqrt(4 F R / (pi b E*))
 // F the load of a pair, b the face width, R the relative radius of curvature at the nominal touching point, E* of both materials
 // in the plane state of the contact, a the half width. A pair passes each place of the flanks once in a mesh period; places are
-// 1/64 of a mesh period wide. The load of a place is what the pair holds while it passes it (the least of the samples there), so
-// that spikes of single samples, whose height depends on the time step, do not count.
+// 1/64 of a mesh period wide. The load of a place is the least of the samples there (4 of 256 steps, 2 of 128), so that spikes of
+// single samples, whose height depends on the time step, do not count; it differs by some per cent from loads held for 1/64 of a
+// period wherever that begins (signal's held loads). With 64 steps or fewer it is a single sample.
 //
 // No pressure is stated where there is none: a tip edge is sharp in this model, and the pressure of an edge on a flank is
 // singular. Of pairs that touch at a tip edge off the line of action, and of contacts that reach a tip edge (the half width
