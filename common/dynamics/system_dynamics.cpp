@@ -123,7 +123,7 @@ void SystemDynamics::set_speed(double mesh_frequency, int steps) {
   }
   relaxed_step_ = relaxation_step(relaxation_, step_);
   for (int i = 0; i <= steps_; ++i) {
-    Position& position = positions_[static_cast<size_t>(i * stride_)];
+    Position& position = positions_[static_cast<size_t>(i) * static_cast<size_t>(stride_)];
     position.compliance =
         position.at_once + relaxed_step_.from_new * position.relaxed + modal_compliance(position, 0.5 * bq_);
   }

@@ -127,7 +127,7 @@ class SystemDynamics {
   bool record(const Position& position, int sample, Period& period) const;
   void rename();
   const Position& at(int step) const {  // of the speed's steps
-    return positions_[static_cast<size_t>(step * stride_)];
+    return positions_[static_cast<size_t>(step) * static_cast<size_t>(stride_)];
   }
   SystemEquilibrium equilibrium_at(int i, Eigen::VectorXd* z);
 
