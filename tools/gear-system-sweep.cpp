@@ -44,6 +44,7 @@ void body(int argc, char** argv) {
   const whine::SystemSweepParameters settings = whine::read_system_sweep_parameters(params);
   std::vector<whine::BodyArtifact> gears;
   const std::vector<std::string> paths = files.of(settings.gears(), "system");
+  gears.reserve(paths.size());
   for (size_t g = 0; g < paths.size(); ++g) {
     gears.push_back(whine::read_body(paths[g]));
     whine::require_body(gears.back(), settings.body[g].second, settings.body[g].first, paths[g]);

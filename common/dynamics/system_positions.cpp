@@ -55,6 +55,7 @@ SystemPosition SystemDynamics::positioned(int i) const {
   const int steps = static_cast<int>(positions_.size()) - 1;
   const double phase = static_cast<double>(i) / steps;
   std::vector<MeshPosition> meshes;
+  meshes.reserve(system_.mesh.size());
   for (int m = 0; m < this->meshes(); ++m) {
     const MeshInstant at = mesh_instant(system_, m, phase, 0);
     meshes.push_back(make_line_position(system_.mesh[static_cast<size_t>(m)], at.phase,
@@ -114,6 +115,7 @@ void SystemDynamics::couple() {
   coupling_.clear();
   for (int b = 0; b < static_cast<int>(system_.body.size()); ++b) {
     std::vector<ToothFlank> flank;  // of each slot
+    flank.reserve(meshes_of_[static_cast<size_t>(b)].size() * static_cast<size_t>(pairs()));
     for (const int m : meshes_of_[static_cast<size_t>(b)]) {
       const System::Side& side =
           system_.layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(system_.side_of(b, m))];
@@ -227,7 +229,8 @@ void SystemDynamics::relate(Position& position, const SystemPosition& at) const 
                     row = (read.load_at[s] - base) / kFields, column = (loaded.load_at[t] - base) / kFields;
           const double whole =
               weights(read, s, k)
-                  .dot(tables_[static_cast<size_t>(b)][static_cast<size_t>(row * slots + column)] *
+                  .dot(tables_[static_cast<size_t>(b)][static_cast<size_t>(row) * static_cast<size_t>(slots) +
+                                                       static_cast<size_t>(column)] *
                        weights(loaded, t, l).transpose());
           position.relaxed(k, l) += soft;
           position.at_once(k, l) += whole - soft;
@@ -240,6 +243,7 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   corner_gap_ = corner_gap;
   positions_.assign(static_cast<size_t>(steps) + 1, {});
   std::vector<SystemPosition> placed;
+  placed.reserve(static_cast<size_t>(steps));
   for (int i = 0; i < steps; ++i) placed.push_back(positioned(i));
   find_slots(placed);
   couple();

@@ -157,6 +157,7 @@ FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::strin
     block.rows.push_back(row);
   };
   std::vector<std::pair<double, size_t>> order;
+  order.reserve(static_cast<size_t>(n));
   for (Index i = 0; i < n; ++i) {
     const double own = a.mesh_phase[i] + a.settings.layout.meshes[m].phase;
     order.emplace_back(own - std::floor(own), static_cast<size_t>(i));
@@ -200,6 +201,7 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
     }
     for (Index i = 0; i <= n; ++i) {
       std::vector<double> values{i < n ? a.mesh_phase[i] : 1.0};
+      values.reserve(shown + 1);
       for (size_t j = 0; j < shown; ++j)
         values.push_back(a.load_share(i < n ? i : 0, static_cast<Index>(of.meshes[j])) * kPercent);
       shares.rows.push_back(values);

@@ -91,6 +91,7 @@ void add_arrow(Blocks& out, const System::Body& body, double r) {
   constexpr double kFrom = 25, kTo = 95;  // degrees
   constexpr int kSteps = 16;
   std::vector<Vec2> arc;
+  arc.reserve(kSteps + 1);
   for (int i = 0; i <= kSteps; ++i) {
     const double angle = (kFrom + (kTo - kFrom) * (body.sense > 0 ? i : kSteps - i) / kSteps) * kPi / 180;
     arc.push_back(centre_of(body) + r * Vec2(std::cos(angle), std::sin(angle)));

@@ -37,6 +37,7 @@ std::string of_rest(const SystemReport& r) {
   if (!r.rest) return "";
   const SystemStaticArtifact& a = *r.rest;
   std::vector<std::string> parts;
+  parts.reserve(static_cast<size_t>(a.transmission_error.cols()));
   for (Index m = 0; m < a.transmission_error.cols(); ++m)
     parts.push_back(text(significant(peak_to_peak(a.transmission_error.col(m)) * kMicro, 3), " µm of ",
                          mesh_name(a.settings.layout, static_cast<size_t>(m))));
@@ -54,9 +55,10 @@ std::string of_rest(const SystemReport& r) {
 
 std::string of_sharing(const SystemReport& r) {
   if (!r.rest) return "";
+  const std::vector<LoadSharing> sharing = load_sharing(*r.rest);
   std::vector<std::string> parts;
-  for (const LoadSharing& of : load_sharing(*r.rest))
-    parts.push_back(text(fixed(of.factor, 3), " of ", of.name));
+  parts.reserve(sharing.size());
+  for (const LoadSharing& of : sharing) parts.push_back(text(fixed(of.factor, 3), " of ", of.name));
   return text(
       "Share of each planet's mesh in the load over the mesh period (left), and the loads of the tooth pairs "
       "of "
@@ -234,6 +236,7 @@ void require_whole(const SystemReport& r) {
 
 std::vector<std::string> system_report_figures() {
   std::vector<std::string> names;
+  names.reserve(explained().size());
   for (const Explained& kind : explained()) names.emplace_back(kind.name);
   return names;
 }

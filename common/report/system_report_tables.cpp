@@ -163,6 +163,8 @@ namespace {
 std::string drawings_table(const SystemStaticArtifact& a) {
   std::vector<std::string> head{"", "unit"};
   std::vector<ToothGeometry> gears;
+  head.reserve(a.drawing.size() + 2);
+  gears.reserve(a.drawing.size());
   for (size_t g = 0; g < a.drawing.size(); ++g) {
     head.push_back(a.settings.body[g].first);
     gears.emplace_back(a.drawing[g].design);
@@ -363,6 +365,7 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
                                            "planets equally"
                                          : ""));
   std::vector<const GearDesign*> design;
+  design.reserve(s.bodies.size());
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     const BodyParameters* drawing = drawing_of(a, static_cast<int>(b));
     design.push_back(drawing ? &drawing->design : nullptr);

@@ -47,6 +47,7 @@ FigureBlock block_of(const Quantity& q, const SystemSweepArtifact& a, size_t cur
             [&](Index x, Index y) { return a.mesh_frequency[x] < a.mesh_frequency[y]; });
   for (const Index i : order) {
     std::vector<double> row{a.mesh_frequency[i]};
+    row.reserve(curves + 1);
     for (size_t c = 0; c < curves; ++c) row.push_back((a.*q.values)(i, static_cast<Index>(c)) * q.scale);
     block.rows.push_back(row);
   }

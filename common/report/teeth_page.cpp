@@ -135,18 +135,19 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair,
 
 const std::vector<std::string>& limits() {
   static const std::vector<std::string> all{
-      "Root stress is the tangential stress along the root beside the loaded flank of the teeth that carry "
-      "load. In "
-      "motion it is quasi-static in the tooth loads: the inertia of the body adds none.",
-      "A tip edge on a flank is a singular contact in this model: it has no largest pressure, so its load is "
-      "stated. "
-      "Real edges are rounded and wear.",
-      "Pressure in motion is Hertz's of the load that a pair holds; the start of a linear relief is a ridge "
-      "that it does "
-      "not resolve.",
-      "K_v is of gears without deviations; sigma_F0 and sigma_H0 have no application, face load or dynamic "
-      "factors.",
-      "Losses are per unit coefficient of friction."};
+      text("Root stress is the tangential stress along the root beside the loaded flank of the teeth that "
+           "carry load. In "
+           "motion it is quasi-static in the tooth loads: the inertia of the body adds none."),
+      text("A tip edge on a flank is a singular contact in this model: it has no largest pressure, so its "
+           "load is stated. "
+           "Real edges are rounded and wear."),
+      text("Pressure at rest leaves out ridges where a linear relief begins; pressure in motion is Hertz's "
+           "of the load of "
+           "a pair and does not resolve them, so their ratio is no dynamic factor there."),
+      text("K_v is a factor of forces, of gears without deviations; pressure grows with the root of the "
+           "force. sigma_F0 "
+           "and sigma_H0 have no application, face load or dynamic factors."),
+      text("Losses are per unit coefficient of friction.")};
   return all;
 }
 

@@ -50,6 +50,7 @@ std::vector<double> speeds_of(const SystemSweepParameters& p, Direction directio
   const long count =
       std::lround(std::floor((p.frequency_to - p.frequency_from) / p.frequency_step + 1e-9)) + 1;
   std::vector<double> out;
+  out.reserve(static_cast<size_t>(count));
   for (long i = 0; i < count; ++i)
     out.push_back(p.frequency_from + static_cast<double>(i) * p.frequency_step);
   if (direction == Direction::down) std::reverse(out.begin(), out.end());
@@ -169,6 +170,7 @@ class SystemRig {
   // Looks at tip edges that are farther off than before. What is looked at and does not touch changes no force.
   void widen() {
     std::vector<double> gap;
+    gap.reserve(rest_.deflection.size());
     for (const double deflection : rest_.deflection)
       gap.push_back(kBeyondStatics * deflection * std::pow(kWidening, widenings_));
     ++widenings_;

@@ -25,6 +25,7 @@ struct Outline {
 
 Outline outline_of(const GearDesign& design) {
   Outline out{gear_contour(ToothGeometry(design), kFlankPoints), {}};
+  out.edge.reserve(out.teeth.size());
   for (const Vec2& p : out.teeth) out.edge.push_back(p.normalized() * design.held_radius());
   return out;
 }
