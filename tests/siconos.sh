@@ -9,7 +9,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 # The flags of the steps: objects of different flags do not fit each other. The linker takes what it needs.
 read -r -a compile < "$B/flags"
-ar rcs "$scratch/library.a" "$B"/obj/common/{base,contact,gear,solid,files}/*.o
+ar rcs "$scratch/library.a" "$B"/obj/common/{base,model,gear,contact,solid}/*.o
 if ! "${compile[@]}" -Itests -isystem /usr/include/siconos -isystem /usr/include/siconos/numerics -o "$scratch/siconos" \
     tests/peer/siconos.cpp "$scratch/library.a" -lsiconos_numerics 2> "$scratch/errors"; then
   echo "FAILED: tests/peer/siconos.cpp does not compile: $(head -3 "$scratch/errors" | tr '\n' ' ')"
