@@ -18,7 +18,7 @@ name_found = $(strip $(foreach c,$2,$(findstring $c,$1)))
 # Whether it is one word without blanks around it.
 name_is_word = $(if $(filter 1,$(words $1)),$(and $(findstring x$(strip $1)x,x$1x),$(findstring x$1x,x$(strip $1)x)))
 name_shown = $(patsubst MAKECMDGOALS,target,$v)
-name_remedy = , and may hold $(names_allowed)$(if $(filter SCENE SCENES STUDY,$1),; rename the file or its folder)
+name_remedy = , and may hold $(names_allowed)$(if $(filter SCENE SCENES STUDY,$1),; rename the file or its folder)$(if $(filter DAMPING,$1),; it is a share of critical damping: 0.05 for 5 %)
 define name_newline
 
 

@@ -31,7 +31,7 @@ rejected() {
 }
 
 # --- a coarse scene through the chain
-coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^torque_Nm = .*/torque_Nm = [100]/
+coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^modes = [^ ]*/modes = 21/; s/^element_order = [^ ]*/element_order = 1/; s/^torque_Nm = .*/torque_Nm = [100]/
   s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2000, to = 2100, step = 50 }/'
 sed "$coarse" "$scene_of_paper" > scene.toml
 stage_scene=("$bin/gear-scene" --scene scene.toml --output scene.mk --out out)

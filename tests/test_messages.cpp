@@ -35,6 +35,12 @@ TEST_CASE("an unknown key is rejected with the key that its word means") {
   CHECK(contains(
       file.rejection(with_section("[gear.wheel.modification]\ntip_releif = 10\n")),
       "x.toml:24: unknown key 'tip_releif' in [gear.wheel.modification]; did you mean 'tip_relief_um'?"));
+  CHECK(contains(
+      file.rejection(with_section("[gear.weel.modification]\ntip_relief_um = 10\n")),
+      "x.toml:23: [gear.weel.modification]: there is no [gear.weel] with teeth; did you mean 'wheel'?"));
+  CHECK(contains(rejection("torque_Nmm = 3000"),
+                 "did you mean 'torque_Nm' of [operation] (1 N m is 1000 N mm)?"));
+  CHECK(contains(rejection("bearing_stiffness = 3000"), "did you mean 'stiffness_N_um' of [[bearing]]?"));
   CHECK(contains(file.rejection(scene_with("[operation]\n", "[operation]\nspeed_rpm = 3000\n")),
                  "did you mean 'mesh_frequency_Hz' (teeth of the driver times its rpm, over 60)?"));
   // What there is no key for says why.

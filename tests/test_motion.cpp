@@ -8,6 +8,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/model_range.h"
 #include "dynamics/dynamics.h"
 #include "gear/body_inertia.h"
 #include "gear/numbers.h"
@@ -293,6 +294,34 @@ TEST_CASE(
   // Where a tip begins to carry, too: strips narrow towards the edge.
   CHECK((by_strips[0] - by_strips[3]).cwiseAbs().maxCoeff() < 5e-4 * by_strips[3].minCoeff());
   CHECK((by_strips[1] - by_strips[3]).cwiseAbs().maxCoeff() < 3e-4 * by_strips[3].minCoeff());
+}
+
+TEST_CASE(
+    "force at the end of the involute is rejected with the gear; at the end of a zone that can be wider it "
+    "is not") {
+  const BodyArtifact& body = paper_body();
+  const GearMeshModel model(body, body, paper_statics(128).mesh);
+  int ends = 0;
+  for (const double half_zone : {1e-4, 2e-2}) {
+    const MeshPosition position = make_position(model, 0.25, CandidateZone{half_zone, 64, 3e-6});
+    for (size_t j = 0; j < position.pairs.size(); ++j)
+      for (const bool low : {true, false}) {
+        VectorXd p = VectorXd::Zero(position.strips());
+        p[low ? position.first_strip[j] : position.first_strip[j + 1] - 1] = 1;
+        const PairStrips& s = position.pairs[j];
+        const bool root = half_zone > 1e-2 && !(low ? s.low_is_edge : s.high_is_edge);
+        ends += root;
+        try {
+          require_above_roots(model, position, p);
+          CHECK_FALSE(root);
+        } catch (const ModelRangeError& error) {
+          CHECK(root);
+          const std::string name = low ? "near the root of the driver," : "near the root of the driven gear,";
+          CHECK(std::string(error.what()).find(name) != std::string::npos);
+        }
+      }
+  }
+  CHECK(ends > 0);
 }
 
 TEST_CASE(

@@ -269,6 +269,18 @@ TEST_CASE(
   CHECK(rejected([](R& up, R&) { up.jump_frequency[0] = 5000; }));
 }
 
+TEST_CASE("a curve breaks at a sudden change of the RMS, but not over steps that cross a resonance") {
+  ResponseArtifact r = some_response(Direction::up);
+  r.jump_frequency.resize(0);
+  r.jump_width.resize(0);
+  r.dte_rms = Eigen::VectorXd::Constant(5, 1e-6);
+  r.dte_rms.tail(3).setConstant(2e-6);
+  r.mesh_frequency = Eigen::VectorXd::LinSpaced(5, 2000, 2100);
+  CHECK(broken_after(r) == std::vector<bool>{false, true, false, false, false});
+  r.mesh_frequency = Eigen::VectorXd::LinSpaced(5, 400, 800);
+  CHECK(broken_after(r) == std::vector<bool>(5, false));
+}
+
 TEST_CASE(
     "response figure: a panel for each set of choices, a curve for each torque, numbers as in the "
     "artifacts") {
@@ -282,19 +294,19 @@ TEST_CASE(
         sweeps.back().dte_mean *= torque * eta;
       }
   const Figure figure = response_figure(sweeps);
-  CHECK(figure.title == "Dynamic transmission error (DTE) against mesh frequency, 100, 300 N m");
-  CHECK(figure.notes[1].find("(a) 100, 300 N m; Rayleigh damping η = 7.7 µs") == 0);
-  CHECK(figure.notes[2].find("(a) 100 N m: jumps rising 2250, falling 2250 Hz; 300 N m: ") == 0);
-  CHECK(figure.notes[3].find("(b) 100, 300 N m; Rayleigh damping η = 4 µs") == 0);
+  CHECK(figure.title == "Dynamic transmission error (DTE) against mesh frequency, 300, 100 N m");
+  CHECK(figure.notes[1].find("(a) 300, 100 N m; Rayleigh damping η = 7.7 µs") == 0);
+  CHECK(figure.notes[2].find("(a) 300 N m: jumps rising 2250, falling 2250 Hz; 100 N m: ") == 0);
+  CHECK(figure.notes[3].find("(b) 300, 100 N m; Rayleigh damping η = 4 µs") == 0);
   const auto& row = block(figure, "b 100 N m down").rows[0];
   CHECK(row[0] == 2400);
   CHECK(row[1] == relative(1.0, 1e-14));
   CHECK(row[2] == relative(100 * 4e-6 * 1e6, 1e-14));
   for (const auto& [name, value] : figure.words) {
-    if (name == "labels_a") CHECK(value == "'100 N m' '300 N m' ");
+    if (name == "labels_a") CHECK(value == "'300 N m' '100 N m' ");
     if (name == "jump_labels_b")
       CHECK(value ==
-            "'100 N m: jumps rising 2250, falling 2250 Hz' '300 N m: jumps rising 2250, falling 2250 Hz' ");
+            "'300 N m: jumps rising 2250, falling 2250 Hz' '100 N m: jumps rising 2250, falling 2250 Hz' ");
   }
   sweeps.pop_back();
   CHECK(failure_of([&] { response_figure(sweeps); }) == Failure::input);

@@ -99,7 +99,10 @@ bool RollingDynamics::record_contact(const StepKernel::End& end, int position, P
   period.fallbacks += end.certificate.fallback;
   if (end.contact == StepKernel::Contact::beyond_law)
     require_line_range(mesh, kernel_.p().head(mesh.strips()));
-  if (end.contact == StepKernel::Contact::zone_end) return false;
+  if (end.contact == StepKernel::Contact::zone_end) {
+    require_above_roots(model_, mesh, kernel_.p().head(mesh.strips()));
+    return false;
+  }
   const StepKernel::Frame& frame = kernel_.frame(position);
   double drift = 0;
   for (int j = 0; j < frame.present; ++j) {

@@ -13,7 +13,10 @@ namespace whine {
 
 std::string too_light(double inertia, const std::string& least) {
   return text("total_inertia_kgm2 = ", shown_number(inertia), " lies below the inertia of its own body, ",
-              least, " kg m2: it is that of all that turns with the gear; raise it");
+              least,
+              " kg m2: it is that of all that turns with the gear; raise it, or take the line out: the gear "
+              "as drawn is "
+              "used then");
 }
 
 double least_body_inertia(const ToothGeometry& tooth, const Material& material) {

@@ -236,6 +236,18 @@ void take_diameters(const Source& source, const toml::table& table, const std::s
   take("root_diameter_mm", "dedendum", values.root_diameter, d.dedendum, -1);
 }
 
+// The name of a gear that is misspelt in [gear.<name>.modification] is that of a gear which has nothing else.
+void reject_stray_section(const Source& source, const std::string& name, const toml::table& table,
+                          std::vector<std::string> names) {
+  if (table.empty() ||
+      !std::all_of(table.begin(), table.end(), [](const auto& entry) { return entry.second.is_table(); }))
+    return;
+  std::erase(names, name);
+  source.reject(*table.begin()->second.as_table(),
+                text("[gear.", name, ".", table.begin()->first.str(), "]: there is no [gear.", name,
+                     "] with teeth", advice_for(name, names)));
+}
+
 }  // namespace
 
 void read_gears(const Source& source, Scene& scene, bool rigid) {
@@ -268,6 +280,7 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
       source.reject(*table, text("[gear.", name, "]: a gear cannot be called '", name,
                                  "', a folder of results is; choose another name"));
     }
+    reject_stray_section(source, name, *table, names);
     const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
     std::vector<std::string> others{"crack", "modification", "error"};
     if (rigid) others.push_back("equivalent_mass_kg");

@@ -61,8 +61,13 @@ std::string report_tsv(const ReportContent& c) {
   std::string out = "# " + c.scene + "\ntorque [N m]\tquantity\tvalue\tunit\tremark\n";
   for (const GeometryNumber& g : pair_geometry(c.statics[0]))
     out += text("\t", g.quantity, "\t", g.value, "\t", g.unit, "\t\n");
-  for (const ReportNumber& r : report_numbers(c))
-    out += text(shown(r.torque, 6), "\t", r.quantity, "\t", r.value, "\t", r.unit, "\t", r.remark, "\n");
+  for (const ReportNumber& r : report_numbers(c)) {
+    // A column that holds numbers alone is read as numbers: words stand in the remark.
+    const bool words = r.value.find_first_not_of("+-.0123456789e") != std::string::npos;
+    const std::string remark = text(words ? r.value : "", words && !r.remark.empty() ? "; " : "", r.remark);
+    out += text(shown(r.torque, 6), "\t", r.quantity, "\t", words ? "" : r.value, "\t", r.unit, "\t", remark,
+                "\n");
+  }
   return out;
 }
 

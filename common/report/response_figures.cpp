@@ -219,8 +219,11 @@ std::vector<bool> broken_after(const ResponseArtifact& r) {
   const auto change = [&](Eigen::Index i) {
     return i < 0 || i + 1 >= n || jumps[i] ? 0.0 : std::abs(std::log(r.dte_rms[i + 1] / r.dte_rms[i]));
   };
+  // Over a wider step one branch crosses a whole resonance.
+  constexpr double kWidest = 0.05;  // of the speed
   for (Eigen::Index i = 0; i + 1 < n; ++i)
     if (r.dte_rms[i] > 0 && r.dte_rms[i + 1] > 0 &&
+        r.mesh_frequency[i + 1] - r.mesh_frequency[i] < kWidest * r.mesh_frequency[i] &&
         change(i) > std::max(std::log(1.5), 2.5 * std::max(change(i - 1), change(i + 1))))
       broken[i] = true;
   return broken;
@@ -262,11 +265,9 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
   std::vector<double> torques;
   bool any_elastic = false, any_lumped = false;
   for (const auto& r : sweeps) {
-    torques.push_back(r.torque);
+    if (std::find(torques.begin(), torques.end(), r.torque) == torques.end()) torques.push_back(r.torque);
     (elastic(r) ? any_elastic : any_lumped) = true;
   }
-  std::sort(torques.begin(), torques.end());
-  torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
   figure.title = "Dynamic transmission error (DTE) against mesh frequency, ";
   for (size_t i = 0; i < torques.size(); ++i) figure.title += (i ? ", " : "") + shown(torques[i], 6);
   figure.title += " N m";

@@ -19,7 +19,7 @@ Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const B
 std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down);
 
 // Rows after which a curve breaks: where the sweep left a branch that ends at a jump, and where the RMS changes by half of
-// itself at once and 2.5 times as much as in the steps beside, which is another branch, too.
+// itself at once, over less than 5 % of the speed, and 2.5 times as much as in the steps beside, which is another branch, too.
 std::vector<bool> broken_after(const ResponseArtifact& r);
 
 // The response of one direction of a sweep as a curve that lifts the pen where it breaks.

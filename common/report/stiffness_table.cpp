@@ -24,7 +24,7 @@ WordTable compliance_table(const StaticArtifact& s) {
   for (size_t g = 0; g < kSides; ++g)
     add("twist of " + s.mesh.gear[g] + " between bore and root circle", split.body[g], wider(g));
   add("contact (Hertz)", split.contact, "");
-  add("teeth, the rest", split.teeth, "");
+  add("teeth, the rest (with gaps of a relief)", split.teeth, "");
   add("whole", split.whole, "");
   return out;
 }

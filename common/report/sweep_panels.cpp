@@ -72,9 +72,7 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, cons
       return of(c)->torque == s.torque && of(c)->mesh.modification == s.mesh.modification;
     };
     auto at = std::find_if(curves.begin(), curves.end(), same);
-    if (at == curves.end())
-      at = curves.emplace(std::find_if(curves.begin(), curves.end(),
-                                       [&](const auto& c) { return of(c)->torque > s.torque; }));
+    if (at == curves.end()) at = curves.emplace(at);
     const Sweep*& place = s.direction == Direction::up ? at->up : at->down;
     if (place)
       fail(Failure::input, "figure: two sweeps ", s.direction, " at ", torque_words(s.torque), " with ",

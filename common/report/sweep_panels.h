@@ -22,8 +22,8 @@ bool elastic(const Sweep& s) {
   return s.model == "finite elements";
 }
 
-// Sweeps of the same choices, both directions at each torque (ascending), those of other flanks in the order in which they
-// come.
+// Sweeps of the same choices, both directions of each curve. Curves, of other torques or flanks, stand in the order in which they
+// come: that of the scene, so that a torque has one colour in all figures.
 template <class Sweep>
 struct ChoicePanel {
   struct Curve {

@@ -7,7 +7,7 @@
 //            counts with the teeth
 //   contact  Hertz's approach at the pitch point, relative to half a tooth's thickness, of a pair that carries F / contact
 // ratio
-//   teeth    the rest: bending, shear and foundation of the teeth of both gears
+//   teeth    the rest: bending, shear and foundation of the teeth of both gears, and gaps that a relief leaves in the mean
 #pragma once
 #include <array>
 

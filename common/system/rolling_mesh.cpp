@@ -334,6 +334,25 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
   return position;
 }
 
+void require_above_roots(const GearMeshModel& model, const MeshPosition& position,
+                         const Eigen::Ref<const VectorXd>& p) {
+  constexpr double kSame = 1e-12;  // m
+  for (size_t j = 0; j < position.pairs.size(); ++j) {
+    const PairStrips& s = position.pairs[j];
+    const bool low =
+        !s.low_is_edge && s.border[0] <= s.contact.x_min + kSame && p[position.first_strip[j]] > 0;
+    const bool high = !s.high_is_edge && s.border[s.size()] >= s.contact.x_max - kSame &&
+                      p[position.first_strip[j + 1] - 1] > 0;
+    if (!low && !high) continue;
+    const ToothGeometry& gear = model.kinematics.gear(low ? 0 : 1);
+    const double form = 2e3 * std::hypot(1.0, gear.form_roll_angle()) * gear.base_radius();
+    fail_outside_range(Failure::numerical, "contact reaches the end of the involute near the root of the ",
+                       low ? "driver" : "driven gear", ", whose form diameter is ", form,
+                       " mm; lower the torque or the response (damping, speeds), shorten the tips of the ",
+                       low ? "driven gear" : "driver", " (addendum) or enlarge centre_distance_mm");
+  }
+}
+
 void require_line_range(const MeshPosition& position, const Eigen::Ref<const VectorXd>& force) {
   require_hertz_range(position.law, force);
   for (size_t j = 0; j < position.pairs.size(); ++j) {

@@ -219,6 +219,11 @@ inline double shared_force(double load) {
   return 0.5 * load;
 }
 
+// p: (strip) N m-1. Throws ModelRangeError where force stands on the last strip before the end of the involute near a root, which no
+// wider candidate zone moves.
+void require_above_roots(const GearMeshModel& model, const MeshPosition& position,
+                         const Eigen::Ref<const Eigen::VectorXd>& p);
+
 // force: (pair) N. Throws Error(numerical) if a pair is beyond what Hertz's law holds for, or wider than its flanks face
 // each other.
 void require_line_range(const MeshPosition& position, const Eigen::Ref<const Eigen::VectorXd>& force);

@@ -9,6 +9,8 @@ set datafile commentschars "#"
 up_colour = "#0072b2"
 down_colour = "#d55e00"
 array torque_colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
+# the same, lighter: falling speed
+array falling_colour[6] = ["#6bb5e3", "#f2a36e", "#66cfae", "#e3b8d2", "#f3cf7a", "#9c9c9c"]
 # P2000's marks of torques, + o square, for falling speed; filled ones, and x for +, for rising speed
 array open_mark[6] = [1, 6, 4, 8, 12, 10]
 array filled_mark[6] = [2, 7, 5, 9, 13, 11]
@@ -57,7 +59,7 @@ do for [p = 1:panels] { do for [i = 1:int(of("curves", word(letters, p)))] {
 up_tone = most == 1 ? up_colour : "black"
 down_tone = most == 1 ? down_colour : "black"
 set label 101 (most == 1 ? "▲" : filled_signs[1:2 * most - 1]) . " speed rising" at screen 0.06, screen 26 / height tc rgb up_tone font ",14"
-set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . " speed falling" at screen 0.205, screen 26 / height tc rgb down_tone font ",14"
+set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . (most == 1 ? " speed falling" : " falling, lighter") at screen 0.205, screen 26 / height tc rgb down_tone font ",14"
 set label 103 "dashed: jump; dotted: to the end of the branch; gap: change of branch" at screen 0.36, screen 26 / height tc rgb "black" font ",14"
 if (lost > 0) { set label 104 "■ below 0: contact lost" at screen 0.82, screen 26 / height tc rgb "black" font ",14" }
 
@@ -70,7 +72,7 @@ array above[panels]
 caption[1] = note1
 do for [p = 1:panels] {
   rest = of("heading", word(letters, p))
-  letter_words = "{/:Bold (" . word(letters, p) . ")} "
+  letter_words = panels > 1 ? "{/:Bold (" . word(letters, p) . ")} " : ""
   if (of("heading_lines", word(letters, p)) > 2) {
     cut = strstrt(rest, "\n")
     caption_lines = caption_lines + 1
@@ -103,12 +105,15 @@ do for [p = 1:panels] {
   # The axis begins at 0; where contact is lost the marks of it stand in a strip below.
   strip = of("contact_lost", letter) > 0 ? (foot * rows + 0.02) * top : 0
   set yrange [-strip : top]
-  if (strip > 0) { set border 2; set xzeroaxis lt 1 lw 1.6 lc rgb "black" } else { set border 3; unset xzeroaxis }
+  if (strip > 0) { set border 0; set xzeroaxis lt 1 lw 1.6 lc rgb "black" } else { set border 3; unset xzeroaxis }
+  power = 10 ** floor(log10(top / 6))
+  set ytics 0, power * (top / 6 / power > 5 ? 10 : top / 6 / power > 2 ? 5 : top / 6 / power > 1 ? 2 : 1) out nomirror
   set ylabel "RMS of oscillating DTE (µm)"
   set label 1 above[p] at graph 0, graph 1 offset 0, 1.55 font ",12"
 
   # f_n and its fractions, where superharmonic resonances stand
   unset arrow
+  if (strip > 0) { set arrow from graph 0, first 0 to graph 0, graph 1 nohead lw 1.6 lc rgb "black" }
   do for [n = 11:13] { unset label n }
   do for [i = 1:curves] {
     do for [n = 1:3] {
@@ -123,7 +128,7 @@ do for [p = 1:panels] {
     }
   }
 
-  colour(i, direction) = curves > 1 ? torque_colour[i] : value(direction . "_colour")
+  colour(i, direction) = curves > 1 ? (direction eq "down" ? falling_colour[i] : torque_colour[i]) : value(direction . "_colour")
   mark(i, direction) = direction eq "up" ? (curves > 1 ? filled_mark[i] : 9) : (curves > 1 ? open_mark[i] : 10)
   block(i, what) = sprintf('tsv index "[%s %s %s]"', letter, word(of("labels", letter), i), what)
   branch(i, direction) = block(i, direction) . sprintf(' using 1:2 with linespoints lt 1 lw 1.8 pt 7 ps 0.3 lc rgb "%s" notitle, ', colour(i, direction)) \

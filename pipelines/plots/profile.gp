@@ -3,7 +3,7 @@
 # pitch_g, hpstc_g, tip_g.
 set datafile separator tab
 set datafile commentschars "#"
-foot1 = "form: where the involute begins; SAP: start of the active profile; LPSTC, HPSTC: lowest and highest point of single tooth contact"
+foot1 = "form: where the involute begins; SAP: start of the active profile; LPSTC, HPSTC: lowest and highest point of single tooth contact (B, D of the driver; D, B of the driven gear)"
 foot_name = "foot%d"
 lift = room(1)
 
@@ -17,6 +17,7 @@ set ylabel "Material (µm)"
 span = highest - lowest > 0 ? highest - lowest : 1
 set yrange [lowest - 0.12 * span : highest + 0.42 * span]
 unset key
+set style textbox opaque noborder margins 0.3, 0.2
 do for [g in "driver driven"] {
   set title value("title_" . g) offset 0, 0.2
   set xlabel "Roll angle (deg)"
@@ -32,7 +33,7 @@ do for [g in "driver driven"] {
     set arrow n from x, graph 0 to x, graph 1 nohead back lw 1.4 dt (8, 6) lc rgb "#808080"
     # Two rows, since the pitch point may stand close to an end of single tooth contact, and SAP to the form point.
     set label n m eq "sap" || m eq "lpstc" || m eq "hpstc" ? (m eq "sap" ? "SAP" : m eq "lpstc" ? "LPSTC" : "HPSTC") : m \
-      at x, graph (m eq "pitch" || m eq "form" ? 0.86 : 0.95) offset 0.5, 0 left font ",13" tc rgb "#505050"
+      at x, graph (m eq "pitch" || m eq "form" ? 0.86 : 0.95) offset 0.5, 0 left boxed front font ",13" tc rgb "#505050"
   }
   set arrow 20 from from, 0 to to, 0 nohead back lw 1.6 lc rgb "#1a7f37"
   plot sprintf("%s", tsv) index "[" . g . "]" using 1:3 with lines lw 3 lc rgb "#1f4e9c"
