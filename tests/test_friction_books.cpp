@@ -171,7 +171,7 @@ struct Motion {
           ImpactParameters settings;
           settings.inertia = inertia;
           settings.damping.rayleigh_stiffness =
-              body == BodyModel::rigid ? 0 : 0.06 / (2 * std::numbers::pi * natural);
+              body == BodyModel::rigid ? 0 : 0.03 / (2 * std::numbers::pi * natural);
           settings.fidelity.body = body;
           settings.fidelity.contact = contact;
           return dynamic_parameters(statics, statics.mean_stiffness, settings);
@@ -307,7 +307,7 @@ TEST_CASE(
 TEST_CASE("friction in motion: losses of unequal gears are mu times the loss factor of their loads") {
   for (const Gears* gears : {&kDown, &kUp}) {
     Motion motion(*gears, 60, ContactModel::line, BodyModel::lagged);
-    motion.start(0.21, 256, 60);
+    motion.start(0.13, 256, 60);
     EnergyBalance balance;
     REQUIRE(motion.dynamics.integrate(motion.state, motion.period, &balance));
     const Index steps = motion.period.pair_load.cols(), reach = motion.period.pair_load.rows() / 2;

@@ -356,6 +356,7 @@ void describe_backlash(Codec& c, double& margin) {
 }
 
 void describe_friction(Codec& c, FrictionLosses& friction) {
+  constexpr Range kPower{-1e12, 1e12};  // W
   if (!c.optional("/friction_power", friction.power.size() > 0)) return;
   const char* const axis = "mesh_frequency";
   c.dataset({"/friction_coefficient", "1", "coefficient of friction", axis, kShare}, &friction.coefficient);

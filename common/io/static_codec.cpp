@@ -79,6 +79,8 @@ void describe_root_stress(Codec& c, StaticArtifact& a) {
             &a.loss_factor);
 }
 
+constexpr Range kLost{0, 1e7};  // N m
+
 // Left out of flanks without friction.
 void describe_friction(Codec& c, StaticArtifact& a) {
   if (!c.optional("/friction_loss", a.friction_loss.size() > 0)) return;

@@ -90,7 +90,7 @@ void show_bearings(Lines& lines, const GearMeshSpec& mesh) {
 void show_friction(Lines& lines, const GearMeshSpec& mesh) {
   if (!mesh.friction.acts()) return;
   add(lines, "friction", in_words(mesh.friction),
-      "; it bends no teeth: transmission errors are uncertain by as much as it changes them");
+      "; the bending of teeth by it is left out: of opposite sign, about as large in transmission errors");
 }
 
 void show_errors(Lines& lines, const GearMeshSpec& mesh) {

@@ -47,8 +47,7 @@ struct Friction {
   FrictionLaw law = FrictionLaw::constant;
   double coefficient = 0;   // 1, of FrictionLaw::constant; 0: no friction
   double smoothing = 0.01;  // 1: v_0 over the speed of the pitch line
-  // Of Schlenk's formula:
-  double viscosity = 0;         // Pa s, of the oil in the mesh
+  double viscosity = 0;         // Pa s, of the oil in the mesh; from here on: of Schlenk's formula
   double roughness = 0;         // m: Ra, mean of both flanks
   double lubricant_factor = 1;  // 1: X_L
   double static_frequency = 0;  // Hz: mesh frequency at which the coefficient of the pair at rest is taken

@@ -323,9 +323,11 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
   // Said once of a pair of sweeps, by the one of rising speed.
   if (s.direction == Direction::up && s.model == "finite elements") {
     out = setup_remarks(statics, s.inertia, s.damping, s.fidelity);
-    if (s.mesh_frequency.size() > 0)
-      for (Remark& more : friction_remarks(s, s.mesh_frequency.minCoeff(), s.mesh_frequency.maxCoeff()))
-        out.push_back(std::move(more));
+    if (s.mesh_frequency.size() > 0) {
+      const std::vector<Remark> more =
+          friction_remarks(s, s.mesh_frequency.minCoeff(), s.mesh_frequency.maxCoeff());
+      out.insert(out.end(), more.begin(), more.end());
+    }
   }
   if (const double steps = steps_per_oscillation(s); steps < kFewestSteps)
     add(true, "a time step is too long for the contact: ", steps,

@@ -238,9 +238,10 @@ std::vector<Remark> friction_remarks(const PairParameters& pair, double from, do
   if (!pair.mesh.friction.acts()) return out;
   out.push_back(remark(
       false,
-      "friction acts by its moments and forces on the hubs; what it does to the elastic bodies is left "
-      "out, which may change the transmission error as much as friction does "
-      "(common/system/README.md, Friction at rest); losses do not depend on it to first order"));
+      "friction acts by its moments and forces on the hubs; that it bends the teeth is left out, which "
+      "changes the "
+      "transmission error about as much with the opposite sign (common/system/README.md, Friction at rest). "
+      "Losses do not depend on it to first order"));
   if (pair.mesh.friction.law == FrictionLaw::constant) return out;
   const GearPair gears(pair);
   if (gears.internal())
