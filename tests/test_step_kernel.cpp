@@ -27,6 +27,7 @@ struct Kind {
   Integrator integrator;
   bool bearings = false;
   double frequency = 2600;  // Hz
+  double friction = 0;      // 1
 };
 
 // The paper's pair at 150 N m.
@@ -42,6 +43,7 @@ struct Rig {
   static StaticParameters settings(const Kind& kind) {
     StaticParameters s = paper_statics(16);
     s.fidelity.contact = kind.contact;
+    s.mesh.friction.coefficient = kind.friction;
     if (kind.bearings) {
       s.mesh.bearing[0] = Bearing{200e6, 3e3, 0};
       s.mesh.bearing[1] = Bearing{120e6, 5e3, 0};
@@ -52,6 +54,7 @@ struct Rig {
     DynamicParameters p = paper_parameters(statics.mean_stiffness, kind.body, kind.contact);
     p.damping.rayleigh_stiffness = 5.5e-6;
     p.fidelity.integrator = kind.integrator;
+    if (kind.friction > 0) p.loss_per_friction = (1 - statics.efficiency) / kind.friction;
     return p;
   }
   StaticArtifact statics;
@@ -92,7 +95,10 @@ const Kind kKinds[] = {{BodyModel::modal, ContactModel::strips, Integrator::exac
                        {BodyModel::rigid, ContactModel::line, Integrator::newmark},
                        {BodyModel::modal, ContactModel::strips, Integrator::exact, true},
                        {BodyModel::modal, ContactModel::line, Integrator::newmark, true},
-                       {BodyModel::modal, ContactModel::strips, Integrator::exact, false, 1400}};
+                       {BodyModel::modal, ContactModel::strips, Integrator::exact, false, 1400},
+                       {BodyModel::modal, ContactModel::strips, Integrator::exact, true, 2600, 0.1},
+                       {BodyModel::modal, ContactModel::line, Integrator::newmark, true, 2600, 0.1},
+                       {BodyModel::lagged, ContactModel::line, Integrator::exact, false, 2600, 0.1}};
 
 // Random numbers that are the same on every machine.
 struct Random {
@@ -165,7 +171,8 @@ struct RandomSteps {
 
 TEST_CASE("step kernel: a mesh period of the paper's pair is that of the equations in plain matrices") {
   for (const Kind& kind : kKinds) {
-    INFO(kind.body << " " << kind.contact << " " << kind.integrator << (kind.bearings ? " on bearings" : ""));
+    INFO(kind.body << " " << kind.contact << " " << kind.integrator << (kind.bearings ? " on bearings" : "")
+                   << ", friction " << kind.friction);
     Rig rig(kind);
     RollingDynamics& dynamics = rig.dynamics;
     RollingDynamics::State state = dynamics.rest(), balanced;
@@ -174,7 +181,7 @@ TEST_CASE("step kernel: a mesh period of the paper's pair is that of the equatio
     StepState plain = state;
     balanced = state;
     const StepReference reference(dynamics.kernel().system(), dynamics.kernel().propagators(),
-                                  dynamics.kernel().relaxed());
+                                  dynamics.kernel().relaxed(), dynamics.friction());
     VectorXd error(kSteps);
     for (int i = 1; i <= kSteps; ++i) {
       if (i == kSteps) reference.rename(plain);

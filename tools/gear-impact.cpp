@@ -102,6 +102,8 @@ void body(int argc, char** argv) {
   progress.reset();
   whine::write(output, result, provenance);
   whine::tell("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", output);
+  if (result.mesh.friction.acts())
+    whine::tell("gear-impact: [friction] is left out: teeth do not slide at a fixed mesh phase");
   for (const whine::Remark& remark :
        whine::setup_remarks(at_torque, result.inertia, result.damping, result.fidelity))
     whine::tell("gear-impact: warning: ", remark.words);

@@ -143,8 +143,10 @@ void RollingDynamics::place_positions(const CandidateZone& range, int steps) {
       const PairContact& contact = mesh.pairs[j].contact;
       corners_[i].drift_lever[j] = contact.lever[0] / model_.kinematics.gear(0).base_radius() -
                                    contact.lever[1] / model_.kinematics.gear(1).base_radius();
+      corners_[i].driver_lever[j] = contact.lever[0];
       if (!model_.friction.acts()) continue;
       const PairSliding sliding = sliding_of(model_.kinematics, contact, model_.friction.smoothing);
+      corners_[i].driver_across[j] = sliding.direction * sliding.lever[0];
       corners_[i].slide_lever[j] = sliding.loss() / model_.kinematics.gear(0).base_radius();
     }
   }
@@ -205,7 +207,7 @@ void RollingDynamics::fill_position(Position& position, const StepSystem& system
                                     const std::vector<std::vector<MatrixXd>>& tables) const {
   const MeshPosition& mesh = position.mesh;
   position.participation = participation(mesh);
-  slide(position);
+  fill_friction_rows(position);
   MatrixXd left_out = MatrixXd::Zero(mesh.nodes(), mesh.nodes());
   if (!lines()) {
     const StepKernel::ShapeBasis& basis = StepKernel::shape_basis();

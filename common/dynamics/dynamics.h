@@ -100,6 +100,7 @@ class RollingDynamics {
     double drift_force = 0;  // N: largest force that the output must supply to hold the mean speed
     double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
     int fallbacks = 0;                      // steps that block pivoting alone could not solve
+    double friction_coupling = 0;           // m: of their certificates, largest
   };
 
   // Builds the strips, or the lines, at `steps` phases; keeps nothing of an earlier range. Of a range lines use the
@@ -200,7 +201,9 @@ class RollingDynamics {
     double dropped = 0;                 // J: that, and the work of loads that went with it
     Eigen::VectorXd p, d, local;        // (strip) N, m, m: local p
     Eigen::VectorXd friction;  // (coordinate) of friction, less what contact_work has of the same forces
-    double sliding_power = 0;  // W: that the rolling puts into friction
+    double sliding_power = 0;  // W: mu s N v of the nominal rolling
+    double driver_moment = 0;  // N m: of all contact forces on the driver, friction included
+    double corner_power = 0;   // W: of normal forces off the line of action at nominal speed
     Eigen::Matrix4Xd shape_force, shape_displacement;  // (shape row and zeros, pair): of p on modes; of z
     double at_once = 0;  // J: stored by half-planes, laws and all else that is instantaneous
   };
@@ -235,7 +238,10 @@ class RollingDynamics {
   ModalWork modal_work(const Instant& before, const Instant& after) const;
   RelaxationWork relaxation_work(const Instant& before, const Instant& after) const;
   void fill_friction(Instant& now) const;
-  void record_friction(const Instant& before, const Instant& after, EnergyBalance& energy_balance) const;
+  // J: friction - friction_rolling of the step, whose vibration the other lines have.
+  double record_friction(const Instant& before, const Instant& after, EnergyBalance& energy_balance) const;
+  double torque_on_rolling(const Instant& before, const Instant& after) const;  // J
+  double driver_speed() const;                                                  // rad s-1, mean
   void record_step(const Instant& before, const Instant& after, EnergyBalance& energy_balance);
   DampingIntegrals damping_integrals() const;
   double relaxation() const { return relaxation_; }
@@ -267,8 +273,8 @@ class RollingDynamics {
   void add_rigid_rotation();
   std::vector<int> modes_of(int g) const;
   void weigh_coordinates();
-  double rayleigh_damping(double frequency) const;  // s-1 of rad s-1
-  void slide(Position& position) const;             // fills what friction needs
+  double rayleigh_damping(double frequency) const;    // s-1 of rad s-1
+  void fill_friction_rows(Position& position) const;  // fills what friction needs
   void set_friction(double mesh_frequency);
   Eigen::VectorXd force_of(const Position& position, const Eigen::VectorXd& nodes) const;  // (coordinate)
   // Of set_zone.
@@ -324,9 +330,11 @@ class RollingDynamics {
   std::vector<Eigen::MatrixXd> fields_;  // [gear] (flank, field) V, orthonormal
   // By position: what a pair's force does on the rigid rotation that is projected out; gaps of tip edges.
   struct Corners {
-    double drift_lever[kMostPairs] = {};  // 1: a1 / r1 - a2 / r2
-    double slide_lever[kMostPairs] = {};  // 1: s (t1 / r1 - t2 / r2), per coefficient of friction
-    double next_gap = 0, lost_gap = 0;    // m
+    double drift_lever[kMostPairs] = {};    // 1: a1 / r1 - a2 / r2
+    double slide_lever[kMostPairs] = {};    // 1: s (t1 / r1 - t2 / r2), per coefficient of friction
+    double driver_lever[kMostPairs] = {};   // m: a1
+    double driver_across[kMostPairs] = {};  // m: s t1, of pairs with friction
+    double next_gap = 0, lost_gap = 0;      // m
   };
   std::vector<Corners> corners_;
   double static_deflection_ = 0, energy_scale_ = 0, pair_stamp_ = 0;

@@ -269,7 +269,7 @@ void RollingDynamics::add_sway(int g, const std::vector<int>& columns) {
 }
 
 // Of the moments of friction about the axes and, on bearings, of its force across the normal.
-void RollingDynamics::slide(Position& position) const {
+void RollingDynamics::fill_friction_rows(Position& position) const {
   if (!model_.friction.acts()) return;
   const auto pairs = static_cast<Eigen::Index>(position.mesh.pairs.size());
   position.friction = MatrixXd::Zero(pairs, static_cast<Eigen::Index>(coordinates_.size()));
@@ -288,8 +288,8 @@ void RollingDynamics::slide(Position& position) const {
   }
 }
 
-// The coefficient at a speed, and the torques that go with it.
-// The coefficient and the torques, here, in the kernel and in the energy balance. Before set_zone, which hands them on, here only.
+// The coefficient at a speed and the torques that go with it, here, in the kernel and in the energy balance. Before set_zone,
+// which hands them on, here only.
 void RollingDynamics::set_friction(double mesh_frequency) {
   const double before = friction_;
   friction_ = model_.coefficient_of_friction(parameters_.torque, mesh_frequency);

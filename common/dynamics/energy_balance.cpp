@@ -122,32 +122,52 @@ void RollingDynamics::fill(Instant& now, const Instant* before, int position, co
   for (size_t j = 0; j < mesh.law.size(); ++j) now.at_once += stored(mesh.law[j], p[j]);
 }
 
-// Coordinates that friction moves do not turn with their gear: a renaming leaves them.
+double RollingDynamics::driver_speed() const {
+  return 2 * std::numbers::pi / (step_ * steps_ * model_.kinematics.gear(0).design().teeth);
+}
+
+// rename() leaves these alone: doublets, which turn with their gear, have neither hub nor friction.
 void RollingDynamics::fill_friction(Instant& now) const {
   const Position& position = positions_[now.position];
+  const Corners& corners = corners_[now.position];
   now.friction.setZero();
-  now.sliding_power = 0;
-  const double turning =
-      2 * std::numbers::pi /
-      (step_ * steps_ * model_.kinematics.gear(0).design().teeth);  // rad s-1, of the driver
+  now.sliding_power = now.driver_moment = now.corner_power = 0;
+  const double speed = driver_speed(), radius = model_.kinematics.gear(0).base_radius();
   for (size_t j = 0; j < position.mesh.pairs.size(); ++j) {
     const auto pair = static_cast<Eigen::Index>(j);
     const int first = position.mesh.first_strip[j];
-    const double force = friction_ * now.p.segment(first, position.mesh.first_strip[j + 1] - first).sum();
-    now.friction.head(position.friction.cols()) += force * position.friction.row(pair).transpose();
-    now.sliding_power += force * position.sliding_loss[pair] * turning;
+    const double force = now.p.segment(first, position.mesh.first_strip[j + 1] - first).sum();
+    now.friction.head(position.friction.cols()) +=
+        friction_ * force * position.friction.row(pair).transpose();
+    now.sliding_power += friction_ * force * position.sliding_loss[pair] * speed;
+    now.driver_moment += force * (corners.driver_lever[j] + friction_ * corners.driver_across[j]);
+    now.corner_power += force * corners.drift_lever[j] * radius * speed;
   }
 }
 
-// With mean forces, as all of the balance: the rolling puts in its share at the nominal speed, the vibration the rest, and the
-// two are what friction takes.
-void RollingDynamics::record_friction(const Instant& a, const Instant& b,
-                                      EnergyBalance& energy_balance) const {
-  const double rolling = 0.5 * step_ * (a.sliding_power + b.sliding_power),
-               vibration = 0.5 * (a.friction + b.friction).dot(b.at.z - a.at.z);
+// Of the nominal rolling against friction, from torques and angular momentum; see energy_balance.h. Elastic modes have no
+// angular momentum of their own: it is that of the rigid rotation, whose damper takes c z off it.
+double RollingDynamics::torque_on_rolling(const Instant& a, const Instant& b) const {
+  const Coordinate& rigid = coordinates_[0];
+  const double ratio = model_.kinematics.gear(0).base_radius() / model_.kinematics.gear(1).base_radius(),
+               speed = driver_speed(), torque = parameters_.torque,
+               momentum = parameters_.inertia[0] * rigid.hub[0] *
+                          (b.at.v[0] - a.at.v[0] + rigid.damping * (b.at.z[0] - a.at.z[0])),
+               held = momentum + step_ * (0.5 * (a.driver_moment + b.driver_moment) - torque),
+               both = 1 + parameters_.inertia[1] / parameters_.inertia[0] * ratio * ratio;
+  const double between = step_ * torque * parameters_.loss_per_friction * friction_;  // T_1 - T_2 r_b1 / r_b2
+  return speed * (between + held * both) - 0.5 * step_ * (a.corner_power + b.corner_power);
+}
+
+double RollingDynamics::record_friction(const Instant& a, const Instant& b,
+                                        EnergyBalance& energy_balance) const {
+  const double sliding = 0.5 * step_ * (a.sliding_power + b.sliding_power),
+               vibration = 0.5 * (a.friction + b.friction).dot(b.at.z - a.at.z),
+               rolling = torque_on_rolling(a, b);
+  energy_balance.friction += sliding + vibration;
   energy_balance.friction_rolling += rolling;
-  energy_balance.friction += rolling + vibration;
   energy_balance.throughput += std::abs(rolling);
+  return sliding + vibration - rolling;
 }
 
 // Teeth get the names that they have in the next mesh period. One of each gear is no longer followed.
@@ -333,11 +353,7 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, EnergyBala
   energy_balance.dropped += contact.dropped;
   energy_balance.throughput += std::abs(modes.torque) + std::abs(contact.rolling);
   double& balance = balance_work_.balance;
-  if (friction_ > 0) {
-    const double rolling = energy_balance.friction_rolling, taken = energy_balance.friction;
-    record_friction(a, b, energy_balance);
-    balance += (energy_balance.friction - taken) - (energy_balance.friction_rolling - rolling);
-  }
+  if (friction_ > 0) balance += record_friction(a, b, energy_balance);
   balance += modes.kinetic + modes.modal + relaxed.residual + local + modes.damping + relaxed.damping -
              modes.torque - contact.rolling - contact.switching - contact.cutting - contact.dropped +
              relaxed.averaging;

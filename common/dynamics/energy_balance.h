@@ -22,8 +22,11 @@ struct EnergyBalance {
   // The relaxed load of a tooth that is no longer followed, about a mesh period after its load: minus the energy G R G / 2
   // that goes with it, plus the work of the mean contact forces on the displacement that it took away.
   double dropped = 0;
-  // Of a pair with friction, else 0: work of the prescribed rolling against friction, and all that friction takes,
-  // integral of mu s N v with the vibration in v.
+  // Of a pair with friction, else 0. friction: all that it takes, integral of mu s N v of the kinematics with the vibration in
+  // v. friction_rolling: work of the prescribed rolling against friction, from the torques: T_1 w_1 - T_2 w_2, plus the work of
+  // what holds the mean speed, less that of normal forces off the line of action. What holds the speed is the moment by which
+  // the change of the driver's angular momentum differs from torque and contact moments; it acts on both gears in proportion
+  // to inertia times speed. Sliding speeds are in the first line alone, the moment on the driven gear in the second alone.
   double friction_rolling = 0, friction = 0;
   double throughput = 0;  // sum of |torque| + |rolling|, of both rollings with friction, per step
   double imbalance = 0;   // largest |sum of the imbalance so far|

@@ -97,6 +97,7 @@ bool RollingDynamics::record_contact(const StepKernel::End& end, int position, P
   period.least_gap = std::min(period.least_gap, end.certificate.least_gap);
   period.least_force = std::min(period.least_force, end.certificate.least_force);
   period.fallbacks += end.certificate.fallback;
+  period.friction_coupling = std::max(period.friction_coupling, end.certificate.coupling);
   if (end.contact == StepKernel::Contact::beyond_law)
     require_line_range(mesh, kernel_.p().head(mesh.strips()));
   if (end.contact == StepKernel::Contact::zone_end) {
@@ -128,6 +129,7 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
     if (sway_[g].count > 0) period.bearing_force[g].resize(2, steps_);
   period.drift_force = period.least_gap = period.least_force = 0;
   period.fallbacks = 0;
+  period.friction_coupling = 0;
   fit_teeth(state);
   kernel_.take(state);
   set_gap(0, state.period);

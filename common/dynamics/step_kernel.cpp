@@ -460,7 +460,7 @@ void StepKernel::begin(int sample) {
 
 // The contact of a step with friction: gaps are read with what friction of the forces found last moves.
 template <class Model>
-Certificate StepKernel::slide(Model& model, const Frame& frame, Step& step) {
+Certificate StepKernel::solve_sliding(Model& model, const Frame& frame, Step& step) {
   constexpr int kRows = Model::kRows;
   using Shift = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPairs * kRows, 1>;
   const ModalReading without = reading_;
@@ -492,8 +492,8 @@ StepKernel::End StepKernel::finish_with(Model model, int sample, int next) {
   const bool ahead = next >= 0;
   End end;
   if (ahead) relax(false);
-  end.certificate =
-      friction_ > 0 ? slide(model, frame, steps_[sample]) : model.solve(frame, steps_[sample], reading_);
+  end.certificate = friction_ > 0 ? solve_sliding(model, frame, steps_[sample])
+                                  : model.solve(frame, steps_[sample], reading_);
   for (int j = 0; j < frame.present; ++j) {
     const Contact contact = model.carried(frame, j, end.carried[j]);
     if (contact != Contact::held) end.contact = contact;

@@ -9,7 +9,7 @@
 //   d  = A p + e >= 0,  p >= 0,  d . p = 0                                  of lines with Hertz's law of p in place of H
 //   n  = W^T p,  l = V^T n,  z = z* - (bq / 2) h^T n,  v = v* - (a12 / 2) h^T n,  g = g* + from_new l.
 // With friction forces act on modes through L = h + mu s T in place of h (T of a pair's force as a whole, gear/friction.h), and
-// gaps are still read through h: A + h (bq / 2) (L - h)^T is not symmetric, and the step solved by solve_with_friction().
+// gaps are still read through h: A + h (bq / 2) (L - h)^T is not symmetric. Such a step is solved by solve_with_friction().
 // W: (strip, node) interpolation; V: (node, field) of a pair; C: coupling of the fields of two teeth of a gear; lines have a
 // node per pair and W = 1. step_kernel_reference.h has the same equations in plain matrices; tests/test_step_kernel.cpp
 // compares them.
@@ -262,7 +262,7 @@ class StepKernel {
   struct StripContact;
   struct LineContact;
   template <class Model>
-  Certificate slide(Model& model, const Frame& frame, Step& step);
+  Certificate solve_sliding(Model& model, const Frame& frame, Step& step);
   Eigen::MatrixXd friction_response(const Frame& frame) const;
   template <class Model>
   void begin_with(Model model, int sample);

@@ -1,6 +1,6 @@
 #include "dynamics/step_kernel_reference.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "base/error.h"
@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Eq. 18, d = A p + e >= 0, p >= 0, p . d = 0 of a positive definite A: all strips of wrong sign change sides, after some rounds of
+// Eq. 18, d = A p + e >= 0, p >= 0, p . d = 0 of an A that is positive definite, or nearly so with friction: all strips of wrong sign change sides, after some rounds of
 // that the first of them alone, with which no set comes back (Murty, Opsearch 5 (1968) 23).
 VectorXd strip_forces(const MatrixXd& a, const VectorXd& e) {
   constexpr int kRounds = 30, kMostPivots = 100000;
@@ -22,7 +22,7 @@ VectorXd strip_forces(const MatrixXd& a, const VectorXd& e) {
     for (int i = 0; i < e.size(); ++i)
       if (carries[static_cast<size_t>(i)]) set.push_back(i);
     VectorXd p = VectorXd::Zero(e.size());
-    if (!set.empty()) p(set) = -MatrixXd(a(set, set)).llt().solve(VectorXd(e(set)));
+    if (!set.empty()) p(set) = -MatrixXd(a(set, set)).partialPivLu().solve(VectorXd(e(set)));
     const VectorXd d = a * p + e;
     for (int i = 0; i < e.size(); ++i)
       if ((carries[static_cast<size_t>(i)] ? p[i] : d[i]) < 0) wrong.push_back(i);
@@ -53,7 +53,7 @@ VectorXd line_forces(const MatrixXd& c, std::span<const HertzLine> law, const Ve
         slope(static_cast<int>(k), static_cast<int>(k)) += at.slope;
         gap[static_cast<int>(k)] += at.indentation;
       }
-      const VectorXd change = slope.llt().solve(gap);
+      const VectorXd change = slope.partialPivLu().solve(gap);
       VectorXd next = p;
       next(set) -= change;
       // A force that would change its sign goes half way.
@@ -87,7 +87,7 @@ VectorXd coefficients(const std::vector<Propagator>& propagators, double Propaga
 }  // namespace
 
 StepReference::StepReference(const StepSystem& system, const std::vector<Propagator>& propagators,
-                             const Relaxation& relaxed)
+                             const Relaxation& relaxed, double friction)
     : system_(system),
       a11_(coefficients(propagators, &Propagator::a11)),
       a12_(coefficients(propagators, &Propagator::a12)),
@@ -95,15 +95,25 @@ StepReference::StepReference(const StepSystem& system, const std::vector<Propaga
       a22_(coefficients(propagators, &Propagator::a22)),
       bq_(coefficients(propagators, &Propagator::bq)),
       bv_(coefficients(propagators, &Propagator::bv)),
-      relaxed_step_(relaxed) {}
+      relaxed_step_(relaxed),
+      friction_(friction) {}
 
-// A = H + W (B + from_new R + h (bq / 2) h^T) W^T.
+// L = h + mu s T, T the same at all nodes of a pair.
+MatrixXd StepReference::loading(const StepPosition& position) const {
+  MatrixXd l = position.participation;
+  for (size_t j = 0; friction_ > 0 && j < position.mesh.pairs.size(); ++j)
+    l(position.mesh.nodes_of(j), Eigen::all).rowwise() +=
+        friction_ * position.friction.row(static_cast<Eigen::Index>(j));
+  return l;
+}
+
+// A = H + W (B + from_new R + h (bq / 2) L^T) W^T.
 MatrixXd StepReference::compliance(const StepPosition& position) const {
   const MeshPosition& mesh = position.mesh;
   const MatrixXd& h = position.participation;
   MatrixXd a = MatrixXd::Zero(mesh.strips(), mesh.strips());
   mesh.add_to_strips(position.at_once + relaxed_step_.from_new * position.relaxed +
-                         h * (0.5 * bq_).asDiagonal() * h.transpose(),
+                         h * (0.5 * bq_).asDiagonal() * loading(position).transpose(),
                      a);
   for (size_t j = 0; !system_.lines && j < mesh.pairs.size(); ++j) {
     const int first = mesh.first_strip[j], strips = mesh.pairs[j].size();
@@ -129,7 +139,6 @@ VectorXd StepReference::offset(const StepState& state, const StepPosition& posit
 
 double StepReference::step(StepState& state, const StepPosition& position) const {
   const MeshPosition& mesh = position.mesh;
-  const MatrixXd& h = position.participation;
   // Without new contact force.
   const VectorXd mean = 0.5 * (state.force + system_.torque_force), z0 = state.z, v0 = state.v;
   state.z = a11_.cwiseProduct(z0) + a12_.cwiseProduct(v0) + bq_.cwiseProduct(mean);
@@ -146,7 +155,7 @@ double StepReference::step(StepState& state, const StepPosition& position) const
     if (const auto i = static_cast<Eigen::Index>(j); state.p[i] > 0)
       state.d[i] += mesh.law[j].at(state.p[i]).indentation;
   // Its share of all else.
-  const VectorXd nodes = mesh.to_nodes(state.p), on_modes = h.transpose() * nodes;
+  const VectorXd nodes = mesh.to_nodes(state.p), on_modes = loading(position).transpose() * nodes;
   state.z -= 0.5 * bq_.cwiseProduct(on_modes);
   state.v -= 0.5 * bv_.cwiseProduct(on_modes);
   state.force = system_.torque_force - on_modes;

@@ -10,8 +10,9 @@ namespace whine {
 
 class StepReference {
  public:
+  // friction: 1, coefficient.
   StepReference(const StepSystem& system, const std::vector<Propagator>& propagators,
-                const Relaxation& relaxed);
+                const Relaxation& relaxed, double friction = 0);
 
   // Takes a state by one step to `position`. Result: transmission error, m. Throws Error(numerical) if contact finds no
   // solution.
@@ -22,11 +23,13 @@ class StepReference {
  private:
   Eigen::MatrixXd compliance(
       const StepPosition& position) const;  // (strip, strip) m N-1: A without laws of lines
+  Eigen::MatrixXd loading(const StepPosition& position) const;                         // (node, coordinate) L
   Eigen::VectorXd offset(const StepState& state, const StepPosition& position) const;  // (strip) m: e
 
   const StepSystem& system_;
   Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, bv_;  // (coordinate)
   Relaxation relaxed_step_;
+  double friction_;
 };
 
 }  // namespace whine

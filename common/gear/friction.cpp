@@ -27,6 +27,11 @@ PairSliding sliding_of(const GearPair& pair, const PairContact& contact, double 
   return out;
 }
 
+double pitch_line_speed(const GearPair& pair, double mesh_frequency) {
+  return 2 * std::numbers::pi * mesh_frequency / pair.gear(0).design().teeth * pair.gear(0).base_radius() /
+         std::cos(pair.working_pressure_angle());
+}
+
 double friction_coefficient(const GearPair& pair, double face_width, const Friction& friction, double torque,
                             double mesh_frequency) {
   if (friction.law == FrictionLaw::constant) return friction.coefficient;
@@ -34,12 +39,17 @@ double friction_coefficient(const GearPair& pair, double face_width, const Frict
     fail(Failure::input,
          "Schlenk's coefficient of friction needs a torque and a mesh frequency above 0, given are ", torque,
          " N m and ", mesh_frequency, " Hz; set static_frequency_Hz in [friction]");
+  if (!(friction.viscosity > 0) || !(friction.roughness > 0))
+    fail(Failure::input,
+         "Schlenk's coefficient of friction needs a viscosity and a roughness above 0, given are ",
+         friction.viscosity * 1e3, " mPa s and ", friction.roughness * 1e6,
+         " µm; set viscosity_mPas and roughness_um in [friction]");
   constexpr double kLeastLoad = 150;  // N mm-1
-  const double base = pair.gear(0).base_radius(), alpha = pair.working_pressure_angle();
-  const double turns = 2 * std::numbers::pi * mesh_frequency / pair.gear(0).design().teeth;  // rad s-1
-  const double line_load = std::max(kLeastLoad, torque / base / face_width * 1e-3),          // N mm-1
-      sum_of_speeds = 2 * turns * base * std::tan(alpha),                                    // m s-1
-      curvature = pair.relative_curvature_radius(0.0) * 1e3;                                 // mm
+  const double speed =
+      std::clamp(pitch_line_speed(pair, mesh_frequency), kSchlenkSpeeds[0], kSchlenkSpeeds[1]);
+  const double line_load = std::max(kLeastLoad, torque / pair.gear(0).base_radius() / face_width * 1e-3),
+               sum_of_speeds = 2 * speed * std::sin(pair.working_pressure_angle()),  // m s-1
+      curvature = pair.relative_curvature_radius(0.0) * 1e3;                         // mm
   const double coefficient = 0.048 * std::pow(line_load / (sum_of_speeds * curvature), 0.2) *
                              std::pow(friction.viscosity * 1e3, -0.05) *
                              std::pow(friction.roughness * 1e6, 0.25) * friction.lubricant_factor;

@@ -31,11 +31,15 @@ PairSliding sliding_of(const GearPair& pair, const PairContact& contact, double 
 //   mu = 0.048 (F_bt / b / (v_sum rho))^0.2 eta^-0.05 Ra^0.25 X_L
 // with F_bt = T / r_b1 over the face width b on which the teeth meet in N/mm, v_sum = 2 v_t sin(alpha_w) in m/s and the
 // relative radius of curvature rho in mm, both at the pitch point, eta in mPa s and Ra in micrometres. It is a fit to tests of
-// external gears between about 1 and 50 m/s and with 150 N/mm or more; smaller line loads count as 150 N/mm. Source: Schlenk,
-// dissertation, TU Muenchen 1994, as Niemann and Winter, Maschinenelemente 2, give it. Throws Error(input) if torque or speed of
-// Schlenk's formula is not above 0 or the coefficient above 0.3.
+// external gears at pitch-line speeds v_t of about 1 to 50 m/s and with 150 N/mm or more. Beyond, the nearest of these values
+// stands in its place. Source: Schlenk, dissertation, TU Muenchen 1994, as Niemann and Winter, Maschinenelemente 2, give it.
+// Throws Error(input) if torque, speed, viscosity or roughness of Schlenk's formula is not above 0 or the coefficient above 0.3.
 double friction_coefficient(const GearPair& pair, double face_width, const Friction& friction, double torque,
                             double mesh_frequency);
+
+// m s-1: pitch-line speeds that Schlenk's formula is fit to, and v_t of a pair at a mesh frequency (Hz).
+inline constexpr double kSchlenkSpeeds[] = {1, 50};
+double pitch_line_speed(const GearPair& pair, double mesh_frequency);
 
 // "coefficient 0.05, smoothed over 1 % of the speed of the pitch line"
 std::string in_words(const Friction& friction);

@@ -356,12 +356,12 @@ void describe_backlash(Codec& c, double& margin) {
 }
 
 void describe_friction(Codec& c, FrictionLosses& friction) {
+  constexpr Range kPower{-1e12, 1e12};  // W
   if (!c.optional("/friction_power", friction.power.size() > 0)) return;
   const char* const axis = "mesh_frequency";
-  c.dataset({"/friction_coefficient", "1", "coefficient of friction", axis, kPositive},
-            &friction.coefficient);
+  c.dataset({"/friction_coefficient", "1", "coefficient of friction", axis, kShare}, &friction.coefficient);
   c.dataset({"/friction_power", "W", "mean power that friction takes, the vibration in the sliding speed",
-             axis, kEnergy, "mean of mu s F v"},
+             axis, kPower, "mean of mu s F v"},
             &friction.power);
   c.dataset({"/efficiency", "1", "share of the power of the driver that friction leaves", axis, kSigned,
              "1 - friction_power / (T omega)"},

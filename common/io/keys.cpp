@@ -231,7 +231,7 @@ std::vector<Key> make_keys() {
      "of law = \"constant\": friction force over normal force; 0: no friction",
      [](V& v) -> Slot { return &v.mesh.friction.coefficient; }},
     {Part::friction, "friction", "smoothing", kNone, "0.01", 1e-6, 1, false, "",
-     "sliding speed v0 over the speed of the pitch line: friction is mu N v / sqrt(v^2 + v0^2), and so changes its sign smoothly at the pitch point",
+     "sliding speed v0 over the speed of the pitch line. Friction is mu N v / sqrt(v^2 + v0^2): it changes its sign smoothly at the pitch point",
      [](V& v) -> Slot { return &v.mesh.friction.smoothing; }},
     {Part::friction, "friction", "viscosity_mPas", kMillipascalSecond, "0.0", 0, 1e6, false, "",
      "of law = \"schlenk\", which requires it: dynamic viscosity of the oil at the temperature of the mesh",
@@ -243,7 +243,7 @@ std::vector<Key> make_keys() {
      "of law = \"schlenk\": X_L, 1 for mineral oils",
      [](V& v) -> Slot { return &v.mesh.friction.lubricant_factor; }},
     {Part::friction, "friction", "static_frequency_Hz", kHertz, "0.0", 0, 1e6, false, "",
-     "of law = \"schlenk\", which requires it: mesh frequency that the pair at rest stands for",
+     "of law = \"schlenk\", which requires it: mesh frequency at which the coefficient of the pair at rest is taken",
      [](V& v) -> Slot { return &v.mesh.friction.static_frequency; }},
 
     {Part::damping, "damping", "rayleigh_mass_per_s", kPerSecond, "0.0", 0, 1e6, false, "",

@@ -79,21 +79,26 @@ void describe_root_stress(Codec& c, StaticArtifact& a) {
             &a.loss_factor);
 }
 
+constexpr Range kLost{0, 1e7};  // N m
+
 // Left out of flanks without friction.
 void describe_friction(Codec& c, StaticArtifact& a) {
   if (!c.optional("/friction_loss", a.friction_loss.size() > 0)) return;
-  c.dataset({"/friction_coefficient", "1", "coefficient of friction", "", kPositive},
-            &a.friction_coefficient);
+  c.dataset({"/friction_coefficient", "1", "coefficient of friction", "", kShare}, &a.friction_coefficient);
+  c.dataset({"/certificate/friction_coupling", "m",
+             "largest change of a gap by what friction of the last forces moves, over all positions", "",
+             kSize, "iteration for d = (A + E) p + e, E of friction: E times the last change of p"},
+            &a.friction_coupling);
   c.dataset({"/friction_loss", "N m", "work that friction takes per angle (rad) of the driver", "mesh_phase",
-             kMoment, "sum of mu s F (t1 - t2 z1 / z2)"},
+             kLost, "sum of mu s F (t1 - t2 z1 / z2)"},
             &a.friction_loss);
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    c.dataset(
-        {of_body(c, a.mesh, g, "friction_moment"), "N m",
-         "moment of friction about the axis of the gear, positive where it acts as the normal force does: "
-         "against the rotation of the driver, with that of the driven gear",
-         "mesh_phase", kMoment, "sum of mu s F t"},
-        &a.friction_moment[g]);
+    c.dataset({of_body(c, a.mesh, g, "friction_moment"), "N m",
+               "moment of friction about the axis of the gear, positive where it has the sense of the moment "
+               "of the normal force, "
+               "which brakes the driver and drives the driven gear",
+               "mesh_phase", kMoment, "sum of mu s F t"},
+              &a.friction_moment[g]);
   c.dataset({"/efficiency",
              "1",
              "of the mesh at rest: work given by the driven gear over that put into the driver",

@@ -87,6 +87,12 @@ void show_bearings(Lines& lines, const GearMeshSpec& mesh) {
 }
 
 // Nothing for teeth that are all alike.
+void show_friction(Lines& lines, const GearMeshSpec& mesh) {
+  if (!mesh.friction.acts()) return;
+  add(lines, "friction", in_words(mesh.friction),
+      "; the bending of teeth by it is left out: of opposite sign, about as large in transmission errors");
+}
+
 void show_errors(Lines& lines, const GearMeshSpec& mesh) {
   const auto largest = [](const std::vector<double>& teeth) {
     double most = 0;
@@ -171,7 +177,7 @@ void show(Lines& lines, const StaticArtifact& a) {
   add(lines, "corner contact", corner_rule(a.mesh));
   add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
-  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
+  show_friction(lines, a.mesh);
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
   show_discretisation(lines, a);
@@ -210,7 +216,6 @@ void show(Lines& lines, const StaticArtifact& a) {
 void show(Lines& lines, const LoadedArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", mesh phase ", a.mesh_phase);
   show_modification(lines, a.mesh);
-  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
   show_discretisation(lines, a);
   add(lines, "transmission error", a.transmission_error * 1e6, " µm");
   for (Eigen::Index i = 0; i < a.pair.size(); ++i)
@@ -244,6 +249,8 @@ void show(Lines& lines, const ErrorBudgetArtifact& a) {
 }
 
 void show(Lines& lines, const ImpactArtifact& a) {
+  if (a.mesh.friction.acts())
+    add(lines, "friction", "left out of ring-downs: teeth do not slide at a fixed mesh phase");
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.torque_step * 100, " % let go");
   show_damping(lines, a.damping);
   for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
@@ -283,7 +290,7 @@ void show(Lines& lines, const SweepArtifact& a) {
   add(lines, "corner contact", corner_rule(a.mesh));
   add(lines, "state of the contact", contact_plane(a.mesh));
   show_modification(lines, a.mesh);
-  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
+  show_friction(lines, a.mesh);
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
   if (a.mesh_frequency.size() > 0) {
@@ -321,6 +328,7 @@ void show(Lines& lines, const SweepArtifact& a) {
 
 void show(Lines& lines, const BranchArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", range_of(a.mesh_frequency));
+  show_friction(lines, a.mesh);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
       a.fidelity.integrator);
   show_damping(lines, a.damping);
@@ -391,6 +399,7 @@ void show(Lines& lines, const SystemSweepArtifact& a) {
 
 void show(Lines& lines, const FoldCurvesArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
+  show_friction(lines, a.mesh);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
       a.fidelity.integrator);
   if (a.value.size() > 0)
@@ -403,6 +412,7 @@ void show(Lines& lines, const FoldCurvesArtifact& a) {
 }
 
 void show(Lines& lines, const RunupArtifact& a) {
+  show_friction(lines, a.mesh);
   add(lines, "operating point", a.torque, " N m, ", a.ramp.from, " to ", a.ramp.to, " Hz at ", a.ramp.rate,
       " rpm/s");
   add(lines, "record", a.samples.size(), " samples at ", a.sample_rate, " Hz, ", a.periods.size(),
@@ -414,6 +424,7 @@ void show(Lines& lines, const RunupArtifact& a) {
 }
 
 void show(Lines& lines, const ResponseArtifact& a) {
+  show_friction(lines, a.mesh);
   add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
   if (a.mesh_frequency.size() > 0) {
@@ -457,7 +468,6 @@ namespace {
 void show(Lines& lines, const HarrisMapArtifact& a) {
   show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
-  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
   add(lines, "torque", a.torque.size(), " from ", a.torque[0], " to ", a.torque[a.torque.size() - 1], " N m");
@@ -478,7 +488,7 @@ void show(Lines& lines, const HarrisMapArtifact& a) {
 void show(Lines& lines, const VariantArtifact& a) {
   show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
-  if (a.mesh.friction.acts()) add(lines, "friction", in_words(a.mesh.friction));
+  show_friction(lines, a.mesh);
   add(lines, "torque", a.torque, " N m");
   if (!a.directions.empty())
     add(lines, "speeds", a.frequency_from, " to ", a.frequency_to, " Hz, ", a.directions.size(),

@@ -86,12 +86,16 @@ void describe_speed_by_speed(Codec& c, SweepArtifact& a) {
               text(kEnergyLines[i].meaning, ", over the stored periods"), axis, kEnergy},
              a.energy, i, kLines);
   describe_friction(c, a.friction);
-  if (c.optional("/energy/friction", a.friction_work.size() > 0)) {
+  if (c.lists() || a.friction.power.size() > 0) {
     c.dataset({"/energy/friction_rolling", "J",
                "work of the prescribed rolling against friction, over the stored periods", axis, kEnergy},
               &a.friction_rolling);
     c.dataset({"/energy/friction", "J", "taken by friction, over the stored periods", axis, kEnergy},
               &a.friction_work);
+    c.dataset({"/certificate/friction_coupling", "m",
+               "largest change of a gap by what friction of the last forces moves, over all steps", "", kSize,
+               "iteration for d = (A + E) p + e, E of friction: E times the last change of p"},
+              &a.friction_coupling);
   }
   c.dataset(
       {"/drift_force", "N", "largest force that the output must supply to hold the mean speed", axis, kForce},

@@ -45,12 +45,12 @@ inline constexpr const char* kWordsOf<FrictionLaw> = "constant schlenk";
 // Coulomb friction between the flanks, mu s N, s = v / sqrt(v^2 + v_0^2), v the sliding speed of the kinematics.
 struct Friction {
   FrictionLaw law = FrictionLaw::constant;
-  double coefficient = 0;       // 1, of FrictionLaw::constant; 0: no friction
-  double smoothing = 0.01;      // 1: v_0 over the speed of the pitch line
-  double viscosity = 0;         // Pa s, these of Schlenk's formula: of the oil in the mesh,
-  double roughness = 0;         // m: Ra, mean of both flanks,
-  double lubricant_factor = 1;  // 1: X_L,
-  double static_frequency = 0;  // Hz: mesh frequency that the pair at rest stands for
+  double coefficient = 0;   // 1, of FrictionLaw::constant; 0: no friction
+  double smoothing = 0.01;  // 1: v_0 over the speed of the pitch line
+  double viscosity = 0;         // Pa s, of the oil in the mesh; from here on: of Schlenk's formula
+  double roughness = 0;         // m: Ra, mean of both flanks
+  double lubricant_factor = 1;  // 1: X_L
+  double static_frequency = 0;  // Hz: mesh frequency at which the coefficient of the pair at rest is taken
 
   bool acts() const { return law != FrictionLaw::constant || coefficient > 0; }
 };

@@ -29,17 +29,20 @@ const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, do
   return *found;
 }
 
-FigureBlock speed_block(const std::string& name, const ResponseArtifact& r) {
+// rest: of the same torque. Its loss goes with the coefficient at each speed: what a motion without vibration would lose.
+FigureBlock speed_block(const std::string& name, const ResponseArtifact& r, const StaticArtifact& rest) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]",
-                     "friction_coefficient [1]", "loss_factor [1]"},
+                     "friction_coefficient [1]", "loss_factor [1]", "efficiency_without_vibration [%]"},
                     {},
                     text("speed-T", shown(r.torque, 6)),
                     name_of(r.direction)};
   const std::vector<bool> broken = broken_after(r);
+  const double loss = (1 - rest.efficiency) / rest.friction_coefficient;
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     block.rows.push_back({r.mesh_frequency[i], r.friction.efficiency[i] * 100, r.friction.power[i],
-                          r.friction.coefficient[i], r.loss_factor.size() > 0 ? r.loss_factor[i] : 0});
+                          r.friction.coefficient[i], r.loss_factor.size() > 0 ? r.loss_factor[i] : 0,
+                          (1 - loss * r.friction.coefficient[i]) * 100});
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
   }
   return block;
@@ -83,16 +86,14 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
     labels += text(t ? " '" : "'", torque_words(s.torque), "'");
     for (const Direction direction : {Direction::up, Direction::down}) {
       figure.blocks.push_back(
-          speed_block(text(t + 1, " ", direction), sweep_at(sweeps, s.torque, direction)));
+          speed_block(text(t + 1, " ", direction), sweep_at(sweeps, s.torque, direction), s));
       for (const std::vector<double>& row : figure.blocks.back().rows) {
         if (row.empty()) continue;
-        least = std::min(least, row[1]);
-        most = std::max(most, row[1]);
+        least = std::min({least, row[1], row[5]});
+        most = std::max({most, row[1], row[5]});
         power = std::max(power, row[2]);
       }
     }
-    least = std::min(least, s.efficiency * 100);
-    most = std::max(most, s.efficiency * 100);
     rest.rows.push_back({s.torque, s.friction_coefficient, s.efficiency * 100, s.loss_factor});
     if (rigid) rest.rows.back().push_back(*rigid);
     at_rest += text(t ? ", " : "", fixed(s.efficiency * 100, 3), " % at ", torque_words(s.torque),
@@ -117,10 +118,14 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
                   "at rest (kinematics): " + at_rest,
                   text("loss factor H_V at rest, without the coefficient: ", factors,
                        rigid ? text("; of rigid teeth ", fixed(*rigid, 4)) : "")};
+  const ResponseArtifact& up = sweep_at(sweeps, first.torque, Direction::up);
+  const double fast = kSchlenkSpeeds[1] / pitch_line_speed(pair, 1);  // Hz
+  if (first.mesh.friction.law == FrictionLaw::schlenk && up.mesh_frequency.maxCoeff() > fast)
+    figure.notes.push_back(text("above ", fixed(fast, 0), " Hz the coefficient is that at ",
+                                kSchlenkSpeeds[1], " m/s, where the tests of Schlenk's formula end"));
   figure.shafts = shafts_of(first);
   figure.words = {{"labels", labels},
                   {"gears", text("'", first.mesh.gear[0], "' '", first.mesh.gear[1], "'")}};
-  const ResponseArtifact& up = sweep_at(sweeps, first.torque, Direction::up);
   figure.numbers = {{"curves", static_cast<double>(statics.size())},
                     {"power_max", power},
                     {"efficiency_min", least},
@@ -129,8 +134,6 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
                     {"frequency_to", up.mesh_frequency.maxCoeff()},
                     {"notes", static_cast<double>(figure.notes.size())},
                     {"natural_frequency", up.natural_frequency}};
-  for (size_t t = 0; t < statics.size(); ++t)
-    figure.numbers.emplace_back(text("rest", t + 1), statics[t].efficiency * 100);
   return figure;
 }
 

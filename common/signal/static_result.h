@@ -48,10 +48,11 @@ struct StaticArtifact : PairParameters {
   Eigen::VectorXd transmission_error_order;
   double mean_stiffness = 0;  // N m-1: mean over the period of the secant stiffness
   // certificate: worst over all positions
-  double least_gap = 0;        // m, of strips without force
-  double least_force = 0;      // N, of strips with force
-  double torque_residual = 0;  // relative, |sum a p - T| / T
-  double backlash_margin = 0;  // m left on the line of action; infinite backlash is not stored (see flag)
+  double least_gap = 0;          // m, of strips without force
+  double least_force = 0;        // N, of strips with force
+  double torque_residual = 0;    // relative, |sum a p - T| / T
+  double friction_coupling = 0;  // m, by how much gaps are off for what friction of the last forces moves
+  double backlash_margin = 0;    // m left on the line of action; infinite backlash is not stored (see flag)
 };
 
 }  // namespace whine

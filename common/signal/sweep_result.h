@@ -79,6 +79,7 @@ struct SweepArtifact : MotionParameters {
   // (speed) J over the stored periods: work of the prescribed rolling against friction, and all that friction takes; they stand
   // beside the works and the dampers of `energy`. Empty without friction.
   Eigen::VectorXd friction_rolling, friction_work;
+  double friction_coupling = 0;  // m, by how much gaps are off for what friction of the last forces moves
   // (speed) N: largest force that the output must supply to hold the mean speed
   Eigen::VectorXd drift_force;
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz

@@ -321,8 +321,14 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
   std::vector<Remark> out;
   const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
   // Said once of a pair of sweeps, by the one of rising speed.
-  if (s.direction == Direction::up && s.model == "finite elements")
+  if (s.direction == Direction::up && s.model == "finite elements") {
     out = setup_remarks(statics, s.inertia, s.damping, s.fidelity);
+    if (s.mesh_frequency.size() > 0) {
+      const std::vector<Remark> more =
+          friction_remarks(s, s.mesh_frequency.minCoeff(), s.mesh_frequency.maxCoeff());
+      out.insert(out.end(), more.begin(), more.end());
+    }
+  }
   if (const double steps = steps_per_oscillation(s); steps < kFewestSteps)
     add(true, "a time step is too long for the contact: ", steps,
         " steps per oscillation at its natural frequency of ", s.natural_frequency, " Hz, ", kFewestSteps,
@@ -420,6 +426,7 @@ double store_motions(const std::vector<Orbit>& steady, int reach, SweepArtifact&
       a.least_gap = std::min(a.least_gap, period.least_gap);
       a.least_force = std::min(a.least_force, period.least_force);
       a.fallbacks += period.fallbacks;
+      a.friction_coupling = std::max(a.friction_coupling, period.friction_coupling);
     }
     store_samples(orbit, longest, reach, i, a);
   }

@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "gear/internal_mesh.h"
 #include "gear/losses.h"
+#include "gear/numbers.h"
 #include "system/compliance_split.h"
 #include "system/flank_pressure.h"
 #include "system/root_stress.h"
@@ -60,7 +61,7 @@ std::string solve_period(const SystemModel& system, const std::vector<CandidateZ
   int lowest = 0, highest = 0;
   std::vector<VectorXd> start(static_cast<size_t>(result.hunting_periods), VectorXd::Zero(2));
   result.least_gap = result.least_force = std::numeric_limits<double>::infinity();
-  result.torque_residual = 0;
+  result.torque_residual = result.friction_coupling = 0;
   for (int row = 0; row < rows; ++row) {
     report_step("mesh positions", row, rows);
     const int period = row % result.hunting_periods, position = row / result.hunting_periods,
@@ -83,8 +84,12 @@ std::string solve_period(const SystemModel& system, const std::vector<CandidateZ
       // In series on the line of action; that a corner's normal is tilted against it is left out here.
       result.stiffness_tangent[i] = 1 / (1 / result.stiffness_tangent[i] - 1 / bearing.stiffness);
     }
+    // With friction forces do not act along what they are read along, and bearings are not in series with the mesh.
+    if (system.friction > 0 && model.on_bearings())
+      result.stiffness_tangent[i] = statics.mesh_stiffness()(0, 0);
     store_friction(system, solution, statics.position(), i, result);
     result.torque_residual = std::max(result.torque_residual, e.residual);
+    result.friction_coupling = std::max(result.friction_coupling, e.certificate.coupling);
     result.least_gap = std::min(result.least_gap, e.certificate.least_gap);
     result.least_force = std::min(result.least_force, e.certificate.least_force);
     for (const LoadedSegment& at : solution.loads)
@@ -221,8 +226,39 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
   const double pressure = flank_pressure(s).smooth;
   if (pressure > kHardenedSteelPressure)
     add(true, "the contact pressure of ", std::round(pressure * 1e-7) / 100, kBeyondSteel);
-  for (const std::vector<Remark>& more : {pressure_remarks(s), body_remarks(s)})
+  for (const std::vector<Remark>& more :
+       {pressure_remarks(s), body_remarks(s),
+        friction_remarks(s, s.mesh.friction.static_frequency, s.mesh.friction.static_frequency)})
     out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+std::vector<Remark> friction_remarks(const PairParameters& pair, double from, double to) {
+  std::vector<Remark> out;
+  if (!pair.mesh.friction.acts()) return out;
+  out.push_back(remark(
+      false,
+      "friction acts by its moments and forces on the hubs; that it bends the teeth is left out, which "
+      "changes the "
+      "transmission error about as much with the opposite sign (common/system/README.md, Friction at rest). "
+      "Losses do not depend on it to first order"));
+  if (pair.mesh.friction.law == FrictionLaw::constant) return out;
+  const GearPair gears(pair);
+  if (gears.internal())
+    out.push_back(
+        remark(true,
+               "Schlenk's formula is fit to tests of external gears; of an internal pair its coefficient of "
+               "friction is an extrapolation. Give a number in [friction]: law = \"constant\""));
+  const double per_frequency = pitch_line_speed(gears, 1), slow = kSchlenkSpeeds[0] / per_frequency,
+               fast = kSchlenkSpeeds[1] / per_frequency;
+  if (from < slow)
+    out.push_back(remark(false, "below ", shown_number(slow), " Hz the coefficient of friction is that at ",
+                         kSchlenkSpeeds[0],
+                         " m/s on the pitch line, where the tests of Schlenk's formula begin"));
+  if (to > fast)
+    out.push_back(remark(false, "above ", shown_number(fast), " Hz the coefficient of friction is that at ",
+                         kSchlenkSpeeds[1],
+                         " m/s on the pitch line, where the tests of Schlenk's formula end"));
   return out;
 }
 

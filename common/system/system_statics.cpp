@@ -290,7 +290,9 @@ MatrixXd SystemStatics::mesh_stiffness() const {
 std::vector<std::vector<ContactZone>> SystemStatics::zones() const {
   const SystemEquilibrium& at = solution_.equilibrium;
   const MatrixXd& a = cracked_here_ ? with_cracks_ : compliance_;
-  const VectorXd separation = a * at.p + position_->gap - position_->displacement.rotation * at.x;
+  VectorXd separation = a * at.p + position_->gap - position_->displacement.rotation * at.x;
+  if (const MatrixXd friction = friction_compliance(system_, *position_); friction.size() > 0)
+    separation += friction * at.p;
   std::vector<std::vector<ContactZone>> out(position_->mesh.size());
   for (size_t m = 0; m < out.size(); ++m)
     for (size_t j = 0; j < position_->mesh[m].pairs.size(); ++j) {

@@ -1,5 +1,5 @@
 # Efficiency (a) and power lost (b) over speed at each torque, both sweep directions; moments of friction over a mesh period (c).
-# Variables from gear-plot: tsv, heading, note1, note2, ..., notes, height, labels, gears, curves, rest1, rest2, ..., power_max,
+# Variables from gear-plot: tsv, heading, note1, note2, ..., notes, height, labels, gears, curves, power_max,
 # efficiency_min, efficiency_max, frequency_from, frequency_to, natural_frequency.
 set datafile separator tab
 set datafile commentschars "#"
@@ -29,12 +29,12 @@ range = efficiency_max - efficiency_min
 range = range > 0 ? range : 0.1
 set yrange [efficiency_min - 0.08 * range : efficiency_max + 0.12 * range]
 set ylabel "Efficiency (%)"
-set label 1 "{/:Bold (a)} efficiency of the mesh, friction alone; dotted: at rest" at graph 0, graph 1 offset 0, 0.8 font ",14"
+set label 1 "{/:Bold (a)} efficiency of the mesh, friction alone; dotted: without vibration" at graph 0, graph 1 offset 0, 0.8 font ",14"
 drawn = ''
 do for [t = 1:curves] {
   drawn = drawn . sprintf('tsv index "[%d down]" using 1:2 with lines lt 1 lw 2 dt (10, 5) lc rgb "%s" notitle, ', t, colour[t]) \
     . sprintf('tsv index "[%d up]" using 1:2 with lines lt 1 lw 2 lc rgb "%s" title word(labels, %d), ', t, colour[t], t) \
-    . sprintf('rest%d with lines lt 1 lw 2.2 dt (3, 4) lc rgb "%s" notitle, ', t, colour[t])
+    . sprintf('tsv index "[%d up]" using 1:6 with lines lt 1 lw 2.2 dt (3, 4) lc rgb "%s" notitle, ', t, colour[t])
 }
 eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050" title "dashed: falling"')
 
