@@ -323,7 +323,7 @@ TEST_CASE("planets in motion, both flanks: the forced response of rigid gears on
   for (size_t b = 0; b < rig.system.body.size(); ++b)
     damping +=
         rig.system.layout.bodies[b].bearing.damping * rigid.translation[b].transpose() * rigid.translation[b];
-  constexpr double kFrequency = 700;
+  constexpr double kFrequency = 1200;
   constexpr int kHarmonics = 3;
   MatrixXd forced = MatrixXd::Zero(6, kPhases), still = forced;
   for (int i = 0; i < kPhases; ++i)

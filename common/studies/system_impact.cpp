@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/model_range.h"
 #include "dynamics/impact.h"
 #include "studies/system_rig.h"
 #include "system/natural_modes.h"
