@@ -40,9 +40,9 @@ if (up) { drawn = drawn . 'keyentry with points pt 2 ps 0.9 lw 1.6 lc rgb "#2222
 if (down) { drawn = drawn . 'keyentry with points pt 6 ps 1.1 lw 1.4 lc rgb "#222222" title "sweep, falling", ' }
 eval("plot " . drawn[1:strlen(drawn) - 2])
 set tmargin at screen middle - 0.04
-set bmargin at screen lift + 90.0 / height
+set bmargin at screen lift + 105.0 / height
 set yrange [0 : largest]
-set ylabel "Largest multiplier (modulus)"
+set ylabel "Largest multiplier" offset -1, 0
 set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lw 2 lc rgb "#444444"
 drawn = ""
 if (stable) { drawn = drawn . 'tsv index "[stable]" using 1:2 with lines lt 1 lw 2.4 lc rgb "#0072b2" title "stable", ' }

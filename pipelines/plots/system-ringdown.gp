@@ -11,13 +11,13 @@ set tics out nomirror
 set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.09
 set rmargin at screen 0.97
-set tmargin at screen 0.80
+set tmargin at screen 0.77
 set bmargin at screen 0.12 + lift
 set xrange [from : to]
 set yrange [0 : most]
 set xlabel "Natural frequency (Hz)"
 set ylabel "Damping ratio (%)"
-set key at screen 0.09, screen 0.90 left top Left reverse horizontal maxcols 2 width 2 samplen 3 spacing 1.3 font ",14"
+set key at screen 0.09, screen 0.905 left top Left reverse horizontal maxcols 2 width 2 samplen 3 spacing 1.3 font ",14"
 drawn = rigid == 1 ? 'tsv index "[rigid]" using 1:(0):(0):(most) with vectors nohead lt 1 lw 1.6 lc rgb "#b8b8b8" notitle, ' \
   . 'keyentry with lines lt 1 lw 1.6 lc rgb "#b8b8b8" title "natural frequencies of rigid gears on the mean mesh stiffness", ' : ""
 eval("plot " . drawn . 'tsv index "[rayleigh]" using 1:2 with lines lt 1 lw 2 dt (12, 6) lc rgb "#d55e00" title "Rayleigh damping if it damped all that deforms", ' \
