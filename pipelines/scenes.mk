@@ -67,7 +67,7 @@ scenes := $(sort \
   $(if $(filter bearing-forces out/figures/bearing-forces%,$(goals)),$(if $(SCENE),$(own_scene),$(bearing_scene))) \
   $(if $(filter efficiency out/figures/efficiency%,$(goals)),$(if $(SCENE),$(own_scene),$(friction_scene))) \
   $(if $(filter modes mode-shapes,$(goals)),$(if $(SCENE),$(own_scene),$(system_scene))) \
-  $(if $(filter system-static system-sweep,$(goals)),$(if $(SCENE),$(own_scene),$(elastic_system_scene))) \
+  $(if $(filter system-static system-sweep system-ringdown system-branch,$(goals)),$(if $(SCENE),$(own_scene),$(elastic_system_scene))) \
   $(if $(filter crack out/figures/crack%,$(goals)),$(if $(SCENE),$(own_scene),$(cracked_scene))) \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes) $(standard_scene) $(calibrated_scene))) \

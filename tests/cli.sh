@@ -66,6 +66,11 @@ stage_system=("$bin/gear-system-static" --params out/scene-inline/params/system_
 stage_system_sweep=("$bin/gear-system-sweep" --params out/scene-inline/params/system_sweep.toml --body pinion=out/scene-inline/pinion/body.h5
   --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --direction up --output out/scene-inline/up/system_sweep.h5)
 stage_system_sweep_plot=("$bin/gear-plot" system-sweep --plots "$plots" --output system-sweep out/scene-inline/up/system_sweep.h5)
+inline_bodies_given=(--body pinion=out/scene-inline/pinion/body.h5 --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5)
+stage_system_impact=("$bin/gear-system-impact" --params out/scene-inline/params/system_sweep.toml "${inline_bodies_given[@]}" --modes 3 --phases 2 --output out/scene-inline/system_impact.h5)
+stage_system_orbit=("$bin/gear-system-orbit" --params out/scene-inline/params/system_sweep.toml "${inline_bodies_given[@]}" --output out/scene-inline/system_branch.h5)
+stage_ringdown_plot=("$bin/gear-plot" system-ringdown --plots "$plots" --output system-ringdown out/scene-inline/system_impact.h5)
+stage_system_branch_plot=("$bin/gear-plot" system-branch --plots "$plots" --output system-branch out/scene-inline/system_branch.h5 out/scene-inline/up/system_sweep.h5)
 stage_elastic_modes=("$bin/gear-modes" --static out/scene-inline/system_static.h5 --output out/scene-inline/modes.h5)
 stage_system_plot=("$bin/gear-plot" system-static --plots "$plots" --output system out/scene-inline/system_static.h5)
 stage_picture=("$bin/gear-plot" system --plots "$plots" --output system-picture out/scene-inline/system_static.h5)
@@ -82,7 +87,7 @@ chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
     $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && "${stage_runup[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
     "${stage_train[@]}" && "${stage_modes[@]}" && "${stage_modes_plot[@]}" &&
-    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && mkdir -p out/scene-inline/up && "${stage_system_sweep[@]}" && "${stage_system_sweep_plot[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
+    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && mkdir -p out/scene-inline/up && "${stage_system_sweep[@]}" && "${stage_system_sweep_plot[@]}" && "${stage_system_impact[@]}" && "${stage_system_orbit[@]}" && "${stage_ringdown_plot[@]}" && "${stage_system_branch_plot[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
     "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/system_static.h5 out/scene-inline/modes.h5
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
@@ -96,7 +101,7 @@ if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
   wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
 if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
   wrong "no artifact holds a path of the machine" "$found"; fi
-for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/runup_5000.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5 out/scene-train/modes.h5 out/scene-inline/system_static.h5 out/scene-inline/up/system_sweep.h5 out/scene-inline/modes.h5; do
+for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/runup_5000.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5 out/scene-train/modes.h5 out/scene-inline/system_static.h5 out/scene-inline/up/system_sweep.h5 out/scene-inline/system_impact.h5 out/scene-inline/system_branch.h5 out/scene-inline/modes.h5; do
   if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
@@ -184,6 +189,7 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-export]="$bin/gear-export --model $scene_of_paper out/scene/T100/static.h5 --output x.rexs"
   [gear-import]="$bin/gear-import --input $scene_of_paper --output x.toml"
   [gear-loaded]="${stage_loaded[*]}" [gear-modes]="${stage_modes[*]}" [gear-system-static]="${stage_system[*]}" [gear-system-sweep]="${stage_system_sweep[*]}"
+  [gear-system-impact]="${stage_system_impact[*]}" [gear-system-orbit]="${stage_system_orbit[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-study]="$bin/gear-study --study scene.toml --output study.mk"
   [gear-reading]="$bin/gear-reading --printed $claims --plan scene.toml --output x"
@@ -646,7 +652,7 @@ $(sweep scene up) > /dev/null 2>&1
 if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact and removes what killed runs left"; else
   wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi
 # A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
-for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-lumped gear-spectra gear-modes gear-system-static gear-system-sweep gear-plot; do
+for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-lumped gear-spectra gear-modes gear-system-static gear-system-sweep gear-system-impact gear-system-orbit gear-plot; do
   before=$(contents)
   (ulimit -f 8; trap '' XFSZ; exec ${whole[$name]}) > /dev/null 2> said
   status=$?

@@ -424,6 +424,12 @@ expect "its motion: a sweep each way" "gear-plot*1 gear-system-sweep*2"
 make_ SCENE=inline.toml system-static modes system-sweep; sed -i 's/^rayleigh_stiffness_s = 3e-6/rayleigh_stiffness_s = 4e-6/' inline.toml
 make_ -n SCENE=inline.toml system-static modes system-sweep
 expect "another damping of a system redoes its sweeps alone" "gear-plot*1 gear-system-sweep*2"
+make_ -n SCENE=inline.toml system-ringdown
+expect "its ring-down needs bodies alone" "gear-plot*1 gear-system-impact*1"
+make_ SCENE=inline.toml system-sweep; make_ -n SCENE=inline.toml system-branch
+expect "its branch, drawn over both sweeps" "gear-plot*1 gear-system-orbit*1"
+make_ SCENE=inline.toml system-ringdown system-branch; make_ -n SCENE=inline.toml system-ringdown system-branch
+expect "and both are up to date then" ""
 sed '/^\[operation\]/,$d' inline.toml > still.toml; make_ -n SCENE=still.toml system-sweep
 grep -q 'it says no speeds; write \[operation\]' "$log" && ok "a sweep of a system without speeds is rejected" || wrong "a sweep of a system without speeds is rejected" "$(tail -n 1 "$log")"
 make_ -n SCENE=data/scenes/lin-parker-planetary.toml system-static

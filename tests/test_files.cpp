@@ -45,6 +45,8 @@
 #include "io/study_codec.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
+#include "io/system_branch_codec.h"
+#include "io/system_impact_codec.h"
 #include "io/system_scene.h"
 #include "io/system_static_codec.h"
 #include "io/system_sweep_codec.h"
@@ -772,6 +774,71 @@ TEST_CASE("system_static.h5 gives back every value bit by bit") {
   write("system_static.h5", a, kMade);
 }
 
+TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bit") {
+  Folder folder;
+  SystemImpactArtifact a;
+  static_cast<SystemStaticParameters&>(a.settings) = small_system().settings;
+  a.settings.damping.rayleigh_stiffness = 2e-6;
+  const auto bodies = static_cast<Eigen::Index>(a.settings.layout.bodies.size()),
+             meshes = static_cast<Eigen::Index>(a.settings.layout.meshes.size());
+  a.torque = Eigen::VectorXd::LinSpaced(bodies, -1, 1) / 3;
+  a.axis_frequency = 1e4 / 3;
+  a.impulse = 1e-4 / 3;
+  a.rigid_frequency = Eigen::Vector3d(100, 200, 300) / 7;
+  a.mesh_phase = Eigen::Vector2d(0, 0.5);
+  a.loaded_pairs = MatrixRM::Constant(2, meshes, 2);
+  double value = 1.0 / 3;
+  const std::array of_modes{
+      &SystemImpactArtifact::undamped_frequency, &SystemImpactArtifact::rayleigh_damping_ratio,
+      &SystemImpactArtifact::eigen_frequency,    &SystemImpactArtifact::eigen_damping_ratio,
+      &SystemImpactArtifact::natural_frequency,  &SystemImpactArtifact::damping_ratio,
+      &SystemImpactArtifact::fit_residual,       &SystemImpactArtifact::contact_changes};
+  for (const auto member : of_modes) a.*member = MatrixRM::Constant(2, 5, value *= 0.9);
+  write("system_impact.h5", a, kMade);
+  const SystemImpactArtifact b = read_system_impact("system_impact.h5");
+  for (const auto member : of_modes) CHECK(a.*member == b.*member);
+  CHECK(a.rigid_frequency == b.rigid_frequency);
+  CHECK(a.loaded_pairs == b.loaded_pairs);
+  CHECK(a.impulse == b.impulse);
+  CHECK(a.torque == b.torque);
+  CHECK(b.settings.damping.rayleigh_stiffness == 2e-6);
+
+  SystemBranchArtifact c;
+  c.settings = a.settings;
+  c.torque = a.torque;
+  c.axis_frequency = a.axis_frequency;
+  c.mesh_frequency = Eigen::Vector2d(2000, 1000) / 3;
+  const std::array of_points{&SystemBranchArtifact::dte_rms, &SystemBranchArtifact::dte_mean,
+                             &SystemBranchArtifact::mesh_force_max, &SystemBranchArtifact::tooth_force_max,
+                             &SystemBranchArtifact::separation_fraction};
+  for (const auto member : of_points) c.*member = MatrixRM::Constant(2, meshes, value *= 0.9);
+  c.bearing_force_rms = MatrixRM::Constant(2, bodies, value);
+  c.floquet_multiplier.assign(2, MatrixRM::Constant(3, 2, -1.0 / 3));
+  c.stable = Eigen::Vector2i(1, 0);
+  c.steps = Eigen::Vector2i(64, 128);
+  c.residual = Eigen::Vector2d(1e-12, 1e-11) / 3;
+  c.segment_mismatch = Eigen::VectorXd::Constant(1, 1.0 / 7);
+  c.fold_frequency = Eigen::VectorXd::Constant(1, 1e4 / 7);
+  c.fold_smooth = Eigen::VectorXi::Ones(1);
+  c.fold_multiplier = MatrixRM::Constant(1, 2, 1.01);
+  c.flip_frequency = c.torus_frequency = Eigen::Vector2d(1, 2) / 3;
+  c.end = "the parameter left its range";
+  write("system_branch.h5", c, kMade);
+  const SystemBranchArtifact d = read_system_branch("system_branch.h5");
+  for (const auto member : of_points) CHECK(c.*member == d.*member);
+  CHECK(c.mesh_frequency == d.mesh_frequency);
+  CHECK(c.bearing_force_rms == d.bearing_force_rms);
+  CHECK(c.floquet_multiplier == d.floquet_multiplier);
+  CHECK(c.stable == d.stable);
+  CHECK(c.steps == d.steps);
+  CHECK(c.residual == d.residual);
+  CHECK(c.segment_mismatch == d.segment_mismatch);
+  CHECK(c.fold_frequency == d.fold_frequency);
+  CHECK(c.fold_multiplier == d.fold_multiplier);
+  CHECK(c.torus_frequency == d.torus_frequency);
+  CHECK(c.end == d.end);
+}
+
 TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
   Folder folder;
   SystemSweepArtifact a;
@@ -787,9 +854,10 @@ TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
   for (MatrixRM* x : {&a.dte_rms, &a.dte_mean, &a.load_share_max, &a.separation_fraction, &a.mesh_force_max,
                       &a.tooth_force_max, &a.rolling})
     *x = MatrixRM::Constant(2, meshes, value *= 0.9);
-  for (MatrixRM* x : {&a.bearing_force_max, &a.bearing_force_rms, &a.bearing_damping})
+  for (MatrixRM* x : {&a.bearing_force_max, &a.bearing_force_rms, &a.bearing_damping, &a.holding_torque})
     *x = MatrixRM::Constant(2, bodies, value *= 0.9);
   a.transmission_error.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 3));
+  a.mesh_deflection.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 7));
   a.mesh_force.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 3));
   a.bearing_force.assign(static_cast<size_t>(bodies),
                          std::vector<MatrixRM>(2, MatrixRM::Constant(4, 2, 1e2 / 3)));
@@ -800,13 +868,14 @@ TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
   a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kSystemEnergyLines.size()), -1.0 / 7);
   a.least_gap = -1e-15;
   write("system_sweep.h5", a, kMade);
+  CHECK(read_system_sweep("system_sweep.h5").mesh_deflection == a.mesh_deflection);
   const SystemSweepArtifact b = read_system_sweep("system_sweep.h5");
   for (const auto member :
        {&SystemSweepArtifact::dte_rms, &SystemSweepArtifact::dte_mean, &SystemSweepArtifact::mesh_force_max,
         &SystemSweepArtifact::tooth_force_max, &SystemSweepArtifact::load_share_max,
         &SystemSweepArtifact::separation_fraction, &SystemSweepArtifact::bearing_force_max,
         &SystemSweepArtifact::bearing_force_rms, &SystemSweepArtifact::energy, &SystemSweepArtifact::rolling,
-        &SystemSweepArtifact::bearing_damping})
+        &SystemSweepArtifact::bearing_damping, &SystemSweepArtifact::holding_torque})
     CHECK(a.*member == b.*member);
   for (const auto member :
        {&SystemSweepArtifact::torque, &SystemSweepArtifact::mesh_frequency, &SystemSweepArtifact::residual,

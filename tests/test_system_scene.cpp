@@ -232,6 +232,14 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
   // Opposite planets stay opposite: 31.5 and 94.5 steps of 360 / 126 degrees are both rounded down.
   check({{"positions_deg = [0.0, 88.5714, 180.0, 268.5714]", "planets = 4"}}, "[[carrier]]",
         "Nearest: positions_deg = [0, 88.5714, 180, 268.5714]");
+  // Of its motion, before minutes of work.
+  check({{"[damping]", "[fidelity]\nbody = \"full\"\n[damping]"}}, "body = \"full\"",
+        "systems in motion have \"quasi-static\"");
+  check({{"[damping]", "[fidelity]\nintegrator = \"newmark\"\n[damping]"}},
+        "integrator = ", "systems in motion have \"exact\"");
+  check({{"[[drive]]\ngear = \"ring\"",
+          "[[bearing]]\ngear = \"ring\"\nstiffness_N_um = 100\n[[drive]]\ngear = \"ring\""}},
+        "gear = \"ring\"\nstiffness", "in motion internal gears have rigid axes");
   check({{"title = ", "discretisation.steps_per_period = 64\ntitle = "}}, nullptr, "");
   check({{"bore_radius_mm = 20.0", "bore_radius_mm = 20.0\ntotal_inertia_kgm2 = 1e-4"}}, nullptr,
         "by its drawing at least");
@@ -264,6 +272,20 @@ TEST_CASE(
   CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").find("after 120 mesh periods") !=
         std::string::npos);
   CHECK(said("[gear.idler.crack]\ndepth_mm = 0.5\n").find("after 120 mesh periods") != std::string::npos);
+}
+
+TEST_CASE("remarks on the motion of a system: contact on lines, a damping that nobody chose") {
+  SystemScene scene = read_system_scene("data/scenes/three-in-line.toml");
+  scene.fidelity.contact = ContactModel::line;
+  CHECK(motion_remarks(scene).empty());
+  scene.fidelity.contact = ContactModel::strips;
+  REQUIRE(motion_remarks(scene).size() == 1);
+  CHECK(motion_remarks(scene)[0].find("in motion a system has contact = \"line\"") != std::string::npos);
+  scene.damping = {};
+  REQUIRE(motion_remarks(scene).size() == 2);
+  CHECK(motion_remarks(scene)[1].find("is for the gears of P2000") != std::string::npos);
+  scene.operation.frequency_to = 0;
+  CHECK(motion_remarks(scene).empty());
 }
 
 TEST_CASE("gears that run into each other without a mesh are named, planets and meshes are not") {

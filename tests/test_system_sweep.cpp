@@ -1,8 +1,12 @@
-// Sweeps of a planetary train: contact loss, energy, both ways, and the same bytes again.
+// Sweeps, branches and ring-down of a planetary train: contact loss, energy, both ways, the same bytes again; orbits of the branch
+// against the sweep; damping against closed forms.
 #include <doctest/doctest.h>
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 #include <fstream>
-#include <map>
+#include <numbers>
 #include <sstream>
 
 #include "gear/system_layout.h"
@@ -13,6 +17,9 @@
 #include "scene_file.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/system_branch.h"
+#include "studies/system_impact.h"
+#include "studies/system_rig.h"
 #include "studies/system_sweep.h"
 
 using namespace whine;
@@ -75,8 +82,18 @@ std::string bytes_of(const SystemSweepArtifact& a) {
   return out.str();
 }
 
-SystemSweepArtifact swept(Direction direction) {
-  return system_sweep(train().settings, train().bodies, direction, [](auto&&...) {});
+SystemSweepArtifact swept(Direction direction, const SystemSweepParameters& settings = train().settings) {
+  return system_sweep(settings, train().bodies, direction, [](auto&&...) {});
+}
+
+// Damping by Rayleigh's factors alone, without dampers of bearings.
+SystemSweepParameters damped(double eta, double mu) {
+  SystemSweepParameters out = train().settings;
+  out.damping.rayleigh_stiffness = eta;
+  out.damping.rayleigh_mass = mu;
+  out.damping.bearing_ratio = 0;
+  for (System::Body& body : out.layout.bodies) body.bearing.damping = 0;
+  return out;
 }
 
 }  // namespace
@@ -89,12 +106,22 @@ TEST_CASE(
   for (const SystemSweepArtifact* a : {&up, &down}) {
     CHECK(a->energy_imbalance.maxCoeff() < 1e-9);
     CHECK(a->least_gap > -1e-12);
-    CHECK(a->energy.col(4).minCoeff() > 0);  // what bearings take
+    CHECK(a->bearing_damping.leftCols(4).minCoeff() > 0);
   }
   for (Index i = 0; i < 4; ++i) {
     CHECK(up.mesh_frequency[i] == down.mesh_frequency[3 - i]);
-    if (up.period_multiple[i] == 0) continue;
+    REQUIRE(up.period_multiple[i] == 1);
+    REQUIRE(down.period_multiple[3 - i] == 1);
     CHECK(up.residual[i] < 1e-5);
+    for (Index m = 0; m < 6; ++m) CHECK(down.dte_rms(3 - i, m) == relative(up.dte_rms(i, m), 1e-3));
+    // Nothing turns faster and faster: torques on what stands on the ground, drives and what holds.
+    double all = 0;
+    for (size_t b = 0; b < up.settings.layout.bodies.size(); ++b)
+      if (const System::Body& body = up.settings.layout.bodies[b]; body.on == System::kGround)
+        all += body.sense * (up.torque[static_cast<Index>(b)] + up.holding_torque(i, static_cast<Index>(b)));
+    CHECK(std::abs(all) < 1e-3 * 300);
+    CHECK(std::abs(up.holding_torque(i, 4)) == relative(300.0 * 100 / 26, 1e-3));
+    CHECK((up.holding_torque.row(i).segment(1, 3).array() == 0).all());
     // The sun is driven by its torque, in the mean of the vibration, too; sharing is equal in the mean.
     CHECK(up.mesh_force[static_cast<size_t>(i)].leftCols(3).rowwise().sum().mean() ==
           relative(300 / up.settings.layout.bodies[0].radius, 0.01));
@@ -104,4 +131,91 @@ TEST_CASE(
                                                              up.bearing_force[3][static_cast<size_t>(i)]);
   }
   CHECK(bytes_of(up) == bytes_of(swept(Direction::up)));
+}
+
+TEST_CASE(
+    "branch of a planetary train: its ends are the motions of the sweep, all along it they are stable") {
+  SystemSweepParameters settings = train().settings;
+  settings.frequency_from = 2550;
+  settings.frequency_to = 2600;
+  settings.frequency_step = 25;
+  const SystemBranchArtifact branch = system_branch(settings, train().bodies, [](auto&&...) {});
+  const SystemSweepArtifact sweep = swept(Direction::down, settings);
+  INFO(branch.end);
+  const Index last = branch.mesh_frequency.size() - 1;
+  REQUIRE(last >= 1);
+  CHECK(branch.mesh_frequency[0] == relative(2600, 1e-9));
+  CHECK(branch.mesh_frequency[last] == relative(2550, 1e-9));
+  CHECK(branch.residual.maxCoeff() < 1e-6);
+  CHECK(branch.stable.minCoeff() == 1);
+  CHECK(branch.fold_frequency.size() == 0);
+  for (Index m = 0; m < 6; ++m) {
+    CHECK(branch.dte_rms(0, m) == relative(sweep.dte_rms(0, m), 1e-4));
+    CHECK(branch.dte_rms(last, m) == relative(sweep.dte_rms(2, m), 1e-4));
+    CHECK(branch.mesh_force_max(last, m) == relative(sweep.mesh_force_max(2, m), 1e-4));
+  }
+  for (Index b = 0; b < 6; ++b)
+    CHECK(branch.bearing_force_rms(last, b) == relative(sweep.bearing_force_rms(2, b), 1e-3));
+}
+
+// A linear system with constant stiffness has the multipliers exp(s / f) of its roots s; the stiffness varies by some percent, and
+// roots of the mean contact are those of the slowest mode at each phase, in the mean.
+TEST_CASE("without contact loss the largest multiplier is the decay of the slowest mode") {
+  SystemSweepParameters settings = damped(1e-6, 600);
+  settings.frequency_from = 2590;
+  settings.frequency_to = 2600;
+  settings.frequency_step = 10;
+  const SystemBranchArtifact branch = system_branch(settings, train().bodies, [](auto&&...) {});
+  REQUIRE(branch.separation_fraction.maxCoeff() == 0);
+  SystemRig rig(settings, train().bodies, 6);
+  double slowest = 0;  // s-1
+  for (int i = 0; i < 6; ++i) {
+    double least = 1e9;
+    for (const DampedRoot& root :
+         damped_roots(rig.dynamics(), i, rig.dynamics().frozen_modes(i).frequency.head(8)))
+      least = std::min(least, 2 * std::numbers::pi * root.frequency * root.damping_ratio /
+                                  std::sqrt(1 - root.damping_ratio * root.damping_ratio));
+    slowest += least / 6;
+  }
+  for (Index i = 0; i < branch.mesh_frequency.size(); ++i)
+    CHECK(std::log(branch.floquet_multiplier[static_cast<size_t>(i)].row(0).norm()) ==
+          relative(-slowest / branch.mesh_frequency[i], 0.02));
+}
+
+TEST_CASE("ring-down of a planetary train: decays are eigenvalues, damping by mass is its closed form") {
+  const double mu = 900;
+  const SystemImpactArtifact a = system_impact(damped(0, mu), train().bodies, {8, 2, 1e-4}, [](auto&&...) {});
+  REQUIRE(a.natural_frequency.cols() == 8);
+  for (Index i = 0; i < 2; ++i)
+    for (Index k = 0; k < 8; ++k) {
+      const double w = 2 * std::numbers::pi * a.undamped_frequency(i, k), ratio = mu / (2 * w);
+      CHECK(a.eigen_damping_ratio(i, k) == relative(ratio, 1e-6));
+      CHECK(a.rayleigh_damping_ratio(i, k) == relative(ratio, 1e-12));
+      CHECK(a.eigen_frequency(i, k) ==
+            relative(a.undamped_frequency(i, k) * std::sqrt(1 - ratio * ratio), 1e-9));
+      CHECK(a.natural_frequency(i, k) == relative(a.eigen_frequency(i, k), 2e-4));
+      CHECK(a.damping_ratio(i, k) == relative(ratio, 2e-3));
+    }
+}
+
+// To the first order in eta a mode q of unit modal mass has zeta = eta / (2 w) (what it stores twice over where Rayleigh's damping
+// acts): w_i^2 q_i^2 of the coordinates, less bearings, and p^T R p of the relaxed flexibility under the forces p = A^-1 H q.
+TEST_CASE("ring-down of a planetary train: damping by stiffness is the energy that it damps") {
+  constexpr double kEta = 1e-7;
+  const SystemSweepParameters settings = damped(kEta, 0);
+  const SystemImpactArtifact a = system_impact(settings, train().bodies, {6, 1, 1e-4}, [](auto&&...) {});
+  SystemRig rig(settings, train().bodies, 1);
+  const FixedPhaseMesh mesh = rig.dynamics().frozen(0);
+  const SystemDynamics::FrozenModes modes = rig.dynamics().frozen_modes(0);
+  for (Index k = 0; k < 6; ++k) {
+    const Eigen::VectorXd q = modes.shape.col(k), p = Eigen::MatrixXd(mesh.local + mesh.residual)
+                                                          .ldlt()
+                                                          .solve(mesh.participation * q);
+    const double w = 2 * std::numbers::pi * modes.frequency[k],
+                 damped_energy = (mesh.damping / kEta).dot(q.cwiseAbs2()) + p.dot(mesh.residual * p);
+    CHECK(modes.frequency[k] == relative(a.undamped_frequency(0, k), 1e-12));
+    CHECK(a.eigen_damping_ratio(0, k) == relative(kEta * damped_energy / (2 * w), 1e-3));
+    CHECK(a.damping_ratio(0, k) == relative(a.eigen_damping_ratio(0, k), 0.01));
+    CHECK(a.damping_ratio(0, k) < a.rayleigh_damping_ratio(0, k));
+  }
 }

@@ -8,8 +8,7 @@
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
-//            --variant: a scene with the changes of --set, and nothing else
-//            --keys: prints the table of scene keys
+//            --variant: a scene with the changes of --set, and nothing else; --keys: prints the table of scene keys
 // Equations  none; units to SI as the key table says
 #include <filesystem>
 #include <iostream>
@@ -58,6 +57,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
   publish(output,
           system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
                           layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
+  for (const std::string& remark : motion_remarks(scene)) tell("gear-scene: ", remark);
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 

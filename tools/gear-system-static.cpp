@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/body_codec.h"
 #include "io/fit.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
@@ -38,12 +37,7 @@ void body(int argc, char** argv) {
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::SystemStaticParameters settings = whine::read_system_static_parameters(params);
-  std::vector<whine::BodyArtifact> gears;
-  const std::vector<std::string> paths = files.of(settings.gears(), "system");
-  for (size_t g = 0; g < paths.size(); ++g) {
-    gears.push_back(whine::read_body(paths[g]));
-    whine::require_body(gears.back(), settings.body[g].second, settings.body[g].first, paths[g]);
-  }
+  const std::vector<whine::BodyArtifact> gears = whine::read_bodies(files, settings);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-system-static");
   const whine::SystemStaticArtifact result = whine::system_at_rest(settings, gears);
   steps.reset();

@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/body_codec.h"
 #include "io/fit.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
@@ -42,13 +41,7 @@ void body(int argc, char** argv) {
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::SystemSweepParameters settings = whine::read_system_sweep_parameters(params);
-  std::vector<whine::BodyArtifact> gears;
-  const std::vector<std::string> paths = files.of(settings.gears(), "system");
-  gears.reserve(paths.size());
-  for (size_t g = 0; g < paths.size(); ++g) {
-    gears.push_back(whine::read_body(paths[g]));
-    whine::require_body(gears.back(), settings.body[g].second, settings.body[g].first, paths[g]);
-  }
+  const std::vector<whine::BodyArtifact> gears = whine::read_bodies(files, settings);
   std::optional<whine::Progress> progress;
   const whine::SystemSweepArtifact result =
       whine::system_sweep(settings, gears, direction, [&](long done, long total, const std::string& note) {

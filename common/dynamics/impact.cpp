@@ -358,10 +358,7 @@ RingDown ring_down(const FixedPhaseMesh& mesh, double torque_step, double step, 
   return result;
 }
 
-DampedRoot frozen_root(const FixedPhaseMesh& mesh) {
-  ComplementaritySolver solver;
-  const Rest end = rest(mesh, 1, solver);
-  const std::vector<int>& touching = end.active.strips;
+Eigen::VectorXcd frozen_roots(const FixedPhaseMesh& mesh, const std::vector<int>& touching) {
   const MatrixXd h = mesh.participation(touching, Eigen::all), r = mesh.residual(touching, touching);
   MatrixXd a = mesh.local(touching, touching);
   const auto n = h.cols(), k = h.rows();
@@ -391,9 +388,14 @@ DampedRoot frozen_root(const FixedPhaseMesh& mesh) {
   const GeneralEigenvalues eigen = general_eigenvalues(system);
   if (!eigen.converged)
     fail(Failure::numerical, "at mesh phase ", mesh.phase, " the ", system.rows(),
-         " eigenvalues of the pair at a fixed phase were not found: its matrix has a norm of ", system.norm(),
-         " 1/s");
-  const Eigen::VectorXcd& roots = eigen.values;
+         " eigenvalues of the gears at a fixed phase were not found: its matrix has a norm of ",
+         system.norm(), " 1/s");
+  return eigen.values;
+}
+
+DampedRoot frozen_root(const FixedPhaseMesh& mesh) {
+  ComplementaritySolver solver;
+  const Eigen::VectorXcd roots = frozen_roots(mesh, rest(mesh, 1, solver).active.strips);
   // The slowest by its modulus, or the nearest: a high mode near critical damping has a small imaginary part, too.
   DampedRoot lowest;
   double nearest = std::numeric_limits<double>::infinity();

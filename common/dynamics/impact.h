@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "dynamics/dynamics.h"
 #include "dynamics/impact_result.h"
@@ -33,9 +34,12 @@ struct RingDown {
 // Error(numerical) if contact comes to the end of a candidate zone or to a tip edge that the mesh does not hold.
 RingDown ring_down(const FixedPhaseMesh& mesh, double torque_step, double step, int samples, int stride);
 
-// Lowest oscillating eigenvalue of the pair in static equilibrium with its contact frozen: modes, relaxed loads and
-// half-planes as one linear system z'' + c z' + w^2 z = -H^T p, eta P' + P = p, A p = H z - R P on the strips that
-// touch. Throws Error(numerical) if none oscillates, or if the contact has no stiffness.
+// s-1: all eigenvalues of gears at a fixed phase with these strips in contact: modes, relaxed loads and the local compliance as one
+// linear system z'' + c z' + w^2 z = -H^T p, eta P' + P = p, A p = H z - R P. The first coordinate is a rigid rotation that the
+// strips feel. Throws Error(numerical) if the contact has no stiffness, or if they are not found.
+Eigen::VectorXcd frozen_roots(const FixedPhaseMesh& mesh, const std::vector<int>& touching);
+
+// Lowest oscillating eigenvalue of the pair in static equilibrium with its contact frozen, see frozen_roots(). Throws Error(numerical) if none oscillates, or if the contact has no stiffness.
 DampedRoot frozen_root(const FixedPhaseMesh& mesh);
 
 // The pair at the phase amid each contact state, fewest loaded pairs first, without Rayleigh stiffness damping.

@@ -59,6 +59,8 @@ class Builder {
     if (fidelity.body == BodyModel::full || fidelity.body == BodyModel::rigid)
       fail(Failure::input, "body = \"", fidelity.body,
            "\" in [fidelity]: systems in motion have \"quasi-static\", \"lagged\" or \"modal\"");
+    if (fidelity.contact != ContactModel::line)
+      fail(Failure::input, "contact = \"", fidelity.contact, "\" in motion: systems have \"line\"");
     if (fidelity.integrator != Integrator::exact)
       fail(Failure::input, "integrator = \"newmark\" in [fidelity] is for pairs; systems have \"exact\"");
     add_rotations();

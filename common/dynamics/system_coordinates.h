@@ -5,8 +5,8 @@
 //   the mean speed against the contact forces is reported.
 // - Bodies that turn: modes with zero diameters are diagonalised with theta, M0 = [[I, g^T], [g, 1]], K0 = diag(0, w^2).
 // - Bodies on elastic bearings or pins: modes with one diameter are diagonalised with x and y in the frame of the system (of a
-//   planetary train: of its carrier, which is held), M0 = [[m, G^T], [G, 1]], K0 = diag(k, w^2). Of the damper of the bearing the
-//   diagonal is kept; modes of one pair have the same one, as bearings are alike in all directions.
+//   planetary train: of its carrier, which is held), M0 = [[m, G^T], [G, 1]], K0 = diag(k, w^2). Only the diagonal of the bearing
+//   damping is kept; modes of one pair have the same one, as bearings are alike in all directions.
 // - All other modes turn with their gear; doublets turn back by a tooth at the end of a mesh period.
 // Coriolis and centrifugal terms are left out: nothing where the carrier stands still, see README.md where it turns.
 #pragma once
@@ -71,7 +71,7 @@ struct SystemCoordinates {
                                 const Eigen::RowVectorXd& weights, const Vec2& outward) const;
 };
 
-// Throws Error(input) for body = "full", "rigid", Newmark's method, a gear without a mode that a freedom needs, inertias and masses
+// Throws Error(input) for body = "full", "rigid", contact other than "line", Newmark's method, a gear without a mode that a freedom needs, inertias and masses
 // below those of the body, and internal gears on elastic bearings; Error(numerical) if modes cannot be found.
 SystemCoordinates coordinates_of(const SystemModel& system, const SystemMotion& motion);
 

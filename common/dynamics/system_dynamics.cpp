@@ -27,7 +27,11 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
     for (const FlankDeviation& flank : mesh.deviation)
       if (flank.repeats() > 1)
         fail(Failure::input,
-             "teeth of a gear differ from each other; systems in motion have teeth that are all alike");
+             "teeth of a gear differ from each other: systems in motion have teeth that are "
+             "all alike; remove its [gear.<name>.error] and [gear.<name>.crack]");
+  if (!(motion.axis_frequency > 0))
+    fail(Failure::input, "the axis frequency is ", motion.axis_frequency,
+         " rad/s; give that of axis_frequency()");
   const VectorXd loads = mesh_loads(system);
   load_of_mesh_ = loads.cwiseMax(1e-3 * loads.maxCoeff());
   for (int b = 0; b < static_cast<int>(system.body.size()); ++b) radius_.push_back(system.base_radius(b));
@@ -114,7 +118,14 @@ void SystemDynamics::set_speed(double mesh_frequency, int steps) {
   mesh_frequency_ = mesh_frequency;
   steps_ = steps;
   stride_ = finest / steps;
-  step_ = 1 / (mesh_frequency * steps);
+  propagate_by(1 / (mesh_frequency * steps));
+  for (int i = 0; i <= steps_; ++i) close(positions_[static_cast<size_t>(i) * static_cast<size_t>(stride_)]);
+  forces_.setZero(steps_ + 1, slots());
+}
+
+// Propagators of steps of `seconds`, and room for a state.
+void SystemDynamics::propagate_by(double seconds) {
+  step_ = seconds;
   const Index n = coordinates_.size();
   for (VectorXd* x : {&a11_, &a12_, &a21_, &a22_, &bq_, &bv_}) x->resize(n);
   for (Index i = 0; i < n; ++i) {
@@ -122,15 +133,15 @@ void SystemDynamics::set_speed(double mesh_frequency, int steps) {
     a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq, bv_[i] = a.bv;
   }
   relaxed_step_ = relaxation_step(relaxation_, step_);
-  for (int i = 0; i <= steps_; ++i) {
-    Position& position = positions_[static_cast<size_t>(i) * static_cast<size_t>(stride_)];
-    position.compliance =
-        position.at_once + relaxed_step_.from_new * position.relaxed + modal_compliance(position, 0.5 * bq_);
-  }
   for (VectorXd* x : {&z_, &v_, &force_, &mean_, &before_}) x->setZero(n);
   for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
   p_of_slot_.setZero(slots());
-  forces_.setZero(steps_ + 1, slots());
+}
+
+// Compliance of the contacts at the end of a step.
+void SystemDynamics::close(Position& position) const {
+  position.compliance =
+      position.at_once + relaxed_step_.from_new * position.relaxed + modal_compliance(position, 0.5 * bq_);
 }
 
 // Elastic coordinates follow their force, z = (torque - h p) / w^2, so that they are compliances; rotations carry the load.
@@ -167,29 +178,28 @@ VectorXd SystemDynamics::rest_forces(int i) {
   return out;
 }
 
-SystemDynamics::State SystemDynamics::rest() {
+SystemDynamics::State SystemDynamics::rest(int i) {
   State state;
-  const SystemEquilibrium at = equilibrium_at(0, &state.z);
+  const Position& position = positions_[static_cast<size_t>(i)];
+  const SystemEquilibrium at = equilibrium_at(i, &state.z);
   state.v = VectorXd::Zero(state.z.size());
   state.p = VectorXd::Zero(slots());
   state.relaxed = VectorXd::Zero(relaxed_size());
-  for (int k = 0; k < positions_[0].size(); ++k)
-    state.p[positions_[0].contact[static_cast<size_t>(k)].slot] = at.p[k];
-  load(positions_[0], at.p, 1, state.relaxed);
+  for (int k = 0; k < position.size(); ++k) state.p[position.contact[static_cast<size_t>(k)].slot] = at.p[k];
+  load(position, at.p, 1, state.relaxed);
   return state;
 }
 
-void SystemDynamics::take(const State& state) {
-  if (steps_ == 0) fail(Failure::input, "a period is integrated at a speed; set it first");
+void SystemDynamics::take(const State& state, const Position& position) {
   if (state.z.size() != coordinates_.size() || state.relaxed.size() != relaxed_size() ||
       state.p.size() != slots())
     fail(Failure::input, "the start state, of ", state.z.size(), " coordinates and ", state.p.size(),
-         " slots, is of another system: this one has ", coordinates_.size(), " and ", slots());
+         " slots, is of another system or of other positions: here there are ", coordinates_.size(), " and ",
+         slots());
   z_ = state.z;
   v_ = state.v;
   relaxed_ = state.relaxed;
   p_of_slot_ = state.p;
-  const Position& position = at(0);
   force_ = coordinates_.torque;
   before_.setOnes();
   load_.setZero();
@@ -235,6 +245,7 @@ void SystemDynamics::step(const Position& position) {
 bool SystemDynamics::record(const Position& position, int sample, Period& period) const {
   for (int m = 0; m < meshes(); ++m) period.mesh_force(m, sample) = period.largest_tooth_force(m, sample) = 0;
   period.drift.setZero();
+  period.contact_torque.col(sample).setZero();
   for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
     period.bearing_force[static_cast<size_t>(b)].col(sample).setZero();
   for (int k = 0; k < position.size(); ++k) {
@@ -244,9 +255,11 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
     period.largest_tooth_force(contact.mesh, sample) =
         std::max(period.largest_tooth_force(contact.mesh, sample), p_[k]);
     period.drift += p_[k] * position.drift.col(k);
-    for (size_t s = 0; s < 2; ++s)
-      period.bearing_force[static_cast<size_t>(contact.body[s])].col(sample) -=
-          closing_sign(static_cast<int>(s)) * p_[k] * contact.normal;
+    for (size_t s = 0; s < 2; ++s) {
+      const auto b = static_cast<size_t>(contact.body[s]);
+      period.bearing_force[b].col(sample) -= closing_sign(static_cast<int>(s)) * p_[k] * contact.normal;
+      period.contact_torque(contact.body[s], sample) += contact.lever[s] * radius_[b] * p_[k];
+    }
   }
   for (Index c = 0; c < period.drift.size(); ++c)
     period.drift_force = std::max(period.drift_force, std::abs(period.drift[c]));
@@ -268,10 +281,11 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
     }
     period.transmission_error(m, sample) = error;
     closing += error;
+    period.mesh_deflection(m, sample) = closing;
     if (closing > position.lost_gap[static_cast<size_t>(m)])
       fail_outside_range(
-          Failure::numerical, "the deflection ", closing * 1e6, " micrometres closes the gap of ",
-          position.lost_gap[static_cast<size_t>(m)] * 1e6,
+          Failure::numerical, "at ", mesh_name(system_.layout, static_cast<size_t>(m)), " the deflection ",
+          closing * 1e6, " micrometres closes the gap of ", position.lost_gap[static_cast<size_t>(m)] * 1e6,
           " micrometres of a tip edge that would touch below the involute; lower the torque or set "
           "corner_contact = false");
     inside = inside && !(closing > position.next_gap[static_cast<size_t>(m)]);
@@ -300,15 +314,21 @@ void SystemDynamics::rename() {
     shift(&relaxed_[block * pairs() * kFields], kFields);
 }
 
-bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance* balance) {
-  take(state);
-  const Index bodies = static_cast<Index>(system_.body.size());
-  for (MatrixXd* x : {&period.transmission_error, &period.mesh_force, &period.largest_tooth_force})
-    x->resize(meshes(), steps_);
-  period.bearing_force.resize(static_cast<size_t>(bodies));
-  for (Eigen::Matrix2Xd& x : period.bearing_force) x.resize(2, steps_);
+void SystemDynamics::resize(Period& period, int steps) const {
+  for (MatrixXd* x :
+       {&period.transmission_error, &period.mesh_deflection, &period.mesh_force, &period.largest_tooth_force})
+    x->resize(meshes(), steps);
+  period.contact_torque.resize(static_cast<Index>(system_.body.size()), steps);
+  period.bearing_force.resize(system_.body.size());
+  for (Eigen::Matrix2Xd& x : period.bearing_force) x.resize(2, steps);
   period.drift.resize(coordinates_.rolling.cols());
   period.drift_force = period.least_gap = period.least_force = 0;
+}
+
+bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance* balance) {
+  if (steps_ == 0) fail(Failure::input, "a period is integrated at a speed; set it first");
+  take(state, at(0));
+  resize(period, steps_);
   forces_.row(0) = p_of_slot_;
   SystemEnergyRecord record_of(*this, balance);
   int i = 0;
@@ -330,6 +350,30 @@ bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance
   state.v = v_;
   state.relaxed = relaxed_;
   state.p = p_of_slot_;
+  return true;
+}
+
+bool SystemDynamics::integrate_fixed(int i, State& state, double seconds, int steps,
+                                     const std::function<void(const VectorXd&, const VectorXd&)>& watch) {
+  Position& position = positions_[static_cast<size_t>(i)];
+  steps_ = 0;
+  propagate_by(seconds);
+  close(position);
+  take(state, position);
+  Period period;
+  resize(period, 1);
+  try {
+    for (int n = 0; n < steps; ++n) {
+      step(position);
+      require_range(position, p_.head(position.size()));
+      if (!record(position, 0, period)) return false;
+      watch(z_, p_of_slot_);
+    }
+  } catch (const Error& error) {
+    fail_as(error, "in free motion at mesh phase ",
+            static_cast<double>(i) / static_cast<double>(positions_.size() - 1), " ", error.what());
+  }
+  state = {z_, v_, relaxed_, p_of_slot_};
   return true;
 }
 
@@ -355,24 +399,38 @@ double SystemDynamics::energy(const State& difference) const {
   return 0.5 * out;
 }
 
-VectorXd SystemDynamics::frozen_frequencies(int i) {
+FixedPhaseMesh SystemDynamics::frozen(int i) {
   const Position& position = positions_[static_cast<size_t>(i)];
   const SystemEquilibrium rest = equilibrium_at(i, nullptr);
   std::vector<Index> active;
-  MatrixXd compliance = position.at_once + position.relaxed;
   for (Index k = 0; k < position.size(); ++k)
-    if (rest.p[k] > 0) {
-      compliance(k, k) += position.law[static_cast<size_t>(k)].at(rest.p[k]).slope;
-      active.push_back(k);
-    }
-  MatrixXd h(coordinates_.size(), static_cast<Index>(active.size()));
-  for (size_t k = 0; k < active.size(); ++k)
-    h.col(static_cast<Index>(k)) = participation(position, static_cast<int>(active[k]));
-  MatrixXd stiffness = h * MatrixXd(compliance(active, active)).ldlt().solve(MatrixXd(h.transpose()));
-  stiffness.diagonal() += coordinates_.frequency.cwiseAbs2();
-  const SymmetricEigen eigen = symmetric_eigenvalues(stiffness);
-  if (!eigen.converged) fail(Failure::numerical, "the frozen natural frequencies were not found");
-  return eigen.values.cwiseMax(0.0).cwiseSqrt() / (2 * std::numbers::pi);
+    if (rest.p[k] > 0) active.push_back(k);
+  FixedPhaseMesh out;
+  out.phase = static_cast<double>(i) / static_cast<double>(positions_.size() - 1);
+  out.frequency_squared = coordinates_.frequency.cwiseAbs2();
+  out.damping = coordinates_.damping;
+  out.relaxation = relaxation_;
+  out.torque = VectorXd::Zero(coordinates_.size());
+  out.gap = VectorXd::Zero(static_cast<Index>(active.size()));
+  out.local = position.at_once(active, active);
+  out.residual = position.relaxed(active, active);
+  out.participation.resize(static_cast<Index>(active.size()), coordinates_.size());
+  for (Index a = 0; a < out.gap.size(); ++a) {
+    const Index k = active[static_cast<size_t>(a)];
+    out.local(a, a) += position.law[static_cast<size_t>(k)].at(rest.p[k]).slope;
+    out.participation.row(a) = participation(position, static_cast<int>(k)).transpose();
+  }
+  return out;
+}
+
+SystemDynamics::FrozenModes SystemDynamics::frozen_modes(int i) {
+  const FixedPhaseMesh mesh = frozen(i);
+  MatrixXd stiffness =
+      mesh.participation.transpose() * MatrixXd(mesh.local + mesh.residual).ldlt().solve(mesh.participation);
+  stiffness.diagonal() += mesh.frequency_squared;
+  const SymmetricEigen eigen = symmetric_eigen(stiffness);
+  if (!eigen.converged) fail(Failure::numerical, "the frozen natural modes were not found");
+  return {eigen.values.cwiseMax(0.0).cwiseSqrt() / (2 * std::numbers::pi), eigen.vectors};
 }
 
 }  // namespace whine

@@ -11,12 +11,15 @@
 //
 // Pairs of a mesh are numbered by the mesh period of the system: a pair that is number i in one is i + 1 in the next. At the end
 // of a mesh period relaxed loads move on by one tooth, and doublets that turn with their gear turn back by one. A slot is
-// (mesh, pair). All that depends on the position is computed once for the steps of a period; no step takes memory.
+// (mesh, pair). All that depends on the position is computed once for the steps of a period. A step takes no memory where at most
+// 64 pairs are in reach and no energy balance is kept.
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <vector>
 
+#include "dynamics/fixed_phase_motion.h"
 #include "dynamics/propagator.h"
 #include "dynamics/system_coordinates.h"
 #include "dynamics/system_energy.h"
@@ -28,7 +31,7 @@ class SystemDynamics {
  public:
   static constexpr int kFields = 12;  // of a flank, as of pairs
 
-  // Throws as coordinates_of(), and Error(input) for teeth that differ from each other.
+  // Throws as coordinates_of(), and Error(input) for teeth that differ from each other, or without a positive axis_frequency.
   SystemDynamics(const SystemModel& system, const SystemMotion& motion);
 
   struct State {
@@ -38,11 +41,17 @@ class SystemDynamics {
   };
   // What one mesh period showed; sample i at phase i / steps, sample 0 that of its end.
   struct Period {
-    Eigen::MatrixXd transmission_error;   // (mesh, step) m
+    Eigen::MatrixXd transmission_error;   // (mesh, step) m: of rotations
+    Eigen::MatrixXd mesh_deflection;      // (mesh, step) m: what flanks close by, motion of the hubs included
     Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque on the driving body over its base radius
     Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
-    std::vector<Eigen::Matrix2Xd> bearing_force;  // [body] (xy, step) N, see bearing_force()
-    Eigen::VectorXd drift;                        // (null vector) N: of the last sample
+    // [body] (xy, step) N: k x + c x' of an elastic bearing; on a rigid axis the sum of the contact forces, without the inertia of
+    // the body's own modes
+    std::vector<Eigen::Matrix2Xd> bearing_force;
+    // (body, step) N m, in the body's sense: what balances its contact forces. Of a held body its mean over a periodic motion is
+    // that of the torque that holds it, the inertia of the body's own modes being 0 in the mean.
+    Eigen::MatrixXd contact_torque;
+    Eigen::VectorXd drift;                  // (null vector) N: of the last sample
     double drift_force = 0;                 // N: largest force that must be supplied to hold the mean speed
     double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
   };
@@ -52,14 +61,19 @@ class SystemDynamics {
   void set_positions(const std::vector<double>& corner_gap, int steps);
   // mesh frequency: Hz; steps per period must divide those of the positions.
   void set_speed(double mesh_frequency, int steps);
-  // Static equilibrium at phase 0, at rest. The same forces as those of SystemStatics.
-  State rest();
+  // Static equilibrium at phase i / positions, at rest. The same forces as those of SystemStatics.
+  State rest(int i = 0);
   // Forces (slot) of equilibrium at phase i / positions; statics of this model.
   Eigen::VectorXd rest_forces(int i);
   // Integrates one mesh period and renames the teeth, so that the state can be compared with the one before. False if a mesh
   // deflects so far that a tip edge which was left out would touch; the state is then undefined. Throws Error(numerical), with the mesh
   // phase, if the contact of a step has no certified solution or is beyond Hertz's law.
   bool integrate(State& state, Period& period, SystemEnergyBalance* balance = nullptr);
+  // Free motion at phase i / positions, at which the gears stay: `steps` steps of `seconds` with contact solved at each, as in
+  // integrate(). watch(z, p): coordinates, and forces (slot) N, after each. Returns and throws as integrate(); needs no speed, and
+  // afterwards none is set.
+  bool integrate_fixed(int i, State& state, double seconds, int steps,
+                       const std::function<void(const Eigen::VectorXd& z, const Eigen::VectorXd& p)>& watch);
   // A state of other positions, whose slots may be others.
   State fitted(const State& state, const SystemDynamics& of) const;
 
@@ -75,11 +89,19 @@ class SystemDynamics {
   const Eigen::VectorXd& mean_load() const { return load_of_mesh_; }  // (mesh) N
   // (step + 1, slot) N: forces at the ends of the steps of the period integrated last, in its names; row 0: at its start.
   const Eigen::MatrixXd& forces() const { return forces_; }
-  // J: what the coordinates and relaxed loads of a state store, of a difference of states a squared distance.
+  // J: what the coordinates of a state store, kinetic energy included, rigid rotations as at the axis frequency; of a difference
+  // of states a squared distance. Relaxed loads are not in it.
   double energy(const State& difference) const;
-  // Natural frequencies (coordinate, Hz, ascending) with contact frozen as it is at rest at phase i / positions; residual
-  // flexibility instantaneous.
-  Eigen::VectorXd frozen_frequencies(int i);
+  // Contact frozen as it is at rest at phase i / positions: the pairs that carry force, Hertz's laws by their slopes. The
+  // coordinates, damping and relaxation are those of the motion; no gaps and no torques.
+  FixedPhaseMesh frozen(int i);
+  // Undamped natural modes of frozen(i), residual flexibility instantaneous: frequencies (coordinate, Hz, ascending).
+  struct FrozenModes {
+    Eigen::VectorXd frequency;
+    Eigen::MatrixXd shape;  // (coordinate, mode), unit modal mass
+  };
+  FrozenModes frozen_modes(int i);
+  Eigen::VectorXd frozen_frequencies(int i) { return frozen_modes(i).frequency; }
 
  private:
   friend class SystemPeriodMap;
@@ -121,7 +143,10 @@ class SystemDynamics {
   void push(const Position& position, int k, double force, const Eigen::VectorXd& weight,
             Eigen::VectorXd& y) const;
   void load(const Position& position, const Eigen::VectorXd& p, double factor, Eigen::VectorXd& fields) const;
-  void take(const State& state);
+  void propagate_by(double seconds);
+  void close(Position& position) const;
+  void resize(Period& period, int steps) const;
+  void take(const State& state, const Position& position);
   void step(const Position& position);
   void solve(const Position& position);
   bool record(const Position& position, int sample, Period& period) const;

@@ -23,14 +23,21 @@ SystemPeriodMap::SystemPeriodMap(SystemDynamics& dynamics, int steps) : dynamics
   for (Index i = 0; i < n; ++i)
     unit_[i] = scale / (i < coordinates.rigid ? dynamics.motion_.axis_frequency : coordinates.frequency[i]);
   unit_.segment(n, n).setConstant(scale);
-  unit_.segment(2 * n, loads)
-      .setConstant(rest.p.maxCoeff() * std::sqrt(static_cast<double>(SystemDynamics::kFields)));
+  constexpr double kLeast = 1e-10;  // of the largest: fields that hardly move anything
+  for (size_t b = 0; b < dynamics.coupling_.size(); ++b) {
+    const VectorXd own = dynamics.coupling_[b].diagonal();
+    if (own.size() == 0) continue;
+    const double most = own.maxCoeff();
+    unit_.segment(2 * n + dynamics.relaxed_first_[b], own.size()) =
+        scale * own.cwiseMax(most > 0 ? kLeast * most : 1).cwiseSqrt().cwiseInverse();
+  }
   unit_.tail(slots).setConstant(rest.p.maxCoeff());
   rest_ = flat(rest);
 }
 
 void SystemPeriodMap::set_parameter(double mesh_frequency) {
   dynamics_.set_speed(mesh_frequency, steps_);
+  applied_ = false;
 }
 
 VectorXd SystemPeriodMap::flat(const State& state) const {
@@ -49,11 +56,15 @@ State SystemPeriodMap::state(const VectorXd& y) const {
 
 VectorXd SystemPeriodMap::apply(const VectorXd& y) {
   State state = this->state(y);
+  applied_ = left_last_ = false;
   if (!dynamics_.integrate(state, period_)) {
-    left_zone_ = true;
-    fail_outside_range(Failure::numerical, "at ", parameter(),
-                       " Hz a mesh deflects beyond the tip edges that are looked at; take more of them");
+    left_zone_ = left_last_ = true;
+    fail_outside_range(
+        Failure::numerical, "at ", parameter(),
+        " Hz a mesh deflects beyond the tip edges that are looked at; lower the torque or raise the "
+        "damping");
   }
+  applied_ = true;
   return flat(state);
 }
 
@@ -63,6 +74,9 @@ MatrixXd SystemPeriodMap::tangent() {
 
 // The equations of SystemDynamics::step, linear in what moves.
 MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
+  if (!applied_)
+    fail(Failure::numerical, "the tangent at ", parameter(),
+         " Hz is asked for before a period was integrated at this speed");
   SystemDynamics& of = dynamics_;
   const Index n = of.coordinates().size(), loads = of.relaxed_size(), slots = of.slots(),
               many = directions.cols();
@@ -129,16 +143,14 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
 }
 
 std::vector<ContactEvent> SystemPeriodMap::events() const {
-  std::vector<ContactEvent> out;
+  std::vector<ContactEvent> out;  // in the names of this period, its end included
   const MatrixXd& force = dynamics_.forces();
   for (int i = 1; i <= steps_; ++i)
     for (Index slot = 0; slot < force.cols(); ++slot) {
       const double before = force(i - 1, slot), now = force(i, slot);
       if ((before > 0) != (now > 0))
-        out.push_back({static_cast<int>(slot), now > 0, static_cast<double>(i % steps_) / steps_});
+        out.push_back({static_cast<int>(slot), now > 0, static_cast<double>(i) / steps_});
     }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const ContactEvent& a, const ContactEvent& b) { return a.phase < b.phase; });
   return out;
 }
 

@@ -1,9 +1,11 @@
 // The period map y -> P(y; f) of a system in motion, for periodic motions and orbits.
 //
-// y: coordinates and velocities in the energy norm relative to rest, relaxed loads and contact forces relative to those of rest.
+// y: coordinates and velocities in the energy norm relative to rest, relaxed loads by the energy that each stores by itself (of those
+// that hardly move anything 1e-10 of the largest), contact forces relative to the largest of rest: as that of pairs.
 // The tangent is one replay of the period with its contacts kept and each Hertz's law by its slope.
 #pragma once
-#include <optional>
+#include <functional>
+#include <utility>
 
 #include "dynamics/system_dynamics.h"
 #include "orbits/period_map.h"
@@ -17,14 +19,23 @@ class SystemPeriodMap : public PeriodMap {
   int size() const override { return static_cast<int>(unit_.size()); }
   void set_parameter(double mesh_frequency) override;
   double parameter() const override { return dynamics_.mesh_frequency(); }
-  // Throws ModelRangeError where a tip edge that was left out would touch: left_zone() says so.
+  // Throws ModelRangeError where a tip edge that was left out would touch: take_left_zone() says so.
   Eigen::VectorXd apply(const Eigen::VectorXd& y) override;
+  // Error(numerical) if nothing was applied at the present speed.
   Eigen::MatrixXd tangent() override;
   Eigen::MatrixXd tangent_times(const Eigen::MatrixXd& directions) override;
   std::vector<ContactEvent> events() const override;  // contact: the slot
   Eigen::VectorXd observable() const override;        // transmission error of the first mesh
+  // What `measure` gives of a period; empty without.
+  Eigen::VectorXd peaks() override { return measure_ ? measure_(period_) : Eigen::VectorXd(); }
+  using Measure = std::function<Eigen::VectorXd(const SystemDynamics::Period&)>;
+  void measure(Measure of) { measure_ = std::move(of); }
 
-  bool left_zone() const { return left_zone_; }
+  // Whether the period applied last left the tip edges that are looked at.
+  bool left_last() const { return left_last_; }
+  // Whether any period did since this was asked last.
+  bool take_left_zone() { return std::exchange(left_zone_, false); }
+  int steps() const { return steps_; }
   Eigen::VectorXd rest() const { return rest_; }
   Eigen::VectorXd flat(const SystemDynamics::State& state) const;
   SystemDynamics::State state(const Eigen::VectorXd& y) const;
@@ -33,7 +44,8 @@ class SystemPeriodMap : public PeriodMap {
  private:
   SystemDynamics& dynamics_;
   int steps_;
-  bool left_zone_ = false;
+  bool left_zone_ = false, left_last_ = false, applied_ = false;
+  Measure measure_;
   Eigen::VectorXd unit_, rest_;
   SystemDynamics::Period period_;
 };

@@ -55,7 +55,7 @@ std::string schema_named(const Parts& place) {
   const std::string stem = name.substr(0, name.rfind('.'));
   if (place[1] == "studies") return stem == "study" ? "whine/study" : "whine/variant";
   for (const char* kind : {"mesh", "body", "static", "error_budget", "impact", "sweep", "response", "branch",
-                           "modes", "system_static", "system_sweep"})
+                           "modes", "system_static", "system_sweep", "system_impact", "system_branch"})
     if (stem == kind) return std::string("whine/") + kind;
   for (const auto& [start, kind] : {std::pair{"loaded_", "loaded"}, std::pair{"jump_map", "jump_map"},
                                     std::pair{"branches", "jump_map"}, std::pair{"harris_", "harris_map"},

@@ -19,6 +19,8 @@
 #include "io/static_codec.h"
 #include "io/study_codec.h"
 #include "io/sweep_codec.h"
+#include "io/system_branch_codec.h"
+#include "io/system_impact_codec.h"
 #include "io/system_static_codec.h"
 #include "io/system_sweep_codec.h"
 #include "io/variant_codec.h"
@@ -53,6 +55,7 @@ std::string dataset_list() {
          lines<HarrisMapArtifact>("harris_map.h5") + lines<VariantArtifact>("ab12....h5") +
          lines<StudyArtifact>("study.h5") + lines<ModesArtifact>("modes.h5") +
          lines<SystemStaticArtifact>("system_static.h5") + lines<SystemSweepArtifact>("system_sweep.h5") +
+         lines<SystemImpactArtifact>("system_impact.h5") + lines<SystemBranchArtifact>("system_branch.h5") +
          lines<ReadingsArtifact>("readings.h5");
 }
 

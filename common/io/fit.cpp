@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "io/body_codec.h"
 #include "io/keys.h"
 #include "io/provenance.h"
 #include "io/publish.h"
@@ -42,6 +43,17 @@ void require_body(const BodyArtifact& body, const std::string& hash, const std::
   fail(Failure::input, path, ": is the body ", found, ", but the ", role, " of this scene is ", hash,
        ": it is of other gear values, or driver and driven are swapped; give out/bodies/", hash,
        "/body.h5 (make out/bodies/", hash, "/body.h5)");
+}
+
+std::vector<BodyArtifact> read_bodies(const NamedFiles& files, const SystemStaticParameters& settings) {
+  std::vector<BodyArtifact> out;
+  const std::vector<std::string> paths = files.of(settings.gears(), "system");
+  out.reserve(paths.size());
+  for (size_t g = 0; g < paths.size(); ++g) {
+    out.push_back(read_body(paths[g]));
+    require_body(out.back(), settings.body[g].second, settings.body[g].first, paths[g]);
+  }
+  return out;
 }
 
 void require_contact(const StaticArtifact& statics, const Fidelity& wanted, const std::string& path) {

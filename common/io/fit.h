@@ -1,8 +1,11 @@
 // Whether artifacts belong to the stage parameters of a scene that a stage is given: mixed files are rejected by name.
 #pragma once
 #include <string>
+#include <vector>
 
+#include "io/named_files.h"
 #include "io/scene.h"
+#include "model/system_stages.h"
 #include "signal/static_result.h"
 #include "solid/reduced_body.h"
 #include "solid/sector_mesh.h"
@@ -18,6 +21,10 @@ void require_mesh(const MeshArtifact& mesh, const BodyParameters& settings, cons
 // empty hash is of stage parameters that name no bodies: any body will do.
 void require_body(const BodyArtifact& body, const std::string& hash, const std::string& role,
                   const std::string& path);
+
+// The bodies of a system's gears, in the order of settings.body, each the one that the stage parameters name. Throws as
+// NamedFiles::of(), read_body() and require_body().
+std::vector<BodyArtifact> read_bodies(const NamedFiles& files, const SystemStaticParameters& settings);
 
 // Error(input), with both model levels and the make target, unless `statics` (read from `path`) has the contact that the
 // stage parameters of a later stage say.

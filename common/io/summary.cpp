@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "base/error.h"
 #include "gear/friction.h"
@@ -16,29 +15,17 @@
 #include "io/jump_map_codec.h"
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
-#include "io/modes_codec.h"
 #include "io/response_codec.h"
 #include "io/runup_codec.h"
 #include "io/static_codec.h"
 #include "io/study.h"
 #include "io/study_codec.h"
+#include "io/summary_lines.h"
 #include "io/sweep_codec.h"
-#include "io/system_static_codec.h"
-#include "io/system_sweep_codec.h"
 #include "io/variant_codec.h"
 
 namespace whine {
 namespace {
-
-using Lines = std::vector<std::pair<std::string, std::string>>;
-
-template <class... Parts>
-void add(Lines& lines, const std::string& name, const Parts&... parts) {
-  std::ostringstream out;
-  out.precision(5);
-  (out << ... << parts);
-  lines.emplace_back(name, out.str());
-}
 
 std::string jumps(const Eigen::VectorXd& frequency, const Eigen::VectorXd& width) {
   std::string out;
@@ -51,12 +38,6 @@ std::string jumps(const Eigen::VectorXd& frequency, const Eigen::VectorXd& width
                 " Hz");
   }
   return out.empty() ? "none" : out;
-}
-
-std::string range_of(const Eigen::VectorXd& frequency) {
-  const Eigen::Index n = frequency.size();
-  return n == 0 ? "no speeds"
-                : text(n, " speeds, ", frequency[0], " to ", frequency[n - 1], " Hz mesh frequency");
 }
 
 std::string contact_plane(const GearMeshSpec& mesh) {
@@ -72,14 +53,14 @@ std::string corner_rule(const GearMeshSpec& mesh) {
 }
 
 // Nothing for flanks as they are designed.
-void show_modification(Lines& lines, const GearMeshSpec& mesh) {
+void show_modification(SummaryLines& lines, const GearMeshSpec& mesh) {
   for (int g = 0; g < kSides; ++g)
     if (mesh.modification[g] != FlankModification{})
       add(lines, text(kGearName[g], "'s flanks"), in_words(mesh.modification[g]));
 }
 
 // Nothing for gears on rigid axes.
-void show_bearings(Lines& lines, const GearMeshSpec& mesh) {
+void show_bearings(SummaryLines& lines, const GearMeshSpec& mesh) {
   for (int g = 0; g < kSides; ++g)
     if (const Bearing& b = mesh.bearing[g]; b.elastic())
       add(lines, text("bearing of ", mesh.gear[g]), b.stiffness * 1e-6, " N/µm, ", b.damping, " N s/m, ",
@@ -87,13 +68,13 @@ void show_bearings(Lines& lines, const GearMeshSpec& mesh) {
 }
 
 // Nothing for teeth that are all alike.
-void show_friction(Lines& lines, const GearMeshSpec& mesh) {
+void show_friction(SummaryLines& lines, const GearMeshSpec& mesh) {
   if (!mesh.friction.acts()) return;
   add(lines, "friction", in_words(mesh.friction),
       "; the bending of teeth by it is left out: of opposite sign, about as large in transmission errors");
 }
 
-void show_errors(Lines& lines, const GearMeshSpec& mesh) {
+void show_errors(SummaryLines& lines, const GearMeshSpec& mesh) {
   const auto largest = [](const std::vector<double>& teeth) {
     double most = 0;
     for (const double deviation : teeth) most = std::max(most, std::abs(deviation));
@@ -116,7 +97,7 @@ void show_errors(Lines& lines, const GearMeshSpec& mesh) {
   }
 }
 
-void show_gear(Lines& lines, const GearDesign& gear, const BodyDiscretisation& body) {
+void show_gear(SummaryLines& lines, const GearDesign& gear, const BodyDiscretisation& body) {
   add(lines, "gear", gear.teeth, " teeth, module ", gear.module * 1e3, " mm, face width ",
       gear.face_width * 1e3, " mm, ", gear.internal ? "internal, rim held at " : "bore radius ",
       gear.held_radius() * 1e3, gear.internal ? " mm radius" : " mm");
@@ -131,7 +112,7 @@ std::string near_field(const BodyDiscretisation& body) {
              : name_of(body.near_field);
 }
 
-void show_discretisation(Lines& lines, const PairParameters& a) {
+void show_discretisation(SummaryLines& lines, const PairParameters& a) {
   const auto elements = [](const BodyDiscretisation& b) {
     return text("order ", b.element_order, ", ", b.element_size * 1e3, " mm on the flank");
   };
@@ -143,19 +124,19 @@ void show_discretisation(Lines& lines, const PairParameters& a) {
   both("near field", near_field(driver), near_field(driven));
 }
 
-void show_damping(Lines& lines, const Damping& damping) {
+void show_damping(SummaryLines& lines, const Damping& damping) {
   add(lines, "damping", "eta ", damping.rayleigh_stiffness * 1e6, " µs, bearing ratio ",
       damping.bearing_ratio * 100, " %");
 }
 
-void show(Lines& lines, const MeshArtifact& a) {
+void show(SummaryLines& lines, const MeshArtifact& a) {
   show_gear(lines, a.design, a.discretisation);
   add(lines, "sector", a.node_position.rows(), " nodes, ", a.element_node.rows(), " elements of ",
       a.element_node.cols(), " nodes");
   add(lines, "flank", a.flank_node.size(), " nodes on the driving flank");
 }
 
-void show(Lines& lines, const BodyArtifact& a) {
+void show(SummaryLines& lines, const BodyArtifact& a) {
   show_gear(lines, a.design, a.discretisation);
   add(lines, "inertia of the body", a.inertia, " kg m2, mass ", a.mass, " kg");
   std::string modes;
@@ -171,7 +152,7 @@ void show(Lines& lines, const BodyArtifact& a) {
       " µm/N (round-off of the log of the contact below 0)");
 }
 
-void show(Lines& lines, const StaticArtifact& a) {
+void show(SummaryLines& lines, const StaticArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", centre distance ",
       a.mesh.centre_distance * 1e3, " mm");
   add(lines, "corner contact", corner_rule(a.mesh));
@@ -213,7 +194,7 @@ void show(Lines& lines, const StaticArtifact& a) {
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
 }
 
-void show(Lines& lines, const LoadedArtifact& a) {
+void show(SummaryLines& lines, const LoadedArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", mesh phase ", a.mesh_phase);
   show_modification(lines, a.mesh);
   show_discretisation(lines, a);
@@ -230,7 +211,7 @@ void show(Lines& lines, const LoadedArtifact& a) {
         a.contact_torque[g], ", strain energy over work ", a.strain_energy[g] / a.contact_work[g]);
 }
 
-void show(Lines& lines, const ErrorBudgetArtifact& a) {
+void show(SummaryLines& lines, const ErrorBudgetArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", contact ", a.fidelity.contact);
   const auto rows = [&](const StaticChanges& changes, const std::string& before) {
     std::string rest = changes.entry;
@@ -248,7 +229,7 @@ void show(Lines& lines, const ErrorBudgetArtifact& a) {
   if (!a.choice_missing.empty()) add(lines, "not computed", a.choice_missing);
 }
 
-void show(Lines& lines, const ImpactArtifact& a) {
+void show(SummaryLines& lines, const ImpactArtifact& a) {
   if (a.mesh.friction.acts())
     add(lines, "friction", "left out of ring-downs: teeth do not slide at a fixed mesh phase");
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.torque_step * 100, " % let go");
@@ -271,7 +252,7 @@ void show(Lines& lines, const ImpactArtifact& a) {
   add(lines, "least mesh force", a.least_mesh_force * 100, " % of the static one");
 }
 
-void show(Lines& lines, const SweepArtifact& a) {
+void show(SummaryLines& lines, const SweepArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.direction, ", ",
       range_of(a.mesh_frequency));
   const LumpedParameters& l = a.lumped;
@@ -326,7 +307,7 @@ void show(Lines& lines, const SweepArtifact& a) {
   add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
 }
 
-void show(Lines& lines, const BranchArtifact& a) {
+void show(SummaryLines& lines, const BranchArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", range_of(a.mesh_frequency));
   show_friction(lines, a.mesh);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -360,44 +341,7 @@ void show(Lines& lines, const BranchArtifact& a) {
   add(lines, "end", a.end);
 }
 
-void show(Lines& lines, const ModesArtifact& a) {
-  std::string bodies;
-  for (const System::Body& body : a.layout.bodies) bodies += (bodies.empty() ? "" : ", ") + body.name;
-  add(lines, "bodies", bodies);
-  add(lines, "meshes", a.layout.meshes.size());
-  for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
-    add(lines, "mode", a.natural_frequency[i], " Hz, ", a.type[static_cast<size_t>(i)]);
-}
-
-void show(Lines& lines, const SystemStaticArtifact& a) {
-  const System& s = a.settings.layout;
-  add(lines, "model", "contact ", a.settings.fidelity.contact, ", ", a.mesh_phase.size(),
-      " positions in a mesh period");
-  for (size_t b = 0; b < s.bodies.size(); ++b) {
-    const auto column = static_cast<Eigen::Index>(b);
-    double most = 0;
-    for (const MatrixRM& force : a.bearing_force) most = std::max(most, force.row(column).norm());
-    add(lines, "body", s.bodies[b].name, ": torque ", a.torque.col(column).mean(),
-        " N m, bearing force up to ", most, " N");
-  }
-  for (size_t m = 0; m < s.meshes.size(); ++m) {
-    const auto column = static_cast<Eigen::Index>(m);
-    add(lines, "mesh", s.bodies[static_cast<size_t>(s.meshes[m].side[0].body)].name, " and ",
-        s.bodies[static_cast<size_t>(s.meshes[m].side[1].body)].name, ": transmission error ",
-        a.transmission_error.col(column).minCoeff() * 1e6, " to ",
-        a.transmission_error.col(column).maxCoeff() * 1e6, " µm, share of the load ",
-        a.load_share.col(column).minCoeff() * 100, " to ", a.load_share.col(column).maxCoeff() * 100, " %");
-  }
-  add(lines, "residual", a.torque_residual.maxCoeff(), " of the largest mesh force");
-}
-
-void show(Lines& lines, const SystemSweepArtifact& a) {
-  add(lines, "speeds", a.mesh_frequency.size(), " ", a.direction);
-  add(lines, "meshes", "RMS to ", a.dte_rms.maxCoeff() * 1e6, " µm, forces to ", a.mesh_force_max.maxCoeff(),
-      " N");
-}
-
-void show(Lines& lines, const FoldCurvesArtifact& a) {
+void show(SummaryLines& lines, const FoldCurvesArtifact& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
   show_friction(lines, a.mesh);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -411,7 +355,7 @@ void show(Lines& lines, const FoldCurvesArtifact& a) {
   add(lines, "end", a.end);
 }
 
-void show(Lines& lines, const RunupArtifact& a) {
+void show(SummaryLines& lines, const RunupArtifact& a) {
   show_friction(lines, a.mesh);
   add(lines, "operating point", a.torque, " N m, ", a.ramp.from, " to ", a.ramp.to, " Hz at ", a.ramp.rate,
       " rpm/s");
@@ -423,7 +367,7 @@ void show(Lines& lines, const RunupArtifact& a) {
       a.periods.mesh_frequency[worst], " Hz");
 }
 
-void show(Lines& lines, const ResponseArtifact& a) {
+void show(SummaryLines& lines, const ResponseArtifact& a) {
   show_friction(lines, a.mesh);
   add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
@@ -445,7 +389,7 @@ void show(Lines& lines, const ResponseArtifact& a) {
   add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
 }
 
-void show(Lines& lines, const JumpMapArtifact& a) {
+void show(SummaryLines& lines, const JumpMapArtifact& a) {
   add(lines, "operating point", a.torque, " N m, ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
   add(lines, "stiffness", "mean ", a.mean_stiffness * 1e-6, " N/µm, first harmonic ",
@@ -465,7 +409,7 @@ void show(Lines& lines, const JumpMapArtifact& a) {
 
 namespace {
 
-void show(Lines& lines, const HarrisMapArtifact& a) {
+void show(SummaryLines& lines, const HarrisMapArtifact& a) {
   show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
@@ -485,7 +429,7 @@ void show(Lines& lines, const HarrisMapArtifact& a) {
         a.dynamic_rms[s].maxCoeff() * 1e6, " µm");
 }
 
-void show(Lines& lines, const VariantArtifact& a) {
+void show(SummaryLines& lines, const VariantArtifact& a) {
   show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
   show_friction(lines, a.mesh);
@@ -499,7 +443,7 @@ void show(Lines& lines, const VariantArtifact& a) {
     add(lines, kinds[i].name, a.quantity[i], " ", kinds[i].units == "1" ? "" : kinds[i].units);
 }
 
-void show(Lines& lines, const StudyArtifact& a) {
+void show(SummaryLines& lines, const StudyArtifact& a) {
   std::string keys;
   for (const VariedKey& key : a.plan.keys) keys += (keys.empty() ? "" : ", ") + key.name;
   const auto rejected =
@@ -542,7 +486,7 @@ std::string in_words(const FlankModification& m) {
 }
 
 std::vector<std::pair<std::string, std::string>> summary(const std::string& path, const std::string& schema) {
-  Lines lines;
+  SummaryLines lines;
   if (schema == "whine/mesh") {
     show(lines, read_mesh(path));
   } else if (schema == "whine/body") {
@@ -561,12 +505,6 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_response(path));
   } else if (schema == "whine/fold_curves") {
     show(lines, read_fold_curves(path));
-  } else if (schema == "whine/modes") {
-    show(lines, read_modes(path));
-  } else if (schema == "whine/system_static") {
-    show(lines, read_system_static(path));
-  } else if (schema == "whine/system_sweep") {
-    show(lines, read_system_sweep(path));
   } else if (schema == "whine/runup") {
     show(lines, read_runup(path));
   } else if (schema == "whine/branch") {
@@ -579,7 +517,7 @@ std::vector<std::pair<std::string, std::string>> summary(const std::string& path
     show(lines, read_variant(path));
   } else if (schema == "whine/study") {
     show(lines, read_study_artifact(path));
-  } else {
+  } else if (!summary_of_system(lines, path, schema)) {
     add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
   }
   return lines;

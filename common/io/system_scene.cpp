@@ -148,6 +148,14 @@ void take_bearings(const Source& source, SystemScene& scene) {
           *table->get("gear"),
           text("'gear' in [bearing] = '", values.bearing_gear,
                "' is a carrier, whose axis is rigid where gears are elastic; take the section out"));
+    if (const auto number = static_cast<size_t>(at - names.begin());
+        !scene.rigid() && scene.operation.frequency_to > 0 && number < scene.gears.size() &&
+        scene.gears[number].design.internal)
+      source.reject(
+          *table->get("gear"),
+          text("'gear' in [bearing] = '", values.bearing_gear,
+               "' is internal: in motion internal gears have rigid axes; take this [[bearing]] out, or "
+               "[operation]"));
     if (scene.rigid() && !(values.bearing.mass > 0))
       source.reject(*table, text("[bearing] of '", values.bearing_gear,
                                  "' lacks 'mass_kg', which body = \"rigid\" needs"));
@@ -177,6 +185,24 @@ void take_drives(const Source& source, SystemScene& scene) {
   }
 }
 
+// What systems in motion cannot do, before anything is computed for them.
+void reject_in_motion(const Source& source, const Fidelity& fidelity) {
+  const auto reject = [&](const char* key, const std::string& words) {
+    const toml::node* node = source.root().at_path(std::string("fidelity.") + key).node();
+    if (node) source.reject(*node, words);
+    source.reject(words);
+  };
+  if (fidelity.body == BodyModel::full)
+    reject("body",
+           "body = \"full\" in [fidelity]: systems in motion have \"quasi-static\", \"lagged\" or "
+           "\"modal\"; write one of these, or take [operation] out");
+  if (fidelity.integrator != Integrator::exact)
+    reject("integrator",
+           text("integrator = \"", fidelity.integrator,
+                "\" in [fidelity] is for pairs: systems in motion have \"exact\"; write that, or "
+                "take [operation] out"));
+}
+
 // [fidelity], [discretisation], [damping] and [operation].
 void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) {
   static const toml::table kNothing;
@@ -201,6 +227,7 @@ void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) 
     if (moves) parts.insert(Part::operation);
     reader.read(values, parts, false);
   }
+  if (moves && values.fidelity.body != BodyModel::rigid) reject_in_motion(source, values.fidelity);
   scene.operation = values.operation;
   scene.damping = values.damping;
   scene.time = values.time;
@@ -268,6 +295,21 @@ auto placed_in(const std::string& path, const Make& make) {
 }
 
 }  // namespace
+
+std::vector<std::string> motion_remarks(const SystemScene& scene) {
+  std::vector<std::string> out;
+  if (scene.rigid() || !(scene.operation.frequency_to > 0)) return out;
+  if (scene.fidelity.contact != ContactModel::line)
+    out.push_back(text("note: contact = \"", scene.fidelity.contact,
+                       "\" is that of the statics; in motion a system has contact = \"line\""));
+  if (scene.damping.rayleigh_stiffness == kDefaultRayleighStiffness &&
+      scene.fidelity.body != BodyModel::quasi_static)
+    out.push_back(text("warning: rayleigh_stiffness_s = ", scene.damping.rayleigh_stiffness,
+                       ", the default, is for the gears of P2000; `make SCENE=path/to/scene.toml "
+                       "system-ringdown` shows the damping ratios that it gives these, write your own into "
+                       "[damping]"));
+  return out;
+}
 
 System layout_in(const SystemScene& scene, const std::string& path) {
   return placed_in(path, [&] { return layout_of(scene); });

@@ -20,6 +20,10 @@ System layout_in(const SystemScene& scene, const std::string& path);
 // check_at_rest(scene, layout), likewise.
 void check_at_rest_in(const SystemScene& scene, const System& layout, const std::string& path);
 
+// What to know of an elastic system in motion before it is computed: contact on lines whatever [fidelity] says, and a damping that
+// nobody chose. Empty of scenes without [operation].
+std::vector<std::string> motion_remarks(const SystemScene& scene);
+
 // Canonical text of the stage parameters of the modes of a system, and back: bodies, meshes and drives as they stand, in SI.
 std::string system_parameters(const System& layout);
 System read_system_parameters(const std::string& path);

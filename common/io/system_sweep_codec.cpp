@@ -10,29 +10,8 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"system_sweep", 1};
+constexpr Schema kSchema{"system_sweep", 2};
 constexpr const char* kAxis = "mesh_frequency";
-
-void describe_settings(Codec& c, SystemSweepArtifact& a) {
-  SystemSweepParameters& s = a.settings;
-  describe_layout(c, s.layout);
-  c.dataset({"/body/torque", "N m", "torque of the drive in the body's sense", "body_number", kMoment},
-            &a.torque);
-  KeyValues values;
-  values.fidelity = s.fidelity;
-  values.damping = s.damping;
-  values.time = s.time;
-  c.parameters("fidelity", values, Part::level);
-  c.parameters("fidelity", values, Part::contact_level);
-  c.parameters("damping", values, Part::damping);
-  c.parameters("discretisation", values, Part::time);
-  c.choice({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
-           a.direction);
-  if (!c.in()) return;
-  s.fidelity = values.fidelity;
-  s.damping = values.damping;
-  s.time = values.time;
-}
 
 void describe_meshes(Codec& c, SystemSweepArtifact& a) {
   const std::string axes = std::string(kAxis) + " mesh_number";
@@ -58,6 +37,11 @@ void describe_meshes(Codec& c, SystemSweepArtifact& a) {
        "dynamic transmission error of each mesh over the last mesh period, positive when the driver is ahead",
        std::string(kAxis) + " sample mesh_number", kLength, "r1 theta1 - r2 theta2, each in its own sense"},
       &a.transmission_error);
+  c.dataset(
+      {"/mesh_deflection", "m",
+       "what the flanks of each mesh close by over the last mesh period, the motion of the hubs included",
+       std::string(kAxis) + " sample mesh_number", kLength, "sum over both sides of (row on r) r"},
+      &a.mesh_deflection);
   c.dataset({"/mesh_force", "N", "torque on the driving body over its base radius, over the last mesh period",
              std::string(kAxis) + " sample mesh_number", kForce},
             &a.mesh_force);
@@ -70,6 +54,11 @@ void describe_bodies(Codec& c, SystemSweepArtifact& a) {
       &a.bearing_force_max);
   c.dataset({"/bearing_force_rms", "N", "RMS of the oscillating part of that force", axes, kLoad},
             &a.bearing_force_rms);
+  c.dataset({"/holding_torque", "N m",
+             "mean torque that holds the body, in its sense: of a gear against its contact forces, of a "
+             "carrier against the forces on its pins; 0 of bodies that turn",
+             axes, kMoment},
+            &a.holding_torque);
   a.bearing_force.resize(c.lists() ? 1 : a.settings.layout.bodies.size());
   for (size_t b = 0; b < a.bearing_force.size(); ++b)
     c.dataset(
@@ -117,13 +106,40 @@ void describe_solution(Codec& c, SystemSweepArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, SystemSweepArtifact& a) {
-  describe_settings(c, a);
+void describe_system_motion(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque,
+                            double& axis_frequency) {
+  describe_layout(c, s.layout);
+  c.dataset({"/body/torque", "N m", "torque of the drive in the body's sense; 0 where none gives a torque",
+             "body_number", kMoment},
+            &torque);
+  KeyValues values;
+  values.fidelity = s.fidelity;
+  values.damping = s.damping;
+  c.parameters("fidelity", values, Part::level);
+  c.parameters("fidelity", values, Part::contact_level);
+  c.parameters("damping", values, Part::damping);
   c.dataset({"/axis_frequency", "Hz",
              "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of "
              "the axes refer",
              "", kFrequency},
-            &a.axis_frequency);
+            &axis_frequency);
+  if (!c.in()) return;
+  s.fidelity = values.fidelity;
+  s.damping = values.damping;
+}
+
+void describe_time_steps(Codec& c, TimeDiscretisation& time) {
+  KeyValues values;
+  values.time = time;
+  c.parameters("discretisation", values, Part::time);
+  if (c.in()) time = values.time;
+}
+
+void describe(Codec& c, SystemSweepArtifact& a) {
+  describe_system_motion(c, a.settings, a.torque, a.axis_frequency);
+  describe_time_steps(c, a.settings.time);
+  c.choice({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
+           a.direction);
   c.dataset(
       {"/mesh_frequency", "Hz", "mesh frequency, in the order in which they were computed", kAxis, kSpeed},
       &a.mesh_frequency);

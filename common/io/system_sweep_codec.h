@@ -9,6 +9,12 @@ namespace whine {
 
 class Codec;
 
+// What artifacts of systems in motion have in common: bodies, meshes, torques, damping, model levels; Hz: axis_frequency(). And
+// the discretisation of time.
+void describe_system_motion(Codec& codec, SystemSweepParameters& settings, Eigen::VectorXd& torque,
+                            double& axis_frequency);
+void describe_time_steps(Codec& codec, TimeDiscretisation& time);
+
 void describe(Codec& codec, SystemSweepArtifact& a);
 void write(const std::string& path, const SystemSweepArtifact& a, const Provenance& provenance);
 SystemSweepArtifact read_system_sweep(const std::string& path);

@@ -20,6 +20,8 @@
 #include "io/static_codec.h"
 #include "io/study_codec.h"
 #include "io/sweep_codec.h"
+#include "io/system_branch_codec.h"
+#include "io/system_impact_codec.h"
 #include "io/system_static_codec.h"
 #include "io/system_sweep_codec.h"
 #include "report/campbell_figure.h"
@@ -40,7 +42,9 @@
 #include "report/sensitivity_figure.h"
 #include "report/static_figures.h"
 #include "report/study_figure.h"
+#include "report/system_branch_figure.h"
 #include "report/system_figures.h"
+#include "report/system_impact_figure.h"
 #include "report/system_picture.h"
 #include "report/system_sweep_figure.h"
 #include "signal/response.h"
@@ -382,6 +386,17 @@ Drawings drawings_of_systems() {
         "system_sweep.h5 of one system, rising, falling or both", 0, 0,
         [](const Paths& in, const Frequencies&) {
           return system_sweep_figure(read_all(in, read_system_sweep));
+        }}},
+      {"system-ringdown",
+       {"damping ratios and natural frequencies of the modes of a system by ring-down", "system_impact.h5", 1,
+        0,
+        [](const Paths& in, const Frequencies&) { return system_impact_figure(read_system_impact(in[0])); }}},
+      {"system-branch",
+       {"the branch of periodic motions of a system, stable and unstable, over its sweeps",
+        "system_branch.h5, and system_sweep.h5 of the same system if you like", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const Paths sweeps(in.begin() + 1, in.end());
+          return system_branch_figure(read_system_branch(in[0]), read_all(sweeps, read_system_sweep));
         }}},
   };
 }

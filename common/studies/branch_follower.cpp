@@ -14,21 +14,25 @@ namespace whine {
 
 using Eigen::VectorXd;
 
+BranchSettings segment_speeds(const TimeDiscretisation& time, double from, double to, int steps) {
+  BranchSettings settings;
+  settings.low = from;
+  settings.high = to;
+  settings.scale = 0.5 * (settings.low + settings.high);
+  if (steps > time.steps_per_period)
+    settings.high = std::min(settings.high, 2 * time.min_sample_rate / steps);
+  if (time.min_sample_rate > 0) settings.low = std::max(settings.low, time.min_sample_rate / steps);
+  return settings;
+}
+
 namespace {
 
 constexpr int kMostSegments = 64;
 
 BranchSettings branch_settings(const SweepParameters& stage_settings, int steps, bool at_folds,
                                double tolerance) {
-  BranchSettings settings;
-  settings.low = stage_settings.frequency_from;
-  settings.high = stage_settings.frequency_to;
-  settings.scale = 0.5 * (settings.low + settings.high);
-  // Speeds at which the number of steps changes.
-  const TimeDiscretisation& time = stage_settings.time;
-  if (steps > time.steps_per_period)
-    settings.high = std::min(settings.high, 2 * time.min_sample_rate / steps);
-  if (time.min_sample_rate > 0) settings.low = std::max(settings.low, time.min_sample_rate / steps);
+  BranchSettings settings =
+      segment_speeds(stage_settings.time, stage_settings.frequency_from, stage_settings.frequency_to, steps);
   settings.first_step = 0.02;
   settings.largest_step = at_folds ? 0.25 : 0.06;
   settings.straight = at_folds ? 0.95 : 0.99;

@@ -14,6 +14,9 @@
 
 namespace whine {
 
+// The speeds (Hz) between which a branch of [from, to] has this number of steps per period, and the scale of all of it.
+BranchSettings segment_speeds(const TimeDiscretisation& time, double from, double to, int steps);
+
 struct BranchSegment {
   OrbitBranch branch;
   int steps = 0;     // per period

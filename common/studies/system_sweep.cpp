@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <optional>
 
 #include "base/error.h"
 #include "base/model_range.h"
@@ -12,7 +10,7 @@
 #include "orbits/periodic_motion.h"
 #include "orbits/recurrence.h"
 #include "studies/sweep.h"
-#include "system/system_rest.h"
+#include "studies/system_rig.h"
 
 namespace whine {
 
@@ -21,30 +19,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr int kRestPositions = 32;      // of the statics that come first
-constexpr double kBeyondStatics = 2.5;  // deflection that tip edges are looked for, over that of rest
-
-struct Rest {
-  MatrixXd stiffness;              // (mesh, mesh) N m-1, mean
-  std::vector<double> deflection;  // [mesh] m, largest
-};
-
-Rest rest_of(const SystemModel& system, int strips) {
-  Rest out;
-  const auto meshes = static_cast<Index>(system.mesh.size());
-  out.stiffness = MatrixXd::Zero(meshes, meshes);
-  out.deflection.assign(system.mesh.size(), 0);
-  for (const SystemSolution& at : rest_over_period(system, ContactModel::line, strips, kRestPositions)) {
-    out.stiffness += at.mesh_stiffness / kRestPositions;
-    for (size_t m = 0; m < system.mesh.size(); ++m)
-      out.deflection[m] = std::max(out.deflection[m], at.deflection[m]);
-  }
-  // A mesh without load has none of its own: that of a loaded one.
-  const double most = *std::max_element(out.deflection.begin(), out.deflection.end());
-  for (double& deflection : out.deflection) deflection = std::max(deflection, 0.1 * most);
-  return out;
-}
 
 std::vector<double> speeds_of(const SystemSweepParameters& p, Direction direction) {
   const long count =
@@ -121,45 +95,42 @@ class Recorded {
 };
 
 // The system from speed to speed.
-class SystemRig {
+class Sweeper {
  public:
-  SystemRig(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies)
-      : system_(elastic_system(settings, bodies)), settings_(settings) {
-    take_masses(settings, bodies, system_.layout);
-    rest_ = rest_of(system_, settings.contact.strips);
-    motion_.damping = settings.damping;
-    motion_.fidelity = settings.fidelity;
-    motion_.fidelity.contact = ContactModel::line;
-    motion_.axis_frequency = axis_frequency(system_, rest_.stiffness);
-    widen();
-    state_ = dynamics_->rest();
-  }
+  Sweeper(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies)
+      : settings_(settings),
+        rig_(settings, bodies, steps_at(settings.time, settings.frequency_from)),
+        state_(rig_.dynamics().rest()) {}
 
-  const SystemModel& system() const { return system_; }
-  const SystemMotion& motion() const { return motion_; }
+  const SystemRig& rig() const { return rig_; }
 
   // The periodic motion at a speed, into row `row`.
   std::string run(double frequency, Index row, SystemSweepArtifact& out) {
-    const SystemDynamics::State start = state_;
+    constexpr int kMostPeriods = 3000;
+    SystemDynamics::State start = state_;
     for (;;) {
-      SystemPeriodMap map(*dynamics_, steps_at(settings_.time, frequency));
+      SystemPeriodMap map(rig_.dynamics(), steps_at(settings_.time, frequency));
       map.set_parameter(frequency);
       try {
-        const PeriodicMotion motion = find_periodic_motion(
-            map, map.flat(state_),
-            {settings_.time.periodicity, 3000, settings_.time.steady_state == SteadyState::extrapolate});
+        PeriodicMotion motion;
+        try {
+          motion = find_periodic_motion(map, map.flat(state_),
+                                        {settings_.time.periodicity, kMostPeriods,
+                                         settings_.time.steady_state == SteadyState::extrapolate});
+        } catch (const ModelRangeError&) {
+          // Of a proposal that was rejected before nothing is thrown: this is of the period integrated last.
+          if (!map.left_last()) throw;
+          state_ = start = rig_.widen(start);
+          continue;
+        }
         state_ = map.state(motion.state);
-        if (!record(motion, row, out))
-          throw ModelRangeError(Failure::numerical, "contact leaves the tip edges");
+        if (!record(motion, row, out)) {
+          state_ = start = rig_.widen(start);
+          continue;
+        }
         return motion.multiple == 1   ? ""
                : motion.multiple == 0 ? "not periodic"
                                       : text(motion.multiple, " periods");
-      } catch (const ModelRangeError& error) {
-        if ((!map.left_zone() && !left_) || widenings_ > kWidenings)
-          fail_as(error, "at a mesh frequency of ", frequency, " Hz, ", error.what());
-        const std::unique_ptr<SystemDynamics> before = std::move(dynamics_);
-        widen();
-        state_ = dynamics_->fitted(start, *before);
       } catch (const Error& error) {
         fail_as(error, "at a mesh frequency of ", frequency, " Hz, ", error.what());
       }
@@ -167,31 +138,10 @@ class SystemRig {
   }
 
  private:
-  // Looks at tip edges that are farther off than before. What is looked at and does not touch changes no force.
-  void widen() {
-    std::vector<double> gap;
-    gap.reserve(rest_.deflection.size());
-    for (const double deflection : rest_.deflection)
-      gap.push_back(kBeyondStatics * deflection * std::pow(kWidening, widenings_));
-    ++widenings_;
-    dynamics_ = std::make_unique<SystemDynamics>(system_, motion_);
-    dynamics_->set_positions(gap, steps_at(settings_.time, settings_.frequency_from));
-  }
-
-  // [body of the settings] (xy, step): those of carriers are the sums of their pins.
-  std::vector<Eigen::Matrix2Xd> bearing_forces(const SystemDynamics::Period& period) const {
-    std::vector<Eigen::Matrix2Xd> out = period.bearing_force;
-    out.resize(settings_.layout.bodies.size(), Eigen::Matrix2Xd::Zero(2, period.mesh_force.cols()));
-    for (size_t b = 0; b < period.bearing_force.size(); ++b)
-      if (const int on = settings_.layout.bodies[b].on; on != System::kGround)
-        out[static_cast<size_t>(on)] += period.bearing_force[b];
-    return out;
-  }
-
   // False if contact leaves the tip edges that are looked at.
   bool record(const PeriodicMotion& motion, Index row, SystemSweepArtifact& out) {
     const int periods = motion.multiple > 0 ? motion.multiple : Recurrence<VectorXd>::kMostMultiple;
-    Recorded recorded(out, system_.mesh.size(), settings_.layout.bodies.size());
+    Recorded recorded(out, rig_.system().mesh.size(), settings_.layout.bodies.size());
     SystemEnergyBalance energy;
     double imbalance = 0;
     SystemDynamics::Period period;
@@ -199,16 +149,14 @@ class SystemRig {
     out.rolling.row(row).setZero();
     out.bearing_damping.row(row).setZero();
     out.drift_force[row] = 0;
+    out.holding_torque.row(row).setZero();
     std::vector<Eigen::Matrix2Xd> forces;
-    left_ = false;
     for (int n = 0; n < periods; ++n) {
-      if (!dynamics_->integrate(state_, period, &energy)) {
-        left_ = true;
-        return false;
-      }
-      forces = bearing_forces(period);
+      if (!rig_.dynamics().integrate(state_, period, &energy)) return false;
+      forces = bearing_forces(settings_.layout, period);
       recorded.take(period, forces);
       take(energy, row, out);
+      take_holding(period, forces, static_cast<double>(periods), row, out);
       imbalance += energy.imbalance;
       out.drift_force[row] = std::max(out.drift_force[row], period.drift_force);
       out.least_gap = std::min(out.least_gap, period.least_gap);
@@ -218,7 +166,7 @@ class SystemRig {
     out.periods[row] = motion.periods;
     out.period_multiple[row] = motion.multiple;
     out.residual[row] = motion.residual;
-    out.energy_imbalance[row] = imbalance / out.energy(row, 10);
+    out.energy_imbalance[row] = imbalance / out.energy(row, kThroughputLine);
     const Index samples = settings_.time.steps_per_period, stride = period.mesh_force.cols() / samples;
     const auto at = static_cast<size_t>(row);
     const auto sampled = [&](const auto& of) -> MatrixRM {
@@ -227,9 +175,28 @@ class SystemRig {
       return rows;
     };
     out.transmission_error[at] = sampled(period.transmission_error);
+    out.mesh_deflection[at] = sampled(period.mesh_deflection);
     out.mesh_force[at] = sampled(period.mesh_force);
     for (size_t b = 0; b < forces.size(); ++b) out.bearing_force[b][at] = sampled(forces[b]);
     return true;
+  }
+
+  // Mean over the recorded periods of the torques that hold bodies; of a carrier -sum (P - C) x F of its pins, as at rest.
+  void take_holding(const SystemDynamics::Period& period, const std::vector<Eigen::Matrix2Xd>& forces,
+                    double periods, Index row, SystemSweepArtifact& out) const {
+    const System& layout = rig_.system().layout;
+    for (size_t b = 0; b < layout.bodies.size(); ++b)
+      if (layout.held(static_cast<int>(b)))
+        out.holding_torque(row, static_cast<Index>(b)) +=
+            period.contact_torque.row(static_cast<Index>(b)).mean() / periods;
+    for (size_t b = 0; b < layout.bodies.size(); ++b) {
+      const System::Body& body = settings_.layout.bodies[b];
+      if (body.on == System::kGround) continue;
+      const System::Body& carrier = settings_.layout.bodies[static_cast<size_t>(body.on)];
+      const double x = body.centre[0] - carrier.centre[0], y = body.centre[1] - carrier.centre[1];
+      const Vec2 pin = forces[b].rowwise().mean();
+      out.holding_torque(row, body.on) -= carrier.sense * (x * pin.y() - y * pin.x()) / periods;
+    }
   }
 
   static void take(const SystemEnergyBalance& e, Index row, SystemSweepArtifact& out) {
@@ -242,14 +209,9 @@ class SystemRig {
     out.bearing_damping.row(row).head(e.bearing_damping.size()) += e.bearing_damping;
   }
 
-  SystemModel system_;
   const SystemSweepParameters& settings_;
-  Rest rest_;
-  SystemMotion motion_;
-  std::unique_ptr<SystemDynamics> dynamics_;
+  SystemRig rig_;
   SystemDynamics::State state_;
-  int widenings_ = 0;
-  bool left_ = false;
 };
 
 }  // namespace
@@ -257,17 +219,13 @@ class SystemRig {
 SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
                                  const std::vector<BodyArtifact>& bodies, Direction direction,
                                  const std::function<void(long, long, const std::string&)>& report) {
-  SystemRig rig(settings, bodies);
+  Sweeper sweeper(settings, bodies);
+  const SystemRig& rig = sweeper.rig();
   const std::vector<double> speeds = speeds_of(settings, direction);
   const auto n = static_cast<Index>(speeds.size()), meshes = static_cast<Index>(rig.system().mesh.size()),
              all = static_cast<Index>(settings.layout.bodies.size());
   SystemSweepArtifact out;
-  out.settings = settings;
-  out.settings.fidelity = rig.motion().fidelity;
-  for (size_t b = 0; b < rig.system().layout.bodies.size(); ++b) {
-    out.settings.layout.bodies[b].inertia = rig.system().layout.bodies[b].inertia;
-    out.settings.layout.bodies[b].bearing.mass = rig.system().layout.bodies[b].bearing.mass;
-  }
+  out.settings = rig.used();
   out.direction = direction;
   out.torque.setZero(all);
   for (int b = 0; b < all; ++b) out.torque[b] = settings.layout.torque(b);
@@ -276,17 +234,19 @@ SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
   for (MatrixRM* x : {&out.dte_rms, &out.dte_mean, &out.mesh_force_max, &out.tooth_force_max,
                       &out.load_share_max, &out.separation_fraction, &out.rolling})
     x->setZero(n, meshes);
-  for (MatrixRM* x : {&out.bearing_force_max, &out.bearing_force_rms, &out.bearing_damping})
+  for (MatrixRM* x :
+       {&out.bearing_force_max, &out.bearing_force_rms, &out.bearing_damping, &out.holding_torque})
     x->setZero(n, all);
   out.energy.setZero(n, static_cast<Index>(kSystemEnergyLines.size()));
   for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
   out.periods.setZero(n);
   out.period_multiple.setZero(n);
   out.transmission_error.resize(speeds.size());
+  out.mesh_deflection.resize(speeds.size());
   out.mesh_force.resize(speeds.size());
   out.bearing_force.assign(settings.layout.bodies.size(), std::vector<MatrixRM>(speeds.size()));
   for (Index i = 0; i < n; ++i) {
-    const std::string note = rig.run(speeds[static_cast<size_t>(i)], i, out);
+    const std::string note = sweeper.run(speeds[static_cast<size_t>(i)], i, out);
     report(i + 1, n, text(speeds[static_cast<size_t>(i)], " Hz", note.empty() ? "" : ", ", note));
   }
   return out;

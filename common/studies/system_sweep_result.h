@@ -22,26 +22,30 @@ inline constexpr std::array<SystemEnergyLine, 11> kSystemEnergyLines{
      {"bearing_damping", "taken by the dampers of bearings and pins"},
      {"relaxation_damping", "taken by the Rayleigh damping of the residual flexibility"},
      {"switching", "work of the scheme itself where teeth part or touch within a step"},
-     {"cutting", "work where a pair is taken out or let in under force"},
+     {"cutting", "work where a corner rule removes or adds a pair while it carries force"},
      {"averaging", "mean load times change of the relaxed load, less the exact work: of the scheme itself"},
      {"dropped", "taken out with the relaxed loads of teeth that are no longer followed"},
      {"throughput", "sum of the sizes of the works of drives and rolling over the steps"}}};
+
+inline constexpr int kThroughputLine = 10;
 
 // system_sweep.h5: rows in the order in which they were computed.
 struct SystemSweepArtifact {
   SystemSweepParameters settings;  // with the inertias and masses that were used
   Direction direction = Direction::up;
-  Eigen::VectorXd torque;          // (body) N m of its drive, mean; of what is held at rest
+  Eigen::VectorXd torque;          // (body) N m of its drive; 0 where none gives a torque
   double axis_frequency = 0;       // Hz, see axis_frequency(): of the rigid train on its mean stiffnesses
   Eigen::VectorXd mesh_frequency;  // (speed) Hz
   // Over the recorded mesh periods: (speed, mesh)
-  MatrixRM dte_rms, dte_mean;                     // m: of the dynamic transmission error
-  MatrixRM mesh_force_max, tooth_force_max;       // N
-  MatrixRM load_share_max;                        // 1: largest share of the meshes of one [[mesh]]
-  MatrixRM separation_fraction;                   // 1: of the steps, without force
+  MatrixRM dte_rms, dte_mean;                // m: of the dynamic transmission error
+  MatrixRM mesh_force_max, tooth_force_max;  // N
+  MatrixRM load_share_max;                   // 1: largest share of the meshes of one [[mesh]]
+  MatrixRM separation_fraction;              // 1: of the steps, without force
+  MatrixRM holding_torque;  // (speed, body) N m: mean, of what holds the body; 0 of free ones
   MatrixRM bearing_force_max, bearing_force_rms;  // (speed, body) N: of its size; of the oscillating part
   // Of the last mesh period
-  std::vector<MatrixRM> transmission_error;          // [speed] (sample, mesh) m
+  std::vector<MatrixRM> transmission_error;          // [speed] (sample, mesh) m: of rotations
+  std::vector<MatrixRM> mesh_deflection;             // [speed] (sample, mesh) m: with the motion of the hubs
   std::vector<MatrixRM> mesh_force;                  // [speed] (sample, mesh) N
   std::vector<std::vector<MatrixRM>> bearing_force;  // [body][speed] (sample, xy) N
   Eigen::VectorXi periods;                           // (speed) mesh periods run

@@ -23,6 +23,8 @@
 #include "io/study_codec.h"
 #include "io/summary.h"
 #include "io/sweep_codec.h"
+#include "io/system_branch_codec.h"
+#include "io/system_impact_codec.h"
 #include "io/system_static_codec.h"
 #include "io/system_sweep_codec.h"
 #include "io/variant_codec.h"
@@ -58,6 +60,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] { read_modes(path); });
   rejected_or_read([&] { read_system_static(path); });
   rejected_or_read([&] { read_system_sweep(path); });
+  rejected_or_read([&] { read_system_impact(path); });
+  rejected_or_read([&] { read_system_branch(path); });
   rejected_or_read([&] { read_jump_map(path); });
   rejected_or_read([&] { read_harris_map(path); });
   rejected_or_read([&] { read_variant(path); });

@@ -1,0 +1,36 @@
+// Lines of a summary, and the summaries of systems.
+//
+// Private to the layer io/.
+#pragma once
+#include <Eigen/Core>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+
+namespace whine {
+
+using SummaryLines = std::vector<std::pair<std::string, std::string>>;
+
+// A line, numbers with 5 digits.
+template <class... Parts>
+void add(SummaryLines& lines, const std::string& name, const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(5);
+  (out << ... << parts);
+  lines.emplace_back(name, out.str());
+}
+
+// Speeds (Hz), the first to the last.
+inline std::string range_of(const Eigen::VectorXd& frequency) {
+  const Eigen::Index n = frequency.size();
+  return n == 0 ? "no speeds"
+                : text(n, " speeds, ", frequency[0], " to ", frequency[n - 1], " Hz mesh frequency");
+}
+
+// Adds the lines of an artifact of a system of several meshes; false if the schema is of another kind. Errors as its reader.
+bool summary_of_system(SummaryLines& lines, const std::string& path, const std::string& schema);
+
+}  // namespace whine

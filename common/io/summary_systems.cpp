@@ -1,0 +1,115 @@
+#include <algorithm>
+
+#include "io/modes_codec.h"
+#include "io/summary_lines.h"
+#include "io/system_branch_codec.h"
+#include "io/system_impact_codec.h"
+#include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
+#include "system/rigid_system.h"
+
+namespace whine {
+namespace {
+
+void show(SummaryLines& lines, const ModesArtifact& a) {
+  std::string bodies;
+  for (const System::Body& body : a.layout.bodies) bodies += (bodies.empty() ? "" : ", ") + body.name;
+  add(lines, "bodies", bodies);
+  add(lines, "meshes", a.layout.meshes.size());
+  for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
+    add(lines, "mode", a.natural_frequency[i], " Hz, ", a.type[static_cast<size_t>(i)]);
+}
+
+void show(SummaryLines& lines, const SystemStaticArtifact& a) {
+  const System& s = a.settings.layout;
+  add(lines, "model", "contact ", a.settings.fidelity.contact, ", ", a.mesh_phase.size(),
+      " positions in a mesh period");
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const auto column = static_cast<Eigen::Index>(b);
+    double most = 0;
+    for (const MatrixRM& force : a.bearing_force) most = std::max(most, force.row(column).norm());
+    add(lines, "body", s.bodies[b].name, ": torque ", a.torque.col(column).mean(),
+        " N m, bearing force up to ", most, " N");
+  }
+  for (size_t m = 0; m < s.meshes.size(); ++m) {
+    const auto column = static_cast<Eigen::Index>(m);
+    add(lines, "mesh", s.bodies[static_cast<size_t>(s.meshes[m].side[0].body)].name, " and ",
+        s.bodies[static_cast<size_t>(s.meshes[m].side[1].body)].name, ": transmission error ",
+        a.transmission_error.col(column).minCoeff() * 1e6, " to ",
+        a.transmission_error.col(column).maxCoeff() * 1e6, " µm, share of the load ",
+        a.load_share.col(column).minCoeff() * 100, " to ", a.load_share.col(column).maxCoeff() * 100, " %");
+  }
+  add(lines, "residual", a.torque_residual.maxCoeff(), " of the largest mesh force");
+}
+
+void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
+  add(lines, "system", s.layout.bodies.size(), " bodies, ", s.layout.meshes.size(), " meshes");
+  add(lines, "model", "body ", s.fidelity.body, ", contact ", s.fidelity.contact, ", damping ",
+      s.damping.rayleigh_stiffness, " s and ", s.damping.rayleigh_mass, " 1/s");
+}
+
+void show(SummaryLines& lines, const SystemSweepArtifact& a) {
+  const System& s = a.settings.layout;
+  add(lines, "operating point", a.direction, ", ", range_of(a.mesh_frequency));
+  show_model(lines, a.settings);
+  if (a.mesh_frequency.size() == 0) return;
+  Eigen::Index speed = 0, mesh = 0;
+  const double peak = a.dte_rms.maxCoeff(&speed, &mesh);
+  add(lines, "largest RMS of the DTE", peak * 1e6, " µm of ", mesh_name(s, static_cast<size_t>(mesh)), " at ",
+      a.mesh_frequency[speed], " Hz");
+  const double force = a.mesh_force_max.maxCoeff(&speed, &mesh);
+  add(lines, "largest mesh force", force, " N of ", mesh_name(s, static_cast<size_t>(mesh)), " at ",
+      a.mesh_frequency[speed], " Hz");
+  add(lines, "contact lost", (a.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
+      " speeds, at most ", a.separation_fraction.maxCoeff() * 100, " % of the period of a mesh");
+  for (size_t b = 0; b < s.bodies.size(); ++b)
+    add(lines, "bearing of " + s.bodies[b].name, "force at most ",
+        a.bearing_force_max.col(static_cast<Eigen::Index>(b)).maxCoeff(), " N, its oscillation at most ",
+        a.bearing_force_rms.col(static_cast<Eigen::Index>(b)).maxCoeff(), " N RMS");
+  add(lines, "not periodic", (a.period_multiple.array() == 0).count(), " speeds");
+  add(lines, "energy imbalance", a.energy_imbalance.cwiseAbs().maxCoeff(), " of the throughput");
+}
+
+void show(SummaryLines& lines, const SystemImpactArtifact& a) {
+  show_model(lines, a.settings);
+  add(lines, "ring-down", a.mesh_phase.size(), " mesh phases, ", a.damping_ratio.cols(), " modes");
+  for (Eigen::Index k = 0; k < a.damping_ratio.cols(); ++k)
+    add(lines, text("mode ", k + 1), a.natural_frequency.col(k).minCoeff(), " to ",
+        a.natural_frequency.col(k).maxCoeff(), " Hz, damping ratio ", a.damping_ratio.col(k).minCoeff() * 100,
+        " to ", a.damping_ratio.col(k).maxCoeff() * 100, " %");
+  if (a.fit_residual.size() > 0)
+    add(lines, "residual of the fits", a.fit_residual.maxCoeff(), " of the decay");
+}
+
+void show(SummaryLines& lines, const SystemBranchArtifact& a) {
+  show_model(lines, a.settings);
+  add(lines, "orbits", a.mesh_frequency.size(), ", ", a.mesh_frequency.size() - a.stable.sum(),
+      " of them unstable");
+  if (a.mesh_frequency.size() > 0)
+    add(lines, "mesh frequencies", a.mesh_frequency.minCoeff(), " to ", a.mesh_frequency.maxCoeff(), " Hz");
+  for (Eigen::Index i = 0; i < a.fold_frequency.size(); ++i) add(lines, "fold", a.fold_frequency[i], " Hz");
+  for (Eigen::Index i = 0; i < a.flip_frequency.size(); ++i)
+    add(lines, "period doubling", a.flip_frequency[i], " Hz");
+  add(lines, "end", a.end);
+}
+
+}  // namespace
+
+bool summary_of_system(SummaryLines& lines, const std::string& path, const std::string& schema) {
+  if (schema == "whine/modes") {
+    show(lines, read_modes(path));
+  } else if (schema == "whine/system_static") {
+    show(lines, read_system_static(path));
+  } else if (schema == "whine/system_sweep") {
+    show(lines, read_system_sweep(path));
+  } else if (schema == "whine/system_impact") {
+    show(lines, read_system_impact(path));
+  } else if (schema == "whine/system_branch") {
+    show(lines, read_system_branch(path));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace whine

@@ -1,0 +1,69 @@
+#include "report/system_impact_figure.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace whine {
+
+using Eigen::Index;
+
+Figure system_impact_figure(const SystemImpactArtifact& a) {
+  Figure figure;
+  figure.title = "Ring-down of a system: damping ratios and natural frequencies of its modes";
+  FigureBlock modes{"modes",
+                    {"mode", "natural_frequency [Hz]", "least over the mesh phases [Hz]",
+                     "largest over the mesh phases [Hz]", "damping_ratio [%]", "least ratio [%]",
+                     "largest ratio [%]", "by eigenvalues [%]", "eigenvalues [Hz]"},
+                    {}},
+      rayleigh{"rayleigh", {"frequency [Hz]", "damping_ratio [%]"}, {}, "rayleigh"},
+      rigid{"rigid", {"rigid_frequency [Hz]"}, {}, "rigid"};
+  double from = 0, to = 0, most = 0;
+  int overdamped = 0;
+  for (Index k = 0; k < a.damping_ratio.cols(); ++k) {
+    const auto f = a.natural_frequency.col(k), ratio = a.damping_ratio.col(k);
+    if (f.minCoeff() == 0) {
+      ++overdamped;
+      continue;
+    }
+    modes.rows.push_back({static_cast<double>(k + 1), f.mean(), f.minCoeff(), f.maxCoeff(),
+                          ratio.mean() * kPercent, ratio.minCoeff() * kPercent, ratio.maxCoeff() * kPercent,
+                          a.eigen_damping_ratio.col(k).mean() * kPercent, a.eigen_frequency.col(k).mean()});
+    from = modes.rows.size() == 1 ? f.minCoeff() : std::min(from, f.minCoeff());
+    to = std::max(to, f.maxCoeff());
+    most = std::max(most, ratio.maxCoeff() * kPercent);
+  }
+  if (modes.rows.empty()) fail(Failure::input, "figure: no mode of the system oscillates at all mesh phases");
+  const Damping& damping = a.settings.damping;
+  constexpr int kPoints = 100;
+  const double low = 0.8 * from, high = 1.1 * to;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double f = low + (high - low) * i / kPoints, w = 2 * std::numbers::pi * f;
+    rayleigh.rows.push_back(
+        {f, (damping.rayleigh_mass + damping.rayleigh_stiffness * w * w) / (2 * w) * kPercent});
+    most = std::max(most, rayleigh.rows.back()[1]);
+  }
+  for (const double f : a.rigid_frequency)
+    if (f >= low && f <= high) rigid.rows.push_back({f});
+  const bool lines = !rigid.rows.empty();
+  figure.blocks = {modes, rayleigh};
+  if (lines) figure.blocks.push_back(rigid);
+  figure.notes.push_back(text(a.settings.layout.bodies.size(), " bodies, ", a.settings.layout.meshes.size(),
+                              " meshes, body \"", a.settings.fidelity.body, "\"; ", a.mesh_phase.size(),
+                              " mesh phases: bars from the least to the largest"));
+  figure.notes.push_back(text("[damping] ", shown(damping.rayleigh_stiffness, 3), " s x stiffness + ",
+                              shown(damping.rayleigh_mass, 3), " 1/s x mass, bearing_ratio ",
+                              shown(damping.bearing_ratio, 3),
+                              "; bearings have dampers of their own, and contact near the flanks has none"));
+  if (overdamped > 0)
+    figure.notes.push_back(text(overdamped, " modes are damped above critical and are not shown"));
+  figure.numbers = {{"from", low},
+                    {"to", high},
+                    {"most", 1.1 * most},
+                    {"rigid", lines ? 1.0 : 0.0},
+                    {"notes", static_cast<double>(figure.notes.size())}};
+  return figure;
+}
+
+}  // namespace whine

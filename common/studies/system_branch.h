@@ -1,0 +1,29 @@
+// The branch of periodic orbits of a system of elastic gears over the mesh frequencies of a scene, stable or not.
+//
+// It begins with the orbit into which the system settles at the highest speed and is followed towards lower ones, round its folds,
+// until it leaves the speeds of the scene or ends: pseudo-arclength continuation (orbits/branch.h) of the period map of
+// dynamics/system_period_map.h. Steps per period change with the speed, as in a sweep: there the orbit is found anew with the other
+// number of steps, and its change is measured. Where an orbit wants tip edges that are farther off, it is found anew with those.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solid/reduced_body.h"
+#include "studies/system_branch_result.h"
+
+namespace whine {
+
+struct SystemBranchPlan {
+  double tolerance = 1e-9;  // of an orbit's residual, 1e-12 to 1e-3
+};
+
+// bodies: [gear] of settings.body. report(done, total, note) is called after each point, in steps of the scene's speeds. Throws
+// Error(input) for speeds that are no range and a tolerance out of range, Error(numerical) if the system does not settle into an
+// orbit of one mesh period at the highest speed; else as system_sweep().
+SystemBranchArtifact system_branch(const SystemSweepParameters& settings,
+                                   const std::vector<BodyArtifact>& bodies,
+                                   const std::function<void(long, long, const std::string&)>& report,
+                                   const SystemBranchPlan& plan = {});
+
+}  // namespace whine

@@ -1,0 +1,91 @@
+#include "studies/system_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/model_range.h"
+#include "system/rigid_system.h"
+#include "system/system_rest.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+namespace {
+
+constexpr int kRestPositions = 32;      // of the statics that come first
+constexpr double kBeyondStatics = 2.5;  // deflection that tip edges are looked for, over that of rest
+constexpr int kMostWidenings = 5;
+
+}  // namespace
+
+std::vector<Eigen::Matrix2Xd> bearing_forces(const System& layout, const SystemDynamics::Period& period) {
+  std::vector<Eigen::Matrix2Xd> out = period.bearing_force;
+  out.resize(layout.bodies.size(), Eigen::Matrix2Xd::Zero(2, period.mesh_force.cols()));
+  for (size_t b = 0; b < period.bearing_force.size(); ++b)
+    if (const int on = layout.bodies[b].on; on != System::kGround)
+      out[static_cast<size_t>(on)] += period.bearing_force[b];
+  return out;
+}
+
+SystemRig::SystemRig(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies,
+                     int positions)
+    : system_(elastic_system(settings, bodies)), settings_(settings), positions_(positions) {
+  take_masses(settings, bodies, system_.layout);
+  const auto meshes = static_cast<Index>(system_.mesh.size());
+  stiffness_ = MatrixXd::Zero(meshes, meshes);
+  deflection_.assign(system_.mesh.size(), 0);
+  for (const SystemSolution& at :
+       rest_over_period(system_, ContactModel::line, settings.contact.strips, kRestPositions)) {
+    stiffness_ += at.mesh_stiffness / kRestPositions;
+    for (size_t m = 0; m < system_.mesh.size(); ++m)
+      deflection_[m] = std::max(deflection_[m], at.deflection[m]);
+  }
+  // A mesh without load has a tenth of the deflection of the most loaded one.
+  const double most = *std::max_element(deflection_.begin(), deflection_.end());
+  for (double& deflection : deflection_) deflection = std::max(deflection, 0.1 * most);
+  motion_.damping = settings.damping;
+  motion_.fidelity = settings.fidelity;
+  motion_.fidelity.contact = ContactModel::line;
+  motion_.axis_frequency = axis_frequency(system_, stiffness_);
+  place();
+}
+
+void SystemRig::place() {
+  std::vector<double> gap;
+  gap.reserve(deflection_.size());
+  for (const double deflection : deflection_)
+    gap.push_back(kBeyondStatics * deflection * std::pow(kWidening, widenings_));
+  dynamics_ = std::make_unique<SystemDynamics>(system_, motion_);
+  dynamics_->set_positions(gap, positions_);
+}
+
+SystemDynamics::State SystemRig::widen(const SystemDynamics::State& state) {
+  if (widenings_ == kMostWidenings) {
+    const auto worst =
+        static_cast<size_t>(std::max_element(deflection_.begin(), deflection_.end()) - deflection_.begin());
+    fail_outside_range(Failure::numerical, "the meshes deflect beyond the tip edges that are looked at, ",
+                       kBeyondStatics * std::pow(kWidening, widenings_) * deflection_[worst] * 1e6,
+                       " micrometres at ", mesh_name(system_.layout, worst),
+                       "; lower the torque or raise the damping");
+  }
+  ++widenings_;
+  const std::unique_ptr<SystemDynamics> before = std::move(dynamics_);
+  place();
+  return dynamics_->fitted(state, *before);
+}
+
+SystemSweepParameters SystemRig::used() const {
+  SystemSweepParameters out = settings_;
+  out.fidelity = motion_.fidelity;
+  for (size_t b = 0; b < system_.layout.bodies.size(); ++b) {
+    out.layout.bodies[b].inertia = system_.layout.bodies[b].inertia;
+    out.layout.bodies[b].bearing.mass = system_.layout.bodies[b].bearing.mass;
+  }
+  return out;
+}
+
+}  // namespace whine
