@@ -417,4 +417,12 @@ bool is_ring(const System& system, int body) {
   return false;
 }
 
+double working_radius(const System& system, int body) {
+  const double radius = system.bodies[static_cast<size_t>(body)].radius;
+  for (const System::Mesh& mesh : system.meshes)
+    for (const System::Side& side : mesh.side)
+      if (side.body == body) return radius / std::cos(mesh.pressure_angle);
+  return radius;
+}
+
 }  // namespace whine

@@ -36,4 +36,7 @@ std::vector<std::string> colliding_gears(const System& layout, const std::vector
 // Whether a body is an internal gear: in its meshes both sides turn in one sense, and it has more teeth.
 bool is_ring(const System& system, int body);
 
+// m: working pitch radius in the first mesh of a gear; of a carrier, and of a gear without a mesh, System::Body::radius.
+double working_radius(const System& system, int body);
+
 }  // namespace whine
