@@ -25,6 +25,7 @@
 #include "small_system.h"
 #include "system/mode_view.h"
 #include "system/natural_modes.h"
+#include "system/system_rest.h"
 
 using namespace whine;
 using Eigen::Index;
@@ -272,6 +273,23 @@ TEST_CASE("types of modes: planets whose mean stiffnesses differ by 2 per cent h
     CHECK(count[ModeType::planet] == 3);
     CHECK(count[ModeType::mixed] == 0);
   }
+}
+
+TEST_CASE("masses on bearings: one that was read off the page, with four digits, is that of the body") {
+  const SystemStaticArtifact a = varied();
+  std::vector<BodyArtifact> bodies(a.settings.body.size());
+  for (BodyArtifact& body : bodies) {
+    body.mass = 0.74134;
+    body.inertia = 1e-3;
+  }
+  const auto taken = [&](double mass) {
+    System layout = a.settings.layout;
+    for (System::Body& body : layout.bodies) body.bearing.mass = mass;
+    return message_of_input([&] { take_masses(a.settings, bodies, layout); });
+  };
+  CHECK(taken(0.7413).empty());
+  CHECK(taken(2).empty());
+  CHECK(holds(taken(0.74), "lies below the mass of its own body"));
 }
 
 TEST_CASE("stage parameters of modes: gears without teeth and meshes of what is no gear are rejected") {

@@ -157,7 +157,6 @@ SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifac
   std::vector<KeyValues> of;
   of.reserve(out.gears.size());
   for (size_t g = 0; g < out.gears.size(); ++g) of.push_back(keys_of(a, g, moving));
-  const auto any = [&](const auto& stands) { return std::any_of(of.begin(), of.end(), stands); };
   const auto stands = [&](const KeyValues& gear, Part part) {
     switch (part) {
       case Part::bore:
@@ -167,7 +166,8 @@ SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifac
       case Part::bearing:
         return gear.bearing.elastic();
       case Part::modification:
-        return any([](const KeyValues& one) { return one.modification != FlankModification{}; });
+        return std::any_of(of.begin(), of.end(),
+                           [](const KeyValues& one) { return one.modification != FlankModification{}; });
       case Part::damping:
       case Part::level:
       case Part::time:
