@@ -51,7 +51,8 @@ inline whine::SystemStaticArtifact small_system(whine::SystemScene scene = plane
 }
 
 // Of the same torques, at two speeds.
-inline whine::SystemSweepArtifact small_sweep(const whine::SystemStaticArtifact& rest, whine::Direction direction) {
+inline whine::SystemSweepArtifact small_sweep(const whine::SystemStaticArtifact& rest,
+                                              whine::Direction direction) {
   using namespace whine;
   SystemSweepArtifact a;
   static_cast<SystemStaticParameters&>(a.settings) = rest.settings;

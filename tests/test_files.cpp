@@ -831,10 +831,12 @@ TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is
   rejects([](System& s) { s.bodies[2].radius = 0; }, "dataset /body/radius holds 0 of body 2");
   rejects([](System& s) { s.bodies[2].name = "a/b"; }, "dataset /body/name holds 'a/b'");
   rejects([&](System& s) { s.meshes[0].side[1].body = carrier; }, "allowed are two gears that differ");
-  rejects([](System& s) { s.meshes[0].side[1].body = s.meshes[0].side[0].body; }, "allowed are two gears that differ");
+  rejects([](System& s) { s.meshes[0].side[1].body = s.meshes[0].side[0].body; },
+          "allowed are two gears that differ");
 }
 
-TEST_CASE("system_static.h5 without a pair, or with the drawing of another gear, is rejected with its dataset") {
+TEST_CASE(
+    "system_static.h5 without a pair, or with the drawing of another gear, is rejected with its dataset") {
   Folder folder;
   const auto said = [&](const auto& spoil) {
     SystemStaticArtifact a = small_system();

@@ -103,7 +103,8 @@ bool has_no_number(const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("the page of a system: its sections, its numbers, and the same page of what is written and read back") {
+TEST_CASE(
+    "the page of a system: its sections, its numbers, and the same page of what is written and read back") {
   const SystemStaticArtifact rest = varied();
   SystemReport r = report_of(rest);
   r.sweeps = sweeps_of(rest);
@@ -120,12 +121,14 @@ TEST_CASE("the page of a system: its sections, its numbers, and the same page of
   // part, quantity, value, unit, remark: of what is known.
   for (const char* row :
        {"sun\ttorque, mean\t400.00\tN m\tdriven\n", "planet1\ttorque, mean\t0.00\tN m\tfree\n",
-        "ring\ttorque, mean\t-1466.60\tN m\theld\n", "carrier\ttorque, mean\t-1866.60\tN m\theld (the frame)\n",
+        "ring\ttorque, mean\t-1466.60\tN m\theld\n",
+        "carrier\ttorque, mean\t-1866.60\tN m\theld (the frame)\n",
         "sun-planet2\tmesh force, mean\t1100.0\tN\t\n",
         "planet1-ring\tstatic transmission error, peak to peak\t4.00\tµm\t\n",
         "planet3-ring\tmean mesh stiffness, contact frozen\t405\tN/µm\t\n",
         "planet2-ring\tstatic tooth load, largest\t540\tN\t\n",
-        "planet1\tforce on the bearing, mean\t60.0\tN\t\n", "planet1\tforce on the bearing, largest\t72.1\tN\t\n",
+        "planet1\tforce on the bearing, mean\t60.0\tN\t\n",
+        "planet1\tforce on the bearing, largest\t72.1\tN\t\n",
         "planet1\tforce on the bearing, RMS of the oscillating part\t40.00\tN\t\n"})
     CHECK_MESSAGE(holds(table, row), row);
 
@@ -160,17 +163,24 @@ TEST_CASE("the page of a system: its sections, its numbers, and the same page of
     return message_of_input([&] { system_report_html(changed); });
   };
   CHECK(holds(said(r, [](SystemReport& c) { c.modes.reset(); }), "no modes.h5 given"));
-  CHECK(holds(said(r, [](SystemReport& c) { c.pictures.push_back({"fig07", "png"}); }),
+  CHECK(holds(said(r,
+                   [](SystemReport& c) {
+                     c.pictures.push_back({"fig07", "png"});
+                   }),
               "no words for a figure 'fig07'"));
   CHECK(holds(said(r, [](SystemReport& c) { c.pictures.push_back(c.pictures[0]); }), "is given twice"));
   CHECK(holds(said(r, [](SystemReport& c) { c.modes = natural_modes(layout_of(planetary_train(4))); }),
               "of two systems"));
   CHECK(holds(said(r, [](SystemReport& c) { c.rest.reset(); }), "without the system_static.h5"));
-  CHECK(holds(said(r, [](SystemReport& c) { c.sweeps[1] = c.sweeps[0]; }), "two sweeps in the direction 'up'"));
-  CHECK(holds(said(r, [](SystemReport& c) { c.sweeps[1].torque[0] = 401; }), "the torque on 'sun' is 401 N m"));
+  CHECK(
+      holds(said(r, [](SystemReport& c) { c.sweeps[1] = c.sweeps[0]; }), "two sweeps in the direction 'up'"));
+  CHECK(
+      holds(said(r, [](SystemReport& c) { c.sweeps[1].torque[0] = 401; }), "the torque on 'sun' is 401 N m"));
 }
 
-TEST_CASE("the page of a system in motion: largest values with their speeds, contact loss, motions that differ or do not repeat") {
+TEST_CASE(
+    "the page of a system in motion: largest values with their speeds, contact loss, motions that differ or "
+    "do not repeat") {
   const SystemStaticArtifact rest = varied();
   SystemReport r = report_of(rest);
   CHECK(motion_tables(r).empty());
@@ -178,7 +188,8 @@ TEST_CASE("the page of a system in motion: largest values with their speeds, con
   r.sweeps = sweeps_of(rest);
   const std::string table = system_report_tsv(r), page = system_report_html(r);
   for (const char* row :
-       {"sun-planet2\tRMS of the dynamic transmission error, largest, speed rising\t3.000\tµm\tat 2000 Hz of the mesh\n",
+       {"sun-planet2\tRMS of the dynamic transmission error, largest, speed rising\t3.000\tµm\tat 2000 Hz of "
+        "the mesh\n",
         "sun-planet2\tRMS of the dynamic transmission error, largest, speed falling\t1.000\tµm\t",
         "sun-planet2\tdynamic factor, largest, speed rising\t2.00\t1\tat 2000 Hz of the mesh\n",
         "sun-planet1\tdynamic factor, largest, speed falling\t1.50\t1\t",

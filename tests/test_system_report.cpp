@@ -146,13 +146,15 @@ std::vector<bool> second_colours(const System& s) {
 Vec2 pitch_point_of(const System& s, const System::Mesh& mesh) {
   const System::Body& driver = s.bodies[static_cast<size_t>(mesh.side[0].body)];
   return Vec2(driver.centre[0], driver.centre[1]) +
-         driver.radius / std::cos(mesh.pressure_angle) * Vec2(std::cos(mesh.direction), std::sin(mesh.direction));
+         driver.radius / std::cos(mesh.pressure_angle) *
+             Vec2(std::cos(mesh.direction), std::sin(mesh.direction));
 }
 
 }  // namespace
 
 TEST_CASE(
-    "the picture of a system: drawn teeth touch where every mesh is at its phase, on its path of contact, arrows turn "
+    "the picture of a system: drawn teeth touch where every mesh is at its phase, on its path of contact, "
+    "arrows turn "
     "as bodies do") {
   constexpr double kChord = 5e-6;  // m: of drawn flanks of ten points
   for (const SystemScene& scene :
@@ -195,7 +197,8 @@ TEST_CASE(
     for (const System::Body& body : s.bodies) {
       if (body.kind == System::BodyKind::carrier) continue;
       REQUIRE(row < heads.rows.size());
-      const double x = heads.rows[row][0] * 1e-3 - body.centre[0], y = heads.rows[row][1] * 1e-3 - body.centre[1];
+      const double x = heads.rows[row][0] * 1e-3 - body.centre[0],
+                   y = heads.rows[row][1] * 1e-3 - body.centre[1];
       CHECK((x * heads.rows[row][3] - y * heads.rows[row][2]) * body.sense > 0);
       ++row;
     }
@@ -207,7 +210,8 @@ TEST_CASE(
   const Figure rigid = system_picture(natural_modes(s));
   CHECK(block(rigid, "circles").rows.size() > 6 * 180);
   const FigureBlock& lines = block(rigid, "paths");
-  const double length = std::hypot(lines.rows[1][0] - lines.rows[0][0], lines.rows[1][1] - lines.rows[0][1]) * 1e-3;
+  const double length =
+      std::hypot(lines.rows[1][0] - lines.rows[0][0], lines.rows[1][1] - lines.rows[0][1]) * 1e-3;
   CHECK(length == relative(2 * kPi * s.bodies[0].radius / s.bodies[0].teeth, 1e-9));
   CHECK(std::any_of(rigid.notes.begin(), rigid.notes.end(), [](const std::string& note) {
     return note.find("one base pitch long") != std::string::npos;
@@ -269,8 +273,9 @@ TEST_CASE("load sharing of a system: the factor of known shares, and a system th
   CHECK(share.rows[2] == std::vector<double>{1, share.rows[0][1], share.rows[0][2], share.rows[0][3]});
   a.settings.section = {0, 1, 2, 3, 4, 5};
   a.settings.mesh.resize(6);
-  CHECK(message_of_input([&] { system_load_sharing_figure(a); }).find("stands for those of several planets") !=
-        std::string::npos);
+  CHECK(message_of_input([&] {
+          system_load_sharing_figure(a);
+        }).find("stands for those of several planets") != std::string::npos);
 }
 
 TEST_CASE("the view of modes: every body moves as a rigid one, and meshes close as the modes say") {
@@ -301,12 +306,15 @@ TEST_CASE("the view of modes: every body moves as a rigid one, and meshes close 
       double largest = 0;
       for (size_t b = 0; b < s.bodies.size(); ++b)
         for (const int p : points[b]) {
-          const double turn = s.bodies[b].sense * a.shape[mode](static_cast<Index>(b), 0) / s.bodies[b].radius;
-          const Vec2 arm(a.view.point(p, 0) - s.bodies[b].centre[0], a.view.point(p, 1) - s.bodies[b].centre[1]);
+          const double turn =
+              s.bodies[b].sense * a.shape[mode](static_cast<Index>(b), 0) / s.bodies[b].radius;
+          const Vec2 arm(a.view.point(p, 0) - s.bodies[b].centre[0],
+                         a.view.point(p, 1) - s.bodies[b].centre[1]);
           largest = std::max(largest, std::hypot(a.shape[mode](static_cast<Index>(b), 1) - turn * arm.y(),
                                                  a.shape[mode](static_cast<Index>(b), 2) + turn * arm.x()));
         }
-      const double half = 0.5 * (a.view.point.colwise().maxCoeff() - a.view.point.colwise().minCoeff()).maxCoeff(),
+      const double half = 0.5 *
+                          (a.view.point.colwise().maxCoeff() - a.view.point.colwise().minCoeff()).maxCoeff(),
                    ratio = kShownMotion * half / largest;
       CHECK(moved.rowwise().norm().maxCoeff() == relative(kShownMotion * half, 1e-9));
       const double scale = a.mesh_deflection.row(static_cast<Index>(mode)).cwiseAbs().maxCoeff();

@@ -37,7 +37,8 @@ void body(int argc, char** argv) {
       "Examples:\n"
       "  gear-report --output report/index.html out/parker2000/T150/static.h5 "
       "out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5\n"
-      "  gear-report --output report/index.html out/three-in-line/system_static.h5 out/three-in-line/modes.h5");
+      "  gear-report --output report/index.html out/three-in-line/system_static.h5 "
+      "out/three-in-line/modes.h5");
   options.parse(argc, argv);
 
   const auto publish_both = [&](const std::string& page, const std::string& table) {

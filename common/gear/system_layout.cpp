@@ -395,17 +395,18 @@ std::vector<std::string> colliding_gears(const System& layout, const std::vector
       const bool planets = first.on != System::kGround && second.on != System::kGround;
       if (!design[a] || !design[b] || planets || in_mesh(a, b)) continue;
       const double apart = std::hypot(second.centre[0] - first.centre[0], second.centre[1] - first.centre[1]),
-                   reach_a = ToothGeometry(*design[a]).tip_radius(), reach_b = ToothGeometry(*design[b]).tip_radius(),
-                   room = reach_a + reach_b;
+                   reach_a = ToothGeometry(*design[a]).tip_radius(),
+                   reach_b = ToothGeometry(*design[b]).tip_radius(), room = reach_a + reach_b;
       if (design[a]->internal != design[b]->internal) {
         const size_t ring = design[a]->internal ? a : b;
         const double tips = ring == a ? reach_a : reach_b, reach = ring == a ? reach_b : reach_a,
                      rim = design[ring]->rim_outer_radius;
         if (apart + reach > tips && apart - reach < rim)
-          out.push_back(text("'", layout.bodies[ring == a ? b : a].name, "' has no mesh with the ring '",
-                             layout.bodies[ring].name, "' and stands through it: from the axis of the ring it reaches from ",
-                             (apart - reach) * 1e3, " to ", (apart + reach) * 1e3, " mm, the ring from ", tips * 1e3, " to ",
-                             rim * 1e3, " mm; change direction_deg of a [[mesh]], unless they lie side by side"));
+          out.push_back(text(
+              "'", layout.bodies[ring == a ? b : a].name, "' has no mesh with the ring '",
+              layout.bodies[ring].name, "' and stands through it: from the axis of the ring it reaches from ",
+              (apart - reach) * 1e3, " to ", (apart + reach) * 1e3, " mm, the ring from ", tips * 1e3, " to ",
+              rim * 1e3, " mm; change direction_deg of a [[mesh]], unless they lie side by side"));
       } else if (!design[a]->internal && apart < room) {
         out.push_back(text("'", first.name, "' and '", second.name,
                            "' have no mesh and run into each other: their axes are ", apart * 1e3,

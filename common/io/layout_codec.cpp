@@ -166,7 +166,8 @@ void require_gears(const Codec& c, const System& s) {
       reject("dataset /body/name holds '", body.name, "'; a name holds letters, digits, '_' and '-' only");
     if (body.sense == 0) reject("dataset /body/sense holds 0 of body ", b, "; allowed are -1 and 1");
     if (gear && body.teeth == 0) reject("dataset /body/teeth holds 0 of body ", b, ", which is a gear");
-    if (!(body.radius > 0)) reject("dataset /body/radius holds 0 of body ", b, "; allowed is what is above 0");
+    if (!(body.radius > 0))
+      reject("dataset /body/radius holds 0 of body ", b, "; allowed is what is above 0");
     if (!has_place(s, body))
       reject("dataset /body/stands_on holds ", body.on, " of body ", b,
              "; allowed are -1, the ground, and the number of a carrier on the ground");
@@ -174,7 +175,8 @@ void require_gears(const Codec& c, const System& s) {
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     const auto& [first, second] = s.meshes[m].side;
     for (const System::Side& side : {first, second})
-      if (s.bodies[static_cast<size_t>(side.body)].kind == System::BodyKind::carrier || first.body == second.body)
+      if (s.bodies[static_cast<size_t>(side.body)].kind == System::BodyKind::carrier ||
+          first.body == second.body)
         reject("dataset /mesh/body_number holds ", first.body, ", ", second.body, " of mesh ", m,
                "; allowed are two gears that differ");
   }

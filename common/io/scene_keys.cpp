@@ -183,7 +183,8 @@ SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifac
     for (KeyValues& gear : of) row.value.push_back(stands(gear, key.part) ? in_scene_unit(gear, key) : "");
     const bool alike = std::all_of(row.value.begin(), row.value.end(),
                                    [&](const std::string& value) { return value == row.value.front(); });
-    const bool of_all = row.section == "damping" || row.section == "fidelity" || row.section == "discretisation";
+    const bool of_all =
+        row.section == "damping" || row.section == "fidelity" || row.section == "discretisation";
     if (alike && of_all && !row.value.empty()) row.value.resize(1);
     const bool said = std::any_of(row.value.begin(), row.value.end(),
                                   [](const std::string& value) { return !value.empty(); });
@@ -193,10 +194,12 @@ SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifac
     KeyValues values;
     values.mesh = mesh;
     for (const Key& key : scene_keys())
-      if (key.part == Part::contact_plane || (key.part == Part::mesh && key.name != std::string("driver") &&
-                                              key.name != std::string("driven")))
-        out.rows.push_back({text("mesh ", mesh.gear[0], "-", mesh.gear[1]), key.name,
-                            {in_scene_unit(values, key)}, key.meaning});
+      if (key.part == Part::contact_plane ||
+          (key.part == Part::mesh && key.name != std::string("driver") && key.name != std::string("driven")))
+        out.rows.push_back({text("mesh ", mesh.gear[0], "-", mesh.gear[1]),
+                            key.name,
+                            {in_scene_unit(values, key)},
+                            key.meaning});
   }
   return out;
 }

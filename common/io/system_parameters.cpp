@@ -193,8 +193,8 @@ System layout_from(const Source& source) {
     for (const System::Side& side : mesh.side)
       if (mesh.side[0].body == mesh.side[1].body ||
           out.bodies[static_cast<size_t>(side.body)].kind == System::BodyKind::carrier)
-        source.reject(text("a [[mesh]] of '", out.bodies[static_cast<size_t>(mesh.side[0].body)].name, "' and '",
-                           out.bodies[static_cast<size_t>(mesh.side[1].body)].name,
+        source.reject(text("a [[mesh]] of '", out.bodies[static_cast<size_t>(mesh.side[0].body)].name,
+                           "' and '", out.bodies[static_cast<size_t>(mesh.side[1].body)].name,
                            "' is not of two gears that differ"));
   for (const System::Drive& drive : out.drives)
     if (!there(drive.body))

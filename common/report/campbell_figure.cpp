@@ -57,11 +57,11 @@ Figure campbell_figure(const ModesArtifact& a) {
                  : "meshes at their mean stiffness"));
   if (outside)
     figure.notes.emplace_back(
-        text("bands by rank: a line may lie outside of its own, because at one phase the meshes differ from planet to planet, ",
-             "which parts near frequencies"));
+        text("bands by rank: a line may lie outside of its own, because at one phase the meshes differ ",
+             "from planet to planet, which parts near frequencies"));
   figure.notes.emplace_back(
-      text("points: mesh frequencies at which a harmonic of the meshes meets a natural frequency; frame of the carrier at ",
-           "rest, without Coriolis terms"));
+      text("points: mesh frequencies at which a harmonic of the meshes meets a natural frequency; frame ",
+           "of the carrier at rest, without Coriolis terms"));
   return figure;
 }
 

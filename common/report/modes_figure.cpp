@@ -131,8 +131,9 @@ Figure modes_figure(const ModesArtifact& a) {
            " meshes of mean stiffness, ", a.natural_frequency.size(), " modes, ", still,
            " of them free motions (0 Hz, not drawn)",
            left_out ? text("; the shapes of ", left_out, " higher frequencies are not drawn") : ""));
-  figure.notes.push_back(text("blue: central gears, orange: planets, green: carrier, grey: at rest; a radius of each gear, of a ring ",
-                              "a mark outside, shows its rotation; of a double mode one shape"));
+  figure.notes.push_back(
+      text("blue: central gears, orange: planets, green: carrier, grey: at rest; a radius of each gear, ",
+           "of a ring a mark outside, shows its rotation; of a double mode one shape"));
   figure.notes.push_back(
       "shapes are magnified, the largest motion of each to the same size; frame of the carrier at rest, "
       "without Coriolis terms");

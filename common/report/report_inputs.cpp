@@ -70,7 +70,8 @@ bool is_of_system(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (path.ends_with(".png")) continue;
     const std::string schema = read_origin(path).schema;
-    if (schema == "whine/system_static" || schema == "whine/modes" || schema == "whine/system_sweep") return true;
+    if (schema == "whine/system_static" || schema == "whine/modes" || schema == "whine/system_sweep")
+      return true;
   }
   return false;
 }
@@ -80,7 +81,8 @@ namespace {
 // Artifacts that were made from different versions of one file do not belong together: modes of other statics, sweeps with
 // other bodies.
 void require_one_origin(const std::vector<ReportSource>& sources) {
-  std::map<std::string, std::pair<std::string, std::string>> seen;  // [path] SHA-256, and which artifact says so
+  std::map<std::string, std::pair<std::string, std::string>>
+      seen;  // [path] SHA-256, and which artifact says so
   for (const ReportSource& source : sources) seen[source.path] = {source.sha256, source.path};
   for (const ReportSource& source : sources)
     for (const InputRecord& input : source.origin.inputs) {

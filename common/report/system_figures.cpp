@@ -152,8 +152,7 @@ namespace {
 FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::string& table) {
   const Index n = a.mesh_phase.size(), pairs = a.pair.size();
   const auto mesh = static_cast<Index>(m);
-  FigureBlock block{
-      table, {text("phase of ", mesh_name(a.settings.layout, m), " [1]")}, {}, table};
+  FigureBlock block{table, {text("phase of ", mesh_name(a.settings.layout, m), " [1]")}, {}, table};
   std::vector<Index> loaded;
   for (Index p = 0; p < pairs; ++p) {
     double most = 0;
@@ -242,7 +241,8 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
           text(of.name, ": the shares of the first ", shown, " of ", of.meshes.size(), " meshes"));
     std::vector<std::string> labels;
     labels.reserve(shown);
-    for (size_t i = 0; i < shown; ++i) labels.push_back(short_name(mesh_name(a.settings.layout, of.meshes[i])));
+    for (size_t i = 0; i < shown; ++i)
+      labels.push_back(short_name(mesh_name(a.settings.layout, of.meshes[i])));
     for (const size_t m : of.meshes) {
       const auto column = a.load_share.col(static_cast<Index>(m));
       low = std::min(low, column.minCoeff() * kPercent);
@@ -254,11 +254,10 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
     std::string pairs;
     for (size_t j = 1; j < loads.columns.size(); ++j)
       pairs += loads.columns[j].substr(8, loads.columns[j].size() - 8 - 4) + "|";
-    figure.words.insert(
-        figure.words.end(),
-        {{"labels" + row, quoted_labels(labels)},
-         {"pairs" + row, pairs},
-         {"first" + row, short_name(mesh_name(a.settings.layout, of.meshes[0]))}});
+    figure.words.insert(figure.words.end(),
+                        {{"labels" + row, quoted_labels(labels)},
+                         {"pairs" + row, pairs},
+                         {"first" + row, short_name(mesh_name(a.settings.layout, of.meshes[0]))}});
     figure.numbers.insert(figure.numbers.end(),
                           {{"curves" + row, static_cast<double>(shown)},
                            {"equal" + row, kPercent / static_cast<double>(of.meshes.size())},

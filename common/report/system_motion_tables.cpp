@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kSamePeak = 0.01;         // of the RMS: below it rising and falling speed have one motion
-constexpr double kLargeImbalance = 1e-6;   // of the throughput
+constexpr double kSamePeak = 0.01;        // of the RMS: below it rising and falling speed have one motion
+constexpr double kLargeImbalance = 1e-6;  // of the throughput
 
 // The largest value over the speeds, and where.
 struct Peak {
@@ -87,10 +87,11 @@ std::string meshes_table(const SystemReport& r) {
                       fixed(loss.value * kPercent, 1), loss.value > 0 ? shown(loss.at, 6) : "–"});
     }
   return html::table(
-      text("The meshes in motion: the largest value over the speeds, and the mesh frequency at which it is. RMS: of the ",
-           "oscillating part of the transmission error (DTE). Dynamic factor: largest mesh force over the mean force at rest. ",
-           "Share: at one instant, of the load of the meshes of one [[mesh]]; one that carries alone has 100 %. ",
-           "Contact loss: time in which no pair of teeth touches."),
+      text("The meshes in motion: the largest value over the speeds, and the mesh ",
+           "frequency at which it is. RMS: of the oscillating part of the transmission ",
+           "error (DTE). Dynamic factor: largest mesh force over the mean force at rest. ",
+           "Share: at one instant, of the load of the meshes of one [[mesh]]; one that ",
+           "carries alone has 100 %. Contact loss: time in which no pair of teeth ", "touches."),
       {"mesh", "sweep", "RMS of the DTE (µm)", "at (Hz)", "mesh force (N)", "at (Hz)", "dynamic factor",
        "tooth load (N)", "share (%)", "contact loss (%)", "at (Hz)"},
       rows, "small");
@@ -106,8 +107,9 @@ std::string bodies_table(const SystemReport& r) {
                       fixed(most.value, 1), shown(most.at, 6), fixed(rms.value, 1), shown(rms.at, 6)});
     }
   return html::table(
-      text("Forces on bearings and pins in motion: the largest value over the speeds, and the mesh frequency at ",
-           "which it is. RMS: of the oscillating part. On a rigid axis: the sum of the contact forces."),
+      text("Forces on bearings and pins in motion: the largest value over the speeds, and the mesh ",
+           "frequency at which it is. RMS: of the oscillating part. On a rigid axis: the sum of the ",
+           "contact forces."),
       {"body", "sweep", "largest force (N)", "at (Hz)", "RMS (N)", "at (Hz)"}, rows);
 }
 
@@ -126,8 +128,8 @@ std::string sweeps_table(const SystemReport& r) {
                     shown(a.energy_imbalance.maxCoeff(), 2)});
   }
   return html::table(
-      text("The sweeps. Each speed starts with the motion of the one before it. Energy imbalance: largest energy that is ",
-           "not accounted for, over the energy that goes through."),
+      text("The sweeps. Each speed starts with the motion of the one before it. Energy imbalance: ",
+           "largest energy that is not accounted for, over the energy that goes through."),
       {"sweep", "speeds (Hz)", "contact loss at (Hz)", "not periodic at (Hz)",
        "repeats after several mesh periods at (Hz)", "mesh periods run, most", "energy imbalance"},
       rows);
@@ -176,8 +178,8 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
   for (const SystemSweepArtifact& a : r.sweeps) {
     const System& s = a.settings.layout;
     const std::string way = way_words_of(a);
-    const auto add = [&](const std::string& part, const char* what, const char* unit, const std::string& value,
-                         const Peak& peak) {
+    const auto add = [&](const std::string& part, const char* what, const char* unit,
+                         const std::string& value, const Peak& peak) {
       out.push_back(
           {part, text(what, ", ", way), unit, value, text("at ", shown(peak.at, 6), " Hz of the mesh")});
     };
@@ -203,7 +205,8 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
           fixed(rms.value, 2), rms);
     }
     out.push_back({way, "speeds", "1", text(a.mesh_frequency.size()), ""});
-    out.push_back({way, "speeds whose motion is not periodic", "1", text((a.period_multiple.array() == 0).count()),
+    out.push_back({way, "speeds whose motion is not periodic", "1",
+                   text((a.period_multiple.array() == 0).count()),
                    speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; })});
     out.push_back({way, "energy imbalance, largest", "1", shown(a.energy_imbalance.maxCoeff(), 3), ""});
   }
@@ -216,8 +219,9 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
     const std::string way = way_words_of(a);
     const auto open = (a.period_multiple.array() == 0).count();
     if (open > 0)
-      out.push_back(remark(true, way, ": the motion does not repeat at ", open, " of ", a.mesh_frequency.size(),
-                           " speeds (", speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; }),
+      out.push_back(remark(true, way, ": the motion does not repeat at ", open, " of ",
+                           a.mesh_frequency.size(), " speeds (",
+                           speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; }),
                            " Hz): values there are of the recorded mesh periods alone"));
     const std::string loss =
         speeds_where(a, [&](Index i) { return a.separation_fraction.row(i).maxCoeff() > 0; });
@@ -226,8 +230,8 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
       for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m)
         if (a.separation_fraction.col(static_cast<Index>(m)).maxCoeff() > 0)
           meshes += (meshes.empty() ? "" : ", ") + mesh_name(a.settings.layout, m);
-      out.push_back(
-          remark(false, way, ": teeth part at ", loss, " Hz (", meshes, "): the vibration is nonlinear there"));
+      out.push_back(remark(false, way, ": teeth part at ", loss, " Hz (", meshes,
+                           "): the vibration is nonlinear there"));
     }
     if (a.energy_imbalance.maxCoeff() > kLargeImbalance)
       out.push_back(remark(true, way, ": ", shown(a.energy_imbalance.maxCoeff(), 2),
@@ -242,9 +246,10 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
                              " Hz: the vibration jumps at the ends of these ranges"));
     }
     if (has_planets(first.settings.layout))
-      out.push_back(remark(false, "the carrier stands still in the sweeps: centrifugal and Coriolis forces on ",
-                           "planets of a carrier that turns are left out, and may be as large as the forces on ",
-                           "their pins"));
+      out.push_back(remark(false,
+                           "the carrier stands still in the sweeps: centrifugal and Coriolis forces on ",
+                           "planets of a carrier that turns are left out, and may be as large as the ",
+                           "forces on their pins"));
   }
   return out;
 }
@@ -263,10 +268,11 @@ std::string motion_words(const SystemReport& r) {
       }
     }
   if (mesh.empty()) return "";
-  return text("The largest vibration is an RMS of ", significant(most.value * kMicro, 3), " µm of ", mesh, " at ",
-              shown(most.at, 6), " Hz, ", way, "; ",
-              loss > 0 ? text("teeth are without contact for up to ", fixed(loss * kPercent, 1), " % of the time.")
-                       : "no mesh loses contact.");
+  return text("The largest vibration is an RMS of ", significant(most.value * kMicro, 3), " µm of ", mesh,
+              " at ", shown(most.at, 6), " Hz, ", way, "; ",
+              loss > 0
+                  ? text("teeth are without contact for up to ", fixed(loss * kPercent, 1), " % of the time.")
+                  : "no mesh loses contact.");
 }
 
 }  // namespace whine

@@ -43,8 +43,7 @@ double radius_in(const System::Body& body, const System::Mesh& mesh) {
 
 Vec2 pitch_point(const System& s, const System::Mesh& mesh) {
   const System::Body& first = body_of(s, mesh.side[0].body);
-  return centre_of(first) +
-         radius_in(first, mesh) * Vec2(std::cos(mesh.direction), std::sin(mesh.direction));
+  return centre_of(first) + radius_in(first, mesh) * Vec2(std::cos(mesh.direction), std::sin(mesh.direction));
 }
 
 // m: of all that is drawn of a gear.
@@ -70,8 +69,8 @@ struct Blocks {
 
   // What there is; the template knows by has_<name>.
   void put(Figure& figure) {
-    for (FigureBlock* block : {&rim, &second_rim, &hollow, &second_hollow, &central, &planets, &bores, &circles,
-                               &planet_circles, &carrier, &arcs, &heads, &paths}) {
+    for (FigureBlock* block : {&rim, &second_rim, &hollow, &second_hollow, &central, &planets, &bores,
+                               &circles, &planet_circles, &carrier, &arcs, &heads, &paths}) {
       figure.numbers.emplace_back("has_" + block->name, block->rows.empty() ? 0 : 1);
       if (block->rows.empty()) continue;
       block->drawing = true;
@@ -114,8 +113,7 @@ void add_gear(const Train& t, int b, Blocks& out) {
     const std::vector<Vec2> contour = gear_contour(tooth, kFlankPoints);
     const auto held = circle_contour(design->held_radius(), kCirclePoints);
     // The body of a ring lies between two areas.
-    FigureBlock &rim = second ? out.second_rim : out.rim,
-                &hollow = second ? out.second_hollow : out.hollow,
+    FigureBlock &rim = second ? out.second_rim : out.rim, &hollow = second ? out.second_hollow : out.hollow,
                 &whole = second ? out.planets : out.central;
     add_closed(design->internal ? hollow : whole, contour, at);
     add_closed(design->internal ? rim : out.bores, held, at);
@@ -318,8 +316,9 @@ Figure picture_of(Train t, const Eigen::VectorXd& torque) {
           ? "unloaded at mesh phase 0; black: paths of contact; below a name its number of teeth"
           : "rigid gears: a working pitch circle for each mesh, a tick at each tooth; black: lines of "
             "action, one base pitch long; below a name its number of teeth");
-  figure.notes.push_back(text("arrows: senses of rotation",
-                              carriers ? " relative to the carrier, which stands still here; green: its arms" : ""));
+  figure.notes.push_back(
+      text("arrows: senses of rotation",
+           carriers ? " relative to the carrier, which stands still here; green: its arms" : ""));
   for (const std::string& line : in_lines(numbers)) figure.notes.push_back(line);
   add_labels(t, figure);
   const size_t close_ups = add_close_ups(t, figure);
@@ -337,20 +336,22 @@ std::string bodies_words(const System& s, const Eigen::VectorXd& torque) {
     const auto column = static_cast<Index>(b);
     const bool carrier = body.kind == System::BodyKind::carrier;
     const double own = torque.size() > 0 ? torque[column] : 0;
-    out += text(out.empty() ? "" : ", ", short_name(body.name), carrier ? "" : text(" (", body.teeth, " teeth)"),
-                own == 0                  ? ""
-                : std::abs(own) >= kSmallTorque ? text(" ", fixed(own, 1), " N m")
-                                          : text(" ", shown(own, 3), " N m"),
-                !s.held(static_cast<int>(b)) ? ""
-                : carrier                    ? " held (the frame)"
-                                             : " held");
+    out +=
+        text(out.empty() ? "" : ", ", short_name(body.name), carrier ? "" : text(" (", body.teeth, " teeth)"),
+             own == 0                        ? ""
+             : std::abs(own) >= kSmallTorque ? text(" ", fixed(own, 1), " N m")
+                                             : text(" ", shown(own, 3), " N m"),
+             !s.held(static_cast<int>(b)) ? ""
+             : carrier                    ? " held (the frame)"
+                                          : " held");
   }
   return out;
 }
 
 Figure system_picture(const SystemStaticArtifact& a) {
   const SystemStaticParameters& settings = a.settings;
-  return picture_of({settings.layout, designs_of(a), settings.section}, a.torque.colwise().mean().transpose());
+  return picture_of({settings.layout, designs_of(a), settings.section},
+                    a.torque.colwise().mean().transpose());
 }
 
 Figure system_picture(const ModesArtifact& a) {

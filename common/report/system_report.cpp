@@ -21,10 +21,12 @@ namespace {
 using Eigen::Index;
 
 std::string of_picture(const SystemReport& r) {
-  return r.rest ? "The gears at their places, unloaded at mesh phase 0, with the teeth of their drawings, and the teeth "
-                  "about a pitch point of each [[mesh]]. Check positions and senses of rotation against your drawing."
-                : "The gears at their places by the working pitch circles of their meshes, with a tick at each tooth; "
-                  "rigid gears have no drawing. Check positions and senses of rotation against your drawing.";
+  return r.rest ? "The gears at their places, unloaded at mesh phase 0, with the teeth of their "
+                  "drawings, and the teeth about a pitch point of each [[mesh]]. Check positions and "
+                  "senses of rotation against your drawing."
+                : "The gears at their places by the working pitch circles of their meshes, with a tick "
+                  "at each tooth; rigid gears have no drawing. Check positions and senses of rotation "
+                  "against your drawing.";
 }
 
 std::string of_rest(const SystemReport& r) {
@@ -38,14 +40,14 @@ std::string of_rest(const SystemReport& r) {
   constexpr size_t kMost = 4;
   const size_t all = parts.size();
   parts.resize(std::min(all, kMost));
-  return text("Transmission error of each mesh, its force, and the force on each bearing and pin over a mesh period, and ",
-              "their harmonics. The transmission error from peak to peak is ", listed(parts),
-              all > kMost ? text(" (", all - kMost, " more in the table above)") : "",
-              "; its variation excites the whine, and the harmonics of the bearing forces act on the housing.",
-              load_sharing(a).empty()
-                  ? ""
-                  : " In the torque and the force on a central gear, harmonics are missing that the planets cancel among "
-                    "them; each mesh by itself has them all.");
+  return text(
+      "Transmission error of each mesh, its force, and the force on each bearing and pin over a mesh ",
+      "period, and their harmonics. The transmission error from peak to peak is ", listed(parts),
+      all > kMost ? text(" (", all - kMost, " more in the table above)") : "",
+      "; its variation excites the whine, and the harmonics of the bearing forces act on the housing.",
+      load_sharing(a).empty() ? ""
+                              : " In the torque and the force on a central gear, harmonics are missing "
+                                "that the planets cancel among them; each mesh by itself has them all.");
 }
 
 std::string of_sharing(const SystemReport& r) {
@@ -54,9 +56,10 @@ std::string of_sharing(const SystemReport& r) {
   std::vector<std::string> parts;
   parts.reserve(sharing.size());
   for (const LoadSharing& of : sharing) parts.push_back(text(fixed(of.factor, 3), " of ", of.name));
-  return text("Share of each planet's mesh in the load over the mesh period (left), and the loads of the tooth pairs of the ",
-              "first one (right). The load sharing factor, the largest share times the number of planets, is ",
-              listed(parts), "; 1 is equal sharing.");
+  return text(
+      "Share of each planet's mesh in the load over the mesh period (left), and the loads of the tooth ",
+      "pairs of the first one (right). The load sharing factor, the largest share times the number of ",
+      "planets, is ", listed(parts), "; 1 is equal sharing.");
 }
 
 std::string of_modes(const SystemReport& r) {
@@ -71,13 +74,16 @@ std::string of_modes(const SystemReport& r) {
 }
 
 std::string of_campbell(const SystemReport&) {
-  return "Natural frequencies and the harmonics of the mesh frequency. Where a ray meets a line that harmonic of the "
-         "transmission error can excite that mode: keep operating speeds away from the points that matter.";
+  return "Natural frequencies and the harmonics of the mesh frequency. Where a ray meets a line that "
+         "harmonic of the transmission error can excite that mode: keep operating speeds away from the "
+         "points that matter.";
 }
 
 std::string of_sweep(const SystemReport& r) {
-  return text("RMS of the oscillating transmission error and time without contact of each mesh, and oscillating force on each ",
-              "bearing and pin, over the mesh frequency; lines: speed rising, marks: falling. ", motion_words(r));
+  return text(
+      "RMS of the oscillating transmission error and time without contact of each mesh, and oscillating ",
+      "force on each bearing and pin, over the mesh frequency; lines: speed rising, marks: falling. ",
+      motion_words(r));
 }
 
 struct Explained {
@@ -129,7 +135,8 @@ std::string introduction(const SystemReport& r) {
   double most = 0;
   for (Index m = 0; m < r.rest->transmission_error.cols(); ++m)
     most = std::max(most, peak_to_peak(r.rest->transmission_error.col(m)));
-  out += text(" Static transmission errors are up to ", significant(most * kMicro, 3), " µm from peak to peak.");
+  out +=
+      text(" Static transmission errors are up to ", significant(most * kMicro, 3), " µm from peak to peak.");
   if (!r.sweeps.empty()) out += " " + motion_words(r);
   return html::paragraph(out);
 }
@@ -145,7 +152,8 @@ bool one_system(const System& a, const System& b) {
 void require_sweeps(const SystemReport& r) {
   if (r.sweeps.empty()) return;
   if (!r.rest)
-    fail(Failure::input, "report: system_sweep.h5 is given without the system_static.h5 of its scene; give it, too");
+    fail(Failure::input,
+         "report: system_sweep.h5 is given without the system_static.h5 of its scene; give it, too");
   for (size_t i = 0; i < r.sweeps.size(); ++i) {
     const SystemSweepArtifact& a = r.sweeps[i];
     const System& layout = a.settings.layout;
@@ -159,7 +167,8 @@ void require_sweeps(const SystemReport& r) {
     for (size_t b = 0; b < layout.bodies.size(); ++b) {
       const double moving = a.torque[static_cast<Index>(b)],
                    resting = r.rest->torque.col(static_cast<Index>(b)).mean();
-      if (layout.held(static_cast<int>(b)) || std::abs(moving - resting) <= 1e-9 * std::abs(resting)) continue;
+      if (layout.held(static_cast<int>(b)) || std::abs(moving - resting) <= 1e-9 * std::abs(resting))
+        continue;
       fail(Failure::input, "report: the torque on '", layout.bodies[b].name, "' is ", moving,
            " N m in system_sweep.h5 and ", resting, " N m in system_static.h5; give artifacts of one scene");
     }

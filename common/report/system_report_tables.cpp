@@ -208,7 +208,8 @@ std::string drawings_table(const SystemStaticArtifact& a) {
   all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
   all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
       [&](G g) { return mm(2 * g.design().held_radius()); });
-  return html::table("Geometry of the gears; all keys of the scene stand below, under Parameters.", head, rows);
+  return html::table("Geometry of the gears; all keys of the scene stand below, under Parameters.", head,
+                     rows);
 }
 
 }  // namespace
@@ -224,18 +225,17 @@ std::string gear_tables(const SystemReport& r) {
                     body.inertia > 0 ? shown(body.inertia, 4) : "–", bearing_words(body),
                     body.bearing.elastic() ? shown(body.bearing.mass, 4) : "–"});
   }
-  return html::table(
-             text("The bodies. Sense: of rotation",
-                  has_planets(s) ? " relative to the carrier, which the computation holds; a gear that the machine holds turns "
-                                   "against its carrier"
-                                 : "",
-                  ". Rotation: by what it is held or driven",
-                  r.rest ? "" : "; torques do not change natural modes",
-                  ". Diameter: of the base circle, of a carrier of the circle of its pins. The inertia of a body that is held ",
-                  "has no meaning."),
-             {"body", "teeth", "sense", "rotation", "axis on", "x (mm)", "y (mm)", "diameter (mm)",
-              "inertia (kg m²)", "bearing (N/µm)", "mass on it (kg)"},
-             rows, "small") +
+  return html::table(text("The bodies. Sense: of rotation",
+                          has_planets(s) ? " relative to the carrier, which the computation holds; a "
+                                           "gear that the machine holds turns against its carrier"
+                                         : "",
+                          ". Rotation: by what it is held or driven",
+                          r.rest ? "" : "; torques do not change natural modes",
+                          ". Diameter: of the base circle, of a carrier of the circle of its pins. The ",
+                          "inertia of a body that is held has no meaning."),
+                     {"body", "teeth", "sense", "rotation", "axis on", "x (mm)", "y (mm)", "diameter (mm)",
+                      "inertia (kg m²)", "bearing (N/µm)", "mass on it (kg)"},
+                     rows, "small") +
          (r.rest ? drawings_table(*r.rest) : "");
 }
 
@@ -274,20 +274,21 @@ std::string mesh_tables(const SystemReport& r) {
     head.insert(head.end(), {"contact ratio", "backlash along the line of action (mm)"});
   else
     head.emplace_back("stiffness (N/µm)");
-  std::string out = html::table(
-      text("The meshes, the driving side first. Mesh phase: the part of a mesh period by which a mesh is ahead of the first ",
-           "one."),
-      head, geometry);
+  std::string out = html::table(text("The meshes, the driving side first. Mesh phase: the part of a ",
+                                     "mesh period by which a mesh is ahead of the first one."),
+                                head, geometry);
   if (rest.empty()) return out;
   std::vector<std::string> columns{"mesh", "mean force (N)"};
   if (shared) columns.insert(columns.end(), {"mean share (%)", "largest share (%)"});
   columns.insert(columns.end(),
                  {"mean STE (µm)", "STE peak to peak (µm)", "harmonic 1 (µm)", "harmonic 2 (µm)",
                   "stiffness (N/µm)", "largest tooth load (N)", "largest pressure (MPa)"});
-  return out + html::table(text("The meshes at rest over the mesh period.",
-                                shared ? " Share: of the load of the meshes of one [[mesh]]." : "",
-                                " STE: static transmission error. Stiffness: mean, contact frozen, without bearings."),
-                           columns, rest, "small");
+  return out +
+         html::table(
+             text("The meshes at rest over the mesh period.",
+                  shared ? " Share: of the load of the meshes of one [[mesh]]." : "",
+                  " STE: static transmission error. Stiffness: mean, contact frozen, without bearings."),
+             columns, rest, "small");
 }
 
 std::string force_table(const SystemReport& r) {
@@ -303,8 +304,9 @@ std::string force_table(const SystemReport& r) {
                     plain(f.mean_y, 1), plain(f.most, 1), plain(f.rms, 2)});
   }
   return html::table(
-      text("Torques, in the sense in which each body turns, and forces on bearings and pins over the mesh period; on a rigid ",
-           "axis the sum of the contact forces. RMS: of the oscillating part, which acts on the housing."),
+      text("Torques, in the sense in which each body turns, and forces on bearings and pins over the ",
+           "mesh period; on a rigid axis the sum of the contact forces. RMS: of the oscillating part, ",
+           "which acts on the housing."),
       {"body", "rotation", "mean torque (N m)", "its peak to peak (N m)", "bearing (N/µm)",
        "mean force x (N)", "mean force y (N)", "largest force (N)", "RMS (N)"},
       rows);
@@ -338,13 +340,14 @@ std::string modes_table(const SystemReport& r) {
   if (bands) head.emplace_back("over the mesh phases, by rank (Hz)");
   return html::table(
       text("Natural modes, the meshes at their mean stiffness.",
-           !has_planets(a.layout)
-               ? " Train: the system has no planets."
-               : text(" Rotational: central gears turn, planets all move alike. Translational: central gears move sideways; at ",
-                      "equal spacing in pairs of equal frequency. Planet: planets alone. Mixed: none of these, of planets that ",
-                      "differ or stand unequally."),
-           bands ? text(" Over the mesh phases: with the contact of each phase, the lowest frequency with the lowest; modes are ",
-                        "not followed by their shapes, so that the frequency at the mean stiffness may lie beside.")
+           !has_planets(a.layout) ? " Train: the system has no planets."
+                                  : text(" Rotational: central gears turn, planets all move alike. ",
+                                         "Translational: central gears move sideways; at equal spacing ",
+                                         "in pairs of equal frequency. Planet: planets alone. Mixed: ",
+                                         "none of these, of planets that differ or stand unequally."),
+           bands ? text(" Over the mesh phases: with the contact of each phase, the lowest frequency ",
+                        "with the lowest; modes are not followed by their shapes, so that the frequency ",
+                        "at the mean stiffness may lie beside.")
                  : ""),
       head, rows);
 }
@@ -373,8 +376,9 @@ std::string settings_table(const SystemReport& r) {
     head.push_back(keys.gears[g] + (g == 0 && keys.gears.size() > 1 ? ", or all" : ""));
   head.emplace_back("meaning");
   return html::table(
-      text("Every value of the scene that went into the results, defaults included, in the scene's units; inertias and masses ",
-           "that the scene leaves out are those of the bodies. Torques and what is held: under At rest."),
+      text("Every value of the scene that went into the results, defaults included, in the scene's ",
+           "units; inertias and masses that the scene leaves out are those of the bodies. Torques and ",
+           "what is held: under At rest."),
       head, rows, "small");
 }
 
@@ -422,12 +426,13 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
                            " % of the largest tooth load; tip relief takes that away"));
   }
   for (const LoadSharing& of : load_sharing(a))
-    out.push_back(remark(of.factor > kUnequal, of.name, ": the most loaded of ", of.meshes.size(),
-                         " meshes carries up to ", fixed(of.factor, 3), " times an equal share",
-                         of.factor <= kUnequal ? ""
-                         : equally_spaced(s, of.meshes)
-                             ? ". Let a central gear float on a softer [[bearing]]"
-                             : ". Let a central gear float on a softer [[bearing]], or space the planets equally"));
+    out.push_back(
+        remark(of.factor > kUnequal, of.name, ": the most loaded of ", of.meshes.size(),
+               " meshes carries up to ", fixed(of.factor, 3), " times an equal share",
+               of.factor <= kUnequal ? ""
+               : equally_spaced(s, of.meshes)
+                   ? ". Let a central gear float on a softer [[bearing]]"
+                   : ". Let a central gear float on a softer [[bearing]], or space the planets equally"));
   for (const std::string& words : colliding_gears(s, designs_of(a))) out.push_back({true, words});
   std::string rigid;
   for (const System::Body& body : s.bodies)
@@ -450,9 +455,9 @@ void remark_modes(const ModesArtifact& a, std::vector<Remark>& out) {
                "elastic modes of the gear bodies themselves are left out; frequencies near or above the "
                "lowest of a body (eigenfrequency in its body.h5) are not to be trusted"));
   if (has_planets(a.layout))
-    out.push_back(
-        remark(false, "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size 2 ",
-               "times its speed over the natural frequency"));
+    out.push_back(remark(
+        false, "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size ",
+        "2 times its speed over the natural frequency"));
 }
 
 }  // namespace

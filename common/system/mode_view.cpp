@@ -108,7 +108,8 @@ double in_digits(double f) {
 std::string mode_name(const ModesArtifact& a, Index i) {
   const double f = a.natural_frequency[i];
   return text("mode_", i < 9 ? "0" : "", i + 1, "_",
-              f == 0 ? std::string("free") : name_of(a.type[static_cast<size_t>(i)]), "_", in_digits(f), "_Hz");
+              f == 0 ? std::string("free") : name_of(a.type[static_cast<size_t>(i)]), "_", in_digits(f),
+              "_Hz");
 }
 
 }  // namespace
@@ -161,8 +162,7 @@ void add_mode_view(ModesArtifact& a, const std::vector<const GearDesign*>& desig
       moved(i, 0) = shape(b, 1) - turn * (view.point(i, 1) - body.centre[1]);
       moved(i, 1) = shape(b, 2) + turn * (view.point(i, 0) - body.centre[0]);
     }
-    if (const double most = moved.rowwise().norm().maxCoeff(); most > 0)
-      moved *= kShownMotion * half / most;
+    if (const double most = moved.rowwise().norm().maxCoeff(); most > 0) moved *= kShownMotion * half / most;
     view.point_data.push_back({mode_name(a, mode), "m", moved});
   }
 }

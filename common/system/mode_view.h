@@ -10,7 +10,8 @@
 
 namespace whine {
 
-inline constexpr double kShownMotion = 0.05;  // largest displacement over half of the longer side of the drawing's box
+inline constexpr double kShownMotion =
+    0.05;  // largest displacement over half of the longer side of the drawing's box
 
 // Fills modes.view; without gears it stays empty. design: [body] drawing of each gear; nullptr where it is not known, of carriers and rigid gears: of these the
 // teeth are drawn with straight sides on the working pitch circle of their first mesh. Point data "mode_03_planet_1650.21_Hz"; cell

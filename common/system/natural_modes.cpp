@@ -267,7 +267,8 @@ MatrixXd of_alike_planets(const SystemStaticParameters& settings, const MatrixXd
     return -1;
   };
   const auto kind_of = [&](Index m, Index k) {
-    const int first = settings.section[static_cast<size_t>(m)], second = settings.section[static_cast<size_t>(k)];
+    const int first = settings.section[static_cast<size_t>(m)],
+              second = settings.section[static_cast<size_t>(k)];
     const int relation = m == k ? 0 : planet_of(m) >= 0 && planet_of(m) == planet_of(k) ? 1 : 2;
     return std::array{std::min(first, second), std::max(first, second), relation};
   };
