@@ -4,12 +4,12 @@
 #   elastic gears  out/S/params/system_static.toml and the bodies -> out/S/system_static.h5
 #                  -> out/S/report/{system,system-static,load-sharing}.png, out/S/modes.h5 -> out/S/report/{modes,campbell}.png
 #                  with [operation] out/S/params/system_sweep.toml and the bodies -> out/S/{up,down}/system_sweep.h5
-#                  -> out/S/report/system-sweep.png
+#                  -> out/S/report/system-sweep.png, a part of the page
 #                  likewise out/S/system_impact.h5 -> out/S/report/system-ringdown.png, out/S/system_branch.h5 and the sweeps
 #                  -> out/S/report/system-branch.png
 #   both           out/S/report/index.html, the page of these
 #
-# A figure of another stage, of motion say, is a row of inputs_of_<figure> with its name in system_shows, and a row in
+# A figure of another stage is a row of inputs_of_<figure> with its name in system_shows, and a row in
 # common/report/system_report.cpp.
 
 define rigid_rules # scene
@@ -34,7 +34,6 @@ out/$1/system_static.h5: out/$1/params/system_static.toml $(system_bodies) $(cal
 out/$1/modes.h5: out/$1/system_static.h5 $(call id,gear-modes) | $(B)/bin/gear-modes
 	$$(call run,modes) --static $$< --output $$@ $$(call landed,modes)
 $(if $(SCENE_$1_SYSTEM_MOVES),$(foreach w,up down,$(eval $(call system_sweep_rule,$1,$w)))\
-  $(eval $(call figure_rule,system-sweep,out/$1/report/system-sweep,$(foreach w,up down,out/$1/$w/system_sweep.h5)))\
   $(eval $(call system_motion_rule,$1,system_impact,system-impact))$(eval $(call system_motion_rule,$1,system_branch,system-orbit))\
   $(eval $(call figure_rule,system-ringdown,out/$1/report/system-ringdown,out/$1/system_impact.h5))\
   $(eval $(call figure_rule,system-branch,out/$1/report/system-branch,out/$1/system_branch.h5 $(foreach w,up down,out/$1/$w/system_sweep.h5))))
@@ -42,13 +41,14 @@ endef
 
 # $1 scene: figures of its report, and what each is drawn from
 has_planets = $(and $(filter elastic,$(SCENE_$1_SYSTEM)),$(filter yes,$(SCENE_$1_PLANETS)))
-system_shows = system $(if $(filter elastic,$(SCENE_$1_SYSTEM)),system-static) $(if $(call has_planets,$1),load-sharing) modes campbell
+system_shows = system $(if $(filter elastic,$(SCENE_$1_SYSTEM)),system-static) $(if $(call has_planets,$1),load-sharing) modes campbell $(if $(SCENE_$1_SYSTEM_MOVES),system-sweep)
 inputs_of_system = $(if $(filter elastic,$(SCENE_$1_SYSTEM)),$(inputs_of_system-static),$(inputs_of_modes))
 inputs_of_system-static = out/$1/system_static.h5
 inputs_of_load-sharing = out/$1/system_static.h5
 inputs_of_modes = out/$1/modes.h5
 inputs_of_campbell = out/$1/modes.h5
-system_artifacts = $(if $(filter elastic,$(SCENE_$1_SYSTEM)),out/$1/system_static.h5) out/$1/modes.h5
+inputs_of_system-sweep = $(foreach w,up down,out/$1/$w/system_sweep.h5)
+system_artifacts = $(if $(filter elastic,$(SCENE_$1_SYSTEM)),out/$1/system_static.h5) out/$1/modes.h5 $(if $(SCENE_$1_SYSTEM_MOVES),$(inputs_of_system-sweep))
 # Load sharing of a pair, among its teeth, has a template of its own.
 drawn_of_system = $(if $(filter load-sharing,$1),system-load-sharing,$1)
 
@@ -78,8 +78,8 @@ $(if $(filter $(motion_goals),$(goals)),$(if $(filter elastic,$(SCENE_$(elastic_
   $(error SCENE=$(SCENE): it says no speeds; write [operation] with mesh_frequency_Hz = { from = 500$(,) to = 5000$(,) step = 50 } into it))))
 of_systems := report $(if $(call has_planets,$(own_scene)),load-sharing)
 $(if $(SCENE_$(own_scene)_SYSTEM),$(if $(filter load-sharing,$(filter-out $(of_systems),$(goals))),\
-  $(error load-sharing: SCENE=$(SCENE) $(if $(filter rigid,$(SCENE_$(own_scene)_SYSTEM)),has rigid gears$(,) of which there are natural modes alone,has no planets that share a load); \
-    for it there is: make SCENE=$(SCENE) report)))
+  $(error load-sharing: SCENE=$(SCENE) $(if $(filter rigid,$(SCENE_$(own_scene)_SYSTEM)),has rigid gears$(,) of which there are natural modes alone,has no planets that share a load)$(,) use \
+    make SCENE=$(SCENE) report)))
 $(if $(SCENE_$(own_scene)_SYSTEM),$(foreach g,$(filter-out $(of_systems),$(filter $(pair_goals) figures teeth $(figures) table1 animation,$(goals))),\
   $(error $g: SCENE=$(SCENE) is a system of several meshes$(,) carriers or drives; for it there is: make SCENE=$(SCENE) report$(,) \
     or of it $(if $(filter elastic,$(SCENE_$(own_scene)_SYSTEM)),system-static $(if $(SCENE_$(own_scene)_SYSTEM_MOVES),$(motion_goals) ))modes)))

@@ -88,7 +88,7 @@ chain() {
     $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && "${stage_runup[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
     "${stage_train[@]}" && "${stage_modes[@]}" && "${stage_modes_plot[@]}" &&
     "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && mkdir -p out/scene-inline/up && "${stage_system_sweep[@]}" && "${stage_system_sweep_plot[@]}" && "${stage_system_impact[@]}" && "${stage_system_orbit[@]}" && "${stage_ringdown_plot[@]}" && "${stage_system_branch_plot[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
-    "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/system_static.h5 out/scene-inline/modes.h5
+    "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/system_static.h5 out/scene-inline/modes.h5 out/scene-inline/up/system_sweep.h5 system-sweep.png
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
@@ -127,7 +127,7 @@ cp "$(dirname "$scene_of_paper")/lin-parker-planetary.toml" examples/data/scenes
 # A system of elastic gears, in whose folder examples look.
 cp scene-inline.toml examples/data/scenes/three-in-line.toml
 in_line=("${stage_inline[@]/scene-inline.toml/data/scenes/three-in-line.toml}")
-(cd examples && "${in_line[@]}" && cp -r ../out/bodies/. out/bodies/ && "${stage_system[@]//scene-inline/three-in-line}") > /dev/null 2>&1 || wrong "a system for the examples" "it is not made"
+(cd examples && "${in_line[@]}" && cp -r ../out/bodies/. out/bodies/ && "${stage_system[@]//scene-inline/three-in-line}" && "${stage_elastic_modes[@]//scene-inline/three-in-line}") > /dev/null 2>&1 || wrong "a system for the examples" "it is not made"
 flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard report study variant"
 examples_of() { "$bin/$1" --help | sed '1,/^Examples\{0,1\}:$/d; s/^ *//; /^$/d'; }
 run_example() { (cd examples && eval "timeout 120 $bin/$1") > said 2>&1 < /dev/null; }
@@ -243,6 +243,10 @@ rejected "decibels re nothing" 2 '--db 0: it is a length in m above 0' "$bin/gea
 rejected "a speed of no gear" 2 'there is no gear carrier; there are pinion, wheel' "$bin/gear-plot" waterfall --plots "$plots" --axis rpm:carrier --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
 rejected "the report of a system without its modes" 3 'no modes.h5 given' "$bin/gear-report" out/scene-inline/system_static.h5 --output x.html
 rejected "two modes.h5 in the report of a system" 2 'a second whine/modes; give one of each' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/../scene-inline/modes.h5 --output x.html
+rejected "a sweep of a system without its statics in a report" 3 'without the system_static.h5 of its scene' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/up/system_sweep.h5 --output x.html
+rejected "two sweeps of a system in one direction in a report" 3 "two sweeps in the direction 'up'" "$bin/gear-report" out/scene-inline/system_static.h5 out/scene-inline/modes.h5 out/scene-inline/up/system_sweep.h5 out/scene-inline/../scene-inline/up/system_sweep.h5 --output x.html
+rejected "artifacts of a pair in the report of a system" 2 'is whine/static; the report of a system is made of' "$bin/gear-report" out/scene-inline/modes.h5 out/scene/T100/static.h5 --output x.html
+rejected "artifacts of two systems in a report" 3 'artifacts before it are of' "$bin/gear-report" out/scene-inline/system_static.h5 out/scene-train/modes.h5 --output x.html
 rejected "load sharing of a system without planets" 3 'stands for those of several planets' "$bin/gear-plot" system-load-sharing --plots "$plots" out/scene-inline/system_static.h5 --output x
 rejected "two static.h5 of one torque in a report" 3 'a static.h5 at 100 N m is given twice' "$bin/gear-report" out/scene/T100/static.h5 out/scene/../scene/T100/static.h5 --output x.html
 mkdir -p other_scene/params other_scene/T100 && cp out/scene/T100/static.h5 other_scene/T100 && echo Other > other_scene/params/title.txt

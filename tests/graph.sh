@@ -408,20 +408,25 @@ expect "a system of elastic gears: three bodies, its statics, its modes" "gear-m
 cp data/scenes/three-in-line.toml inline.toml; make_ SCENE=inline.toml system-static modes; sed -i 's/^torque_Nm = 60.0/torque_Nm = 50.0/' inline.toml
 make_ -n SCENE=inline.toml system-static modes
 expect "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear-system-static*1"
+make_ -n SCENE=inline.toml system-sweep
+expect "its motion: a sweep each way" "gear-plot*1 gear-system-sweep*2"
 make_ -n SCENE=inline.toml report
-expect "the report of a system: its picture, the page" "gear-modes*1 gear-plot*4 gear-report*1 gear-system-static*1"
-make_ SCENE=inline.toml report; make_ -n SCENE=inline.toml report mode-shapes
+expect "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*5 gear-report*1 gear-system-static*1 gear-system-sweep*2"
+grep -q 'gear-report.* out/inline/up/system_sweep.h5 out/inline/down/system_sweep.h5 .*out/inline/report/system-sweep.png' "$log" && ok "the page of a system has its sweeps" || wrong "the page of a system has its sweeps" "$(grep gear-report "$log" | tail -n 1)"
+make_ SCENE=inline.toml report; make_ -n SCENE=inline.toml report mode-shapes system-sweep
 expect "and it is up to date then" ""
 grep -q 'open out/inline/modes.hdf in ParaView' <(make_ SCENE=inline.toml mode-shapes; cat "$log") && ok "mode shapes for ParaView stand beside the modes" || wrong "mode shapes for ParaView stand beside the modes" "$(tail -n 1 "$log")"
 make_ -n SCENE=inline.toml load-sharing
-grep -q 'load-sharing: SCENE=inline.toml has no planets that share a load' "$log" && ok "load sharing needs planets" || wrong "load sharing needs planets" "$(tail -n 1 "$log")"
+grep -q 'load-sharing: SCENE=inline.toml has no planets that share a load, use make SCENE=inline.toml report' "$log" && ok "load sharing needs planets" || wrong "load sharing needs planets" "$(tail -n 1 "$log")"
 make_ -n SCENE=data/scenes/oh58-planetary.toml load-sharing
 expect "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-system-static*1"
+make_ -n SCENE=data/scenes/oh58-planetary.toml report
+expect "the report of a train with planets" "gear-mesh*3 gear-modes*1 gear-plot*6 gear-reduce*3 gear-report*1 gear-system-static*1 gear-system-sweep*2"
 make_ -n SCENE=train.toml report
 expect "the report of rigid gears: modes, their figures, the picture" "gear-modes*1 gear-plot*3 gear-report*1"
-make_ -n SCENE=inline.toml system-sweep
-expect "its motion: a sweep each way" "gear-plot*1 gear-system-sweep*2"
-make_ SCENE=inline.toml system-static modes system-sweep; sed -i 's/^rayleigh_stiffness_s = 3e-6/rayleigh_stiffness_s = 4e-6/' inline.toml
+make_ -n SCENE=train.toml load-sharing
+grep -q 'load-sharing: SCENE=train.toml has rigid gears, of which there are natural modes alone, use make SCENE=train.toml report' "$log" && ok "load sharing needs elastic gears" || wrong "load sharing needs elastic gears" "$(tail -n 1 "$log")"
+sed -i 's/^rayleigh_stiffness_s = 3e-6/rayleigh_stiffness_s = 4e-6/' inline.toml
 make_ -n SCENE=inline.toml system-static modes system-sweep
 expect "another damping of a system redoes its sweeps alone" "gear-plot*1 gear-system-sweep*2"
 make_ -n SCENE=inline.toml system-ringdown

@@ -1,15 +1,15 @@
-// A system at rest with numbers without meaning, for what is written, read and drawn of one.
+// A system at rest and its sweep, with numbers without meaning, for what is written, read and drawn of them.
 #pragma once
 #include <Eigen/Core>
 
 #include "io/system_scene.h"
 #include "planetary_train.h"
+#include "studies/system_sweep_result.h"
 #include "system/system_static_result.h"
 
-// Sun, three planets and ring at two phases, numbers without meaning.
-inline whine::SystemStaticArtifact small_system() {
+// A train at two phases, numbers without meaning.
+inline whine::SystemStaticArtifact small_system(whine::SystemScene scene = planetary_train(3)) {
   using namespace whine;
-  SystemScene scene = planetary_train(3);
   scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
   // Of sun and planet, one of them in two meshes, and none of the ring.
   FlankModification relieved, crowned;
@@ -47,5 +47,38 @@ inline whine::SystemStaticArtifact small_system() {
   a.mesh_stiffness.assign(2, MatrixRM::Identity(meshes, meshes) * 5e8);
   a.least_gap = a.least_force = a.torque_residual = Eigen::Vector2d(0, 1e-13);
   a.transmission_error_harmonic = MatrixRM::Constant(1, meshes, 2.5e-6);
+  return a;
+}
+
+// Of the same torques, at two speeds.
+inline whine::SystemSweepArtifact small_sweep(const whine::SystemStaticArtifact& rest,
+                                              whine::Direction direction) {
+  using namespace whine;
+  SystemSweepArtifact a;
+  static_cast<SystemStaticParameters&>(a.settings) = rest.settings;
+  a.settings.damping.rayleigh_stiffness = 2e-6;
+  a.direction = direction;
+  const auto bodies = static_cast<Eigen::Index>(a.settings.layout.bodies.size()),
+             meshes = static_cast<Eigen::Index>(a.settings.layout.meshes.size());
+  a.torque = rest.torque.colwise().mean().transpose();
+  a.axis_frequency = 1e4 / 3;
+  a.mesh_frequency = Eigen::Vector2d(2000, 1000);
+  double value = 1.0 / 3;
+  for (MatrixRM* x : {&a.dte_rms, &a.dte_mean, &a.load_share_max, &a.separation_fraction, &a.mesh_force_max,
+                      &a.tooth_force_max, &a.rolling})
+    *x = MatrixRM::Constant(2, meshes, value *= 0.9);
+  for (MatrixRM* x : {&a.bearing_force_max, &a.bearing_force_rms, &a.bearing_damping, &a.holding_torque})
+    *x = MatrixRM::Constant(2, bodies, value *= 0.9);
+  a.transmission_error.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 3));
+  a.mesh_deflection.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 7));
+  a.mesh_force.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 3));
+  a.bearing_force.assign(static_cast<size_t>(bodies),
+                         std::vector<MatrixRM>(2, MatrixRM::Constant(4, 2, 1e2 / 3)));
+  a.periods = Eigen::Vector2i(20, 30);
+  a.period_multiple = Eigen::Vector2i(1, 0);
+  for (Eigen::VectorXd* x : {&a.residual, &a.energy_imbalance, &a.drift_force})
+    *x = Eigen::Vector2d(1e-6, value *= 0.9);
+  a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kSystemEnergyLines.size()), -1.0 / 7);
+  a.least_gap = -1e-15;
   return a;
 }

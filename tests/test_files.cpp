@@ -841,32 +841,7 @@ TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bi
 
 TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
   Folder folder;
-  SystemSweepArtifact a;
-  static_cast<SystemStaticParameters&>(a.settings) = small_system().settings;
-  a.settings.damping.rayleigh_stiffness = 2e-6;
-  a.direction = Direction::down;
-  const auto bodies = static_cast<Eigen::Index>(a.settings.layout.bodies.size()),
-             meshes = static_cast<Eigen::Index>(a.settings.layout.meshes.size());
-  a.torque = Eigen::VectorXd::LinSpaced(bodies, -1, 1) / 3;
-  a.axis_frequency = 1e4 / 3;
-  a.mesh_frequency = Eigen::Vector2d(2000, 1000);
-  double value = 1.0 / 3;
-  for (MatrixRM* x : {&a.dte_rms, &a.dte_mean, &a.load_share_max, &a.separation_fraction, &a.mesh_force_max,
-                      &a.tooth_force_max, &a.rolling})
-    *x = MatrixRM::Constant(2, meshes, value *= 0.9);
-  for (MatrixRM* x : {&a.bearing_force_max, &a.bearing_force_rms, &a.bearing_damping, &a.holding_torque})
-    *x = MatrixRM::Constant(2, bodies, value *= 0.9);
-  a.transmission_error.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 3));
-  a.mesh_deflection.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 7));
-  a.mesh_force.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 3));
-  a.bearing_force.assign(static_cast<size_t>(bodies),
-                         std::vector<MatrixRM>(2, MatrixRM::Constant(4, 2, 1e2 / 3)));
-  a.periods = Eigen::Vector2i(20, 30);
-  a.period_multiple = Eigen::Vector2i(1, 0);
-  for (Eigen::VectorXd* x : {&a.residual, &a.energy_imbalance, &a.drift_force})
-    *x = Eigen::Vector2d(1e-6, value *= 0.9);
-  a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kSystemEnergyLines.size()), -1.0 / 7);
-  a.least_gap = -1e-15;
+  const SystemSweepArtifact a = small_sweep(small_system(), Direction::down);
   write("system_sweep.h5", a, kMade);
   CHECK(read_system_sweep("system_sweep.h5").mesh_deflection == a.mesh_deflection);
   const SystemSweepArtifact b = read_system_sweep("system_sweep.h5");
@@ -919,6 +894,43 @@ TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is
   rejects([](System& s) { s.bodies[1].on = 0; }, text("dataset /body/stands_on holds 0 of body 1"));
   rejects([](System& s) { s.bodies[1].sense = 0; }, "dataset /body/sense holds 0 of body 1");
   rejects([](System& s) { s.meshes[0].side[1].body = 99; }, "dataset /mesh/body_number holds the number 99");
+  // What figures divide by and look up.
+  rejects([](System& s) { s.bodies[2].teeth = 0; }, "dataset /body/teeth holds 0 of body 2, which is a gear");
+  rejects([](System& s) { s.bodies[2].radius = 0; }, "dataset /body/radius holds 0 of body 2");
+  rejects([](System& s) { s.bodies[2].name = "a/b"; }, "dataset /body/name holds 'a/b'");
+  rejects([&](System& s) { s.meshes[0].side[1].body = carrier; }, "allowed are two gears that differ");
+  rejects([](System& s) { s.meshes[0].side[1].body = s.meshes[0].side[0].body; },
+          "allowed are two gears that differ");
+}
+
+TEST_CASE(
+    "system_static.h5 without a pair, or with the drawing of another gear, is rejected with its dataset") {
+  Folder folder;
+  const auto said = [&](const auto& spoil) {
+    SystemStaticArtifact a = small_system();
+    spoil(a);
+    try {
+      write("system_static.h5", a, kMade);
+      read_system_static("system_static.h5");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto has = [](const std::string& message, const std::string& words) {
+    CAPTURE(message);
+    CHECK(message.find(words) != std::string::npos);
+  };
+  CHECK(said([](SystemStaticArtifact&) {}).empty());
+  has(said([](SystemStaticArtifact& a) {
+        const auto meshes = static_cast<Eigen::Index>(a.settings.layout.meshes.size());
+        a.pair.resize(0);
+        for (auto* list : {&a.tooth_load, &a.contact_pressure}) list->assign(2, MatrixRM(meshes, 0));
+      }),
+      "dataset /pair holds no pair");
+  has(said([](SystemStaticArtifact& a) { a.drawing[0].design.teeth += 1; }),
+      "dataset /body/teeth holds 27 of body 0, and its drawing has 28");
+  write("system_static.h5", small_system(), kMade);
 }
 
 TEST_CASE("static.h5 gives back every value bit by bit") {

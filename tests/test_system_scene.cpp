@@ -272,6 +272,13 @@ TEST_CASE(
   CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").find("after 120 mesh periods") !=
         std::string::npos);
   CHECK(said("[gear.idler.crack]\ndepth_mm = 0.5\n").find("after 120 mesh periods") != std::string::npos);
+  // A multiple beyond 64 bits.
+  std::string primes;
+  for (const int teeth : {31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73})
+    primes += text("[gear.g", teeth, "]\nlike = \"pinion\"\nteeth = ", teeth, "\n");
+  CHECK(said(primes).empty());
+  CHECK(said(primes + "[gear.idler.error]\neccentricity_um = 5\n")
+            .find("after more than 1000000000 mesh periods") != std::string::npos);
 }
 
 TEST_CASE("remarks on the motion of a system: contact on lines, a damping that nobody chose") {
@@ -304,4 +311,18 @@ TEST_CASE("gears that run into each other without a mesh are named, planets and 
   REQUIRE(folded.size() == 1);
   CHECK(folded[0].starts_with(
       "'pinion' and 'wheel' have no mesh and run into each other: their axes are 90 mm apart"));
+  // A gear inside of a ring, through its rim, beyond it.
+  const GearDesign gear = rigid_gear(27), ring = rigid_gear(99, true);
+  System two;
+  two.bodies.resize(2);
+  two.bodies[0].name = "ring";
+  two.bodies[1].name = "gear";
+  for (const auto& [apart, hits] :
+       {std::pair{0.0, size_t{0}}, std::pair{0.14, size_t{1}}, std::pair{0.25, size_t{0}}}) {
+    two.bodies[1].centre = {apart, 0};
+    const std::vector<std::string> found = colliding_gears(two, {&ring, &gear});
+    REQUIRE(found.size() == hits);
+    if (hits > 0)
+      CHECK(found[0].starts_with("'gear' has no mesh with the ring 'ring' and stands through it"));
+  }
 }

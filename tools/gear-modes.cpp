@@ -44,13 +44,7 @@ void body(int argc, char** argv) {
   } else {
     const whine::SystemStaticArtifact rest = whine::read_system_static(statics);
     result = whine::elastic_modes(rest);
-    std::vector<const whine::GearDesign*> design;
-    design.reserve(result.layout.bodies.size());
-    for (size_t b = 0; b < result.layout.bodies.size(); ++b) {
-      const whine::BodyParameters* drawing = whine::drawing_of(rest, static_cast<int>(b));
-      design.push_back(drawing ? &drawing->design : nullptr);
-    }
-    whine::add_mode_view(result, design);
+    whine::add_mode_view(result, whine::designs_of(rest));
   }
   whine::write(output, result, provenance);
   std::string first;

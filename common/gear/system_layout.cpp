@@ -393,15 +393,26 @@ std::vector<std::string> colliding_gears(const System& layout, const std::vector
     for (size_t a = 0; a < b; ++a) {
       const System::Body &first = layout.bodies[a], &second = layout.bodies[b];
       const bool planets = first.on != System::kGround && second.on != System::kGround;
-      if (!design[a] || !design[b] || design[a]->internal || design[b]->internal || planets || in_mesh(a, b))
-        continue;
+      if (!design[a] || !design[b] || planets || in_mesh(a, b)) continue;
       const double apart = std::hypot(second.centre[0] - first.centre[0], second.centre[1] - first.centre[1]),
-                   room = ToothGeometry(*design[a]).tip_radius() + ToothGeometry(*design[b]).tip_radius();
-      if (apart < room)
+                   reach_a = ToothGeometry(*design[a]).tip_radius(),
+                   reach_b = ToothGeometry(*design[b]).tip_radius(), room = reach_a + reach_b;
+      if (design[a]->internal != design[b]->internal) {
+        const size_t ring = design[a]->internal ? a : b;
+        const double tips = ring == a ? reach_a : reach_b, reach = ring == a ? reach_b : reach_a,
+                     rim = design[ring]->rim_outer_radius;
+        if (apart + reach > tips && apart - reach < rim)
+          out.push_back(text(
+              "'", layout.bodies[ring == a ? b : a].name, "' has no mesh with the ring '",
+              layout.bodies[ring].name, "' and stands through it: from the axis of the ring it reaches from ",
+              (apart - reach) * 1e3, " to ", (apart + reach) * 1e3, " mm, the ring from ", tips * 1e3, " to ",
+              rim * 1e3, " mm; change direction_deg of a [[mesh]], unless they lie side by side"));
+      } else if (!design[a]->internal && apart < room) {
         out.push_back(text("'", first.name, "' and '", second.name,
                            "' have no mesh and run into each other: their axes are ", apart * 1e3,
                            " mm apart, their tip circles reach ", room * 1e3,
                            " mm; change direction_deg of a [[mesh]], unless they lie side by side"));
+      }
     }
   return out;
 }
@@ -415,6 +426,14 @@ bool is_ring(const System& system, int body) {
         return true;
     }
   return false;
+}
+
+double working_radius(const System& system, int body) {
+  const double radius = system.bodies[static_cast<size_t>(body)].radius;
+  for (const System::Mesh& mesh : system.meshes)
+    for (const System::Side& side : mesh.side)
+      if (side.body == body) return radius / std::cos(mesh.pressure_angle);
+  return radius;
 }
 
 }  // namespace whine

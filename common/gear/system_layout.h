@@ -29,11 +29,14 @@ std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std:
 // Elastic systems (system/system_statics.h) know no carriers and need this form.
 System on_fixed_carriers(const System& layout);
 
-// A line for each two external gears that do not mesh and whose tip circles overlap: they run into each other unless they lie side by
-// side. Planets are left out, which layout_of() checks. design: [body] nullptr: not known, of carriers.
+// A line for each two external gears that do not mesh and whose tip circles overlap, and for each that stands through a ring: they run
+// into each other unless they lie side by side. Planets among themselves are left out, which layout_of() checks. design: [body] nullptr: not known, of carriers.
 std::vector<std::string> colliding_gears(const System& layout, const std::vector<const GearDesign*>& design);
 
 // Whether a body is an internal gear: in its meshes both sides turn in one sense, and it has more teeth.
 bool is_ring(const System& system, int body);
+
+// m: working pitch radius in the first mesh of a gear; of a carrier, and of a gear without a mesh, System::Body::radius.
+double working_radius(const System& system, int body);
 
 }  // namespace whine

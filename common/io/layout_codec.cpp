@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/codec.h"
+#include "io/variant.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -155,6 +156,32 @@ void describe_meshes(Codec& codec, Columns& c) {
                 &c.mesh_stiffness);
 }
 
+// What figures and the views of modes divide by, and what they look up.
+void require_gears(const Codec& c, const System& s) {
+  const auto reject = [&](const auto&... words) { c.in()->file().reject(text(words...)); };
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const System::Body& body = s.bodies[b];
+    const bool gear = body.kind == System::BodyKind::gear;
+    if (!plain_name(body.name))
+      reject("dataset /body/name holds '", body.name, "'; a name holds letters, digits, '_' and '-' only");
+    if (body.sense == 0) reject("dataset /body/sense holds 0 of body ", b, "; allowed are -1 and 1");
+    if (gear && body.teeth == 0) reject("dataset /body/teeth holds 0 of body ", b, ", which is a gear");
+    if (!(body.radius > 0))
+      reject("dataset /body/radius holds 0 of body ", b, "; allowed is what is above 0");
+    if (!has_place(s, body))
+      reject("dataset /body/stands_on holds ", body.on, " of body ", b,
+             "; allowed are -1, the ground, and the number of a carrier on the ground");
+  }
+  for (size_t m = 0; m < s.meshes.size(); ++m) {
+    const auto& [first, second] = s.meshes[m].side;
+    for (const System::Side& side : {first, second})
+      if (s.bodies[static_cast<size_t>(side.body)].kind == System::BodyKind::carrier ||
+          first.body == second.body)
+        reject("dataset /mesh/body_number holds ", first.body, ", ", second.body, " of mesh ", m,
+               "; allowed are two gears that differ");
+  }
+}
+
 }  // namespace
 
 void describe_layout(Codec& c, System& layout) {
@@ -162,16 +189,9 @@ void describe_layout(Codec& c, System& layout) {
   describe_bodies(c, columns);
   describe_meshes(c, columns);
   if (!c.in()) return;
-  const auto bodies = columns.carrier.size();
-  require_indices(c, "/mesh/body_number", columns.side, bodies);
-  for (Eigen::Index i = 0; i < bodies; ++i)
-    if (columns.sense[i] == 0)
-      c.in()->file().reject(text("dataset /body/sense holds 0 of body ", i, "; allowed are -1 and 1"));
+  require_indices(c, "/mesh/body_number", columns.side, columns.carrier.size());
   layout = system_of(columns);
-  for (size_t b = 0; b < layout.bodies.size(); ++b)
-    if (const System::Body& body = layout.bodies[b]; !has_place(layout, body))
-      c.in()->file().reject(text("dataset /body/stands_on holds ", body.on, " of body ", b,
-                                 "; allowed are -1, the ground, and the number of a carrier on the ground"));
+  require_gears(c, layout);
 }
 
 }  // namespace whine

@@ -8,8 +8,8 @@ namespace whine {
 
 class Codec;
 
-// /body/... and /mesh/...; of drives what is held. A reader rejects senses and places that no system has, and numbers of bodies
-// that are not there. Flanks and tooth numbers of the sides are left out.
+// /body/... and /mesh/...; of drives what is held. A reader rejects names, senses, teeth and places that no system has, and meshes
+// of what is not two gears. Flanks and tooth numbers of the sides are left out.
 void describe_layout(Codec& codec, System& layout);
 
 }  // namespace whine

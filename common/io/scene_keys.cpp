@@ -1,5 +1,6 @@
 #include "io/scene_keys.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -118,6 +119,89 @@ std::vector<SceneKey> scene_keys_of(const StaticArtifact& a) {
 
 std::vector<SceneKey> scene_keys_of(const ResponseArtifact& a) {
   return scene_keys_in(a);
+}
+
+namespace {
+
+// Keys of one of the gears of a system, and what all of its meshes have in common.
+KeyValues keys_of(const SystemStaticArtifact& a, size_t g, const SystemSweepArtifact* moving) {
+  KeyValues values;
+  const std::string& name = a.settings.body[g].first;
+  values.design = a.drawing[g].design;
+  const double middle = values.design.teeth + 2 * values.design.profile_shift;
+  values.tip_diameter = values.design.module * (middle + 2 * values.design.addendum);
+  values.root_diameter = values.design.module * (middle - 2 * values.design.dedendum);
+  values.material = a.drawing[g].material;
+  values.body = a.drawing[g].discretisation;
+  values.modification = a.settings.modification(name);
+  for (size_t b = 0; b < a.settings.gear.size(); ++b)
+    if (a.settings.gear[b] == name) {
+      values.bearing = a.settings.layout.bodies[b].bearing;
+      values.total_inertia = a.settings.layout.bodies[b].inertia;
+    }
+  values.fidelity = a.settings.fidelity;
+  values.contact = a.settings.contact;
+  if (moving) {
+    values.fidelity = moving->settings.fidelity;
+    values.damping = moving->settings.damping;
+    values.time = moving->settings.time;
+  }
+  return values;
+}
+
+}  // namespace
+
+SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifact* moving) {
+  SystemKeys out;
+  out.gears = a.settings.gears();
+  std::vector<KeyValues> of;
+  of.reserve(out.gears.size());
+  for (size_t g = 0; g < out.gears.size(); ++g) of.push_back(keys_of(a, g, moving));
+  const auto stands = [&](const KeyValues& gear, Part part) {
+    switch (part) {
+      case Part::bore:
+        return !gear.design.internal;
+      case Part::rim:
+        return gear.design.internal;
+      case Part::bearing:
+        return gear.bearing.elastic();
+      case Part::modification:
+        return std::any_of(of.begin(), of.end(),
+                           [](const KeyValues& one) { return one.modification != FlankModification{}; });
+      case Part::damping:
+      case Part::level:
+      case Part::time:
+        return moving != nullptr;
+      default:
+        return !of_pairs(part) && part != Part::mesh && part != Part::contact_plane;
+    }
+  };
+  for (const Key& key : scene_keys()) {
+    if (of_operation(key)) continue;
+    SystemKeys::Row row{key.section, key.name, {}, key.meaning};
+    row.value.reserve(of.size());
+    for (KeyValues& gear : of) row.value.push_back(stands(gear, key.part) ? in_scene_unit(gear, key) : "");
+    const bool alike = std::all_of(row.value.begin(), row.value.end(),
+                                   [&](const std::string& value) { return value == row.value.front(); });
+    const bool of_all =
+        row.section == "damping" || row.section == "fidelity" || row.section == "discretisation";
+    if (alike && of_all && !row.value.empty()) row.value.resize(1);
+    const bool said = std::any_of(row.value.begin(), row.value.end(),
+                                  [](const std::string& value) { return !value.empty(); });
+    if (said) out.rows.push_back(row);
+  }
+  for (const GearMeshSpec& mesh : a.settings.mesh) {
+    KeyValues values;
+    values.mesh = mesh;
+    for (const Key& key : scene_keys())
+      if (key.part == Part::contact_plane ||
+          (key.part == Part::mesh && key.name != std::string("driver") && key.name != std::string("driven")))
+        out.rows.push_back({text("mesh ", mesh.gear[0], "-", mesh.gear[1]),
+                            key.name,
+                            {in_scene_unit(values, key)},
+                            key.meaning});
+  }
+  return out;
 }
 
 std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to) {

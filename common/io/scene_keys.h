@@ -7,6 +7,8 @@
 #include "signal/jump_map_result.h"
 #include "signal/response_result.h"
 #include "signal/static_result.h"
+#include "studies/system_sweep_result.h"
+#include "system/system_static_result.h"
 
 namespace whine {
 
@@ -22,6 +24,19 @@ struct SceneKey {
 // neither gear has (modification, error, crack) are left out.
 std::vector<SceneKey> scene_keys_of(const StaticArtifact& artifact);
 std::vector<SceneKey> scene_keys_of(const ResponseArtifact& artifact);
+
+// The same of a system: a value for each gear, or one of all. Sections of a mesh are "mesh sun-planet".
+struct SystemKeys {
+  std::vector<std::string> gears;
+  struct Row {
+    std::string section, name;
+    std::vector<std::string> value;  // [gear], or one
+    std::string meaning;
+  };
+  std::vector<Row> rows;
+};
+// moving: with what concerns motion; nullptr: without. Positions, torques and what is held are left out.
+SystemKeys scene_keys_of(const SystemStaticArtifact& artifact, const SystemSweepArtifact* moving);
 
 // What two maps were made from that differs, in a scene's keys and units: "bore_radius_mm 40 -> 35"; "" if nothing
 // does. Gears by the driver's, if both gears changed alike.

@@ -186,6 +186,16 @@ System layout_from(const Source& source) {
   for (const System::Mesh& mesh : out.meshes)
     if (!there(mesh.side[0].body) || !there(mesh.side[1].body))
       source.reject(text("a [[mesh]] names a body that is not there; there are ", bodies));
+  for (const System::Body& body : out.bodies)
+    if (body.kind == System::BodyKind::gear && body.teeth == 0)
+      source.reject(text("[[body]] '", body.name, "' is a gear with teeth = 0; it must have 1 at least"));
+  for (const System::Mesh& mesh : out.meshes)
+    for (const System::Side& side : mesh.side)
+      if (mesh.side[0].body == mesh.side[1].body ||
+          out.bodies[static_cast<size_t>(side.body)].kind == System::BodyKind::carrier)
+        source.reject(text("a [[mesh]] of '", out.bodies[static_cast<size_t>(mesh.side[0].body)].name,
+                           "' and '", out.bodies[static_cast<size_t>(mesh.side[1].body)].name,
+                           "' is not of two gears that differ"));
   for (const System::Drive& drive : out.drives)
     if (!there(drive.body))
       source.reject(text("a [[drive]] names a body that is not there; there are ", bodies));

@@ -25,9 +25,21 @@ std::vector<const toml::table*> list_of(const Source& source, const std::string&
   return out;
 }
 
-// hunting: mesh periods after which the same teeth meet again.
+// Mesh periods after which the same teeth of all gears meet again, their least common multiple, in words: eleven prime numbers of
+// teeth have one beyond 64 bits.
+std::string hunting_words(const Scene& gears) {
+  constexpr long kMost = 1000000000;
+  long hunting = 1;
+  for (const SceneGear& own : gears.gears) {
+    const long teeth = own.design.teeth, factor = teeth / std::gcd(hunting, teeth);
+    if (hunting > kMost / factor) return text("more than ", kMost);
+    hunting *= factor;
+  }
+  return text(hunting);
+}
+
 void reject_unlike_teeth(const Source& source, const toml::table& table, const SceneGear& gear, bool rigid,
-                         long hunting) {
+                         const std::string& hunting) {
   for (const char* key : {"modification", "error", "crack"}) {
     const toml::node* node = table.get(key);
     if (node && rigid)
@@ -47,8 +59,7 @@ void take_gears(const Source& source, SystemScene& scene) {
   Scene gears;
   const bool rigid = scene.rigid();
   read_gears(source, gears, rigid);
-  long hunting = 1;
-  for (const SceneGear& own : gears.gears) hunting = std::lcm(hunting, long{own.design.teeth});
+  const std::string hunting = hunting_words(gears);
   for (const SceneGear& own : gears.gears) {
     SystemScene::Gear gear;
     static_cast<SceneGear&>(gear) = own;

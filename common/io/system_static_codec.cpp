@@ -116,6 +116,29 @@ void describe_loads(Codec& c, SystemStaticArtifact& a) {
       &a.mesh_stiffness);
 }
 
+// What figures and pages take for granted: one phase, mesh and pair at least, and of each gear the drawing with its teeth.
+void require_whole(const Codec& c, const SystemStaticArtifact& a) {
+  const auto reject = [&](const auto&... words) { c.in()->file().reject(text(words...)); };
+  const System& layout = a.settings.layout;
+  if (a.mesh_phase.size() == 0) reject("dataset /mesh_phase holds no phase");
+  if (a.pair.size() == 0) reject("dataset /pair holds no pair");
+  if (layout.meshes.empty()) reject("dataset /mesh/phase holds no mesh");
+  if (a.settings.gear.size() != layout.bodies.size())
+    reject("dataset /body/gear has not one name for each body");
+  const std::vector<std::string> gears = a.settings.gears();
+  for (size_t b = 0; b < layout.bodies.size(); ++b) {
+    const bool carrier = layout.bodies[b].kind == System::BodyKind::carrier;
+    if (carrier ? !a.settings.gear[b].empty()
+                : std::find(gears.begin(), gears.end(), a.settings.gear[b]) == gears.end())
+      reject("dataset /body/gear holds '", a.settings.gear[b], "' of body ", b,
+             "; it is one of /gear, or empty of a carrier");
+    if (const BodyParameters* drawing = drawing_of(a, static_cast<int>(b));
+        !carrier && drawing->design.teeth != layout.bodies[b].teeth)
+      reject("dataset /body/teeth holds ", layout.bodies[b].teeth, " of body ", b, ", and its drawing has ",
+             drawing->design.teeth);
+  }
+}
+
 }  // namespace
 
 void describe(Codec& c, SystemStaticArtifact& a) {
@@ -135,18 +158,7 @@ void describe(Codec& c, SystemStaticArtifact& a) {
              "largest unbalance of a free body's rotation over the largest mesh force", "mesh_phase",
              kPositive, "|L^T p - T / r|"},
             &a.torque_residual);
-  if (!c.in()) return;
-  const size_t bodies = a.settings.layout.bodies.size();
-  if (a.settings.gear.size() != bodies)
-    c.in()->file().reject("dataset /body/gear has not one name for each body");
-  for (size_t b = 0; b < bodies; ++b) {
-    const std::vector<std::string> gears = a.settings.gears();
-    const bool carrier = a.settings.layout.bodies[b].kind == System::BodyKind::carrier;
-    if (carrier ? !a.settings.gear[b].empty()
-                : std::find(gears.begin(), gears.end(), a.settings.gear[b]) == gears.end())
-      c.in()->file().reject(text("dataset /body/gear holds '", a.settings.gear[b], "' of body ", b,
-                                 "; it is one of /gear, or empty of a carrier"));
-  }
+  if (c.in()) require_whole(c, a);
 }
 
 void write(const std::string& path, const SystemStaticArtifact& a, const Provenance& provenance) {

@@ -146,6 +146,9 @@ void describe(Codec& c, SystemSweepArtifact& a) {
   describe_meshes(c, a);
   describe_bodies(c, a);
   describe_solution(c, a);
+  if (!c.in()) return;
+  if (a.mesh_frequency.size() == 0) c.in()->file().reject("dataset /mesh_frequency holds no speed");
+  if (a.settings.layout.meshes.empty()) c.in()->file().reject("dataset /mesh/phase holds no mesh");
 }
 
 void write(const std::string& path, const SystemSweepArtifact& a, const Provenance& provenance) {

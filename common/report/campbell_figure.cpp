@@ -29,7 +29,7 @@ Figure campbell_figure(const ModesArtifact& a) {
     outside =
         outside ||
         (bands && (f < a.frozen_frequency.col(i).minCoeff() || f > a.frozen_frequency.col(i).maxCoeff()));
-    highest = std::max(highest, bands ? a.frozen_frequency.col(i).maxCoeff() : f);
+    highest = std::max({highest, f, bands ? a.frozen_frequency.col(i).maxCoeff() : f});
     modes.rows.push_back({number, f, bands ? a.frozen_frequency.col(i).minCoeff() : f,
                           bands ? a.frozen_frequency.col(i).maxCoeff() : f,
                           static_cast<double>(static_cast<int>(a.type[static_cast<size_t>(i)]))});
@@ -57,13 +57,11 @@ Figure campbell_figure(const ModesArtifact& a) {
                  : "meshes at their mean stiffness"));
   if (outside)
     figure.notes.emplace_back(
-        "a line may lie outside its band: at one phase the meshes differ from planet to planet, which parts "
-        "near "
-        "frequencies; their mean stiffness does not");
+        text("bands by rank: a line may lie outside of its own, because at one phase the meshes differ ",
+             "from planet to planet, which parts near frequencies"));
   figure.notes.emplace_back(
-      "points: mesh frequencies at which a harmonic of the meshes meets a natural frequency; frame of the "
-      "carrier at rest, without "
-      "Coriolis terms");
+      text("points: mesh frequencies at which a harmonic of the meshes meets a natural frequency; frame ",
+           "of the carrier at rest, without Coriolis terms"));
   return figure;
 }
 

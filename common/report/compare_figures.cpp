@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "report/figure_words.h"
 #include "report/response_figures.h"
 
 namespace whine {
@@ -29,19 +30,6 @@ void require_designs(const std::vector<OfDesign<Artifact>>& all, size_t designs)
       fail(Failure::input, "figure: the ", kind_of(one.artifact), " of ", one.design, " is at ",
            torque_words(one.artifact.torque), ", that of ", all[0].design, " at ",
            torque_words(all[0].artifact.torque), "; designs are compared at one torque");
-}
-
-std::string quoted_labels(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += "'" + name + "' ";
-  return out;
-}
-
-// Notes as the picture has them: names of designs without marks, behind them notes with the marks of gnuplot.
-void add_lines(size_t names, Figure& figure) {
-  for (size_t i = 0; i < figure.notes.size(); ++i)
-    figure.words.emplace_back(text("line", i + 1),
-                              i < names ? without_markup(figure.notes[i]) : figure.notes[i]);
 }
 
 }  // namespace

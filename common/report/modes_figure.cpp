@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/system_layout.h"
 
 namespace whine {
 
@@ -15,14 +16,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kPoints = 72, kColumns = 5;
 
-// m: of the circle that a gear is drawn as, the working pitch circle of its first mesh; of a carrier that of its pins.
-double drawn_radius(const System& s, int b) {
-  for (const System::Mesh& mesh : s.meshes)
-    for (const System::Side& side : mesh.side)
-      if (side.body == b) return s.bodies[static_cast<size_t>(b)].radius / std::cos(mesh.pressure_angle);
-  return s.bodies[static_cast<size_t>(b)].radius;
-}
-
 // Colours of the template: 0 central gears, 1 planets, 2 carriers.
 double colour_of(const System::Body& body) {
   return body.kind == System::BodyKind::carrier ? 2 : body.on == System::kGround ? 0 : 1;
@@ -32,7 +25,7 @@ double colour_of(const System::Body& body) {
 void draw_body(const System& s, int b, const Eigen::RowVector3d& motion, double scale,
                std::vector<std::vector<double>>& rows) {
   const System::Body& body = s.bodies[static_cast<size_t>(b)];
-  const double turn = body.sense * scale * motion[0] / body.radius, radius = drawn_radius(s, b);
+  const double turn = body.sense * scale * motion[0] / body.radius, radius = working_radius(s, b);
   const double x = body.centre[0] + scale * motion[1], y = body.centre[1] + scale * motion[2];
   const auto point = [&](double px, double py) {
     rows.push_back({(x + px) * kMilli, (y + py) * kMilli, colour_of(body)});
@@ -52,11 +45,7 @@ void draw_body(const System& s, int b, const Eigen::RowVector3d& motion, double 
     point(radius * std::cos(2 * kPi * i / kPoints), radius * std::sin(2 * kPi * i / kPoints));
   rows.emplace_back();
   // Of a gear with teeth inside the mark stands outside of the others.
-  const bool ring = std::any_of(s.bodies.begin(), s.bodies.end(), [&](const System::Body& other) {
-    return std::hypot(other.centre[0] - body.centre[0], other.centre[1] - body.centre[1]) > 1e-6 * radius &&
-           std::hypot(other.centre[0] - body.centre[0], other.centre[1] - body.centre[1]) < radius &&
-           body.on == System::kGround;
-  });
+  const bool ring = is_ring(s, b);
   const double from = ring ? radius : 0, to = ring ? 1.12 * radius : radius, angle = turn + 0.25 * kPi;
   point(from * std::cos(angle), from * std::sin(angle));
   point(to * std::cos(angle), to * std::sin(angle));
@@ -74,7 +63,7 @@ Extent extent_of(const System& s) {
   Extent e;
   for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b) {
     const auto& centre = s.bodies[static_cast<size_t>(b)].centre;
-    const double r = drawn_radius(s, b);
+    const double r = working_radius(s, b);
     e.left = std::min(e.left, (centre[0] - r) * kMilli);
     e.right = std::max(e.right, (centre[0] + r) * kMilli);
     e.low = std::min(e.low, (centre[1] - r) * kMilli);
@@ -134,7 +123,7 @@ Figure modes_figure(const ModesArtifact& a) {
       draw_body(s, b, shape.row(b), scale, block.rows);
     figure.blocks.push_back(block);
     figure.words.emplace_back(text("panel", panels),
-                              text(fixed(a.natural_frequency[i], 1), " Hz, ",
+                              text(shown(a.natural_frequency[i], 5), " Hz, ",
                                    name_of(a.type[static_cast<size_t>(i)]), equal(i + 1) ? " (double)" : ""));
   }
   figure.notes.push_back(
@@ -143,9 +132,8 @@ Figure modes_figure(const ModesArtifact& a) {
            " of them free motions (0 Hz, not drawn)",
            left_out ? text("; the shapes of ", left_out, " higher frequencies are not drawn") : ""));
   figure.notes.push_back(
-      "blue: central gears, orange: planets, green: carrier, grey: at rest; a radius of each gear, of a ring "
-      "a mark outside, shows its "
-      "rotation; of a double mode one shape");
+      text("blue: central gears, orange: planets, green: carrier, grey: at rest; a radius of each gear, ",
+           "of a ring a mark outside, shows its rotation; of a double mode one shape"));
   figure.notes.push_back(
       "shapes are magnified, the largest motion of each to the same size; frame of the carrier at rest, "
       "without Coriolis terms");

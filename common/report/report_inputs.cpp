@@ -1,6 +1,8 @@
 #include "report/report_inputs.h"
 
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -13,6 +15,7 @@
 #include "io/static_codec.h"
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
 #include "signal/response.h"
 #include "studies/sweep.h"
 #include "studies/sweep_losses.h"
@@ -67,10 +70,30 @@ bool is_of_system(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (path.ends_with(".png")) continue;
     const std::string schema = read_origin(path).schema;
-    if (schema == "whine/system_static" || schema == "whine/modes") return true;
+    if (schema == "whine/system_static" || schema == "whine/modes" || schema == "whine/system_sweep")
+      return true;
   }
   return false;
 }
+
+namespace {
+
+// Artifacts that were made from different versions of one file do not belong together: modes of other statics, sweeps with
+// other bodies.
+void require_one_origin(const std::vector<ReportSource>& sources) {
+  std::map<std::string, std::pair<std::string, std::string>>
+      seen;  // [path] SHA-256, and which artifact says so
+  for (const ReportSource& source : sources) seen[source.path] = {source.sha256, source.path};
+  for (const ReportSource& source : sources)
+    for (const InputRecord& input : source.origin.inputs) {
+      const auto [at, first] = seen.try_emplace(input.path, input.sha256, source.path);
+      if (!first && at->second.first != input.sha256)
+        fail(Failure::input, source.path, ": was made from another ", input.path, " than ", at->second.second,
+             "; make both again from one");
+    }
+}
+
+}  // namespace
 
 SystemReport read_system_report(const std::vector<std::string>& paths) {
   SystemReport report;
@@ -81,10 +104,14 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
     }
     take_source(path, report);
     const std::string& schema = report.sources.back().origin.schema;
+    if (schema == "whine/system_sweep") {
+      report.sweeps.push_back(read_system_sweep(path));
+      continue;
+    }
     const bool rest = schema == "whine/system_static";
     if (!rest && schema != "whine/modes")
       fail(Failure::usage, path, ": is ", schema,
-           "; the report of a system is made of system_static.h5 and modes.h5");
+           "; the report of a system is made of system_static.h5, modes.h5 and system_sweep.h5");
     if (rest ? report.rest.has_value() : report.modes.has_value())
       fail(Failure::usage, path, ": a second ", schema, "; give one of each");
     if (rest)
@@ -92,6 +119,7 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
     else
       report.modes = read_modes(path);
   }
+  require_one_origin(report.sources);
   if (report.scene.empty()) report.scene = "system of gears";
   return report;
 }

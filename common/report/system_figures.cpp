@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "report/figure_words.h"
 #include "report/system_picture.h"
 #include "signal/spectrum.h"
 #include "system/rigid_system.h"
@@ -30,15 +31,17 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
   }
   FigureBlock period{quantity, {"mesh_phase [1]"}, {}, "period " + quantity},
       spectrum{quantity + " harmonics", {"harmonic [1]"}, {}, "harmonics " + quantity};
-  std::string labels;
+  std::vector<std::string> labels;
   std::vector<Harmonics> of;
+  labels.reserve(curves.size());
+  of.reserve(curves.size());
   const Index n = a.mesh_phase.size();
   const int count = resolved_harmonics(n, kShownHarmonics);
   double low = curves[0].values.minCoeff(), high = curves[0].values.maxCoeff(), most = 0;
   for (const Curve& curve : curves) {
     period.columns.push_back(text(quantity, " ", curve.name, " [", unit, "]"));
     spectrum.columns.push_back(text("amplitude ", curve.name, " [", unit, "]"));
-    labels += "'" + curve.name + "' ";
+    labels.push_back(short_name(curve.name));
     of.push_back(harmonics(curve.values, count));
     low = std::min(low, curve.values.minCoeff());
     high = std::max(high, curve.values.maxCoeff());
@@ -66,7 +69,7 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
         std::pair{"high", high + room}, std::pair{"most", std::max(1.08 * most, 1e-4 * size)}})
     figure.numbers.emplace_back(name + row, value);
   for (const auto& [name, word] : {std::pair{"quantity", quantity}, std::pair{"axis", axis},
-                                   std::pair{"unit", unit}, std::pair{"labels", labels}})
+                                   std::pair{"unit", unit}, std::pair{"labels", quoted_labels(labels)}})
     figure.words.emplace_back(name + row, word);
 }
 
@@ -77,6 +80,13 @@ std::string sharing_words(const SystemStaticArtifact& a) {
     out += text(out.empty() ? "load sharing factor (largest share times planets): " : ", ", of.name, " ",
                 fixed(of.factor, 3), " (by mean shares ", fixed(of.mean_factor, 3), ")");
   return out;
+}
+
+// The height of a picture grows with its notes, 24 pixels each.
+void finish_notes(int height, Figure& figure) {
+  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
+  figure.height = height + 24 * static_cast<int>(figure.notes.size());
+  add_lines(figure.notes.size(), figure);
 }
 
 }  // namespace
@@ -105,13 +115,17 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
   const System& s = a.settings.layout;
   Figure figure;
   figure.title = "A system at rest: transmission errors, mesh forces, bearing forces";
-  figure.notes.push_back(bodies_words(s, a.torque.colwise().mean().transpose()));
-  if (const std::string sharing = sharing_words(a); !sharing.empty()) figure.notes.push_back(sharing);
+  figure.notes = in_lines(bodies_words(s, a.torque.colwise().mean().transpose()));
+  if (const std::string sharing = sharing_words(a); !sharing.empty())
+    for (const std::string& line : in_lines(sharing)) figure.notes.push_back(line);
   figure.notes.emplace_back(
-      "transmission error along the line of action, what bearings give way included; mesh force: torque on "
-      "the driving gear over its base radius");
-  figure.notes.emplace_back("bearing force: its size, of rigid axes, too");
+      "transmission error along the line of action, with the displacements of the bearings; mesh force: "
+      "torque on the driving gear over its base radius");
+  figure.notes.emplace_back("bearing force: its magnitude; on a rigid axis the sum of the contact forces");
   std::vector<Curve> errors, forces, bearings;
+  errors.reserve(s.meshes.size());
+  forces.reserve(s.meshes.size());
+  bearings.reserve(s.bodies.size());
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     errors.push_back({mesh_name(s, m), a.transmission_error.col(static_cast<Index>(m)) * kMicro});
     forces.push_back({mesh_name(s, m), a.mesh_force.col(static_cast<Index>(m))});
@@ -127,18 +141,18 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
   add_row(a, "bearing_force", "Bearing force", "N", std::move(bearings), figure);
   figure.numbers.emplace_back("harmonics",
                               static_cast<double>(resolved_harmonics(a.mesh_phase.size(), kShownHarmonics)));
-  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
-  figure.height = 1640;
+  finish_notes(1520, figure);
   return figure;
 }
 
 namespace {
 
-// Loads of the tooth pairs of one mesh that carry load, over a mesh period of its own: pairs are numbered anew where it begins.
-FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::string& name) {
+// Loads of the tooth pairs of one mesh that carry load, over a mesh period of its own from 0 to 1: pairs are numbered anew where
+// it begins, so that pair p at 1 is pair p + 1 at 0. Between positions of the statics the ends are interpolated.
+FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::string& table) {
   const Index n = a.mesh_phase.size(), pairs = a.pair.size();
   const auto mesh = static_cast<Index>(m);
-  FigureBlock block{name, {"phase of the mesh [1]"}, {}, name};
+  FigureBlock block{table, {text("phase of ", mesh_name(a.settings.layout, m), " [1]")}, {}, table};
   std::vector<Index> loaded;
   for (Index p = 0; p < pairs; ++p) {
     double most = 0;
@@ -148,25 +162,58 @@ FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::strin
     block.columns.push_back(text("load of pair ", a.pair[p], " [N]"));
   }
   // shift: mesh periods by which the row is moved; a pair is then where the one `shift` before it was.
-  const auto add = [&](double phase, size_t at, Index shift) {
+  const auto row_of = [&](double phase, size_t at, Index shift) {
     std::vector<double> row{phase + static_cast<double>(shift)};
+    row.reserve(loaded.size() + 1);
     for (const Index p : loaded) {
       const Index from = p + shift;
       row.push_back(from >= 0 && from < pairs ? a.tooth_load[at](mesh, from) : 0);
     }
-    block.rows.push_back(row);
+    return row;
   };
   std::vector<std::pair<double, size_t>> order;
   order.reserve(static_cast<size_t>(n));
   for (Index i = 0; i < n; ++i) {
-    const double own = a.mesh_phase[i] + a.settings.layout.meshes[m].phase;
-    order.emplace_back(own - std::floor(own), static_cast<size_t>(i));
+    const double own = a.mesh_phase[i] + a.settings.layout.meshes[m].phase, in_period = own - std::floor(own);
+    // A phase that round-off keeps below 1 is 0.
+    order.emplace_back(in_period > 1 - 1e-9 ? 0 : in_period, static_cast<size_t>(i));
   }
   std::sort(order.begin(), order.end());
-  add(order.back().first, order.back().second, -1);
-  for (const auto& [phase, at] : order) add(phase, at, 0);
-  add(order.front().first, order.front().second, 1);
+  const double first = order.front().first, last = order.back().first;
+  const size_t at_first = order.front().second, at_last = order.back().second;
+  // At `end`, 0 or 1, between the last position before it and the first one behind it.
+  const auto end_row = [&](Index end) {
+    const std::vector<double> before = row_of(last, at_last, end - 1), behind = row_of(first, at_first, end);
+    const double share = (static_cast<double>(end) - before[0]) / (behind[0] - before[0]);
+    std::vector<double> row{static_cast<double>(end)};
+    row.reserve(before.size());
+    for (size_t c = 1; c < before.size(); ++c) row.push_back((1 - share) * before[c] + share * behind[c]);
+    return row;
+  };
+  block.rows.reserve(static_cast<size_t>(n) + 2);
+  if (first > 0) block.rows.push_back(end_row(0));
+  for (const auto& [phase, at] : order) block.rows.push_back(row_of(phase, at, 0));
+  block.rows.push_back(end_row(1));
   return block;
+}
+
+// The shares of the meshes of one [[mesh]], `shown` of them, over the mesh period.
+FigureBlock shares_block(const SystemStaticArtifact& a, const LoadSharing& of, size_t shown,
+                         const std::string& table) {
+  const Index n = a.mesh_phase.size();
+  FigureBlock shares{table, {"mesh_phase [1]"}, {}, table};
+  shares.columns.reserve(shown + 1);
+  for (size_t i = 0; i < shown; ++i)
+    shares.columns.push_back("share of the load " + mesh_name(a.settings.layout, of.meshes[i]) + " [%]");
+  shares.rows.reserve(static_cast<size_t>(n) + 1);
+  for (Index i = 0; i <= n; ++i) {
+    std::vector<double> values{i < n ? a.mesh_phase[i] : 1.0};
+    values.reserve(shown + 1);
+    for (size_t j = 0; j < shown; ++j)
+      values.push_back(a.load_share(i < n ? i : 0, static_cast<Index>(of.meshes[j])) * kPercent);
+    shares.rows.push_back(values);
+  }
+  return shares;
 }
 
 }  // namespace
@@ -177,56 +224,51 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
     fail(Failure::input,
          "figure: no [[mesh]] of the system stands for those of several planets, so none shares its load "
          "with another; system-static has the forces of all meshes");
-  const Index n = a.mesh_phase.size();
   Figure figure;
   figure.title = "Load sharing among planets, at rest";
-  figure.notes = {
-      bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()), sharing_words(a),
+  figure.notes = in_lines(bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()));
+  for (const std::string& line : in_lines(sharing_words(a))) figure.notes.push_back(line);
+  figure.notes.emplace_back(
       "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first "
-      "mesh over a period of its own, 0: reference pair at the pitch point"};
+      "mesh over a period of its own, 0: reference pair at the pitch point");
   double low = 100, high = 0;
   for (size_t k = 0; k < sharing.size(); ++k) {
     const LoadSharing& of = sharing[k];
     const std::string row = std::to_string(k + 1);
     const size_t shown = std::min(of.meshes.size(), kMostLines);
-    FigureBlock shares{"share " + of.name, {"mesh_phase [1]"}, {}, "share " + of.name};
-    std::string labels;
-    for (size_t i = 0; i < shown; ++i) {
-      const std::string name = mesh_name(a.settings.layout, of.meshes[i]);
-      shares.columns.push_back("share of the load " + name + " [%]");
-      labels += name + " ";
-      const auto column = a.load_share.col(static_cast<Index>(of.meshes[i]));
+    if (shown < of.meshes.size())
+      figure.notes.push_back(
+          text(of.name, ": the shares of the first ", shown, " of ", of.meshes.size(), " meshes"));
+    std::vector<std::string> labels;
+    labels.reserve(shown);
+    for (size_t i = 0; i < shown; ++i)
+      labels.push_back(short_name(mesh_name(a.settings.layout, of.meshes[i])));
+    for (const size_t m : of.meshes) {
+      const auto column = a.load_share.col(static_cast<Index>(m));
       low = std::min(low, column.minCoeff() * kPercent);
       high = std::max(high, column.maxCoeff() * kPercent);
     }
-    for (Index i = 0; i <= n; ++i) {
-      std::vector<double> values{i < n ? a.mesh_phase[i] : 1.0};
-      values.reserve(shown + 1);
-      for (size_t j = 0; j < shown; ++j)
-        values.push_back(a.load_share(i < n ? i : 0, static_cast<Index>(of.meshes[j])) * kPercent);
-      shares.rows.push_back(values);
-    }
-    const FigureBlock loads = pair_loads(a, of.meshes[0], "loads " + of.name);
+    // By number: names may be long, and tables become files.
+    figure.blocks.push_back(shares_block(a, of, shown, "share " + row));
+    const FigureBlock loads = pair_loads(a, of.meshes[0], "loads " + row);
     std::string pairs;
     for (size_t j = 1; j < loads.columns.size(); ++j)
       pairs += loads.columns[j].substr(8, loads.columns[j].size() - 8 - 4) + "|";
-    figure.words.insert(figure.words.end(), {{"name" + row, of.name},
-                                             {"labels" + row, labels},
-                                             {"pairs" + row, pairs},
-                                             {"first" + row, mesh_name(a.settings.layout, of.meshes[0])}});
+    figure.words.insert(figure.words.end(),
+                        {{"labels" + row, quoted_labels(labels)},
+                         {"pairs" + row, pairs},
+                         {"first" + row, short_name(mesh_name(a.settings.layout, of.meshes[0]))}});
     figure.numbers.insert(figure.numbers.end(),
                           {{"curves" + row, static_cast<double>(shown)},
                            {"equal" + row, kPercent / static_cast<double>(of.meshes.size())},
                            {"loads" + row, static_cast<double>(loads.columns.size() - 1)}});
-    figure.blocks.push_back(shares);
     figure.blocks.push_back(loads);
   }
   const double room = std::max(0.12 * (high - low), 0.5);
-  figure.numbers.insert(figure.numbers.end(), {{"rows", static_cast<double>(sharing.size())},
-                                               {"low", low - room},
-                                               {"high", high + room},
-                                               {"notes", static_cast<double>(figure.notes.size())}});
-  figure.height = 190 + 470 * static_cast<int>(sharing.size());
+  figure.numbers.insert(
+      figure.numbers.end(),
+      {{"rows", static_cast<double>(sharing.size())}, {"low", low - room}, {"high", high + room}});
+  finish_notes(118 + 470 * static_cast<int>(sharing.size()), figure);
   return figure;
 }
 

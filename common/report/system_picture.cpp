@@ -8,6 +8,7 @@
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_contour.h"
+#include "report/figure_words.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -18,6 +19,7 @@ using Eigen::Index;
 constexpr double kPi = std::numbers::pi;
 constexpr int kFlankPoints = 10, kCirclePoints = 180;
 constexpr size_t kMostCloseUps = 3;
+constexpr double kSmallTorque = 10;  // N m: torques below it are shown with three digits
 
 // What is drawn, and of which bodies the drawing is known.
 struct Train {
@@ -35,14 +37,13 @@ Vec2 centre_of(const System::Body& body) {
   return {body.centre[0], body.centre[1]};
 }
 
-double working_radius(const System::Body& body, const System::Mesh& mesh) {
+double radius_in(const System::Body& body, const System::Mesh& mesh) {
   return body.radius / std::cos(mesh.pressure_angle);
 }
 
 Vec2 pitch_point(const System& s, const System::Mesh& mesh) {
   const System::Body& first = body_of(s, mesh.side[0].body);
-  return centre_of(first) +
-         working_radius(first, mesh) * Vec2(std::cos(mesh.direction), std::sin(mesh.direction));
+  return centre_of(first) + radius_in(first, mesh) * Vec2(std::cos(mesh.direction), std::sin(mesh.direction));
 }
 
 // m: of all that is drawn of a gear.
@@ -52,12 +53,13 @@ double outer_radius(const Train& t, int b) {
   double out = 0;
   for (const System::Mesh& mesh : t.layout.meshes)
     for (const System::Side& side : mesh.side)
-      if (side.body == b) out = std::max(out, working_radius(body_of(t.layout, b), mesh));
+      if (side.body == b) out = std::max(out, radius_in(body_of(t.layout, b), mesh));
   return 1.04 * out;
 }
 
 struct Blocks {
-  FigureBlock rim{"rim", {"x [mm]", "y [mm]"}, {}}, hollow{"hollow", {"x [mm]", "y [mm]"}, {}},
+  FigureBlock rim{"rim", {"x [mm]", "y [mm]"}, {}}, second_rim{"second_rim", {"x [mm]", "y [mm]"}, {}},
+      hollow{"hollow", {"x [mm]", "y [mm]"}, {}}, second_hollow{"second_hollow", {"x [mm]", "y [mm]"}, {}},
       central{"central", {"x [mm]", "y [mm]"}, {}}, planets{"planets", {"x [mm]", "y [mm]"}, {}},
       bores{"bores", {"x [mm]", "y [mm]"}, {}}, circles{"circles", {"x [mm]", "y [mm]"}, {}},
       planet_circles{"planet_circles", {"x [mm]", "y [mm]"}, {}},
@@ -67,8 +69,8 @@ struct Blocks {
 
   // What there is; the template knows by has_<name>.
   void put(Figure& figure) {
-    for (FigureBlock* block : {&rim, &hollow, &central, &planets, &bores, &circles, &planet_circles, &carrier,
-                               &arcs, &heads, &paths}) {
+    for (FigureBlock* block : {&rim, &second_rim, &hollow, &second_hollow, &central, &planets, &bores,
+                               &circles, &planet_circles, &carrier, &arcs, &heads, &paths}) {
       figure.numbers.emplace_back("has_" + block->name, block->rows.empty() ? 0 : 1);
       if (block->rows.empty()) continue;
       block->drawing = true;
@@ -105,23 +107,25 @@ void add_arrow(Blocks& out, const System::Body& body, double r) {
 void add_gear(const Train& t, int b, Blocks& out) {
   const System::Body& body = body_of(t.layout, b);
   const Placement at{body.angle, centre_of(body)};
-  FigureBlock& own = t.second[static_cast<size_t>(b)] ? out.planets : out.central;
+  const bool second = t.second[static_cast<size_t>(b)];
   if (const GearDesign* design = t.design[static_cast<size_t>(b)]) {
     const ToothGeometry tooth(*design);
     const std::vector<Vec2> contour = gear_contour(tooth, kFlankPoints);
     const auto held = circle_contour(design->held_radius(), kCirclePoints);
     // The body of a ring lies between two areas.
-    add_closed(design->internal ? out.hollow : own, contour, at);
-    add_closed(design->internal ? out.rim : out.bores, held, at);
+    FigureBlock &rim = second ? out.second_rim : out.rim, &hollow = second ? out.second_hollow : out.hollow,
+                &whole = second ? out.planets : out.central;
+    add_closed(design->internal ? hollow : whole, contour, at);
+    add_closed(design->internal ? rim : out.bores, held, at);
     add_arrow(out, body, 0.5 * (design->held_radius() + tooth.root_radius()));
     return;
   }
-  FigureBlock& circles = t.second[static_cast<size_t>(b)] ? out.planet_circles : out.circles;
+  FigureBlock& circles = second ? out.planet_circles : out.circles;
   double radius = 0;
   for (const System::Mesh& mesh : t.layout.meshes)
     for (const System::Side& side : mesh.side)
       if (side.body == b) {
-        radius = working_radius(body, mesh);
+        radius = radius_in(body, mesh);
         add_closed(circles, circle_contour(radius, kCirclePoints), at);
       }
   const double tick = 0.5 * radius / body.teeth;  // a quarter of a module
@@ -197,7 +201,7 @@ void add_labels(const Train& t, Figure& figure) {
     }
     figure.numbers.emplace_back("label_x" + number, x * kMilli);
     figure.numbers.emplace_back("label_y" + number, y * kMilli);
-    figure.words.emplace_back("label" + number, text(body.name, "\n", body.teeth));
+    figure.words.emplace_back("label" + number, text(short_name(body.name), "\n", body.teeth));
   }
   figure.numbers.emplace_back("labels", count);
 }
@@ -205,29 +209,41 @@ void add_labels(const Train& t, Figure& figure) {
 // The first mesh of each [[mesh]], about its pitch point.
 size_t add_close_ups(const Train& t, Figure& figure) {
   std::vector<int> seen;
-  for (size_t m = 0; m < t.section.size() && seen.size() < kMostCloseUps; ++m) {
+  for (size_t m = 0; m < t.section.size(); ++m) {
     if (std::find(seen.begin(), seen.end(), t.section[m]) != seen.end()) continue;
     seen.push_back(t.section[m]);
+    if (seen.size() > kMostCloseUps) continue;
     const System::Mesh& mesh = t.layout.meshes[m];
     const GearDesign* design = t.design[static_cast<size_t>(mesh.side[0].body)];
+    if (!design)
+      fail(Failure::input, "figure: no drawing is known of '", body_of(t.layout, mesh.side[0].body).name,
+           "', which has a mesh");
     const Vec2 at = pitch_point(t.layout, mesh);
     const std::string number = std::to_string(seen.size());
     figure.numbers.emplace_back("close_x" + number, at.x() * kMilli);
     figure.numbers.emplace_back("close_y" + number, at.y() * kMilli);
     figure.numbers.emplace_back("close_half" + number, 1.5 * kPi * design->module * kMilli);
-    figure.words.emplace_back("close" + number,
-                              text(mesh_name(t.layout, m), ", mesh phase ", fixed(mesh.phase, 3)));
+    figure.words.emplace_back(
+        "close" + number, text(short_name(mesh_name(t.layout, m)), ", mesh phase ", fixed(mesh.phase, 3)));
   }
-  return seen.size();
+  const size_t drawn = std::min(seen.size(), kMostCloseUps);
+  if (drawn < seen.size())
+    figure.notes.push_back(text("close-ups: the first ", drawn, " of ", seen.size(), " [[mesh]]"));
+  return drawn;
 }
 
 // Places of the panels on the picture in pixels from its top left; its height.
 void place_panels(const Box& e, size_t close_ups, Figure& figure) {
-  constexpr double kTop = 120, kLeft = 150, kWidth = 1600, kClose = 400, kGap = 70;
+  constexpr double kTop = 120, kLeft = 150, kWidth = 1600, kClose = 400, kGap = 70,
+                   kTallest = 3 * kClose + 2 * kGap;
   constexpr int kLine = 24;
   const double aspect = (e.right - e.left) / (e.high - e.low);
   const bool beside = aspect < 1.5;
-  double width = close_ups == 0 ? std::min(1300.0, 940 * aspect) : beside ? 910 : 1400, high = width / aspect;
+  // A tall train is bounded by the height of the three close-ups beside it.
+  const double width = close_ups == 0 ? std::min(1300.0, 940 * aspect)
+                       : beside       ? std::min(910.0, kTallest * aspect)
+                                      : 1400,
+               high = width / aspect;
   const auto count = static_cast<double>(close_ups);
   double left = kLeft, bottom = kTop + high;
   if (close_ups == 0) left = 0.5 * (kWidth - width);
@@ -251,6 +267,7 @@ void place_panels(const Box& e, size_t close_ups, Figure& figure) {
                                                {"high", e.high},
                                                {"notes", static_cast<double>(figure.notes.size())}});
   figure.height = static_cast<int>(bottom) + 105 + kLine * static_cast<int>(figure.notes.size());
+  add_lines(figure.notes.size(), figure);
 }
 
 FigureBlock bodies_block(const System& s) {
@@ -290,20 +307,22 @@ Figure picture_of(Train t, const Eigen::VectorXd& torque) {
   blocks.put(figure);
   std::string numbers = "bodies of the table:";
   for (size_t b = 0; b < t.layout.bodies.size(); ++b)
-    numbers += text(b == 0 ? " " : ", ", b, " ", t.layout.bodies[b].name);
-  figure.notes.push_back(bodies_words(t.layout, torque));
+    numbers += text(b == 0 ? " " : ", ", b, " ", short_name(t.layout.bodies[b].name));
+  figure.notes = in_lines(bodies_words(t.layout, torque));
   const bool carriers = std::any_of(t.layout.bodies.begin(), t.layout.bodies.end(),
                                     [](const auto& body) { return body.kind == System::BodyKind::carrier; });
   figure.notes.push_back(
       torque.size() > 0
           ? "unloaded at mesh phase 0; black: paths of contact; below a name its number of teeth"
           : "rigid gears: a working pitch circle for each mesh, a tick at each tooth; black: lines of "
-            "action, two base pitches long; below a name its number of teeth");
+            "action, one base pitch long; below a name its number of teeth");
   figure.notes.push_back(
-      text("arrows: senses of rotation", carriers ? ", as the carrier sees them; green: its arms" : ""));
-  figure.notes.push_back(numbers);
+      text("arrows: senses of rotation",
+           carriers ? " relative to the carrier, which stands still here; green: its arms" : ""));
+  for (const std::string& line : in_lines(numbers)) figure.notes.push_back(line);
   add_labels(t, figure);
-  place_panels(extent_of(t), add_close_ups(t, figure), figure);
+  const size_t close_ups = add_close_ups(t, figure);
+  place_panels(extent_of(t), close_ups, figure);
   return figure;
 }
 
@@ -315,21 +334,24 @@ std::string bodies_words(const System& s, const Eigen::VectorXd& torque) {
     const System::Body& body = s.bodies[b];
     if (body.on != System::kGround) continue;
     const auto column = static_cast<Index>(b);
-    out += text(out.empty() ? "" : ", ", body.name, body.teeth > 0 ? text(" (", body.teeth, " teeth)") : "",
-                torque.size() > 0 ? text(" ", fixed(torque[column], 1), " N m") : "",
-                s.held(static_cast<int>(b)) ? " held" : "");
+    const bool carrier = body.kind == System::BodyKind::carrier;
+    const double own = torque.size() > 0 ? torque[column] : 0;
+    out +=
+        text(out.empty() ? "" : ", ", short_name(body.name), carrier ? "" : text(" (", body.teeth, " teeth)"),
+             own == 0                        ? ""
+             : std::abs(own) >= kSmallTorque ? text(" ", fixed(own, 1), " N m")
+                                             : text(" ", shown(own, 3), " N m"),
+             !s.held(static_cast<int>(b)) ? ""
+             : carrier                    ? " held (the frame)"
+                                          : " held");
   }
   return out;
 }
 
 Figure system_picture(const SystemStaticArtifact& a) {
   const SystemStaticParameters& settings = a.settings;
-  Train train{settings.layout, {}, settings.section};
-  for (size_t b = 0; b < settings.layout.bodies.size(); ++b) {
-    const BodyParameters* drawing = drawing_of(a, static_cast<int>(b));
-    train.design.push_back(drawing ? &drawing->design : nullptr);
-  }
-  return picture_of(train, a.torque.colwise().mean().transpose());
+  return picture_of({settings.layout, designs_of(a), settings.section},
+                    a.torque.colwise().mean().transpose());
 }
 
 Figure system_picture(const ModesArtifact& a) {

@@ -9,7 +9,9 @@
 #include "report/html.h"
 #include "report/report_page.h"
 #include "report/system_figures.h"
+#include "report/system_motion_tables.h"
 #include "report/system_picture.h"
+#include "report/system_report_guide.h"
 #include "report/system_report_tables.h"
 #include "system/rigid_system.h"
 
@@ -18,19 +20,13 @@ namespace {
 
 using Eigen::Index;
 
-const System& layout_of(const SystemReport& r) {
-  return r.rest ? r.rest->settings.layout : r.modes->layout;
-}
-
 std::string of_picture(const SystemReport& r) {
-  return r.rest
-             ? "The gears at their places, unloaded at mesh phase 0, with the teeth of their drawings, and "
-               "the "
-               "teeth about a pitch point of each [[mesh]]. Look whether these are your gears, and whether "
-               "they turn as yours do."
-             : "The gears at their places by the working pitch circles of their meshes, with a tick at each "
-               "tooth: "
-               "of rigid gears no more is known. Look whether they stand and turn as yours do.";
+  return r.rest ? "The gears at their places, unloaded at mesh phase 0, with the teeth of their "
+                  "drawings, and the teeth about a pitch point of each [[mesh]]. Check positions and "
+                  "senses of rotation against your drawing."
+                : "The gears at their places by the working pitch circles of their meshes, with a tick "
+                  "at each tooth; rigid gears have no drawing. Check positions and senses of rotation "
+                  "against your drawing.";
 }
 
 std::string of_rest(const SystemReport& r) {
@@ -45,12 +41,13 @@ std::string of_rest(const SystemReport& r) {
   const size_t all = parts.size();
   parts.resize(std::min(all, kMost));
   return text(
-      "Transmission error of each mesh, its force, and the force on each bearing and pin over a mesh period, "
-      "and "
-      "their harmonics. The transmission error is from peak to peak ",
-      listed(parts), all > kMost ? text(" (", all - kMost, " more in the table above)") : "",
-      "; its variation excites the whine, and the harmonics of the bearing forces are what a housing hears.",
-      load_sharing(a).empty() ? "" : " Harmonics that the planets cancel among them are missing.");
+      "Transmission error of each mesh, its force, and the force on each bearing and pin over a mesh ",
+      "period, and their harmonics. The transmission error from peak to peak is ", listed(parts),
+      all > kMost ? text(" (", all - kMost, " more in the table above)") : "",
+      "; its variation excites the whine, and the harmonics of the bearing forces act on the housing.",
+      load_sharing(a).empty() ? ""
+                              : " In the torque and the force on a central gear, harmonics are missing "
+                                "that the planets cancel among them; each mesh by itself has them all.");
 }
 
 std::string of_sharing(const SystemReport& r) {
@@ -60,10 +57,9 @@ std::string of_sharing(const SystemReport& r) {
   parts.reserve(sharing.size());
   for (const LoadSharing& of : sharing) parts.push_back(text(fixed(of.factor, 3), " of ", of.name));
   return text(
-      "Share of each planet's mesh in the load over the mesh period (left), and the loads of the tooth pairs "
-      "of "
-      "the first one (right). The load sharing factor, the largest share times the number of planets, is ",
-      listed(parts), "; 1 is equal sharing.");
+      "Share of each planet's mesh in the load over the mesh period (left), and the loads of the tooth ",
+      "pairs of the first one (right). The load sharing factor, the largest share times the number of ",
+      "planets, is ", listed(parts), "; 1 is equal sharing.");
 }
 
 std::string of_modes(const SystemReport& r) {
@@ -72,15 +68,22 @@ std::string of_modes(const SystemReport& r) {
   while (lowest < a.natural_frequency.size() && a.natural_frequency[lowest] == 0) ++lowest;
   return text("Natural frequencies by type, and the shapes of the modes, magnified; grey: at rest.",
               lowest < a.natural_frequency.size()
-                  ? text(" The lowest is ", fixed(a.natural_frequency[lowest], 1), " Hz (",
+                  ? text(" The lowest is ", shown(a.natural_frequency[lowest], 6), " Hz (",
                          name_of(a.type[static_cast<size_t>(lowest)]), ").")
                   : "");
 }
 
 std::string of_campbell(const SystemReport&) {
   return "Natural frequencies and the harmonics of the mesh frequency. Where a ray meets a line that "
-         "harmonic of the "
-         "transmission error excites that mode: keep operating speeds away from the points that matter.";
+         "harmonic of the transmission error can excite that mode: keep operating speeds away from the "
+         "points that matter.";
+}
+
+std::string of_sweep(const SystemReport& r) {
+  return text(
+      "RMS of the oscillating transmission error and time without contact of each mesh, and oscillating ",
+      "force on each bearing and pin, over the mesh frequency; lines: speed rising, marks: falling. ",
+      motion_words(r));
 }
 
 struct Explained {
@@ -88,7 +91,7 @@ struct Explained {
   std::function<std::string(const SystemReport&)> words;
 };
 
-// A figure of another stage, of motion say, is a row here, its words above, and its name in pipelines/systems.mk.
+// A figure of another stage is a row here, its words above, and its name in pipelines/systems.mk.
 const std::vector<Explained>& explained() {
   static const std::vector<Explained> all{
       {"system", "gears", "The system", of_picture},
@@ -96,6 +99,7 @@ const std::vector<Explained>& explained() {
       {"load-sharing", "rest", "Load sharing among planets", of_sharing},
       {"modes", "modes", "Natural modes", of_modes},
       {"campbell", "modes", "Campbell diagram", of_campbell},
+      {"system-sweep", "motion", "The system over its speeds", of_sweep},
   };
   return all;
 }
@@ -109,118 +113,75 @@ std::string figures_in(const SystemReport& r, const std::string& section) {
   return out;
 }
 
-const std::vector<GuideRow>& guide_rows() {
-  static const std::vector<GuideRow> rows{
-      {"system", "Positions, senses, phases",
-       "They follow from tooth numbers, centre distances and angles of the scene. A mesh phase is by what "
-       "share of a "
-       "mesh period a mesh is ahead of the first one: meshes in phase push together, others in turn.",
-       "Exact. Compare picture and tables with your drawing first.",
-       "If one is off, correct the scene: direction_deg of a [[mesh]], positions_deg of the [[carrier]]."},
-      {"", "Contact ratio, backlash, diameters",
-       "Geometry of the gears as drawn at the centre distances of the scene.", "All digits shown.",
-       "addendum and dedendum, profile_shift, tooth_thinning_mm."},
-      {"system-static", "Static transmission error of a mesh",
-       "How far the driving gear of the mesh runs ahead under load, along the line of action, what bearings "
-       "give "
-       "way included. Its mean is no noise, its variation excites the whine.",
-       "0.1 to 0.2 % of numerical error on the pairs that were compared with other programs. Real flanks "
-       "deviate by "
-       "micrometres, and real bearings and carriers give way more than those of the scene.",
-       "Tip relief ([gear.name.modification]); tooth numbers and planet positions whose phases cancel a "
-       "harmonic."},
-      {"load-sharing", "Load sharing",
-       "Which part of the load each planet carries. Equal planets share equally in the mean; over the mesh "
-       "period "
-       "shares vary where phases differ.",
-       "For gears without errors. Positions of pins, run-out and tooth thickness of real planets differ by "
-       "more than what a mesh "
-       "gives way and decide the sharing; the model has none of them.",
-       "A floating central gear (soft [[bearing]]) equalises; ISO 6336-1 has the mesh load factor K_gamma."},
-      {"system-static", "Forces on bearings and pins",
-       "What each body presses its bearing or pin with. The mean loads the bearing, what oscillates is "
-       "heard.",
-       "As good as the load sharing and the stiffness of the bearings that the scene gives.",
-       "Harmonic l of the force on a central gear vanishes where z l / N is whole, z its teeth, N equal "
-       "planets."},
-      {"modes", "Natural frequencies, types",
-       "Of the bodies, rigid in themselves, on the mean stiffness of the meshes and on their bearings. A "
-       "rotational "
-       "mode answers to torque variation, a translational one to forces on central gears; planet modes leave "
-       "central gears at "
-       "rest.",
-       "As good as inertias, masses and bearings of the scene; 1 % of stiffness is 0.5 % of a frequency. "
-       "Shafts and the elastic "
-       "modes of the bodies are not in it.",
-       "Check total_inertia_kgm2 of gears that carry a shaft; give all bearings."},
-      {"campbell", "Campbell diagram",
-       "Mesh frequencies at which a harmonic meets a natural frequency. Bands: the natural frequencies with "
-       "the contact of "
-       "each phase.",
-       "It says where resonances can be, not how strong they are: the harmonic may be weak, or cancelled "
-       "among the planets.",
-       "Look at the harmonics of the transmission error beside it."},
-  };
-  return rows;
-}
-
-std::string guide(const SystemReport& r) {
-  std::vector<GuideRow> rows;
-  for (const GuideRow& row : guide_rows()) {
-    const bool there = std::any_of(r.pictures.begin(), r.pictures.end(),
-                                   [&](const ReportPicture& picture) { return row.figures == picture.name; });
-    if (there || (row.figures.empty() && r.rest)) rows.push_back(row);
-  }
-  return guide_table(
-      "All gears are at rest here, in the frame of the carrier; frequencies are mesh frequencies unless said "
-      "otherwise.",
-      rows, r.pictures);
-}
-
 std::string introduction(const SystemReport& r) {
   const System& s = layout_of(r);
   const Eigen::VectorXd torque =
       r.rest ? Eigen::VectorXd(r.rest->torque.colwise().mean().transpose()) : Eigen::VectorXd();
-  std::string out = text(bodies_words(s, torque), ".");
+  std::string out = text("The train has ", s.bodies.size(), " bodies and ", s.meshes.size(),
+                         " meshes. On the ground stand ", bodies_words(s, torque), ".");
   for (size_t c = 0; c < s.bodies.size(); ++c) {
     if (s.bodies[c].kind != System::BodyKind::carrier) continue;
     const auto planets = std::count_if(s.bodies.begin(), s.bodies.end(), [&](const System::Body& body) {
       return body.on == static_cast<int>(c);
     });
-    out += text(" The ", s.bodies[c].name, " has ", planets, " planets.");
+    out += text(" The ", s.bodies[c].name, " has ", planets, planets == 1 ? " planet." : " planets.");
   }
-  out += text(" ", s.bodies.size(), " bodies, ", s.meshes.size(), " meshes.");
-  if (r.rest) {
-    for (const LoadSharing& of : load_sharing(*r.rest))
-      out += text(" Load sharing factor of ", of.name, ": ", fixed(of.factor, 3), ".");
-    out += text(" Transmission errors from peak to peak up to ",
-                significant(
-                    [&] {
-                      double most = 0;
-                      for (Index m = 0; m < r.rest->transmission_error.cols(); ++m)
-                        most = std::max(most, peak_to_peak(r.rest->transmission_error.col(m)));
-                      return most * kMicro;
-                    }(),
-                    3),
-                " µm.");
-  } else {
+  if (!r.rest) {
     out += " The gears are rigid, with one spring for each mesh: natural modes alone are computed.";
+    return html::paragraph(out);
   }
+  for (const LoadSharing& of : load_sharing(*r.rest))
+    out += text(" The load sharing factor of ", of.name, " is ", fixed(of.factor, 3), ".");
+  double most = 0;
+  for (Index m = 0; m < r.rest->transmission_error.cols(); ++m)
+    most = std::max(most, peak_to_peak(r.rest->transmission_error.col(m)));
+  out +=
+      text(" Static transmission errors are up to ", significant(most * kMicro, 3), " µm from peak to peak.");
+  if (!r.sweeps.empty()) out += " " + motion_words(r);
   return html::paragraph(out);
+}
+
+// Bodies by name and teeth, and the number of meshes.
+bool one_system(const System& a, const System& b) {
+  bool same = a.bodies.size() == b.bodies.size() && a.meshes.size() == b.meshes.size();
+  for (size_t i = 0; same && i < a.bodies.size(); ++i)
+    same = a.bodies[i].name == b.bodies[i].name && a.bodies[i].teeth == b.bodies[i].teeth;
+  return same;
+}
+
+void require_sweeps(const SystemReport& r) {
+  if (r.sweeps.empty()) return;
+  if (!r.rest)
+    fail(Failure::input,
+         "report: system_sweep.h5 is given without the system_static.h5 of its scene; give it, too");
+  for (size_t i = 0; i < r.sweeps.size(); ++i) {
+    const SystemSweepArtifact& a = r.sweeps[i];
+    const System& layout = a.settings.layout;
+    if (!one_system(layout, r.rest->settings.layout))
+      fail(Failure::input,
+           "report: system_sweep.h5 and system_static.h5 are of two systems; give artifacts of one scene");
+    for (size_t j = 0; j < i; ++j)
+      if (r.sweeps[j].direction == a.direction)
+        fail(Failure::input, "report: two sweeps in the direction '", name_of(a.direction),
+             "' are given; give one of each direction");
+    for (size_t b = 0; b < layout.bodies.size(); ++b) {
+      const double moving = a.torque[static_cast<Index>(b)],
+                   resting = r.rest->torque.col(static_cast<Index>(b)).mean();
+      if (layout.held(static_cast<int>(b)) || std::abs(moving - resting) <= 1e-9 * std::abs(resting))
+        continue;
+      fail(Failure::input, "report: the torque on '", layout.bodies[b].name, "' is ", moving,
+           " N m in system_sweep.h5 and ", resting, " N m in system_static.h5; give artifacts of one scene");
+    }
+  }
 }
 
 void require_whole(const SystemReport& r) {
   if (!r.modes)
     fail(Failure::input, "report: no modes.h5 given; the report of a system needs that of its scene");
-  if (r.rest) {
-    const System &a = r.rest->settings.layout, &b = r.modes->layout;
-    bool same = a.bodies.size() == b.bodies.size() && a.meshes.size() == b.meshes.size();
-    for (size_t i = 0; same && i < a.bodies.size(); ++i)
-      same = a.bodies[i].name == b.bodies[i].name && a.bodies[i].teeth == b.bodies[i].teeth;
-    if (!same)
-      fail(Failure::input,
-           "report: system_static.h5 and modes.h5 are of two systems; give artifacts of one scene");
-  }
+  if (r.rest && !one_system(r.rest->settings.layout, r.modes->layout))
+    fail(Failure::input,
+         "report: system_static.h5 and modes.h5 are of two systems; give artifacts of one scene");
+  require_sweeps(r);
   const std::vector<std::string> known = system_report_figures();
   for (size_t i = 0; i < r.pictures.size(); ++i) {
     const std::string& name = r.pictures[i].name;
@@ -233,6 +194,15 @@ void require_whole(const SystemReport& r) {
 }
 
 }  // namespace
+
+const System& layout_of(const SystemReport& r) {
+  return r.rest ? r.rest->settings.layout : r.modes->layout;
+}
+
+bool has_planets(const System& system) {
+  return std::any_of(system.bodies.begin(), system.bodies.end(),
+                     [](const System::Body& body) { return body.on != System::kGround; });
+}
 
 std::vector<std::string> system_report_figures() {
   std::vector<std::string> names;
@@ -257,12 +227,12 @@ std::string system_report_html(const SystemReport& r) {
   };
   add("results", "Results", introduction(r) + figures_in(r, "gears"));
   add("remarks", "Warnings and remarks", system_remarks(r));
-  add("guide", "What the numbers mean", guide(r));
+  add("guide", "What the numbers mean", system_guide(r));
   add("gears", "Gears and bodies", gear_tables(r));
   add("meshes", "Meshes", mesh_tables(r));
   add("rest", "At rest", force_table(r) + figures_in(r, "rest"));
   add("modes-of-system", "Natural modes", modes_table(r) + figures_in(r, "modes"));
-  add("motion", "In motion", figures_in(r, "motion"));
+  add("motion", "In motion", motion_tables(r) + figures_in(r, "motion"));
   add("parameters", "Parameters", settings_table(r));
   add("provenance", "Provenance", provenance_table(r.sources));
   return report_page(r.scene, sections);

@@ -7,11 +7,12 @@
 #include "base/error.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
+#include "io/scene_keys.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/report_page.h"
 #include "report/system_figures.h"
-#include "report/system_picture.h"
+#include "report/system_motion_tables.h"
 #include "system/rigid_system.h"
 #include "system/statics.h"
 
@@ -22,14 +23,17 @@ using Eigen::Index;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-const System& layout_of(const SystemReport& r) {
-  return r.rest ? r.rest->settings.layout : r.modes->layout;
+const GearDesign& design_of(const SystemStaticArtifact& a, const System::Side& side) {
+  const BodyParameters* drawing = drawing_of(a, side.body);
+  if (!drawing)
+    fail(Failure::input, "report: no drawing is known of '",
+         a.settings.layout.bodies[static_cast<size_t>(side.body)].name, "', which has a mesh");
+  return drawing->design;
 }
 
 GearPair pair_of(const SystemStaticArtifact& a, size_t m) {
   const System::Mesh& mesh = a.settings.layout.meshes[m];
-  return {drawing_of(a, mesh.side[0].body)->design, drawing_of(a, mesh.side[1].body)->design,
-          mesh.centre_distance};
+  return {design_of(a, mesh.side[0]), design_of(a, mesh.side[1]), mesh.centre_distance};
 }
 
 double largest_load(const std::vector<MatrixRM>& of, size_t m) {
@@ -62,7 +66,7 @@ double mean_stiffness(const SystemStaticArtifact& a, size_t m) {
 }
 
 struct Force {
-  double mean_x, mean_y, mean, most, rms;  // N; rms: of what oscillates
+  double mean_x, mean_y, mean, most, rms;  // N; rms: of the oscillating part
 };
 
 Force force_of(const SystemStaticArtifact& a, size_t b) {
@@ -81,7 +85,9 @@ Force force_of(const SystemStaticArtifact& a, size_t b) {
   return f;
 }
 
+// A carrier does not turn in its own frame.
 std::string sense_words(const System::Body& body) {
+  if (body.kind == System::BodyKind::carrier) return "–";
   return body.sense > 0 ? "counter-clockwise" : "clockwise";
 }
 
@@ -93,11 +99,20 @@ std::string bearing_words(const System::Body& body) {
   return body.bearing.elastic() ? shown(body.bearing.stiffness * 1e-6, 4) : "rigid";
 }
 
-// What holds or drives the rotation of a body; statics know the torques.
+// What holds or drives the rotation of a body. Natural modes do not know of torques, the statics do.
 std::string held_words(const SystemReport& r, size_t b) {
   const System& s = layout_of(r);
-  if (s.held(static_cast<int>(b))) return "held";
-  return r.rest && r.rest->torque.col(static_cast<Index>(b)).cwiseAbs().maxCoeff() > 0 ? "torque" : "free";
+  if (s.held(static_cast<int>(b)))
+    return s.bodies[b].kind == System::BodyKind::carrier ? "held (the frame)" : "held";
+  if (!r.rest) return "turns";
+  const double torque = r.rest->torque.col(static_cast<Index>(b)).mean();
+  return torque > 0 ? "driven" : torque < 0 ? "loaded" : "free";
+}
+
+// One of several meshes of a [[mesh]], which share its load.
+bool shares_load(const SystemStaticArtifact& a, size_t m) {
+  const std::vector<int>& section = a.settings.section;
+  return std::count(section.begin(), section.end(), section[m]) > 1;
 }
 
 // Without the sign of what rounds to 0.
@@ -123,10 +138,11 @@ void add_rest(const SystemReport& r, std::vector<SystemNumber>& out) {
     for (Index n = 1; n <= std::min<Index>(3, a.transmission_error_harmonic.rows() - 1); ++n)
       out.push_back(
           {name, text("static transmission error, harmonic ", n), "µm", harmonic_words(a, n, c), ""});
-    add("mean mesh stiffness, contact frozen", "N/µm", fixed(mean_stiffness(a, m) * 1e-6, 1));
+    add("mean mesh stiffness, contact frozen", "N/µm", shown(mean_stiffness(a, m) * 1e-6, 5));
     add("mesh force, mean", "N", fixed(a.mesh_force.col(c).mean(), 1));
     add("mesh force, largest", "N", fixed(a.mesh_force.col(c).maxCoeff(), 1));
-    add("share of the load, largest", "%", fixed(a.load_share.col(c).maxCoeff() * kPercent, 2));
+    if (shares_load(a, m))
+      add("share of the load, largest", "%", fixed(a.load_share.col(c).maxCoeff() * kPercent, 2));
     add("static tooth load, largest", "N", fixed(largest_load(a.tooth_load, m), 0));
     add("static contact pressure inside a flank, largest", "MPa",
         fixed(largest_load(a.contact_pressure, m) * 1e-6, 0));
@@ -140,7 +156,7 @@ void add_rest(const SystemReport& r, std::vector<SystemNumber>& out) {
     out.push_back({name, "torque, mean", "N m", plain(a.torque.col(c).mean(), 2), held_words(r, b)});
     out.push_back({name, "force on the bearing, mean", "N", plain(f.mean, 1), ""});
     out.push_back({name, "force on the bearing, largest", "N", plain(f.most, 1), ""});
-    out.push_back({name, "force on the bearing, RMS of what oscillates", "N", plain(f.rms, 2), ""});
+    out.push_back({name, "force on the bearing, RMS of the oscillating part", "N", plain(f.rms, 2), ""});
   }
 }
 
@@ -151,9 +167,11 @@ std::vector<SystemNumber> system_numbers(const SystemReport& r) {
   if (r.rest) add_rest(r, out);
   if (r.modes)
     for (Index i = 0; i < r.modes->natural_frequency.size(); ++i)
-      out.push_back({text("mode ", i + 1), "natural frequency", "Hz", fixed(r.modes->natural_frequency[i], 1),
+      out.push_back({text("mode ", i + 1), "natural frequency", "Hz", shown(r.modes->natural_frequency[i], 7),
                      r.modes->natural_frequency[i] == 0 ? "free motion"
                                                         : name_of(r.modes->type[static_cast<size_t>(i)])});
+  const std::vector<SystemNumber> motion = motion_numbers(r);
+  out.insert(out.end(), motion.begin(), motion.end());
   return out;
 }
 
@@ -190,7 +208,8 @@ std::string drawings_table(const SystemStaticArtifact& a) {
   all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
   all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
       [&](G g) { return mm(2 * g.design().held_radius()); });
-  return html::table("The gears as the scene has them.", head, rows);
+  return html::table("Geometry of the gears; all keys of the scene stand below, under Parameters.", head,
+                     rows);
 }
 
 }  // namespace
@@ -206,60 +225,70 @@ std::string gear_tables(const SystemReport& r) {
                     body.inertia > 0 ? shown(body.inertia, 4) : "–", bearing_words(body),
                     body.bearing.elastic() ? shown(body.bearing.mass, 4) : "–"});
   }
-  return html::table(
-             "The bodies. Sense: of rotation, as the carrier sees it where there is one. Diameter: of the "
-             "base "
-             "circle, "
-             "of a carrier of the circle of its pins. The inertia of a body that is held has no meaning.",
-             {"body", "teeth", "sense", "rotation", "axis on", "x (mm)", "y (mm)", "diameter (mm)",
-              "inertia (kg m²)", "bearing (N/µm)", "mass on it (kg)"},
-             rows, "small") +
+  return html::table(text("The bodies. Sense: of rotation",
+                          has_planets(s) ? " relative to the carrier, which the computation holds; a "
+                                           "gear that the machine holds turns against its carrier"
+                                         : "",
+                          ". Rotation: by what it is held or driven",
+                          r.rest ? "" : "; torques do not change natural modes",
+                          ". Diameter: of the base circle, of a carrier of the circle of its pins. The ",
+                          "inertia of a body that is held has no meaning."),
+                     {"body", "teeth", "sense", "rotation", "axis on", "x (mm)", "y (mm)", "diameter (mm)",
+                      "inertia (kg m²)", "bearing (N/µm)", "mass on it (kg)"},
+                     rows, "small") +
          (r.rest ? drawings_table(*r.rest) : "");
 }
 
 std::string mesh_tables(const SystemReport& r) {
   const System& s = layout_of(r);
   html::Rows geometry, rest;
+  const bool shared = r.rest && !load_sharing(*r.rest).empty();
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     const System::Mesh& mesh = s.meshes[m];
     const auto c = static_cast<Index>(m);
     geometry.push_back({mesh_name(s, m), fixed(mesh.centre_distance * kMilli, 3),
                         fixed(mesh.pressure_angle * kDegrees, 3), fixed(mesh.phase, 4)});
     if (!r.rest) {
-      geometry.back().push_back(fixed(mesh.stiffness * 1e-6, 1));
+      geometry.back().push_back(shown(mesh.stiffness * 1e-6, 5));
       continue;
     }
     const SystemStaticArtifact& a = *r.rest;
     const GearPair pair = pair_of(a, m);
     geometry.back().push_back(fixed(a.contact_ratio[c], 3));
     geometry.back().push_back(fixed(pair.backlash() * kMilli, 4));
-    rest.push_back(
-        {mesh_name(s, m), fixed(a.mesh_force.col(c).mean(), 0),
-         fixed(a.load_share.col(c).mean() * kPercent, 2), fixed(a.load_share.col(c).maxCoeff() * kPercent, 2),
-         significant(a.transmission_error.col(c).mean() * kMicro, 4),
-         significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3), harmonic_words(a, 1, c),
-         harmonic_words(a, 2, c), fixed(mean_stiffness(a, m) * 1e-6, 1),
-         fixed(largest_load(a.tooth_load, m), 0), fixed(largest_load(a.contact_pressure, m) * 1e-6, 0)});
+    rest.push_back({mesh_name(s, m), fixed(a.mesh_force.col(c).mean(), 0)});
+    if (shared) {
+      const bool own = shares_load(a, m);
+      rest.back().push_back(own ? fixed(a.load_share.col(c).mean() * kPercent, 2) : "–");
+      rest.back().push_back(own ? fixed(a.load_share.col(c).maxCoeff() * kPercent, 2) : "–");
+    }
+    for (const std::string& cell :
+         {significant(a.transmission_error.col(c).mean() * kMicro, 4),
+          significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3), harmonic_words(a, 1, c),
+          harmonic_words(a, 2, c), shown(mean_stiffness(a, m) * 1e-6, 5),
+          fixed(largest_load(a.tooth_load, m), 0), fixed(largest_load(a.contact_pressure, m) * 1e-6, 0)})
+      rest.back().push_back(cell);
   }
   std::vector<std::string> head{"mesh", "centre distance (mm)", "working pressure angle (deg)", "mesh phase"};
   if (r.rest)
     head.insert(head.end(), {"contact ratio", "backlash along the line of action (mm)"});
   else
     head.emplace_back("stiffness (N/µm)");
-  std::string out = html::table(
-      "The meshes, the driving side first. Mesh phase: by what share of a mesh period each is ahead of the "
-      "first one.",
-      head, geometry);
-  if (!rest.empty())
-    out += html::table(
-        "The meshes at rest over the mesh period. Share: of the load of the meshes of one [[mesh]]. STE: "
-        "static "
-        "transmission error. Stiffness: mean, contact frozen, without bearings.",
-        {"mesh", "mean force (N)", "mean share (%)", "largest share (%)", "mean STE (µm)",
-         "STE peak to peak (µm)", "harmonic 1 (µm)", "harmonic 2 (µm)", "stiffness (N/µm)",
-         "largest tooth load (N)", "largest pressure (MPa)"},
-        rest, "small");
-  return out;
+  std::string out = html::table(text("The meshes, the driving side first. Mesh phase: the part of a ",
+                                     "mesh period by which a mesh is ahead of the first one."),
+                                head, geometry);
+  if (rest.empty()) return out;
+  std::vector<std::string> columns{"mesh", "mean force (N)"};
+  if (shared) columns.insert(columns.end(), {"mean share (%)", "largest share (%)"});
+  columns.insert(columns.end(),
+                 {"mean STE (µm)", "STE peak to peak (µm)", "harmonic 1 (µm)", "harmonic 2 (µm)",
+                  "stiffness (N/µm)", "largest tooth load (N)", "largest pressure (MPa)"});
+  return out +
+         html::table(
+             text("The meshes at rest over the mesh period.",
+                  shared ? " Share: of the load of the meshes of one [[mesh]]." : "",
+                  " STE: static transmission error. Stiffness: mean, contact frozen, without bearings."),
+             columns, rest, "small");
 }
 
 std::string force_table(const SystemReport& r) {
@@ -275,8 +304,9 @@ std::string force_table(const SystemReport& r) {
                     plain(f.mean_y, 1), plain(f.most, 1), plain(f.rms, 2)});
   }
   return html::table(
-      "Torques, in the sense in which each body turns, and forces on bearings and pins over the mesh period, "
-      "of rigid axes, too. RMS: of what oscillates, which a housing hears.",
+      text("Torques, in the sense in which each body turns, and forces on bearings and pins over the ",
+           "mesh period; on a rigid axis the sum of the contact forces. RMS: of the oscillating part, ",
+           "which acts on the housing."),
       {"body", "rotation", "mean torque (N m)", "its peak to peak (N m)", "bearing (N/µm)",
        "mean force x (N)", "mean force y (N)", "largest force (N)", "RMS (N)"},
       rows);
@@ -292,14 +322,14 @@ std::string modes_table(const SystemReport& r) {
     Index most = 0;
     const double share = a.kinetic_energy.row(i).maxCoeff(&most);
     rows.push_back(
-        {text(i + 1), fixed(f, 1), f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]),
+        {text(i + 1), shown(f, 6), f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]),
          f == 0 ? "–" : fixed(a.mesh_energy.row(i).sum() * kPercent, 1),
          f == 0 ? "–" : fixed(a.bearing_energy.row(i).sum() * kPercent, 1),
          text(a.layout.bodies[static_cast<size_t>(most)].name, ", ", fixed(share * kPercent, 0), " %")});
     if (bands)
       rows.back().push_back(f == 0 ? "–"
-                                   : text(fixed(a.frozen_frequency.col(i).minCoeff(), 1), " to ",
-                                          fixed(a.frozen_frequency.col(i).maxCoeff(), 1)));
+                                   : text(shown(a.frozen_frequency.col(i).minCoeff(), 6), " to ",
+                                          shown(a.frozen_frequency.col(i).maxCoeff(), 6)));
   }
   std::vector<std::string> head{"mode",
                                 "natural frequency (Hz)",
@@ -307,39 +337,76 @@ std::string modes_table(const SystemReport& r) {
                                 "energy in the meshes (%)",
                                 "energy in bearings and holds (%)",
                                 "moves most (share of the kinetic energy)"};
-  if (bands) head.emplace_back("over the mesh phases (Hz)");
+  if (bands) head.emplace_back("over the mesh phases, by rank (Hz)");
   return html::table(
-      "Natural modes, the meshes at their mean stiffness. Rotational: central gears turn, planets all move "
-      "alike. Translational: central gears move sideways, in pairs of equal frequency. Planet: planets "
-      "alone. "
-      "Mixed: planets that are not alike or not equally spaced. Train: no planets.",
+      text("Natural modes, the meshes at their mean stiffness.",
+           !has_planets(a.layout) ? " Train: the system has no planets."
+                                  : text(" Rotational: central gears turn, planets all move alike. ",
+                                         "Translational: central gears move sideways; at equal spacing ",
+                                         "in pairs of equal frequency. Planet: planets alone. Mixed: ",
+                                         "none of these, of planets that differ or stand unequally."),
+           bands ? text(" Over the mesh phases: with the contact of each phase, the lowest frequency ",
+                        "with the lowest; modes are not followed by their shapes, so that the frequency ",
+                        "at the mean stiffness may lie beside.")
+                 : ""),
       head, rows);
 }
 
 std::string settings_table(const SystemReport& r) {
   if (!r.rest) return "";
-  const SystemStaticParameters& s = r.rest->settings;
-  html::Rows rows{{"contact of a tooth pair ([fidelity] contact)", name_of(s.fidelity.contact)},
-                  {"positions per mesh period", text(s.contact.positions)}};
-  if (s.fidelity.contact == ContactModel::strips) rows.push_back({"strips", text(s.contact.strips)});
-  for (size_t g = 0; g < r.rest->drawing.size(); ++g) {
-    const BodyParameters& d = r.rest->drawing[g];
-    rows.push_back(
-        {"elements of " + s.body[g].first, text(shown(d.discretisation.element_size * kMilli, 4),
-                                                " mm on the flank, order ", d.discretisation.element_order)});
-    rows.push_back({"material of " + s.body[g].first,
-                    text(shown(d.material.youngs_modulus * 1e-9, 5), " GPa, Poisson's ratio ",
-                         shown(d.material.poisson_ratio, 4), ", ", shown(d.material.density, 6),
-                         " kg/m³, plane ", d.material.plane_stress ? "stress" : "strain")});
+  const SystemKeys keys = scene_keys_of(*r.rest, r.sweeps.empty() ? nullptr : &r.sweeps.front());
+  html::Rows rows;
+  rows.reserve(keys.rows.size() + 1);
+  for (const SystemKeys::Row& key : keys.rows) {
+    rows.push_back({key.section, key.name});
+    for (size_t g = 0; g < keys.gears.size(); ++g)
+      rows.back().push_back(g < key.value.size() ? key.value[g] : "");
+    rows.back().push_back(key.meaning);
   }
-  return html::table("What the statics were computed with.", {"what", "value"}, rows, "small");
+  if (!r.sweeps.empty()) {
+    const Eigen::VectorXd& f = r.sweeps.front().mesh_frequency;
+    rows.push_back({"operation", "mesh_frequency_Hz",
+                    text(shown(f.minCoeff(), 6), " to ", shown(f.maxCoeff(), 6), ", ", f.size(), " speeds")});
+    rows.back().resize(keys.gears.size() + 2);
+    rows.back().emplace_back("speeds of a sweep");
+  }
+  std::vector<std::string> head{"section", "key"};
+  head.reserve(keys.gears.size() + 3);
+  for (size_t g = 0; g < keys.gears.size(); ++g)
+    head.push_back(keys.gears[g] + (g == 0 && keys.gears.size() > 1 ? ", or all" : ""));
+  head.emplace_back("meaning");
+  return html::table(
+      text("Every value of the scene that went into the results, defaults included, in the scene's ",
+           "units; inertias and masses that the scene leaves out are those of the bodies. Torques and ",
+           "what is held: under At rest."),
+      head, rows, "small");
 }
 
 namespace {
 
+// Whether the planets of these meshes stand at equal angles about their carrier.
+bool equally_spaced(const System& s, const std::vector<size_t>& meshes) {
+  std::vector<double> angles;
+  angles.reserve(meshes.size());
+  for (const size_t m : meshes)
+    for (const System::Side& side : s.meshes[m].side) {
+      const System::Body& planet = s.bodies[static_cast<size_t>(side.body)];
+      if (planet.on == System::kGround) continue;
+      const System::Body& carrier = s.bodies[static_cast<size_t>(planet.on)];
+      angles.push_back(
+          std::atan2(planet.centre[1] - carrier.centre[1], planet.centre[0] - carrier.centre[0]));
+    }
+  std::sort(angles.begin(), angles.end());
+  const double step = 2 * std::numbers::pi / static_cast<double>(angles.size());
+  for (size_t i = 1; i < angles.size(); ++i)
+    if (std::abs(angles[i] - angles[i - 1] - step) > 1e-6) return false;
+  return true;
+}
+
 void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
   const System& s = a.settings.layout;
-  constexpr double kSmall = 0.01;  // of the largest load of a pair
+  constexpr double kSmall = 0.01;   // of the largest load of a pair
+  constexpr double kUnequal = 1.3;  // of an equal share
   // Once for all meshes of a [[mesh]].
   for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
     const std::string name = a.settings.mesh[k].gear[0] + "-" + a.settings.mesh[k].gear[1];
@@ -359,18 +426,14 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
                            " % of the largest tooth load; tip relief takes that away"));
   }
   for (const LoadSharing& of : load_sharing(a))
-    out.push_back(remark(of.factor > 1.3, of.name, ": the most loaded of ", of.meshes.size(),
-                         " meshes carries up to ", fixed(of.factor, 3), " times an equal share",
-                         of.factor > 1.3 ? ". Let a central gear float on a softer [[bearing]], or space the "
-                                           "planets equally"
-                                         : ""));
-  std::vector<const GearDesign*> design;
-  design.reserve(s.bodies.size());
-  for (size_t b = 0; b < s.bodies.size(); ++b) {
-    const BodyParameters* drawing = drawing_of(a, static_cast<int>(b));
-    design.push_back(drawing ? &drawing->design : nullptr);
-  }
-  for (const std::string& words : colliding_gears(s, design)) out.push_back({true, words});
+    out.push_back(
+        remark(of.factor > kUnequal, of.name, ": the most loaded of ", of.meshes.size(),
+               " meshes carries up to ", fixed(of.factor, 3), " times an equal share",
+               of.factor <= kUnequal ? ""
+               : equally_spaced(s, of.meshes)
+                   ? ". Let a central gear float on a softer [[bearing]]"
+                   : ". Let a central gear float on a softer [[bearing]], or space the planets equally"));
+  for (const std::string& words : colliding_gears(s, designs_of(a))) out.push_back({true, words});
   std::string rigid;
   for (const System::Body& body : s.bodies)
     if (!body.bearing.elastic()) rigid += (rigid.empty() ? "" : ", ") + body.name;
@@ -391,10 +454,10 @@ void remark_modes(const ModesArtifact& a, std::vector<Remark>& out) {
         remark(false,
                "elastic modes of the gear bodies themselves are left out; frequencies near or above the "
                "lowest of a body (eigenfrequency in its body.h5) are not to be trusted"));
-  out.push_back(
-      remark(false,
-             "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size 2 "
-             "times its speed over the natural frequency"));
+  if (has_planets(a.layout))
+    out.push_back(remark(
+        false, "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size ",
+        "2 times its speed over the natural frequency"));
 }
 
 }  // namespace
@@ -411,6 +474,7 @@ std::string system_remarks(const SystemReport& r) {
   if (r.modes) remark_modes(*r.modes, modes);
   add("at rest", rest);
   add("natural modes", modes);
+  add("in motion", motion_remarks(r));
   return remark_list(items, warned);
 }
 

@@ -11,7 +11,7 @@ struct SystemNumber {
   std::string part, quantity, unit, value, remark;
 };
 
-// What results.tsv holds: of each mesh, each body and each mode.
+// What results.tsv holds: of each mesh, each body, each mode and each sweep.
 std::vector<SystemNumber> system_numbers(const SystemReport& r);
 
 // Tables as HTML; "" where there is nothing to say. gear_tables: of elastic gears their drawings, of rigid ones what is known.

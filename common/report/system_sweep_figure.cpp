@@ -4,6 +4,8 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "report/figure_words.h"
+#include "report/system_picture.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -54,23 +56,12 @@ FigureBlock block_of(const Quantity& q, const SystemSweepArtifact& a, size_t cur
   return block;
 }
 
-std::string torque_words_of(const SystemSweepArtifact& a) {
-  const System& s = a.settings.layout;
-  std::string out;
-  for (size_t b = 0; b < s.bodies.size(); ++b) {
-    const System::Body& body = s.bodies[b];
-    if (body.on != System::kGround) continue;
-    const double torque = a.torque[static_cast<Index>(b)];
-    out += text(out.empty() ? "" : ", ", body.name, body.teeth > 0 ? text(" (", body.teeth, " teeth)") : "",
-                torque != 0 ? text(" ", fixed(torque, 1), " N m") : "",
-                s.held(static_cast<int>(b)) ? " held" : "");
-  }
-  return out;
-}
-
 }  // namespace
 
 Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
+  for (const SystemSweepArtifact& one : sweeps)
+    if (one.mesh_frequency.size() == 0 || one.settings.layout.meshes.empty())
+      fail(Failure::input, "figure: a sweep of no speeds, or of a system without meshes, was given");
   const SystemSweepArtifact& a = sweeps.front();
   const System& s = a.settings.layout;
   for (const SystemSweepArtifact& other : sweeps)
@@ -80,7 +71,7 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
            other.settings.layout.meshes.size(), " meshes; give those of one system, rising and falling");
   Figure figure;
   figure.title = "A system over its speeds: vibration, contact loss, forces on bearings";
-  figure.notes.push_back(torque_words_of(a));
+  figure.notes = in_lines(bodies_words(s, a.torque));
   figure.notes.push_back(text("body \"", a.settings.fidelity.body, "\", contact \"",
                               a.settings.fidelity.contact, "\", damping ",
                               shown(a.settings.damping.rayleigh_stiffness, 3), " s x stiffness + ",
@@ -101,15 +92,16 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
       from = std::min(from, sweep.mesh_frequency.minCoeff());
       to = std::max(to, sweep.mesh_frequency.maxCoeff());
     }
-    std::string labels;
-    for (size_t i = 0; i < curves; ++i) labels += "'" + names[i] + "' ";
+    std::vector<std::string> labels;
+    labels.reserve(curves);
+    for (size_t i = 0; i < curves; ++i) labels.push_back(short_name(names[i]));
     const std::string row = std::to_string(++row_number);
     for (const auto& [name, value] :
          {std::pair{"curves", static_cast<double>(curves)}, std::pair{"most", most > 0 ? 1.06 * most : 1.0}})
       figure.numbers.emplace_back(name + row, value);
     for (const auto& [name, word] :
          {std::pair{"quantity", std::string(q.name)}, std::pair{"axis", std::string(q.axis)},
-          std::pair{"unit", std::string(q.unit)}, std::pair{"labels", labels}})
+          std::pair{"unit", std::string(q.unit)}, std::pair{"labels", quoted_labels(labels)}})
       figure.words.emplace_back(name + row, word);
   }
   for (const Direction way : {Direction::up, Direction::down}) {
@@ -120,7 +112,8 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
   figure.numbers.emplace_back("frequency_from", from);
   figure.numbers.emplace_back("frequency_to", to);
   figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
-  figure.height = 1640;
+  figure.height = 1550 + 24 * static_cast<int>(figure.notes.size());
+  add_lines(figure.notes.size(), figure);
   return figure;
 }
 

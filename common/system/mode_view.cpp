@@ -47,13 +47,6 @@ Outline plain_outline(int teeth, double r, bool ring) {
   return out;
 }
 
-double working_radius(const System& s, int b) {
-  for (const System::Mesh& mesh : s.meshes)
-    for (const System::Side& side : mesh.side)
-      if (side.body == b) return s.bodies[static_cast<size_t>(b)].radius / std::cos(mesh.pressure_angle);
-  return s.bodies[static_cast<size_t>(b)].radius;
-}
-
 // Points, cells and lines of all bodies, and which body each is of.
 struct Drawing {
   std::vector<Vec2> point;
@@ -100,16 +93,23 @@ double kind_of(const System::Body& body) {
   return body.kind == System::BodyKind::carrier ? 2 : body.on == System::kGround ? 0 : 1;
 }
 
-// m: of the smallest circle about the middle of the drawing's box that holds its corners.
-double radius_of(const MatrixRM& point) {
+// m: half of the longer side of the drawing's box.
+double half_width(const MatrixRM& point) {
   return 0.5 * (point.colwise().maxCoeff() - point.colwise().minCoeff()).maxCoeff();
+}
+
+// Hz, to six digits: frequencies of a torsional train may lie below 1 Hz.
+double in_digits(double f) {
+  if (f == 0) return 0;
+  const double unit = std::pow(10, std::floor(std::log10(f)) - 5);
+  return unit < 1 ? std::round(f / unit) / std::round(1 / unit) : std::round(f);
 }
 
 std::string mode_name(const ModesArtifact& a, Index i) {
   const double f = a.natural_frequency[i];
   return text("mode_", i < 9 ? "0" : "", i + 1, "_",
-              f == 0 ? std::string("free") : name_of(a.type[static_cast<size_t>(i)]), "_",
-              std::round(f * 10) / 10, "_Hz");
+              f == 0 ? std::string("free") : name_of(a.type[static_cast<size_t>(i)]), "_", in_digits(f),
+              "_Hz");
 }
 
 }  // namespace
@@ -129,6 +129,7 @@ void add_mode_view(ModesArtifact& a, const std::vector<const GearDesign*>& desig
              cells = static_cast<Index>(drawing.cell.size()), lines = static_cast<Index>(drawing.line.size());
   ModesArtifact::View& view = a.view;
   view = {};
+  if (points == 0) return;
   view.point.resize(points, 2);
   for (Index i = 0; i < points; ++i) view.point.row(i) = drawing.point[static_cast<size_t>(i)].transpose();
   view.cell.resize(cells, 4);
@@ -150,7 +151,7 @@ void add_mode_view(ModesArtifact& a, const std::vector<const GearDesign*>& desig
     take(cells + e, drawing.line_body[static_cast<size_t>(e)]);
   }
   view.cell_data = {number, kind};
-  const double radius = radius_of(view.point);
+  const double half = half_width(view.point);
   for (Index mode = 0; mode < a.natural_frequency.size(); ++mode) {
     const MatrixRM& shape = a.shape[static_cast<size_t>(mode)];
     MatrixRM moved(points, 2);
@@ -161,8 +162,7 @@ void add_mode_view(ModesArtifact& a, const std::vector<const GearDesign*>& desig
       moved(i, 0) = shape(b, 1) - turn * (view.point(i, 1) - body.centre[1]);
       moved(i, 1) = shape(b, 2) + turn * (view.point(i, 0) - body.centre[0]);
     }
-    if (const double most = moved.rowwise().norm().maxCoeff(); most > 0)
-      moved *= kShownMotion * radius / most;
+    if (const double most = moved.rowwise().norm().maxCoeff(); most > 0) moved *= kShownMotion * half / most;
     view.point_data.push_back({mode_name(a, mode), "m", moved});
   }
 }

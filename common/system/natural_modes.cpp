@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -17,7 +19,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi, kAtRest = 1e-5;
+constexpr double kPi = std::numbers::pi, kAtRest = 1e-8;
 
 // [planet] of the only carrier, by angle about its axis; empty if there is none or more than one.
 std::vector<int> planets_of(const System& layout) {
@@ -251,6 +253,65 @@ ModesArtifact natural_modes(const System& layout, const MatrixXd& mesh_stiffness
   return out;
 }
 
+namespace {
+
+// (mesh, mesh) N m-1: entries of alike meshes at their common mean, which are those of one [[mesh]] by itself, of two with a body in
+// common that is a planet, and of two without.
+MatrixXd of_alike_planets(const SystemStaticParameters& settings, const MatrixXd& stiffness) {
+  const System& s = settings.layout;
+  const Index n = stiffness.rows();
+  if (static_cast<Index>(settings.section.size()) != n) return stiffness;
+  const auto planet_of = [&](Index m) {
+    for (const System::Side& side : s.meshes[static_cast<size_t>(m)].side)
+      if (s.bodies[static_cast<size_t>(side.body)].on != System::kGround) return side.body;
+    return -1;
+  };
+  const auto kind_of = [&](Index m, Index k) {
+    const int first = settings.section[static_cast<size_t>(m)],
+              second = settings.section[static_cast<size_t>(k)];
+    const int relation = m == k ? 0 : planet_of(m) >= 0 && planet_of(m) == planet_of(k) ? 1 : 2;
+    return std::array{std::min(first, second), std::max(first, second), relation};
+  };
+  std::map<std::array<int, 3>, std::pair<double, int>> sums;
+  for (Index m = 0; m < n; ++m)
+    for (Index k = 0; k < n; ++k) {
+      auto& [sum, count] = sums[kind_of(m, k)];
+      sum += stiffness(m, k);
+      ++count;
+    }
+  MatrixXd out(n, n);
+  for (Index m = 0; m < n; ++m)
+    for (Index k = 0; k < n; ++k) {
+      const auto& [sum, count] = sums[kind_of(m, k)];
+      out(m, k) = sum / count;
+    }
+  return out;
+}
+
+// Modes of meshes that differ a little are near combinations of those of alike ones: the type of a mode is the one whose modes of
+// alike meshes hold most of its kinetic energy, sum (v_type^T M v)^2. It so does not depend on how much the meshes differ.
+void take_types(const ModesArtifact& alike, ModesArtifact& out) {
+  const auto product = [&](size_t i, size_t j) {
+    double sum = 0;
+    for (size_t b = 0; b < out.layout.bodies.size(); ++b) {
+      const System::Body& body = out.layout.bodies[b];
+      const auto row = static_cast<Index>(b);
+      sum += body.inertia / (body.radius * body.radius) * alike.shape[i](row, 0) * out.shape[j](row, 0) +
+             body.bearing.mass * alike.shape[i].row(row).tail(2).dot(out.shape[j].row(row).tail(2));
+    }
+    return sum;
+  };
+  for (size_t j = 0; j < out.type.size(); ++j) {
+    std::map<ModeType, double> share;
+    for (size_t i = 0; i < alike.type.size(); ++i) share[alike.type[i]] += std::pow(product(i, j), 2);
+    out.type[j] = std::max_element(share.begin(), share.end(), [](const auto& a, const auto& b) {
+                    return a.second < b.second;
+                  })->first;
+  }
+}
+
+}  // namespace
+
 ModesArtifact elastic_modes(const SystemStaticArtifact& at_rest) {
   if (at_rest.mesh_stiffness.empty()) fail(Failure::input, "the statics hold no phase");
   const auto meshes = static_cast<Index>(at_rest.settings.layout.meshes.size());
@@ -258,6 +319,7 @@ ModesArtifact elastic_modes(const SystemStaticArtifact& at_rest) {
   for (const MatrixRM& frozen : at_rest.mesh_stiffness) mean += frozen;
   mean /= static_cast<double>(at_rest.mesh_stiffness.size());
   ModesArtifact out = natural_modes(at_rest.settings.layout, mean);
+  take_types(natural_modes(at_rest.settings.layout, of_alike_planets(at_rest.settings, mean)), out);
   out.mesh_phase = at_rest.mesh_phase;
   out.frozen_frequency.resize(out.mesh_phase.size(), out.natural_frequency.size());
   for (Index i = 0; i < out.mesh_phase.size(); ++i)

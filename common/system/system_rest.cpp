@@ -42,7 +42,9 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<BodyA
     if (body.inertia == 0) body.inertia = drawn.inertia;
     if (!body.bearing.elastic()) continue;
     if (body.bearing.mass == 0) body.bearing.mass = drawn.mass;
-    if (body.bearing.mass < drawn.mass)
+    // A mass that was read off a page has some digits.
+    constexpr double kDigits = 1e-3;
+    if (body.bearing.mass < (1 - kDigits) * drawn.mass)
       fail(Failure::input, "mass_kg = ", body.bearing.mass, " in the [[bearing]] of '", settings.gear[b],
            "' lies below the mass of its own body, ", drawn.mass,
            " kg: it is that of all that moves with the hub; raise it, or leave it out");

@@ -43,4 +43,15 @@ inline const BodyParameters* drawing_of(const SystemStaticArtifact& a, int body)
   return nullptr;
 }
 
+// [body] nullptr: of a carrier.
+inline std::vector<const GearDesign*> designs_of(const SystemStaticArtifact& a) {
+  std::vector<const GearDesign*> out;
+  out.reserve(a.settings.layout.bodies.size());
+  for (size_t b = 0; b < a.settings.layout.bodies.size(); ++b) {
+    const BodyParameters* drawing = drawing_of(a, static_cast<int>(b));
+    out.push_back(drawing ? &drawing->design : nullptr);
+  }
+  return out;
+}
+
 }  // namespace whine

@@ -1,12 +1,13 @@
 # How planets share the load at rest: of each [[mesh]] of planets the share of each over the mesh period (left), and the loads of the
 # tooth pairs of its first mesh (right).
-# Variables from gear-plot: tsv, heading, note1.., notes, height, rows, low, high (%) and, of each row k, name1.., first1.., labels1..,
+# Variables from gear-plot: tsv, heading, line1.., notes, height, rows, low, high (%) and, of each row k, first1.., labels1..,
 # pairs1.. (with '|' between), curves1.., loads1.., equal1.. (%).
 set datafile separator tab
 set datafile commentschars "#"
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
 array pair_colour[6] = ["#882255", "#332288", "#88a000", "#44aa99", "#b07030", "#777777"]
+foot_name = "line%d"
 lift = room(notes)
 part(words, i) = i == 1 ? words[1 : strstrt(words, "|") - 1] : part(words[strstrt(words, "|") + 1 : *], i - 1)
 
@@ -20,7 +21,6 @@ row = ((1 - lift) * height - 110) / rows
 set xrange [0:1]
 set xtics 0.2
 do for [k = 1:int(rows)] {
-  name = value(sprintf("name%d", k))
   labels = value(sprintf("labels%d", k))
   pairs = value(sprintf("pairs%d", k))
   curves = int(value(sprintf("curves%d", k)))
@@ -35,13 +35,13 @@ do for [k = 1:int(rows)] {
   set yrange [low : high]
   set key at graph 1.03, graph 1.0 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
   plot equal with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#444444" title "equal", \
-    for [i = 1:curves] tsv index sprintf("[share %s]", name) using 1:i + 1 with lines lt 1 dt dash(i) lw (2 + 0.7 * (curves - i)) lc rgb of(i) title word(labels, i)
+    for [i = 1:curves] tsv index sprintf("[share %d]", k) using 1:i + 1 with lines lt 1 dt dash(i) lw (2 + 0.7 * (curves - i)) lc rgb of(i) title word(labels, i)
   set lmargin at screen 0.62
   set rmargin at screen 0.88
   set xlabel sprintf("Phase of %s (mesh periods)", value(sprintf("first%d", k))) offset 0, 0.3 noenhanced
   set ylabel sprintf("Tooth loads, %s (N)", value(sprintf("first%d", k))) noenhanced
   set yrange [0 : *]
-  plot for [p = 1:loads] tsv index sprintf("[loads %s]", name) using 1:p + 1 with lines lt 1 lw 2.6 lc rgb pair_colour[(p - 1) % 6 + 1] title part(pairs, p)
+  plot for [p = 1:loads] tsv index sprintf("[loads %d]", k) using 1:p + 1 with lines lt 1 lw 2.6 lc rgb pair_colour[(p - 1) % 6 + 1] title part(pairs, p)
 }
 eval(below)
 unset multiplot

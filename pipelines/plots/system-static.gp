@@ -1,10 +1,11 @@
 # A system at rest: transmission errors, mesh forces, bearing forces, each over a mesh period (left) and its harmonics (right).
-# Variables from gear-plot: tsv, heading, note1.., height, harmonics and, of each row k, quantity1.., axis1.., unit1.., labels1.., curves1..,
+# Variables from gear-plot: tsv, heading, line1.., height, harmonics and, of each row k, quantity1.., axis1.., unit1.., labels1.., curves1..,
 # low1.., high1.., most1..; notes, their number.
 set datafile separator tab
 set datafile commentschars "#"
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
+foot_name = "line%d"
 lift = room(notes)
 
 set multiplot title heading offset 0, -0.4

@@ -1,10 +1,11 @@
 # A system over its speeds: RMS of the transmission error and time without contact of each mesh, oscillating force on each bearing.
-# Variables from gear-plot: tsv, heading, note1.., height, frequency_from, frequency_to, sweeps_up, sweeps_down and, of each row k,
+# Variables from gear-plot: tsv, heading, line1.., height, frequency_from, frequency_to, sweeps_up, sweeps_down and, of each row k,
 # quantity1.., axis1.., unit1.., labels1.., curves1.., most1..; notes, their number.
 set datafile separator tab
 set datafile commentschars "#"
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
+foot_name = "line%d"
 lift = room(notes)
 
 set multiplot title heading offset 0, -0.4

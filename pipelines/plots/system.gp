@@ -1,9 +1,10 @@
-# A system as it stands: all gears at their places, and the teeth about the pitch point of a mesh of each [[mesh]]; mm, equal axes.
-# Variables from gear-plot: tsv, heading, note1.., notes, height; of the main panel main_left, main_top, main_width, main_height (pixels),
+# A system of gears: all at their places, and the teeth about the pitch point of a mesh of each [[mesh]]; mm, equal axes.
+# Variables from gear-plot: tsv, heading, line1.., notes, height; of the main panel main_left, main_top, main_width, main_height (pixels),
 # left, right, low, high (mm); has_<block> (1: there is one); labels, label1.., label_x1.., label_y1.. (mm); close_ups, close_size (pixels), and of each close-up
 # close1.., close_x1.., close_y1.., close_half1.. (mm), close_left1.., close_top1.. (pixels).
 set datafile separator tab
 set datafile commentschars "#"
+foot_name = "line%d"
 lift = room(notes)
 
 set multiplot title heading offset 0, -0.2
@@ -18,7 +19,8 @@ planet_line = "#b3401a"
 lines_of(name, w, colour) = value("has_" . name) == 1 ? sprintf(', tsv index "[%s]" using 1:2 with lines lt 1 lw %g lc rgb "%s"', name, w, colour) : ""
 area_of(name, colour) = value("has_" . name) == 1 ? sprintf(', tsv index "[%s]" using 1:2 with filledcurves closed fc rgb "%s"', name, colour) : ""
 both(name, fill, w, colour) = area_of(name, fill) . lines_of(name, w, colour)
-shapes(w) = "NaN" . both("rim", "#e9f0fa", w, central_line) . both("hollow", "white", w, central_line) . both("central", "#e9f0fa", w, central_line) \
+shapes(w) = "NaN" . both("rim", "#e9f0fa", w, central_line) . both("second_rim", "#fbeee6", w, planet_line) \
+  . both("hollow", "white", w, central_line) . both("second_hollow", "white", w, planet_line) . both("central", "#e9f0fa", w, central_line) \
   . both("planets", "#fbeee6", w, planet_line) . lines_of("carrier", 6, "#bfe3d6") . both("bores", "white", 1, "#666666") \
   . lines_of("circles", 1.4, central_line) . lines_of("planet_circles", 1.4, planet_line) . lines_of("paths", 2 * w, "black")
 

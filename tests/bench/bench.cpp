@@ -504,6 +504,10 @@ void body(int argc, char** argv) {
   options.add("--element", element, "mm, side of its triangles where the flanks touch, of --position")
       .needs(settings);
   options.parse(argc, argv);
+  if (!(element > 0)) whine::fail(whine::Failure::usage, "--element = ", element, ": a length above 0");
+  for (const double phase : phases)
+    if (!(phase >= 0 && phase < 1))
+      whine::fail(whine::Failure::usage, "--position = ", phase, ": a mesh phase from 0 up to 1");
   if (!phases.empty()) {
     positions_beside_calculix(params, bodies, whine::number_option("--torque", torque), phases,
                               element * 1e-3);

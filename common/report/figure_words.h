@@ -1,0 +1,22 @@
+// Words of a picture that come from names and numbers: keys, labels, notes.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "report/figures.h"
+
+namespace whine {
+
+// What gnuplot's word() finds one by one: 'a' 'b'.
+std::string quoted_labels(const std::vector<std::string>& names);
+
+// A name that fits into a key or a label: its first and last letters, "…" between, where it is longer than 28.
+std::string short_name(const std::string& name);
+
+// Words in lines of a picture's width, broken at blanks.
+std::vector<std::string> in_lines(const std::string& words);
+
+// Notes as a template with foot_name = "line%d" has them: the first `plain` as they stand, behind them notes with the marks of gnuplot.
+void add_lines(size_t plain, Figure& figure);
+
+}  // namespace whine

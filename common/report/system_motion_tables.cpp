@@ -1,0 +1,278 @@
+#include "report/system_motion_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "report/figures.h"
+#include "report/html.h"
+#include "system/rigid_system.h"
+
+namespace whine {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kSamePeak = 0.01;        // of the RMS: below it rising and falling speed have one motion
+constexpr double kLargeImbalance = 1e-6;  // of the throughput
+
+// The largest value over the speeds, and where.
+struct Peak {
+  double value = 0, at = 0;  // at: Hz
+};
+
+Peak peak_of(const SystemSweepArtifact& a, const MatrixRM& values, size_t column) {
+  Index row = 0;
+  const double value = values.col(static_cast<Index>(column)).maxCoeff(&row);
+  return {value, a.mesh_frequency[row]};
+}
+
+std::string way_words_of(const SystemSweepArtifact& a) {
+  return text("speed ", a.direction == Direction::up ? "rising" : "falling");
+}
+
+// Rows of a sweep by speed.
+std::vector<Index> by_speed(const SystemSweepArtifact& a) {
+  std::vector<Index> order(static_cast<size_t>(a.mesh_frequency.size()));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Index x, Index y) { return a.mesh_frequency[x] < a.mesh_frequency[y]; });
+  return order;
+}
+
+// "" if no row is marked.
+std::string speeds_where(const SystemSweepArtifact& a, const auto& marks) {
+  const std::vector<Index> order = by_speed(a);
+  Eigen::VectorXd speeds(a.mesh_frequency.size());
+  std::vector<bool> marked;
+  marked.reserve(order.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    speeds[static_cast<Index>(i)] = a.mesh_frequency[order[i]];
+    marked.push_back(marks(order[i]));
+  }
+  return speeds_words(speeds, marked);
+}
+
+// N: mean force of a mesh at rest; 0 where it carries none.
+double rest_force(const SystemReport& r, size_t m) {
+  return r.rest ? r.rest->mesh_force.col(static_cast<Index>(m)).mean() : 0;
+}
+
+// "" where the mesh carries nothing at rest.
+std::string factor_words(const SystemReport& r, size_t m, const Peak& force) {
+  const double at_rest = rest_force(r, m);
+  return at_rest > 0 ? fixed(force.value / at_rest, 2) : "";
+}
+
+// One of several meshes of a [[mesh]], which share its load.
+bool shares_load(const SystemReport& r, size_t m) {
+  if (!r.rest) return false;
+  const std::vector<int>& section = r.rest->settings.section;
+  return std::count(section.begin(), section.end(), section[m]) > 1;
+}
+
+std::string meshes_table(const SystemReport& r) {
+  html::Rows rows;
+  for (const SystemSweepArtifact& a : r.sweeps)
+    for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m) {
+      const Peak error = peak_of(a, a.dte_rms, m), force = peak_of(a, a.mesh_force_max, m),
+                 tooth = peak_of(a, a.tooth_force_max, m), share = peak_of(a, a.load_share_max, m),
+                 loss = peak_of(a, a.separation_fraction, m);
+      const std::string factor = factor_words(r, m, force);
+      rows.push_back({mesh_name(a.settings.layout, m), way_words_of(a), significant(error.value * kMicro, 4),
+                      shown(error.at, 6), fixed(force.value, 0), shown(force.at, 6),
+                      factor.empty() ? "–" : factor, fixed(tooth.value, 0),
+                      shares_load(r, m) ? fixed(share.value * kPercent, 1) : "–",
+                      fixed(loss.value * kPercent, 1), loss.value > 0 ? shown(loss.at, 6) : "–"});
+    }
+  return html::table(
+      text("The meshes in motion: the largest value over the speeds, and the mesh ",
+           "frequency at which it is. RMS: of the oscillating part of the transmission ",
+           "error (DTE). Dynamic factor: largest mesh force over the mean force at rest. ",
+           "Share: at one instant, of the load of the meshes of one [[mesh]]; one that ",
+           "carries alone has 100 %. Contact loss: time in which no pair of teeth ", "touches."),
+      {"mesh", "sweep", "RMS of the DTE (µm)", "at (Hz)", "mesh force (N)", "at (Hz)", "dynamic factor",
+       "tooth load (N)", "share (%)", "contact loss (%)", "at (Hz)"},
+      rows, "small");
+}
+
+std::string bodies_table(const SystemReport& r) {
+  html::Rows rows;
+  for (const SystemSweepArtifact& a : r.sweeps)
+    for (size_t b = 0; b < a.settings.layout.bodies.size(); ++b) {
+      const System::Body& body = a.settings.layout.bodies[b];
+      const Peak most = peak_of(a, a.bearing_force_max, b), rms = peak_of(a, a.bearing_force_rms, b);
+      rows.push_back({text(body.name, body.on != System::kGround ? " (pin)" : ""), way_words_of(a),
+                      fixed(most.value, 1), shown(most.at, 6), fixed(rms.value, 1), shown(rms.at, 6)});
+    }
+  return html::table(
+      text("Forces on bearings and pins in motion: the largest value over the speeds, and the mesh ",
+           "frequency at which it is. RMS: of the oscillating part. On a rigid axis: the sum of the ",
+           "contact forces."),
+      {"body", "sweep", "largest force (N)", "at (Hz)", "RMS (N)", "at (Hz)"}, rows);
+}
+
+std::string sweeps_table(const SystemReport& r) {
+  html::Rows rows;
+  for (const SystemSweepArtifact& a : r.sweeps) {
+    const std::string loss =
+        speeds_where(a, [&](Index i) { return a.separation_fraction.row(i).maxCoeff() > 0; });
+    const std::string open = speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; });
+    const std::string several = speeds_where(a, [&](Index i) { return a.period_multiple[i] > 1; });
+    rows.push_back({way_words_of(a),
+                    text(a.mesh_frequency.size(), ", ", shown(a.mesh_frequency.minCoeff(), 6), " to ",
+                         shown(a.mesh_frequency.maxCoeff(), 6)),
+                    loss.empty() ? "none" : loss, open.empty() ? "none" : open,
+                    several.empty() ? "none" : several, text(a.periods.maxCoeff()),
+                    shown(a.energy_imbalance.maxCoeff(), 2)});
+  }
+  return html::table(
+      text("The sweeps. Each speed starts with the motion of the one before it. Energy imbalance: ",
+           "largest energy that is not accounted for, over the energy that goes through."),
+      {"sweep", "speeds (Hz)", "contact loss at (Hz)", "not periodic at (Hz)",
+       "repeats after several mesh periods at (Hz)", "mesh periods run, most", "energy imbalance"},
+      rows);
+}
+
+// The sweep the other way; nullptr: there is none.
+const SystemSweepArtifact* other_way(const SystemReport& r, const SystemSweepArtifact& a) {
+  for (const SystemSweepArtifact& other : r.sweeps)
+    if (other.direction != a.direction) return &other;
+  return nullptr;
+}
+
+// Whether the motions of two sweeps at one speed differ in the RMS of a mesh by more than kSamePeak of its larger value.
+bool differs(const SystemSweepArtifact& a, Index row, const SystemSweepArtifact& b) {
+  for (Index other = 0; other < b.mesh_frequency.size(); ++other) {
+    if (std::abs(b.mesh_frequency[other] - a.mesh_frequency[row]) > 1e-9 * a.mesh_frequency[row]) continue;
+    for (Index m = 0; m < a.dte_rms.cols(); ++m) {
+      const double one = a.dte_rms(row, m), two = b.dte_rms(other, m);
+      if (std::abs(one - two) > kSamePeak * std::max(one, two)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string speeds_words(const Eigen::VectorXd& speeds, const std::vector<bool>& marked) {
+  std::string out;
+  for (size_t i = 0; i < marked.size(); ++i) {
+    if (!marked[i]) continue;
+    size_t last = i;
+    while (last + 1 < marked.size() && marked[last + 1]) ++last;
+    const double from = speeds[static_cast<Index>(i)], to = speeds[static_cast<Index>(last)];
+    out += text(out.empty() ? "" : ", ", shown(from, 6), last > i ? text(" to ", shown(to, 6)) : "");
+    i = last;
+  }
+  return out;
+}
+
+std::string motion_tables(const SystemReport& r) {
+  return r.sweeps.empty() ? "" : sweeps_table(r) + meshes_table(r) + bodies_table(r);
+}
+
+std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
+  std::vector<SystemNumber> out;
+  for (const SystemSweepArtifact& a : r.sweeps) {
+    const System& s = a.settings.layout;
+    const std::string way = way_words_of(a);
+    const auto add = [&](const std::string& part, const char* what, const char* unit,
+                         const std::string& value, const Peak& peak) {
+      out.push_back(
+          {part, text(what, ", ", way), unit, value, text("at ", shown(peak.at, 6), " Hz of the mesh")});
+    };
+    for (size_t m = 0; m < s.meshes.size(); ++m) {
+      const std::string name = mesh_name(s, m);
+      const Peak error = peak_of(a, a.dte_rms, m), force = peak_of(a, a.mesh_force_max, m),
+                 tooth = peak_of(a, a.tooth_force_max, m), share = peak_of(a, a.load_share_max, m),
+                 loss = peak_of(a, a.separation_fraction, m);
+      add(name, "RMS of the dynamic transmission error, largest", "µm", significant(error.value * kMicro, 4),
+          error);
+      add(name, "mesh force in motion, largest", "N", fixed(force.value, 1), force);
+      if (const std::string factor = factor_words(r, m, force); !factor.empty())
+        add(name, "dynamic factor, largest", "1", factor, force);
+      add(name, "tooth load in motion, largest", "N", fixed(tooth.value, 1), tooth);
+      if (shares_load(r, m))
+        add(name, "share of the load in motion, largest", "%", fixed(share.value * kPercent, 2), share);
+      add(name, "time without contact, largest", "%", fixed(loss.value * kPercent, 2), loss);
+    }
+    for (size_t b = 0; b < s.bodies.size(); ++b) {
+      const Peak most = peak_of(a, a.bearing_force_max, b), rms = peak_of(a, a.bearing_force_rms, b);
+      add(s.bodies[b].name, "force on the bearing in motion, largest", "N", fixed(most.value, 1), most);
+      add(s.bodies[b].name, "force on the bearing in motion, RMS of the oscillating part, largest", "N",
+          fixed(rms.value, 2), rms);
+    }
+    out.push_back({way, "speeds", "1", text(a.mesh_frequency.size()), ""});
+    out.push_back({way, "speeds whose motion is not periodic", "1",
+                   text((a.period_multiple.array() == 0).count()),
+                   speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; })});
+    out.push_back({way, "energy imbalance, largest", "1", shown(a.energy_imbalance.maxCoeff(), 3), ""});
+  }
+  return out;
+}
+
+std::vector<Remark> motion_remarks(const SystemReport& r) {
+  std::vector<Remark> out;
+  for (const SystemSweepArtifact& a : r.sweeps) {
+    const std::string way = way_words_of(a);
+    const auto open = (a.period_multiple.array() == 0).count();
+    if (open > 0)
+      out.push_back(remark(true, way, ": the motion does not repeat at ", open, " of ",
+                           a.mesh_frequency.size(), " speeds (",
+                           speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; }),
+                           " Hz): values there are of the recorded mesh periods alone"));
+    const std::string loss =
+        speeds_where(a, [&](Index i) { return a.separation_fraction.row(i).maxCoeff() > 0; });
+    if (!loss.empty()) {
+      std::string meshes;
+      for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m)
+        if (a.separation_fraction.col(static_cast<Index>(m)).maxCoeff() > 0)
+          meshes += (meshes.empty() ? "" : ", ") + mesh_name(a.settings.layout, m);
+      out.push_back(remark(false, way, ": teeth part at ", loss, " Hz (", meshes,
+                           "): the vibration is nonlinear there"));
+    }
+    if (a.energy_imbalance.maxCoeff() > kLargeImbalance)
+      out.push_back(remark(true, way, ": ", shown(a.energy_imbalance.maxCoeff(), 2),
+                           " of the energy that goes through is not accounted for; raise steps_per_period"));
+  }
+  if (!r.sweeps.empty()) {
+    const SystemSweepArtifact& first = r.sweeps.front();
+    if (const SystemSweepArtifact* other = other_way(r, first)) {
+      const std::string two = speeds_where(first, [&](Index i) { return differs(first, i, *other); });
+      if (!two.empty())
+        out.push_back(remark(false, "rising and falling speed lead to different motions at ", two,
+                             " Hz: the vibration jumps at the ends of these ranges"));
+    }
+    if (has_planets(first.settings.layout))
+      out.push_back(remark(false,
+                           "the carrier stands still in the sweeps: centrifugal and Coriolis forces on ",
+                           "planets of a carrier that turns are left out, and may be as large as the ",
+                           "forces on their pins"));
+  }
+  return out;
+}
+
+std::string motion_words(const SystemReport& r) {
+  Peak most;
+  std::string mesh, way;
+  double loss = 0;
+  for (const SystemSweepArtifact& a : r.sweeps)
+    for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m) {
+      loss = std::max(loss, peak_of(a, a.separation_fraction, m).value);
+      if (const Peak peak = peak_of(a, a.dte_rms, m); peak.value > most.value) {
+        most = peak;
+        mesh = mesh_name(a.settings.layout, m);
+        way = way_words_of(a);
+      }
+    }
+  if (mesh.empty()) return "";
+  return text("The largest vibration is an RMS of ", significant(most.value * kMicro, 3), " µm of ", mesh,
+              " at ", shown(most.at, 6), " Hz, ", way, "; ",
+              loss > 0
+                  ? text("teeth are without contact for up to ", fixed(loss * kPercent, 1), " % of the time.")
+                  : "no mesh loses contact.");
+}
+
+}  // namespace whine

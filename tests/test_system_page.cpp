@@ -1,0 +1,318 @@
+// The page of a system: what it says of what is written and read, of motion, of odd names; natural modes by type.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "gear/system_layout.h"
+#include "io/modes_codec.h"
+#include "io/system_scene.h"
+#include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
+#include "message_of_input.h"
+#include "relative.h"
+#include "report/figure_words.h"
+#include "report/system_figures.h"
+#include "report/system_motion_tables.h"
+#include "report/system_picture.h"
+#include "report/system_report.h"
+#include "report/system_sweep_figure.h"
+#include "scene_file.h"
+#include "small_system.h"
+#include "system/mode_view.h"
+#include "system/natural_modes.h"
+#include "system/system_rest.h"
+
+using namespace whine;
+using Eigen::Index;
+
+namespace {
+
+const Provenance kMade{"gear-test", "gear-test --output x.h5", {}};
+
+// Sun driven, ring and carrier held, numbers that differ from mesh to mesh and from body to body.
+SystemStaticArtifact varied(SystemScene scene = planetary_train(3)) {
+  scene.drives = {{"sun", System::DriveKind::torque, 400, 0},
+                  {"ring", System::DriveKind::held, 0, 0},
+                  {"carrier", System::DriveKind::held, 0, 0}};
+  SystemStaticArtifact a = small_system(scene);
+  for (Index m = 0; m < a.mesh_force.cols(); ++m) {
+    a.mesh_force.col(m).setConstant(1000 + 100 * static_cast<double>(m));
+    a.transmission_error.col(m) << 1e-6, 1e-6 * static_cast<double>(m + 2);
+    for (size_t i = 0; i < 2; ++i) {
+      a.tooth_load[i].row(m).setConstant(500 + 10 * static_cast<double>(m));
+      a.mesh_stiffness[i](m, m) = 4e8 + 1e6 * static_cast<double>(m);
+    }
+  }
+  a.torque.setZero();
+  a.torque.col(0).setConstant(400);
+  a.torque.col(4).setConstant(-1466.6);
+  a.torque.col(5).setConstant(-1866.6);
+  for (size_t i = 0; i < 2; ++i)
+    for (Index b = 0; b < a.bearing_force[i].rows(); ++b)
+      a.bearing_force[i].row(b) << 30 * static_cast<double>(b + 1), i == 0 ? 40 : -40;
+  return a;
+}
+
+SystemReport report_of(const SystemStaticArtifact& rest) {
+  SystemReport r;
+  r.scene = "train.toml: A planetary train";
+  r.rest = rest;
+  r.modes = elastic_modes(rest);
+  r.pictures = {{"system", "png"}, {"load-sharing", "png"}, {"modes", "png"}};
+  return r;
+}
+
+// Rising: planet 2 vibrates most at 2000 Hz, where it loses contact; at 1000 Hz the motion does not repeat. Falling: another
+// motion at 2000 Hz.
+std::vector<SystemSweepArtifact> sweeps_of(const SystemStaticArtifact& rest) {
+  std::vector<SystemSweepArtifact> out{small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)};
+  for (SystemSweepArtifact& a : out) {
+    a.dte_rms.setConstant(1e-6);
+    a.separation_fraction.setZero();
+    a.mesh_force_max.setConstant(1500);
+    a.energy_imbalance.setConstant(1e-13);
+  }
+  SystemSweepArtifact& up = out.front();
+  up.dte_rms(0, 1) = 3e-6;
+  up.separation_fraction(0, 1) = 0.25;
+  up.mesh_force_max(0, 1) = 2200;
+  up.bearing_force_max(0, 2) = 777.5;
+  return out;
+}
+
+bool holds(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+// Whether "nan" or "inf" stands as a word of its own.
+bool has_no_number(const std::string& page) {
+  for (const std::string word : {"nan", "inf"})
+    for (size_t at = page.find(word); at != std::string::npos; at = page.find(word, at + 1)) {
+      const auto letter = [&](size_t i) {
+        return i < page.size() && std::isalnum(static_cast<unsigned char>(page[i])) != 0;
+      };
+      if (!(at > 0 && letter(at - 1)) && !letter(at + word.size())) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the page of a system: its sections, its numbers, and the same page of what is written and read back") {
+  const SystemStaticArtifact rest = varied();
+  SystemReport r = report_of(rest);
+  r.sweeps = sweeps_of(rest);
+  r.pictures.push_back({"system-sweep", "png"});
+  const std::string page = system_report_html(r), table = system_report_tsv(r);
+  for (const char* words :
+       {"id=\"gears\"", "id=\"meshes\"", "id=\"rest\"", "id=\"modes-of-system\"", "id=\"motion\"",
+        "id=\"provenance\"", "<figure id=\"load-sharing\">", "<figure id=\"system-sweep\">", "sun-planet1",
+        "planet3-ring", "What the numbers mean", "tip_relief_um", "rayleigh_stiffness_s", "corner_contact",
+        "The carrier has 3 planets."})
+    CHECK_MESSAGE(holds(page, words), words);
+  CHECK(!has_no_number(page));
+  CHECK(!has_no_number(table));
+  // part, quantity, value, unit, remark: of what is known.
+  for (const char* row :
+       {"sun\ttorque, mean\t400.00\tN m\tdriven\n", "planet1\ttorque, mean\t0.00\tN m\tfree\n",
+        "ring\ttorque, mean\t-1466.60\tN m\theld\n",
+        "carrier\ttorque, mean\t-1866.60\tN m\theld (the frame)\n",
+        "sun-planet2\tmesh force, mean\t1100.0\tN\t\n",
+        "planet1-ring\tstatic transmission error, peak to peak\t4.00\tµm\t\n",
+        "planet3-ring\tmean mesh stiffness, contact frozen\t405\tN/µm\t\n",
+        "planet2-ring\tstatic tooth load, largest\t540\tN\t\n",
+        "planet1\tforce on the bearing, mean\t60.0\tN\t\n",
+        "planet1\tforce on the bearing, largest\t72.1\tN\t\n",
+        "planet1\tforce on the bearing, RMS of the oscillating part\t40.00\tN\t\n"})
+    CHECK_MESSAGE(holds(table, row), row);
+
+  const SceneFile place;
+  const std::string file = place.path("");
+  write(file + "s.h5", rest, kMade);
+  write(file + "m.h5", *r.modes, kMade);
+  write(file + "u.h5", r.sweeps[0], kMade);
+  write(file + "d.h5", r.sweeps[1], kMade);
+  SystemReport again = r;
+  again.rest = read_system_static(file + "s.h5");
+  again.modes = read_modes(file + "m.h5");
+  again.sweeps = {read_system_sweep(file + "u.h5"), read_system_sweep(file + "d.h5")};
+  CHECK(system_report_html(again) == page);
+  CHECK(system_report_tsv(again) == table);
+  CHECK(plot_data(system_picture(*again.rest)) == plot_data(system_picture(rest)));
+  CHECK(plot_data(system_load_sharing_figure(*again.rest)) == plot_data(system_load_sharing_figure(rest)));
+  CHECK(plot_data(system_sweep_figure(again.sweeps)) == plot_data(system_sweep_figure(r.sweeps)));
+
+  SystemReport rigid;
+  rigid.scene = "rigid.toml: Rigid";
+  rigid.modes = natural_modes(layout_of(planetary_train(3)));
+  const std::string of_rigid = system_report_html(rigid);
+  CHECK(!holds(of_rigid, "id=\"rest\""));
+  CHECK(!holds(of_rigid, "id=\"motion\""));
+  CHECK(holds(of_rigid, "rotational"));
+  // Whether a torque drives it, modes do not know.
+  CHECK(!holds(of_rigid, "<td>free</td>"));
+
+  const auto said = [](SystemReport changed, const auto& change) {
+    change(changed);
+    return message_of_input([&] { system_report_html(changed); });
+  };
+  CHECK(holds(said(r, [](SystemReport& c) { c.modes.reset(); }), "no modes.h5 given"));
+  CHECK(holds(said(r,
+                   [](SystemReport& c) {
+                     c.pictures.push_back({"fig07", "png"});
+                   }),
+              "no words for a figure 'fig07'"));
+  CHECK(holds(said(r, [](SystemReport& c) { c.pictures.push_back(c.pictures[0]); }), "is given twice"));
+  CHECK(holds(said(r, [](SystemReport& c) { c.modes = natural_modes(layout_of(planetary_train(4))); }),
+              "of two systems"));
+  CHECK(holds(said(r, [](SystemReport& c) { c.rest.reset(); }), "without the system_static.h5"));
+  CHECK(
+      holds(said(r, [](SystemReport& c) { c.sweeps[1] = c.sweeps[0]; }), "two sweeps in the direction 'up'"));
+  CHECK(
+      holds(said(r, [](SystemReport& c) { c.sweeps[1].torque[0] = 401; }), "the torque on 'sun' is 401 N m"));
+}
+
+TEST_CASE(
+    "the page of a system in motion: largest values with their speeds, contact loss, motions that differ or "
+    "do not repeat") {
+  const SystemStaticArtifact rest = varied();
+  SystemReport r = report_of(rest);
+  CHECK(motion_tables(r).empty());
+  CHECK(motion_remarks(r).empty());
+  r.sweeps = sweeps_of(rest);
+  const std::string table = system_report_tsv(r), page = system_report_html(r);
+  for (const char* row :
+       {"sun-planet2\tRMS of the dynamic transmission error, largest, speed rising\t3.000\tµm\tat 2000 Hz of "
+        "the mesh\n",
+        "sun-planet2\tRMS of the dynamic transmission error, largest, speed falling\t1.000\tµm\t",
+        "sun-planet2\tdynamic factor, largest, speed rising\t2.00\t1\tat 2000 Hz of the mesh\n",
+        "sun-planet1\tdynamic factor, largest, speed falling\t1.50\t1\t",
+        "sun-planet2\ttime without contact, largest, speed rising\t25.00\t%\tat 2000 Hz of the mesh\n",
+        "planet2\tforce on the bearing in motion, largest, speed rising\t777.5\tN\tat 2000 Hz of the mesh\n",
+        "speed rising\tspeeds whose motion is not periodic\t1\t1\t1000\n"})
+    CHECK_MESSAGE(holds(table, row), row);
+  for (const char* words :
+       {"the motion does not repeat at 1 of 2 speeds (1000 Hz)", "teeth part at 2000 Hz (sun-planet2)",
+        "rising and falling speed lead to different motions at 2000 Hz",
+        "The largest vibration is an RMS of 3.00 µm of sun-planet2 at 2000 Hz, speed rising",
+        "for up to 25.0 % of the time"})
+    CHECK_MESSAGE(holds(page, words), words);
+  r.sweeps[0].energy_imbalance[1] = 1e-3;
+  CHECK(holds(system_report_html(r), "0.001 of the energy that goes through is not accounted for"));
+  // Ranges of speeds.
+  const Eigen::VectorXd speeds = Eigen::VectorXd::LinSpaced(6, 100, 600);
+  CHECK(speeds_words(speeds, {true, true, false, true, false, true}) == "100 to 200, 400, 600");
+  CHECK(speeds_words(speeds, {true, true, true, true, true, true}) == "100 to 600");
+  CHECK(speeds_words(speeds, std::vector<bool>(6, false)).empty());
+}
+
+TEST_CASE("odd names in the figures of a system: marks of gnuplot, names that are long") {
+  SystemStaticArtifact a = varied();
+  const std::string lengthy(130, 'g');
+  a.settings.layout.bodies[0].name = "sun_gear";
+  a.settings.layout.bodies[4].name = lengthy;
+  a.settings.mesh[1].gear[1] = lengthy;
+  const auto words_of = [](const Figure& figure, const std::string& name) {
+    for (const auto& [key, value] : figure.words)
+      if (key == name) return value;
+    return std::string();
+  };
+  for (const Figure& figure : {system_picture(a), system_static_figure(a), system_load_sharing_figure(a),
+                               system_sweep_figure({small_sweep(a, Direction::up)})}) {
+    CAPTURE(figure.title);
+    CHECK(words_of(figure, "line1").starts_with("sun\\_gear"));
+    for (const std::string& note : figure.notes) CHECK(note.size() < 180);
+    CHECK(figure.notes.front().starts_with("sun_gear"));
+    for (const FigureTable& one : tables(figure, {})) CHECK(one.name.size() < 40);
+    CHECK(figure.height < 4000);
+  }
+  CHECK(holds(words_of(system_static_figure(a), "labels1"), "'sun_gear-planet1' "));
+  CHECK(short_name("planet12") == "planet12");
+  CHECK(short_name(lengthy).size() < 34);
+  // A tower of gears is no taller than wide pictures are, and says what it leaves out.
+  SystemScene tower;
+  for (int i = 0; i < 6; ++i) {
+    SystemScene::Gear gear;
+    gear.name = text("gear_", i);
+    gear.design = rigid_gear(27);
+    gear.equivalent_mass = 1;
+    tower.gears.push_back(gear);
+    if (i == 0) continue;
+    SystemScene::Mesh mesh;
+    mesh.spec.gear = {text("gear_", i - 1), text("gear_", i)};
+    mesh.spec.centre_distance = 27 * 2.776e-3 + 20e-6;
+    mesh.direction = 0.5 * std::numbers::pi;
+    tower.meshes.push_back(mesh);
+  }
+  const Figure tall = system_picture(small_system(tower));
+  CHECK(tall.height < 2000);
+  CHECK(std::count(tall.notes.begin(), tall.notes.end(), "close-ups: the first 3 of 5 [[mesh]]") == 1);
+}
+
+TEST_CASE("types of modes: planets whose mean stiffnesses differ by 2 per cent have those of equal ones") {
+  SystemScene scene = planetary_train(4);
+  const std::array teeth{27, 36, 99};
+  for (size_t g = 0; g < 3; ++g) scene.gears[g].design = rigid_gear(teeth[g], g == 2);
+  for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
+  scene.carriers[0].planets = 0;
+  for (const double angle : {0.0, 91.43, 180.0, 271.43})
+    scene.carriers[0].positions.push_back(angle * std::numbers::pi / 180);
+  SystemStaticArtifact a = small_system(scene);
+  for (const double spread : {0.0, 0.002, 0.02}) {
+    CAPTURE(spread);
+    for (MatrixRM& k : a.mesh_stiffness) {
+      k = MatrixRM::Identity(8, 8) * 5e8;
+      for (Index m = 0; m < 4; ++m) {
+        // Opposite planets differ, too.
+        k(m, m) *= 1 + spread * std::array{0.5, -0.5, 0.3, 0.1}[static_cast<size_t>(m)];
+        k(m + 4, m + 4) *= 1 + spread * std::array{-0.2, 0.5, -0.5, 0.0}[static_cast<size_t>(m)];
+        // Each planet joins its meshes.
+        k(m, m + 4) = k(m + 4, m) = -2e7;
+      }
+    }
+    const ModesArtifact modes = elastic_modes(a);
+    std::map<ModeType, int> count;
+    for (const ModeType type : modes.type) ++count[type];
+    CHECK(count[ModeType::rotational] == 6);
+    CHECK(count[ModeType::translational] == 12);
+    CHECK(count[ModeType::planet] == 3);
+    CHECK(count[ModeType::mixed] == 0);
+  }
+}
+
+TEST_CASE("masses on bearings: one that was read off the page, with four digits, is that of the body") {
+  const SystemStaticArtifact a = varied();
+  std::vector<BodyArtifact> bodies(a.settings.body.size());
+  for (BodyArtifact& body : bodies) {
+    body.mass = 0.74134;
+    body.inertia = 1e-3;
+  }
+  const auto taken = [&](double mass) {
+    System layout = a.settings.layout;
+    for (System::Body& body : layout.bodies) body.bearing.mass = mass;
+    return message_of_input([&] { take_masses(a.settings, bodies, layout); });
+  };
+  CHECK(taken(0.7413).empty());
+  CHECK(taken(2).empty());
+  CHECK(holds(taken(0.74), "lies below the mass of its own body"));
+}
+
+TEST_CASE("stage parameters of modes: gears without teeth and meshes of what is no gear are rejected") {
+  const SceneFile place;
+  const auto said = [&](const auto& spoil) {
+    System s = layout_of(planetary_train(3));
+    spoil(s);
+    const std::string path = place.path(system_parameters(s), "system.toml");
+    return message_of_input([&] { read_system_parameters(path); });
+  };
+  CHECK(said([](System&) {}).empty());
+  CHECK(holds(said([](System& s) { s.bodies[1].teeth = 0; }), "[[body]] 'planet1' is a gear with teeth = 0"));
+  CHECK(holds(said([](System& s) { s.meshes[0].side[1].body = 5; }), "is not of two gears that differ"));
+  CHECK(holds(said([](System& s) { s.meshes[0].side[1].body = 0; }), "is not of two gears that differ"));
+}
