@@ -20,7 +20,7 @@
 
 namespace whine {
 
-struct Part {
+struct ModelPart {
   int id;
   std::string type, name;
   std::vector<std::array<std::string, 3>> attributes;  // id, unit, value
@@ -31,9 +31,9 @@ struct Link {
 };
 struct Gearbox {
   std::string version = "1.4";
-  std::vector<Part> parts;
+  std::vector<ModelPart> parts;
   std::vector<Link> links;
-  std::vector<Part> load;  // of one load case
+  std::vector<ModelPart> load;  // of one load case
 };
 
 // The pair of data/scenes/first-pair.toml, with the values that a model of a gearbox has.
@@ -100,9 +100,9 @@ inline Gearbox first_pair() {
   return box;
 }
 
-inline std::string xml_parts(const std::vector<Part>& parts) {
+inline std::string xml_parts(const std::vector<ModelPart>& parts) {
   std::string out;
-  for (const Part& part : parts) {
+  for (const ModelPart& part : parts) {
     out += "<component id=\"" + std::to_string(part.id) + "\" type=\"" + part.type + "\" name=\"" +
            part.name + "\">\n";
     for (const auto& [id, unit, value] : part.attributes)
@@ -128,9 +128,9 @@ inline std::string xml(const Gearbox& box) {
   return out + "</model>\n";
 }
 
-inline Json::Value json_parts(const std::vector<Part>& parts) {
+inline Json::Value json_parts(const std::vector<ModelPart>& parts) {
   Json::Value out(Json::arrayValue);
-  for (const Part& part : parts) {
+  for (const ModelPart& part : parts) {
     Json::Value node;
     node["id"] = part.id;
     node["type"] = part.type;
@@ -216,7 +216,7 @@ inline Scene imported(const Folder& folder, const std::string& model, const std:
 
 inline void set(Gearbox& box, int id, const std::string& attribute, const std::string& unit,
                 const std::string& value) {
-  for (Part& part : box.parts) {
+  for (ModelPart& part : box.parts) {
     if (part.id != id) continue;
     std::erase_if(part.attributes, [&](const auto& a) { return a[0] == attribute; });
     part.attributes.push_back({attribute, unit, value});
@@ -240,7 +240,7 @@ inline std::string bytes_of(const std::string& path) {
 }
 
 inline void unset(Gearbox& box, int id, const std::string& attribute) {
-  for (Part& part : box.parts)
+  for (ModelPart& part : box.parts)
     if (part.id == id) std::erase_if(part.attributes, [&](const auto& a) { return a[0] == attribute; });
 }
 

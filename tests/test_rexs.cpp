@@ -238,7 +238,7 @@ TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of t
   set(box, 10, "single_pitch_deviation_iso_1328_2013", "mum", "5");
   box.parts.push_back({50, "helix_crowning", "", {}});
   box.links.push_back({"reference", {{"origin", 20}, {"referenced", 50}}});
-  for (Part& part : box.parts)
+  for (ModelPart& part : box.parts)
     if (part.id == 11) part.name = "&quot;]&#10;[material.evil]&#10;x = `touch x`";
   const RexsScene scene = scene_of_rexs(read_rexs(folder.file("pair.rexs", xml(box))), "", 1);
   CHECK(scene.text.find("single_pitch_deviation_iso_1328_2013") != std::string::npos);
@@ -248,7 +248,7 @@ TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of t
   // A type stands in the same comments: of what is read, of what is not, and of what is beside a flank.
   for (const int id : {30, 31, 40, 50}) {
     CAPTURE(id);
-    for (Part& part : box.parts)
+    for (ModelPart& part : box.parts)
       if (part.id == id) {
         const std::string type = part.type;
         part.type = "x&#10;[material.evil]&#10;y = 1";
@@ -258,7 +258,7 @@ TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of t
         part.type = type;
       }
   }
-  for (Part& part : box.parts) {
+  for (ModelPart& part : box.parts) {
     if (part.id == 11) part.name = "]\n[material.evil]\nx = 1";
     if (part.id == 50) part.type = "x\n[material.evil]\ny = 1";
   }

@@ -44,7 +44,7 @@ std::vector<std::pair<Gearbox, std::string>> stages() {
     several.links.push_back({"stage", {{"stage", id}, {"gear_1", 10}, {"gear_2", 11}}});
   }
   several.version = "2.0";
-  for (Part& part : several.parts)
+  for (ModelPart& part : several.parts)
     if (part.id == 11) part.name = "Rad größer";
   return {{first_pair(), ""}, {relieved, ""}, {several, "12"}};
 }
