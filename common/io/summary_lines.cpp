@@ -1,7 +1,8 @@
+#include "io/summary_lines.h"
+
 #include <algorithm>
 
 #include "io/modes_codec.h"
-#include "io/summary_lines.h"
 #include "io/system_branch_codec.h"
 #include "io/system_impact_codec.h"
 #include "io/system_static_codec.h"
