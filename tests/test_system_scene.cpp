@@ -288,7 +288,7 @@ TEST_CASE("remarks on the motion of a system: contact on lines, a damping that n
   scene.fidelity.contact = ContactModel::strips;
   REQUIRE(motion_remarks(scene).size() == 1);
   CHECK(motion_remarks(scene)[0].find("in motion a system has contact = \"line\"") != std::string::npos);
-  scene.damping = {};
+  scene.damping.rayleigh_stiffness = kDefaultRayleighStiffness;
   REQUIRE(motion_remarks(scene).size() == 2);
   CHECK(motion_remarks(scene)[1].find("is for the gears of P2000") != std::string::npos);
   scene.operation.frequency_to = 0;

@@ -53,9 +53,9 @@ Figure system_impact_figure(const SystemImpactArtifact& a) {
                               " meshes, body \"", a.settings.fidelity.body, "\"; ", a.mesh_phase.size(),
                               " mesh phases: bars from the least to the largest"));
   figure.notes.push_back(text("[damping] ", shown(damping.rayleigh_stiffness, 3), " s x stiffness + ",
-                              shown(damping.rayleigh_mass, 3), " 1/s x mass, bearing_ratio ",
+                              shown(damping.rayleigh_mass, 3), " 1/s x mass, dampers of the axes ",
                               shown(damping.bearing_ratio, 3),
-                              "; bearings have dampers of their own, and contact near the flanks has none"));
+                              " of critical; bearings have their own, and contact near the flanks has none"));
   if (overdamped > 0)
     figure.notes.push_back(text(overdamped, " modes are damped above critical and are not shown"));
   figure.numbers = {{"from", low},
