@@ -235,7 +235,8 @@ TEST_CASE("load sharing: loads of tooth pairs are continuous over a period of th
         a.tooth_load[static_cast<size_t>(i)](0, p) = load_at(own + static_cast<double>(a.pair[p]));
     }
     a.load_share = MatrixRM::Constant(kPhases, 6, 1.0 / 3);
-    const FigureBlock& loads = block(system_load_sharing_figure(a), "loads 1");
+    const Figure figure = system_load_sharing_figure(a);
+    const FigureBlock& loads = block(figure, "loads 1");
     REQUIRE(loads.rows.size() >= kPhases + 1);
     CHECK(loads.rows.front()[0] == 0);
     CHECK(loads.rows.back()[0] == 1);
