@@ -114,7 +114,7 @@ TEST_CASE(
       const GearPair& pair = system.mesh[0].kinematics;
       const double ratio = static_cast<double>(gears->driver.teeth) / gears->driven.teeth;
       double least = 1, most = -1;
-      for (const double phase : {0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9}) {
+      for (const double phase : {0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95}) {
         const SystemSolution& solution = statics.solve(phase, 0, VectorXd::Zero(2));
         const Books by_vectors = books(pair, statics.position(), solution.equilibrium.p);
         // The equilibrium has the torque, and the driven gear what is left of it.
@@ -387,9 +387,10 @@ TEST_CASE("friction at rest: what its forces would bend, beside what its moments
   MESSAGE("peak to peak: transmission error "
           << spread(without.transmission_error) << " nm; change by moments " << spread(moments)
           << " nm, by bending " << spread(bending) << " nm, by both " << spread(moments + bending) << " nm");
-  CHECK(spread(bending) > 0.2 * spread(moments));
-  CHECK(moments.dot(bending) / (moments.norm() * bending.norm()) < 1);
-  MESSAGE("cosine of the two changes: " << moments.dot(bending) / (moments.norm() * bending.norm()));
+  const double cosine = moments.dot(bending) / (moments.norm() * bending.norm());
+  MESSAGE("cosine of the two changes: " << cosine);
+  CHECK(cosine < -0.8);
+  CHECK(spread(moments + bending) < 0.5 * spread(moments));
   const auto first = [](const VectorXd& x) {
     std::complex<double> sum = 0;
     for (Index i = 0; i < x.size(); ++i)
