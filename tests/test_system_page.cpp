@@ -116,6 +116,10 @@ TEST_CASE(
         "planet3-ring", "What the numbers mean", "tip_relief_um", "rayleigh_stiffness_s", "corner_contact",
         "The carrier has 3 planets."})
     CHECK_MESSAGE(holds(page, words), words);
+  // Tip and root of the ring, 2.776 (99 -+ 2 x 0.8 or 1.15) mm: its tips lie inside.
+  CHECK(holds(page, ">270.382<"));
+  CHECK(holds(page, ">281.209<"));
+  CHECK(!holds(page, ">279.266<"));
   CHECK(!has_no_number(page));
   CHECK(!has_no_number(table));
   // part, quantity, value, unit, remark: of what is known.

@@ -11,6 +11,14 @@
 namespace whine {
 namespace {
 
+// m: d_a = m (z + 2 x + 2 h_a), d_f = m (z + 2 x - 2 h_f); of an internal gear, whose tips lie inside, with the other signs.
+void take_diameters(KeyValues& values) {
+  const GearDesign& gear = values.design;
+  const double outwards = gear.internal ? -1 : 1, middle = gear.teeth + outwards * 2 * gear.profile_shift;
+  values.tip_diameter = gear.module * (middle + outwards * 2 * gear.addendum);
+  values.root_diameter = gear.module * (middle - outwards * 2 * gear.dedendum);
+}
+
 // What an artifact of a pair says to the keys of a scene, from the side of one of its gears. It need not know of motion.
 template <class Artifact>
 KeyValues keys_of(const Artifact& a, int g) {
@@ -23,10 +31,7 @@ KeyValues keys_of(const Artifact& a, int g) {
     values.damping = a.damping;
   }
   values.design = a.gear[g].design;
-  const GearDesign& gear = values.design;
-  const double middle = gear.teeth + 2 * gear.profile_shift;
-  values.tip_diameter = gear.module * (middle + 2 * gear.addendum);
-  values.root_diameter = gear.module * (middle - 2 * gear.dedendum);
+  take_diameters(values);
   values.material = a.gear[g].material;
   values.body = a.gear[g].discretisation;
   take_gear(values, a.mesh, g);
@@ -128,9 +133,7 @@ KeyValues keys_of(const SystemStaticArtifact& a, size_t g, const SystemSweepArti
   KeyValues values;
   const std::string& name = a.settings.body[g].first;
   values.design = a.drawing[g].design;
-  const double middle = values.design.teeth + 2 * values.design.profile_shift;
-  values.tip_diameter = values.design.module * (middle + 2 * values.design.addendum);
-  values.root_diameter = values.design.module * (middle - 2 * values.design.dedendum);
+  take_diameters(values);
   values.material = a.drawing[g].material;
   values.body = a.drawing[g].discretisation;
   values.modification = a.settings.modification(name);

@@ -87,11 +87,10 @@ std::string meshes_table(const SystemReport& r) {
                       fixed(loss.value * kPercent, 1), loss.value > 0 ? shown(loss.at, 6) : "–"});
     }
   return html::table(
-      text("The meshes in motion: the largest value over the speeds, and the mesh ",
-           "frequency at which it is. RMS: of the oscillating part of the transmission ",
-           "error (DTE). Dynamic factor: largest mesh force over the mean force at rest. ",
-           "Share: at one instant, of the load of the meshes of one [[mesh]]; one that ",
-           "carries alone has 100 %. Contact loss: time in which no pair of teeth ", "touches."),
+      text("The meshes in motion: the largest value over the speeds, and the mesh frequency at which it ",
+           "is. RMS: of the oscillating part of the transmission error (DTE). Dynamic factor: largest ",
+           "mesh force over the mean force at rest. Share: at one instant, of the load of the meshes of ",
+           "one [[mesh]]. Contact loss: time in which no pair of teeth touches."),
       {"mesh", "sweep", "RMS of the DTE (µm)", "at (Hz)", "mesh force (N)", "at (Hz)", "dynamic factor",
        "tooth load (N)", "share (%)", "contact loss (%)", "at (Hz)"},
       rows, "small");
