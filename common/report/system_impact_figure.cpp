@@ -1,6 +1,7 @@
 #include "report/system_impact_figure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "base/error.h"
@@ -39,9 +40,11 @@ Figure system_impact_figure(const SystemImpactArtifact& a) {
   constexpr int kPoints = 100;
   const double low = 0.8 * from, high = 1.1 * to;
   for (int i = 0; i <= kPoints; ++i) {
-    const double f = low + (high - low) * i / kPoints, w = 2 * std::numbers::pi * f;
-    rayleigh.rows.push_back(
-        {f, (damping.rayleigh_mass + damping.rayleigh_stiffness * w * w) / (2 * w) * kPercent});
+    const double f = low + (high - low) * i / kPoints, w = 2 * std::numbers::pi * f,
+                 ratio = (damping.rayleigh_mass + damping.rayleigh_stiffness * w * w) / (2 * w);
+    if (!(ratio < 1)) continue;
+    // Decays have the damped frequency.
+    rayleigh.rows.push_back({f * std::sqrt(1 - ratio * ratio), ratio * kPercent});
     most = std::max(most, rayleigh.rows.back()[1]);
   }
   for (const double f : a.rigid_frequency)
