@@ -45,8 +45,8 @@ inline constexpr const char* kWordsOf<FrictionLaw> = "constant schlenk";
 // Coulomb friction between the flanks, mu s N, s = v / sqrt(v^2 + v_0^2), v the sliding speed of the kinematics.
 struct Friction {
   FrictionLaw law = FrictionLaw::constant;
-  double coefficient = 0;   // 1, of FrictionLaw::constant; 0: no friction
-  double smoothing = 0.01;  // 1: v_0 over the speed of the pitch line
+  double coefficient = 0;       // 1, of FrictionLaw::constant; 0: no friction
+  double smoothing = 0.01;      // 1: v_0 over the speed of the pitch line
   double viscosity = 0;         // Pa s, of the oil in the mesh; from here on: of Schlenk's formula
   double roughness = 0;         // m: Ra, mean of both flanks
   double lubricant_factor = 1;  // 1: X_L
