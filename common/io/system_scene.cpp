@@ -31,7 +31,7 @@ std::string hunting_words(const Scene& gears) {
   constexpr long kMost = 1000000000;
   long hunting = 1;
   for (const SceneGear& own : gears.gears) {
-    const long teeth = own.design.teeth, factor = teeth / std::gcd(hunting, teeth);
+    const long teeth = own.design.teeth, factor = std::max(1L, teeth / std::gcd(hunting, teeth));
     if (hunting > kMost / factor) return text("more than ", kMost);
     hunting *= factor;
   }

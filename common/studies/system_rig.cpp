@@ -51,16 +51,17 @@ SystemRig::SystemRig(const SystemSweepParameters& settings, const std::vector<Bo
   motion_.fidelity = settings.fidelity;
   motion_.fidelity.contact = ContactModel::line;
   motion_.axis_frequency = axis_frequency(system_, stiffness_);
-  place();
+  dynamics_ = placed();
 }
 
-void SystemRig::place() {
+std::unique_ptr<SystemDynamics> SystemRig::placed() const {
   std::vector<double> gap;
   gap.reserve(deflection_.size());
   for (const double deflection : deflection_)
     gap.push_back(kBeyondStatics * deflection * std::pow(kWidening, widenings_));
-  dynamics_ = std::make_unique<SystemDynamics>(system_, motion_);
-  dynamics_->set_positions(gap, positions_);
+  auto dynamics = std::make_unique<SystemDynamics>(system_, motion_);
+  dynamics->set_positions(gap, positions_);
+  return dynamics;
 }
 
 SystemDynamics::State SystemRig::widen(const SystemDynamics::State& state) {
@@ -73,9 +74,10 @@ SystemDynamics::State SystemRig::widen(const SystemDynamics::State& state) {
                        "; lower the torque or raise the damping");
   }
   ++widenings_;
-  const std::unique_ptr<SystemDynamics> before = std::move(dynamics_);
-  place();
-  return dynamics_->fitted(state, *before);
+  std::unique_ptr<SystemDynamics> wider = placed();
+  SystemDynamics::State there = wider->fitted(state, *dynamics_);
+  dynamics_ = std::move(wider);
+  return there;
 }
 
 SystemSweepParameters SystemRig::used() const {

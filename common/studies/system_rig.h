@@ -30,7 +30,7 @@ class SystemRig {
   SystemDynamics::State widen(const SystemDynamics::State& state);
 
  private:
-  void place();
+  std::unique_ptr<SystemDynamics> placed() const;  // with the tip edges that `widenings_` asks for
   SystemModel system_;
   SystemSweepParameters settings_;
   SystemMotion motion_;
