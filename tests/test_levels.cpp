@@ -4,11 +4,11 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 
 #include "base/error.h"
+#include "message_of_input.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "solid/sector.h"
@@ -51,16 +51,6 @@ SweepParameters coarse_sweep(double from, double to, double step, BodyModel body
   settings.fidelity.body = body;
   settings.fidelity.contact = contact;
   return settings;
-}
-
-std::string rejection(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    CHECK(error.kind() == Failure::input);
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -125,14 +115,14 @@ TEST_CASE("every mode: a mesh that is too fine is rejected with its numbers and 
   BodyDiscretisation fine;
   fine.element_size = 0.4e-3;
   const MeshArtifact mesh = make_sector_mesh(coarse_body(21).design, fine);
-  const std::string message = rejection([&] { reduce(mesh, coarse_body(21).material, kAllModes); });
+  const std::string message = message_of_input([&] { reduce(mesh, coarse_body(21).material, kAllModes); });
   INFO(message);
   CHECK(message.find("unknowns; at most 1500 are found") != std::string::npos);
   CHECK(message.find("element_order = 1 and element_mm = ") != std::string::npos);
   // Other model levels know no such limit, and "full" does not go without.
   const BodyArtifact& few = coarse_body(21);
   const StaticArtifact statics = static_transmission(few, few, coarse_statics(ContactModel::line), 50);
-  const std::string lacking = rejection([&] {
+  const std::string lacking = message_of_input([&] {
     sweep(few, few, statics, statics.mean_stiffness,
           coarse_sweep(3000, 3000, 1, BodyModel::full, ContactModel::line), Direction::up, no_report);
   });
@@ -141,7 +131,7 @@ TEST_CASE("every mode: a mesh that is too fine is rejected with its numbers and 
   for (int steps : {0, -128}) {
     SweepParameters none = coarse_sweep(3000, 3000, 1, BodyModel::modal, ContactModel::line);
     none.time.steps_per_period = steps;
-    CHECK(rejection([&] {
+    CHECK(message_of_input([&] {
             sweep(few, few, statics, statics.mean_stiffness, none, Direction::up, no_report);
           }).find("steps_per_period = " + std::to_string(steps)) != std::string::npos);
   }
@@ -284,14 +274,14 @@ TEST_CASE("what the next model level changes: after the last one, and where the 
   const BodyArtifact& fine = paper_body();
   const StaticArtifact statics = static_transmission(fine, fine, paper_statics(16), 150);
   const std::string both =
-      rejection([&] { next_sweeps(fine, fine, statics, statics, paper_sweep(2000, 2000, 1)); });
+      message_of_input([&] { next_sweeps(fine, fine, statics, statics, paper_sweep(2000, 2000, 1)); });
   INFO(both);
   CHECK(both.find("contact = \"strips\" is the last model level of contact") != std::string::npos);
   CHECK(both.find("body = \"modal\" is followed by \"full\": body = \"full\" wants all ") !=
         std::string::npos);
   SweepParameters last = paper_sweep(2000, 2000, 1);
   last.fidelity.body = BodyModel::full;
-  CHECK(rejection([&] {
+  CHECK(message_of_input([&] {
           next_sweeps(fine, fine, statics, statics, last);
         }).find("body = \"full\" is the last model level of body") != std::string::npos);
 

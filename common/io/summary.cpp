@@ -71,7 +71,7 @@ void show_bearings(SummaryLines& lines, const GearMeshSpec& mesh) {
 void show_friction(SummaryLines& lines, const GearMeshSpec& mesh) {
   if (!mesh.friction.acts()) return;
   add(lines, "friction", in_words(mesh.friction),
-      "; the bending of teeth by it is left out: of opposite sign, about as large in transmission errors");
+      "; it bends no teeth here, which may change transmission errors as much as it does (common/system)");
 }
 
 void show_errors(SummaryLines& lines, const GearMeshSpec& mesh) {
