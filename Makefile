@@ -94,7 +94,7 @@ $(folders):
 # Half of a compilation is reading the headers in it. Compiled headers fit one set of flags.
 precompiled := $(B)/obj/precompiled.h
 cold_precompiled := $(B)/obj/$(if $(COLD_FLAGS),cold,precompiled).h
-$(addsuffix .gch,$(sort $(precompiled) $(cold_precompiled))): common/base/precompiled.h $(B)/flags | $$(@D)/ $(with_deps)
+$(addsuffix .gch,$(sort $(precompiled) $(cold_precompiled))): common/base/precompiled.h common/base/eigen_templates.h $(B)/flags | $$(@D)/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ $<
 
 cold_objects := $(tool_objects) $(test_objects) $(hard_cases) $(B)/obj/common/base/options.o $(filter $(foreach r,$(cold_layers),$(B)/obj/common/$r/%),$(library))
@@ -114,11 +114,12 @@ $(filter $(B)/obj/tests/%,$(objects)): private CPPFLAGS += -DDOCTEST_CONFIG_SUPE
 $(filter $(B)/obj/tests/%,$(objects)): private CXXFLAGS += $(if $(SANITIZE),-fno-sanitize=undefined)
 
 # Nothing of ours but calls of Eigen's decompositions and of the library of options.
-$(filter $(B)/obj/common/base/dense% $(B)/obj/common/base/options.o,$(objects)): private CXXFLAGS += $(if $(SANITIZE),-fno-sanitize=undefined)
+$(filter $(B)/obj/common/base/dense% $(B)/obj/common/base/eigen_templates.o $(B)/obj/common/base/options.o,$(objects)): private CXXFLAGS += $(if $(SANITIZE),-fno-sanitize=undefined)
 
 step_objects := $(B)/obj/common/dynamics/step_kernel.o $(B)/obj/common/dynamics/step_kernel_pack.o $(filter $(B)/obj/common/contact/%,$(objects))
 $(step_objects): private CXXFLAGS += $(STEP_FLAGS)
-$(step_objects): private INCLUDE_PRECOMPILED :=
+# Nor with the one that says that its templates are compiled elsewhere.
+$(step_objects) $(B)/obj/common/base/eigen_templates.o: private INCLUDE_PRECOMPILED :=
 
 # HDF5 stays in one layer: nobody else finds its headers.
 $(filter $(B)/obj/common/io/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)

@@ -20,8 +20,9 @@ FNR == 1 {
 END {
   for (p = 1; p <= count; ++p) {
     split("", seen)
-    ready = 1; reached = 1
+    ready = 1; reached = 2
     list[1] = programs[p]
+    list[2] = "base/precompiled.h"  # before any other
     while (ready <= reached) {
       n = split(sees[list[ready++]], next_ones, " ")
       for (i = 1; i <= n; ++i)

@@ -168,7 +168,7 @@ check_torque = $(if $(filter-out $2,$(shell LC_ALL=C printf %g '$2' 2>/dev/null 
 
 define scene_rules # scene
 $(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
-$(foreach t,$(path_torques) $(calibrated_torque),$(call check_torque,$1,$t))
+$(foreach t,$(filter-out $(SCENE_$1_TORQUES),$(sort $(path_torques) $(calibrated_torque))),$(call check_torque,$1,$t))
 $(foreach m,$(lumped_models),$(eval $(call plan_rule,$(call lumped_plan_file,$1,,$m),$(call lumped_plan,$1,,$m))))
 $(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))$(eval $(call loaded_rules,$1,$t))$(eval $(call branch_rules,$1,$t))\
   $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))$(eval $(call jumps_rules,$1,$t,$d))$(eval $(call runup_rules,$1,$t,$d))\

@@ -7,6 +7,7 @@
 #include <complex>
 #include <string>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "dynamics/impact.h"
 #include "paper_pair.h"
@@ -83,8 +84,7 @@ VectorXd lumped_frequencies(const GearMeshModel& model, const std::vector<double
     for (int i = 1; i < 3; ++i) stiffness(3 * g + i, 3 * g + i) = model.bearing[g].stiffness;
   }
   stiffness += k * row * row.transpose();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(stiffness, m, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt() / (2 * kPi);
+  return symmetric_eigen(stiffness, m).values.cwiseMax(0).cwiseSqrt() / (2 * kPi);
 }
 
 }  // namespace
@@ -302,7 +302,7 @@ TEST_CASE(
       a.topRightCorner(n, n).diagonal().setConstant(w0);
       a.bottomLeftCorner(n, n).diagonal() = -w2 / w0;
       a.bottomRightCorner(n, n) = -damper;
-      Eigen::VectorXcd s = Eigen::EigenSolver<MatrixXd>(a, false).eigenvalues();
+      Eigen::VectorXcd s = general_eigenvalues(a).values;
       std::vector<std::complex<double>> up;
       for (const auto& root : s)
         if (root.imag() > 1) up.push_back(root);

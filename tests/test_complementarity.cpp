@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "failure_of.h"
 #include "memory.h"
@@ -107,7 +108,7 @@ VectorXd enumerate(const MatrixXd& a, const VectorXd& e) {
     for (int i = 0; i < n; ++i)
       if (set >> i & 1) f.push_back(i);
     VectorXd p = VectorXd::Zero(n);
-    if (!f.empty()) p(f) = -MatrixXd(a(f, f)).partialPivLu().solve(VectorXd(e(f)));
+    if (!f.empty()) p(f) = -lu_solve(a(f, f), e(f));
     if (const double residual = kkt_residual(a, e, p); residual < least) least = residual, best = p;
   }
   return best;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <random>
 
+#include "base/dense.h"
 #include "contact/friction.h"
 #include "dynamics/period_map.h"
 #include "paper_pair.h"
@@ -187,8 +188,7 @@ double check_problem(const RollingDynamics::ContactProblem& problem, const Vecto
   if (recorded) {
     const std::vector<int>& active = problem.active.strips;
     VectorXd p = VectorXd::Zero(whole.rows());
-    if (!active.empty())
-      p(active) = -MatrixXd(whole(active, active)).partialPivLu().solve(VectorXd(offset(active)));
+    if (!active.empty()) p(active) = -lu_solve(whole(active, active), offset(active));
     CHECK((force - p).norm() < 1e-8 * p.norm() + 1e-12);
   }
   return problem.friction.norm() / problem.compliance.norm();

@@ -80,7 +80,7 @@ std::vector<double> newton(PeriodMap& map, VectorXd& y, int steps) {
   for (int i = 0; i < steps; ++i) {
     const VectorXd change = map.apply(y) - y;
     residual.push_back(change.norm());
-    y += (MatrixXd::Identity(map.size(), map.size()) - map.tangent()).partialPivLu().solve(change);
+    y += lu_solve(MatrixXd::Identity(map.size(), map.size()) - map.tangent(), change);
   }
   return residual;
 }

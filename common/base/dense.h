@@ -45,4 +45,10 @@ SingularValues singular_values(const Eigen::MatrixXd& a);
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double threshold = 0);
 Eigen::MatrixXcd least_squares(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
+// Of all x that come nearest to a x = b, the shortest.
+Eigen::VectorXd least_norm(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+// x of a x = b; a is regular.
+Eigen::MatrixXd lu_solve(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 }  // namespace whine

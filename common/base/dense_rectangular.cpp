@@ -1,6 +1,7 @@
 // Apart from dense.cpp so that a compiler works on both side by side.
 #include "base/dense.h"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -23,6 +24,14 @@ MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b, double threshold) {
 
 MatrixXcd least_squares(const MatrixXcd& a, const MatrixXcd& b) {
   return a.colPivHouseholderQr().solve(b);
+}
+
+Eigen::VectorXd least_norm(const MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.completeOrthogonalDecomposition().solve(b);
+}
+
+MatrixXd lu_solve(const MatrixXd& a, const MatrixXd& b) {
+  return a.partialPivLu().solve(b);
 }
 
 }  // namespace whine

@@ -1,6 +1,5 @@
 // What nearly every source reads first, compiled once for all of them: Eigen alone costs a compiler three seconds.
 // Sources include what they use all the same; `make lint` and the fuzzers compile them without this file.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,3 +15,4 @@
 #include <sstream>
 #include <string>
 #include <vector>
+#include "base/eigen_templates.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "base/model_range.h"
 
@@ -163,7 +164,7 @@ MatrixXd RollingPeriodMap::node_forces(int sample) const {
     }
   MatrixXd whole = without * added;
   whole.diagonal().array() += 1;
-  return whole.partialPivLu().solve(without);
+  return lu_solve(whole, without);
 }
 
 MatrixXd RollingPeriodMap::node_forces_without_friction(int sample) const {

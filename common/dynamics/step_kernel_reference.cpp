@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "base/dense.h"
 #include "base/error.h"
 
 namespace whine {
@@ -22,7 +23,7 @@ VectorXd strip_forces(const MatrixXd& a, const VectorXd& e) {
     for (int i = 0; i < e.size(); ++i)
       if (carries[static_cast<size_t>(i)]) set.push_back(i);
     VectorXd p = VectorXd::Zero(e.size());
-    if (!set.empty()) p(set) = -MatrixXd(a(set, set)).partialPivLu().solve(VectorXd(e(set)));
+    if (!set.empty()) p(set) = -lu_solve(a(set, set), e(set));
     const VectorXd d = a * p + e;
     for (int i = 0; i < e.size(); ++i)
       if ((carries[static_cast<size_t>(i)] ? p[i] : d[i]) < 0) wrong.push_back(i);
@@ -53,7 +54,7 @@ VectorXd line_forces(const MatrixXd& c, std::span<const HertzLine> law, const Ve
         slope(static_cast<int>(k), static_cast<int>(k)) += at.slope;
         gap[static_cast<int>(k)] += at.indentation;
       }
-      const VectorXd change = slope.partialPivLu().solve(gap);
+      const VectorXd change = lu_solve(slope, gap);
       VectorXd next = p;
       next(set) -= change;
       // A force that would change its sign goes half way.

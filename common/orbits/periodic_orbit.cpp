@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/dense.h"
 #include "base/error.h"
 
 namespace whine {
@@ -55,7 +56,7 @@ SlowTangent tangent_at(PeriodMap& map, const VectorXd& y, int multiple, const Sl
 VectorXd newton_step(const SlowTangent& t, const VectorXd& change) {
   const Eigen::Index p = t.basis.cols();
   const MatrixXd small = MatrixXd::Identity(p, p) - t.basis.transpose() * t.image;
-  return change + t.image * small.partialPivLu().solve(t.basis.transpose() * change);
+  return change + t.image * lu_solve(small, t.basis.transpose() * change);
 }
 
 }  // namespace

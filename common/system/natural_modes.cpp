@@ -1,6 +1,5 @@
 #include "system/natural_modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/dense.h"
 #include "base/error.h"
 
 namespace whine {
@@ -68,11 +68,11 @@ struct Solved {
 };
 
 Solved solve(const MatrixXd& k, const MatrixXd& m) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(k, m);
-  if (solver.info() != Eigen::Success)
+  const SymmetricEigen eigen = symmetric_eigen(k, m);
+  if (!eigen.converged)
     fail(Failure::numerical, "the natural modes of a system of ", k.rows(),
          " freedoms were not found: its mass matrix is not positive definite, or a number is not finite");
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  return {eigen.values, eigen.vectors};
 }
 
 // (freedom, n) An orthonormal basis of the motions of harmonic k.
@@ -85,9 +85,9 @@ MatrixXd harmonic_basis(const MatrixXd& turn, int k, int planets) {
     power = turn * power;
   }
   // The projector is symmetric, with eigenvalues 0 and 1.
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (projector + projector.transpose()));
-  const Index count = (solver.eigenvalues().array() > 0.5).count();
-  return solver.eigenvectors().rightCols(count);
+  const SymmetricEigen eigen = symmetric_eigen(0.5 * (projector + projector.transpose()));
+  const Index count = (eigen.values.array() > 0.5).count();
+  return eigen.vectors.rightCols(count);
 }
 
 // The coordinate that moves most in the modes of `shape`, the first of those that move alike.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "contact/friction.h"
 #include "gear/train.h"
@@ -262,9 +263,7 @@ LoadBalance load_balance(const System& layout) {
           balance(row, m) = closing_sign(s);
   }
   LoadBalance out;
-  out.load = meshes == 1 && free.size() == 1
-                 ? VectorXd(force / balance(0, 0))
-                 : VectorXd(balance.completeOrthogonalDecomposition().solve(force));
+  out.load = meshes == 1 && free.size() == 1 ? VectorXd(force / balance(0, 0)) : least_norm(balance, force);
   const double most = out.load.cwiseAbs().maxCoeff(), round_off = 1e-12 * force.cwiseAbs().maxCoeff();
   out.balanced = (balance * out.load - force).cwiseAbs().maxCoeff() <= round_off;
   for (Index m = 0; m < meshes && out.pulled_apart < 0; ++m)
@@ -370,8 +369,7 @@ class Contact {
       const auto row = static_cast<Index>(i);
       a(row, row) += law_[static_cast<size_t>(active[i])].at(p[active[i]]).slope;
     }
-    return load(active, Eigen::all).transpose() *
-           a.partialPivLu().solve(MatrixXd(displacement(active, Eigen::all)));
+    return load(active, Eigen::all).transpose() * lu_solve(a, displacement(active, Eigen::all));
   }
 
   const MatrixXd &compliance_, &friction_;
@@ -408,7 +406,7 @@ VectorXd first_guess(const SystemModel& system, const SystemPosition& position, 
       deflection[m] = equilibrium(a, gap, approach, load[m], 0, active, solver).x;
     }
   }
-  return closing.completeOrthogonalDecomposition().solve(deflection);
+  return least_norm(closing, deflection);
 }
 
 }  // namespace
@@ -472,7 +470,7 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
     best = std::min(best, out.residual);
     if (out.residual < 1e-10 && idle > 1) return give();
     // Bodies that carry nothing may roll freely: the least step is taken.
-    const VectorXd newton = -out.stiffness.completeOrthogonalDecomposition().solve(unbalance);
+    const VectorXd newton = -least_norm(out.stiffness, unbalance);
     const double slope = newton.dot(unbalance);
     // Along the step the slope of the convex energy grows monotonically; its root is where the energy is least.
     VectorXd next = x + newton;
