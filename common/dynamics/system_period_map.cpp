@@ -57,13 +57,14 @@ State SystemPeriodMap::state(const VectorXd& y) const {
 VectorXd SystemPeriodMap::apply(const VectorXd& y) {
   State state = this->state(y);
   applied_ = left_last_ = false;
-  if (!dynamics_.integrate(state, period_)) {
-    left_zone_ = left_last_ = true;
-    fail_outside_range(
-        Failure::numerical, "at ", parameter(),
-        " Hz a mesh deflects beyond the tip edges that are looked at; lower the torque or raise the "
-        "damping");
-  }
+  for (int k = 0; k < dynamics_.hunting_periods(); ++k)
+    if (!dynamics_.integrate(state, period_)) {
+      left_zone_ = left_last_ = true;
+      fail_outside_range(
+          Failure::numerical, "at ", parameter(),
+          " Hz a mesh deflects beyond the tip edges that are looked at; lower the torque or raise the "
+          "damping");
+    }
   applied_ = true;
   return flat(state);
 }
@@ -78,6 +79,9 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     fail(Failure::numerical, "the tangent at ", parameter(),
          " Hz is asked for before a period was integrated at this speed");
   SystemDynamics& of = dynamics_;
+  if (of.hunting_periods() > 1)
+    fail(Failure::input, "the period map of teeth that differ, of ", of.hunting_periods(),
+         " mesh periods, has no tangent; take teeth that are alike");
   const Index n = of.coordinates().size(), loads = of.relaxed_size(), slots = of.slots(),
               many = directions.cols();
   const MatrixXd start = unit_.asDiagonal() * directions;

@@ -239,6 +239,44 @@ void SystemDynamics::relate(Position& position, const SystemPosition& at) const 
   position.relaxed = (0.5 * (position.relaxed + position.relaxed.transpose())).eval();
 }
 
+// Gaps of all mesh periods of a hunting period; at the end of one they are those at the start of the next.
+void SystemDynamics::set_hunting_gaps(const std::vector<SystemPosition>& placed) {
+  hunting_gap_.clear();
+  if (hunting_ == 1) return;
+  hunting_place_ = {0};
+  hunting_place_.reserve(placed.size() + 1);
+  for (const SystemPosition& at : placed) hunting_place_.push_back(hunting_place_.back() + at.strips());
+  const auto contacts = static_cast<size_t>(hunting_place_.back());
+  constexpr double kMostMemory = 2e9;  // bytes
+  const double memory = 8.0 * hunting_ * static_cast<double>(contacts);
+  if (memory > kMostMemory)
+    fail(Failure::input, "the same teeth meet again after ", hunting_, " mesh periods, whose gaps at ",
+         placed.size(), " positions each need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; lower min_sample_rate_kHz and steps_per_period, or raise the lowest speed");
+  hunting_gap_.resize(contacts * static_cast<size_t>(hunting_));
+  double* to = hunting_gap_.data();
+  for (int period = 0; period < hunting_; ++period)
+    for (const SystemPosition& at : placed)
+      for (int m = 0; m < meshes(); ++m) {
+        const MeshPosition& position = at.mesh[static_cast<size_t>(m)];
+        Eigen::Map<VectorXd>(to, position.strips()) =
+            flank_gaps(system_.mesh[static_cast<size_t>(m)], position,
+                       mesh_instant(system_, m, at.phase, period).period);
+        to += position.strips();
+      }
+}
+
+void SystemDynamics::put_gap(int position, int period) {
+  if (hunting_ == 1) return;
+  const bool end = position + 1 == static_cast<int>(positions_.size());
+  const int place = end ? 0 : position, in = end ? (period + 1) % hunting_ : period;
+  VectorXd& gap = positions_[static_cast<size_t>(position)].gap;
+  gap = Eigen::Map<const VectorXd>(
+      &hunting_gap_[static_cast<size_t>(hunting_place_.back()) * static_cast<size_t>(in) +
+                    static_cast<size_t>(hunting_place_[static_cast<size_t>(place)])],
+      gap.size());
+}
+
 void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int steps) {
   corner_gap_ = corner_gap;
   positions_.assign(static_cast<size_t>(steps) + 1, {});
@@ -261,6 +299,7 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
     positions_[static_cast<size_t>(i)] = filled(placed[static_cast<size_t>(i)], 0);
   }
   positions_.back() = filled(placed[0], 1);
+  set_hunting_gaps(placed);
   for (VectorXd* x : {&e_, &p_, &d_}) x->setZero(most_contacts_);
   steps_ = 0;
 }

@@ -81,6 +81,14 @@ MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int per
   return {ahead - whole, period + static_cast<int>(whole)};
 }
 
+int hunting_periods(const SystemModel& system) {
+  if (system.mesh.size() == 1) return hunting_periods(system.mesh[0]);
+  std::vector<int> teeth;
+  for (const GearMeshModel& mesh : system.mesh)
+    for (const FlankDeviation& flank : mesh.deviation) teeth.push_back(flank.repeats());
+  return hunting_periods_of(teeth);
+}
+
 namespace {
 
 // L = D + mu s T: moments about the axes and forces across the normal.

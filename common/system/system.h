@@ -80,6 +80,11 @@ struct MeshInstant {
 };
 MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int period);
 
+// Mesh periods after which the same teeth of all meshes meet, as far as teeth differ: the least common multiple of the numbers of teeth
+// of the gears that have errors or cracks; 1 if teeth are all alike. In each mesh period every gear turns by one tooth, those on
+// a carrier relative to it. Throws Error(input) above kMostHuntingPeriods.
+int hunting_periods(const SystemModel& system);
+
 // positions: of each mesh, at its mesh_instant.
 SystemPosition join(const SystemModel& system, double phase, int period, std::vector<MeshPosition> positions);
 
