@@ -130,6 +130,9 @@ void require_whole(const Codec& c, const SystemStaticArtifact& a) {
   const auto reject = [&](const auto&... words) { c.in()->file().reject(text(words...)); };
   const System& layout = a.settings.layout;
   if (a.mesh_phase.size() == 0) reject("dataset /mesh_phase holds no phase");
+  if (a.mesh_phase.size() % a.hunting_periods != 0)
+    reject("dataset /mesh_phase holds ", a.mesh_phase.size(),
+           " phases, not a multiple of /hunting_periods = ", a.hunting_periods);
   if (a.pair.size() == 0) reject("dataset /pair holds no pair");
   if (layout.meshes.empty()) reject("dataset /mesh/phase holds no mesh");
   if (a.settings.gear.size() != layout.bodies.size())
