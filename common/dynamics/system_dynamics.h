@@ -18,6 +18,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "dynamics/fixed_phase_motion.h"
@@ -136,6 +137,7 @@ class SystemDynamics {
   void set_hunting_gaps(const std::vector<SystemPosition>& placed);
   void put_gap(int position, int period);  // of its mesh period
   void find_slots(const std::vector<SystemPosition>& placed);
+  std::pair<int, int> largest_body() const;
   void couple();
   Position filled(const SystemPosition& at, int shift);
   void relate(Position& position, const SystemPosition& at) const;

@@ -142,18 +142,22 @@ void SystemDynamics::couple() {
   }
 }
 
+// Most coordinates and most relaxed loads of a body.
+std::pair<int, int> SystemDynamics::largest_body() const {
+  int most = 0, most_loads = 0;
+  for (size_t b = 0; b < system_.body.size(); ++b) {
+    most = std::max(most, coordinates_.body[b].count);
+    most_loads = std::max(most_loads, relaxed_first_[b + 1] - relaxed_first_[b]);
+  }
+  return {most, most_loads};
+}
+
 // shift: 1 at the end of the mesh period, whose teeth are then one further than where `at` has them.
 SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int shift) {
   Position out;
   const auto n = static_cast<Index>(at.segment.size());
   const double phase = at.phase + shift;
-  const int bodies = static_cast<int>(system_.body.size());
-  int most = 0, most_loads = 0;
-  for (int b = 0; b < bodies; ++b) {
-    most = std::max(most, coordinates_.body[static_cast<size_t>(b)].count);
-    most_loads = std::max(
-        most_loads, relaxed_first_[static_cast<size_t>(b) + 1] - relaxed_first_[static_cast<size_t>(b)]);
-  }
+  const auto [most, most_loads] = largest_body();
   out.gap = at.gap;
   out.rigid = MatrixXd::Zero(coordinates_.rigid, n);
   out.drift = MatrixXd::Zero(coordinates_.rolling.cols(), n);
@@ -284,16 +288,15 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   placed.reserve(static_cast<size_t>(steps));
   for (int i = 0; i < steps; ++i) placed.push_back(positioned(i));
   find_slots(placed);
-  couple();
   constexpr double kMostMemory = 12e9;  // bytes
-  const double numbers =
-      steps * static_cast<double>(most_contacts_) *
-      (2.0 * (coordinates_.size() + relaxed_size()) / static_cast<double>(system_.body.size()) +
-       3.0 * most_contacts_);
+  const auto [most, most_loads] = largest_body();
+  const double numbers = steps * static_cast<double>(most_contacts_) *
+                         (2.0 * (most + most_loads + kFields) + coordinates_.rigid + 3.0 * most_contacts_);
   if (8 * numbers > kMostMemory)
     fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
          " GB, at most ", 1e-9 * kMostMemory,
          " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
+  couple();
   for (int i = 0; i < steps; ++i) {
     report_step("mesh positions", i, steps);
     positions_[static_cast<size_t>(i)] = filled(placed[static_cast<size_t>(i)], 0);
