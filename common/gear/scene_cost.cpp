@@ -92,7 +92,7 @@ std::vector<std::string> costs(const SystemScene& scene, size_t meshes) {
         "the system at rest takes ", minutes(statics), ": ", each * periods, " positions of ", meshes,
         " meshes",
         periods > 1 ? text(" over the ", periods, " mesh periods after which the same teeth meet") : ""));
-  // In motion: a step takes 4 microseconds for each mesh; some 20 mesh periods a speed, and not less than three hunting periods.
+  // In motion: a step takes 4 microseconds for each mesh; some 20 mesh periods a speed, and not less than eight hunting periods.
   constexpr double kStep = 4e-6, kTransient = 20;
   const Operation& speeds = scene.operation;
   if (!(speeds.frequency_from > 0) || !(speeds.frequency_step > 0)) return out;
@@ -100,7 +100,7 @@ std::vector<std::string> costs(const SystemScene& scene, size_t meshes) {
                count = std::floor((speeds.frequency_to - speeds.frequency_from) / speeds.frequency_step) + 1;
   double steps = scene.time.steps_per_period;
   while (steps * middle < scene.time.min_sample_rate) steps *= 2;
-  const double sweep = kStep * of_meshes * steps * std::max(kTransient, 3 * periods) * count;
+  const double sweep = kStep * of_meshes * steps * std::max(kTransient, 8 * periods) * count;
   if (sweep > 10 * kMinute)
     out.push_back(
         text("a sweep takes ", minutes(sweep), ": ", count, " speeds of ", steps,

@@ -131,10 +131,10 @@ struct SystemEquilibrium {
   double transmission_error(const SystemModel& system, int m) const;
 };
 
-// Free bodies: those that no drive holds, one at least; start: (body) m. With one free body it is the monotone search of
-// equilibrium(); with more Newton's method with a line search on the convex energy whose gradient L^T p - f is, to 1e-12, or
-// to 1e-10 where round-off allows no more. laws: of lines, else empty. Throws Error(numerical) with the residual if that is
-// not reached.
+// Free bodies: those that no drive holds, one at least; start: (body) m, where they stood nearby; 0: not known. With one free body it is
+// the monotone search of equilibrium(); with more Newton's method with a line search on the convex energy whose gradient L^T p - f is,
+// to 1e-12, or to 1e-10 where round-off allows no more. laws: of lines, else empty. Throws Error(numerical) with the residual if that
+// is not reached.
 SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& position,
                               const Eigen::MatrixXd& compliance, const Eigen::VectorXd& start,
                               ComplementaritySolver& solver);

@@ -124,6 +124,7 @@ std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactM
       const int period = step % periods, position = step / periods;
       const double phase = static_cast<double>(position) / positions;
       VectorXd& from = start[static_cast<size_t>(period)];
+      if (position == 0 && period > 0) from = start[static_cast<size_t>(period) - 1];
       SystemSolution& at =
           out[static_cast<size_t>(period) * static_cast<size_t>(positions) + static_cast<size_t>(position)];
       at = statics.solve(phase, period, from);
