@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <fstream>
-#include <map>
 #include <numbers>
 #include <sstream>
 
@@ -16,10 +16,10 @@
 #include "io/system_scene.h"
 #include "io/system_static_codec.h"
 #include "io/system_sweep_codec.h"
-#include "message_of_input.h"
 #include "paper_pair.h"
 #include "planetary_train.h"
 #include "relative.h"
+#include "report/system_figures.h"
 #include "scene_file.h"
 #include "studies/system_branch.h"
 #include "studies/system_impact.h"
@@ -124,6 +124,13 @@ std::string bytes_of(const Artifact& a) {
   std::ostringstream out;
   out << in.rdbuf();
   return out.str();
+}
+
+const FigureBlock& block(const Figure& figure, const std::string& name) {
+  for (const FigureBlock& b : figure.blocks)
+    if (b.name == name) return b;
+  FAIL("no block " << name);
+  return figure.blocks.front();
 }
 
 // Of the teeth that meet in a mesh at a row, those of one side, that carry load.
@@ -370,6 +377,20 @@ TEST_CASE("a tooth of the sun that stands ahead: the planet that it meets carrie
     if (planets == 0) CHECK((a.load_share.row(i) - plain.load_share.row(i % 6)).cwiseAbs().maxCoeff() < 1e-9);
   }
   CHECK(most > 1.05);
+  // The figure: shares over the hunting period, tooth loads of the first mesh over its first whole mesh period.
+  const Figure figure = system_load_sharing_figure(a);
+  const FigureBlock &shares = block(figure, "share 1"), &loads = block(figure, "loads 1");
+  CHECK(shares.rows.size() == 28 * 6 + 1);
+  CHECK(shares.rows.back()[0] == 28);
+  CHECK(loads.rows.front()[0] == 0);
+  CHECK(loads.rows.back()[0] == 1);
+  for (size_t i = 0; i < loads.rows.size(); ++i) {
+    if (i > 0) CHECK(loads.rows[i][0] > loads.rows[i - 1][0]);
+    double sum = 0;
+    for (size_t c = 1; c < loads.rows[i].size(); ++c) sum += loads.rows[i][c];
+    CHECK(sum > 0.9 * a.mesh_force.col(0).minCoeff());
+    CHECK(sum < 1.1 * a.mesh_force.col(0).maxCoeff());
+  }
   // Each planet meets it once in a turn of the sun, for the contact ratio of mesh periods.
   for (const int each : met) {
     CHECK(each >= 6);
@@ -459,6 +480,11 @@ TEST_CASE(
     for (size_t s = 0; s < 2; ++s)
       CHECK(read.settings.layout.meshes[m].side[s].first_tooth ==
             rest.settings.layout.meshes[m].side[s].first_tooth);
+  const Figure figure = system_static_figure(read);
+  CHECK(block(figure, "transmission_error").rows.size() == 20 * 8 + 1);
+  CHECK(block(figure, "transmission_error").rows.back()[0] == 20);
+  CHECK(block(figure, "transmission_error harmonics").rows[0][1] * kMicro ==
+        relative(rest.transmission_error_harmonic(1, 0), 1e-9));
   // Orders of the mesh frequency are its harmonics.
   CHECK(read.transmission_error_order(20, 0) == relative(read.transmission_error_harmonic(1, 0), 1e-9));
 

@@ -79,8 +79,8 @@ std::vector<std::string> costs(const SystemScene& scene, size_t meshes) {
   for (const SystemScene::Gear& gear : scene.gears)
     if (!gear.errors.none()) teeth.push_back(gear.design.teeth);
   const double periods = hunting_periods_of(teeth), of_meshes = static_cast<double>(meshes);
-  // At rest: 2 ms for a position of a mesh with 8 strips.
-  constexpr double kPosition = 2e-3, kDefaultStrips = 8, kGrowth = 2.3, kFewestPositions = 16;
+  // At rest: 1 ms for a position of a mesh with 8 strips, where eight meshes share bodies; fewer take less.
+  constexpr double kPosition = 1e-3, kDefaultStrips = 8, kGrowth = 2.3, kFewestPositions = 16;
   const double each = scene.contact.positions > 0 ? scene.contact.positions
                                                   : std::clamp(16384 / periods, kFewestPositions, 128.0);
   const bool on_strips = scene.fidelity.contact == ContactModel::strips;
@@ -92,8 +92,8 @@ std::vector<std::string> costs(const SystemScene& scene, size_t meshes) {
         "the system at rest takes ", minutes(statics), ": ", each * periods, " positions of ", meshes,
         " meshes",
         periods > 1 ? text(" over the ", periods, " mesh periods after which the same teeth meet") : ""));
-  // In motion: a step takes 4 microseconds for each mesh; some 20 mesh periods a speed, and not less than eight hunting periods.
-  constexpr double kStep = 4e-6, kTransient = 20;
+  // In motion: a step takes 4 microseconds for each mesh; some 30 mesh periods a speed, and not less than eight hunting periods.
+  constexpr double kStep = 4e-6, kTransient = 30;
   const Operation& speeds = scene.operation;
   if (!(speeds.frequency_from > 0) || !(speeds.frequency_step > 0)) return out;
   const double middle = 0.5 * (speeds.frequency_from + speeds.frequency_to),
